@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "turnwright/catalogue/tool.hpp"
+
+namespace turnwright::catalogue {
+
+struct CurvePoint {
+  double n_rpm = 0, P_kW = 0, M_Nm = 0;
+};
+
+/// Symmetric positive semi-definite root compliance [[c0, c1], [c1, c2]]: deflection and
+/// rotation of the part at the jaw face per unit force and couple there.
+struct RootCompliance {
+  double c0_mm_N = 0, c1_rad_N = 0, c2_rad_Nmm = 0;
+};
+
+struct CentreCompliance {
+  double radial_mm_N = 0, tangential_mm_N = 0;
+};
+
+/// Three-jaw chuck: compliance and grip (VDI 3106).
+struct Chuck {
+  RootCompliance radial, tangential;
+  double axial_mm_N = 0;            ///< axial compliance of part in jaws and spindle
+  double grip_force_N = 0;          ///< total gripping force at rest, Fsp0
+  double jaw_mass_radius_kg_m = 0;  ///< sum of m r over all jaws
+  double friction = 0;              ///< mu_sp between jaws and part
+  double n_max_rpm = 0;
+  Range diameter_mm;                ///< what it can hold
+};
+
+struct Lathe {
+  std::string id, name;
+  double n_min_rpm = 0, n_max_rpm = 0;
+  std::vector<CurvePoint> curve;    ///< spindle motor, rising n; log-log between points
+  double efficiency = 0;            ///< spindle to cut
+  double feed_force_max_N = 0;
+  double rapid_mm_min = 0;
+  double index_min = 0;             ///< time to bring in another tool [min]
+  double load_min = 0;              ///< part in and out, per setup [min]
+  double tailstock_min = 0;         ///< extra with tailstock: centring and quill [min]
+  double centres_min = 0;           ///< extra between centres: centring and driver [min]
+  double setup_min = 0;             ///< preparing the machine, per setup and batch [min]
+  double cost_per_min = 0;          ///< used when the request gives no rate
+  double swing_mm = 0, between_centres_mm = 0;
+  Chuck chuck;
+  CentreCompliance tail_centre, head_centre;
+  double tool_rr_mm_N = 0;          ///< toolpost: radial yield per radial force
+  double tool_rt_mm_N = 0;          ///< and per tangential force (usually towards the work)
+  double stiffness_uncertainty_pct = 0;
+  std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", "between-centres"
+};
+
+}  // namespace turnwright::catalogue

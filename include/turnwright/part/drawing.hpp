@@ -1,0 +1,95 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the drawing says, left to right along the axis, z = 0 at the left end of the
+/// finished part.  Plain values; document/ fills and checks them.
+namespace turnwright::part {
+
+enum class ElementKind { cylinder, cone };
+
+/// Deviations of a size from its nominal value [mm]: lower <= upper.
+struct Limits {
+  double lower_mm = 0, upper_mm = 0;
+};
+
+/// One outer element; a cylinder has left_mm == right_mm (diameters).
+struct OuterElement {
+  std::string id;
+  ElementKind kind = ElementKind::cylinder;
+  double length_mm = 0;
+  double left_mm = 0, right_mm = 0;
+  std::optional<std::string> fit;    ///< ISO 286 tolerance class as drawn, "k6"
+  std::optional<Limits> limits;      ///< from `fit`, `limits_mm` or the general tolerance
+  std::optional<double> Ra_um, Rz_um;
+};
+
+enum class End { left, right };
+
+/// One inner element, listed from its end inwards.
+struct InnerElement {
+  std::string id;
+  ElementKind kind = ElementKind::cylinder;
+  End from = End::right;
+  double length_mm = 0;
+  double left_mm = 0, right_mm = 0;
+  std::optional<std::string> fit;
+  std::optional<Limits> limits;
+  std::optional<double> Ra_um, Rz_um;
+};
+
+/// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
+struct Face {
+  std::string id;
+  std::optional<double> Ra_um, Rz_um;
+};
+
+enum class ToleranceKind {
+  diameter, length, straightness, circularity, flatness, cylindricity, profile,
+  profile_without_datum, parallelism, perpendicularity, angularity, position,
+  coaxiality, circular_radial_runout, circular_axial_runout, total_radial_runout,
+  total_axial_runout
+};
+
+/// "total-radial-runout" and so on, as in the documents.
+const char* name(ToleranceKind kind);
+std::optional<ToleranceKind> tolerance_kind(const std::string& name);
+
+struct Tolerance {
+  std::string id;
+  ToleranceKind kind = ToleranceKind::diameter;
+  std::string of;                      ///< element or face; empty for `length`
+  std::string datum;                   ///< element or face; may be empty
+  std::array<std::string, 2> between;  ///< the two faces of a `length`
+  double value_mm = 0;                 ///< width of the zone (upper - lower for a size)
+  std::optional<Limits> limits;        ///< of a size: `diameter`, `length`
+};
+
+enum class StockKind { bar, tube };
+
+struct Stock {
+  StockKind kind = StockKind::bar;
+  double outer_mm = 0, inner_mm = 0;  ///< inner 0 for a bar
+  double length_mm = 0;
+  double left_allowance_mm = 0;       ///< material left of z = 0
+};
+
+struct Drawing {
+  std::string name;
+  Stock stock;
+  std::vector<OuterElement> outer;
+  std::vector<InnerElement> inner;
+  std::vector<Face> faces;
+  std::vector<Tolerance> tolerances;  ///< sizes of elements included, ids unique
+};
+
+/// Length of the finished part [mm]: the sum of the outer elements.
+double length_mm(const Drawing& drawing);
+/// Left end z [mm] of outer element i.
+double left_z_mm(const Drawing& drawing, std::size_t i);
+/// Material right of the finished right end [mm].
+double right_allowance_mm(const Drawing& drawing);
+
+}  // namespace turnwright::part

@@ -1,0 +1,63 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "turnwright/catalogue/machine.hpp"
+#include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/tool.hpp"
+#include "turnwright/part/drawing.hpp"
+
+/// The request of `plan` and `predict` as plain values: everything resolved, every
+/// default filled in (document/ reports which under `assumed`).
+namespace turnwright::planning {
+
+enum class Clamping { chuck, chuck_tailstock, between_centres };
+const char* name(Clamping clamping);
+
+struct SetupRequest {
+  part::End hold = part::End::left;  ///< the end in the jaws or at the headstock
+  double grip_mm = 0;                ///< jaws hold the outermost grip_mm of that end
+  std::vector<Clamping> clampings;   ///< candidates, at least one
+};
+
+enum class OperationKind { face, rough, finish };
+const char* name(OperationKind kind);
+
+enum class Direction { to_chuck, from_chuck };
+const char* name(Direction direction);
+
+/// What the planner has fixed of an operation; absent = to be chosen.
+struct Conditions {
+  std::optional<int> passes;
+  std::optional<double> ap_mm, f_mm_rev, vc_m_min;
+};
+
+struct OperationRequest {
+  std::string id;
+  std::size_t setup = 0;
+  OperationKind kind = OperationKind::rough;
+  std::vector<std::string> on;      ///< outer elements, or one end face
+  std::optional<std::string> tool;  ///< absent: chosen from the tools
+  Direction direction = Direction::to_chuck;
+  Conditions conditions;
+};
+
+enum class Objective { cost, time, profit };
+
+struct PartPlan {
+  part::Drawing drawing;
+  catalogue::Material material;
+  catalogue::Lathe machine;
+  std::vector<catalogue::Tool> tools;
+  std::vector<SetupRequest> setups;
+  std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
+  Objective objective = Objective::cost;
+  double batch = 1;
+  double machine_per_min = 0;       ///< cost of a machine minute
+  std::optional<double> price;      ///< of a part; needed for `profit`
+  double machine_share_um = 0;      ///< subtracted from every tolerance
+  double conformance = 0.9973;
+};
+
+}  // namespace turnwright::planning

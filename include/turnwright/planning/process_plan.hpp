@@ -1,0 +1,133 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "turnwright/planning/part_plan.hpp"
+
+/// The answer of `plan`: the fields of the result document (interface.md), one to one.
+namespace turnwright::planning {
+
+enum class CertificateKind { global, local, none };
+
+struct Certificate {
+  CertificateKind kind = CertificateKind::none;
+  double lower_bound = 0;  ///< no feasible choice has a smaller objective
+  double gap = 0;          ///< (objective - lower_bound) / objective
+  long nodes = 0;          ///< boxes bounded
+  std::string engine;      ///< "convex" or "branch-and-bound"
+  std::string reason;      ///< why not global, else empty
+};
+
+struct Pass {
+  double ap_mm = 0, f_mm_rev = 0, vc_m_min = 0, n_rpm = 0, time_min = 0;
+  double Fc_N = 0, Ff_N = 0, Fp_N = 0, Pc_kW = 0, T_min = 0;
+};
+
+/// One constraint re-evaluated at the answer; kept when value <= limit (`at_most`) or
+/// value >= limit.
+struct ConstraintValue {
+  std::string name, unit;
+  double value = 0, limit = 0;
+  bool at_most = true;
+  double margin = 0;   ///< -ln(value/limit) for at_most, +ln for at_least
+  bool binding = false;
+  double shadow_price = 0;  ///< d ln(objective of the group) / d ln(limit), >= 0
+};
+
+struct OperationPlan {
+  std::string id;
+  OperationKind kind = OperationKind::rough;
+  std::vector<std::string> on;
+  std::string tool;
+  Direction direction = Direction::to_chuck;
+  std::vector<Pass> passes;
+  double time_min = 0;  ///< cutting
+  double cost = 0;
+  std::vector<ConstraintValue> constraints;
+  Certificate certificate;
+};
+
+struct RejectedClamping {
+  Clamping clamping = Clamping::chuck;
+  std::string why;
+  std::optional<double> cost;  ///< per part, absent when infeasible
+};
+
+struct SetupPlan {
+  part::End hold = part::End::left;
+  Clamping clamping = Clamping::chuck;
+  std::vector<RejectedClamping> rejected;
+  std::vector<OperationPlan> operations;
+};
+
+enum class Verdict { met, met_with_offset, not_met };
+const char* name(Verdict verdict);
+
+struct Share {
+  std::string source;
+  double um = 0;
+};
+
+struct ToleranceResult {
+  std::string id;
+  part::ToleranceKind kind = part::ToleranceKind::diameter;
+  std::string of;
+  std::vector<double> predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
+  std::vector<double> allowed_mm;    ///< same layout
+  double margin_mm = 0;
+  Verdict verdict = Verdict::met;
+  bool seed_verdict = true;
+  std::vector<Share> shares;
+  double P_conform = 1;
+};
+
+struct Compensation {
+  std::string on;
+  std::size_t setup = 0;
+  std::vector<std::pair<double, double>> table_mm;  ///< (z, dr): add dr to the tool path radius
+};
+
+struct Price {
+  std::string limit;      ///< "d1: diameter", "rough d2: power", ...
+  double now = 0;
+  std::string unit;
+  double saves_per_part_for_10_percent = 0;
+  std::string sentence;
+};
+
+struct Conflict {
+  std::string limit;      ///< constraint or tolerance in the irreducible conflicting set
+  std::string where;      ///< operation, setup and clamping
+  double value = 0, allowed = 0;
+  std::string unit;
+  std::string sentence;
+};
+
+struct Relaxation {
+  std::string limit;
+  double now = 0, needed = 0;
+  std::string unit;
+  std::string sentence;   ///< "t2 would have to open from 0.004 to 0.0061 mm"
+};
+
+enum class PlanStatus { ok, infeasible };
+
+struct ProcessPlan {
+  PlanStatus status = PlanStatus::ok;
+  double cost_per_part = 0, time_per_part_min = 0;
+  std::optional<double> profit_per_min;
+  Certificate certificate;
+  std::vector<SetupPlan> setups;
+  std::vector<ToleranceResult> tolerances;
+  std::vector<Compensation> compensation;
+  std::vector<Price> prices;      ///< largest saving first
+  std::vector<Conflict> conflicts;
+  std::vector<Relaxation> relax;
+};
+
+/// Certified cheapest process plan of a part.
+ProcessPlan plan(const PartPlan& request);
+
+}  // namespace turnwright::planning
