@@ -1,6 +1,7 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp)
 # Floor 2
+tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 # Floor 3
 # Floor 4
 # Floor 5

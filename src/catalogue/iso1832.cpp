@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/catalogue/tool.hpp"
+
+namespace turnwright::catalogue {
+namespace {
+
+/// Edge length per inscribed-circle diameter, and the corner angle.
+struct Shape {
+  char letter;
+  double included_angle_deg;
+  double edge_per_circle;
+};
+
+double rhombus(double angle_deg) {
+  return 1.0 / std::sin(units::rad_from_deg(angle_deg));
+}
+double regular(int corners) { return std::tan(std::numbers::pi / corners); }
+
+// The trigon touches its circle between corners of 80 and 160 degrees.
+double trigon() {
+  return 0.5 / std::tan(units::rad_from_deg(40)) +
+         0.5 / std::tan(units::rad_from_deg(80));
+}
+
+std::optional<Shape> shape_of(char letter) {
+  for (const Shape& shape : {Shape{'C', 80, rhombus(80)}, Shape{'D', 55, rhombus(55)},
+                             Shape{'E', 75, rhombus(75)}, Shape{'M', 86, rhombus(86)},
+                             Shape{'V', 35, rhombus(35)}, Shape{'T', 60, regular(3)},
+                             Shape{'S', 90, regular(4)}, Shape{'P', 108, regular(5)},
+                             Shape{'H', 120, regular(6)}, Shape{'O', 135, regular(8)},
+                             Shape{'W', 80, trigon()}, Shape{'R', 0, 1.0}})
+    if (shape.letter == letter) return shape;
+  return std::nullopt;
+}
+
+std::optional<double> clearance_deg(char letter) {
+  constexpr std::string_view kLetters = "ABCDEFGNP";
+  constexpr std::array kAngles_deg{3.0, 5.0, 7.0, 15.0, 20.0, 25.0, 30.0, 0.0, 11.0};
+  const auto at = kLetters.find(letter);
+  if (at == std::string_view::npos) return std::nullopt;
+  return kAngles_deg[at];
+}
+
+constexpr std::array kCircles_mm{3.97, 4.76,   5.56,  6.35, 7.94, 9.525,
+                                 12.7, 15.875, 19.05, 25.4, 31.75};
+
+constexpr std::array<std::string_view, 13> kThicknessCodes{
+    "01", "T1", "02", "T2", "03", "T3", "04", "05", "06", "07", "09", "11", "12"};
+constexpr std::array kThickness_mm{1.59, 1.98, 2.38, 2.78, 3.18,  3.97, 4.76,
+                                   5.56, 6.35, 7.94, 9.52, 11.11, 12.7};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Reads the symbols one after the other; spaces may stand between them.
+class Reader {
+ public:
+  explicit Reader(const std::string& text) : text_(text) {}
+
+  std::string_view take(std::size_t count) {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+    const std::string_view symbol = std::string_view(text_).substr(at_, count);
+    at_ += symbol.size();
+    ++number_;
+    last_ = symbol;
+    if (symbol.size() != count) fail("is missing");
+    return symbol;
+  }
+
+  char take_one_of(std::string_view letters) {
+    const char c = take(1).front();
+    if (letters.find(c) == std::string_view::npos)
+      fail("must be one of " + std::string(letters));
+    return c;
+  }
+
+  int take_two_digits() {
+    const auto s = take(2);
+    if (!is_digit(s[0]) || !is_digit(s[1])) fail("must be two digits");
+    return 10 * (s[0] - '0') + (s[1] - '0');
+  }
+
+  bool digit_follows() const { return at_ < text_.size() && is_digit(text_[at_]); }
+
+  [[noreturn]] void fail(const std::string& rule) const {
+    throw std::domain_error("decode_iso1832: \"" + text_ + "\": symbol " +
+                            std::to_string(number_) + " (\"" + std::string(last_) +
+                            "\") " + rule);
+  }
+
+ private:
+  const std::string& text_;
+  std::size_t at_ = 0;
+  int number_ = 0;
+  std::string_view last_;
+};
+
+/// The code is the edge length, taken to 0.1 mm (a triangle of 21.997 mm is 22.0),
+/// without its decimal.
+double edge_mm(const Shape& shape, int code, const Reader& reader) {
+  std::optional<double> found;
+  for (const double circle : kCircles_mm) {
+    const double edge = circle * shape.edge_per_circle;
+    if (std::lround(10 * edge) / 10 != code) continue;
+    if (found) reader.fail("fits more than one inscribed circle of this shape");
+    found = edge;
+  }
+  if (!found) reader.fail("fits no inscribed circle of this shape");
+  return *found;
+}
+
+double thickness_mm(std::string_view code, const Reader& reader) {
+  const auto at = std::find(kThicknessCodes.begin(), kThicknessCodes.end(), code);
+  if (at != kThicknessCodes.end())
+    return kThickness_mm[static_cast<std::size_t>(at - kThicknessCodes.begin())];
+  reader.fail("is no thickness of the standard");
+}
+
+}  // namespace
+
+Insert1832 decode_iso1832(const std::string& designation) {
+  Reader reader(designation);
+  Insert1832 insert;
+
+  insert.shape = reader.take(1).front();
+  const auto shape = shape_of(insert.shape);
+  if (!shape) reader.fail("must be one of CDEHMOPRSTVW");
+  insert.included_angle_deg = shape->included_angle_deg;
+
+  const auto clearance = clearance_deg(reader.take(1).front());
+  if (!clearance) reader.fail("must be one of ABCDEFGNP");
+  insert.clearance_deg = *clearance;
+
+  insert.tolerance_class = reader.take_one_of("ACEFGHJKLMNU");
+  insert.type = reader.take_one_of("ABCFGHJMNQRTUWX");
+
+  const int edge_code = reader.take_two_digits();
+  const Reader at_edge = reader;
+  insert.thickness_mm = thickness_mm(reader.take(2), reader);
+
+  if (insert.shape == 'R') {
+    const auto corner = reader.take(2);
+    if (corner != "M0" && corner != "00")
+      reader.fail("must be M0 (metric diameter) or 00 (inch diameter)");
+    insert.edge_length_mm =
+        corner == "M0" ? edge_code : edge_mm(*shape, edge_code, at_edge);
+    if (!(insert.edge_length_mm > 0)) at_edge.fail("must be a diameter above 0 mm");
+    insert.re_mm = insert.edge_length_mm / 2;
+  } else {
+    insert.edge_length_mm = edge_mm(*shape, edge_code, at_edge);
+    insert.re_mm = reader.take_two_digits() / 10.0;
+  }
+  if (reader.digit_follows()) reader.fail("is followed by a further digit");
+  return insert;
+}
+
+}  // namespace turnwright::catalogue
