@@ -1,0 +1,169 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "turnwright/base/errors.hpp"
+
+/// Reads a JSON document and collects everything wrong with it, so that one run shows the
+/// machinist all faults.  Use:
+///
+///     Problems problems{.document = "part.json"};
+///     Reader r(json, problems);
+///     part.length_mm = r.number("length_mm", above(0, "mm"));
+///     r.finish();                // refuses the keys nobody asked for
+///     problems.throw_if_any();
+///
+/// A value that cannot be read is reported once and replaced by a harmless stand-in (NaN,
+/// 0, "", the first choice), which throw_if_any() keeps from leaving the loader.
+/// Cross-checks are therefore written so that NaN stays silent: `if (a >= b)
+/// r.problem(...)`.
+namespace turnwright::document {
+
+/// All that is wrong with one document, in the order found.
+struct Problems {
+  std::string document;
+  std::vector<Problem> list;
+  /// @throws InputError with the whole list, if there is one.
+  void throw_if_any() const;
+};
+
+/// The numbers a key may hold, and their unit.
+struct Bounds {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false, upper_open = false;
+  std::string unit = "";
+};
+Bounds above(double lower, std::string unit = "");                 ///< x > lower
+Bounds at_least(double lower, std::string unit = "");              ///< x >= lower
+Bounds within(double lower, double upper, std::string unit = "");  ///< [lower, upper]
+Bounds above_up_to(double lower, double upper,
+                   std::string unit = "");  ///< (lower, upper]
+Bounds at_least_below(double lower, double upper,
+                      std::string unit = "");  ///< [lower, upper)
+Bounds any_number(std::string unit = "");
+
+bool contains(const Bounds& bounds, double x);      ///< false for NaN
+std::string expected_number(const Bounds& bounds);  ///< "a number > 0 and <= 20 mm"
+
+template <class E>
+using Choices = std::vector<std::pair<std::string_view, E>>;
+
+/// The word of `known` that `word` is most likely a slip of; "" if none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& known);
+
+/// A value as a problem shows it: numbers and short strings as written, "an object", ...
+std::string shown(const nlohmann::json& value);
+
+/// One value of the document with its JSON pointer.  Does not own the JSON nor the
+/// problems; both must outlive it.
+class Reader {
+ public:
+  /// @param pointer  pointer of `value`; "" for the root.
+  Reader(const nlohmann::json& value, Problems& problems, std::string pointer = "");
+
+  // The value itself.
+  double as_number(const Bounds& bounds) const;
+  long as_integer(long lower, long upper, std::string_view unit = "") const;
+  bool as_boolean() const;
+  /// Not empty and at most `max` bytes.
+  std::string as_text(std::size_t max = 200) const;
+  std::size_t as_choice(const std::vector<std::string>& choices) const;
+  /// Its elements, `min` to `max` of them.
+  std::vector<Reader> as_items(std::size_t min, std::size_t max) const;
+  std::vector<double> as_numbers(const Bounds& bounds, std::size_t min,
+                                 std::size_t max) const;
+  /// The same value, which must be an object.
+  Reader as_object() const;
+
+  bool is_text() const { return value_ && value_->is_string(); }
+  bool is_object() const { return value_ && value_->is_object(); }
+  bool is_array() const { return value_ && value_->is_array(); }
+  bool is_number() const { return value_ && value_->is_number(); }
+  /// The value was missing or of the wrong type and is reported already.
+  bool broken() const { return value_ == nullptr; }
+
+  // Its members; every key asked for counts as known to finish().
+  bool has(std::string_view key);
+  /// A member that must be there; broken, and reported as expecting `expected`, if not.
+  Reader at(std::string_view key, std::string_view expected = "a value");
+  std::optional<Reader> find(std::string_view key);
+
+  double number(std::string_view key, const Bounds& bounds);
+  std::optional<double> optional_number(std::string_view key, const Bounds& bounds);
+  double number_or(std::string_view key, const Bounds& bounds, double fallback);
+
+  long integer(std::string_view key, long lower, long upper, std::string_view unit = "");
+  std::optional<long> optional_integer(std::string_view key, long lower, long upper,
+                                       std::string_view unit = "");
+  long integer_or(std::string_view key, long lower, long upper, long fallback,
+                  std::string_view unit = "");
+
+  bool boolean(std::string_view key);
+  bool boolean_or(std::string_view key, bool fallback);
+
+  std::string text(std::string_view key, std::size_t max = 200);
+  std::optional<std::string> optional_text(std::string_view key, std::size_t max = 200);
+  std::string text_or(std::string_view key, std::string fallback, std::size_t max = 200);
+
+  template <class E>
+  E choice(std::string_view key, const Choices<E>& choices) {
+    return choices[choice_index(key, words(choices))].second;
+  }
+  template <class E>
+  std::optional<E> optional_choice(std::string_view key, const Choices<E>& choices) {
+    if (!has(key)) return std::nullopt;
+    return choice(key, choices);
+  }
+  template <class E>
+  E choice_or(std::string_view key, const Choices<E>& choices, E fallback) {
+    return has(key) ? choice(key, choices) : fallback;
+  }
+
+  Reader object(std::string_view key);
+  std::optional<Reader> optional_object(std::string_view key);
+  std::vector<Reader> items(std::string_view key, std::size_t min, std::size_t max);
+  /// No elements if the key is absent.
+  std::vector<Reader> optional_items(std::string_view key, std::size_t min,
+                                     std::size_t max);
+  std::vector<double> numbers(std::string_view key, const Bounds& bounds, std::size_t min,
+                              std::size_t max);
+
+  /// Reports every member that nobody asked for, with the nearest known key.
+  void finish() const;
+
+  /// Reports the value itself, or its member `key`; `got` is the value as written unless
+  /// given.
+  void problem(std::string expected, std::string code) const;
+  void problem(std::string got, std::string expected, std::string code) const;
+  void problem_at(std::string_view key, std::string expected, std::string code) const;
+
+  const std::string& pointer() const { return pointer_; }
+  std::string pointer_of(std::string_view key) const;
+  const nlohmann::json& json() const;  ///< null if broken
+  Problems& problems() const { return *problems_; }
+
+ private:
+  Reader(const nlohmann::json* value, Problems* problems, std::string pointer)
+      : value_(value), problems_(problems), pointer_(std::move(pointer)) {}
+  std::size_t choice_index(std::string_view key, const std::vector<std::string>& words);
+  template <class E>
+  static std::vector<std::string> words(const Choices<E>& choices) {
+    std::vector<std::string> out;
+    for (const auto& [word, value] : choices) out.emplace_back(word);
+    return out;
+  }
+
+  const nlohmann::json* value_;
+  Problems* problems_;
+  std::string pointer_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace turnwright::document
