@@ -130,7 +130,7 @@ class Builder : public nlohmann::json_sax<json> {
 
   bool report(std::string pointer, std::string got, std::string expected,
               std::string code) {
-    problems_.list.push_back(
+    problems_.add(
         {std::move(pointer), std::move(got), std::move(expected), std::move(code)});
     return false;
   }
@@ -185,15 +185,14 @@ std::string child_pointer(const std::string& pointer, std::string_view key) {
 
 json parse(std::string_view text, const std::string& document,
            const ParseLimits& limits) {
-  Problems problems{.document = document, .list = {}};
+  Problems problems{.document = document};
   if (text.size() > limits.bytes) {
-    problems.list.push_back({"", std::to_string(text.size()) + " bytes",
-                             "at most " + std::to_string(limits.bytes) + " bytes",
-                             "size"});
+    problems.add({"", std::to_string(text.size()) + " bytes",
+                  "at most " + std::to_string(limits.bytes) + " bytes", "size"});
     problems.throw_if_any();
   }
   if (text.find_first_not_of(" \t\r\n") == text.npos) {
-    problems.list.push_back({"", "an empty document", "a JSON document", "syntax"});
+    problems.add({"", "an empty document", "a JSON document", "syntax"});
     problems.throw_if_any();
   }
   Builder builder(text, problems, limits);

@@ -65,8 +65,19 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+void Problems::add(Problem problem) {
+  if (list.size() < kListed)
+    list.push_back(std::move(problem));
+  else
+    ++more;
+}
+
 void Problems::throw_if_any() const {
-  if (!list.empty()) throw InputError(document, list);
+  if (list.empty()) return;
+  auto told = list;
+  if (more > 0)
+    told.push_back({"", std::to_string(more) + " more problems", "none", "more"});
+  throw InputError(document, told);
 }
 
 Bounds above(double lower, std::string unit) {
@@ -135,16 +146,14 @@ void Reader::problem(std::string expected, std::string code) const {
 }
 
 void Reader::problem(std::string got, std::string expected, std::string code) const {
-  problems_->list.push_back(
-      {pointer_, std::move(got), std::move(expected), std::move(code)});
+  problems_->add({pointer_, std::move(got), std::move(expected), std::move(code)});
 }
 
 void Reader::problem_at(std::string_view key, std::string expected,
                         std::string code) const {
   const bool there = is_object() && value_->contains(key);
-  problems_->list.push_back({pointer_of(key),
-                             there ? shown((*value_)[std::string(key)]) : "nothing",
-                             std::move(expected), std::move(code)});
+  problems_->add({pointer_of(key), there ? shown((*value_)[std::string(key)]) : "nothing",
+                  std::move(expected), std::move(code)});
 }
 
 std::string Reader::pointer_of(std::string_view key) const {
@@ -355,7 +364,8 @@ void Reader::finish() const {
   if (!is_object()) return;
   for (const auto& [key, value] : value_->items()) {
     if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
-    const std::string near = nearest(key, asked_);
+    const bool listed = problems_->list.size() < Problems::kListed;
+    const std::string near = listed ? nearest(key, asked_) : "";
     problem_at(
         key,
         near.empty() ? "no such key" : "no such key (did you mean \"" + near + "\"?)",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::document {
@@ -27,7 +29,8 @@ TEST(Parse, NamesTheSecondOfTwoKeysWhereverItStands) {
   EXPECT_EQ(refusal(R"({"a": 1, "a": 2})"),
             "t: /a: got the key a second time, expected each key once");
   EXPECT_EQ(refusal(R"({"x": [0, {"b": [3, {}], "c": {}, "b": 1}, {"d": 1, "d": 1}]})"),
-            "t: /x/1/b: got the key a second time, expected each key once");
+            "t: /x/1/b: got the key a second time, expected each key once\n"
+            "t: /x/2/d: got the key a second time, expected each key once");
   EXPECT_EQ(refusal(R"([[], [{"a/b~": 1, "a/b~": 2}]])"),
             "t: /1/0/a~1b~0: got the key a second time, expected each key once");
 }
@@ -35,7 +38,7 @@ TEST(Parse, NamesTheSecondOfTwoKeysWhereverItStands) {
 TEST(Parse, RefusesNumbersADoubleCannotHold) {
   EXPECT_EQ(
       refusal("[1,\n {\"f\": 1e999}]"),
-      "t: /1/f: got a number too large (line 2, column 13), expected a number that a "
+      "t: /1/f: got a number too large (line 2, column 12), expected a number that a "
       "double can hold");
   EXPECT_EQ(refusal(R"([0, -1e-400])"),
             "t: /1: got -1e-400, expected a number that a double can hold");
@@ -66,6 +69,14 @@ TEST(Parse, HoldsItsLimits) {
             "t: /1: got a text of 4 bytes, expected at most 3 bytes");
   EXPECT_NE(refusal(std::string(1'900'000, '[')).find("nested too deeply"),
             std::string::npos);
+}
+
+TEST(Parse, ListsAHundredProblemsAndCountsTheRest) {
+  std::string text = "{\"a\":1";
+  for (int i = 0; i < 150; ++i) text += ",\"a\":1";
+  const std::string message = refusal(text + "}");
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 100);
+  EXPECT_NE(message.find("t: document: got 50 more problems"), std::string::npos);
 }
 
 TEST(Parse, AnswersInPrintableAscii) {

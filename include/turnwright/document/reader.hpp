@@ -25,10 +25,14 @@
 /// r.problem(...)`.
 namespace turnwright::document {
 
-/// All that is wrong with one document, in the order found.
+/// All that is wrong with one document, in the order found; after kListed of them only
+/// counted, so that a hostile document does not make an endless answer.
 struct Problems {
+  static constexpr std::size_t kListed = 100;
   std::string document;
-  std::vector<Problem> list;
+  std::vector<Problem> list = {};
+  std::size_t more = 0;
+  void add(Problem problem);
   /// @throws InputError with the whole list, if there is one.
   void throw_if_any() const;
 };
