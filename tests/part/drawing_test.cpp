@@ -1,0 +1,52 @@
+#include "turnwright/part/drawing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+namespace turnwright::part {
+namespace {
+
+Drawing three_steps() {
+  Drawing d;
+  d.stock = {.outer_mm = 50, .length_mm = 166, .left_allowance_mm = 2.5};
+  d.outer = {{.id = "d1", .length_mm = 40},
+             {.id = "c1", .length_mm = 20},
+             {.id = "d2", .length_mm = 102}};
+  return d;
+}
+
+TEST(Drawing, ElementsStandOneAfterTheOther) {
+  const Drawing d = three_steps();
+  EXPECT_EQ(length_mm(d), 162);
+  EXPECT_EQ(left_z_mm(d, 0), 0);
+  for (std::size_t i = 0; i + 1 < d.outer.size(); ++i)
+    EXPECT_EQ(left_z_mm(d, i) + d.outer[i].length_mm, left_z_mm(d, i + 1));
+  EXPECT_EQ(left_z_mm(d, 2) + d.outer[2].length_mm, length_mm(d));
+  EXPECT_THROW(left_z_mm(d, 3), std::domain_error);
+}
+
+TEST(Drawing, AllowancesAndPartFillTheStock) {
+  const Drawing d = three_steps();
+  EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162
+  EXPECT_EQ(d.stock.left_allowance_mm + length_mm(d) + right_allowance_mm(d),
+            d.stock.length_mm);
+}
+
+TEST(ToleranceKind, NamesAreDistinctAndReadBack) {
+  std::set<std::string> names;
+  for (int i = 0; i <= static_cast<int>(ToleranceKind::total_axial_runout); ++i) {
+    const auto kind = static_cast<ToleranceKind>(i);
+    EXPECT_EQ(tolerance_kind(name(kind)), kind);
+    names.insert(name(kind));
+  }
+  EXPECT_EQ(names.size(), 17U);
+  EXPECT_STREQ(name(ToleranceKind::profile_without_datum), "profile-without-datum");
+  EXPECT_STREQ(name(ToleranceKind::circular_axial_runout), "circular-axial-runout");
+  EXPECT_EQ(tolerance_kind("roundness"), std::nullopt);
+  EXPECT_EQ(tolerance_kind(""), std::nullopt);
+}
+
+}  // namespace
+}  // namespace turnwright::part
