@@ -1,8 +1,14 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp)
 # Floor 2
+tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp DEPENDS base
+  PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
+  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
+tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
+          TESTS drawing_test.cpp shaft_test.cpp)
 # Floor 3
+tw_domain(deflection SOURCES beam.cpp DEPENDS base part TESTS beam_test.cpp)
 # Floor 4
 # Floor 5
 # Floor 6

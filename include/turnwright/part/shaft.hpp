@@ -20,12 +20,21 @@ struct Shaft {
 
 double length_mm(std::span<const Segment> segments);
 
+/// z [mm] of the ends of the segments: 0 first, the length last, one more than segments.
+/// Summed with compensation (Neumaier), so every z is the rounded true sum.
+std::vector<double> ends_mm(std::span<const Segment> segments);
+
 /// Two shafts' worth of one segment: what lies left and right of a cut at distance
-/// `at_mm` (0 < at_mm < length) from its left end.
+/// `at_mm` from its left end.
+/// @throws std::domain_error unless 0 < at_mm < length.
 struct Halves {
   Segment left, right;
 };
 Halves split(const Segment& segment, double at_mm);
+
+/// The segments with every outer diameter larger by 2 ap [mm]: not yet cut.
+/// @throws std::domain_error if ap is negative or not finite.
+std::vector<Segment> uncut(std::span<const Segment> finished, double ap_mm);
 
 enum class FeedTowards { chuck, tail };
 

@@ -1,0 +1,3 @@
+#include "turnwright/deflection/beam.hpp"
+
+#include <gtest/gtest.h>
