@@ -1,0 +1,78 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+/// Smooth problems in log variables, solved locally by NLopt, and what their optimum
+/// proves.  Knows nothing of machining.
+namespace turnwright::optimise {
+
+/// ln of the objective and the constraints g_i <= 0 with their gradients at one point.
+/// Jacobian row i is the gradient of g_i; sizes are set by the caller.
+struct Values {
+  double f = 0;
+  std::vector<double> df;  ///< n
+  std::vector<double> g;   ///< m
+  std::vector<double> dg;  ///< m x n, row by row
+};
+
+/// min f(y) subject to g(y) <= 0 and lower <= y <= upper.
+struct Problem {
+  std::vector<double> lower, upper;
+  std::size_t constraints = 0;
+  std::function<void(std::span<const double> y, Values& out)> evaluate;
+};
+
+struct Options {
+  double feasibility = 1e-10;  ///< largest g counted as kept; smaller = more solver steps
+  double f_tolerance = 1e-13;  ///< stop when f moves less; larger = looser certificates
+  int max_evaluations = 400;   ///< of one solve
+};
+
+/// A local solver cannot prove that no allowed point exists, only that it met none.
+enum class Status { converged, budget_spent, no_feasible_point_met };
+
+struct Solution {
+  Status status = Status::no_feasible_point_met;
+  std::vector<double> y;
+  double f = 0;
+  std::vector<double> g;            ///< re-evaluated at y
+  double worst = 0;                 ///< max g
+  std::vector<double> multipliers;  ///< of g, >= 0, see multipliers_at
+  int evaluations = 0;
+};
+
+/// Local minimum by SLSQP, behind it CCSAQ where SLSQP leaves no feasible point, from
+/// `start` (clamped into the box).  Every constraint is evaluated again at the answer:
+/// NLopt's codes do not prove feasibility.  An exception of `evaluate` comes out
+/// unchanged.
+/// @throws std::invalid_argument if sizes disagree, a bound is not finite or a start is
+/// NaN.
+Solution local_minimum(const Problem& problem, std::span<const double> start,
+                       const Options& options = {});
+
+/// Least violation: min s subject to g_i(y) <= s, s >= `floor`.  f of the result is s;
+/// the multipliers sum to one and name the conflicting constraints.
+Solution least_violation(const Problem& problem, std::span<const double> start,
+                         double floor, const Options& options = {});
+
+/// Multipliers lambda >= 0 of the constraints near their limit (g > -near), from
+/// stationarity by non-negative least squares:
+///
+///     min | df + sum lambda_i dg_i + (bounds active at y) |,  lambda >= 0
+///
+/// Rows whose variable sits at a bound may keep a residual of the sign the bound carries.
+std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
+                                   const Values& at, double near = 1e-6);
+
+/// Lower bound of f over every feasible y of the box, for convex f and g:
+///
+///     f(y) >= f* + sum lambda_i g_i* + sum_j min(r_j (lower_j - y*_j), r_j (upper_j -
+///     y*_j)) r = df* + sum lambda_i dg_i* (1)
+///
+/// Valid for any lambda >= 0; tight at an optimum.  Source: convexity of the Lagrangian,
+/// derived here.
+double convex_lower_bound(const Problem& problem, std::span<const double> y,
+                          const Values& at, std::span<const double> multipliers);
+
+}  // namespace turnwright::optimise
