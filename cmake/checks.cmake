@@ -1,0 +1,28 @@
+# Checks of the repository itself; each is a CMake script, so that it needs nothing more.
+set(architecture ${PROJECT_SOURCE_DIR}/tests/architecture)
+add_test(NAME architecture.floors
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${architecture}/floors.cmake)
+foreach(house IN ITEMS upwards sideways solver unknown)
+  add_test(NAME architecture.refuses_${house}
+    COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/${house} -P ${architecture}/floors.cmake)
+endforeach()
+set_tests_properties(architecture.refuses_upwards PROPERTIES
+  PASS_REGULAR_EXPRESSION "src/part/a.cpp: part \\(floor 2\\) includes planning \\(floor 5\\)")
+set_tests_properties(architecture.refuses_sideways PROPERTIES PASS_REGULAR_EXPRESSION
+  "include/turnwright/cutting/a.hpp: cutting \\(floor 3\\) includes milling \\(floor 3\\)")
+set_tests_properties(architecture.refuses_solver PROPERTIES PASS_REGULAR_EXPRESSION
+  "src/deflection/a.cpp: deflection must not include <nlohmann/json.hpp>")
+set_tests_properties(architecture.refuses_unknown PROPERTIES PASS_REGULAR_EXPRESSION
+  "src/part/a.cpp: \"turnwright/elsewhere/b.hpp\" is in no floor")
+
+add_test(NAME format.clang-format COMMAND ${CMAKE_COMMAND}
+  -D ROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/tests/format/clang-format.cmake)
+set_tests_properties(format.clang-format PROPERTIES
+  LABELS format SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
+  -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/install-test
+  -D CONSUMER=${PROJECT_SOURCE_DIR}/tests/install -D GENERATOR=${CMAKE_GENERATOR}
+  -D SANITIZE=$<JOIN:${TURNWRIGHT_SANITIZE},$<COMMA>>
+  -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
+set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)

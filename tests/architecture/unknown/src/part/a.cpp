@@ -1,0 +1,1 @@
+#include "turnwright/elsewhere/b.hpp"

@@ -1,0 +1,1 @@
+#include "turnwright/planning/part_plan.hpp"
