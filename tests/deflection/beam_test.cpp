@@ -1,3 +1,414 @@
 #include "turnwright/deflection/beam.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "finite_elements.hpp"
+#include "random_shafts.hpp"
+
+namespace turnwright::deflection {
+namespace {
+
+using part::Segment;
+using part::Shaft;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Both sides are closed forms, so only rounding is left.
+constexpr double kRounding = 1e-13;
+// What is promised of every case: parts of its own largest value.
+constexpr double kPromised = 1e-12;
+
+using Field = double Flexibility::*;
+constexpr Field kFields[] = {&Flexibility::f_ww_mm_N, &Flexibility::f_wp_rad_N,
+                             &Flexibility::f_pp_rad_Nmm, &Flexibility::tail_per_N,
+                             &Flexibility::tail_per_Nmm};
+
+std::vector<Flexibility> at(const Beam& beam, const std::vector<double>& a_mm,
+                            const Supports& supports) {
+  std::vector<Flexibility> out(a_mm.size());
+  beam.at(a_mm, supports, out);
+  return out;
+}
+
+/// Largest difference of two tables, field by field, in parts of the field's largest.
+double difference(const std::vector<Flexibility>& x, const std::vector<Flexibility>& y) {
+  double worst = 0;
+  for (const Field f : kFields) {
+    double largest = 0, apart = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      largest = std::max(largest, std::abs(y[i].*f));
+      apart = std::max(apart, std::abs(x[i].*f - y[i].*f));
+      if (!(std::isfinite(x[i].*f))) return kNaN;
+    }
+    if (apart > 0) worst = std::max(worst, apart / largest);
+  }
+  return worst;
+}
+
+std::vector<double> positions(double L) {
+  std::vector<double> a;
+  for (const double u : {0.01, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.99, 1.0})
+    a.push_back(u * L);
+  return a;
+}
+
+double EI(const Shaft& s) {
+  return s.E_MPa * std::numbers::pi * std::pow(s.segments[0].outer_left_mm, 4) / 64;
+}
+double chi_GA(const Shaft& s) {  // Cowper, solid
+  const double d = s.segments[0].outer_left_mm, G = s.E_MPa / (2 * (1 + s.nu));
+  return (7 + 6 * s.nu) / (6 * (1 + s.nu)) / (G * std::numbers::pi * d * d / 4);
+}
+
+TEST(Beam, UniformShaftMatchesTheBeamTables) {
+  const Shaft bar{210000, 0.3, {{240, 20, 20, 0, 0}}};
+  const Beam beam(bar);
+  const double L = 240, ei = EI(bar), shear = chi_GA(bar);
+  for (const double a : {1e-3, 12.0, 100.0, 239.0, 240.0}) {
+    const double b = L - a;
+    const Flexibility c = beam.at(a, {Method::chuck, {}, 0, 0});
+    EXPECT_NEAR(c.f_ww_mm_N / (a * a * a / (3 * ei) + a * shear), 1, kRounding);
+    EXPECT_NEAR(c.f_wp_rad_N / (a * a / (2 * ei)), 1, kRounding);
+    EXPECT_NEAR(c.f_pp_rad_Nmm / (a / ei), 1, kRounding);
+    EXPECT_EQ(c.tail_per_N, 0);
+
+    const Flexibility m = beam.at(a, {Method::between_centres, {}, 0, 0});
+    const double simple = (a * a * b * b / (3 * ei) + a * b * shear) / L;
+    EXPECT_NEAR(m.f_ww_mm_N, simple, kRounding * simple);
+    EXPECT_NEAR(m.tail_per_N, a / L, kRounding);
+    EXPECT_NEAR(m.tail_per_Nmm, 1 / L, kRounding / L);
+
+    // propped: the tail's reaction of the cantilever's table, shear included
+    const Flexibility t = beam.at(a, {Method::chuck_tailstock, {}, 0, 0});
+    const double f_aL = a * a * (3 * L - a) / (6 * ei) + a * shear;
+    const double f_LL = L * L * L / (3 * ei) + L * shear;
+    EXPECT_NEAR(t.tail_per_N, f_aL / f_LL, kRounding);
+    EXPECT_NEAR(t.tail_per_Nmm, a * (L - a / 2) / ei / f_LL, kRounding / L);
+  }
+}
+
+TEST(Beam, ClosedFormsWithoutShear) {
+  // F L^3/3EI, F L^3/48EI and a^3 b^2 (3 L + b)/12 E I L^3: the bending terms alone, with
+  // nu so chosen that shear is analytic, and a bar so slender that it is 1e-18 of them.
+  const double L = 1e6, d = 1e-3;
+  const Shaft wire{210000, 0, {{L, d, d, 0, 0}}};
+  const Beam beam(wire);
+  const double ei = EI(wire);
+  EXPECT_NEAR(beam.at(L, {Method::chuck, {}, 0, 0}).f_ww_mm_N / (L * L * L / (3 * ei)), 1,
+              kRounding);
+  EXPECT_NEAR(beam.at(L / 2, {Method::between_centres, {}, 0, 0}).f_ww_mm_N /
+                  (L * L * L / (48 * ei)),
+              1, kRounding);
+  for (const double u : {0.05, 0.3, 0.5, 0.8, 0.97}) {
+    const double a = u * L, b = L - a;
+    EXPECT_NEAR(beam.at(a, {Method::chuck_tailstock, {}, 0, 0}).f_ww_mm_N /
+                    (a * a * a * b * b * (3 * L + b) / (12 * ei * L * L * L)),
+                1, kRounding);
+  }
+}
+
+TEST(Beam, ConesMatchTheirClosedForms) {
+  // free end of a solid cone, r0 at the jaws, r1 at the end: the integrals of the spec of
+  // K20, A0 are elementary (derived by substituting r)
+  const double E = 210000, pi = std::numbers::pi;
+  for (const double r1 : {1.5, 10.0, 29.0, 30.0, 31.0, 600.0}) {
+    const double r0 = 30, h = 100;
+    const Beam beam({E, 0.25, {{h, 2 * r0, 2 * r1, 0, 0}}});
+    const Flexibility f = beam.at(h, {Method::chuck, {}, 0, 0});
+    const double shear = (7 + 6 * 0.25) / (3 * pi * E) * h / (r0 * r1);
+    const double bend = 4 / (pi * E) * h * h * h / (3 * r0 * r0 * r0 * r1);
+    EXPECT_NEAR(f.f_ww_mm_N / (bend + shear), 1, kRounding);
+    const double turn = (r1 * r1 + r0 * r1 + r0 * r0) / (3 * std::pow(r0 * r1, 3));
+    EXPECT_NEAR(f.f_pp_rad_Nmm / (4 / (pi * E) * h * turn), 1, kRounding);
+  }
+}
+
+TEST(Beam, ReferenceFile) {
+  const auto reference = nlohmann::json::parse(
+      std::ifstream(TURNWRIGHT_SOURCE_DIR "/tests/data/deflection_reference.json"));
+  std::size_t checked = 0;
+  for (const auto& c : reference.at("cases")) {
+    const auto& shafts = reference.at("shafts");
+    const auto s = std::find_if(shafts.begin(), shafts.end(), [&](const auto& x) {
+      return x.at("id") == c.at("shaft");
+    });
+    Shaft shaft{s->at("E"), s->at("nu"), {}};
+    for (const auto& g : s->at("segments"))
+      shaft.segments.push_back(
+          {g.at("len"), g.at("de0"), g.at("de1"), g.at("di0"), g.at("di1")});
+    const auto& k = reference.at("supports").at(c.at("support").get<std::string>());
+    const Beam beam(shaft);
+    const std::string clamp = c.at("clamp");
+    for (const std::string plane : {"r", "t"}) {
+      Supports supports;
+      supports.method = clamp == "chuck"     ? Method::chuck
+                        : clamp == "centres" ? Method::between_centres
+                                             : Method::chuck_tailstock;
+      if (!k.at("rigid").get<bool>()) {
+        const double k1 = k.at("k1" + plane), k2 = k.at("k2" + plane),
+                     k3 = k.at("k3" + plane), Lc = k.at("Lc");
+        supports.root = {1 / k1 + Lc * Lc / k2, Lc / k2, 1 / k2 + 1 / k3};
+        supports.head_mm_N = 1 / k.at("kh" + plane).get<double>();
+        supports.tail_mm_N = 1 / k.at("kt" + plane).get<double>();
+      }
+      const std::vector<double> a = c.at("positions");
+      std::vector<Flexibility> expected(a.size());
+      const std::string names[] = {"f_ww_", "f_wp_", "f_pp_", "RF_", "RC_"};
+      for (std::size_t f = 0; f < 5; ++f)
+        for (std::size_t i = 0; i < a.size(); ++i)
+          expected[i].*kFields[f] = c.at(names[f] + plane).at(i);
+      EXPECT_LE(difference(at(beam, a, supports), expected), kPromised)
+          << c.at("shaft") << ' ' << clamp << ' ' << c.at("support") << ' ' << plane;
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 48u);
+}
+
+TEST(Beam, FiniteElementsAgreeOnEveryKindOfShaft) {
+  double worst = 0;
+  for (const unsigned seed : {1u, 2u})
+    for (const auto& [name, shaft] : random_shafts::all(seed)) {
+      const Beam beam(shaft);
+      const std::vector<double> a = positions(beam.length_mm());
+      for (const Supports& s : random_shafts::supports()) {
+        const double apart =
+            difference(at(beam, a, s), finite_elements::flexibilities(shaft, a, s));
+        EXPECT_LE(apart, kPromised) << name << ", method " << static_cast<int>(s.method)
+                                    << (s.tail_mm_N > 0 ? " elastic" : " rigid");
+        worst = std::max(worst, apart);
+      }
+    }
+  RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
+}
+
+TEST(Beam, ConeIntegralsAreGoodTo1em13) {
+  // The free end of a single segment: f_ww, f_wp, f_pp are K20, K20 + K11 and so on.
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto r = [&](double low, double high) {
+      return random_shafts::between(random, low, high);
+    };
+    const double left = r(3, 60), right = r(3, 60);
+    const Segment s{r(5, 300), left, right, left * r(0, 0.95), right * r(0, 0.95)};
+    const Shaft shaft{210000, 0.3, {s}};
+    const std::vector<double> end{s.length_mm};
+    const Supports rigid{Method::chuck, {}, 0, 0};
+    EXPECT_LE(difference(at(Beam(shaft), end, rigid),
+                         finite_elements::flexibilities(shaft, end, rigid)),
+              1e-13)
+        << s.length_mm << ' ' << left << ' ' << right << ' ' << s.inner_left_mm << ' '
+        << s.inner_right_mm;
+  }
+}
+
+TEST(Beam, MaxwellsReciprocityByFiniteElements) {
+  // f_wp is the rotation per unit force; the deflection per unit couple is the other
+  // entry of the solved system, and the finite elements give both.
+  for (const auto& [name, shaft] : random_shafts::all(5))
+    for (const Supports& s : random_shafts::supports()) {
+      const Beam beam(shaft);
+      const std::vector<double> a = positions(beam.length_mm());
+      const auto mine = at(beam, a, s);
+      const auto theirs = finite_elements::solved(shaft, a, s).deflection_per_couple;
+      double largest = 0, apart = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        largest = std::max(largest, std::abs(theirs[i]));
+        apart = std::max(apart, std::abs(theirs[i] - mine[i].f_wp_rad_N));
+      }
+      EXPECT_LE(apart, kPromised * largest) << name;
+    }
+}
+
+TEST(Beam, CuttingSegmentsInTwoChangesNothing) {
+  std::mt19937_64 random(7);
+  for (const auto& [name, shaft] : random_shafts::all(7)) {
+    Shaft halves{shaft.E_MPa, shaft.nu, {}};
+    for (const Segment& s : shaft.segments) {
+      const auto [left, right] =
+          part::split(s, s.length_mm * random_shafts::between(random, 0.05, 0.95));
+      halves.segments.insert(halves.segments.end(), {left, right});
+    }
+    const Beam one(shaft), two(halves);
+    const std::vector<double> a = positions(one.length_mm());
+    for (const Supports& s : random_shafts::supports())
+      EXPECT_LE(difference(at(two, a, s), at(one, a, s)), kPromised) << name;
+  }
+}
+
+TEST(Beam, BetweenCentresTheMirroredShaftIsTheSame) {
+  for (const auto& [name, shaft] : random_shafts::all(11)) {
+    Shaft mirrored = shaft;
+    std::reverse(mirrored.segments.begin(), mirrored.segments.end());
+    for (Segment& s : mirrored.segments) {
+      std::swap(s.outer_left_mm, s.outer_right_mm);
+      std::swap(s.inner_left_mm, s.inner_right_mm);
+    }
+    const Beam beam(shaft), image(mirrored);
+    const double L = beam.length_mm();
+    const std::vector<double> a = positions(L);
+    std::vector<double> b;
+    for (const double x : a) b.push_back(L - x);
+    const auto x = at(beam, a, {Method::between_centres, {}, 1e-5, 3e-5});
+    auto y = at(image, b, {Method::between_centres, {}, 3e-5, 1e-5});
+    for (Flexibility& f : y) {
+      f.f_wp_rad_N = -f.f_wp_rad_N;
+      f.tail_per_N = 1 - f.tail_per_N;  // the other centre's share
+    }
+    EXPECT_LE(difference(x, y), kPromised) << name;
+  }
+}
+
+TEST(Beam, ScalesLikeALengthOverStiffness) {
+  const double k = 10;
+  for (const auto& [name, shaft] : random_shafts::all(13)) {
+    Shaft large = shaft;
+    for (Segment& s : large.segments)
+      s = {k * s.length_mm, k * s.outer_left_mm, k * s.outer_right_mm,
+           k * s.inner_left_mm, k * s.inner_right_mm};
+    const Beam beam(shaft), big(large);
+    for (Supports s : random_shafts::supports()) {
+      const auto a = positions(beam.length_mm());
+      auto ka = a;
+      for (double& x : ka) x *= k;
+      const auto small = at(beam, a, s);
+      s.root.c0_mm_N /= k;
+      s.root.c1_rad_N /= k * k;
+      s.root.c2_rad_Nmm /= k * k * k;
+      s.head_mm_N /= k;
+      s.tail_mm_N /= k;
+      auto back = at(big, ka, s);
+      for (Flexibility& f : back) {
+        f.f_ww_mm_N *= k;
+        f.f_wp_rad_N *= k * k;
+        f.f_pp_rad_Nmm *= k * k * k;
+        f.tail_per_Nmm *= k;
+      }
+      EXPECT_LE(difference(back, small), kPromised) << name;
+    }
+  }
+}
+
+TEST(Beam, AnyOrderOfPositionsGivesTheSame) {
+  for (const auto& [name, shaft] : random_shafts::all(17)) {
+    const Beam beam(shaft);
+    std::vector<double> a = positions(beam.length_mm());
+    for (const double z : part::ends_mm(shaft.segments)) a.push_back(z);
+    std::reverse(a.begin(), a.end());
+    for (const Supports& s : random_shafts::supports()) {
+      const auto together = at(beam, a, s);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        for (const Field f : kFields)
+          EXPECT_NEAR(together[i].*f, beam.at(a[i], s).*f,
+                      kPromised * std::abs(together[i].*f))
+              << name << " at " << a[i];
+    }
+  }
+}
+
+TEST(Beam, TheChuckAloneIsItsCompliance) {
+  const Beam beam({210000, 0.3, {{160, 40, 40, 0, 0}}});
+  const Root root{1.8e-5, 8.6e-8, 1.1e-9};
+  const Flexibility f = beam.at(0, {Method::chuck, root, 0, 0});
+  EXPECT_EQ(f.f_ww_mm_N, root.c0_mm_N);
+  EXPECT_EQ(f.f_wp_rad_N, root.c1_rad_N);
+  EXPECT_EQ(f.f_pp_rad_Nmm, root.c2_rad_Nmm);
+  const Flexibility rigid = beam.at(0, {Method::chuck_tailstock, {}, 0, 0});
+  for (const Field x : kFields) EXPECT_EQ(rigid.*x, 0);
+  const Flexibility tail = beam.at(160, {Method::chuck_tailstock, root, 0, 0});
+  EXPECT_NEAR(tail.f_ww_mm_N, 0, 1e-25);
+  EXPECT_EQ(tail.tail_per_N, 1);
+}
+
+TEST(Beam, AStiffTailIsTheLimitOfAnElasticOneAndASoftOneOfNone) {
+  const Beam beam({210000, 0.3, {{80, 60, 60, 0, 0}, {120, 40, 40, 0, 0}}});
+  const Root root{1.8e-5, 8.6e-8, 1.1e-9};
+  for (const double a : {10.0, 90.0, 180.0}) {
+    const Flexibility rigid = beam.at(a, {Method::chuck_tailstock, root, 0, 0}),
+                      stiff = beam.at(a, {Method::chuck_tailstock, root, 0, 1e-20}),
+                      soft = beam.at(a, {Method::chuck_tailstock, root, 0, 1e15}),
+                      none = beam.at(a, {Method::chuck, root, 0, 0});
+    for (const Field f : {kFields[0], kFields[1], kFields[2]}) {
+      EXPECT_NEAR(stiff.*f / (rigid.*f), 1, 1e-11);
+      EXPECT_NEAR(soft.*f / (none.*f), 1, 1e-11);
+    }
+  }
+}
+
+TEST(Beam, TwoBodiesJoinedAtTheToolAreThePartInProcess) {
+  // the O(1) route against the part built anew for every position
+  for (const auto& [name, shaft] : random_shafts::all(19)) {
+    const Beam finished(shaft);
+    const Beam uncut({shaft.E_MPa, shaft.nu, part::uncut(shaft.segments, 1.25)});
+    const std::vector<double> a = positions(finished.length_mm());
+    for (const Supports& s : random_shafts::supports())
+      for (const auto towards : {part::FeedTowards::chuck, part::FeedTowards::tail}) {
+        std::vector<Flexibility> joined(a.size()), built;
+        if (towards == part::FeedTowards::chuck)
+          flexibilities(uncut, finished, a, s, joined);
+        else
+          flexibilities(finished, uncut, a, s, joined);
+        for (const double x : a)
+          built.push_back(Beam({shaft.E_MPa, shaft.nu,
+                                part::in_process(shaft.segments, x, 1.25, towards)})
+                              .at(x, s));
+        EXPECT_LE(difference(joined, built), kPromised) << name;
+      }
+  }
+}
+
+TEST(Beam, TwistOfATubeIsTheTextbooks) {
+  const double L = 300, D = 40, d = 16, E = 210000, nu = 0.3;
+  const double G = E / (2 * (1 + nu)),
+               J = std::numbers::pi * (std::pow(D, 4) - std::pow(d, 4)) / 32;
+  EXPECT_NEAR(Beam({E, nu, {{L, D, D, d, d}}}).twist_rad_Nmm() / (L / (G * J)), 1,
+              kRounding);
+}
+
+TEST(Beam, RoundingInTheLastPositionIsForgiven) {
+  const Beam beam({210000, 0.3, std::vector<Segment>(3, Segment{0.1, 1, 1, 0, 0})});
+  EXPECT_NO_THROW(beam.at(0.1 + 0.1 + 0.1, {}));
+  EXPECT_THROW(beam.at(0.3001, {}), std::domain_error);
+}
+
+TEST(Beam, RefusesWhatIsNoBody) {
+  const Segment good{100, 40, 40, 0, 0};
+  const Segment bad[] = {{0, 40, 40, 0, 0},
+                         {-1, 40, 40, 0, 0},
+                         {kNaN, 40, 40, 0, 0},
+                         {100, 0, 40, 0, 0},
+                         {100, 40, -1, 0, 0},
+                         {100, 40, 40, 40, 0},
+                         {100, 40, 40, 0, 41},
+                         {100, 40, 40, -1, 0},
+                         {100, kNaN, 40, 0, 0},
+                         {100, 40, 40, 0, kNaN},
+                         {std::numeric_limits<double>::infinity(), 40, 40, 0, 0}};
+  for (const Segment& s : bad)
+    EXPECT_THROW(Beam({210000, 0.3, {good, s}}), std::domain_error);
+  EXPECT_THROW(Beam({210000, 0.3, {}}), std::domain_error);
+  for (const double E : {0.0, -1.0, kNaN})
+    EXPECT_THROW(Beam({E, 0.3, {good}}), std::domain_error);
+  for (const double nu : {-0.1, 0.5, kNaN})
+    EXPECT_THROW(Beam({210000, nu, {good}}), std::domain_error);
+  const Beam beam({210000, 0.3, {good}});
+  for (const double a : {-1e-3, 100.001, kNaN})
+    EXPECT_THROW(beam.at(a, {}), std::domain_error);
+  // the seed's own springs: S is indefinite, no elastic body
+  for (const Root& root : {Root{-1, 0, 1}, Root{1, 0, -1}, Root{1, 1.1, 1},
+                           Root{0, 1e-9, 0}, Root{kNaN, 0, 1}, Root{1, kNaN, 1}})
+    EXPECT_THROW(beam.at(50, {Method::chuck, root, 0, 0}), std::domain_error);
+  EXPECT_THROW(beam.at(50, {Method::between_centres, {}, -1, 0}), std::domain_error);
+  EXPECT_THROW(beam.at(50, {Method::between_centres, {}, 0, kNaN}), std::domain_error);
+}
+
+}  // namespace
+}  // namespace turnwright::deflection
