@@ -12,6 +12,11 @@ tw_domain(deflection SOURCES beam.cpp DEPENDS base part TESTS beam_test.cpp)
 # Floor 4
 # Floor 5
 # Floor 6
-tw_domain(document SOURCES parse.cpp reader.cpp DEPENDS base
-          PUBLIC_LIBS nlohmann_json::nlohmann_json TESTS parse_test.cpp reader_test.cpp)
+file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
+set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
+  "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
+tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp tool.cpp lathe.cpp
+          catalogue.cpp data_folder.cpp
+          DEPENDS base catalogue part PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS parse_test.cpp reader_test.cpp catalogue_test.cpp)
 # Floor 7, 8

@@ -21,9 +21,9 @@ struct OuterElement {
   ElementKind kind = ElementKind::cylinder;
   double length_mm = 0;
   double left_mm = 0, right_mm = 0;
-  std::optional<std::string> fit;    ///< ISO 286 tolerance class as drawn, "k6"
-  std::optional<Limits> limits;      ///< from `fit`, `limits_mm` or the general tolerance
-  std::optional<double> Ra_um, Rz_um;
+  std::optional<std::string> fit = {};  ///< ISO 286 tolerance class as drawn, "k6"
+  std::optional<Limits> limits = {};    ///< from `fit`, `limits_mm` or general
+  std::optional<double> Ra_um = {}, Rz_um = {};
 };
 
 enum class End { left, right };
@@ -35,21 +35,34 @@ struct InnerElement {
   End from = End::right;
   double length_mm = 0;
   double left_mm = 0, right_mm = 0;
-  std::optional<std::string> fit;
-  std::optional<Limits> limits;
-  std::optional<double> Ra_um, Rz_um;
+  std::optional<std::string> fit = {};
+  std::optional<Limits> limits = {};
+  std::optional<double> Ra_um = {}, Rz_um = {};
 };
 
 /// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
 struct Face {
   std::string id;
-  std::optional<double> Ra_um, Rz_um;
+  std::optional<double> Ra_um = {}, Rz_um = {};
 };
 
 enum class ToleranceKind {
-  diameter, length, straightness, circularity, flatness, cylindricity, profile,
-  profile_without_datum, parallelism, perpendicularity, angularity, position,
-  coaxiality, circular_radial_runout, circular_axial_runout, total_radial_runout,
+  diameter,
+  length,
+  straightness,
+  circularity,
+  flatness,
+  cylindricity,
+  profile,
+  profile_without_datum,
+  parallelism,
+  perpendicularity,
+  angularity,
+  position,
+  coaxiality,
+  circular_radial_runout,
+  circular_axial_runout,
+  total_radial_runout,
   total_axial_runout
 };
 
@@ -64,7 +77,7 @@ struct Tolerance {
   std::string datum;                   ///< element or face; may be empty
   std::array<std::string, 2> between;  ///< the two faces of a `length`
   double value_mm = 0;                 ///< width of the zone (upper - lower for a size)
-  std::optional<Limits> limits;        ///< of a size: `diameter`, `length`
+  std::optional<Limits> limits = {};   ///< of a size: `diameter`, `length`
 };
 
 enum class StockKind { bar, tube };
@@ -73,7 +86,7 @@ struct Stock {
   StockKind kind = StockKind::bar;
   double outer_mm = 0, inner_mm = 0;  ///< inner 0 for a bar
   double length_mm = 0;
-  double left_allowance_mm = 0;       ///< material left of z = 0
+  double left_allowance_mm = 0;  ///< material left of z = 0
 };
 
 struct Drawing {

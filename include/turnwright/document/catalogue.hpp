@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "turnwright/catalogue/machine.hpp"
+#include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/tool.hpp"
+#include "turnwright/document/reader.hpp"
+
+/// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json
+/// and schemas/lathe.json say which keys there are.
+namespace turnwright::document {
+
+/// All that a request may refer to by id; each list in the order of ids.
+struct Catalogue {
+  std::vector<catalogue::Material> materials;
+  std::vector<catalogue::Tool> tools;
+  std::vector<catalogue::Lathe> machines;
+};
+
+/// Read one document; what is wrong with it goes to the reader's problems.
+catalogue::Material read_material(Reader document);
+catalogue::Tool read_tool(Reader document);
+catalogue::Lathe read_lathe(Reader document);
+
+/// The *.json files in materials/, tools/ and machines/ of `folder`.
+/// @throws InputError with all problems over all files; their pointers start with the
+/// file,
+///   "materials/C45.json#/kienzle/mc".
+Catalogue load_catalogue(const std::filesystem::path& folder);
+
+/// Where the catalogue lies: `given`, else the environment's TURNWRIGHT_DATA, else
+/// share/turnwright of the installation, else the source tree this was built from.
+/// @throws InputError if `given` or TURNWRIGHT_DATA has no materials/, or none is found.
+std::filesystem::path data_folder(
+    const std::optional<std::filesystem::path>& given = std::nullopt);
+
+}  // namespace turnwright::document

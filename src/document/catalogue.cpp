@@ -1,0 +1,59 @@
+#include "turnwright/document/catalogue.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "turnwright/document/file.hpp"
+
+namespace turnwright::document {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> json_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());  // the same order of problems everywhere
+  return files;
+}
+
+template <class T>
+std::vector<T> load_folder(const fs::path& folder, Problems& problems,
+                           T (*read)(Reader)) {
+  std::vector<T> out;
+  for (const auto& file : json_files(folder)) {
+    const std::string root = (folder.filename() / file.filename()).generic_string() + '#';
+    try {
+      const auto json = parse_file(file, root);
+      const Reader reader(json, problems, root);
+      T entry = read(reader);
+      const bool twice = std::any_of(out.begin(), out.end(), [&](const T& earlier) {
+        return !entry.id.empty() && earlier.id == entry.id;
+      });
+      if (twice) reader.problem_at("id", "an id no other file has", "duplicate");
+      out.push_back(std::move(entry));
+    } catch (const InputError& error) {
+      for (auto problem : error.problems()) {
+        problem.pointer = root + problem.pointer;
+        problems.add(std::move(problem));
+      }
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const T& a, const T& b) { return a.id < b.id; });
+  return out;
+}
+
+}  // namespace
+
+Catalogue load_catalogue(const fs::path& folder) {
+  Problems problems{.document = folder.string()};
+  Catalogue all{.materials = load_folder(folder / "materials", problems, read_material),
+                .tools = load_folder(folder / "tools", problems, read_tool),
+                .machines = load_folder(folder / "machines", problems, read_lathe)};
+  problems.throw_if_any();
+  return all;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,73 @@
+#include "fields.hpp"
+
+namespace turnwright::document {
+namespace {
+
+constexpr std::size_t kIdBytes = 64;
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+}
+
+bool is_id(std::string_view text) {
+  if (text.empty() || text.size() > kIdBytes || !is_letter_or_digit(text[0]))
+    return false;
+  for (const char c : text)
+    if (!is_letter_or_digit(c) && std::string_view("_.+-").find(c) == text.npos)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+std::string read_id(Reader& r, std::string_view key) {
+  const std::string expected =
+      "an id of 1 to 64 letters, digits or _.+-, a letter or digit first";
+  const Reader value = r.at(key, expected);
+  if (value.broken()) return "";
+  if (!value.is_text()) {
+    value.problem(expected, "type");
+    return "";
+  }
+  auto id = value.json().get<std::string>();
+  if (!is_id(id)) {
+    value.problem(expected, "range");
+    return "";
+  }
+  return id;
+}
+
+void read_format(Reader& r, const std::string& format) {
+  if (const auto value = r.find("format"))
+    if (!value->is_text() || value->json() != format)
+      value->problem('"' + format + '"', "format");
+}
+
+void read_required_format(Reader& r, const std::string& format) {
+  if (r.at("format", '"' + format + '"').broken()) return;
+  read_format(r, format);
+}
+
+catalogue::Range read_range(Reader& r, std::string_view key, const Bounds& bounds) {
+  const auto ends = r.numbers(key, bounds, 2, 2);
+  if (ends.size() != 2) return {};
+  if (ends[0] > ends[1]) r.problem_at(key, "[lower, upper] with lower <= upper", "order");
+  return {.lower = ends[0], .upper = ends[1]};
+}
+
+double finish_group(Reader& group) {
+  const double uncertainty_pct = group.number("uncertainty_pct", within(0, 100, "%"));
+  group.text("source", 1000);
+  group.optional_text("note", 2000);
+  group.finish();
+  return uncertainty_pct;
+}
+
+const Choices<catalogue::IsoGroup>& iso_groups() {
+  using enum catalogue::IsoGroup;
+  static const Choices<catalogue::IsoGroup> kGroups{{"P", P}, {"M", M}, {"K", K},
+                                                    {"N", N}, {"S", S}, {"H", H}};
+  return kGroups;
+}
+
+}  // namespace turnwright::document

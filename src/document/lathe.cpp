@@ -1,0 +1,138 @@
+#include <cmath>
+
+#include "fields.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/document/catalogue.hpp"
+
+namespace turnwright::document {
+namespace {
+
+const Bounds kSpeed = above_up_to(0, 1e5, "1/min");
+const Bounds kForce = above_up_to(0, 1e6, "N");
+const Bounds kCompliance = within(0, 0.1, "mm/N");
+
+// Power and torque of one point are one quantity; makers round to about 1 %.
+constexpr double kPowerAgrees = 0.03;
+
+catalogue::CurvePoint read_point(Reader r) {
+  r = r.as_object();
+  const catalogue::CurvePoint p{.n_rpm = r.number("n_rpm", kSpeed),
+                                .P_kW = r.number("P_kW", above_up_to(0, 1e4, "kW")),
+                                .M_Nm = r.number("M_Nm", above_up_to(0, 1e6, "Nm"))};
+  r.finish();
+  const double P_kW = units::shaft_power_kW(p.M_Nm, p.n_rpm);
+  if (std::abs(P_kW - p.P_kW) > kPowerAgrees * p.P_kW)
+    r.problem_at(
+        "P_kW",
+        "the power of M_Nm at n_rpm, " + shown(nlohmann::json(P_kW)) + " kW, within 3 %",
+        "conflict");
+  return p;
+}
+
+void read_curve(Reader& group, catalogue::Lathe& m) {
+  const auto points = group.items("curve", 2, 50);
+  for (const auto& point : points) {
+    m.curve.push_back(read_point(point));
+    const auto n = m.curve.size();
+    if (n > 1 && m.curve[n - 1].n_rpm <= m.curve[n - 2].n_rpm)
+      point.problem("a speed above the point's before", "order");
+  }
+  if (m.curve.empty()) return;
+  if (m.curve.front().n_rpm > m.n_min_rpm || m.curve.back().n_rpm < m.n_max_rpm)
+    group.problem_at("curve", "points from n_min_rpm or below to n_max_rpm or above",
+                     "conflict");
+}
+
+void read_spindle(Reader group, catalogue::Lathe& m) {
+  m.n_min_rpm = group.number("n_min_rpm", kSpeed);
+  m.n_max_rpm = group.number("n_max_rpm", kSpeed);
+  if (m.n_min_rpm >= m.n_max_rpm)
+    group.problem_at("n_min_rpm", "a speed below n_max_rpm", "order");
+  m.efficiency = group.number("efficiency", above_up_to(0, 1));
+  read_curve(group, m);
+  finish_group(group);
+}
+
+void read_times(Reader group, catalogue::Lathe& m) {
+  const auto time = within(0, 1e4, "min");
+  m.index_min = group.number("index_min", time);
+  m.load_min = group.number("load_min", time);
+  m.tailstock_min = group.number("tailstock_min", time);
+  m.centres_min = group.number("centres_min", time);
+  m.setup_min = group.number("setup_min", time);
+  finish_group(group);
+}
+
+void read_chuck(Reader group, catalogue::Chuck& c) {
+  c.grip_force_N = group.number("grip_force_N", above_up_to(0, 1e7, "N"));
+  c.jaw_mass_radius_kg_m = group.number("jaw_mass_radius_kg_m", within(0, 1000, "kg m"));
+  c.friction = group.number("friction", above_up_to(0, 1));
+  c.n_max_rpm = group.number("n_max_rpm", kSpeed);
+  c.diameter_mm = read_range(group, "diameter_mm", above_up_to(0, 20000, "mm"));
+  finish_group(group);
+}
+
+catalogue::RootCompliance read_root(Reader r) {
+  const catalogue::RootCompliance c{
+      .c0_mm_N = r.number("c0_mm_N", kCompliance),
+      .c1_rad_N = r.number("c1_rad_N", within(-0.01, 0.01, "rad/N")),
+      .c2_rad_Nmm = r.number("c2_rad_Nmm", within(0, 1e-3, "rad/(N mm)"))};
+  r.finish();
+  // The work done by a force and a couple is never negative; equality up to rounding.
+  const double product = c.c0_mm_N * c.c2_rad_Nmm;
+  if (c.c1_rad_N * c.c1_rad_N > product * (1 + 1e-12))
+    r.problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");
+  return c;
+}
+
+catalogue::CentreCompliance read_centre(Reader r) {
+  const catalogue::CentreCompliance c{
+      .radial_mm_N = r.number("radial_mm_N", kCompliance),
+      .tangential_mm_N = r.number("tangential_mm_N", kCompliance)};
+  r.finish();
+  return c;
+}
+
+void read_stiffness(Reader group, catalogue::Lathe& m) {
+  m.chuck.radial = read_root(group.object("chuck_radial"));
+  m.chuck.tangential = read_root(group.object("chuck_tangential"));
+  m.chuck.axial_mm_N = group.number("chuck_axial_mm_N", kCompliance);
+  m.tail_centre = read_centre(group.object("tail_centre"));
+  m.head_centre = read_centre(group.object("head_centre"));
+  m.tool_rr_mm_N = group.number("tool_rr_mm_N", kCompliance);
+  m.tool_rt_mm_N = group.number("tool_rt_mm_N", within(-0.1, 0.1, "mm/N"));
+  m.stiffness_uncertainty_pct = finish_group(group);
+}
+
+}  // namespace
+
+catalogue::Lathe read_lathe(Reader r) {
+  catalogue::Lathe m;
+  r = r.as_object();
+  read_required_format(r, "turnwright-lathe/1");
+  m.id = read_id(r);
+  m.name = r.text("name");
+  m.clampings = read_set<std::string>(r, "clampings",
+                                      {{"chuck", "chuck"},
+                                       {"chuck-tailstock", "chuck-tailstock"},
+                                       {"between-centres", "between-centres"}});
+  read_spindle(r.object("spindle"), m);
+  Reader feed = r.object("feed");
+  m.feed_force_max_N = feed.number("feed_force_max_N", kForce);
+  m.rapid_mm_min = feed.number("rapid_mm_min", above_up_to(0, 1e6, "mm/min"));
+  finish_group(feed);
+  read_times(r.object("times"), m);
+  Reader rate = r.object("rate");
+  m.cost_per_min = rate.number("cost_per_min", within(0, 1e4));
+  finish_group(rate);
+  Reader room = r.object("room");
+  m.swing_mm = room.number("swing_mm", above_up_to(0, 20000, "mm"));
+  m.between_centres_mm = room.number("between_centres_mm", above_up_to(0, 20000, "mm"));
+  finish_group(room);
+  read_chuck(r.object("chuck"), m.chuck);
+  read_stiffness(r.object("stiffness"), m);
+  r.finish();
+  return m;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,82 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "fields.hpp"
+#include "turnwright/document/catalogue.hpp"
+
+namespace turnwright::document {
+namespace {
+
+const Choices<catalogue::ToolUse> kUses{{"roughing", catalogue::ToolUse::roughing},
+                                        {"finishing", catalogue::ToolUse::finishing},
+                                        {"facing", catalogue::ToolUse::facing},
+                                        {"boring", catalogue::ToolUse::boring}};
+
+void read_geometry(Reader group, catalogue::Tool& t) {
+  Bounds edge = above_up_to(0, 180, "deg");
+  edge.upper_open = true;
+  t.kapr_deg = group.number("kapr_deg", edge);
+  t.minor_kapr_deg = group.number("minor_kapr_deg", edge);
+  t.gamma_deg = group.number("gamma_deg", within(-30, 45, "deg"));
+  t.alpha_deg = group.number("alpha_deg", within(0, 45, "deg"));
+  t.re_mm = group.number("re_mm", within(0, 20, "mm"));
+  t.wiper = group.boolean_or("wiper", false);
+  finish_group(group);
+  if (t.kapr_deg + t.minor_kapr_deg >= 180)
+    group.problem_at("minor_kapr_deg", "a corner: kapr_deg + minor_kapr_deg < 180 deg",
+                     "conflict");
+}
+
+void read_window(Reader group, catalogue::Tool& t) {
+  t.f_mm_rev = read_range(group, "f_mm_rev", above_up_to(0, 5, "mm/rev"));
+  t.ap_mm = read_range(group, "ap_mm", above_up_to(0, 50, "mm"));
+  t.vc_m_min = read_range(group, "vc_m_min", above_up_to(0, 5000, "m/min"));
+  finish_group(group);
+}
+
+// The designation must be one of ISO 1832 and agree with the corner radius given.
+void check_insert(Reader& r, const catalogue::Tool& t) {
+  if (t.insert.empty()) return;
+  try {
+    const double re_mm = catalogue::decode_iso1832(t.insert).re_mm;
+    if (std::abs(re_mm - t.re_mm) > 1e-9)
+      r.problem_at("insert",
+                   "a designation whose corner is geometry/re_mm, " +
+                       shown(nlohmann::json(t.re_mm)) + " mm, not " +
+                       shown(nlohmann::json(re_mm)) + " mm",
+                   "conflict");
+  } catch (const std::domain_error& error) {
+    r.problem_at("insert", std::string("an ISO 1832 designation (") + error.what() + ")",
+                 "choice");
+  }
+}
+
+}  // namespace
+
+catalogue::Tool read_tool(Reader r) {
+  catalogue::Tool t;
+  r = r.as_object();
+  read_required_format(r, "turnwright-tool/1");
+  t.id = read_id(r);
+  t.name = r.text("name");
+  t.insert = r.text("insert", 40);
+  t.uses = read_set(r, "uses", kUses);
+  t.groups = read_set(r, "groups", iso_groups());
+  read_geometry(r.object("geometry"), t);
+  read_window(r.object("window"), t);
+  Reader strength = r.object("strength");
+  t.Fc_max_N = strength.number("Fc_max_N", above_up_to(0, 1e6, "N"));
+  finish_group(strength);
+  Reader life = r.object("life");
+  t.T_min = read_range(life, "T_min", above_up_to(0, 1000, "min"));
+  finish_group(life);
+  Reader economics = r.object("economics");
+  t.change_min = economics.number("change_min", within(0, 1000, "min"));
+  t.edge_cost = economics.number("edge_cost", within(0, 1e5));
+  finish_group(economics);
+  check_insert(r, t);
+  r.finish();
+  return t;
+}
+
+}  // namespace turnwright::document
