@@ -8,8 +8,13 @@ tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp shaft_test.cpp)
 # Floor 3
+tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
+  TESTS cut_test.cpp spindle_test.cpp)
 tw_domain(deflection SOURCES beam.cpp DEPENDS base part TESTS beam_test.cpp)
 # Floor 4
+tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp
+  DEPENDS base part PRIVATE_LIBS fmt::fmt
+  TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp)
 # Floor 5
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)

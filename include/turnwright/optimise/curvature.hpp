@@ -43,6 +43,10 @@ class LogCurvature {
   }
   friend LogCurvature sqrt(LogCurvature a) { return a; }
   friend LogCurvature sqr(LogCurvature a) { return a; }
+  template <class Below, class Above>
+  friend LogCurvature branch(LogCurvature, double, const Below&, const Above&) {
+    return {};
+  }
 
  private:
   static LogCurvature worse(LogCurvature a, LogCurvature b) {

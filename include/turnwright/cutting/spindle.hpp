@@ -1,0 +1,162 @@
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "turnwright/base/dual.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/catalogue/machine.hpp"
+
+/// Spindle, power, grip, and the time a sweep takes under constant surface speed.
+namespace turnwright::cutting {
+
+/// Power at the cut [kW] that one segment of the curves allows: P(n) = c n^s.
+struct PowerLine {
+  double c = 0, s = 0;
+  bool torque = false;  ///< from the torque curve
+};
+
+/// A range of spindle speeds over which the available power is the least of some lines.
+struct SpeedRange {
+  double n_min_rpm = 0, n_max_rpm = 0;
+  std::vector<PowerLine> lines;
+};
+
+/// Power and torque curves, log-log between their points, times the efficiency, below the
+/// first point at its torque.  Segments of a log-concave curve support it, so the least
+/// of their lines is the curve; a curve with dips is cut into ranges where that holds.
+std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine);
+
+/// A path of the tool over diameters that change linearly along it (or not at all).
+template <class T>
+struct Sweep {
+  double path_mm = 0;
+  T D_small_mm{}, D_large_mm{};
+  bool tapered = false;       ///< D_small < D_large
+  bool reaches_axis = false;  ///< D_small = 0, the face of a solid part
+};
+
+/// Spindle speed [1/min] of a sweep at which a power line is tightest: the lowest, at
+/// D_large, for s >= 0; the highest, min(n_cap, 1000 v/(pi D_small)), for s < 0.
+template <class T>
+T decisive_rpm(const PowerLine& l, const Sweep<T>& s, const T& vc_m_min,
+               const T& n_cap_rpm) {
+  using std::min;
+  const double per_D = 1000 / units::kPi;
+  if (l.s >= 0 || !s.tapered) return vc_m_min / s.D_large_mm * per_D;
+  if (s.reaches_axis) return n_cap_rpm;
+  return min(n_cap_rpm, T(vc_m_min / s.D_small_mm * per_D));
+}
+
+/// True where the speed plays no part: P ~ n, a constant torque.
+inline bool constant_torque(const PowerLine& l) { return std::abs(l.s - 1) < 1e-9; }
+
+/// Cutting speed [m/min] at which a line is just kept, not for constant torque:
+///
+///     Fc v/60000 = c n^s, n the decisive one (1)
+///
+/// An upper limit of v for s < 1, a lower one for s > 1.
+template <class T>
+T speed_at_power_m_min(const PowerLine& l, const T& Fc_N, const Sweep<T>& s,
+                       const T& n_cap_rpm) {
+  using std::max;
+  using std::pow;
+  const double per_D = 1000 / units::kPi;
+  const T k = (60000 * l.c) / Fc_N;
+  const auto at = [&](const T& D) -> T {
+    return pow(k * pow(per_D / D, l.s), 1 / (1 - l.s));
+  };
+  if (l.s >= 0 || !s.tapered) return at(s.D_large_mm);
+  const T at_cap = k * pow(n_cap_rpm, l.s);
+  return s.reaches_axis ? at_cap : max(at_cap, at(s.D_small_mm));
+}
+
+/// Needed over available power of a line, <= 1 where it is kept.
+template <class T>
+T power_share(const PowerLine& l, const T& Fc_N, const Sweep<T>& s, const T& vc_m_min,
+              const T& n_cap_rpm) {
+  using std::pow;
+  const T n = decisive_rpm(l, s, vc_m_min, n_cap_rpm);
+  if (constant_torque(l)) return Fc_N * s.D_large_mm * (units::kPi / 6e7 / l.c);
+  return units::power_kW(Fc_N, vc_m_min) / (l.c * pow(n, l.s));
+}
+
+/// Grip of a three-jaw chuck on the outside, after VDI 3106:
+///
+///     Fsp(n) = Fsp0 - sum(m r) (pi n/30)^2 >= Sz F/mu,  Sz = 1.5 (2) F = hypot(Fc
+///     d_cut/d_grip, Ff): what friction must carry around and along centrifugal loss <=
+///     0.67 Fsp0
+///
+/// The tilting moment of the passive force is not part of this model.
+struct Grip {
+  double force_N = 0;  ///< Fsp0; 0 = nothing is gripped (between centres)
+  double mr_kg_m = 0;
+  double friction = 0;
+  double d_grip_mm = 0;
+};
+inline constexpr double kGripSafety = 1.5;
+inline constexpr double kGripLoss = 0.67;
+
+/// Gripping force [N] needed at rest, Sz F/mu.
+template <class T>
+T grip_needed_N(const Grip& g, const T& Fc_N, const T& Ff_N, const T& d_cut_mm) {
+  using std::sqrt;
+  return (kGripSafety / g.friction) *
+         sqrt(sqr(Fc_N * d_cut_mm * (1 / g.d_grip_mm)) + sqr(Ff_N));
+}
+
+/// Gripping force [N] lost at a spindle speed.
+template <class T>
+T grip_loss_N(const Grip& g, const T& n_rpm) {
+  return sqr(n_rpm * (units::kPi / 30)) * g.mr_kg_m;
+}
+
+/// Spindle speed [1/min] at which (2) holds with equality; the needed force is taken as
+/// at most 0.999 of Fsp0 (beyond, the check at rest fails anyway).
+template <class T>
+T grip_rpm(const Grip& g, const T& needed_N) {
+  using std::max;
+  using std::sqrt;
+  const T spare = max(T(g.force_N - needed_N), T(0.001 * g.force_N));
+  return sqrt(spare * (1 / g.mr_kg_m)) * (30 / units::kPi);
+}
+
+/// Minutes in the cut, and edges worn out, of one pass.
+template <class T>
+struct Duty {
+  T time_min{}, edges{};
+};
+
+/// Constant surface speed v with the spindle held at n_cap where the diameter is small.
+/// Along the path dt = ds/(f n), n = min(n_cap, 1000 v/(pi D)), and an edge wears at the
+/// rate 1/T of the speed it meets, v_eff = pi D n/1000, T ~ v^(-1/n_T):
+///
+///     time  = (l/(f dD)) [ (D_s - D_1)/n_cap + pi (D_2^2 - D_s^2)/(2000 v) ] (3) edges =
+///     (l/(f dD T(v))) [ (D_s (D_s/D_c)^q - D_1 (D_1/D_c)^q)/((q + 1) n_cap)
+///                               + pi (D_2^2 - D_s^2)/(2000 v) ],  q = 1/n_T (4)
+///     D_c = 1000 v/(pi n_cap),  D_s = D_c held in [D_1, D_2]
+///
+/// Cylinder: time = pi D l/(1000 v f), edges = time/T; its v must not ask for more than
+/// n_cap.  Source: derived here; spindle_test integrates numerically.
+template <class T>
+Duty<T> duty(const Sweep<T>& s, const T& vc_m_min, const T& f_mm_rev, const T& life_min,
+             const T& n_cap_rpm, double taylor_n) {
+  using std::max;
+  using std::min;
+  using std::pow;
+  if (!s.tapered) {
+    const T time = s.D_large_mm * (units::kPi / 1000 * s.path_mm) / (vc_m_min * f_mm_rev);
+    return {time, time / life_min};
+  }
+  const T &D1 = s.D_small_mm, &D2 = s.D_large_mm;
+  const double q = 1 / taylor_n;
+  const T Dc = vc_m_min / n_cap_rpm * (1000 / units::kPi);
+  const T Ds = min(max(Dc, D1), D2);
+  const T unclamped = (D2 - Ds) * (D2 + Ds) / vc_m_min * (units::kPi / 2000);
+  const T worn =
+      (Ds * pow(Ds / Dc, q) - D1 * pow(D1 / Dc, q)) / n_cap_rpm * (1 / (q + 1));
+  const T scale = s.path_mm / (f_mm_rev * (D2 - D1));
+  return {scale * ((Ds - D1) / n_cap_rpm + unclamped),  // Eq. (3)
+          scale * (worn + unclamped) / life_min};       // Eq. (4)
+}
+
+}  // namespace turnwright::cutting

@@ -1,0 +1,29 @@
+#include "turnwright/cutting/cut.hpp"
+
+#include <algorithm>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::cutting {
+
+Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
+  const double K_gamma =
+      std::clamp(1 - (tool.gamma_deg - material.gamma0_deg) / 100, 0.7, 1.3);
+  Cut c;
+  c.kc = {material.kc.k11_MPa * K_gamma, material.kc.m};
+  c.kf = material.kf;
+  c.kp = material.kp;
+  c.taylor = material.taylor;
+  c.kapr_rad = units::rad_from_deg(tool.kapr_deg);
+  c.minor_kapr_rad = units::rad_from_deg(tool.minor_kapr_deg);
+  c.re_mm = tool.re_mm;
+  c.hmin_mm = material.hmin_mm;
+  c.surface_factor = tool.wiper ? 0.5 : 1.0;
+  return c;
+}
+
+double economic_life_min(const Cut& c, double change_min, double edge_over_minute) {
+  return (1 / c.taylor.n - 1) * (change_min + edge_over_minute);
+}
+
+}  // namespace turnwright::cutting

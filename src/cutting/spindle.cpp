@@ -1,0 +1,67 @@
+#include "turnwright/cutting/spindle.hpp"
+
+#include <algorithm>
+
+namespace turnwright::cutting {
+namespace {
+
+using catalogue::CurvePoint;
+
+// Line through two points of a curve P(n), log-log.
+PowerLine through(double n1, double P1, double n2, double P2, double efficiency,
+                  bool torque) {
+  const double s = std::log(P2 / P1) / std::log(n2 / n1);
+  return {efficiency * P1 / std::pow(n1, s), s, torque};
+}
+
+double torque_power_kW(const CurvePoint& p) {
+  return units::shaft_power_kW(p.M_Nm, p.n_rpm);
+}
+
+// True if the slope of either curve rises at point i: a dip, where the lines around it no
+// longer lie above the curve.  1e-9: points on one line, as rounding leaves them.
+bool dip(const std::vector<CurvePoint>& c, std::size_t i) {
+  const auto slope = [&](auto value, std::size_t a, std::size_t b) {
+    return std::log(value(c[b]) / value(c[a])) / std::log(c[b].n_rpm / c[a].n_rpm);
+  };
+  const auto power = [](const CurvePoint& p) { return p.P_kW; };
+  return slope(power, i, i + 1) > slope(power, i - 1, i) + 1e-9 ||
+         slope(torque_power_kW, i, i + 1) > slope(torque_power_kW, i - 1, i) + 1e-9;
+}
+
+void add_unless_there(std::vector<PowerLine>& lines, const PowerLine& line) {
+  const bool there = std::any_of(lines.begin(), lines.end(), [&](const PowerLine& l) {
+    return l.torque == line.torque && std::abs(l.s - line.s) < 1e-9 &&
+           std::abs(std::log(l.c / line.c)) < 1e-9;
+  });
+  if (!there) lines.push_back(line);
+}
+
+}  // namespace
+
+std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine) {
+  const auto& c = machine.curve;
+  const double eta = machine.efficiency;
+  const double n_max = std::min(machine.n_max_rpm, c.back().n_rpm);
+  std::vector<SpeedRange> ranges;
+  SpeedRange now{machine.n_min_rpm, n_max, {}};
+  // Below the first point the motor gives that point's torque: P ~ n.
+  const double M0 =
+      std::min(c.front().M_Nm, c.front().P_kW / units::shaft_power_kW(1, c[0].n_rpm));
+  now.lines.push_back({eta * units::shaft_power_kW(M0, 1), 1.0, true});
+  for (std::size_t i = 0; i + 1 < c.size(); ++i) {
+    if (i > 0 && dip(c, i)) {
+      now.n_max_rpm = std::min(n_max, c[i].n_rpm);
+      if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
+      now = {std::max(machine.n_min_rpm, c[i].n_rpm), n_max, {}};
+    }
+    const auto &a = c[i], &b = c[i + 1];
+    add_unless_there(now.lines, through(a.n_rpm, a.P_kW, b.n_rpm, b.P_kW, eta, false));
+    add_unless_there(now.lines, through(a.n_rpm, torque_power_kW(a), b.n_rpm,
+                                        torque_power_kW(b), eta, true));
+  }
+  if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
+  return ranges;
+}
+
+}  // namespace turnwright::cutting

@@ -1,0 +1,157 @@
+#include "turnwright/cutting/cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+namespace turnwright::cutting {
+namespace {
+
+using Grad = Dual<double, 2>;
+using Box2 = Dual<Interval, 2>;
+
+Cut steel(double kapr_deg = 95, double re_mm = 0.8) {
+  Cut c;
+  c.kc = {1600, 0.25};
+  c.taylor = {450, 0.255, 0.35, 0.15};
+  c.kapr_rad = kapr_deg * std::numbers::pi / 180;
+  c.minor_kapr_rad = 0.087;
+  c.re_mm = re_mm;
+  c.hmin_mm = 0.005;
+  return c;
+}
+
+TEST(Cut, KienzleAtOneMillimetreIsTheMaterialsConstant) {
+  // Sharp edge at 90 deg with ap = 1: L = 1 + f/2 is 1 only without the minor edge, so
+  // ask the law itself: b = L = 1, h = ap f/L = 1.
+  EXPECT_DOUBLE_EQ(kienzle_N(Kienzle{1600, 0.25}, 1.0, 1.0, 1.0), 1600);
+  EXPECT_DOUBLE_EQ(kienzle_N(Kienzle{1600, 0.25}, 2.0, 2.0, 1.0), 3200);  // b 2, h 1
+  EXPECT_NEAR(kienzle_N(Kienzle{1600, 0.25}, 1.0, 1.0, 0.1), 1600 * std::pow(0.1, 0.75),
+              1e-9);
+}
+
+TEST(Cut, EdgeIsArcThenStraightAndJoinsSmoothly) {
+  for (const double kapr : {45.0, 75.0, 90.0, 95.0, 107.5}) {
+    const auto c = steel(kapr);
+    const double corner = corner_depth_mm(c), h = 1e-6;
+    const double below = engaged_edge_mm(c, corner - h, 0.2);
+    const double at = engaged_edge_mm(c, corner, 0.2);
+    const double above = engaged_edge_mm(c, corner + h, 0.2);
+    EXPECT_NEAR(at, c.re_mm * c.kapr_rad + 0.1, 1e-12);  // the whole arc and f/2
+    EXPECT_NEAR((at - below) / h, 1 / std::sin(c.kapr_rad), 1e-5);
+    EXPECT_NEAR((above - at) / h, 1 / std::sin(c.kapr_rad), 1e-9);
+  }
+  const auto sharp = steel(60, 0);
+  EXPECT_NEAR(engaged_edge_mm(sharp, 2.0, 0.2), 2 / std::sin(sharp.kapr_rad) + 0.1,
+              1e-13);
+}
+
+TEST(Cut, ForcesOfASharpEdgeFollowItsAngle) {
+  // kappa_eff -> kappa for ap >> f: chord = edge; F_D = Fc/2 normal to it.
+  const auto c = steel(60, 0);
+  const auto F = forces_N(c, 5.0, 1e-6);
+  EXPECT_NEAR(F.Ff_N / F.Fc_N, 0.5 * std::sin(c.kapr_rad), 1e-6);
+  EXPECT_NEAR(F.Fp_N / F.Fc_N, 0.5 * std::cos(c.kapr_rad), 1e-6);
+  const auto shallow = forces_N(steel(95), 0.1, 0.2);  // on the corner: mostly passive
+  EXPECT_GT(shallow.Fp_N, 1.5 * shallow.Ff_N);
+  auto own = steel();
+  own.kf = Kienzle{400, 0.7};
+  own.kp = Kienzle{300, 0.5};
+  EXPECT_DOUBLE_EQ(forces_N(own, 2.0, 0.3).Fp_N,
+                   kienzle_N(*own.kp, engaged_edge_mm(own, 2.0, 0.3), 2.0, 0.3));
+}
+
+TEST(Cut, LifeAndSpeedAreOneLaw) {
+  const auto c = steel();
+  const double v = speed_for_life_m_min(c, 17.0, 0.25, 1.7);
+  EXPECT_NEAR(tool_life_min(c, v, 0.25, 1.7), 17, 1e-12);
+  EXPECT_NEAR(tool_life_min(c, 2 * v, 0.25, 1.7), 17 * std::pow(0.5, 1 / 0.255), 1e-12);
+}
+
+TEST(Cut, EconomicLifeMakesTheCostStationary) {
+  const auto c = steel();
+  const double change = 1.5, ratio = 4.0, f = 0.3, ap = 2;
+  const auto cost = [&](double v) {
+    return 1 / v * (1 + (change + ratio) / tool_life_min(c, v, f, ap));
+  };
+  const double v = speed_for_life_m_min(c, economic_life_min(c, change, ratio), f, ap);
+  for (const double step : {0.99, 1.01}) EXPECT_GT(cost(v * step), cost(v));
+  EXPECT_NEAR((cost(v * 1.0001) - cost(v / 1.0001)) / cost(v) / 2e-4, 0, 1e-6);
+}
+
+TEST(Cut, RoughnessHasBrammertzFloor) {
+  auto c = steel();
+  const double f = std::sqrt(2 * c.re_mm * c.hmin_mm);
+  EXPECT_NEAR(Rz_um(c, f), 1000 * c.hmin_mm, 1e-12);
+  EXPECT_GT(Rz_um(c, 0.9 * f), Rz_um(c, f));
+  EXPECT_GT(Rz_um(c, 1.1 * f), Rz_um(c, f));
+  c.hmin_mm = 0;
+  EXPECT_NEAR(Ra_um(c, 0.2), 1000 * 0.04 / (18 * std::sqrt(3.0) * 0.8), 1e-12);
+  EXPECT_NEAR(Rz_um(c, 0.2), 1000 * 0.04 / (8 * 0.8), 1e-12);
+}
+
+TEST(Cut, RakeCorrectsOnePercentADegreeWithinLimits) {
+  catalogue::Material m;
+  m.kc = {1600, 0.25};
+  m.gamma0_deg = 6;
+  catalogue::Tool t;
+  t.gamma_deg = -6;
+  EXPECT_NEAR(cut_of(m, t).kc.k11_MPa, 1600 * 1.12, 1e-9);
+  t.gamma_deg = 60;
+  EXPECT_NEAR(cut_of(m, t).kc.k11_MPa, 1600 * 0.7, 1e-9);
+}
+
+TEST(Cut, GradientsAndEnclosuresAgreeWithTheNumbers) {
+  std::mt19937 seed(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto c = steel(45 + 60 * unit(seed), 0.2 + unit(seed));
+    const double ap = 0.05 + 3 * unit(seed), f = 0.05 + 0.5 * unit(seed);
+    const auto all = [&](auto a, auto g) {
+      const auto F = forces_N(c, a, g);
+      return std::array{F.Fc_N, F.Ff_N, F.Fp_N, Rz_um(c, g),
+                        tool_life_min(c, decltype(a)(200.0), g, a)};
+    };
+    const auto value = all(ap, f);
+    const auto grad = all(variable<double, 2>(ap, 0), variable<double, 2>(f, 1));
+    const double h = 1e-6, w = 0.05 * unit(seed);
+    const auto up = all(ap * (1 + h), f), down = all(ap * (1 - h), f);
+    const auto box = all(variable<Interval, 2>(Interval(ap, ap + w), 0),
+                         variable<Interval, 2>(Interval(f, f + w), 1));
+    const auto inside = all(ap + w * 0.3, f + w * 0.8);
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const double size = std::abs(value[k]);  // Fp of an obtuse edge may pull
+      EXPECT_NEAR(grad[k].v, value[k], 1e-12 * size);
+      EXPECT_NEAR(grad[k].d[0], (up[k] - down[k]) / (2 * h * ap), 1e-5 * size / ap) << k;
+      EXPECT_LE(box[k].v.lo, inside[k] + 1e-12 * size);
+      EXPECT_GE(box[k].v.hi, inside[k] - 1e-12 * size);
+      EXPECT_LE(box[k].d[0].lo, grad[k].d[0] + 1e-9 * size);
+      EXPECT_GE(box[k].d[0].hi, grad[k].d[0] - 1e-9 * size);
+    }
+  }
+}
+
+TEST(Cut, ForceIsProvedLogConvexAndChipFlowIsNot) {
+  using optimise::LogCurvature;
+  const auto x = LogCurvature::variable();
+  EXPECT_TRUE(forces_N(steel(), x, x).Fc_N.convex());
+  EXPECT_FALSE(forces_N(steel(), x, x).Fp_N.convex());
+  EXPECT_TRUE(Rz_um(steel(), x).convex());
+  EXPECT_TRUE(tool_life_min(steel(), x, x, x).affine());
+  // The claim for the edge, checked: ln L has no concave stretch over (ln ap, ln f).
+  std::mt19937 seed(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const auto c = steel(30 + 90 * unit(seed), 0.1 + 1.5 * unit(seed));
+    const double a = -4 + 6 * unit(seed), b = -4 + 6 * unit(seed);
+    const double p = -4 + 4 * unit(seed), q = -4 + 4 * unit(seed);
+    const auto ln = [&](double s, double t) {
+      return std::log(engaged_edge_mm(c, std::exp(s), std::exp(t)));
+    };
+    EXPECT_LE(ln((a + b) / 2, (p + q) / 2), (ln(a, p) + ln(b, q)) / 2 + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::cutting

@@ -1,0 +1,124 @@
+#include "turnwright/cutting/spindle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace turnwright::cutting {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+catalogue::Lathe lathe() {
+  catalogue::Lathe m;
+  m.n_min_rpm = 20;
+  m.n_max_rpm = 4000;
+  m.efficiency = 0.8;
+  // 140 Nm up to 1000/min, constant power to 3000, falling above.
+  const auto at = [](double n, double P) {
+    return catalogue::CurvePoint{n, P, P * 30000 / (kPi * n)};
+  };
+  const double P = 140 * kPi * 1000 / 30000;
+  m.curve = {at(200, P / 5), at(1000, P), at(3000, P), at(4000, 0.7 * P)};
+  return m;
+}
+
+double available_kW(const SpeedRange& r, double n) {
+  double P = 1e300;
+  for (const auto& l : r.lines) P = std::min(P, l.c * std::pow(n, l.s));
+  return P;
+}
+
+TEST(SpeedRanges, LeastLineIsTheCurve) {
+  const auto ranges = speed_ranges(lathe());
+  ASSERT_EQ(ranges.size(), 1u);
+  const double P = 0.8 * 140 * kPi * 1000 / 30000;
+  EXPECT_NEAR(available_kW(ranges[0], 50), P / 20, 1e-9);  // constant torque below
+  EXPECT_NEAR(available_kW(ranges[0], 500), P / 2, 1e-9);
+  EXPECT_NEAR(available_kW(ranges[0], 2000), P, 1e-9);
+  EXPECT_NEAR(available_kW(ranges[0], 4000), 0.7 * P, 1e-9);
+}
+
+TEST(SpeedRanges, ADipCutsTheRange) {
+  auto m = lathe();
+  m.curve[2].P_kW *= 0.5;  // gear change at 3000
+  m.curve[2].M_Nm *= 0.5;
+  const auto ranges = speed_ranges(m);
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0].n_max_rpm, 3000);
+  EXPECT_EQ(ranges[1].n_min_rpm, 3000);
+  EXPECT_NEAR(available_kW(ranges[0], 2000),
+              0.8 * std::exp(std::log(m.curve[1].P_kW) +
+                             std::log(2.0) / std::log(3.0) *
+                                 std::log(m.curve[2].P_kW / m.curve[1].P_kW)),
+              1e-9);
+}
+
+TEST(PowerSpeed, KeepsTheLineAtEveryDiameterOfASweep) {
+  const auto lines = speed_ranges(lathe())[0].lines;
+  for (const auto& sweep :
+       {Sweep<double>{50, 40, 40, false, false}, Sweep<double>{30, 20, 60, true, false},
+        Sweep<double>{40, 0, 80, true, true}})
+    for (const auto& l : lines) {
+      if (constant_torque(l)) continue;
+      const double n_cap = 3500, Fc = 900;
+      const double v = speed_at_power_m_min(l, Fc, sweep, n_cap);
+      EXPECT_NEAR(power_share(l, Fc, sweep, v, n_cap), 1, 1e-9);
+      double worst = 0;  // brute force over the sweep
+      for (int i = 0; i <= 2000; ++i) {
+        const double D =
+            sweep.D_small_mm + (sweep.D_large_mm - sweep.D_small_mm) * i / 2000;
+        const double n = D > 0 ? std::min(n_cap, 1000 * v / (kPi * D)) : n_cap;
+        worst = std::max(worst, Fc * kPi * D * n / 6e7 / (l.c * std::pow(n, l.s)));
+      }
+      EXPECT_LE(worst, 1 + 1e-9);
+      const bool capped_all = 1000 * v / (kPi * sweep.D_large_mm) > n_cap;
+      if (!capped_all && l.s >= 0) {
+        EXPECT_NEAR(worst, 1, 1e-9);
+      }
+    }
+}
+
+TEST(Duty, EqualsTheIntegralAlongThePath) {
+  // Independent: the midpoint rule on dt = ds/(f n(D)), edges = dt/T(v_eff).
+  const double n_T = 0.255, C = 450, f = 0.2;
+  for (const auto& sweep :
+       {Sweep<double>{30, 20, 60, true, false}, Sweep<double>{40, 0, 80, true, true},
+        Sweep<double>{25, 49, 50, true, false}})
+    for (const double v : {60.0, 250.0, 900.0})
+      for (const double n_cap : {1200.0, 3500.0}) {
+        const auto life = [&](double speed) { return std::pow(C / speed, 1 / n_T); };
+        double time = 0, edges = 0;
+        const int steps = 400000;
+        for (int i = 0; i < steps; ++i) {
+          const double D = sweep.D_small_mm +
+                           (sweep.D_large_mm - sweep.D_small_mm) * (i + 0.5) / steps;
+          const double n = std::min(n_cap, 1000 * v / (kPi * D));
+          const double dt = sweep.path_mm / steps / (f * n);
+          time += dt;
+          edges += dt / life(kPi * D * n / 1000);
+        }
+        const auto d = duty(sweep, v, f, life(v), n_cap, n_T);
+        EXPECT_NEAR(d.time_min / time, 1, 1e-9);
+        EXPECT_NEAR(d.edges / edges, 1, 1e-9);
+      }
+}
+
+TEST(Duty, ACylinderIsTheTextbookTime) {
+  const auto d =
+      duty(Sweep<double>{100, 50, 50, false, false}, 200.0, 0.25, 15.0, 4000.0, 0.25);
+  EXPECT_NEAR(d.time_min, kPi * 50 * 100 / (1000 * 200 * 0.25), 1e-14);
+  EXPECT_NEAR(d.edges, d.time_min / 15, 1e-14);
+}
+
+TEST(Grip, SpeedAndForceMeetAtTheLimit) {
+  const Grip g{30000, 0.25, 0.2, 60};
+  const double need = grip_needed_N(g, 1200.0, 500.0, 55.0);
+  EXPECT_NEAR(need, 1.5 / 0.2 * std::hypot(1200 * 55 / 60.0, 500), 1e-9);
+  const double n = grip_rpm(g, need);
+  EXPECT_NEAR(g.force_N - grip_loss_N(g, n), need, 1e-6);
+  EXPECT_NEAR(grip_loss_N(g, 3000.0), 0.25 * std::pow(kPi * 100, 2), 1e-9);
+}
+
+}  // namespace
+}  // namespace turnwright::cutting
