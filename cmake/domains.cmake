@@ -25,3 +25,10 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp
           DEPENDS base catalogue part PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS parse_test.cpp reader_test.cpp catalogue_test.cpp)
 # Floor 7, 8
+set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
+  "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
+tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
+          DEPENDS base catalogue document PRIVATE_LIBS OpenSSL::Crypto
+          TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
+add_executable(turnwright src/app/main.cpp src/app/output.cpp)
+target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <string_view>
+
+#include "turnwright/part/drawing.hpp"
+
+/// ISO 2768: what a drawing allows where it says nothing but "ISO 2768-mK".
+/// Part 1's numbers agree with a public transcription of its table; part 2's are handbook
+/// values.  Neither was compared with the printed standard.
+namespace turnwright::tolerance {
+
+enum class LinearClass { f, m, c, v };    ///< part 1: fine, medium, coarse, very coarse
+enum class GeometricalClass { H, K, L };  ///< part 2: fine to coarse
+
+struct GeneralTolerance {
+  std::optional<LinearClass> linear;
+  std::optional<GeometricalClass> geometrical;
+};
+
+/// Reads "ISO 2768-m", "ISO 2768-mK" or "ISO 2768-K".
+/// @throws std::domain_error with the accepted forms.
+GeneralTolerance general_tolerance(std::string_view designation);
+
+/// Symmetrical deviations [mm] of a length or diameter (not of radii and chamfers),
+/// part 1.
+/// @throws std::domain_error unless 0.5 <= nominal <= 4000 mm, for f <= 2000, for v > 3.
+part::Limits general_limits_mm(double nominal_mm, LinearClass tolerance_class);
+
+/// Straightness or flatness [mm] of a feature, by its length; the diameter of a round
+/// face.
+/// @throws std::domain_error unless 0 < length <= 3000 mm.
+double general_straightness_mm(double length_mm, GeometricalClass tolerance_class);
+
+/// Perpendicularity [mm], by the length of the shorter leg.
+/// @throws std::domain_error unless 0 < length <= 3000 mm.
+double general_perpendicularity_mm(double length_mm, GeometricalClass tolerance_class);
+
+/// Circular run-out [mm], radial or axial.
+double general_runout_mm(GeometricalClass tolerance_class);
+
+}  // namespace turnwright::tolerance

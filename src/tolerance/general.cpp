@@ -1,0 +1,102 @@
+#include "turnwright/tolerance/general.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace turnwright::tolerance {
+namespace {
+
+/// No value: the standard leaves the cell empty.
+constexpr double kNone = -1;
+
+// Part 1: upper ends of the ranges [mm] and deviations [mm] for f, m, c, v.
+constexpr std::array<double, 8> kLinearTo{3, 6, 30, 120, 400, 1000, 2000, 4000};
+constexpr std::array<std::array<double, 8>, 4> kLinear{
+    {{0.05, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, kNone},
+     {0.1, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2},
+     {0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 4},
+     {kNone, 0.5, 1, 1.5, 2.5, 4, 6, 8}}};
+
+// Part 2: the same for H, K, L.
+constexpr std::array<double, 6> kStraightnessTo{10, 30, 100, 300, 1000, 3000};
+constexpr std::array<std::array<double, 6>, 3> kStraightness{
+    {{0.02, 0.05, 0.1, 0.2, 0.3, 0.4},
+     {0.05, 0.1, 0.2, 0.4, 0.6, 0.8},
+     {0.1, 0.2, 0.4, 0.8, 1.2, 1.6}}};
+constexpr std::array<double, 4> kPerpendicularityTo{100, 300, 1000, 3000};
+constexpr std::array<std::array<double, 4>, 3> kPerpendicularity{
+    {{0.2, 0.3, 0.4, 0.5}, {0.4, 0.6, 0.8, 1}, {0.6, 1, 1.5, 2}}};
+constexpr std::array<double, 3> kRunout{0.1, 0.2, 0.5};
+
+template <std::size_t N>
+double value_mm(double size_mm, const std::array<double, N>& up_to,
+                const std::array<double, N>& values) {
+  const auto range = std::ranges::lower_bound(up_to, size_mm) - up_to.begin();
+  return values[static_cast<std::size_t>(range)];
+}
+
+void check_length(double length_mm) {
+  if (!(length_mm > 0 && length_mm <= 3000))
+    throw std::domain_error(
+        fmt::format("length {} mm: ISO 2768-2 holds above 0 up to 3000 mm", length_mm));
+}
+
+}  // namespace
+
+GeneralTolerance general_tolerance(std::string_view designation) {
+  constexpr std::string_view kPrefix = "ISO 2768-", kLinearNames = "fmcv",
+                             kGeometricalNames = "HKL";
+  if (designation.starts_with(kPrefix)) {
+    std::string_view rest = designation.substr(kPrefix.size());
+    GeneralTolerance out;
+    const auto take = [&rest](std::string_view names) {
+      const auto at = rest.empty() ? std::string_view::npos : names.find(rest.front());
+      if (at != std::string_view::npos) rest.remove_prefix(1);
+      return at;
+    };
+    if (const auto at = take(kLinearNames); at != std::string_view::npos)
+      out.linear = static_cast<LinearClass>(at);
+    if (const auto at = take(kGeometricalNames); at != std::string_view::npos)
+      out.geometrical = static_cast<GeometricalClass>(at);
+    if (rest.empty() && (out.linear || out.geometrical)) return out;
+  }
+  throw std::domain_error(fmt::format(
+      "general tolerance '{}': write \"ISO 2768-\" with f, m, c or v for sizes "
+      "and H, K or L for form and position, such as \"ISO 2768-mK\"",
+      designation));
+}
+
+part::Limits general_limits_mm(double nominal_mm, LinearClass tolerance_class) {
+  if (!(nominal_mm >= 0.5 && nominal_mm <= 4000))
+    throw std::domain_error(fmt::format(
+        "nominal size {} mm: ISO 2768-1 holds from 0.5 to 4000 mm", nominal_mm));
+  const double dev =
+      value_mm(nominal_mm, kLinearTo, kLinear[static_cast<std::size_t>(tolerance_class)]);
+  if (dev == kNone)
+    throw std::domain_error(fmt::format("nominal size {} mm: ISO 2768-1 {}", nominal_mm,
+                                        tolerance_class == LinearClass::f
+                                            ? "class f ends at 2000 mm"
+                                            : "class v starts above 3 mm"));
+  return {.lower_mm = -dev, .upper_mm = dev};
+}
+
+double general_straightness_mm(double length_mm, GeometricalClass tolerance_class) {
+  check_length(length_mm);
+  return value_mm(length_mm, kStraightnessTo,
+                  kStraightness[static_cast<std::size_t>(tolerance_class)]);
+}
+
+double general_perpendicularity_mm(double length_mm, GeometricalClass tolerance_class) {
+  check_length(length_mm);
+  return value_mm(length_mm, kPerpendicularityTo,
+                  kPerpendicularity[static_cast<std::size_t>(tolerance_class)]);
+}
+
+double general_runout_mm(GeometricalClass tolerance_class) {
+  return kRunout[static_cast<std::size_t>(tolerance_class)];
+}
+
+}  // namespace turnwright::tolerance

@@ -1,0 +1,114 @@
+#include "turnwright/tolerance/general.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace turnwright::tolerance {
+namespace {
+
+using enum LinearClass;
+using enum GeometricalClass;
+
+// ISO 2768-1, Table 1 as a public transcription has it, typed range by range.
+TEST(General, LinearDeviationsEqualTheTable) {
+  struct Row {
+    double from_mm, to_mm, f_mm, m_mm, c_mm, v_mm;  // 0: an empty cell
+  };
+  for (const Row& r : std::vector<Row>{{0.5, 3, 0.05, 0.1, 0.2, 0},
+                                       {3, 6, 0.05, 0.1, 0.3, 0.5},
+                                       {6, 30, 0.1, 0.2, 0.5, 1},
+                                       {30, 120, 0.15, 0.3, 0.8, 1.5},
+                                       {120, 400, 0.2, 0.5, 1.2, 2.5},
+                                       {400, 1000, 0.3, 0.8, 2, 4},
+                                       {1000, 2000, 0.5, 1.2, 3, 6},
+                                       {2000, 4000, 0, 2, 4, 8}}) {
+    const double first = r.from_mm == 0.5 ? 0.5 : std::nextafter(r.from_mm, 1e9);
+    for (const double size : {first, r.to_mm})
+      for (const auto& [tolerance_class, value] :
+           {std::pair{f, r.f_mm}, {m, r.m_mm}, {c, r.c_mm}, {v, r.v_mm}}) {
+        if (value == 0) {
+          EXPECT_THROW(general_limits_mm(size, tolerance_class), std::domain_error);
+          continue;
+        }
+        const auto limits = general_limits_mm(size, tolerance_class);
+        EXPECT_EQ(limits.upper_mm, value) << size;
+        EXPECT_EQ(limits.lower_mm, -value) << size;
+      }
+  }
+}
+
+// Handbook values of ISO 2768-2, typed range by range.
+TEST(General, FormAndPositionEqualTheTables) {
+  struct Row {
+    double over_mm, to_mm, H_mm, K_mm, L_mm;
+  };
+  for (const Row& r : std::vector<Row>{{0, 10, 0.02, 0.05, 0.1},
+                                       {10, 30, 0.05, 0.1, 0.2},
+                                       {30, 100, 0.1, 0.2, 0.4},
+                                       {100, 300, 0.2, 0.4, 0.8},
+                                       {300, 1000, 0.3, 0.6, 1.2},
+                                       {1000, 3000, 0.4, 0.8, 1.6}})
+    for (const double size : {std::nextafter(r.over_mm, 1e9), r.to_mm}) {
+      EXPECT_EQ(general_straightness_mm(size, H), r.H_mm) << size;
+      EXPECT_EQ(general_straightness_mm(size, K), r.K_mm) << size;
+      EXPECT_EQ(general_straightness_mm(size, L), r.L_mm) << size;
+    }
+  for (const Row& r : std::vector<Row>{{0, 100, 0.2, 0.4, 0.6},
+                                       {100, 300, 0.3, 0.6, 1},
+                                       {300, 1000, 0.4, 0.8, 1.5},
+                                       {1000, 3000, 0.5, 1, 2}})
+    for (const double size : {std::nextafter(r.over_mm, 1e9), r.to_mm}) {
+      EXPECT_EQ(general_perpendicularity_mm(size, H), r.H_mm) << size;
+      EXPECT_EQ(general_perpendicularity_mm(size, K), r.K_mm) << size;
+      EXPECT_EQ(general_perpendicularity_mm(size, L), r.L_mm) << size;
+    }
+  EXPECT_EQ(general_runout_mm(H), 0.1);
+  EXPECT_EQ(general_runout_mm(K), 0.2);
+  EXPECT_EQ(general_runout_mm(L), 0.5);
+}
+
+TEST(General, ReadsTheDesignation) {
+  const auto mK = general_tolerance("ISO 2768-mK");
+  EXPECT_EQ(mK.linear, m);
+  EXPECT_EQ(mK.geometrical, K);
+  const auto only_m = general_tolerance("ISO 2768-m");
+  EXPECT_EQ(only_m.linear, m);
+  EXPECT_FALSE(only_m.geometrical);
+  const auto fH = general_tolerance("ISO 2768-fH");
+  EXPECT_EQ(fH.linear, f);
+  EXPECT_EQ(fH.geometrical, H);
+  const auto only_L = general_tolerance("ISO 2768-L");
+  EXPECT_FALSE(only_L.linear);
+  EXPECT_EQ(only_L.geometrical, L);
+}
+
+TEST(General, RefusesOtherDesignations) {
+  for (const std::string text : {"ISO 2768", "ISO 2768-", "ISO 2768-x", "ISO 2768-Km",
+                                 "ISO 2768-mKK", "iso 2768-m", "DIN 7168-m", ""})
+    try {
+      general_tolerance(text);
+      ADD_FAILURE() << text;
+    } catch (const std::domain_error& e) {
+      EXPECT_EQ(e.what(),
+                "general tolerance '" + text +
+                    "': write \"ISO 2768-\" with f, m, c or v for sizes and H, K "
+                    "or L for form and position, such as \"ISO 2768-mK\"");
+    }
+}
+
+TEST(General, RefusesSizesOutsideTheTables) {
+  for (const double bad : {0.0, 0.49, 4000.1, -5.0, std::nan("")}) {
+    EXPECT_THROW(general_limits_mm(bad, m), std::domain_error) << bad;
+  }
+  for (const double bad : {0.0, 3000.1, -5.0, std::nan("")}) {
+    EXPECT_THROW(general_straightness_mm(bad, H), std::domain_error) << bad;
+    EXPECT_THROW(general_perpendicularity_mm(bad, H), std::domain_error) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::tolerance
