@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "turnwright/document/catalogue.hpp"
+
+namespace turnwright::service {
+
+/// One line of a list: what documents call it and what people call it.
+struct Entry {
+  std::string id, name;
+};
+
+std::vector<Entry> list_materials(const document::Catalogue& catalogue);
+std::vector<Entry> list_tools(const document::Catalogue& catalogue);
+std::vector<Entry> list_machines(const document::Catalogue& catalogue);
+
+/// The reference parts in `folder`/parts, in the order of their file names; the id is the
+/// file's name without ".json".  @throws InputError if one is no JSON object with a name.
+std::vector<Entry> list_parts(const std::filesystem::path& folder);
+
+}  // namespace turnwright::service

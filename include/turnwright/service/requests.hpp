@@ -1,0 +1,43 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "turnwright/document/catalogue.hpp"
+
+/// Every capability once: a pure function from a request document to a result document.
+/// The doors (command line, HTTP, batch) are generated from this table, so that adding a
+/// capability is adding a row.
+namespace turnwright::service {
+
+/// What a request may refer to besides itself.
+struct Context {
+  const document::Catalogue& catalogue;
+};
+
+struct Request {
+  std::string name;     ///< as in `turnwright NAME` and `POST /v1/NAME`
+  std::string summary;  ///< one line for people
+  std::string example;  ///< a request document that can be sent as it stands
+  nlohmann::json (*result)(const nlohmann::json& request, const Context& context);
+  std::string (*text)(const nlohmann::json& result) = nullptr;  ///< for a terminal
+};
+
+std::span<const Request> requests();
+
+/// The program's version, "0.1.0".
+std::string_view version();
+
+/// The row's result for a request document, with `format`, `turnwright_version` and
+/// `request_digest` (SHA-256 of the request's dump: sorted keys, no spaces), so that a
+/// stored result can be traced.
+/// @throws InputError, ModelRangeError as the row does; std::domain_error if a number of
+///   the result is not finite.
+nlohmann::json answer(const Request& row, const nlohmann::json& request,
+                      const Context& context);
+
+/// Whether the result says that no plan can meet the request.
+bool infeasible(const nlohmann::json& result);
+
+}  // namespace turnwright::service

@@ -1,0 +1,149 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/parse.hpp"
+#include "turnwright/service/listing.hpp"
+#include "turnwright/service/requests.hpp"
+
+namespace turnwright::app {
+namespace {
+
+enum Exit {
+  kOk = 0,
+  kInfeasible = 1,
+  kInput = 2,
+  kRange = 3,
+  kInternal = 70,
+  kOutput = 74
+};
+
+/// What the user wrote behind `turnwright`.
+struct Arguments {
+  std::optional<std::filesystem::path> data;
+  std::string file;
+  std::optional<std::filesystem::path> result_file;
+  bool json = false;
+  std::string listed;
+};
+
+nlohmann::json read_request(const std::string& file) {
+  if (file != "-") return document::parse_file(file);
+  std::string text(document::ParseLimits{}.bytes + 1, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
+  return document::parse(text, "standard input");
+}
+
+Exit run_request(const service::Request& row, const Arguments& arguments) {
+  const auto request = read_request(arguments.file);
+  const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
+  const auto result = service::answer(row, request, {catalogue});
+  const std::string json = result.dump(2) + '\n';
+  if (arguments.result_file) write_file(*arguments.result_file, json);
+  if (row.text && !arguments.json)
+    print(row.text(result));
+  else if (arguments.json || !arguments.result_file)
+    print(json);
+  return service::infeasible(result) ? kInfeasible : kOk;
+}
+
+std::vector<service::Entry> entries(const Arguments& arguments) {
+  const auto folder = document::data_folder(arguments.data);
+  if (arguments.listed == "parts") return service::list_parts(folder);
+  const auto catalogue = document::load_catalogue(folder);
+  if (arguments.listed == "tools") return service::list_tools(catalogue);
+  if (arguments.listed == "machines") return service::list_machines(catalogue);
+  return service::list_materials(catalogue);
+}
+
+Exit run_list(const Arguments& arguments) {
+  const auto list = entries(arguments);
+  std::size_t width = 0;
+  for (const auto& entry : list) width = std::max(width, entry.id.size());
+  std::string text;
+  for (const auto& entry : list)
+    text += entry.id + std::string(width + 2 - entry.id.size(), ' ') + entry.name + '\n';
+  print(text);
+  return kOk;
+}
+
+/// Adds the subcommands: one per row of the request table, and `list`.
+void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
+  for (const auto& row : service::requests()) {
+    auto* command = app.add_subcommand(row.name, row.summary);
+    command
+        ->add_option("REQUEST", arguments.file,
+                     "request document; - reads standard input")
+        ->required();
+    command->add_option("-o,--output", arguments.result_file,
+                        "write the result (JSON) here");
+    command->add_flag("--json", arguments.json, "print the result as JSON");
+    command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
+                    " -");
+    command->callback([&row, &arguments, &chosen] {
+      chosen = [&row, &arguments] { return run_request(row, arguments); };
+    });
+  }
+  auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
+  list->add_option("WHAT", arguments.listed, "materials, tools, machines or parts")
+      ->required()
+      ->check(CLI::IsMember({"materials", "tools", "machines", "parts"}));
+  list->footer("Example:\n  turnwright list materials");
+  list->callback(
+      [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Plans turned parts: certified cheapest conditions inside every tolerance.",
+      "turnwright");
+  app.set_version_flag("--version", std::string(service::version()));
+  app.require_subcommand(1);
+  Arguments arguments;
+  app.add_option("--data", arguments.data,
+                 "folder with materials/, tools/ and machines/");
+  app.footer(
+      "Exit codes: 0 done, 1 no feasible plan, 2 wrong input, 3 outside a model's "
+      "range,\n"
+      "70 internal error, 74 result not written.\n"
+      "Examples:\n  turnwright list parts\n  turnwright plan --help");
+  std::function<Exit()> chosen;
+  add_commands(app, arguments, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kOk : kInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+}  // namespace turnwright::app
+
+int main(int argc, char** argv) {
+  using namespace turnwright;
+  try {
+    return app::run(argc, argv);
+  } catch (const InputError& e) {
+    std::cerr << e.what() << '\n';
+    return app::kInput;
+  } catch (const ModelRangeError& e) {
+    std::cerr << e.what() << '\n';
+    return app::kRange;
+  } catch (const app::OutputError& e) {
+    std::cerr << e.what() << '\n';
+    return app::kOutput;
+  } catch (const std::exception& e) {
+    std::cerr << "internal error: " << e.what() << '\n';
+    return app::kInternal;
+  }
+}

@@ -1,0 +1,45 @@
+#include "turnwright/service/listing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace turnwright::service {
+namespace {
+
+std::set<std::string> ids(const std::vector<Entry>& list) {
+  std::set<std::string> ids;
+  for (const auto& entry : list) {
+    EXPECT_FALSE(entry.name.empty()) << entry.id;
+    EXPECT_TRUE(ids.insert(entry.id).second) << entry.id;
+  }
+  EXPECT_TRUE(std::is_sorted(list.begin(), list.end(),
+                             [](const Entry& a, const Entry& b) { return a.id < b.id; }));
+  return ids;
+}
+
+TEST(Listing, HoldsTheShippedCatalogue) {
+  const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  EXPECT_EQ(ids(list_materials(catalogue)),
+            (std::set<std::string>{"100Cr6-60HRC", "16MnCr5", "42CrMo4-A", "42CrMo4-QT",
+                                   "AlMgSi", "C15", "C45", "CuZn39Pb3", "E295",
+                                   "EN-GJL-250", "EN-GJS-500-7", "Inconel-718",
+                                   "Ti-6Al-4V", "X2CrNiMoN22-5-3", "X5CrNi18-10"}));
+  EXPECT_GE(ids(list_tools(catalogue)).size(), 8u);
+  EXPECT_EQ(ids(list_machines(catalogue)),
+            (std::set<std::string>{"lathe-medium", "lathe-small"}));
+}
+
+TEST(Listing, HoldsTheReferenceParts) {
+  EXPECT_EQ(ids(list_parts(TURNWRIGHT_SOURCE_DIR)),
+            (std::set<std::string>{"gearbox-input-shaft", "infeasible-as-drawn",
+                                   "piston-rod", "spindle-nose"}));
+}
+
+TEST(Listing, AFolderWithoutPartsHasNone) {
+  EXPECT_TRUE(list_parts(TURNWRIGHT_SOURCE_DIR "/include").empty());
+}
+
+}  // namespace
+}  // namespace turnwright::service
