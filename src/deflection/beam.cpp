@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "turnwright/base/units.hpp"
@@ -20,26 +21,29 @@
 namespace turnwright::deflection {
 namespace {
 
-// Gauss-Legendre rule on [0, 1]: roots of P8 and their weights, derived here with 40
-// digits; tests/deflection integrates degree 15 with them.
-constexpr std::size_t kGauss = 8;
+// Gauss-Legendre rule on [0, 1]: roots of P6 and their weights, derived here with 40
+// digits; beam_test integrates with them.
+constexpr std::size_t kGauss = 6;
 constexpr std::array<double, kGauss> kNode = {
-    0.019855071751231884158, 0.10166676129318663020, 0.23723379504183550709,
-    0.40828267875217509753,  0.59171732124782490247, 0.76276620495816449291,
-    0.89833323870681336980,  0.98014492824876811584};
+    0.033765242898423986094, 0.16939530676686774317, 0.38069040695840154568,
+    0.61930959304159845432,  0.83060469323313225683, 0.96623475710157601391};
 constexpr std::array<double, kGauss> kWeight = {
-    0.050614268145188129576, 0.11119051722668723527, 0.15685332293894364367,
-    0.18134189168918099148,  0.18134189168918099148, 0.15685332293894364367,
-    0.11119051722668723527,  0.050614268145188129576};
+    0.08566224618958517252, 0.18038078652406930378, 0.23395696728634552369,
+    0.23395696728634552369, 0.18038078652406930378, 0.08566224618958517252};
 
 // A Gauss panel is at most this part of the distance from its left end to the nearest
 // pole of the integrands (a wall, radius or re + i ri of zero when continued), so the
-// nearest pole lies 3 panels off its end: rho = 7 + sqrt(48) = 13.9, and the error of the
-// 8-point rule is of the order rho^-16 = 5e-19 times the pole's order cubed.
-constexpr double kPanel = 0.25;
+// nearest pole lies 7 panels off its end: rho = 15 + sqrt(224) = 30, and the error of the
+// 6-point rule is of the order rho^-12 = 2e-18 times 12^3/6 for a pole of order four.
+constexpr double kPanel = 0.125;
 
 // Rounding in the caller's own sum of lengths, up to some thousand of them.
 constexpr double kEnd = 1e-12;
+
+// Positions are taken in blocks, one array per quantity, so that the compiler computes
+// several at a time; the arithmetic per position is the same in any company.
+constexpr std::size_t kBlock = 32;
+using Column = std::array<double, kBlock>;
 
 struct RootForm {  // S as a hinge of compliance c2 at z = -q and a slide of c0 - c1^2/c2
   double c2, q, slide;
@@ -92,79 +96,116 @@ bool elastic(const Root& root) {
          c1 * c1 <= c0 * c2 * (1 + 1e-12);
 }
 
-/// Moments of 1/EI over a stretch: about its right end r1, r2, about its left end l1, l2,
-/// the distance of its centroid from its right end, the moment J about the centroid; and
-/// s, the shear.
-struct Beam::Moments {
-  double m0, r1, r2, l1, l2, centroid, J, s;
+/// Eqs. (1), (2) at the tool.
+struct Beam::Sums {
+  Column M0, d, J, S, H, T;
 };
 
-struct Beam::Left {  // Eq. (1) at the tool
-  double M0, d, J, S;
+/// Stretches of a piece: angular flexibility, where its centroid lies (distances from the
+/// stretch's right and left end), moment about the centroid, shear.
+struct Beam::Stretches {
+  Column m0, from_right, from_left, J, s;
 };
 
-// From x0 to x1 within a piece; always inlined, so that what a caller does not use is
-// not computed.
-[[gnu::always_inline]] inline Beam::Moments Beam::moments(const Piece& p, double x0,
-                                                          double x1) const {
-  const double h = x1 - x0;
-  if (p.kind == Piece::Kind::cylinder) {
-    const double m0 = p.bend * h;
-    const double first = m0 * h / 2, second = m0 * h * h / 3;
-    return {m0, first, second, first, second, h / 2, second / 4, p.shear * h};
+// What lies left or right of t[i] within a piece.
+template <Beam::Side side>
+void Beam::measure(const Piece& piece, std::size_t n, const double* t,
+                   Stretches& out) const {
+  constexpr bool kLeft = side == Side::left;
+  const double re0 = piece.re0, ri0 = piece.ri0, whole = piece.h_mm;
+  const double inv0 = piece.inv0, inv1 = piece.inv1;
+  const double slope = (piece.re1 - piece.re0) / piece.h_mm;
+  const double slope_i = (piece.ri1 - piece.ri0) / piece.h_mm;
+  const double bend = bend_, shear = shear_, shear_hollow = shear_hollow_;
+  const auto length = [&](std::size_t i) { return kLeft ? t[i] : whole - t[i]; };
+  switch (piece.kind) {
+    case Piece::Kind::cylinder: {
+      const double per_mm = piece.bend, shear_per_mm = piece.shear;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double h = length(i);
+        out.m0[i] = per_mm * h;
+        out.from_right[i] = out.from_left[i] = h / 2;
+        out.J[i] = per_mm * h * h * h / 12;
+        out.s[i] = shear_per_mm * h;
+      }
+      return;
+    }
+    case Piece::Kind::solid_cone:
+      // K20, K11, K02 = h int (1-u)^2, u (1-u), u^2 over r^4 du are h/(3 r0^3 r1),
+      // h/(6 r0^2 r1^2), h/(3 r0 r1^3), and J = h^2 (K20 K02 - K11^2)/m0 = 3 h^2 K11^2/m0
+      for (std::size_t i = 0; i < n; ++i) {
+        const double h = length(i);
+        const double at = 1 / (re0 + slope * t[i]);
+        const double i0 = kLeft ? inv0 : at, i1 = kLeft ? at : inv1;
+        const double i01 = i0 * i1, q = i0 * i0 + i01 + i1 * i1, h_q = h / q;
+        const double c = bend * h * i01;
+        out.m0[i] = c * q / 3;
+        out.from_right[i] = h_q * (i0 * i0 + i01 / 2);
+        out.from_left[i] = h_q * (i1 * i1 + i01 / 2);
+        out.J[i] = c * h * h_q * i01 * i01 / 4;
+        out.s[i] = shear * h * i01;
+      }
+      return;
+    case Piece::Kind::hollow_cone:
+      break;
   }
-  const double slope = (p.re1 - p.re0) / p.h_mm;
-  if (p.kind == Piece::Kind::solid_cone) {
-    const double i0 = x0 > 0 ? 1 / (p.re0 + slope * x0) : p.inv0;
-    const double i1 = x1 < p.h_mm ? 1 / (p.re0 + slope * x1) : p.inv1;
-    // K20, K11, K02 = h int (1-u)^2, u (1-u), u^2 over r^4 du
-    const double i01 = i0 * i1, c = bend_ * h * i01;
-    const double K20 = c * i0 * i0 / 3, K11 = c * i01 / 6, K02 = c * i1 * i1 / 3;
-    const double m0 = K20 + 2 * K11 + K02;
-    // K20 K02 = 4 K11^2, hence J = h^2 (K20 K02 - K11^2)/m0
-    return {m0,
-            h * (K20 + K11),
-            h * h * K20,
-            h * (K02 + K11),
-            h * h * K02,
-            h * (K20 + K11) / m0,
-            3 * h * h * K11 * K11 / m0,
-            shear_ * h * i01};
-  }
-  const double slope_i = (p.ri1 - p.ri0) / p.h_mm;
-  std::array<double, kGauss> g;
-  double m0 = 0, r1 = 0, r2 = 0, l1 = 0, l2 = 0, s = 0;
+  Column sum, first, second, sheared;
+  for (std::size_t i = 0; i < n; ++i) sum[i] = first[i] = second[i] = sheared[i] = 0;
   for (std::size_t k = 0; k < kGauss; ++k) {
-    const double x = x0 + h * kNode[k];
-    const double re = p.re0 + slope * x, ri = p.ri0 + slope_i * x;
-    const double minus = (re - ri) * (re + ri), plus = re * re + ri * ri;
-    const double w = kWeight[k] / (minus * plus * plus), both = re * ri;
-    g[k] = w * plus;
-    m0 += g[k];
-    const double u = kNode[k], v = kNode[kGauss - 1 - k];
-    r1 += g[k] * v;
-    r2 += g[k] * v * v;
-    l1 += g[k] * u;
-    l2 += g[k] * u * u;
-    s += w * (shear_ * plus * plus + shear_hollow_ * both * both);  // Eq. (6)
+    const double u = kNode[k], v = kNode[kGauss - 1 - k], weight = kWeight[k];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = (kLeft ? 0 : t[i]) + length(i) * u;
+      const double re = re0 + slope * x, ri = ri0 + slope_i * x;
+      const double minus = (re - ri) * (re + ri), plus = re * re + ri * ri;
+      const double w = weight / (minus * plus * plus), both = re * ri, g = w * plus;
+      sum[i] += g;
+      first[i] += g * v;
+      second[i] += g * v * v;
+      sheared[i] += w * (shear * plus * plus + shear_hollow * both * both);  // Eq. (6)
+    }
   }
-  const double v0 = r1 / m0;
-  double J = 0;
-  for (std::size_t k = 0; k < kGauss; ++k) {
-    const double dv = kNode[kGauss - 1 - k] - v0;
-    J += g[k] * dv * dv;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double h = length(i), c = first[i] / sum[i];
+    out.m0[i] = bend * h * sum[i];
+    out.from_right[i] = h * c;
+    out.from_left[i] = h * (1 - c);
+    // the section changes little in a panel, so this difference loses one digit at most
+    out.J[i] = bend * h * h * h * (second[i] - c * first[i]);
+    out.s[i] = h * sheared[i];
   }
-  const double b0 = bend_ * h, b1 = b0 * h, b2 = b1 * h;
-  return {b0 * m0, b1 * r1, b2 * r2, b1 * l1, b2 * l2, h * v0, b2 * J, h * s};
 }
 
-// Eq. (1) at t behind the left end of a piece: the parallel-axis rule joins two bodies.
-[[gnu::always_inline]] inline Beam::Left Beam::left_of(const Piece& p, double t) const {
-  if (!(t > 0)) return {p.m0, p.d, p.J, p.S};
-  const Moments m = moments(p, 0, t);
-  const double M0 = p.m0 + m.m0, inverse = 1 / M0, apart = p.d + t - m.centroid;
-  return {M0, (p.m0 * (p.d + t) + m.r1) * inverse,
-          p.J + m.J + apart * apart * p.m0 * m.m0 * inverse, p.S + m.s};
+// Eq. (1) and H at t[i] behind the left end of a piece: the parallel-axis rule joins two
+// bodies.
+void Beam::left_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
+                   Sums& out) const {
+  Stretches m;
+  measure<Side::left>(piece, n, t, m);
+  const double M0 = piece.m0, d = piece.d, J = piece.J, S = piece.S, H = piece.H,
+               z = piece.z_mm;
+  // only at the left end of everything are both bodies empty
+  constexpr double kTiny = std::numeric_limits<double>::min();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double both = M0 + m.m0[i], share = 1 / std::max(both, kTiny);
+    const double apart = d + t[i] - m.from_right[i], at = z + m.from_left[i];
+    out.M0[first + i] = both;
+    out.d[first + i] = (M0 * (d + t[i]) + m.m0[i] * m.from_right[i]) * share;
+    out.J[first + i] = J + m.J[i] + apart * apart * M0 * m.m0[i] * share;
+    out.S[first + i] = S + m.s[i];
+    out.H[first + i] = H + m.J[i] + m.m0[i] * at * at + m.s[i];
+  }
+}
+
+// T from t[i] behind the left end of a piece.
+void Beam::right_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
+                    Sums& out) const {
+  Stretches m;
+  measure<Side::right>(piece, n, t, m);
+  const double T = piece.T, b = piece.b_mm;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = b + m.from_right[i];
+    out.T[first + i] = T + m.J[i] + m.m0[i] * at * at + m.s[i];
+  }
 }
 
 Beam::Beam(const part::Shaft& shaft) {
@@ -179,20 +220,19 @@ Beam::Beam(const part::Shaft& shaft) {
   for (std::size_t i = 0; i < shaft.segments.size(); ++i)
     add_pieces(shaft.segments[i], z[i]);
 
-  Left left{0, 0, 0, 0};
-  double H = 0;
+  // The sums up to every piece, from the chuck and back from the tail.
+  Sums sums;
+  sums.M0[0] = sums.d[0] = sums.J[0] = sums.S[0] = sums.H[0] = sums.T[0] = 0;
   for (Piece& p : pieces_) {
-    p.m0 = left.M0, p.d = left.d, p.J = left.J, p.S = left.S, p.H = H;
-    const Moments m = moments(p, 0, p.h_mm);
-    left = left_of(p, p.h_mm);
-    H += m.l2 + 2 * p.z_mm * m.l1 + p.z_mm * p.z_mm * m.m0 + m.s;
+    p.m0 = sums.M0[0], p.d = sums.d[0], p.J = sums.J[0], p.S = sums.S[0], p.H = sums.H[0];
+    left_of(p, 0, 1, &p.h_mm, sums);
   }
-  twist_ = (1 + nu) * left.M0;  // G J = 2 E I/(2 (1 + nu))
-  double T = 0, b = 0;
+  twist_ = (1 + nu) * sums.M0[0];  // G J = 2 E I/(2 (1 + nu))
+  constexpr double kStart = 0;
+  double b = 0;
   for (auto p = pieces_.rbegin(); p != pieces_.rend(); ++p) {
-    p->T = T, p->b_mm = b;
-    const Moments m = moments(*p, 0, p->h_mm);
-    T += m.r2 + 2 * b * m.r1 + b * b * m.m0 + m.s;
+    p->T = sums.T[0], p->b_mm = b;
+    right_of(*p, 0, 1, &kStart, sums);
     b = length_mm_ - p->z_mm;
   }
 }
@@ -225,17 +265,94 @@ void Beam::add_pieces(const part::Segment& s, double z_mm) {
   }
 }
 
+bool Beam::holds(std::size_t k, double a_mm) const {
+  return pieces_[k].z_mm <= a_mm &&
+         (k + 1 == pieces_.size() || a_mm <= pieces_[k + 1].z_mm);
+}
+
 std::size_t Beam::piece_at(double a_mm, std::size_t hint) const {
-  const auto holds = [&](std::size_t k) {
-    return pieces_[k].z_mm <= a_mm &&
-           (k + 1 == pieces_.size() || a_mm <= pieces_[k + 1].z_mm);
-  };
-  if (holds(hint)) return hint;
-  if (hint + 1 < pieces_.size() && holds(hint + 1)) return hint + 1;
+  if (holds(hint, a_mm)) return hint;
+  if (hint + 1 < pieces_.size() && holds(hint + 1, a_mm)) return hint + 1;
   const auto next = std::upper_bound(pieces_.begin() + 1, pieces_.end(), a_mm,
                                      [](double a, const Piece& p) { return a < p.z_mm; });
   return static_cast<std::size_t>(next - pieces_.begin()) - 1;
 }
+
+// Runs of positions within one piece.
+template <class Run>
+void Beam::each_run(std::size_t n, const double* a, std::size_t& piece,
+                    const Run& run) const {
+  for (std::size_t i = 0, j = 0; i < n; i = j) {
+    piece = piece_at(a[i], piece);
+    const Piece& p = pieces_[piece];
+    Column t;
+    for (; j < n && holds(piece, a[j]); ++j) t[j - i] = std::min(a[j] - p.z_mm, p.h_mm);
+    run(p, i, j - i, t.data());
+  }
+}
+
+namespace {
+
+struct Table {
+  Column ww, wp, pp, tail_F, tail_C;
+};
+
+// Eq. (3)
+void chuck(std::size_t n, const Column& a, const auto& sums, const Supports& supports,
+           Table& f) {
+  const auto [c0, c1, c2] = supports.root;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double M0 = sums.M0[i], d = sums.d[i];
+    f.ww[i] = sums.J[i] + M0 * d * d + sums.S[i] + c0 + 2 * c1 * a[i] + c2 * a[i] * a[i];
+    f.wp[i] = M0 * d + c1 + c2 * a[i];
+    f.pp[i] = M0 + c2;
+    f.tail_F[i] = f.tail_C[i] = 0;
+  }
+}
+
+// Eq. (4)
+void between_centres(std::size_t n, const Column& a, double L, const auto& sums,
+                     const Supports& supports, Table& f) {
+  const double head = supports.head_mm_N, tail = supports.tail_mm_N, inverse = 1 / L;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = a[i] * inverse, y = (L - a[i]) * inverse;
+    const double H = head + sums.H[i], T = tail + sums.T[i];
+    f.ww[i] = y * y * H + x * x * T;
+    f.wp[i] = (x * T - y * H) * inverse;
+    f.pp[i] = (H + T) * inverse * inverse;
+    f.tail_F[i] = x;
+    f.tail_C[i] = inverse;
+  }
+}
+
+// Eq. (5): e is the root's hinge as seen from the tool; X_M and X_0 are g_w - d g_p and
+// g_w - e g_p, the loads' weights about the centroid and about the hinge.
+void chuck_tailstock(std::size_t n, const Column& a, double L, const auto& sums,
+                     const Supports& supports, Table& f) {
+  const auto [c2, q, slide] = root_form(supports.root);
+  const double tail = supports.tail_mm_N;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double M0 = sums.M0[i], d = sums.d[i], T = tail + sums.T[i], b = L - a[i];
+    const double e = a[i] + q, X = sums.J[i] + sums.S[i] + slide;
+    const double g_w = X + M0 * d * (d + b) + c2 * e * (e + b);
+    const double g_p = M0 * (d + b) + c2 * (e + b);
+    const double lever = g_p * b + T, inverse = 1 / (g_w + lever);  // 1/(f_LL + c_t)
+    const double alpha_w = g_w * inverse, alpha_p = g_p * inverse,
+                 gamma_w = lever * inverse;
+    const double X_M = X + c2 * (e + b) * (e - d), X_0 = X - M0 * (d + b) * (e - d);
+    const double B_w = (d * T - b * X_M) * inverse, B_p = (T + X_M) * inverse;
+    const double B0_w = (e * T - b * X_0) * inverse, B0_p = (T + X_0) * inverse;
+    f.ww[i] =
+        M0 * B_w * B_w + c2 * B0_w * B0_w + X * gamma_w * gamma_w + T * alpha_w * alpha_w;
+    f.wp[i] =
+        M0 * B_w * B_p + c2 * B0_w * B0_p - X * gamma_w * alpha_p + T * alpha_w * alpha_p;
+    f.pp[i] = M0 * B_p * B_p + c2 * B0_p * B0_p + (X + T) * alpha_p * alpha_p;
+    f.tail_F[i] = alpha_w;
+    f.tail_C[i] = alpha_p;
+  }
+}
+
+}  // namespace
 
 void flexibilities(const Beam& left, const Beam& right, std::span<const double> a_mm,
                    const Supports& supports, std::span<Flexibility> out) {
@@ -245,66 +362,37 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     throw std::domain_error("flexibilities: the two bodies differ in length");
   if (out.size() != a_mm.size())
     throw std::domain_error("flexibilities: one place per position is needed");
-  const RootForm root = root_form(supports.root);
-  const double c0 = supports.root.c0_mm_N, c1 = supports.root.c1_rad_N, c2 = root.c2;
   std::size_t in_left = 0, in_right = 0;
-
-  for (std::size_t i = 0; i < a_mm.size(); ++i) {
-    if (!(a_mm[i] >= 0 && a_mm[i] <= L * (1 + kEnd)))
-      throw std::domain_error("flexibilities: positions must be in [0, L]");
-    const double a = std::min(a_mm[i], L), b = L - a;
-    in_left = left.piece_at(a, in_left);
-    const Beam::Piece& p = left.pieces_[in_left];
-    const double t = std::min(a - p.z_mm, p.h_mm);
-
-    if (supports.method == Method::chuck) {
-      const auto [M0, d, J, S] = left.left_of(p, t);
-      out[i] = {J + M0 * d * d + S + c0 + 2 * c1 * a + c2 * a * a,  // Eq. (3)
-                M0 * d + c1 + c2 * a, M0 + c2, 0, 0};
-      continue;
+  for (std::size_t begin = 0; begin < a_mm.size(); begin += kBlock) {
+    const std::size_t n = std::min(kBlock, a_mm.size() - begin);
+    Column a;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(a_mm[begin + i] >= 0 && a_mm[begin + i] <= L * (1 + kEnd)))
+        throw std::domain_error("flexibilities: positions must be in [0, L]");
+      a[i] = std::min(a_mm[begin + i], L);
     }
-
-    in_right = right.piece_at(a, in_right);
-    const Beam::Piece& pr = right.pieces_[in_right];
-    const double tr = std::min(a - pr.z_mm, pr.h_mm);
-    double T = supports.tail_mm_N + pr.T;
-    if (tr < pr.h_mm) {  // Eq. (2)
-      const Beam::Moments m = right.moments(pr, tr, pr.h_mm);
-      T += m.r2 + 2 * pr.b_mm * m.r1 + pr.b_mm * pr.b_mm * m.m0 + m.s;
+    Beam::Sums sums;
+    left.each_run(n, a.data(), in_left,
+                  [&](const auto& p, std::size_t first, std::size_t count,
+                      const double* t) { left.left_of(p, first, count, t, sums); });
+    if (supports.method != Method::chuck)
+      right.each_run(n, a.data(), in_right,
+                     [&](const auto& p, std::size_t first, std::size_t count,
+                         const double* t) { right.right_of(p, first, count, t, sums); });
+    Table f;
+    switch (supports.method) {
+      case Method::chuck:
+        chuck(n, a, sums, supports, f);
+        break;
+      case Method::between_centres:
+        between_centres(n, a, L, sums, supports, f);
+        break;
+      case Method::chuck_tailstock:
+        chuck_tailstock(n, a, L, sums, supports, f);
+        break;
     }
-
-    if (supports.method == Method::between_centres) {
-      double H = supports.head_mm_N + p.H;
-      if (t > 0) {
-        const Beam::Moments m = left.moments(p, 0, t);
-        H += m.l2 + 2 * p.z_mm * m.l1 + p.z_mm * p.z_mm * m.m0 + m.s;
-      }
-      const double inverse = 1 / L, x = a * inverse, y = b * inverse;
-      out[i] = {y * y * H + x * x * T, (x * T - y * H) * inverse,  // Eq. (4)
-                (H + T) * inverse * inverse, x, inverse};
-      continue;
-    }
-
-    // Eq. (5); e is the root's hinge as seen from the tool, X and Y what the tool's side
-    // and the hinge against the centroid weigh.
-    const auto [M0, d, J, S] = left.left_of(p, t);
-    const double e = a + root.q, X = J + S + root.slide;
-    const double g_w = X + M0 * d * (d + b) + c2 * e * (e + b);
-    const double g_p = M0 * (d + b) + c2 * (e + b);
-    const double lever = g_p * b + T, inverse = 1 / (g_w + lever);  // 1/(f_LL + c_t)
-    const double alpha_w = g_w * inverse, alpha_p = g_p * inverse;
-    const double gamma_w = lever * inverse, gamma_p = -alpha_p;
-    const double X_M = X + c2 * (e + b) * (e - d), X_0 = X - M0 * (d + b) * (e - d);
-    const double B_w = (d * T - b * X_M) * inverse, B_p = (T + X_M) * inverse;
-    const double B0_w = (e * T - b * X_0) * inverse, B0_p = (T + X_0) * inverse;
-    const auto energy = [&](double B, double C, double B0, double C0, double gg,
-                            double aa) {
-      return M0 * B * C + c2 * B0 * C0 + X * gg + T * aa;
-    };
-    out[i] = {energy(B_w, B_w, B0_w, B0_w, gamma_w * gamma_w, alpha_w * alpha_w),
-              energy(B_w, B_p, B0_w, B0_p, gamma_w * gamma_p, alpha_w * alpha_p),
-              energy(B_p, B_p, B0_p, B0_p, gamma_p * gamma_p, alpha_p * alpha_p), alpha_w,
-              alpha_p};
+    for (std::size_t i = 0; i < n; ++i)
+      out[begin + i] = {f.ww[i], f.wp[i], f.pp[i], f.tail_F[i], f.tail_C[i]};
   }
 }
 

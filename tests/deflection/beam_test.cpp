@@ -96,8 +96,8 @@ TEST(Beam, UniformShaftMatchesTheBeamTables) {
 }
 
 TEST(Beam, ClosedFormsWithoutShear) {
-  // F L^3/3EI, F L^3/48EI and a^3 b^2 (3 L + b)/12 E I L^3: the bending terms alone, with
-  // nu so chosen that shear is analytic, and a bar so slender that it is 1e-18 of them.
+  // F L^3/3EI, F L^3/48EI and a^3 b^2 (3 L + b)/12 E I L^3 know no shear: the bar is so
+  // slender that shear is 1e-18 of them.
   const double L = 1e6, d = 1e-3;
   const Shaft wire{210000, 0, {{L, d, d, 0, 0}}};
   const Beam beam(wire);
@@ -116,8 +116,8 @@ TEST(Beam, ClosedFormsWithoutShear) {
 }
 
 TEST(Beam, ConesMatchTheirClosedForms) {
-  // free end of a solid cone, r0 at the jaws, r1 at the end: the integrals of the spec of
-  // K20, A0 are elementary (derived by substituting r)
+  // free end of a solid cone, r0 at the jaws, r1 at the end: elementary integrals,
+  // derived here by substituting r for z
   const double E = 210000, pi = std::numbers::pi;
   for (const double r1 : {1.5, 10.0, 29.0, 30.0, 31.0, 600.0}) {
     const double r0 = 30, h = 100;
@@ -174,26 +174,32 @@ TEST(Beam, ReferenceFile) {
 }
 
 TEST(Beam, FiniteElementsAgreeOnEveryKindOfShaft) {
-  double worst = 0;
-  for (const unsigned seed : {1u, 2u})
-    for (const auto& [name, shaft] : random_shafts::all(seed)) {
-      const Beam beam(shaft);
-      const std::vector<double> a = positions(beam.length_mm());
-      for (const Supports& s : random_shafts::supports()) {
-        const double apart =
-            difference(at(beam, a, s), finite_elements::flexibilities(shaft, a, s));
-        EXPECT_LE(apart, kPromised) << name << ", method " << static_cast<int>(s.method)
-                                    << (s.tail_mm_N > 0 ? " elastic" : " rigid");
-        worst = std::max(worst, apart);
+  for (const auto& [name, shaft] : random_shafts::all(1)) {
+    const Beam beam(shaft);
+    const std::vector<double> a = positions(beam.length_mm());
+    for (const Supports& s : random_shafts::supports()) {
+      const auto mine = at(beam, a, s);
+      const auto theirs = finite_elements::solved(shaft, a, s);
+      const std::string which = name + ", method " +
+                                std::to_string(static_cast<int>(s.method)) +
+                                (s.tail_mm_N > 0 ? " elastic" : " rigid");
+      EXPECT_LE(difference(mine, theirs.flexibility), kPromised) << which;
+      // Maxwell: f_wp as rotation per force is also the deflection per couple
+      double largest = 0, apart = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        largest = std::max(largest, std::abs(theirs.deflection_per_couple[i]));
+        apart = std::max(apart,
+                         std::abs(theirs.deflection_per_couple[i] - mine[i].f_wp_rad_N));
       }
+      EXPECT_LE(apart, kPromised * largest) << which;
     }
-  RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
+  }
 }
 
 TEST(Beam, ConeIntegralsAreGoodTo1em13) {
   // The free end of a single segment: f_ww, f_wp, f_pp are K20, K20 + K11 and so on.
   std::mt19937_64 random(3);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const auto r = [&](double low, double high) {
       return random_shafts::between(random, low, high);
     };
@@ -208,24 +214,6 @@ TEST(Beam, ConeIntegralsAreGoodTo1em13) {
         << s.length_mm << ' ' << left << ' ' << right << ' ' << s.inner_left_mm << ' '
         << s.inner_right_mm;
   }
-}
-
-TEST(Beam, MaxwellsReciprocityByFiniteElements) {
-  // f_wp is the rotation per unit force; the deflection per unit couple is the other
-  // entry of the solved system, and the finite elements give both.
-  for (const auto& [name, shaft] : random_shafts::all(5))
-    for (const Supports& s : random_shafts::supports()) {
-      const Beam beam(shaft);
-      const std::vector<double> a = positions(beam.length_mm());
-      const auto mine = at(beam, a, s);
-      const auto theirs = finite_elements::solved(shaft, a, s).deflection_per_couple;
-      double largest = 0, apart = 0;
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        largest = std::max(largest, std::abs(theirs[i]));
-        apart = std::max(apart, std::abs(theirs[i] - mine[i].f_wp_rad_N));
-      }
-      EXPECT_LE(apart, kPromised * largest) << name;
-    }
 }
 
 TEST(Beam, CuttingSegmentsInTwoChangesNothing) {

@@ -111,13 +111,21 @@ class Beam {
     double b_mm, T;             // L - right end, Eq. (2) there
     enum class Kind { cylinder, solid_cone, hollow_cone } kind;
   };
-  struct Moments;
-  struct Left;
+  enum class Side { left, right };
+  struct Stretches;
+  struct Sums;
 
   void add_pieces(const part::Segment& segment, double z_mm);
-  Moments moments(const Piece& p, double x0, double x1) const;
-  Left left_of(const Piece& p, double t) const;
+  template <Side side>
+  void measure(const Piece& piece, std::size_t n, const double* t, Stretches& out) const;
+  void left_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
+               Sums& out) const;
+  void right_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
+                Sums& out) const;
+  bool holds(std::size_t piece, double a_mm) const;
   std::size_t piece_at(double a_mm, std::size_t hint) const;
+  template <class Run>
+  void each_run(std::size_t n, const double* a, std::size_t& piece, const Run& run) const;
 
   std::vector<Piece> pieces_;
   double length_mm_ = 0;
