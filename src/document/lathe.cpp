@@ -22,10 +22,9 @@ catalogue::CurvePoint read_point(Reader r) {
   r.finish();
   const double P_kW = units::shaft_power_kW(p.M_Nm, p.n_rpm);
   if (std::abs(P_kW - p.P_kW) > kPowerAgrees * p.P_kW)
-    r.problem_at(
-        "P_kW",
-        "the power of M_Nm at n_rpm, " + shown(nlohmann::json(P_kW)) + " kW, within 3 %",
-        "conflict");
+    r.problem_at("P_kW",
+                 "the power of M_Nm at n_rpm, " + number_text(P_kW) + " kW, within 3 %",
+                 "conflict");
   return p;
 }
 

@@ -12,14 +12,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kShown = 60;  // characters of a value that a message repeats
 
-std::string plain(double x) { return nlohmann::json(x).dump(); }
-
-// 20 rather than 20.0, as a drawing writes it.
-std::string limit(double x) {
-  const std::string s = plain(x);
-  return s.ends_with(".0") ? s.substr(0, s.size() - 2) : s;
-}
-
 std::string with_unit(std::string text, std::string_view unit) {
   return unit.empty() ? text : text.append(" ").append(unit);
 }
@@ -106,10 +98,11 @@ std::string expected_number(const Bounds& b) {
   std::string text = "a number";
   const bool low = std::isfinite(b.lower), high = std::isfinite(b.upper);
   if (low && high && !b.lower_open && !b.upper_open)
-    return with_unit(text + " from " + limit(b.lower) + " to " + limit(b.upper), b.unit);
-  if (low) text += (b.lower_open ? " > " : " >= ") + limit(b.lower);
+    return with_unit(
+        text + " from " + number_text(b.lower) + " to " + number_text(b.upper), b.unit);
+  if (low) text += (b.lower_open ? " > " : " >= ") + number_text(b.lower);
   if (low && high) text += " and";
-  if (high) text += (b.upper_open ? " < " : " <= ") + limit(b.upper);
+  if (high) text += (b.upper_open ? " < " : " <= ") + number_text(b.upper);
   return with_unit(low || high || b.unit.empty() ? text : text + " in", b.unit);
 }
 
@@ -123,6 +116,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     best = candidate;
   }
   return best;
+}
+
+std::string number_text(double x) {
+  const std::string s = nlohmann::json(x).dump();
+  return s.ends_with(".0") ? s.substr(0, s.size() - 2) : s;
 }
 
 std::string shown(const nlohmann::json& value) {

@@ -42,8 +42,7 @@ void check_insert(Reader& r, const catalogue::Tool& t) {
     if (std::abs(re_mm - t.re_mm) > 1e-9)
       r.problem_at("insert",
                    "a designation whose corner is geometry/re_mm, " +
-                       shown(nlohmann::json(t.re_mm)) + " mm, not " +
-                       shown(nlohmann::json(re_mm)) + " mm",
+                       number_text(t.re_mm) + " mm, not " + number_text(re_mm) + " mm",
                    "conflict");
   } catch (const std::domain_error& error) {
     r.problem_at("insert", std::string("an ISO 1832 designation (") + error.what() + ")",

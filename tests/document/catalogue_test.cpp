@@ -12,10 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-nlohmann::json example(const std::string& name) {
-  return parse_file(fs::path(TURNWRIGHT_SOURCE_DIR) / "tests/data/documents" /
-                    (name + ".json"));
+nlohmann::json example(const std::string& file) {
+  return parse_file(fs::path(TURNWRIGHT_SOURCE_DIR) / "tests/data/catalogue" / file);
 }
+const char* const kMaterial = "materials/test-steel.json";
+const char* const kTool = "tools/test-rougher.json";
+const char* const kLathe = "machines/lathe-medium.json";
 
 template <class T>
 std::string problems_of(T (*read)(Reader), const nlohmann::json& json) {
@@ -53,7 +55,7 @@ class Folder {
 
 // Every number of the example documents, by hand: no field is read from another's key.
 TEST(Catalogue, EveryMaterialFieldComesFromItsKey) {
-  const auto json = example("material");
+  const auto json = example(kMaterial);
   Problems problems;
   const auto m = read_material(Reader(json, problems));
   ASSERT_TRUE(problems.list.empty());
@@ -84,7 +86,7 @@ TEST(Catalogue, EveryMaterialFieldComesFromItsKey) {
 }
 
 TEST(Catalogue, EveryToolFieldComesFromItsKey) {
-  const auto json = example("tool");
+  const auto json = example(kTool);
   Problems problems;
   const auto t = read_tool(Reader(json, problems));
   ASSERT_TRUE(problems.list.empty());
@@ -114,11 +116,11 @@ TEST(Catalogue, EveryToolFieldComesFromItsKey) {
 }
 
 TEST(Catalogue, EveryLatheFieldComesFromItsKey) {
-  const auto json = example("lathe");
+  const auto json = example(kLathe);
   Problems problems;
   const auto m = read_lathe(Reader(json, problems));
   ASSERT_TRUE(problems.list.empty());
-  EXPECT_EQ(m.id, "test-lathe");
+  EXPECT_EQ(m.id, "lathe-medium");
   EXPECT_EQ(m.clampings.size(), 3U);
   EXPECT_EQ(m.clampings[1], "chuck-tailstock");
   EXPECT_EQ(m.n_min_rpm, 50);
@@ -160,10 +162,10 @@ TEST(Catalogue, EveryLatheFieldComesFromItsKey) {
 
 TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
   for (const auto& [name, read] :
-       {std::pair{"material",
+       {std::pair{kMaterial,
                   +[](const nlohmann::json& j) { return problems_of(read_material, j); }},
-        {"tool", +[](const nlohmann::json& j) { return problems_of(read_tool, j); }},
-        {"lathe", +[](const nlohmann::json& j) { return problems_of(read_lathe, j); }}}) {
+        {kTool, +[](const nlohmann::json& j) { return problems_of(read_tool, j); }},
+        {kLathe, +[](const nlohmann::json& j) { return problems_of(read_lathe, j); }}}) {
     const auto good = example(name);
     EXPECT_EQ(read(good), "");
     const auto flat = good.flatten();
@@ -184,7 +186,7 @@ TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
 }
 
 TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
-  auto tool = example("tool");
+  auto tool = example(kTool);
   tool["insert"] = "CNMG 120412";
   EXPECT_EQ(problems_of(read_tool, tool),
             "/insert: got \"CNMG 120412\", expected a designation whose corner is "
@@ -194,7 +196,7 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
                 .find("/insert: got \"XNMG 120408\", expected an ISO "
                       "1832 designation"),
             std::string::npos);
-  auto lathe = example("lathe");
+  auto lathe = example(kLathe);
   lathe["spindle"]["curve"][1]["P_kW"] = 16;
   lathe["spindle"]["n_max_rpm"] = 4001;
   lathe["stiffness"]["chuck_radial"]["c1_rad_N"] = 2e-7;  // 4e-14 > 1e-5 * 3e-9
@@ -206,7 +208,7 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
       "n_max_rpm or above\n"
       "/stiffness/chuck_radial: got an object, expected c0_mm_N times c2_rad_Nmm at "
       "least c1_rad_N squared\n");
-  lathe = example("lathe");
+  lathe = example(kLathe);
   std::swap(lathe["spindle"]["curve"][1], lathe["spindle"]["curve"][0]);
   lathe["clampings"] = {"chuck", "chuck"};
   lathe["chuck"]["diameter_mm"] = {200, 10};
@@ -221,12 +223,12 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
 
 TEST(Catalogue, LoadsAFolderInOrderOfIds) {
   const Folder folder;
-  auto material = example("material");
+  auto material = example(kMaterial);
   folder.write("materials/a.json", material);
   material["id"] = "a-steel";
   folder.write("materials/b.json", material);
-  folder.write("tools/t.json", example("tool"));
-  folder.write("machines/m.json", example("lathe"));
+  folder.write("tools/t.json", example(kTool));
+  folder.write("machines/m.json", example(kLathe));
   folder.write_text("materials/README.md", "not a document");
   const auto all = load_catalogue(folder.path());
   ASSERT_EQ(all.materials.size(), 2U);
@@ -238,7 +240,7 @@ TEST(Catalogue, LoadsAFolderInOrderOfIds) {
 
 TEST(Catalogue, TellsAllProblemsOverAllFiles) {
   const Folder folder;
-  auto material = example("material");
+  auto material = example(kMaterial);
   folder.write("materials/a.json", material);
   folder.write("materials/b.json", material);
   material["kienzle"]["mc"] = 1;

@@ -62,6 +62,9 @@ using Choices = std::vector<std::pair<std::string_view, E>>;
 /// The word of `known` that `word` is most likely a slip of; "" if none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
+/// A number as a drawing writes it: 20 rather than 20.0, else all its digits.
+std::string number_text(double x);
+
 /// A value as a problem shows it: numbers and short strings as written, "an object", ...
 std::string shown(const nlohmann::json& value);
 

@@ -1,0 +1,16 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+namespace turnwright::document {
+
+/// The result of `plan` (schemas/plan.result.json), keys in the order of the schema.
+/// @throws std::domain_error naming the pointer if a number is not finite: JSON would
+///   turn it into null.
+nlohmann::ordered_json to_json(const planning::ProcessPlan& plan,
+                               const std::vector<Assumption>& assumed);
+
+}  // namespace turnwright::document

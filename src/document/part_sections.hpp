@@ -1,0 +1,64 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "turnwright/document/part_plan.hpp"
+
+/// The sections of a part document, read one after the other into a draft.
+namespace turnwright::document {
+
+struct Draft {
+  Reader& root;
+  const Catalogue& catalogue;
+  Purpose purpose = Purpose::plan;
+  LoadedPart loaded = {};
+
+  planning::PartPlan& plan() { return loaded.plan; }
+  part::Drawing& drawing() { return loaded.plan.drawing; }
+  void assume(std::string pointer, nlohmann::json value, std::string why) {
+    loaded.assumed.push_back({std::move(pointer), std::move(value), std::move(why)});
+  }
+};
+
+void read_catalogue_choices(Draft& draft);  // material, machine, tools
+void read_elements(Draft& draft);           // outer, inner, faces
+void read_stock(Draft& draft);              // after the elements
+void read_tolerances(Draft& draft);         // sizes, general, tolerances
+void read_setups(Draft& draft);
+void read_operations(Draft& draft);  // after the setups
+
+// What cross-references are held against.
+
+enum class Feature { cylinder, cone, face };
+struct NamedFeature {
+  std::string id;
+  Feature feature;
+};
+/// Elements, then faces ("left", "right" and the shoulders).  Empty if an element's id
+/// could not be read: then no reference can be judged.
+std::vector<NamedFeature> features(const part::Drawing& drawing);
+
+/// Reads the id under `key` and reports it unless it is in `known`: "a <what>" with the
+/// nearest or the list.  Nothing is judged if `known` is empty.
+std::string checked_reference(const Reader& id, const std::vector<std::string>& known,
+                              const std::string& what);
+
+/// "a material of the catalogue (did you mean "C45"?)", or with the list.
+std::string expected_reference(const std::string& id,
+                               const std::vector<std::string>& known,
+                               const std::string& what);
+
+/// "limits_mm": deviations [lower, upper] of a size, lower < upper.
+part::Limits read_limits(Reader& r);
+
+/// The words of an enum whose values have a name().
+template <class E>
+Choices<E> named(std::initializer_list<E> all) {
+  Choices<E> out;
+  for (const E value : all) out.emplace_back(name(value), value);
+  return out;
+}
+
+const Choices<part::End>& ends();
+
+}  // namespace turnwright::document

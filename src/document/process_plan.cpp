@@ -1,0 +1,175 @@
+#include "turnwright/document/process_plan.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::ordered_json;
+using namespace planning;
+
+const char* word(part::End end) { return end == part::End::left ? "left" : "right"; }
+
+const char* word(PlanStatus status) {
+  return status == PlanStatus::ok ? "ok" : "infeasible";
+}
+
+const char* word(CertificateKind kind) {
+  switch (kind) {
+    case CertificateKind::global:
+      return "global";
+    case CertificateKind::local:
+      return "local";
+    case CertificateKind::none:
+      break;
+  }
+  return "none";
+}
+
+template <class T, class F>
+ordered_json list(const std::vector<T>& values, F convert) {
+  auto out = ordered_json::array();
+  for (const auto& value : values) out.push_back(convert(value));
+  return out;
+}
+
+ordered_json json_of(const Certificate& c) {
+  ordered_json out{{"kind", word(c.kind)},
+                   {"lower_bound", c.lower_bound},
+                   {"gap", c.gap},
+                   {"nodes", c.nodes}};
+  if (!c.engine.empty()) out["engine"] = c.engine;
+  if (!c.reason.empty()) out["reason"] = c.reason;
+  return out;
+}
+
+ordered_json json_of(const Pass& p) {
+  return {{"ap_mm", p.ap_mm}, {"f_mm_rev", p.f_mm_rev}, {"vc_m_min", p.vc_m_min},
+          {"n_rpm", p.n_rpm}, {"time_min", p.time_min}, {"Fc_N", p.Fc_N},
+          {"Ff_N", p.Ff_N},   {"Fp_N", p.Fp_N},         {"Pc_kW", p.Pc_kW},
+          {"T_min", p.T_min}};
+}
+
+ordered_json json_of(const ConstraintValue& c) {
+  return {{"name", c.name},       {"value", c.value},
+          {"limit", c.limit},     {"unit", c.unit},
+          {"at_most", c.at_most}, {"margin", c.margin},
+          {"binding", c.binding}, {"shadow_price", c.shadow_price}};
+}
+
+ordered_json json_of(const OperationPlan& op) {
+  return {{"id", op.id},
+          {"kind", name(op.kind)},
+          {"on", op.on},
+          {"tool", op.tool},
+          {"direction", name(op.direction)},
+          {"passes", list(op.passes, [](const Pass& p) { return json_of(p); })},
+          {"time_min", op.time_min},
+          {"cost", op.cost},
+          {"constraints",
+           list(op.constraints, [](const ConstraintValue& c) { return json_of(c); })},
+          {"certificate", json_of(op.certificate)}};
+}
+
+ordered_json json_of(const RejectedClamping& r) {
+  ordered_json out{{"clamping", name(r.clamping)}, {"why", r.why}};
+  if (r.cost) out["cost"] = *r.cost;
+  return out;
+}
+
+ordered_json json_of(const SetupPlan& s) {
+  return {{"hold", word(s.hold)},
+          {"clamping", name(s.clamping)},
+          {"rejected",
+           list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
+          {"operations",
+           list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
+}
+
+// A size has [min, max], a form one value.
+ordered_json value_or_pair(const std::vector<double>& values) {
+  if (values.size() == 1) return values[0];
+  return values;
+}
+
+ordered_json json_of(const ToleranceResult& t) {
+  return {{"id", t.id},
+          {"kind", part::name(t.kind)},
+          {"of", t.of},
+          {"predicted_mm", value_or_pair(t.predicted_mm)},
+          {"allowed_mm", value_or_pair(t.allowed_mm)},
+          {"margin_mm", t.margin_mm},
+          {"verdict", name(t.verdict)},
+          {"seed_verdict", t.seed_verdict},
+          {"shares", list(t.shares,
+                          [](const Share& s) {
+                            return ordered_json{{"source", s.source}, {"um", s.um}};
+                          })},
+          {"P_conform", t.P_conform}};
+}
+
+ordered_json json_of(const Compensation& c) {
+  return {{"on", c.on},
+          {"setup", c.setup},
+          {"table_mm", list(c.table_mm, [](const std::pair<double, double>& row) {
+             return ordered_json::array({row.first, row.second});
+           })}};
+}
+
+ordered_json json_of(const Price& p) {
+  return {{"limit", p.limit},
+          {"now", p.now},
+          {"unit", p.unit},
+          {"saves_per_part_for_10_percent", p.saves_per_part_for_10_percent},
+          {"sentence", p.sentence}};
+}
+
+ordered_json json_of(const Conflict& c) {
+  return {{"limit", c.limit},     {"where", c.where}, {"value", c.value},
+          {"allowed", c.allowed}, {"unit", c.unit},   {"sentence", c.sentence}};
+}
+
+ordered_json json_of(const Relaxation& r) {
+  return {{"limit", r.limit},
+          {"now", r.now},
+          {"needed", r.needed},
+          {"unit", r.unit},
+          {"sentence", r.sentence}};
+}
+
+ordered_json json_of(const Assumption& a) {
+  return {{"pointer", a.pointer}, {"value", a.value}, {"why", a.why}};
+}
+
+void require_finite(const ordered_json& value, const std::string& pointer) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    throw std::domain_error("to_json: " + pointer + " must be a finite number");
+  if (!value.is_structured()) return;
+  for (const auto& [key, member] : value.items())
+    require_finite(member, pointer + '/' + key);
+}
+
+}  // namespace
+
+ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
+  ordered_json out{{"status", word(plan.status)},
+                   {"cost_per_part", plan.cost_per_part},
+                   {"time_per_part_min", plan.time_per_part_min}};
+  if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
+  out["certificate"] = json_of(plan.certificate);
+  out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });
+  out["tolerances"] =
+      list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
+  out["compensation"] =
+      list(plan.compensation, [](const Compensation& c) { return json_of(c); });
+  out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
+  out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
+  out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
+  out["assumed"] = list(assumed, [](const Assumption& a) { return json_of(a); });
+  require_finite(out, "");
+  return out;
+}
+
+}  // namespace turnwright::document

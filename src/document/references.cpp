@@ -1,0 +1,93 @@
+#include <algorithm>
+
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+constexpr std::size_t kListed = 12;  // ids that a message lists before "..."
+
+template <class T>
+std::vector<std::string> ids(const std::vector<T>& entries) {
+  std::vector<std::string> out;
+  for (const auto& entry : entries) out.push_back(entry.id);
+  return out;
+}
+
+// An id of the catalogue, or the document itself in place of the id.
+template <class T>
+T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
+          const std::string& what) {
+  if (value.is_object()) return read(value);
+  if (value.broken()) return {};
+  if (!value.is_text()) {
+    value.problem("the id of a " + what + " or its document", "type");
+    return {};
+  }
+  const auto id = value.json().get<std::string>();
+  for (const auto& entry : entries)
+    if (entry.id == id) return entry;
+  value.problem(expected_reference(id, ids(entries), what + " of the catalogue"),
+                "unknown-id");
+  return {};
+}
+
+void read_tools(Draft& draft) {
+  auto& tools = draft.plan().tools;
+  if (!draft.root.has("tools")) {
+    tools = draft.catalogue.tools;
+    draft.assume("/tools", ids(tools), "the whole catalogue");
+    return;
+  }
+  for (const auto& item : draft.root.items("tools", 1, 200)) {
+    auto tool = resolve(item, draft.catalogue.tools, read_tool, "tool");
+    const bool twice = std::any_of(tools.begin(), tools.end(), [&](const auto& earlier) {
+      return !tool.id.empty() && earlier.id == tool.id;
+    });
+    if (twice) item.problem("each tool once", "duplicate");
+    tools.push_back(std::move(tool));
+  }
+}
+
+}  // namespace
+
+std::string expected_reference(const std::string& id,
+                               const std::vector<std::string>& known,
+                               const std::string& what) {
+  const auto near = nearest(id, known);
+  if (!near.empty()) return "a " + what + " (did you mean \"" + near + "\"?)";
+  std::string list;
+  for (std::size_t i = 0; i < known.size() && i < kListed; ++i)
+    list += (i > 0 ? ", \"" : "\"") + known[i] + '"';
+  if (known.size() > kListed) list += ", ...";
+  return "a " + what + (list.empty() ? ", which has none" : ": " + list);
+}
+
+std::string checked_reference(const Reader& value, const std::vector<std::string>& known,
+                              const std::string& what) {
+  auto id = value.as_text();
+  const bool found = std::find(known.begin(), known.end(), id) != known.end();
+  if (!id.empty() && !known.empty() && !found)
+    value.problem(expected_reference(id, known, what), "unknown-id");
+  return id;
+}
+
+void read_catalogue_choices(Draft& draft) {
+  constexpr const char* kDefaultMachine = "lathe-medium";
+  auto& plan = draft.plan();
+  const auto& catalogue = draft.catalogue;
+  plan.material =
+      resolve(draft.root.at("material", "the id of a material or its document"),
+              catalogue.materials, read_material, "material");
+  if (const auto machine = draft.root.find("machine")) {
+    plan.machine = resolve(*machine, catalogue.machines, read_lathe, "machine");
+  } else {
+    draft.assume("/machine", kDefaultMachine, "no machine given");
+    const nlohmann::json id = kDefaultMachine;
+    plan.machine = resolve(Reader(id, draft.root.problems(), "/machine"),
+                           catalogue.machines, read_lathe, "machine");
+  }
+  read_tools(draft);
+}
+
+}  // namespace turnwright::document

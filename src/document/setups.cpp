@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include "fields.hpp"
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using planning::Clamping;
+
+constexpr double kLeastGrip_mm = 15;
+constexpr std::size_t kSetups = 10;
+
+const Choices<Clamping>& clampings() {
+  static const auto kClampings =
+      named({Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres});
+  return kClampings;
+}
+
+bool machine_has(const Draft& draft, Clamping clamping) {
+  const auto& has = draft.loaded.plan.machine.clampings;
+  return std::find(has.begin(), has.end(), name(clamping)) != has.end();
+}
+
+std::vector<Clamping> all_clampings(const Draft& draft) {
+  std::vector<Clamping> out;
+  for (const auto& [word, clamping] : clampings())
+    if (machine_has(draft, clamping)) out.push_back(clamping);
+  return out;
+}
+
+nlohmann::json words(const std::vector<Clamping>& list) {
+  auto out = nlohmann::json::array();
+  for (const auto clamping : list) out.push_back(name(clamping));
+  return out;
+}
+
+// What the jaws hold: the stock first, finished ends afterwards.
+double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
+  if (setup == 0) return drawing.stock.outer_mm;
+  if (drawing.outer.empty()) return 0;
+  return hold == part::End::left ? drawing.outer.front().left_mm
+                                 : drawing.outer.back().right_mm;
+}
+
+double default_grip_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
+  return std::max(kLeastGrip_mm, held_mm(drawing, setup, hold) / 2);
+}
+
+std::string text(double mm) { return number_text(mm) + " mm"; }
+
+void check_setup(const Draft& draft, const Reader& at, std::size_t i,
+                 const planning::SetupRequest& setup) {
+  const auto& drawing = draft.loaded.plan.drawing;
+  const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
+  const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
+  if (readable && setup.grip_mm >= length_mm)
+    at.problem("a grip of " + text(setup.grip_mm),
+               "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
+                   text(length_mm),
+               "conflict");
+  const bool jaws =
+      std::any_of(setup.clampings.begin(), setup.clampings.end(),
+                  [](Clamping c) { return c != Clamping::between_centres; });
+  const auto& range = draft.loaded.plan.machine.chuck.diameter_mm;
+  const double d_mm = held_mm(drawing, i, setup.hold);
+  if (jaws && readable && (d_mm < range.lower || d_mm > range.upper))
+    at.problem("a diameter of " + text(d_mm) + " in the jaws",
+               "what the chuck of " + draft.loaded.plan.machine.id + " holds, " +
+                   text(range.lower) + " to " + text(range.upper),
+               "conflict");
+}
+
+void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  if (!r.has("clampings")) {
+    setup.clampings = all_clampings(draft);
+    draft.assume(r.pointer_of("clampings"), words(setup.clampings),
+                 "all the machine has");
+    return;
+  }
+  setup.clampings = read_set(r, "clampings", clampings());
+  for (const auto clamping : setup.clampings)
+    if (!draft.loaded.plan.machine.clampings.empty() && !machine_has(draft, clamping))
+      r.problem_at("clampings",
+                   "what " + draft.loaded.plan.machine.id +
+                       " has: " + words(all_clampings(draft)).dump(),
+                   "conflict");
+}
+
+planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
+  planning::SetupRequest setup;
+  r = r.as_object();
+  setup.hold = r.choice("hold", ends());
+  if (r.has("grip_mm")) {
+    setup.grip_mm = r.number("grip_mm", above_up_to(0, 20000, "mm"));
+  } else {
+    setup.grip_mm = default_grip_mm(draft.drawing(), i, setup.hold);
+    draft.assume(r.pointer_of("grip_mm"), setup.grip_mm,
+                 "half the held diameter, at least 15 mm");
+  }
+  read_clampings(draft, r, setup);
+  r.finish();
+  check_setup(draft, r, i, setup);
+  return setup;
+}
+
+void assume_setups(Draft& draft) {
+  auto echoed = nlohmann::json::array();
+  const nlohmann::json none;
+  const Reader at(none, draft.root.problems(), "/setups");
+  for (const auto& [word, end] : ends()) {
+    auto& setups = draft.plan().setups;
+    const std::size_t i = setups.size();
+    setups.push_back({.hold = end,
+                      .grip_mm = default_grip_mm(draft.drawing(), i, end),
+                      .clampings = all_clampings(draft)});
+    check_setup(draft, at, i, setups.back());
+    echoed.push_back({{"hold", word},
+                      {"grip_mm", setups.back().grip_mm},
+                      {"clampings", words(setups.back().clampings)}});
+  }
+  draft.assume("/setups", std::move(echoed),
+               "hold left, then right, grip half a diameter and at least 15 mm, all the "
+               "clampings the machine has");
+}
+
+}  // namespace
+
+void read_setups(Draft& draft) {
+  if (!draft.root.has("setups")) return assume_setups(draft);
+  auto& setups = draft.plan().setups;
+  for (const auto& item : draft.root.items("setups", 1, kSetups))
+    setups.push_back(read_setup(draft, item, setups.size()));
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+const Bounds kSize = above_up_to(0, 20000, "mm");
+
+// The pointer of the diameter is where the stock's cross-checks report.
+const char* outer_key(const part::Stock& stock) {
+  return stock.kind == part::StockKind::bar ? "diameter_mm" : "outer_mm";
+}
+
+void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing) {
+  const auto& stock = drawing.stock;
+  double largest_mm = 0, smallest_mm = stock.outer_mm;
+  for (const auto& e : drawing.outer) {
+    largest_mm = std::max({largest_mm, e.left_mm, e.right_mm});
+    if (e.left_mm > 0) smallest_mm = std::min({smallest_mm, e.left_mm, e.right_mm});
+  }
+  if (stock.outer_mm <= largest_mm)
+    r.problem_at(outer_key(stock),
+                 "more than the largest element, " + number_text(largest_mm) + " mm",
+                 "conflict");
+  if (stock.inner_mm >= stock.outer_mm)
+    r.problem_at("inner_mm", "less than outer_mm", "order");
+  else if (stock.inner_mm >= smallest_mm)
+    r.problem_at("inner_mm",
+                 "less than the smallest element, " + number_text(smallest_mm) + " mm",
+                 "conflict");
+  const auto& machine = draft.loaded.plan.machine;
+  if (machine.swing_mm > 0 && stock.outer_mm > machine.swing_mm)
+    r.problem_at(outer_key(stock),
+                 "at most the swing of " + machine.id + ", " +
+                     number_text(machine.swing_mm) + " mm",
+                 "conflict");
+}
+
+void check_length(Reader& r, const Draft& draft, const part::Drawing& drawing) {
+  const double finished_mm = part::length_mm(drawing);
+  if (drawing.stock.length_mm < finished_mm + drawing.stock.left_allowance_mm)
+    r.problem_at("length_mm",
+                 "at least the finished length and left_allowance_mm, " +
+                     number_text(finished_mm + drawing.stock.left_allowance_mm) + " mm",
+                 "conflict");
+  const auto& machine = draft.loaded.plan.machine;
+  if (machine.between_centres_mm > 0 &&
+      drawing.stock.length_mm > machine.between_centres_mm)
+    r.problem_at("length_mm",
+                 "at most the distance between centres of " + machine.id + ", " +
+                     number_text(machine.between_centres_mm) + " mm",
+                 "conflict");
+}
+
+}  // namespace
+
+void read_stock(Draft& draft) {
+  auto& drawing = draft.drawing();
+  auto& stock = drawing.stock;
+  Reader r = draft.root.object("stock");
+  stock.kind = r.choice<part::StockKind>(
+      "kind", {{"bar", part::StockKind::bar}, {"tube", part::StockKind::tube}});
+  stock.outer_mm = r.number(outer_key(stock), kSize);
+  if (stock.kind == part::StockKind::tube) stock.inner_mm = r.number("inner_mm", kSize);
+  stock.length_mm = r.number("length_mm", kSize);
+  if (r.has("left_allowance_mm")) {
+    stock.left_allowance_mm = r.number("left_allowance_mm", within(0, 20000, "mm"));
+  } else if (!r.broken()) {
+    stock.left_allowance_mm =
+        std::max(0.0, (stock.length_mm - part::length_mm(drawing)) / 2);
+    draft.assume("/stock/left_allowance_mm", stock.left_allowance_mm,
+                 "half of what the stock is longer than the part");
+  }
+  r.finish();
+  check_diameters(r, draft, drawing);
+  check_length(r, draft, drawing);
+}
+
+}  // namespace turnwright::document
