@@ -21,9 +21,9 @@ file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp tool.cpp lathe.cpp
-          catalogue.cpp data_folder.cpp
-          DEPENDS base catalogue part PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS parse_test.cpp reader_test.cpp catalogue_test.cpp)
+          catalogue.cpp data_folder.cpp acceptance.cpp
+          DEPENDS base catalogue part tolerance PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS acceptance_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

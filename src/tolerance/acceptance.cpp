@@ -170,6 +170,14 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
 
 }  // namespace
 
+bool counts_deflection(const Case& c) { return rule_of(c) != Rule::machine; }
+
+bool counts_machine(const Case& c) {
+  const Rule rule = rule_of(c);
+  return rule == Rule::machine || rule == Rule::runout ||
+         (c.kind == Kind::diameter && c.envelope != Envelope::none);
+}
+
 Verdict verdict(const Case& c) {
   const Rule rule = rule_of(c);
   check_case(c, rule);

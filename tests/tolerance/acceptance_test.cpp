@@ -179,6 +179,10 @@ TEST(Boundaries, Length) {
   // A face not given has no error
   expect(sized(length, {-0.05, 0.05}, -0.05, 0.05), kGood);
   expect(sized(length, {-0.04, 0.06}, -0.05, 0.05), kShift);
+  // and only a length has a second face
+  Case round = zoned(cylindricity, {0, 0.01}, 0.01);
+  round.other_mm = samples({1, 2});
+  expect(round, kGood);
   const Verdict v = verdict(length_case({-0.01, 0.04}, {-0.02, 0.03}));
   EXPECT_NEAR(v.offset_into_limits_mm, -0.02, 1e-17);
   EXPECT_NEAR(v.extremes_mm.max_mm, 0.07, 1e-17);
@@ -227,6 +231,18 @@ TEST(Boundaries, StraightnessIsTheMinimumZoneNotTheRange) {
        .e_mm = Samples{.z_mm = {0, 1, 4}, .e_mm = {0, 3, 4}},
        .value_mm = 2};
   expect(c, kGood);
+}
+
+// Found by iteration, the zone still conforms at its exact width, h^2/4 of c s^2.
+TEST(Boundaries, StraightnessConformsAtItsWidth) {
+  for (int i = 1; i <= 200; ++i) {
+    const double h = 0.37 * i, c = 1e-5 / i;
+    const PiecewisePolynomial f{.breaks_mm = {h / 3, h / 3 + h},
+                                .coefficients = {{0.01, -1e-4 * i, c}}};
+    expect({.kind = straightness, .e_mm = f, .value_mm = c * h * h / 4}, kGood);
+    expect({.kind = straightness, .e_mm = f, .value_mm = c * h * h / 4 * (1 - 1e-9)},
+           kHopeless);
+  }
 }
 
 TEST(Boundaries, TotalRunoutsAddTheMachine) {
@@ -427,6 +443,24 @@ TEST(Invariances, SamplesAndTheirPolygonAgree) {
     c.e_mm = polygon;
     same(a, verdict(c));
   }
+}
+
+TEST(Terms, CountWhereTheHeaderSaysSo) {
+  for (int k = 0; k <= static_cast<int>(total_axial_runout); ++k) {
+    Case c{.kind = static_cast<ToleranceKind>(k), .e_mm = {}};
+    const bool cut =
+        k != static_cast<int>(circularity) && k != static_cast<int>(angularity) &&
+        k != static_cast<int>(position) && k != static_cast<int>(coaxiality) &&
+        k != static_cast<int>(circular_radial_runout) &&
+        k != static_cast<int>(circular_axial_runout);
+    EXPECT_EQ(counts_deflection(c), cut) << part::name(c.kind);
+    EXPECT_EQ(counts_machine(c),
+              !cut || c.kind == total_radial_runout || c.kind == total_axial_runout);
+  }
+  const Case axis{.kind = perpendicularity, .e_mm = {}, .controlled = Controlled::axis};
+  EXPECT_FALSE(counts_deflection(axis));
+  EXPECT_TRUE(counts_machine(axis));
+  EXPECT_TRUE(counts_machine({.kind = diameter, .e_mm = {}, .envelope = Envelope::bore}));
 }
 
 // --- Bad input -----------------------------------------------------------------------

@@ -85,6 +85,9 @@ TEST(Extremes, DegeneratePieces) {
   e = extremes(one_piece(0, 3, {0, -4, 6, -4, 1}));
   EXPECT_NEAR(e.min_mm, -1, 1e-14);
   EXPECT_NEAR(e.max_mm, 15, 1e-13);
+  e = extremes(one_piece(0, 2, {0, -4, 6, -4, 1}));  // the root is hit exactly
+  EXPECT_EQ(e.min_mm, -1);
+  EXPECT_EQ(e.max_mm, 0);
   e = extremes(one_piece(0, 3, {0.25, 0, 0}));
   EXPECT_EQ(e.min_mm, 0.25);
   EXPECT_EQ(e.max_mm, 0.25);

@@ -59,6 +59,12 @@ struct Case {
   Envelope envelope = Envelope::none;
 };
 
+/// Whether e enters: everywhere but in (9).
+bool counts_deflection(const Case& c);
+
+/// Whether m enters: in (3), (5) and (9).
+bool counts_machine(const Case& c);
+
 struct Verdict {
   bool accepted = false;
   bool accepted_after_offset = false;  ///< could one constant offset make it conform?
