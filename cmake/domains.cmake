@@ -10,7 +10,12 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 # Floor 3
 tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
   TESTS cut_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp DEPENDS base part TESTS beam_test.cpp)
+tw_domain(deflection SOURCES beam.cpp boring_bar.cpp envelope.cpp face.cpp feedback.cpp
+                             response.cpp shoulder.cpp workpiece.cpp
+          DEPENDS base part
+          TESTS beam_test.cpp boring_bar_test.cpp envelope_test.cpp face_test.cpp
+                feedback_test.cpp response_test.cpp seed_test.cpp shoulder_test.cpp
+                workpiece_test.cpp)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -21,7 +26,8 @@ file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp tool.cpp lathe.cpp
-          catalogue.cpp data_folder.cpp acceptance.cpp
+          catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
+          setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp
           DEPENDS base catalogue part tolerance PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS acceptance_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp)
 # Floor 7, 8
@@ -32,3 +38,11 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
+if(BUILD_TESTING)
+  add_executable(app_test tests/app/command_line_test.cpp)
+  target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
+  target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>")
+  add_dependencies(app_test turnwright)
+  gtest_discover_tests(app_test TEST_PREFIX app. PROPERTIES TIMEOUT 600)
+endif()

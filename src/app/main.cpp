@@ -111,11 +111,14 @@ int run(int argc, char** argv) {
   Arguments arguments;
   app.add_option("--data", arguments.data,
                  "folder with materials/, tools/ and machines/");
+  std::string examples = "Examples:\n  turnwright list parts\n";
+  for (const auto& row : service::requests())
+    examples += "  turnwright " + row.name + " --help\n";
   app.footer(
       "Exit codes: 0 done, 1 no feasible plan, 2 wrong input, 3 outside a model's "
       "range,\n"
-      "70 internal error, 74 result not written.\n"
-      "Examples:\n  turnwright list parts\n  turnwright plan --help");
+      "70 internal error, 74 result not written.\n" +
+      examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
   try {

@@ -11,11 +11,12 @@ namespace turnwright::service {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
-json twice(const json& request, const Context&) {
+ordered_json twice(const json& request, const Context&) {
   return {{"twice", 2 * request.at("x").get<double>()}};
 }
-json deep_nan(const json&, const Context&) {
+ordered_json deep_nan(const json&, const Context&) {
   return {{"list", {1.0, {{"x", std::numeric_limits<double>::quiet_NaN()}}}}};
 }
 
@@ -43,7 +44,7 @@ TEST(Answer, DigestKnowsContentsNotLayout) {
 }
 
 TEST(Answer, KeepsTheFormatARowGives) {
-  const Request row{"own", "", "{}", [](const json&, const Context&) -> json {
+  const Request row{"own", "", "{}", [](const json&, const Context&) -> ordered_json {
                       return {{"format", "own/7"}};
                     }};
   EXPECT_EQ(answer(row, json::object(), {kNothing}).at("format"), "own/7");

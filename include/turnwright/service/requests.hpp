@@ -20,8 +20,9 @@ struct Request {
   std::string name;     ///< as in `turnwright NAME` and `POST /v1/NAME`
   std::string summary;  ///< one line for people
   std::string example;  ///< a request document that can be sent as it stands
-  nlohmann::json (*result)(const nlohmann::json& request, const Context& context);
-  std::string (*text)(const nlohmann::json& result) = nullptr;  ///< for a terminal
+  nlohmann::ordered_json (*result)(const nlohmann::json& request, const Context& context);
+  std::string (*text)(const nlohmann::ordered_json& result) =
+      nullptr;  ///< for a terminal
 };
 
 std::span<const Request> requests();
@@ -34,10 +35,10 @@ std::string_view version();
 /// stored result can be traced.
 /// @throws InputError, ModelRangeError as the row does; std::domain_error if a number of
 ///   the result is not finite.
-nlohmann::json answer(const Request& row, const nlohmann::json& request,
-                      const Context& context);
+nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
+                              const Context& context);
 
 /// Whether the result says that no plan can meet the request.
-bool infeasible(const nlohmann::json& result);
+bool infeasible(const nlohmann::ordered_json& result);
 
 }  // namespace turnwright::service

@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "turnwright/service/requests.hpp"
+
+// Runs the program itself, as a shell would.
+namespace turnwright::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void put(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Each test has a folder of its own, which is also the working directory.
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome shell(const std::string& command, const fs::path& where) const {
+    const fs::path program = TURNWRIGHT_PROGRAM;
+    const std::string line = "cd '" + where.string() + "' && PATH='" +
+                             program.parent_path().string() + "':\"$PATH\" && { " +
+                             command + "\n} > '" + (folder_ / "out").string() + "' 2> '" +
+                             (folder_ / "err").string() + "'";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "out"),
+            contents(folder_ / "err")};
+  }
+  Outcome shell(const std::string& command) const { return shell(command, folder_); }
+
+  const service::Request& row(const std::string& name) const {
+    for (const auto& row : service::requests())
+      if (row.name == name) return row;
+    throw std::logic_error("no row " + name);
+  }
+
+  /// Names in the folder, but for the redirected streams.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const auto name = entry.path().filename().string();
+      if (name != "out" && name != "err") names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_F(CommandLine, TellsItsVersion) {
+  const auto outcome = shell("turnwright --version");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, std::string(service::version()) + '\n');
+}
+
+TEST_F(CommandLine, EveryHelpShowsExamplesThatRun) {
+  std::vector<std::string> helps{"turnwright --help", "turnwright list --help"};
+  for (const auto& row : service::requests())
+    helps.push_back("turnwright " + row.name + " --help");
+  for (const auto& help : helps) {
+    SCOPED_TRACE(help);
+    const auto outcome = shell(help);
+    EXPECT_EQ(outcome.code, 0);
+    const auto at = outcome.out.find("Example");
+    ASSERT_NE(at, std::string::npos);
+    const auto examples = outcome.out.substr(outcome.out.find('\n', at));
+    ASSERT_NE(examples.find("turnwright "), std::string::npos);
+    const auto run = shell("set -e" + examples, TURNWRIGHT_SOURCE_DIR);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out, "");
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST_F(CommandLine, RefusesWhatItDoesNotKnowOnStandardError) {
+  for (const std::string wrong :
+       {"turnwright", "turnwright plane part.json", "turnwright list nuts",
+        "turnwright acceptance", "turnwright acceptance - --fast < /dev/null"}) {
+    SCOPED_TRACE(wrong);
+    const auto outcome = shell(wrong);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err, "");
+  }
+}
+
+TEST_F(CommandLine, ListsWhatRequestsMayReferTo) {
+  EXPECT_NE(shell("turnwright list materials").out.find("\nC45 "), std::string::npos);
+  EXPECT_NE(shell("turnwright list machines").out.find("lathe-medium "),
+            std::string::npos);
+  EXPECT_NE(shell("turnwright list parts").out.find("gearbox-input-shaft "),
+            std::string::npos);
+  EXPECT_NE(shell("turnwright list tools").out.find("CNMG120408"), std::string::npos);
+}
+
+TEST_F(CommandLine, SaysWhichDataFolderIsNone) {
+  const auto outcome = shell("turnwright --data elsewhere list materials");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("elsewhere"), std::string::npos);
+}
+
+TEST_F(CommandLine, FileAndStandardInputGiveTheSameBytes) {
+  for (const auto& row : service::requests()) {
+    SCOPED_TRACE(row.name);
+    put(folder_ / "request.json", row.example);
+    const auto file = shell("turnwright " + row.name + " request.json --json");
+    const auto stdin_ = shell("turnwright " + row.name + " - --json < request.json");
+    EXPECT_EQ(file.code, 0) << file.err;
+    EXPECT_EQ(file.out, stdin_.out);
+    EXPECT_EQ(nlohmann::json::parse(file.out).at("turnwright_version"),
+              service::version());
+  }
+}
+
+TEST_F(CommandLine, OutputFileIsReplacedByTheWholeResult) {
+  put(folder_ / "request.json", row("acceptance").example);
+  put(folder_ / "result.json", "old");
+  fs::create_symlink("result.json", folder_ / "link.json");
+  const auto printed = shell("turnwright acceptance request.json").out;
+  const auto outcome = shell("turnwright acceptance request.json -o link.json");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(contents(folder_ / "result.json"), printed);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.json"));
+  EXPECT_EQ(files(),
+            (std::vector<std::string>{"link.json", "request.json", "result.json"}));
+}
+
+// A pipe stands for every special file: a test run by root must not be able to harm /dev.
+TEST_F(CommandLine, SpecialFilesAreWrittenNotReplaced) {
+  put(folder_ / "request.json", row("acceptance").example);
+  const auto printed = shell("turnwright acceptance request.json").out;
+  const auto outcome = shell(
+      "mkfifo pipe; timeout 20 cat pipe & "
+      "timeout 20 turnwright acceptance request.json -o pipe; code=$?; wait; exit $code");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, printed);
+  EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+}
+
+TEST_F(CommandLine, AFailedRequestLeavesTheOldResult) {
+  put(folder_ / "request.json", "{}");
+  put(folder_ / "result.json", "old");
+  EXPECT_EQ(shell("turnwright acceptance request.json -o result.json").code, 2);
+  EXPECT_EQ(contents(folder_ / "result.json"), "old");
+  EXPECT_EQ(files(), (std::vector<std::string>{"request.json", "result.json"}));
+}
+
+TEST_F(CommandLine, AFullDiskLeavesTheOldResult) {
+  auto request = nlohmann::json::parse(row("acceptance").example);
+  for (int i = 0; i < 50; ++i) request["cases"].push_back(request["cases"][1]);
+  for (std::size_t i = 0; i < request["cases"].size(); ++i)
+    request["cases"][i]["id"] = std::to_string(i);
+  put(folder_ / "request.json", request.dump());
+  put(folder_ / "result.json", "old");
+  const auto outcome = shell(
+      "trap '' XFSZ; ulimit -f 1; turnwright acceptance request.json -o result.json");
+  EXPECT_EQ(outcome.code, 74);
+  EXPECT_EQ(outcome.err.rfind("result.json: cannot be written: ", 0), 0u) << outcome.err;
+  EXPECT_EQ(contents(folder_ / "result.json"), "old");
+  EXPECT_EQ(files(), (std::vector<std::string>{"request.json", "result.json"}));
+}
+
+TEST_F(CommandLine, EachProblemHasALineWithItsPlace) {
+  auto request = nlohmann::json::parse(row("acceptance").example);
+  request["cases"][0]["upper_mm"] = "0.016";
+  request["cases"][1]["value_mm"] = -1;
+  request["colour"] = "red";
+  put(folder_ / "request.json", request.dump());
+  const auto outcome = shell("turnwright acceptance request.json");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(lines(outcome.err), 3u) << outcome.err;
+  for (const std::string place : {"/cases/0/upper_mm", "/cases/1/value_mm", "/colour"})
+    EXPECT_NE(outcome.err.find(place), std::string::npos) << outcome.err;
+}
+
+TEST_F(CommandLine, FilesThatAreNoDocumentsAreNamed) {
+  put(folder_ / "cut.json", "{\"shaft\": ");
+  put(folder_ / "twice.json", "{\"shaft\": 1, \"shaft\": 2}");
+  for (const std::string file : {"missing.json", "cut.json", "twice.json", "."}) {
+    SCOPED_TRACE(file);
+    const auto outcome = shell("turnwright acceptance " + file);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind(file + ':', 0), 0u) << outcome.err;
+  }
+  EXPECT_EQ(shell("turnwright acceptance - < /dev/null").err.rfind("standard input:", 0),
+            0u);
+}
+
+TEST_F(CommandLine, SaysWhenTheResultCannotBeWritten) {
+  put(folder_ / "request.json", row("acceptance").example);
+  for (const std::string target : {"nowhere/result.json", "."}) {
+    SCOPED_TRACE(target);
+    const auto outcome = shell("turnwright acceptance request.json -o " + target);
+    EXPECT_EQ(outcome.code, 74);
+    EXPECT_EQ(outcome.err.rfind(target + ": cannot be written: ", 0), 0u) << outcome.err;
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"request.json"});
+  const auto outcome = shell("turnwright list materials > /dev/full");
+  EXPECT_EQ(outcome.code, 74);
+  EXPECT_NE(outcome.err.find("standard output"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace turnwright::app
