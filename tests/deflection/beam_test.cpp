@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "finite_elements.hpp"
 #include "random_shafts.hpp"
+#include "reference.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -132,45 +131,19 @@ TEST(Beam, ConesMatchTheirClosedForms) {
 }
 
 TEST(Beam, ReferenceFile) {
-  const auto reference = nlohmann::json::parse(
-      std::ifstream(TURNWRIGHT_SOURCE_DIR "/tests/data/deflection_reference.json"));
-  std::size_t checked = 0;
-  for (const auto& c : reference.at("cases")) {
-    const auto& shafts = reference.at("shafts");
-    const auto s = std::find_if(shafts.begin(), shafts.end(), [&](const auto& x) {
-      return x.at("id") == c.at("shaft");
-    });
-    Shaft shaft{s->at("E"), s->at("nu"), {}};
-    for (const auto& g : s->at("segments"))
-      shaft.segments.push_back(
-          {g.at("len"), g.at("de0"), g.at("de1"), g.at("di0"), g.at("di1")});
-    const auto& k = reference.at("supports").at(c.at("support").get<std::string>());
-    const Beam beam(shaft);
-    const std::string clamp = c.at("clamp");
-    for (const std::string plane : {"r", "t"}) {
-      Supports supports;
-      supports.method = clamp == "chuck"     ? Method::chuck
-                        : clamp == "centres" ? Method::between_centres
-                                             : Method::chuck_tailstock;
-      if (!k.at("rigid").get<bool>()) {
-        const double k1 = k.at("k1" + plane), k2 = k.at("k2" + plane),
-                     k3 = k.at("k3" + plane), Lc = k.at("Lc");
-        supports.root = {1 / k1 + Lc * Lc / k2, Lc / k2, 1 / k2 + 1 / k3};
-        supports.head_mm_N = 1 / k.at("kh" + plane).get<double>();
-        supports.tail_mm_N = 1 / k.at("kt" + plane).get<double>();
-      }
-      const std::vector<double> a = c.at("positions");
-      std::vector<Flexibility> expected(a.size());
-      const std::string names[] = {"f_ww_", "f_wp_", "f_pp_", "RF_", "RC_"};
+  const auto cases = reference::cases();
+  EXPECT_EQ(cases.size(), 24u);
+  const std::string names[] = {"f_ww_", "f_wp_", "f_pp_", "RF_", "RC_"};
+  for (const auto& c : cases)
+    for (const bool radial : {true, false}) {
+      std::vector<Flexibility> expected(c.a_mm.size());
       for (std::size_t f = 0; f < 5; ++f)
-        for (std::size_t i = 0; i < a.size(); ++i)
-          expected[i].*kFields[f] = c.at(names[f] + plane).at(i);
-      EXPECT_LE(difference(at(beam, a, supports), expected), kPromised)
-          << c.at("shaft") << ' ' << clamp << ' ' << c.at("support") << ' ' << plane;
-      ++checked;
+        for (std::size_t i = 0; i < c.a_mm.size(); ++i)
+          expected[i].*kFields[f] = c.values.at(names[f] + (radial ? 'r' : 't')).at(i);
+      const auto mine =
+          at(Beam(c.shaft), c.a_mm, radial ? c.clamping.radial : c.clamping.tangential);
+      EXPECT_LE(difference(mine, expected), kPromised) << c.name;
     }
-  }
-  EXPECT_EQ(checked, 48u);
 }
 
 TEST(Beam, FiniteElementsAgreeOnEveryKindOfShaft) {

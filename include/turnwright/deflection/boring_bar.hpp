@@ -1,0 +1,30 @@
+#pragma once
+#include "turnwright/deflection/response.hpp"
+
+namespace turnwright::deflection {
+
+/// The tip of a boring bar, z from the tool block, tip at z = L and f beside the axis:
+///
+///     y_r = f_ww Fr - f_wp Fa f                                                 (1)
+///     y_t = f_ww,t Ft + Ft f^2 int dz/GJ,  J = 2 I                              (2)
+///     bore radius error = -y_r + y_t^2/D_bore                                   (3)
+///
+/// Positive y_r: the bar gives way from the wall, the bore comes out smaller.
+/// The tool block is a root like a chuck; it is stiff against twist here.
+/// Source: derived here from beam.hpp (3); St. Venant torsion of round bars.
+struct BoringBar {
+  double tip_offset_mm = 0;     ///< f
+  double bore_diameter_mm = 0;  ///< D_bore
+};
+
+struct BarTip {
+  double y_r_mm = 0, y_t_mm = 0;
+  double twist_rad_Nmm = 0;  ///< int dz/GJ
+  double bore_radius_error_mm = 0;
+};
+
+/// @throws std::domain_error unless D_bore > 0 and f >= 0.
+BarTip bar_tip(const Beam& bar, const Clamping& block, const BoringBar& at,
+               const Load& load);
+
+}  // namespace turnwright::deflection
