@@ -28,7 +28,7 @@ Polynomial derivative(const Polynomial& p) {
   return d;
 }
 
-/// The root of p in [a, b], where p has opposite signs.
+/// The root of p in [a, b], one end of which is below zero and the other not.
 double bisect(const Polynomial& p, double a, double b) {
   const bool rises = value(p, a) < 0;
   for (;;) {
@@ -40,7 +40,7 @@ double bisect(const Polynomial& p, double a, double b) {
   }
 }
 
-/// Where p crosses or touches zero in [0, 1), rising.
+/// Where p changes its sign in [0, 1], rising.  Where it only touches zero nothing turns.
 std::vector<double> roots(Polynomial p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
   if (p.size() < 2) return {};
@@ -50,10 +50,7 @@ std::vector<double> roots(Polynomial p) {
   std::vector<double> out;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const double va = value(p, stops[i]), vb = value(p, stops[i + 1]);
-    if (va == 0)
-      out.push_back(stops[i]);
-    else if (vb != 0 && (va < 0) != (vb < 0))
-      out.push_back(bisect(p, stops[i], stops[i + 1]));
+    if ((va < 0) != (vb < 0)) out.push_back(bisect(p, stops[i], stops[i + 1]));
   }
   return out;
 }

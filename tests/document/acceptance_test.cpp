@@ -133,6 +133,8 @@ TEST(Acceptance, OptionalKeysReachTheVerdict) {
   EXPECT_EQ(one(c)["accepted"], true);
   c["machine_mm"] = 0.003;
   EXPECT_EQ(one(c)["accepted"], false);
+  EXPECT_EQ(one(c)["accepted_after_offset"], false);
+  EXPECT_EQ(one(c)["seed_verdict"], true);
   c = {{"tolerance", "perpendicularity"}, {"e_mm", {0.0, 0.01}}, {"value_mm", 0.009}};
   EXPECT_EQ(one(c)["accepted"], false);
   c["controlled"] = "axis";
@@ -187,7 +189,8 @@ TEST(Acceptance, ListsEveryProblem) {
       "\"profile-without-datum\", \"parallelism\", \"perpendicularity\", \"angularity\", "
       "\"position\", \"coaxiality\", \"circular-radial-runout\", "
       "\"circular-axial-runout\", \"total-radial-runout\" or \"total-axial-runout\"\n"
-      "acceptance: /cases/2/e_mm: got a list of 0, expected a list of 1 to 100000\n"
+      "acceptance: /cases/2/e_mm: got an empty list, expected a list of 1 to 100000 "
+      "entries\n"
       "acceptance: /cases/2/value_mm: got 0, expected a number > 0 and <= 1000 mm\n"
       "acceptance: /cases/2/half_angle_deg: got 90, expected a number >= 0 and < 90 deg\n"
       "acceptance: /cases/3/e_mm: got 3, expected a list of samples or an object with "
@@ -204,21 +207,21 @@ TEST(Acceptance, RefusesPolynomialsThatAreNone) {
   };
   const std::string at = "acceptance: /cases/0/e_mm/";
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1, 1], "coefficients": [[1], [2]]})"),
-            at + "breaks_mm: got a list of 3, expected rising places");
-  EXPECT_EQ(e(R"({"breaks_mm": [0, 1, 2], "coefficients": [[1]]})"),
-            at +
-                "coefficients: got a list of 1, expected one list for each piece between "
-                "two breaks");
-  EXPECT_EQ(e(R"({"breaks_mm": [0, 10], "coefficients": [[0, 99, 1]]})"),
-            at +
-                "coefficients: got a list of 1, expected terms that add up to 1000 mm at "
-                "most");
+            at + "breaks_mm: got [0,1,1], expected rising places");
+  EXPECT_EQ(e(R"({"breaks_mm": [0, 1], "coefficients": [[1], [1], [1]]})"),
+            at + "coefficients: got a list of 3 entries, expected one list for each "
+                 "piece between "
+                 "two breaks");
+  EXPECT_EQ(e(R"({"breaks_mm": [0, 10, 20], "coefficients": [[0, 99, 1], [0]]})"),
+            at + "coefficients: got a list of 2 entries, expected terms that add up to "
+                 "1000 mm at "
+                 "most");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1], "coefficients": [[]]})"),
-            at + "coefficients/0: got a list of 0, expected a list of 1 to 30");
+            at + "coefficients/0: got an empty list, expected a list of 1 to 30 entries");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1]})"),
-            at + "coefficients: got nothing, expected a list of 1 to 10000");
+            at + "coefficients: got nothing, expected a list of 1 to 10000 entries");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1], "coefficients": [[1]], "z_mm": [1]})"),
-            at + "z_mm: got a list of 1, expected no such key");
+            at + "z_mm: got [1], expected no such key");
 }
 
 TEST(Acceptance, RefusesLimitsAndPlacesThatDoNotFit) {
@@ -231,19 +234,18 @@ TEST(Acceptance, RefusesLimitsAndPlacesThatDoNotFit) {
         {{"tolerance", "straightness"}, {"value_mm", 1}, {"e_mm", e_mm}, {"z_mm", z_mm}});
   };
   EXPECT_EQ(z({0, 1}, {0, 1, 2}),
-            "acceptance: /cases/0/z_mm: got a list of 3, expected as many places as e_mm "
+            "acceptance: /cases/0/z_mm: got [0,1,2], expected as many places as e_mm "
             "has samples");
-  EXPECT_EQ(
-      z({0, 1}, {1, 0}),
-      "acceptance: /cases/0/z_mm: got a list of 2, expected places that do not fall");
+  EXPECT_EQ(z({0, 1}, {1, 0}),
+            "acceptance: /cases/0/z_mm: got [1,0], expected places that do not fall");
   EXPECT_EQ(z(json::parse(R"({"breaks_mm": [0, 1], "coefficients": [[1]]})"), {1, 0}),
-            "acceptance: /cases/0/z_mm: got a list of 2, expected none beside breaks_mm");
+            "acceptance: /cases/0/z_mm: got [1,0], expected none beside breaks_mm");
   EXPECT_EQ(refused_case({{"tolerance", "cylindricity"}, {"value_mm", 1}}),
             "acceptance: /cases/0/e_mm: got nothing, expected a list of samples or a "
             "piecewise polynomial");
   EXPECT_EQ(refused(5), "acceptance: document: got 5, expected an object");
   EXPECT_EQ(refused(json::object()),
-            "acceptance: /cases: got nothing, expected a list of 1 to 10000");
+            "acceptance: /cases: got nothing, expected a list of 1 to 10000 entries");
 }
 
 TEST(Acceptance, TheSchemaRefusesWhatTheReaderRefuses) {

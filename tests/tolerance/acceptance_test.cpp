@@ -124,6 +124,15 @@ TEST(Seed, Eq22RefusesWhatAnOffsetWouldCure) {
 // where 19 cos 75 = 4.92 > 2.5.
 TEST(Seed, Eq22PassesOnASteepCone) { expect(cone({0, 0.019}, 0.005, 75), kShift); }
 
+// Eq. (12): a face of constant slope, D_m = 20 to D_M = 60 mm: e = 20 tan(theta).
+TEST(Seed, Eq12IsTheConstantSlopeOfAFace) {
+  const double tan_theta = 3e-4;
+  const PiecewisePolynomial g{.breaks_mm = {10, 30}, .coefficients = {{0.5, tan_theta}}};
+  const Case c{.kind = flatness, .e_mm = g, .value_mm = (60 - 20) / 2 * tan_theta};
+  expect(c, kGood);
+  EXPECT_NEAR(verdict(c).measured_mm, 0.006, 1e-16);
+}
+
 // --- Each kind, on its limit and just over it ----------------------------------------
 
 struct Boundary {
@@ -429,6 +438,19 @@ TEST(Invariances, TheOffsetKeepsItsPromise) {
   }
   EXPECT_GT(cured, 30);
   EXPECT_GT(hopeless, 30);
+}
+
+// The seed's conditions are necessary ones: what they refuse is bad.
+TEST(Invariances, TheSeedRefusesNoGoodPart) {
+  int passed_bad = 0;
+  for (const Case& c : random_cases()) {
+    const Verdict v = verdict(c);
+    if (v.accepted) {
+      EXPECT_TRUE(v.seed_verdict) << v.why;
+    }
+    passed_bad += v.seed_verdict && !v.accepted;
+  }
+  EXPECT_GT(passed_bad, 30);
 }
 
 TEST(Invariances, SamplesAndTheirPolygonAgree) {

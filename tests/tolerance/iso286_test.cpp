@@ -22,7 +22,7 @@ constexpr int kX = 0;  // an empty cell
 struct Step {
   double over_mm, to_mm;
   std::array<int, 3> a_b_c;
-  std::array<int, 14> r_to_zc;  // r s t u v x y z za zb zc
+  std::array<int, 11> r_to_zc;  // r s t u v x y z za zb zc
 };
 // clang-format off
 constexpr Step kSteps[] = {

@@ -145,6 +145,21 @@ TEST(MinimumZone, OfParabolaAndCubicAreChebyshevs) {
   }
 }
 
+// No line comes nearer to T_n than zero: T_n and any line is 2 wide.
+TEST(MinimumZone, OfChebyshevPolynomialsIsTwo) {
+  for (int n = 2; n <= 12; ++n)
+    for (const double slope : {-3.0, -0.1, 0.02, 0.7, 40.0}) {
+      auto f = one_piece(5, 12, chebyshev(n, 7));
+      f.coefficients[0][0] += 0.3;
+      f.coefficients[0][1] += slope;
+      const auto zone = minimum_zone(f);
+      const double rounding = 1e-15 * magnitude_mm(f);
+      EXPECT_NEAR(zone.width_mm, 2, 2e-12 + rounding) << n << ' ' << slope;
+      // e is flat at its extremes: the slope is known to the root of the width only.
+      EXPECT_NEAR(zone.slope, slope, 1e-5 + std::sqrt(rounding)) << n;
+    }
+}
+
 // Two equal bumps: the line rests on both, the zone is one bump high.
 TEST(MinimumZone, OfSeveralPieces) {
   const PiecewisePolynomial f{.breaks_mm = {0, 10, 20},
