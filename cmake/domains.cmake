@@ -21,6 +21,11 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
   TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp)
 # Floor 5
+tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp feature.cpp
+          recipe_model.cpp exchange.cpp feature_optimiser.cpp describe.cpp
+          tolerance_results.cpp prices.cpp conflicts.cpp plan.cpp
+          DEPENDS base part catalogue optimise deflection cutting tolerance
+          PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
@@ -28,8 +33,9 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp
-          DEPENDS base catalogue part tolerance PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS acceptance_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp)
+          deflection.cpp
+          DEPENDS base catalogue part deflection tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS acceptance_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

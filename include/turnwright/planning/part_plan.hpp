@@ -54,9 +54,9 @@ struct PartPlan {
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
   double batch = 1;
-  double machine_per_min = 0;       ///< cost of a machine minute
-  std::optional<double> price;      ///< of a part; needed for `profit`
-  double machine_share_um = 0;      ///< subtracted from every tolerance
+  double machine_per_min = 0;   ///< cost of a machine minute
+  std::optional<double> price;  ///< of a part; needed for `profit`
+  double machine_share_um = 0;  ///< subtracted from every tolerance
   double conformance = 0.9973;
 };
 

@@ -31,7 +31,7 @@ struct ConstraintValue {
   std::string name, unit;
   double value = 0, limit = 0;
   bool at_most = true;
-  double margin = 0;   ///< -ln(value/limit) for at_most, +ln for at_least
+  double margin = 0;  ///< -ln(value/limit) for at_most, +ln for at_least
   bool binding = false;
   double shadow_price = 0;  ///< d ln(objective of the group) / d ln(limit), >= 0
 };
@@ -74,8 +74,9 @@ struct ToleranceResult {
   std::string id;
   part::ToleranceKind kind = part::ToleranceKind::diameter;
   std::string of;
-  std::vector<double> predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
-  std::vector<double> allowed_mm;    ///< same layout
+  std::vector<double>
+      predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
+  std::vector<double> allowed_mm;  ///< same layout
   double margin_mm = 0;
   Verdict verdict = Verdict::met;
   bool seed_verdict = true;
@@ -86,11 +87,12 @@ struct ToleranceResult {
 struct Compensation {
   std::string on;
   std::size_t setup = 0;
-  std::vector<std::pair<double, double>> table_mm;  ///< (z, dr): add dr to the tool path radius
+  std::vector<std::pair<double, double>>
+      table_mm;  ///< (z, dr): add dr to the tool path radius
 };
 
 struct Price {
-  std::string limit;      ///< "d1: diameter", "rough d2: power", ...
+  std::string limit;  ///< "d1: diameter", "rough d2: power", ...
   double now = 0;
   std::string unit;
   double saves_per_part_for_10_percent = 0;
@@ -98,8 +100,8 @@ struct Price {
 };
 
 struct Conflict {
-  std::string limit;      ///< constraint or tolerance in the irreducible conflicting set
-  std::string where;      ///< operation, setup and clamping
+  std::string limit;  ///< constraint or tolerance in the irreducible conflicting set
+  std::string where;  ///< operation, setup and clamping
   double value = 0, allowed = 0;
   std::string unit;
   std::string sentence;
@@ -109,7 +111,7 @@ struct Relaxation {
   std::string limit;
   double now = 0, needed = 0;
   std::string unit;
-  std::string sentence;   ///< "t2 would have to open from 0.004 to 0.0061 mm"
+  std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
 };
 
 enum class PlanStatus { ok, infeasible };
@@ -122,7 +124,7 @@ struct ProcessPlan {
   std::vector<SetupPlan> setups;
   std::vector<ToleranceResult> tolerances;
   std::vector<Compensation> compensation;
-  std::vector<Price> prices;      ///< largest saving first
+  std::vector<Price> prices;  ///< largest saving first
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
 };

@@ -1,0 +1,437 @@
+#pragma once
+#include <boost/math/tools/roots.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "turnwright/cutting/cut.hpp"
+#include "turnwright/cutting/spindle.hpp"
+#include "turnwright/planning/part_plan.hpp"
+
+/// The operations that make one feature - roughing passes and finishing passes of an
+/// element, or the passes over a face - as functions of their conditions, over any
+/// scalar. Passes and tools are fixed here; what is left to choose is the speed and feed
+/// of each operation and how the stock is shared between them.
+namespace turnwright::planning {
+
+/// c0 + c1 a, a the finishing depth [mm].
+struct Affine {
+  double c0 = 0, c1 = 0;
+  template <class T>
+  T operator()(const T& a) const {
+    if (c1 == 0) return T(c0);
+    return c0 == 0 ? T(c1 * a) : T(c0 + c1 * a);
+  }
+};
+
+/// Polynomial in u = (a - centre)/half, ascending; a constant has one coefficient.
+struct Polynomial {
+  double centre = 0, half = 1;
+  std::vector<double> c{0};
+  template <class T>
+  T operator()(const T& a) const {
+    if (c.size() == 1) return T(c[0]);
+    const T u = (a - centre) * (1 / half);
+    T sum = T(c.back());
+    for (std::size_t k = c.size() - 1; k-- > 0;) sum = sum * u + c[k];
+    return sum;
+  }
+};
+
+/// Error of the surface per force at one place and pass:
+///
+///     e = p Fp + q Ff + s Fc + r Fc^2                                                (1)
+///
+/// Turning: p = f_ww + c_rr, q = -+ f_wp D/2, s = c_rt, r = f_ww,t^2/D; facing at radius
+/// rho: p = f_pp rho^2 + c_ax, q = -f_wp rho.  Each depends on the finishing depth
+/// through the body that stands in the machine during the pass.
+struct Law {
+  Polynomial p, q, s, r;
+};
+
+/// One place on the feature (z, or rho of a face) with its law in every pass.
+struct Station {
+  double at_mm = 0;
+  std::vector<Law> passes;
+};
+
+/// sum of weight_k e(station_k) <= limit: what a tolerance asks at some places.
+struct Functional {
+  std::vector<std::pair<std::size_t, double>> terms;
+  double limit = 0;
+  std::size_t tolerance = 0;  ///< index into the drawing's tolerances
+};
+
+enum class Check {
+  depth_min,
+  depth_max,
+  feed_min,
+  feed_max,
+  vc_min,
+  vc_max,
+  force,
+  feed_force,
+  power,
+  torque,
+  life_min,
+  life_max,
+  spindle_max,
+  spindle_min,
+  grip,
+  Ra,
+  Rz,
+  speed_window,
+  tolerance
+};
+
+/// One pass: what is left on the radius after it, and its path.
+struct PassModel {
+  Affine left_mm;  ///< radius offset of the surface it leaves
+  double path_mm = 0;
+};
+
+/// One operation of the chain.
+struct OperationModel {
+  const catalogue::Tool* tool = nullptr;
+  cutting::Cut cut;
+  cutting::SpeedRange range;
+  cutting::Grip grip;
+  double n_cap_rpm = 0;  ///< machine, chuck and centrifugal loss
+  double n_min_rpm = 0;
+  double feed_force_max_N = 0;
+  double economic_life_min = 0;
+  double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
+  catalogue::Range vc, f, ap;   ///< ranges of tool, or what the request fixes
+  catalogue::Range T_min;
+  Affine depth_mm;
+  std::vector<PassModel> passes;
+  double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
+  bool tapered = false, reaches_axis = false, face = false;
+};
+
+struct Weights {
+  double minute = 0, edge = 0;  ///< of the objective
+};
+
+struct Chain {
+  std::vector<OperationModel> operations;  ///< one or two
+  catalogue::Range a;                      ///< finishing depth; lower == upper: fixed
+  std::vector<Station> stations;
+  std::vector<Functional> functionals;
+  Weights weights;
+  double fixed_min = 0;  ///< approach and return, part of the objective
+};
+
+/// Conditions of a chain: per operation speed and feed, and the finishing depth.
+template <class T>
+struct Choice {
+  std::array<T, 2> v{}, f{};
+  T a{};
+};
+
+/// The sweep of one pass.
+template <class T>
+cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a) {
+  const T left = p.left_mm(a);
+  const auto D = [&](double finished) -> T {
+    if (o.face) return T(finished);
+    return left * 2.0 + finished;
+  };
+  return {p.path_mm, D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
+}
+
+/// Force on the tool needed from the jaws [N], the largest of the passes.
+template <class T>
+T grip_needed(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
+  const T D = sweep(o, o.passes.front(), a).D_large_mm;
+  return cutting::grip_needed_N(o.grip, F.Fc_N, F.Ff_N,
+                                o.face ? D : T(D + 2.0 * o.depth_mm(a)));
+}
+
+/// The spindle limit [1/min] of an operation: fixed, and where the grip ends.
+template <class T>
+T spindle_cap(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
+  using std::min;
+  if (!(o.grip.force_N > 0) || !o.tapered) return T(o.n_cap_rpm);
+  return min(T(o.n_cap_rpm), cutting::grip_rpm(o.grip, grip_needed(o, F, a)));
+}
+
+/// Hands every check that does not depend on the speed to sink(check, value, limit).
+template <class T, class Sink>
+void depth_checks(const OperationModel& o, const T& f, const T& a,
+                  const cutting::Forces<T>& F, const Sink& sink) {
+  if (o.depth_mm.c1 != 0 || o.depth_mm.c0 != 0) {
+    const T ap = o.depth_mm(a);
+    sink(Check::depth_min, T(o.ap.lower), ap);
+    sink(Check::depth_max, ap, T(o.ap.upper));
+  }
+  if (o.f.lower < o.f.upper) {
+    sink(Check::feed_min, T(o.f.lower), f);
+    sink(Check::feed_max, f, T(o.f.upper));
+  }
+  sink(Check::force, F.Fc_N, T(o.tool->Fc_max_N));
+  sink(Check::feed_force, F.Ff_N, T(o.feed_force_max_N));
+  if (o.grip.force_N > 0 && o.tapered)
+    sink(Check::grip, grip_needed(o, F, a), T(0.999 * o.grip.force_N));
+  const auto first = sweep(o, o.passes.front(), a);  // the largest diameter
+  for (const auto& l : o.range.lines)
+    if (cutting::constant_torque(l))
+      sink(l.torque ? Check::torque : Check::power,
+           cutting::power_share(l, F.Fc_N, first, T(1.0), T(o.n_cap_rpm)), T(1.0));
+  if (o.Ra_um > 0) sink(Check::Ra, cutting::Ra_um(o.cut, f), T(o.Ra_um));
+  if (o.Rz_um > 0) sink(Check::Rz, cutting::Rz_um(o.cut, f), T(o.Rz_um));
+}
+
+/// And every check of the speed.  The first pass has the largest diameter, the last the
+/// smallest.
+template <class T, class Sink>
+void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
+                  const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
+  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
+  for (const auto& l : o.range.lines)
+    if (!cutting::constant_torque(l))
+      sink(l.torque ? Check::torque : Check::power,
+           cutting::power_share(l, F.Fc_N, l.s >= 0 ? first : last, v, n_cap), T(1.0));
+  if (o.vc.lower < o.vc.upper) {
+    sink(Check::vc_min, T(o.vc.lower), v);
+    sink(Check::vc_max, v, T(o.vc.upper));
+  }
+  const T life = cutting::tool_life_min(o.cut, v, f, o.depth_mm(a));
+  sink(Check::life_min, T(o.T_min.lower), life);
+  sink(Check::life_max, life, T(o.T_min.upper));
+  sink(Check::spindle_min, T(o.n_min_rpm), T(v / first.D_large_mm * (1000 / units::kPi)));
+  if (o.tapered) return;  // the clamp keeps n <= n_cap
+  const T n = v / last.D_small_mm * (1000 / units::kPi);
+  sink(Check::spindle_max, n, n_cap);
+  if (o.grip.force_N > 0)
+    sink(Check::grip, grip_needed(o, F, a) + cutting::grip_loss_N(o.grip, n),
+         T(o.grip.force_N));
+}
+
+/// The speeds that satisfy speed_checks, as a window; see speed_checks.
+template <class T>
+struct Window {
+  T lower{}, upper{};
+};
+template <class T>
+Window<T> speed_window(const OperationModel& o, const T& f, const T& a,
+                       const cutting::Forces<T>& F, const T& n_cap) {
+  using std::max;
+  using std::min;
+  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
+  const T ap = o.depth_mm(a);
+  Window<T> w{T(o.vc.lower), T(o.vc.upper)};
+  w.upper = min(w.upper, cutting::speed_for_life_m_min(o.cut, o.T_min.lower, f, ap));
+  w.lower = max(w.lower, cutting::speed_for_life_m_min(o.cut, o.T_min.upper, f, ap));
+  w.lower = max(w.lower, T(first.D_large_mm * (o.n_min_rpm * units::kPi / 1000)));
+  for (const auto& l : o.range.lines) {
+    if (cutting::constant_torque(l)) continue;
+    const T at = cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap);
+    (l.s < 1 ? w.upper : w.lower) = l.s < 1 ? min(w.upper, at) : max(w.lower, at);
+  }
+  if (o.tapered) return w;
+  T n = n_cap;
+  if (o.grip.force_N > 0) n = min(n, cutting::grip_rpm(o.grip, grip_needed(o, F, a)));
+  w.upper = min(w.upper, T(last.D_small_mm * n * (units::kPi / 1000)));
+  return w;
+}
+
+/// Minutes and edges of all passes of an operation.
+template <class T>
+cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& a,
+                      const T& n_cap) {
+  const T life = cutting::tool_life_min(o.cut, v, f, o.depth_mm(a));
+  cutting::Duty<T> sum;
+  for (std::size_t k = 0; k < o.passes.size(); ++k) {
+    const auto d =
+        cutting::duty(sweep(o, o.passes[k], a), v, f, life, n_cap, o.cut.taylor.n);
+    sum = k == 0 ? d : cutting::Duty<T>{sum.time_min + d.time_min, sum.edges + d.edges};
+  }
+  return sum;
+}
+
+/// Contribution of an operation to the objective: minutes in the cut and changing edges.
+template <class T>
+T objective(const OperationModel& o, const Weights& w, const cutting::Duty<T>& d) {
+  return w.minute * d.time_min +
+         (w.minute * o.tool->change_min + w.edge * o.tool->edge_cost) * d.edges;
+}
+
+/// Eq. (1) at given coefficients.
+template <class T>
+T law_mm(const Law& law, const T& a, const cutting::Forces<T>& F) {
+  return law.p(a) * F.Fp_N + law.q(a) * F.Ff_N + law.s(a) * F.Fc_N +
+         law.r(a) * sqr(F.Fc_N);
+}
+
+/// Depth-of-cut feedback: the surface that yields by e is cut less deep by e,
+///
+///     e = law(forces at depth ap + e_before - e),  e_before the error the pass before
+///     left (2)
+///
+/// Source: derived here; the loop gain is d law/d depth.
+double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap, double f,
+                   double e_before);
+
+namespace detail {
+/// d law/d depth, the loop gain.
+template <class V>
+Dual<V, 1> along_depth(const Law& law, const cutting::Cut& cut, const V& a,
+                       const V& depth, const V& f) {
+  using D = Dual<V, 1>;
+  D aa, ff;
+  aa.v = a;
+  ff.v = f;
+  return law_mm(law, aa, cutting::forces_N(cut, variable<V, 1>(depth, 0), ff));
+}
+}  // namespace detail
+
+/// (2) with its gradient, by the implicit function theorem: e' = law'/(1 + gain).
+template <int N>
+Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
+                            const Dual<double, N>& a, const Dual<double, N>& ap,
+                            const Dual<double, N>& f, const Dual<double, N>& e_before) {
+  const double e = yielding_mm(law, cut, a.v, ap.v, f.v, e_before.v);
+  const Dual<double, N> depth = ap + e_before - e;
+  const auto direct = law_mm(law, a, cutting::forces_N(cut, depth, f));
+  const double gain = detail::along_depth(law, cut, a.v, depth.v, f.v).d[0];
+  Dual<double, N> r = direct * (1 / (1 + gain));
+  r.v = e;
+  return r;
+}
+
+/// (2) enclosed over a box.  With e0 = law at full depth and gain g over every depth the
+/// cut can have, the mean value theorem gives e = e0/(1 + g) if g > -1/2 keeps the depths
+/// within [0, 2 e0] of the full one; anything else says nothing.
+template <int N>
+Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
+                              const Dual<Interval, N>& a, const Dual<Interval, N>& ap,
+                              const Dual<Interval, N>& f,
+                              const Dual<Interval, N>& e_before) {
+  using Box = Dual<Interval, N>;
+  const Box full = ap + e_before;
+  Box nothing(Interval::whole(), {});
+  nothing.d.fill(Interval::whole());
+  if (!(full.v.lo > 0)) return nothing;
+  using Point = Dual<Interval, 1>;
+  Point aa, dd, ff;
+  aa.v = a.v;
+  dd.v = full.v;
+  ff.v = f.v;
+  const Interval e0 = law_mm(law, aa, cutting::forces_N(cut, dd, ff)).v;
+  Box depth = full;
+  depth.v = full.v - hull(Interval(0), Interval(2) * e0);
+  if (!(depth.v.lo > 0)) return nothing;
+  const Interval gain = detail::along_depth(law, cut, a.v, depth.v, f.v).d[0];
+  if (!(gain.lo > -0.5)) return nothing;
+  const Interval factor = Interval(1) / (Interval(1) + gain);
+  const auto direct = law_mm(law, a, cutting::forces_N(cut, depth, f));
+  Box r;
+  r.v = e0 * factor;
+  for (int i = 0; i < N; ++i) r.d[i] = direct.d[i] * factor;
+  return r;
+}
+
+inline optimise::LogCurvature yielding_mm(const Law&, const cutting::Cut&,
+                                          const optimise::LogCurvature&,
+                                          const optimise::LogCurvature&,
+                                          const optimise::LogCurvature&,
+                                          const optimise::LogCurvature&) {
+  return {};
+}
+
+/// Error of the finished surface at a station after all passes.  On faces there is no
+/// feedback: what yields along the axis is the length, not the depth.
+template <class T>
+T error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
+           const std::array<cutting::Forces<T>, 2>& F) {
+  T e = T(0.0);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < chain.operations.size(); ++i) {
+    const auto& o = chain.operations[i];
+    const T ap = o.depth_mm(c.a);
+    for (std::size_t p = 0; p < o.passes.size(); ++p, ++k)
+      e = o.face ? law_mm(station.passes[k], c.a, F[i])
+                 : yielding_mm(station.passes[k], o.cut, c.a, ap, c.f[i], e);
+  }
+  return e;
+}
+
+/// Value and limit of every functional.
+template <class T, class Sink>
+void tolerance_checks(const Chain& chain, const Choice<T>& c,
+                      const std::array<cutting::Forces<T>, 2>& F, const Sink& sink) {
+  if (chain.functionals.empty()) return;
+  std::vector<T> e;
+  e.reserve(chain.stations.size());
+  for (const auto& s : chain.stations) e.push_back(error_mm(chain, s, c, F));
+  for (std::size_t i = 0; i < chain.functionals.size(); ++i) {
+    const auto& g = chain.functionals[i];
+    T sum = e[g.terms[0].first] * g.terms[0].second;
+    for (std::size_t k = 1; k < g.terms.size(); ++k)
+      sum = sum + e[g.terms[k].first] * g.terms[k].second;
+    sink(i, Check::tolerance, false, sum, T(g.limit));
+  }
+}
+
+/// Forces of each operation at full depth.
+template <class T>
+std::array<cutting::Forces<T>, 2> forces(const Chain& chain, const Choice<T>& c) {
+  std::array<cutting::Forces<T>, 2> F{};
+  for (std::size_t i = 0; i < chain.operations.size(); ++i)
+    F[i] = cutting::forces_N(chain.operations[i].cut, chain.operations[i].depth_mm(c.a),
+                             c.f[i]);
+  return F;
+}
+
+template <class T, class Sink>
+auto tagged(const Sink& sink, std::size_t operation, bool speed) {
+  return [&sink, operation, speed](Check check, const T& value, const T& limit) {
+    sink(operation, check, speed, value, limit);
+  };
+}
+
+/// Objective of the chain, at chosen speeds; every check goes to
+/// sink(operation, check, depends on the speed, value, limit), of a tolerance the
+/// functional's number in place of the operation's.
+template <class T, class Sink>
+T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
+  const auto F = forces(chain, c);
+  T sum = T(chain.weights.minute * chain.fixed_min);
+  for (std::size_t i = 0; i < chain.operations.size(); ++i) {
+    const auto& o = chain.operations[i];
+    const T n_cap = spindle_cap(o, F[i], c.a);
+    depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
+    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap));
+  }
+  tolerance_checks(chain, c, F, sink);
+  return sum;
+}
+
+/// The same with each speed at its best for the feed and depth: the economic one, held in
+/// its window.  c.v is set.  The cost falls and then rises with the speed (both terms of
+/// the duty are powers of it while unclamped, and stand still where clamped), so the
+/// nearest speed of the window is the best one.
+template <class T, class Sink>
+T evaluate_at_best_speed(const Chain& chain, Choice<T>& c, const Sink& sink) {
+  using std::max;
+  using std::min;
+  const auto F = forces(chain, c);
+  T sum = T(chain.weights.minute * chain.fixed_min);
+  for (std::size_t i = 0; i < chain.operations.size(); ++i) {
+    const auto& o = chain.operations[i];
+    const T n_cap = spindle_cap(o, F[i], c.a);
+    depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
+    sink(i, Check::speed_window, true, w.lower, w.upper);
+    const T economic = cutting::speed_for_life_m_min(o.cut, o.economic_life_min, c.f[i],
+                                                     o.depth_mm(c.a));
+    c.v[i] = min(max(economic, w.lower), w.upper);
+    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap));
+  }
+  tolerance_checks(chain, c, F, sink);
+  return sum;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,108 @@
+#include "demand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using part::Tolerance;
+using part::ToleranceKind;
+
+const part::OuterElement* find_element(const PartPlan& p, const std::string& id) {
+  const auto& e = p.drawing.outer;
+  const auto it =
+      std::find_if(e.begin(), e.end(), [&](const auto& x) { return x.id == id; });
+  return it == e.end() ? nullptr : &*it;
+}
+
+double width_mm(const Tolerance& t) {
+  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
+double middle_mm(const Tolerance& t) {
+  return t.limits ? (t.limits->upper_mm + t.limits->lower_mm) / 2 : 0;
+}
+
+// Faces of a `length` that this plan cuts: they share what the tolerance leaves.
+double faces_cut(const PartPlan& p, const Tolerance& t) {
+  return static_cast<double>(face_is_cut(p, t.between[0])) +
+         static_cast<double>(face_is_cut(p, t.between[1]));
+}
+
+Demand demand(const PartPlan& p, std::size_t index, const part::OuterElement* element,
+              Offset offset) {
+  const Tolerance& t = p.drawing.tolerances[index];
+  const double left = std::max(0.0, width_mm(t) - units::mm_from_um(p.machine_share_um));
+  const double cosine = element ? std::cos(half_angle_rad(*element)) : 1;
+  using Shape = Demand::Shape;
+  const bool free = offset == Offset::free;
+  Demand d{index, Shape::none, 1, 0, left, middle_mm(t)};
+  const auto size = [&](double factor, double share) {
+    d.factor = factor;
+    d.shape = free ? Shape::range : Shape::size;
+    d.upper = free ? left * share : left * share / 2;
+    d.lower = -d.upper;
+  };
+  switch (t.kind) {
+    case ToleranceKind::diameter:
+      size(2, 1);
+      break;
+    case ToleranceKind::profile:
+      size(cosine, 1);
+      break;
+    case ToleranceKind::length:
+      size(1, 1 / std::max(1.0, faces_cut(p, t)));
+      break;
+    case ToleranceKind::profile_without_datum:
+      d.factor = cosine;
+      d.shape = Shape::range;
+      break;
+    case ToleranceKind::straightness:
+      d.shape = Shape::straightness;
+      break;
+    case ToleranceKind::cylindricity:
+    case ToleranceKind::total_radial_runout:
+    case ToleranceKind::flatness:
+    case ToleranceKind::parallelism:
+    case ToleranceKind::total_axial_runout:
+      d.shape = Shape::range;
+      break;
+    case ToleranceKind::perpendicularity:
+      d.shape = element ? Shape::none : Shape::range;
+      break;
+    default:
+      break;
+  }
+  return d;
+}
+
+}  // namespace
+
+double half_angle_rad(const part::OuterElement& e) {
+  return std::atan2(std::abs(e.right_mm - e.left_mm) / 2, e.length_mm);
+}
+
+bool face_is_cut(const PartPlan& p, const std::string& face) {
+  if (face == "left") return p.drawing.stock.left_allowance_mm > 1e-9;
+  if (face == "right") return part::right_allowance_mm(p.drawing) > 1e-9;
+  return true;
+}
+
+std::vector<Demand> demands(const PartPlan& p, const std::string& surface,
+                            Offset offset) {
+  std::vector<Demand> all;
+  const auto* element = find_element(p, surface);
+  const auto& tolerances = p.drawing.tolerances;
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    const auto& t = tolerances[i];
+    if (t.of == surface || (t.kind == ToleranceKind::length &&
+                            (t.between[0] == surface || t.between[1] == surface)))
+      all.push_back(demand(p, i, element, offset));
+  }
+  return all;
+}
+
+}  // namespace turnwright::planning

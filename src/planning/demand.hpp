@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/tolerance/acceptance.hpp"
+
+/// What the drawing's tolerances ask of the error e of one surface.
+namespace turnwright::planning {
+
+/// size:  lower <= factor e <= upper at every place;  range: factor (max e - min e) <=
+/// upper; straightness: width of the minimum zone <= upper;  none: no term of the cut.
+struct Demand {
+  enum class Shape { size, range, straightness, none };
+  std::size_t tolerance = 0;  ///< index into drawing.tolerances
+  Shape shape = Shape::none;
+  double factor = 1;
+  double lower = 0, upper = 0;
+  double middle_mm = 0;  ///< programmed deviation of a size: the middle of its limits
+};
+
+/// With `compensated` the offset of the tool is free, so a size asks only for its range.
+enum class Offset { none, free };
+
+/// The tolerances that bear on an outer element or on a face ("left", "right", "d1|d2"),
+/// after the machine's share is taken off their width:
+///
+///     diameter      |2 e| <= (t - m)/2 about the programmed middle of the limits
+///     profile       |e| cos(alpha) <= (t - m)/2
+///     length        |g| <= (t - m)/4 for each of its two faces, half if one is given
+///     others        as tolerance::verdict's (4) to (8)
+///
+/// A width that the share uses up gives upper = 0, which nothing can keep.
+std::vector<Demand> demands(const PartPlan& plan, const std::string& surface,
+                            Offset offset);
+
+/// Half angle [rad] of an outer element, 0 of a cylinder.
+double half_angle_rad(const part::OuterElement& element);
+
+/// True if an operation of this plan makes the face (its end has stock, or it is a
+/// shoulder).
+bool face_is_cut(const PartPlan& plan, const std::string& face);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,213 @@
+#include "describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kBinding = 1e-6;  // ln: closer than any machine can tell
+
+struct Chosen {
+  const Chain& chain;
+  const Choice<double>& c;
+  std::array<cutting::Forces<double>, 2> F;
+};
+
+cutting::Duty<double> duty_of(const Chosen& x, std::size_t i) {
+  const auto& o = x.chain.operations[i];
+  return duty(o, x.c.v[i], x.c.f[i], x.c.a, spindle_cap(o, x.F[i], x.c.a));
+}
+
+std::vector<Pass> passes(const Chosen& x, std::size_t i) {
+  const auto& o = x.chain.operations[i];
+  const double v = x.c.v[i], f = x.c.f[i], ap = o.depth_mm(x.c.a);
+  const double n_cap = spindle_cap(o, x.F[i], x.c.a);
+  const double life = cutting::tool_life_min(o.cut, v, f, ap);
+  std::vector<Pass> all;
+  for (const auto& p : o.passes) {
+    const auto s = sweep(o, p, x.c.a);
+    Pass pass;
+    pass.ap_mm = ap;
+    pass.f_mm_rev = f;
+    pass.vc_m_min = v;
+    pass.n_rpm = std::min(n_cap, units::spindle_rpm(v, s.D_large_mm));
+    pass.time_min = cutting::duty(s, v, f, life, n_cap, o.cut.taylor.n).time_min;
+    pass.Fc_N = x.F[i].Fc_N;
+    pass.Ff_N = x.F[i].Ff_N;
+    pass.Fp_N = x.F[i].Fp_N;
+    pass.Pc_kW = units::power_kW(x.F[i].Fc_N, v);
+    pass.T_min = life;
+    all.push_back(pass);
+  }
+  return all;
+}
+
+// Value and limit in the check's own unit, from a row's quotient.
+ConstraintValue constraint(const Chosen& x, const RowValue& r, double multiplier) {
+  const auto n = check_name(r.row.check);
+  ConstraintValue c;
+  c.name = n.name;
+  c.unit = n.unit;
+  c.at_most = n.at_most;
+  c.value = n.at_most ? r.value : r.limit;
+  c.limit = n.at_most ? r.limit : r.value;
+  if (r.row.check == Check::power || r.row.check == Check::torque) {
+    const auto& o = x.chain.operations[r.row.operation];
+    const double Fc = x.F[r.row.operation].Fc_N, share = r.value / r.limit;
+    c.value = r.row.check == Check::power
+                  ? units::power_kW(Fc, x.c.v[r.row.operation])
+                  : units::torque_Nm(Fc, sweep(o, o.passes.front(), x.c.a).D_large_mm);
+    c.limit = c.value / share;
+  }
+  c.margin = -violation(r);
+  c.binding = c.margin < kBinding;
+  c.shadow_price = multiplier;
+  return c;
+}
+
+// One line per check: the tightest row, with the sum of the rows' prices.
+void merge(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
+  const auto it = std::find_if(
+      all.begin(), all.end(), [&](const ConstraintValue& o) { return o.name == c.name; });
+  if (it == all.end()) {
+    all.push_back(c);
+    return;
+  }
+  const double price = it->shadow_price + c.shadow_price;
+  if (c.margin < it->margin) *it = c;
+  it->shadow_price = price;
+}
+
+// A tolerance as constraint: what the whole surface shows against what the cut may use.
+ConstraintValue tolerance_constraint(const PartPlan& plan, const Demand& d,
+                                     const tolerance::PiecewisePolynomial& e,
+                                     double price) {
+  ConstraintValue c;
+  const auto& t = plan.drawing.tolerances[d.tolerance];
+  c.name = t.id + " " + part::name(t.kind);
+  c.unit = "mm";
+  c.limit = d.upper;
+  const double excess = worst_excess({d}, e);
+  c.value = d.upper * (1 + excess);
+  c.margin = -std::log(std::max(1 + excess, 1e-300));
+  c.binding = c.margin < kBinding;
+  c.shadow_price = price;
+  return c;
+}
+
+}  // namespace
+
+CheckName check_name(Check check) {
+  switch (check) {
+    case Check::depth_min:
+      return {"least depth of cut", "mm", false};
+    case Check::depth_max:
+      return {"largest depth of cut", "mm", true};
+    case Check::feed_min:
+      return {"least feed", "mm/rev", false};
+    case Check::feed_max:
+      return {"largest feed", "mm/rev", true};
+    case Check::vc_min:
+      return {"least cutting speed", "m/min", false};
+    case Check::vc_max:
+      return {"largest cutting speed", "m/min", true};
+    case Check::force:
+      return {"cutting force", "N", true};
+    case Check::feed_force:
+      return {"feed force", "N", true};
+    case Check::power:
+      return {"power", "kW", true};
+    case Check::torque:
+      return {"torque", "Nm", true};
+    case Check::life_min:
+      return {"least tool life", "min", false};
+    case Check::life_max:
+      return {"longest tool life", "min", true};
+    case Check::spindle_max:
+      return {"largest spindle speed", "1/min", true};
+    case Check::spindle_min:
+      return {"least spindle speed", "1/min", false};
+    case Check::grip:
+      return {"grip of the chuck", "N", true};
+    case Check::Ra:
+      return {"roughness Ra", "um", true};
+    case Check::Rz:
+      return {"roughness Rz", "um", true};
+    case Check::speed_window:
+      return {"cutting speed", "m/min", false};
+    case Check::tolerance:
+      return {"tolerance", "mm", true};
+  }
+  return {"", "", true};
+}
+
+std::string row_name(const PartPlan& plan, const RecipeModel& model, const Row& row) {
+  if (row.check != Check::tolerance) return check_name(row.check).name;
+  const auto& t =
+      plan.drawing.tolerances[model.chain().functionals[row.operation].tolerance];
+  return t.id + " " + part::name(t.kind);
+}
+
+Spent spent(const FeatureAnswer& answer) {
+  const Chosen x{answer.model->chain(), answer.choice,
+                 forces(answer.model->chain(), answer.choice)};
+  Spent s;
+  s.minutes = x.chain.fixed_min;
+  for (std::size_t i = 0; i < x.chain.operations.size(); ++i) {
+    const auto d = duty_of(x, i);
+    const auto& tool = *x.chain.operations[i].tool;
+    s.minutes += d.time_min;
+    s.change_min += tool.change_min * d.edges;
+    s.edges_cost += tool.edge_cost * d.edges;
+  }
+  return s;
+}
+
+std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
+                                    const SolvedFeature& solved, const Rates& rates) {
+  const auto& a = solved.answer;
+  const Chosen x{a.model->chain(), a.choice, forces(a.model->chain(), a.choice)};
+  const auto& feature = solved.task.feature;
+  const auto values = a.model->values(a.choice);
+  std::vector<OperationPlan> all;
+  for (std::size_t i = 0; i < x.chain.operations.size(); ++i) {
+    const auto& o = x.chain.operations[i];
+    const bool last = i + 1 == x.chain.operations.size();
+    const bool rough = a.model->recipe().rough && i == 0;
+    OperationPlan p;
+    p.kind = o.face ? OperationKind::face
+                    : (rough ? OperationKind::rough : OperationKind::finish);
+    p.id = i < solved.operation_ids.size() ? solved.operation_ids[i]
+                                           : "s" + std::to_string(setup) + "-" +
+                                                 name(p.kind) + "-" + feature.surface();
+    p.on = {feature.surface()};
+    p.tool = o.tool->id;
+    p.direction =
+        rough ? feature.fixed().rough_direction : feature.fixed().finish_direction;
+    p.passes = passes(x, i);
+    const auto d = duty_of(x, i);
+    p.time_min = d.time_min;
+    p.cost = rates.machine_per_min * (d.time_min + o.tool->change_min * d.edges) +
+             o.tool->edge_cost * d.edges;
+    std::map<std::size_t, double> tolerance_price;
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      if (values[r].row.check == Check::tolerance)
+        tolerance_price[x.chain.functionals[values[r].row.operation].tolerance] +=
+            a.multipliers[r];
+      else if (values[r].row.operation == i)
+        merge(p.constraints, constraint(x, values[r], a.multipliers[r]));
+    }
+    if (last)
+      for (const auto& demand : solved.task.demands)
+        if (demand.shape != Demand::Shape::none)
+          p.constraints.push_back(tolerance_constraint(
+              plan, demand, a.profile, tolerance_price[demand.tolerance]));
+    p.certificate = a.certificate;
+    all.push_back(std::move(p));
+  }
+  return all;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,47 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "feature_optimiser.hpp"
+
+/// A feature's answer in the terms of the result document.
+namespace turnwright::planning {
+
+/// How a check is called, in what unit, and which of its two sides is the limit.
+struct CheckName {
+  const char* name;
+  const char* unit;
+  bool at_most;
+};
+CheckName check_name(Check check);
+
+/// A surface that has been optimised, with what it was asked.
+struct SolvedFeature {
+  FeatureTask task;
+  FeatureAnswer answer;
+  bool compensated = false;                ///< the tool path takes out the error's mean
+  std::vector<std::string> operation_ids;  ///< given ids, rough first; may be empty
+};
+
+/// Money per minute and what the objective counts.
+struct Rates {
+  double machine_per_min = 0;
+};
+
+/// One plan entry per operation of the feature.
+std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
+                                    const SolvedFeature& solved, const Rates& rates);
+
+/// "t1 cylindricity" for a tolerance row, else the check's name.
+std::string row_name(const PartPlan& plan, const RecipeModel& model, const Row& row);
+
+/// Minutes, edge cost and money of the answer's operations, approach included.
+struct Spent {
+  double minutes = 0, edges_cost = 0, change_min = 0;
+  double cost(const Rates& r) const {
+    return r.machine_per_min * (minutes + change_min) + edges_cost;
+  }
+};
+Spent spent(const FeatureAnswer& answer);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,132 @@
+#include "exchange.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kAllowed = 5e-10;  // of a limit: half of what a plan may be over
+constexpr std::size_t kGrid = 33;
+
+struct Place {
+  double at, value;
+};
+
+// Place of the largest sign * e: best of a grid, then refined between its neighbours.
+Place largest(const std::function<double(double)>& e, double low, double high,
+              double sign) {
+  const auto at = [&](std::size_t k) {
+    return low + (high - low) * static_cast<double>(k) / (kGrid - 1);
+  };
+  std::size_t best = 0;
+  std::vector<double> v(kGrid);
+  for (std::size_t k = 0; k < kGrid; ++k) {
+    v[k] = sign * e(at(k));
+    if (v[k] > v[best]) best = k;
+  }
+  Place p{at(best), v[best]};
+  const double a = at(best == 0 ? 0 : best - 1), b = at(std::min(best + 1, kGrid - 1));
+  const auto [z, f] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -sign * e(x); }, a, b, 40);
+  if (-f > p.value) p = {z, -f};
+  return p;
+}
+
+double evaluate(const tolerance::PiecewisePolynomial& e, double z) {
+  std::size_t k = 0;
+  while (k + 2 < e.breaks_mm.size() && z > e.breaks_mm[k + 1]) ++k;
+  double sum = 0;
+  for (std::size_t j = e.coefficients[k].size(); j-- > 0;)
+    sum = sum * (z - e.breaks_mm[k]) + e.coefficients[k][j];
+  return sum;
+}
+
+}  // namespace
+
+Exchange::Exchange(const Feature& feature, std::vector<Demand> demands)
+    : feature_(&feature), demands_(std::move(demands)) {
+  for (const auto& d : demands_) add_initial(d);
+}
+
+std::size_t Exchange::station(double at_mm) {
+  const auto it = std::find(stations_.begin(), stations_.end(), at_mm);
+  if (it != stations_.end()) return static_cast<std::size_t>(it - stations_.begin());
+  stations_.push_back(at_mm);
+  return stations_.size() - 1;
+}
+
+void Exchange::add(std::vector<std::pair<double, double>> terms, double limit,
+                   const Demand& d) {
+  Functional g;
+  for (const auto& [at, weight] : terms) g.terms.emplace_back(station(at), weight);
+  g.limit =
+      std::max(limit, 1e-12);  // a tolerance the machine has used up: kept by nothing
+  g.tolerance = d.tolerance;
+  functionals_.push_back(std::move(g));
+}
+
+void Exchange::add_initial(const Demand& d) {
+  const double low = feature_->low_mm(), high = feature_->high_mm();
+  const double middle = (low + high) / 2, w = d.factor;
+  using enum Demand::Shape;
+  if (d.shape == size)
+    for (const double z : {low, high}) {
+      add({{z, w}}, d.upper, d);
+      add({{z, -w}}, -d.lower, d);
+    }
+  if (d.shape == range) {
+    add({{low, w}, {high, -w}}, d.upper, d);
+    add({{high, w}, {low, -w}}, d.upper, d);
+  }
+  if (d.shape == straightness)
+    for (const double sign : {1.0, -1.0})
+      add({{middle, sign}, {low, -sign / 2}, {high, -sign / 2}}, d.upper, d);
+}
+
+bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
+                            const Choice<double>& choice) {
+  if (std::all_of(demands_.begin(), demands_.end(),
+                  [](const Demand& d) { return d.shape == Demand::Shape::none; }))
+    return false;
+  const auto profile = feature_->profile(recipe, economy, choice);
+  const double low = feature_->low_mm(), high = feature_->high_mm();
+  const auto e = [&](double z) { return evaluate(profile, z); };
+  const Place top = largest(e, low, high, 1), bottom = largest(e, low, high, -1);
+  const auto before = functionals_.size();
+  const auto broken = [](double value, double limit) {
+    return value > limit * (1 + kAllowed);
+  };
+  using enum Demand::Shape;
+  for (const auto& d : demands_) {
+    const double w = d.factor;
+    if (d.shape == size) {
+      if (broken(w * top.value, d.upper)) add({{top.at, w}}, d.upper, d);
+      if (broken(w * bottom.value, -d.lower)) add({{bottom.at, -w}}, -d.lower, d);
+    } else if (d.shape == range) {
+      if (broken(w * (top.value + bottom.value), d.upper))
+        add({{top.at, w}, {bottom.at, -w}}, d.upper, d);
+    } else if (d.shape == straightness) {
+      const auto zone = tolerance::minimum_zone(profile);
+      if (!broken(zone.width_mm, d.upper)) continue;
+      // The zone touches at three places, alternating: two on one line, one between them
+      // on the other.
+      const auto tilted = [&](double z) { return e(z) - zone.slope * z; };
+      for (const double sign : {1.0, -1.0}) {
+        const Place peak = largest(tilted, low, high, sign);
+        if (peak.at <= low || peak.at >= high) continue;
+        const Place l = largest(tilted, low, peak.at, -sign);
+        const Place r = largest(tilted, peak.at, high, -sign);
+        const double share = (r.at - peak.at) / (r.at - l.at);
+        add({{peak.at, sign}, {l.at, -sign * share}, {r.at, -sign * (1 - share)}},
+            d.upper, d);
+      }
+    }
+  }
+  return functionals_.size() > before;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "feature.hpp"
+
+/// The places where tolerances are asked, grown until they stand for the whole surface.
+namespace turnwright::planning {
+
+class Exchange {
+ public:
+  Exchange(const Feature& feature, std::vector<Demand> demands);
+
+  const std::vector<double>& stations() const { return stations_; }
+  const std::vector<Functional>& functionals() const { return functionals_; }
+
+  /// Adds the worst places of every demand that an error breaks by more than the
+  /// optimiser leaves (5e-10 of its limit); false if none does.
+  bool add_violated(const Recipe& recipe, const Economy& economy,
+                    const Choice<double>& choice);
+
+ private:
+  std::size_t station(double at_mm);
+  void add(std::vector<std::pair<double, double>> terms, double limit, const Demand& d);
+  void add_initial(const Demand& d);
+
+  const Feature* feature_;
+  std::vector<Demand> demands_;
+  std::vector<double> stations_;
+  std::vector<Functional> functionals_;
+};
+
+}  // namespace turnwright::planning

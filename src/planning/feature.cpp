@@ -1,0 +1,348 @@
+#include "feature.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace turnwright::planning {
+namespace {
+
+constexpr std::size_t kNodes = 11;  // of a law over the finishing depth
+
+// Nodes cos((2 k + 1) pi/2 n) of degree n - 1 interpolation on [-1, 1].
+std::vector<double> chebyshev(std::size_t n) {
+  std::vector<double> u(n);
+  for (std::size_t k = 0; k < n; ++k)
+    u[k] = std::cos((2.0 * static_cast<double>(k) + 1) * std::numbers::pi /
+                    (2.0 * static_cast<double>(n)));
+  return u;
+}
+
+// Monomial coefficients of the polynomials through columns of values at the points.
+Eigen::MatrixXd through(const std::vector<double>& points,
+                        const Eigen::MatrixXd& values) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd V(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      V(i, j) = std::pow(points[static_cast<std::size_t>(i)], static_cast<double>(j));
+  return V.partialPivLu().solve(values);
+}
+
+// Trailing coefficients that are rounding are dropped: fewer operations in every box.
+Polynomial polynomial(const Eigen::VectorXd& c, double centre, double half) {
+  Polynomial p{centre, half, {c.data(), c.data() + c.size()}};
+  const double size = c.cwiseAbs().maxCoeff();
+  while (p.c.size() > 1 && std::abs(p.c.back()) <= 1e-13 * size) p.c.pop_back();
+  return p;
+}
+
+double clamping_rpm(const PartPlan& p, Clamping clamping) {
+  const auto& m = p.machine;
+  if (clamping == Clamping::between_centres) return m.n_max_rpm;
+  // Centrifugal loss of the grip at most 67 % (VDI 3106).
+  const auto& c = m.chuck;
+  const double n_loss =
+      c.jaw_mass_radius_kg_m > 0
+          ? std::sqrt(cutting::kGripLoss * c.grip_force_N / c.jaw_mass_radius_kg_m) * 30 /
+                units::kPi
+          : m.n_max_rpm;
+  return std::min({m.n_max_rpm, c.n_max_rpm, n_loss});
+}
+
+std::vector<bool> with(std::vector<bool> done, const std::vector<std::size_t>& elements,
+                       std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) done[elements[k]] = true;
+  return done;
+}
+
+const part::Face* find_face(const PartPlan& p, const std::string& id) {
+  for (const auto& f : p.drawing.faces)
+    if (f.id == id) return &f;
+  return nullptr;
+}
+
+}  // namespace
+
+Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
+                 std::string surface, const Fixed& fixed)
+    : plan_(&plan),
+      setup_(setup),
+      clamping_(clamping),
+      kind_(kind),
+      surface_(std::move(surface)),
+      fixed_(fixed) {
+  if (const auto* face = find_face(plan, surface_)) {
+    Ra_um_ = face->Ra_um.value_or(0);
+    Rz_um_ = face->Rz_um.value_or(0);
+  }
+}
+
+Feature Feature::element(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                         const SetupWork& work, const std::vector<bool>& done_before,
+                         std::size_t index, const Fixed& fixed) {
+  const auto& e = plan.drawing.outer[index];
+  Feature f(plan, setup, clamping, Kind::element, e.id, fixed);
+  f.index_ = index;
+  f.low_ = part::left_z_mm(plan.drawing, index);
+  f.high_ = f.low_ + e.length_mm;
+  f.D_small_ = std::min(e.left_mm, e.right_mm);
+  f.D_large_ = std::max(e.left_mm, e.right_mm);
+  f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
+  f.Ra_um_ = e.Ra_um.value_or(0);
+  f.Rz_um_ = e.Rz_um.value_or(0);
+  const auto place = static_cast<std::size_t>(
+      std::find(work.elements.begin(), work.elements.end(), index) -
+      work.elements.begin());
+  f.bodies_.emplace_back(plan, setup, clamping, with(done_before, work.elements, place));
+  f.bodies_.emplace_back(plan, setup, clamping,
+                         with(done_before, work.elements, work.elements.size()));
+  return f;
+}
+
+Feature Feature::end_face(const PartPlan& plan, std::size_t setup,
+                          const std::vector<bool>& done_before, const Fixed& fixed) {
+  const bool left = plan.setups[setup].hold == part::End::right;
+  Feature f(plan, setup, Clamping::chuck, Kind::end_face, left ? "left" : "right", fixed);
+  f.bodies_.emplace_back(plan, setup, Clamping::chuck, done_before);
+  f.face_x_ = f.bodies_[0].length_mm();
+  f.stock_ = left ? plan.drawing.stock.left_allowance_mm
+                  : part::right_allowance_mm(plan.drawing);
+  f.D_small_ = plan.drawing.stock.inner_mm;
+  f.D_large_ = plan.drawing.stock.outer_mm;
+  // The face of the finished part ends at its outermost element.
+  const auto& outer = plan.drawing.outer;
+  f.low_ = f.D_small_ / 2;
+  f.high_ = (left ? outer.front().left_mm : outer.back().right_mm) / 2;
+  return f;
+}
+
+Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                          const SetupWork& work, const std::vector<bool>& done_before,
+                          std::size_t index, const Fixed& fixed) {
+  const auto& outer = plan.drawing.outer;
+  Feature f(plan, setup, clamping, Kind::shoulder,
+            outer[index - 1].id + "|" + outer[index].id, fixed);
+  f.bodies_.emplace_back(plan, setup, clamping,
+                         with(done_before, work.elements, work.elements.size()));
+  f.face_x_ = f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index));
+  const auto [small, large] =
+      std::minmax(outer[index - 1].right_mm, outer[index].left_mm);
+  f.D_small_ = small;
+  f.D_large_ = large;
+  f.low_ = small / 2;
+  f.high_ = large / 2;
+  return f;
+}
+
+OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
+                                  std::size_t range, const Economy& economy) const {
+  const auto& m = plan_->machine;
+  const auto& want = finishing ? fixed_.finish : fixed_.rough;
+  OperationModel o;
+  o.tool = &tool;
+  o.cut = cutting::cut_of(plan_->material, tool);
+  o.range = cutting::speed_ranges(m)[range];
+  if (clamping_ != Clamping::between_centres)
+    o.grip = {m.chuck.grip_force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+              grip_diameter_mm(*plan_, setup_, clamping_)};
+  o.n_cap_rpm = std::min(o.range.n_max_rpm, clamping_rpm(*plan_, clamping_));
+  o.n_min_rpm = o.range.n_min_rpm;
+  o.feed_force_max_N = m.feed_force_max_N;
+  o.economic_life_min = cutting::economic_life_min(
+      o.cut, tool.change_min, economy.edge * tool.edge_cost / economy.minute);
+  if (finishing || !fixed_.finish.passes) {
+    o.Ra_um = finishing ? Ra_um_ : 0;
+    o.Rz_um = finishing ? Rz_um_ : 0;
+  }
+  // f <= 0.8 r keeps the corner in the cut; f <= 2 r sin(kappa') the roughness formula.
+  const double corner =
+      std::min(0.8 * tool.re_mm, 2 * tool.re_mm * std::sin(o.cut.minor_kapr_rad));
+  o.f = {tool.f_mm_rev.lower, std::min(tool.f_mm_rev.upper, corner)};
+  o.ap = {std::max(tool.ap_mm.lower, 2.0 / 3.0 * tool.re_mm), tool.ap_mm.upper};
+  o.vc = tool.vc_m_min;
+  if (want.f_mm_rev) o.f = {*want.f_mm_rev, *want.f_mm_rev};
+  if (want.vc_m_min) o.vc = {*want.vc_m_min, *want.vc_m_min};
+  o.T_min = tool.T_min;
+  o.D_small_mm = D_small_;
+  o.D_large_mm = D_large_;
+  o.face = kind_ != Kind::element;
+  o.tapered = o.face || D_small_ < D_large_;
+  o.reaches_axis = o.face && !(D_small_ > 0);
+  return o;
+}
+
+std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy,
+                                    const std::vector<double>& stations,
+                                    std::optional<double> a_mm) const {
+  Chain c;
+  c.weights = {economy.minute, economy.edge};
+  const double nr = recipe.rough_passes, nf = recipe.finish_passes;
+  double stock = stock_;
+  if (recipe.rough)
+    c.operations.push_back(operation(*recipe.rough, false, recipe.rough_range, economy));
+  if (recipe.finish)
+    c.operations.push_back(operation(*recipe.finish, true, recipe.finish_range, economy));
+  // Roughing leaves on a shoulder the least depth its tool can cut.
+  if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
+
+  Affine rough, finish{0, 1};
+  if (nr > 0 && nf > 0) {
+    rough = {stock / nr, -nf / nr};
+    const auto& ap = c.operations[1].ap;
+    c.a = {0.95 * ap.lower, std::min(1.05 * ap.upper, stock / nf * 0.98)};
+    if (fixed_.finish.ap_mm) c.a.lower = c.a.upper = *fixed_.finish.ap_mm;
+    if (fixed_.rough.ap_mm)
+      c.a.lower = c.a.upper = (stock - nr * *fixed_.rough.ap_mm) / nf;
+    if (a_mm) c.a.lower = c.a.upper = *a_mm;
+    if (!(c.a.lower > 0 && c.a.lower <= c.a.upper && c.a.upper * nf < stock)) return {};
+    if (c.a.lower == c.a.upper) {
+      rough = {rough(c.a.lower), 0};
+      finish = {c.a.lower, 0};
+    }
+  } else {
+    const double depth = stock / (nr + nf);
+    const auto& want = nr > 0 ? fixed_.rough.ap_mm : fixed_.finish.ap_mm;
+    if (want && std::abs(*want - depth) > 1e-6 * depth) return {};
+    rough = finish = {depth, 0};
+    c.a.lower = c.a.upper = depth;
+  }
+  const double path = kind_ == Kind::element
+                          ? std::hypot(high_ - low_, (D_large_ - D_small_) / 2)
+                          : (D_large_ - D_small_) / 2;
+  for (auto& o : c.operations) {
+    const bool finishing = &o == &c.operations.back() && recipe.finish;
+    const int n = finishing ? recipe.finish_passes : recipe.rough_passes;
+    o.depth_mm = finishing ? finish : rough;
+    for (int k = 1; k <= n; ++k) {  // what the passes after this one will take off
+      const double later = n - k, after = finishing ? 0 : nf;
+      o.passes.push_back({{later * o.depth_mm.c0 + after * finish.c0,
+                           later * o.depth_mm.c1 + after * finish.c1},
+                          path});
+    }
+    c.fixed_min += n * 2 * (path + kApproach_mm) / plan_->machine.rapid_mm_min;
+  }
+  c.stations.resize(stations.size());
+  for (std::size_t i = 0; i < stations.size(); ++i) c.stations[i].at_mm = stations[i];
+  add_laws(c, a_mm);
+  return c;
+}
+
+std::vector<std::vector<Feature::Values>> Feature::laws_at(const Chain& chain,
+                                                           double a) const {
+  const auto& m = plan_->machine;
+  const auto supports = planes(m, clamping_);
+  const std::size_t n = chain.stations.size();
+  std::vector<std::vector<Values>> all(n);
+  if (kind_ != Kind::element) {
+    const deflection::Beam beam(bodies_[0].shaft());
+    const auto f = beam.at(face_x_, supports.radial);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double rho = chain.stations[i].at_mm;
+      const double c_ax = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
+      for (const auto& o : chain.operations)
+        all[i].insert(all[i].end(), o.passes.size(),
+                      {f.f_pp_rad_Nmm * rho * rho + c_ax, -f.f_wp_rad_N * rho, 0, 0});
+    }
+    return all;
+  }
+  std::vector<double> x(n);
+  std::vector<deflection::Flexibility> r(n), t(n);
+  const auto& e = plan_->drawing.outer[index_];
+  for (std::size_t i = 0; i < chain.operations.size(); ++i) {
+    const auto& o = chain.operations[i];
+    const bool finishing = i + 1 == chain.operations.size() && i > 0;
+    const auto& body = bodies_[finishing ? 1 : 0];
+    const bool to_chuck = (finishing ? fixed_.finish_direction
+                                     : fixed_.rough_direction) == Direction::to_chuck;
+    for (std::size_t k = 0; k < n; ++k)
+      x[k] = std::clamp(body.x_mm(chain.stations[k].at_mm), 0.0, body.length_mm());
+    for (const auto& pass : o.passes) {
+      const double left = pass.left_mm(a), uncut = left + o.depth_mm(a);
+      const deflection::Beam chuck_side(body.shaft(index_, to_chuck ? uncut : left));
+      const deflection::Beam tail_side(body.shaft(index_, to_chuck ? left : uncut));
+      flexibilities(chuck_side, tail_side, x, supports.radial, r);
+      flexibilities(chuck_side, tail_side, x, supports.tangential, t);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double u = (chain.stations[k].at_mm - low_) / (high_ - low_);
+        const double D = e.left_mm + (e.right_mm - e.left_mm) * u + 2 * left;
+        const double couple = (to_chuck ? -0.5 : 0.5) * D;
+        all[k].push_back({r[k].f_ww_mm_N + m.tool_rr_mm_N, couple * r[k].f_wp_rad_N,
+                          m.tool_rt_mm_N, t[k].f_ww_mm_N * t[k].f_ww_mm_N / D});
+      }
+    }
+  }
+  return all;
+}
+
+void Feature::add_laws(Chain& chain, std::optional<double> a_mm) const {
+  if (chain.stations.empty()) return;
+  const double lower = a_mm.value_or(chain.a.lower), upper = a_mm.value_or(chain.a.upper);
+  const bool open = lower < upper;
+  const auto u = open ? chebyshev(kNodes) : std::vector<double>{0};
+  const double centre = (lower + upper) / 2, half = open ? (upper - lower) / 2 : 1;
+  std::size_t passes = 0;
+  for (const auto& o : chain.operations) passes += o.passes.size();
+  const auto columns = static_cast<Eigen::Index>(4 * passes * chain.stations.size());
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(u.size()), columns);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    Eigen::Index column = 0;
+    for (const auto& station : laws_at(chain, centre + half * u[i]))
+      for (const auto& v : station)
+        for (const double value : {v.p, v.q, v.s, v.r})
+          values(static_cast<Eigen::Index>(i), column++) = value;
+  }
+  const Eigen::MatrixXd c = open ? through(u, values) : values;
+  Eigen::Index column = 0;
+  const auto next = [&] { return polynomial(c.col(column++), centre, half); };
+  for (auto& station : chain.stations)
+    for (std::size_t k = 0; k < passes; ++k) {
+      Law law;
+      law.p = next();
+      law.q = next();
+      law.s = next();
+      law.r = next();
+      station.passes.push_back(std::move(law));
+    }
+}
+
+std::vector<double> Feature::errors(const Recipe& recipe, const Economy& economy,
+                                    const Choice<double>& choice,
+                                    const std::vector<double>& places) const {
+  const auto c = *chain(recipe, economy, places, choice.a);
+  const auto F = forces(c, choice);
+  std::vector<double> e;
+  for (const auto& station : c.stations) e.push_back(error_mm(c, station, choice, F));
+  return e;
+}
+
+tolerance::PiecewisePolynomial Feature::profile(const Recipe& recipe,
+                                                const Economy& economy,
+                                                const Choice<double>& choice) const {
+  const std::size_t pieces = kind_ == Kind::element ? 8 : 1;
+  const std::size_t points = kind_ == Kind::element ? 7 : 3;
+  const double h = (high_ - low_) / static_cast<double>(pieces);
+  std::vector<double> u, places;  // Chebyshev points of a piece, on [0, 1]
+  for (const double t : chebyshev(points)) u.push_back((1 - t) / 2);
+  for (std::size_t k = 0; k < pieces; ++k)
+    for (const double t : u) places.push_back(low_ + h * (static_cast<double>(k) + t));
+  const auto e = errors(recipe, economy, choice, places);
+  tolerance::PiecewisePolynomial result;
+  result.breaks_mm.push_back(low_);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(points), 1);
+    for (std::size_t i = 0; i < points; ++i)
+      values(static_cast<Eigen::Index>(i), 0) = e[k * points + i];
+    const Eigen::MatrixXd c = through(u, values);
+    std::vector<double> s;
+    for (Eigen::Index j = 0; j < c.rows(); ++j)
+      s.push_back(c(j, 0) / std::pow(h, static_cast<double>(j)));
+    result.coefficients.push_back(std::move(s));
+    result.breaks_mm.push_back(low_ + h * static_cast<double>(k + 1));
+  }
+  return result;
+}
+
+}  // namespace turnwright::planning

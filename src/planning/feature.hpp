@@ -1,0 +1,104 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chain.hpp"
+#include "demand.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+#include "turnwright/tolerance/piecewise.hpp"
+
+/// One surface in one setup and clamping: an outer element, an end face or a shoulder.
+namespace turnwright::planning {
+
+/// How a surface may be made: tools, passes and speed ranges are fixed, conditions open.
+struct Recipe {
+  const catalogue::Tool* rough = nullptr;   ///< absent: no roughing
+  const catalogue::Tool* finish = nullptr;  ///< finishing or facing tool; may be absent
+  int rough_passes = 0, finish_passes = 0;
+  std::size_t rough_range = 0, finish_range = 0;  ///< which of the machine's speed ranges
+};
+
+/// What the request has fixed of the operations on this surface.
+struct Fixed {
+  Conditions rough, finish;
+  Direction rough_direction = Direction::to_chuck, finish_direction = Direction::to_chuck;
+};
+
+/// The objective's weights and what they make of a tool.
+struct Economy {
+  double minute = 0, edge = 0;
+};
+
+class Feature {
+ public:
+  enum class Kind { element, end_face, shoulder };
+
+  static Feature element(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                         const SetupWork& work, const std::vector<bool>& done_before,
+                         std::size_t index, const Fixed& fixed);
+  static Feature end_face(const PartPlan& plan, std::size_t setup,
+                          const std::vector<bool>& done_before, const Fixed& fixed);
+  static Feature shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                          const SetupWork& work, const std::vector<bool>& done_before,
+                          std::size_t index, const Fixed& fixed);
+
+  Kind kind() const { return kind_; }
+  const std::string& surface() const { return surface_; }
+  const Fixed& fixed() const { return fixed_; }
+  double low_mm() const { return low_; }  ///< least z, or rho of a face
+  double high_mm() const { return high_; }
+  double stock_mm() const {
+    return stock_;
+  }  ///< to take off: on the radius, or of the face
+
+  /// The chain of a recipe without functionals; stations at the given places.  Over an
+  /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points
+  /// (the body changes by a few per cent over the range: the last coefficients are
+  /// rounding).  Nothing if the recipe leaves no depth to choose.
+  std::optional<Chain> chain(const Recipe& recipe, const Economy& economy,
+                             const std::vector<double>& stations,
+                             std::optional<double> a_mm = {}) const;
+
+  /// The error over the whole surface at chosen conditions, as a piecewise polynomial
+  /// through exact values: 8 pieces of degree 6 along an element (interpolation error
+  /// below 1e-10 of the largest), degree 2 on a face, where it is exact.
+  tolerance::PiecewisePolynomial profile(const Recipe& recipe, const Economy& economy,
+                                         const Choice<double>& choice) const;
+
+  /// Exact error at given places.
+  std::vector<double> errors(const Recipe& recipe, const Economy& economy,
+                             const Choice<double>& choice,
+                             const std::vector<double>& places) const;
+
+ private:
+  Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
+          std::string surface, const Fixed& fixed);
+  OperationModel operation(const catalogue::Tool& tool, bool finishing, std::size_t range,
+                           const Economy& economy) const;
+  catalogue::Range finishing_depths(const Recipe& recipe) const;
+  void add_laws(Chain& chain, std::optional<double> a_mm) const;
+  // Values of p, q, s, r at one finishing depth: [station][pass].
+  struct Values {
+    double p, q, s, r;
+  };
+  std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
+
+  const PartPlan* plan_;
+  std::size_t setup_;
+  Clamping clamping_;
+  Kind kind_;
+  std::string surface_;
+  Fixed fixed_;
+  std::size_t index_ = 0;  // outer element
+  double low_ = 0, high_ = 0, stock_ = 0;
+  double D_small_ = 0, D_large_ = 0;
+  double face_x_ = 0;  // of a face, from the root
+  double Ra_um_ = 0, Rz_um_ = 0;
+  std::vector<SetupBody> bodies_;  // while roughing, while finishing
+};
+
+/// Approach and overrun of a pass [mm].
+inline constexpr double kApproach_mm = 2;
+
+}  // namespace turnwright::planning

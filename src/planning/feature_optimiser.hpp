@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "recipe_model.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+/// The cheapest way to make one surface, with its certificate, or why there is none.
+namespace turnwright::planning {
+
+struct FeatureTask {
+  Feature feature;
+  std::vector<Demand> demands;
+  std::vector<Recipe> recipes;
+  Economy economy;
+};
+
+struct FeatureAnswer {
+  bool feasible = false;
+  std::shared_ptr<RecipeModel> model;  ///< of the chosen, or least violated, recipe
+  Choice<double> choice;
+  double objective = 0;
+  std::vector<double> multipliers;  ///< of the model's rows
+  std::vector<double> slopes;  ///< d ln(objective) along each variable, less the rows'
+  tolerance::PiecewisePolynomial profile;
+  Certificate certificate;
+  double least_violation = 0;  ///< of the best infeasible point, max g
+};
+
+/// Minimises over recipes and conditions.  Tolerances enter as functionals at places of
+/// the surface: the worst places of each optimum are added until none is violated
+/// (exchange); a bound proved with some places holds with all.
+///
+/// Engine 1 certifies recipes whose curvature proves them convex, engine 2 the others;
+/// `gap` is what engine 2 may leave open, in ln(objective).
+/// @throws std::runtime_error if the exchange does not end (40 rounds).
+FeatureAnswer optimise_feature(const FeatureTask& task, double gap);
+
+/// Worst value over limit - 1 of the demands on a surface with this error.
+double worst_excess(const std::vector<Demand>& demands,
+                    const tolerance::PiecewisePolynomial& e);
+
+}  // namespace turnwright::planning

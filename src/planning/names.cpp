@@ -1,0 +1,45 @@
+#include "turnwright/planning/process_plan.hpp"
+
+namespace turnwright::planning {
+
+const char* name(Clamping c) {
+  switch (c) {
+    case Clamping::chuck:
+      return "chuck";
+    case Clamping::chuck_tailstock:
+      return "chuck-tailstock";
+    case Clamping::between_centres:
+      return "between-centres";
+  }
+  return "";
+}
+
+const char* name(OperationKind k) {
+  switch (k) {
+    case OperationKind::face:
+      return "face";
+    case OperationKind::rough:
+      return "rough";
+    case OperationKind::finish:
+      return "finish";
+  }
+  return "";
+}
+
+const char* name(Direction d) {
+  return d == Direction::to_chuck ? "to-chuck" : "from-chuck";
+}
+
+const char* name(Verdict v) {
+  switch (v) {
+    case Verdict::met:
+      return "met";
+    case Verdict::met_with_offset:
+      return "met-with-offset";
+    case Verdict::not_met:
+      return "not-met";
+  }
+  return "";
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,38 @@
+#pragma once
+#include <vector>
+
+#include "describe.hpp"
+
+/// What follows from solved features: verdicts on tolerances, prices, conflicts.
+namespace turnwright::planning {
+
+/// A setup with one clamping, all its features solved.
+struct SolvedSetup {
+  std::size_t setup = 0;
+  Clamping clamping = Clamping::chuck;
+  std::vector<SolvedFeature> features;
+  int indexings = 0;     ///< tools brought in
+  double objective = 0;  ///< of the whole setup
+  double lower_bound = 0;
+  bool feasible() const;
+};
+
+/// Predicted against allowed for every tolerance of the drawing, at the answers.
+std::vector<ToleranceResult> tolerance_results(const PartPlan& plan,
+                                               const std::vector<SolvedSetup>& setups);
+
+/// Correction of the tool path, -e(z), where a tolerance needs it.
+std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);
+
+/// Every limit that costs something, dearest first.
+std::vector<Price> prices(const PartPlan& plan, const std::vector<SolvedSetup>& setups);
+
+/// One sentence: what stands against this feature, and by how much.
+std::string obstacle(const PartPlan& plan, const SolvedFeature& feature);
+
+/// The irreducible conflicting limits of an infeasible feature (deletion filter on the
+/// least violated recipe) and how far each would have to open on its own.
+void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature& feature,
+             ProcessPlan& result);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,516 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "outcome.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::Tool;
+using catalogue::ToolUse;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kGap = 2e-5;  // what engine 2 may leave open, in ln(objective)
+constexpr int kMostPasses = 40;
+
+bool fits(const Tool& t, ToolUse use, catalogue::IsoGroup group) {
+  return std::find(t.uses.begin(), t.uses.end(), use) != t.uses.end() &&
+         std::find(t.groups.begin(), t.groups.end(), group) != t.groups.end();
+}
+
+std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
+  std::vector<const Tool*> all;
+  for (const auto& t : p.tools)
+    if (fits(t, use, p.material.group)) all.push_back(&t);
+  return all;
+}
+
+// What the request says about one surface: which operations, which tools.
+struct Wanted {
+  bool rough = true, finish = true;  // allowed
+  bool given = false;                // by `operations`
+  const Tool *rough_tool = nullptr, *finish_tool = nullptr;
+  Fixed fixed;
+  std::vector<std::string> ids;
+};
+
+const Tool* tool_named(const PartPlan& p, const std::optional<std::string>& id) {
+  if (!id) return nullptr;
+  for (const auto& t : p.tools)
+    if (t.id == *id) return &t;
+  return nullptr;
+}
+
+Wanted wanted(const PartPlan& p, std::size_t setup, const std::string& surface) {
+  Wanted w;
+  if (!p.operations) return w;
+  w.given = true;
+  w.rough = w.finish = false;
+  for (const auto& o : *p.operations) {
+    if (o.setup != setup || std::find(o.on.begin(), o.on.end(), surface) == o.on.end())
+      continue;
+    const bool rough = o.kind == OperationKind::rough;
+    (rough ? w.rough : w.finish) = true;
+    (rough ? w.rough_tool : w.finish_tool) = tool_named(p, o.tool);
+    (rough ? w.fixed.rough : w.fixed.finish) = o.conditions;
+    (rough ? w.fixed.rough_direction : w.fixed.finish_direction) = o.direction;
+    const std::string id = o.on.size() > 1 ? o.id + ":" + surface : o.id;
+    w.ids.insert(rough ? w.ids.begin() : w.ids.end(), id);
+  }
+  return w;
+}
+
+// Pass counts worth asking: as given, or all that the depths of the tools allow.
+std::pair<int, int> pass_counts(const Conditions& c, double stock, double least,
+                                double most) {
+  if (c.passes) return {*c.passes, *c.passes};
+  if (!(stock > 0)) return {1, 1};
+  const int low = std::max(1, static_cast<int>(std::ceil(stock / most - 1e-9)));
+  const int high = std::max(low, static_cast<int>(std::floor(stock / least + 1e-9)));
+  return {low, std::min(high, low + kMostPasses)};
+}
+
+double least_depth(const Tool& t) { return std::max(t.ap_mm.lower, 2.0 / 3.0 * t.re_mm); }
+
+std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Wanted& w,
+                            const Tool* rough, const Tool* finish) {
+  const auto ranges = cutting::speed_ranges(p.machine).size();
+  std::vector<Recipe> all;
+  const auto add = [&](Recipe r) {
+    for (std::size_t i = 0; i < (r.rough ? ranges : 1); ++i)
+      for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j) {
+        r.rough_range = i;
+        r.finish_range = j;
+        all.push_back(r);
+      }
+  };
+  const double stock =
+      f.kind() == Feature::Kind::shoulder && finish ? least_depth(*finish) : f.stock_mm();
+  if (finish && (!w.given || !w.rough)) {  // without roughing
+    const auto [low, high] =
+        pass_counts(w.fixed.finish, stock, least_depth(*finish), finish->ap_mm.upper);
+    // `auto` finishes in one pass; a face may take several.
+    const int most =
+        w.given || f.kind() != Feature::Kind::element ? high : std::min(high, 1);
+    for (int n = low; n <= most; ++n) add({nullptr, finish, 0, n, 0, 0});
+  }
+  if (rough && finish) {
+    const int nf = w.fixed.finish.passes.value_or(1);
+    const auto [low, high] = pass_counts(w.fixed.rough, stock - nf * least_depth(*finish),
+                                         least_depth(*rough), rough->ap_mm.upper);
+    // A deeper finishing cut may save a roughing pass.
+    const int first = w.fixed.rough.passes ? low : std::max(1, low - 1);
+    for (int n = first; n <= high; ++n) add({rough, finish, n, nf, 0, 0});
+  }
+  if (rough && !finish && w.given) {
+    const auto [low, high] =
+        pass_counts(w.fixed.rough, stock, least_depth(*rough), rough->ap_mm.upper);
+    for (int n = low; n <= high; ++n) add({rough, nullptr, n, 0, 0, 0});
+  }
+  return all;
+}
+
+struct Tools {
+  const Tool *face = nullptr, *rough = nullptr, *finish = nullptr;
+  bool operator<(const Tools& o) const {
+    return std::tie(face, rough, finish) < std::tie(o.face, o.rough, o.finish);
+  }
+};
+
+// Solves the features of one setup in one clamping, remembering what depends only on part
+// of the tools.
+class SetupPlanner {
+ public:
+  SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
+               const SetupWork& work, std::vector<bool> done, Economy economy)
+      : p_(p),
+        setup_(setup),
+        clamping_(clamping),
+        work_(work),
+        done_(std::move(done)),
+        economy_(economy) {}
+
+  SolvedSetup best() {
+    std::optional<SolvedSetup> best;
+    for (const auto& tools : choices()) {
+      auto s = solve(tools);
+      if (!best || (s.feasible() && !best->feasible()) ||
+          (s.feasible() == best->feasible() && s.objective < best->objective)) {
+        const double bound = best ? best->lower_bound : kInfinity;
+        best = std::move(s);
+        best->lower_bound = std::min(best->lower_bound, bound);
+      } else {
+        best->lower_bound = std::min(best->lower_bound, s.lower_bound);
+      }
+    }
+    return best ? *best : SolvedSetup{setup_, clamping_, {}, 0, 0, 0};
+  }
+
+ private:
+  // Every combination of one facing, one roughing (or none) and one finishing tool.
+  std::vector<Tools> choices() const {
+    const bool faces = work_.end_face || !work_.shoulders.empty();
+    auto face =
+        faces ? tools_for(p_, ToolUse::facing) : std::vector<const Tool*>{nullptr};
+    if (face.empty()) face = {nullptr};
+    auto rough = tools_for(p_, ToolUse::roughing);
+    rough.push_back(nullptr);
+    auto finish = tools_for(p_, ToolUse::finishing);
+    if (finish.empty() || p_.operations) finish.push_back(nullptr);
+    if (work_.elements.empty()) {
+      rough = {nullptr};
+      finish = {nullptr};
+    }
+    std::vector<Tools> all;
+    for (const auto* x : face)
+      for (const auto* r : rough)
+        for (const auto* f : finish) all.push_back({x, r, f});
+    return all;
+  }
+
+  SolvedSetup solve(const Tools& tools) {
+    SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+    if (work_.end_face) add(s, face_feature(tools));
+    for (const std::size_t i : work_.elements) add(s, element_feature(i, tools));
+    for (const std::size_t k : work_.shoulders) add(s, shoulder_feature(k, tools));
+    s.indexings = indexings(s);
+    const double setup_min = minutes_besides_cutting(s);
+    s.objective += economy_.minute * setup_min;
+    s.lower_bound += economy_.minute * setup_min;
+    if (!s.feasible()) {
+      s.objective = 0;
+      for (const auto& f : s.features)
+        if (!f.answer.feasible)
+          s.objective =
+              std::max(s.objective, f.answer.model ? f.answer.least_violation : 1e6);
+      s.lower_bound = kInfinity;
+    }
+    return s;
+  }
+
+  double minutes_besides_cutting(const SolvedSetup& s) const {
+    const auto& m = p_.machine;
+    double t = s.indexings * m.index_min + m.load_min + m.setup_min / p_.batch;
+    if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
+    if (clamping_ == Clamping::between_centres) t += m.centres_min;
+    return t;
+  }
+
+  static int indexings(const SolvedSetup& s) {
+    // Faces first, then all roughing, all finishing, shoulders last.
+    std::vector<const Tool*> sequence;
+    const auto each = [&](Feature::Kind kind, bool rough) {
+      for (const auto& f : s.features) {
+        if (f.task.feature.kind() != kind || !f.answer.feasible) continue;
+        const auto& r = f.answer.model->recipe();
+        const Tool* t = rough ? r.rough : r.finish;
+        if (t && (sequence.empty() || sequence.back() != t)) sequence.push_back(t);
+      }
+    };
+    each(Feature::Kind::end_face, false);
+    each(Feature::Kind::element, true);
+    each(Feature::Kind::element, false);
+    each(Feature::Kind::shoulder, false);
+    return static_cast<int>(sequence.size());
+  }
+
+  static void add(SolvedSetup& s, std::optional<SolvedFeature> f) {
+    if (!f) return;
+    s.objective += f->answer.objective;
+    s.lower_bound += f->answer.certificate.lower_bound;
+    s.features.push_back(std::move(*f));
+  }
+
+  using Key = std::tuple<std::string, const Tool*, const Tool*>;
+
+  std::optional<SolvedFeature> remembered(const Key& key, const Feature& feature,
+                                          const Wanted& w, const Tool* rough,
+                                          const Tool* finish) {
+    const auto it = memory_.find(key);
+    if (it != memory_.end()) return it->second;
+    auto solved = optimise(feature, w, rough, finish);
+    memory_.emplace(key, solved);
+    return solved;
+  }
+
+  // Without compensation if that is possible, with it if only that is.
+  SolvedFeature optimise(const Feature& feature, const Wanted& w, const Tool* rough,
+                         const Tool* finish) const {
+    const auto list = recipes(p_, feature, w, rough, finish);
+    const auto attempt = [&](Offset offset) {
+      FeatureTask task{feature, demands(p_, feature.surface(), offset), list, economy_};
+      auto answer = optimise_feature(task, kGap);
+      return SolvedFeature{std::move(task), std::move(answer), offset == Offset::free,
+                           w.ids};
+    };
+    auto plain = attempt(Offset::none);
+    if (plain.answer.feasible || plain.task.demands.empty()) return plain;
+    auto compensated = attempt(Offset::free);
+    return compensated.answer.feasible ? compensated : plain;
+  }
+
+  std::optional<SolvedFeature> face_feature(const Tools& tools) {
+    const auto w =
+        wanted(p_, setup_, p_.setups[setup_].hold == part::End::left ? "right" : "left");
+    const auto f = Feature::end_face(p_, setup_, done_, w.fixed);
+    if (w.given && !w.finish) return {};
+    const Tool* tool = w.finish_tool ? w.finish_tool : tools.face;
+    return remembered({f.surface(), nullptr, tool}, f, w, nullptr, tool);
+  }
+
+  std::optional<SolvedFeature> shoulder_feature(std::size_t k, const Tools& tools) {
+    const auto& e = p_.drawing.outer;
+    const auto w = wanted(p_, setup_, e[k - 1].id + "|" + e[k].id);
+    if (w.given && !w.finish) return {};
+    const auto f = Feature::shoulder(p_, setup_, clamping_, work_, done_, k, w.fixed);
+    const Tool* tool = w.finish_tool ? w.finish_tool : tools.face;
+    return remembered({f.surface(), nullptr, tool}, f, w, nullptr, tool);
+  }
+
+  std::optional<SolvedFeature> element_feature(std::size_t i, const Tools& tools) {
+    const auto w = wanted(p_, setup_, p_.drawing.outer[i].id);
+    if (w.given && !w.rough && !w.finish) return {};
+    const auto f = Feature::element(p_, setup_, clamping_, work_, done_, i, w.fixed);
+    if (!(f.stock_mm() > 1e-9)) return {};
+    const Tool* rough = w.rough_tool ? w.rough_tool : tools.rough;
+    const Tool* finish = w.finish_tool ? w.finish_tool : tools.finish;
+    if (!w.rough) rough = nullptr;
+    if (!w.finish) finish = nullptr;
+    return remembered({f.surface(), rough, finish}, f, w, rough, finish);
+  }
+
+  const PartPlan& p_;
+  std::size_t setup_;
+  Clamping clamping_;
+  const SetupWork& work_;
+  std::vector<bool> done_;
+  Economy economy_;
+  std::map<Key, SolvedFeature> memory_;
+};
+
+// Why a clamping cannot be used on this machine at all, or nothing.
+std::string unusable(const PartPlan& p, std::size_t setup, Clamping c) {
+  const auto& m = p.machine;
+  const auto& d = p.drawing.stock;
+  if (c != Clamping::between_centres) {
+    const double grip = grip_diameter_mm(p, setup, c);
+    if (grip < m.chuck.diameter_mm.lower || grip > m.chuck.diameter_mm.upper)
+      return fmt::format("the chuck holds {:g} to {:g} mm, not {:g} mm",
+                         m.chuck.diameter_mm.lower, m.chuck.diameter_mm.upper, grip);
+  }
+  if (c != Clamping::chuck && d.length_mm > m.between_centres_mm)
+    return fmt::format("the machine takes {:g} mm between centres, not {:g} mm",
+                       m.between_centres_mm, d.length_mm);
+  if (d.outer_mm > m.swing_mm)
+    return fmt::format("the stock of {:g} mm does not swing in {:g} mm", d.outer_mm,
+                       m.swing_mm);
+  return {};
+}
+
+struct Comparison {
+  SolvedSetup chosen;
+  std::vector<RejectedClamping> rejected;
+  bool solved = false;
+};
+
+Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
+                             const std::vector<bool>& done, Economy economy) {
+  Comparison result;
+  std::vector<SolvedSetup> all;
+  for (const Clamping c : p.setups[setup].clampings) {
+    const auto why = unusable(p, setup, c);
+    if (!why.empty())
+      result.rejected.push_back({c, why, {}});
+    else
+      all.push_back(SetupPlanner(p, setup, c, work, done, economy).best());
+  }
+  if (all.empty()) return result;
+  const auto better = [](const SolvedSetup& a, const SolvedSetup& b) {
+    return a.feasible() != b.feasible() ? a.feasible() : a.objective < b.objective;
+  };
+  const auto best = std::min_element(all.begin(), all.end(), better);
+  double bound = kInfinity;
+  for (const auto& s : all) bound = std::min(bound, s.lower_bound);
+  for (const auto& s : all) {
+    if (&s == &*best) continue;
+    if (s.feasible()) {
+      result.rejected.push_back({s.clamping,
+                                 fmt::format("costs {:.4f} against {:.4f} for this setup",
+                                             s.objective, best->objective),
+                                 s.objective});
+      continue;
+    }
+    for (const auto& f : s.features)
+      if (!f.answer.feasible) {
+        result.rejected.push_back({s.clamping, obstacle(p, f), {}});
+        break;
+      }
+  }
+  result.chosen = *best;
+  result.chosen.lower_bound = bound;
+  result.solved = true;
+  return result;
+}
+
+struct Totals {
+  double minutes = 0, cost = 0;
+};
+
+Totals totals(const PartPlan& p, const SolvedSetup& s) {
+  const auto& m = p.machine;
+  Totals t;
+  t.minutes = s.indexings * m.index_min + m.load_min + m.setup_min / p.batch;
+  if (s.clamping == Clamping::chuck_tailstock) t.minutes += m.tailstock_min;
+  if (s.clamping == Clamping::between_centres) t.minutes += m.centres_min;
+  for (const auto& f : s.features) {
+    if (!f.answer.feasible) continue;
+    const auto u = spent(f.answer);
+    t.minutes += u.minutes + u.change_min;
+    t.cost += u.edges_cost;
+  }
+  t.cost += p.machine_per_min * t.minutes;
+  return t;
+}
+
+Economy economy_of(const PartPlan& p, double profit_rate) {
+  switch (p.objective) {
+    case Objective::cost:
+      return {p.machine_per_min, 1};
+    case Objective::time:
+      return {1, 0};
+    case Objective::profit:
+      return {p.machine_per_min + profit_rate, 1};
+  }
+  return {};
+}
+
+struct Attempt {
+  std::vector<Comparison> setups;
+  bool feasible = true;
+  Totals total;
+  double objective = 0, lower_bound = 0;
+};
+
+Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
+  Attempt a;
+  std::vector<bool> done(p.drawing.outer.size(), false);
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy));
+    const auto& c = a.setups.back();
+    a.feasible = a.feasible && c.solved && c.chosen.feasible();
+    for (const std::size_t i : work.setups[s].elements) done[i] = true;
+    if (!c.solved) continue;
+    const auto t = totals(p, c.chosen);
+    a.total.minutes += t.minutes;
+    a.total.cost += t.cost;
+    a.objective += c.chosen.objective;
+    a.lower_bound += c.chosen.lower_bound;
+  }
+  return a;
+}
+
+// Dinkelbach: the profit rate R is best when min C + R t equals the price; each step
+// takes the R of the plan before, which never falls.
+Attempt best_attempt(const PartPlan& p, const Assignment& work, double& rate) {
+  rate = 0;
+  auto a = attempt(p, work, economy_of(p, rate));
+  if (p.objective != Objective::profit || !a.feasible) return a;
+  for (int step = 0; step < 20; ++step) {
+    const double next = (*p.price - a.total.cost) / a.total.minutes;
+    if (std::abs(next - rate) <= 1e-9 * (1 + std::abs(next))) break;
+    if (!(p.machine_per_min + next > 0)) break;  // a loss at any speed: cost decides
+    rate = next;
+    a = attempt(p, work, economy_of(p, rate));
+  }
+  return a;
+}
+
+Certificate total_certificate(const Attempt& a) {
+  Certificate c;
+  c.kind = CertificateKind::global;
+  std::set<std::string> engines;
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) {
+      const auto& k = f.answer.certificate;
+      c.nodes += k.nodes;
+      engines.insert(k.engine);
+      if (k.kind != CertificateKind::global) {
+        c.kind = k.kind;
+        c.reason = f.task.feature.surface() + ": " + k.reason;
+      }
+    }
+  for (const auto& e : engines) c.engine += (c.engine.empty() ? "" : " and ") + e;
+  c.lower_bound = std::min(a.lower_bound, a.objective);
+  c.gap = a.objective > 0 ? 1 - c.lower_bound / a.objective : 0;
+  return c;
+}
+
+}  // namespace
+
+bool SolvedSetup::feasible() const {
+  return std::all_of(features.begin(), features.end(),
+                     [](const SolvedFeature& f) { return f.answer.feasible; });
+}
+
+ProcessPlan plan(const PartPlan& p) {
+  ProcessPlan result;
+  const auto work = assign(p);
+  for (const auto& sentence : work.unreachable)
+    result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
+
+  double rate = 0;
+  const auto a = best_attempt(p, work, rate);
+  std::vector<SolvedSetup> chosen;
+  for (const auto& c : a.setups) {
+    SetupPlan s;
+    const std::size_t index = static_cast<std::size_t>(&c - a.setups.data());
+    s.hold = p.setups[index].hold;
+    s.rejected = c.rejected;
+    if (!c.solved) {
+      for (const auto& r : c.rejected)
+        result.conflicts.push_back({"clamping", fmt::format("setup {}", index), 0, 0, "",
+                                    std::string(name(r.clamping)) + ": " + r.why});
+      result.setups.push_back(std::move(s));
+      continue;
+    }
+    s.clamping = c.chosen.clamping;
+    for (const auto& f : c.chosen.features) {
+      if (!f.answer.feasible) explain(p, c.chosen, f, result);
+      if (!f.answer.model) continue;
+      for (auto& o : describe(p, index, f, {p.machine_per_min}))
+        s.operations.push_back(std::move(o));
+    }
+    result.setups.push_back(std::move(s));
+    chosen.push_back(c.chosen);
+  }
+  const bool ok = a.feasible && work.unreachable.empty();
+  if (ok) result.tolerances = tolerance_results(p, chosen);
+  for (const auto& t : result.tolerances)
+    if (t.verdict == Verdict::not_met) {
+      result.status = PlanStatus::infeasible;
+      result.conflicts.push_back(
+          {t.id + " " + part::name(t.kind), t.of, t.predicted_mm.back(),
+           t.allowed_mm.back(), "mm",
+           fmt::format(
+               "{} {} of {}: the machine and chucking alone take {:.4g} mm of {:.4g} mm",
+               t.id, part::name(t.kind), t.of, t.predicted_mm.back(),
+               t.allowed_mm.back())});
+    }
+  if (!ok) result.status = PlanStatus::infeasible;
+  result.cost_per_part = a.total.cost;
+  result.time_per_part_min = a.total.minutes;
+  if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
+  if (result.status == PlanStatus::ok) {
+    result.certificate = total_certificate(a);
+    result.compensation = compensations(chosen);
+    result.prices = prices(p, chosen);
+  }
+  return result;
+}
+
+}  // namespace turnwright::planning

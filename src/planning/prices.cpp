@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "outcome.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kWorthNaming = 1e-7;  // of the objective: below it a price is rounding
+const double kTenPercent = std::log(1.1);
+
+// What 10 % on the drawing's own width does to what is left of it for the cut.
+double leverage(const PartPlan& p, const part::Tolerance& t) {
+  const double width = t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+  const double left = width - units::mm_from_um(p.machine_share_um);
+  return left > 0 ? width / left : 1;
+}
+
+const char* unit_of_objective(const PartPlan& p) {
+  return p.objective == Objective::time ? " min" : "";
+}
+
+void add(const PartPlan& p, const SolvedFeature& f, const OperationPlan& o,
+         const ConstraintValue& c, std::vector<Price>& all) {
+  if (!(c.shadow_price > kWorthNaming)) return;
+  double gain = c.shadow_price * f.answer.objective * kTenPercent;
+  Price price;
+  price.limit = o.id + ": " + c.name;
+  price.now = c.limit;
+  price.unit = c.unit;
+  for (const auto& d : f.task.demands) {
+    const auto& t = p.drawing.tolerances[d.tolerance];
+    if (c.name == t.id + " " + part::name(t.kind)) gain *= leverage(p, t);
+  }
+  price.saves_per_part_for_10_percent = gain;
+  const double then = c.at_most ? c.limit * 1.1 : c.limit / 1.1;
+  price.sentence =
+      fmt::format("{} {} of {} from {:.4g} to {:.4g} {} saves {:.4f}{} per part",
+                  c.at_most ? "raising" : "lowering", c.name, o.id, c.limit, then, c.unit,
+                  gain, unit_of_objective(p));
+  all.push_back(std::move(price));
+}
+
+}  // namespace
+
+std::vector<Price> prices(const PartPlan& p, const std::vector<SolvedSetup>& setups) {
+  std::vector<Price> all;
+  for (const auto& s : setups)
+    for (const auto& f : s.features)
+      if (f.answer.feasible)
+        for (const auto& o : describe(p, s.setup, f, {p.machine_per_min}))
+          for (const auto& c : o.constraints) add(p, f, o, c, all);
+  std::stable_sort(all.begin(), all.end(), [](const Price& a, const Price& b) {
+    return a.saves_per_part_for_10_percent > b.saves_per_part_for_10_percent;
+  });
+  return all;
+}
+
+}  // namespace turnwright::planning

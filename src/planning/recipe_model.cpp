@@ -1,0 +1,187 @@
+#include "recipe_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace turnwright::planning {
+namespace {
+
+using optimise::Bound;
+using optimise::Box;
+
+// g over any scalar that has a logarithm; see violation().
+template <class T>
+T g_of(Check check, const T& value, const T& limit) {
+  using std::log;
+  if (check == Check::tolerance) return value / limit - 1.0;
+  return log(value / limit);
+}
+
+struct Span {
+  double lower, upper;
+};
+Span logs(const catalogue::Range& r) {
+  // A hair beyond a range that is also a check, so that the check, which has a name, is
+  // what binds.
+  const double slack = r.lower < r.upper ? 0.01 : 0.0;
+  return {std::log(r.lower) - slack, std::log(r.upper) + slack};
+}
+
+}  // namespace
+
+double violation(const RowValue& r) { return g_of(r.row.check, r.value, r.limit); }
+
+RecipeModel::RecipeModel(Recipe recipe, Chain chain)
+    : recipe_(recipe), chain_(std::move(chain)) {
+  const auto add = [&](std::size_t k, const catalogue::Range& r) {
+    const auto s = logs(r);
+    problem_.lower[k] = s.lower;
+    problem_.upper[k] = s.upper;
+  };
+  problem_.lower.assign(kConditions, 0);
+  problem_.upper.assign(kConditions, 0);
+  for (std::size_t i = 0; i < chain_.operations.size(); ++i) {
+    add(2 * i, chain_.operations[i].vc);
+    add(2 * i + 1, chain_.operations[i].f);
+  }
+  problem_.lower[4] = std::log(chain_.a.lower);
+  problem_.upper[4] = std::log(chain_.a.upper);
+  for (const auto& r : values(choice(start(0.5, 0.5)))) rows_.push_back(r.row);
+  problem_.constraints = rows_.size();
+  for (const auto& r : rows_) reduced_rows_ += !r.speed;
+  reduced_rows_ += chain_.operations.size();  // the speed windows
+  problem_.evaluate = [this](std::span<const double> y, optimise::Values& out) {
+    evaluate(y, out);
+  };
+}
+
+Choice<double> RecipeModel::choice(const std::vector<double>& y) const {
+  return {
+      {std::exp(y[0]), std::exp(y[2])}, {std::exp(y[1]), std::exp(y[3])}, std::exp(y[4])};
+}
+
+std::vector<double> RecipeModel::point(const Choice<double>& c) const {
+  std::vector<double> y(kConditions, 0.0);
+  for (std::size_t i = 0; i < chain_.operations.size(); ++i) {
+    y[2 * i] = std::log(c.v[i]);
+    y[2 * i + 1] = std::log(c.f[i]);
+  }
+  y[4] = std::log(c.a);
+  for (std::size_t j = 0; j < y.size(); ++j)
+    y[j] = std::clamp(y[j], problem_.lower[j], problem_.upper[j]);
+  return y;
+}
+
+std::vector<double> RecipeModel::start(double feed_share, double depth_share) const {
+  const auto at = [&](std::size_t j, double share) {
+    return problem_.lower[j] + share * (problem_.upper[j] - problem_.lower[j]);
+  };
+  Choice<double> c{{1, 1},
+                   {std::exp(at(1, feed_share)), std::exp(at(3, feed_share))},
+                   std::exp(at(4, depth_share))};
+  evaluate_at_best_speed(chain_, c, [](auto&&...) {});
+  return point(c);
+}
+
+std::vector<RowValue> RecipeModel::values(const Choice<double>& c) const {
+  std::vector<RowValue> all;
+  planning::evaluate(
+      chain_, c, [&](std::size_t i, Check check, bool speed, double value, double limit) {
+        all.push_back({{i, check, speed}, value, limit});
+      });
+  return all;
+}
+
+double RecipeModel::objective(const Choice<double>& c) const {
+  return planning::evaluate(chain_, c, [](auto&&...) {});
+}
+
+double RecipeModel::feasible_value(Choice<double>& c) const {
+  bool kept = true;
+  const double value = evaluate_at_best_speed(
+      chain_, c, [&](std::size_t, Check, bool, double v, double limit) {
+        kept = kept && v <= limit;
+      });
+  return kept ? std::log(value) : std::numeric_limits<double>::infinity();
+}
+
+void RecipeModel::evaluate(std::span<const double> y, optimise::Values& out) const {
+  using D = Dual<double, kConditions>;
+  std::array<D, kConditions> x;
+  for (int j = 0; j < kConditions; ++j)
+    x[static_cast<std::size_t>(j)] =
+        exp(variable<double, kConditions>(y[static_cast<std::size_t>(j)], j));
+  const Choice<D> c{{x[0], x[2]}, {x[1], x[3]}, x[4]};
+  std::size_t row = 0;
+  const D f = log(planning::evaluate(
+      chain_, c, [&](std::size_t, Check check, bool, const D& value, const D& limit) {
+        const D g = g_of(check, value, limit);
+        out.g[row] = g.v;
+        std::copy(g.d.begin(), g.d.end(),
+                  out.dg.begin() + static_cast<std::ptrdiff_t>(row * kConditions));
+        ++row;
+      }));
+  out.f = f.v;
+  std::copy(f.d.begin(), f.d.end(), out.df.begin());
+}
+
+Box RecipeModel::box() const {
+  Box b;
+  for (std::size_t k = 0; k < 2; ++k)
+    b[k] = Interval(problem_.lower[2 * k + 1], problem_.upper[2 * k + 1]);
+  b[2] = Interval(problem_.lower[4], problem_.upper[4]);
+  return b;
+}
+
+void RecipeModel::bound(const Box& box, Bound& f, std::vector<Bound>& g) const {
+  Choice<Bound> c;
+  for (std::size_t k = 0; k < 2; ++k)
+    c.f[k] =
+        exp(variable<Interval, optimise::kBoxVariables>(box[k], static_cast<int>(k)));
+  c.a = exp(variable<Interval, optimise::kBoxVariables>(box[2], 2));
+  g.clear();
+  f = log(evaluate_at_best_speed(
+      chain_, c, [&](std::size_t, Check check, bool, const Bound& v, const Bound& limit) {
+        g.push_back(g_of(check, v, limit));
+      }));
+}
+
+optimise::Piece RecipeModel::piece() const {
+  optimise::Piece p;
+  p.box = box();
+  p.constraints = reduced_rows_;
+  p.bound = [this](const Box& b, Bound& f, std::vector<Bound>& g) { bound(b, f, g); };
+  return p;
+}
+
+optimise::Combination RecipeModel::combination(
+    double weight, const std::vector<double>& multipliers) const {
+  optimise::Combination c;
+  c.weight = weight;
+  // Reduced rows come in the same order, each operation's speed rows as one window.
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const bool window = i > 0 && rows_[i - 1].speed &&
+                        !(rows_[i].speed && rows_[i].operation == rows_[i - 1].operation);
+    if (window) c.multipliers.push_back(0);
+    if (!rows_[i].speed) c.multipliers.push_back(multipliers[i]);
+  }
+  if (!rows_.empty() && rows_.back().speed) c.multipliers.push_back(0);
+  return c;
+}
+
+bool RecipeModel::convex() const {
+  using optimise::LogCurvature;
+  Choice<LogCurvature> c;
+  for (std::size_t i = 0; i < 2; ++i) c.v[i] = c.f[i] = LogCurvature::variable();
+  c.a = LogCurvature::variable();
+  bool all = true;
+  const auto f = planning::evaluate(
+      chain_, c,
+      [&](std::size_t, Check, bool, const LogCurvature& value,
+          const LogCurvature& limit) { all = all && (value / limit).convex(); });
+  return all && f.convex();
+}
+
+}  // namespace turnwright::planning
