@@ -30,17 +30,21 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp fea
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
-tw_domain(document SOURCES parse.cpp reader.cpp file.cpp fields.cpp material.cpp tool.cpp lathe.cpp
+tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp
           deflection.cpp
           DEPENDS base catalogue part deflection tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS acceptance_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp)
+          TESTS schema_check.cpp acceptance_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+                malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
+if(BUILD_TESTING)
+  target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
+endif()
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
-          DEPENDS base catalogue document PRIVATE_LIBS OpenSSL::Crypto
+          DEPENDS base catalogue planning document PRIVATE_LIBS OpenSSL::Crypto
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -118,7 +118,7 @@ void read_faces(Draft& draft) {
     r = r.as_object();
     part::Face face;
     face.id =
-        checked_reference(r.at("id", "the id of a face"), known, "face of the part");
+        checked_reference(r.at("id", "the id of a face"), known, "a face of the part");
     for (const auto& earlier : faces)
       if (!face.id.empty() && earlier.id == face.id)
         r.problem_at("id", "each face once", "duplicate");

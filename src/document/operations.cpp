@@ -35,7 +35,7 @@ void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
   const bool face = op.kind == OperationKind::face;
   const auto known = surfaces(draft.drawing(), op.kind);
   for (const auto& item : r.items("on", 1, face ? 1 : 100)) {
-    auto id = checked_reference(item, known, face ? "end face" : "n outer element");
+    auto id = checked_reference(item, known, face ? "an end face" : "an outer element");
     if (!id.empty() && std::find(op.on.begin(), op.on.end(), id) != op.on.end())
       item.problem("each element once", "duplicate");
     op.on.push_back(std::move(id));
@@ -50,7 +50,7 @@ void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op
   }
   std::vector<std::string> known;
   for (const auto& tool : draft.plan().tools) known.push_back(tool.id);
-  op.tool = checked_reference(r.at("tool"), known, "tool of this request");
+  op.tool = checked_reference(r.at("tool"), known, "a tool of this request");
 }
 
 void read_conditions(Draft& draft, Reader& r, planning::Conditions& c) {

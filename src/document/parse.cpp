@@ -41,6 +41,12 @@ std::string reason(const std::string& what) {
     const auto to = text.find("'; expected ", from);
     text.erase(from, to == text.npos ? to : to + 1 - from);
   }
+  // "object key - unexpected '}'" reads better the other way round.
+  if (const auto dash = text.find(" - "); dash != text.npos) {
+    const auto end = std::min(text.find("; expected "), text.size());
+    text = text.substr(dash + 3, end - dash - 3) + " in " + text.substr(0, dash) +
+           text.substr(end);
+  }
   return printable(text);
 }
 
@@ -100,8 +106,7 @@ class Builder : public nlohmann::json_sax<json> {
     const std::string why = reason(error.what());
     const auto split = why.rfind("; expected ");
     return report(
-        "",
-        "broken JSON at " + place(text_, position) + " (" + why.substr(0, split) + ")",
+        "", "broken JSON at " + place(text_, position) + ": " + why.substr(0, split),
         split == why.npos ? "valid JSON" : why.substr(split + 11), "syntax");
   }
 

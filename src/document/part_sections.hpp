@@ -38,8 +38,8 @@ struct NamedFeature {
 /// could not be read: then no reference can be judged.
 std::vector<NamedFeature> features(const part::Drawing& drawing);
 
-/// Reads the id under `key` and reports it unless it is in `known`: "a <what>" with the
-/// nearest or the list.  Nothing is judged if `known` is empty.
+/// Reads the id under `key` and reports it unless it is in `known`: `what` ("a tool of
+/// this request") with the nearest or the list.  Nothing is judged if `known` is empty.
 std::string checked_reference(const Reader& id, const std::vector<std::string>& known,
                               const std::string& what);
 

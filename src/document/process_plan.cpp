@@ -1,8 +1,8 @@
 #include "turnwright/document/process_plan.hpp"
 
-#include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "turnwright/document/finite.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -143,14 +143,6 @@ ordered_json json_of(const Assumption& a) {
   return {{"pointer", a.pointer}, {"value", a.value}, {"why", a.why}};
 }
 
-void require_finite(const ordered_json& value, const std::string& pointer) {
-  if (value.is_number_float() && !std::isfinite(value.get<double>()))
-    throw std::domain_error("to_json: " + pointer + " must be a finite number");
-  if (!value.is_structured()) return;
-  for (const auto& [key, member] : value.items())
-    require_finite(member, pointer + '/' + key);
-}
-
 }  // namespace
 
 ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
@@ -168,7 +160,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
   out["assumed"] = list(assumed, [](const Assumption& a) { return json_of(a); });
-  require_finite(out, "");
+  require_finite(out, "process plan");
   return out;
 }
 

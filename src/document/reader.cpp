@@ -10,7 +10,10 @@ namespace turnwright::document {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kShown = 60;  // characters of a value that a message repeats
+constexpr std::size_t kShownEntries = 4;  // of a list, written out up to so many
+constexpr std::size_t kShown = 60;        // characters of a value that a message repeats
+
+bool structured(const nlohmann::json& value) { return value.is_structured(); }
 
 std::string with_unit(std::string text, std::string_view unit) {
   return unit.empty() ? text : text.append(" ").append(unit);
@@ -31,9 +34,13 @@ std::string expected_integer(long lower, long upper, std::string_view unit) {
       unit);
 }
 
+std::string entries(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+}
+
 std::string expected_array(std::size_t min, std::size_t max) {
-  if (min == max) return "a list of " + std::to_string(min);
-  return "a list of " + std::to_string(min) + " to " + std::to_string(max);
+  const std::string lower = min == max ? "" : std::to_string(min) + " to ";
+  return "a list of " + lower + entries(max);
 }
 
 std::string expected_text(std::size_t max) {
@@ -125,7 +132,10 @@ std::string number_text(double x) {
 
 std::string shown(const nlohmann::json& value) {
   if (value.is_object()) return "an object";
-  if (value.is_array()) return "a list of " + std::to_string(value.size());
+  if (value.is_array() && value.empty()) return "an empty list";
+  const bool nested =
+      value.is_array() && std::any_of(value.begin(), value.end(), structured);
+  if (nested || value.size() > kShownEntries) return "a list of " + entries(value.size());
   std::string text = value.dump(-1, ' ', true);  // ASCII: may be cut anywhere
   if (text.size() > kShown) text = text.substr(0, kShown) + "...";
   return text;

@@ -27,7 +27,7 @@ T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
   const auto id = value.json().get<std::string>();
   for (const auto& entry : entries)
     if (entry.id == id) return entry;
-  value.problem(expected_reference(id, ids(entries), what + " of the catalogue"),
+  value.problem(expected_reference(id, ids(entries), "a " + what + " of the catalogue"),
                 "unknown-id");
   return {};
 }
@@ -55,12 +55,12 @@ std::string expected_reference(const std::string& id,
                                const std::vector<std::string>& known,
                                const std::string& what) {
   const auto near = nearest(id, known);
-  if (!near.empty()) return "a " + what + " (did you mean \"" + near + "\"?)";
+  if (!near.empty()) return what + " (did you mean \"" + near + "\"?)";
   std::string list;
   for (std::size_t i = 0; i < known.size() && i < kListed; ++i)
     list += (i > 0 ? ", \"" : "\"") + known[i] + '"';
   if (known.size() > kListed) list += ", ...";
-  return "a " + what + (list.empty() ? ", which has none" : ": " + list);
+  return what + (list.empty() ? ", which has none" : ": " + list);
 }
 
 std::string checked_reference(const Reader& value, const std::vector<std::string>& known,

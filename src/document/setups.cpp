@@ -62,12 +62,14 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
   const bool jaws =
       std::any_of(setup.clampings.begin(), setup.clampings.end(),
                   [](Clamping c) { return c != Clamping::between_centres; });
-  const auto& range = draft.loaded.plan.machine.chuck.diameter_mm;
+  const auto& machine = draft.loaded.plan.machine;
+  if (machine.id.empty()) return;  // unknown, reported already
+  const auto& range = machine.chuck.diameter_mm;
   const double d_mm = held_mm(drawing, i, setup.hold);
   if (jaws && readable && (d_mm < range.lower || d_mm > range.upper))
     at.problem("a diameter of " + text(d_mm) + " in the jaws",
-               "what the chuck of " + draft.loaded.plan.machine.id + " holds, " +
-                   text(range.lower) + " to " + text(range.upper),
+               "what the chuck of " + machine.id + " holds, " + text(range.lower) +
+                   " to " + text(range.upper),
                "conflict");
 }
 

@@ -57,7 +57,7 @@ struct Found {
 
 Found find_feature(const Reader& value, const std::vector<NamedFeature>& features) {
   const auto all = names(features, [](Feature) { return true; });
-  Found found{checked_reference(value, all, "element or face of the part"), {}};
+  Found found{checked_reference(value, all, "an element or face of the part"), {}};
   for (const auto& named : features)
     if (named.id == found.id) found.feature = named.feature;
   return found;
@@ -142,7 +142,7 @@ class ToleranceReader {
     const auto ends = r.items("between", 2, 2);
     if (ends.size() != 2) return;
     for (std::size_t i = 0; i < 2; ++i)
-      t.between[i] = checked_reference(ends[i], faces, "face of the part");
+      t.between[i] = checked_reference(ends[i], faces, "a face of the part");
     if (t.between[0] == t.between[1] && !t.between[0].empty())
       r.problem_at("between", "two different faces", "conflict");
   }
@@ -290,8 +290,11 @@ void read_general(Draft& draft) {
     assume_sizes(draft, drawing.outer, "outer", *general.linear, text);
     assume_sizes(draft, drawing.inner, "inner", *general.linear, text);
     assume_length(draft, *general.linear, text);
-  } catch (const std::domain_error& error) {
-    value->problem(error.what(), "choice");
+  } catch (const std::domain_error&) {
+    value->problem(
+        "\"ISO 2768-\" with f, m, c or v for sizes and H, K or L for form, such "
+        "as \"ISO 2768-mK\"",
+        "choice");
   }
 }
 

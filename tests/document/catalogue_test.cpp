@@ -204,7 +204,8 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
       problems_of(read_lathe, lathe),
       "/spindle/curve/1/P_kW: got 16, expected the power of M_Nm at n_rpm, "
       "15.079644737231007 kW, within 3 %\n"
-      "/spindle/curve: got a list of 3, expected points from n_min_rpm or below to "
+      "/spindle/curve: got a list of 3 entries, expected points from n_min_rpm or below "
+      "to "
       "n_max_rpm or above\n"
       "/stiffness/chuck_radial: got an object, expected c0_mm_N times c2_rad_Nmm at "
       "least c1_rad_N squared\n");
@@ -215,9 +216,10 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
   EXPECT_EQ(problems_of(read_lathe, lathe),
             "/clampings/1: got \"chuck\", expected each word once\n"
             "/spindle/curve/1: got an object, expected a speed above the point's before\n"
-            "/spindle/curve: got a list of 3, expected points from n_min_rpm or below to "
+            "/spindle/curve: got a list of 3 entries, expected points from n_min_rpm or "
+            "below to "
             "n_max_rpm or above\n"
-            "/chuck/diameter_mm: got a list of 2, expected [lower, upper] with lower <= "
+            "/chuck/diameter_mm: got [200,10], expected [lower, upper] with lower <= "
             "upper\n");
 }
 
@@ -262,8 +264,8 @@ TEST(Catalogue, TellsAllProblemsOverAllFiles) {
             "materials/c.json#/kienzle/mc: got 1, expected a number >= 0 and < "
             "1\n" +
             at +
-            "tools/t.json#: got broken JSON at line 1, column 8 (value - "
-            "unexpected '}'), expected '[', '{', or a literal\n" +
+            "tools/t.json#: got broken JSON at line 1, column 8: "
+            "unexpected '}' in value, expected '[', '{', or a literal\n" +
             at + "machines/m.json#: got 3, expected an object");
   }
 }

@@ -47,7 +47,7 @@ TEST(Parse, RefusesNumbersADoubleCannotHold) {
 
 TEST(Parse, PointsAtTheFirstByteThatIsNoJson) {
   EXPECT_EQ(refusal("{\"a\": 1,\n  \"b\": }"),
-            "t: document: got broken JSON at line 2, column 8 (value - unexpected '}'), "
+            "t: document: got broken JSON at line 2, column 8: unexpected '}' in value, "
             "expected '[', '{', or a literal");
   for (const auto* text : {"NaN", "[Infinity]", "{'a': 1}", "[1] 2", "[1,]", "// c\n1",
                            "{", "01", "+1", ".5", "\"\\x\"", "\"tab\tinside\""})

@@ -65,7 +65,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 /// A number as a drawing writes it: 20 rather than 20.0, else all its digits.
 std::string number_text(double x);
 
-/// A value as a problem shows it: numbers and short strings as written, "an object", ...
+/// A value as a problem shows it: numbers, short strings and short
+/// lists as written, "an object", "a list of 5 entries".
 std::string shown(const nlohmann::json& value);
 
 /// One value of the document with its JSON pointer.  Does not own the JSON nor the

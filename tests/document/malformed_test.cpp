@@ -1,0 +1,109 @@
+// Every document of tests/data/malformed is refused with exactly the text beside it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "schema_check.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/parse.hpp"
+#include "turnwright/document/part_plan.hpp"
+
+namespace turnwright::document {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Catalogue& test_catalogue() {
+  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
+  return kCatalogue;
+}
+
+std::vector<fs::path> malformed_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(source_path("tests/data/malformed")))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+InputError refusal(const fs::path& file) {
+  try {
+    load_part_plan(parse_file(file, "part.json"), test_catalogue(), "part.json");
+  } catch (const InputError& error) {
+    return error;
+  }
+  return {"part.json", {{"", "accepted", "a refusal", ""}}};
+}
+
+TEST(Malformed, EachIsRefusedWithItsExactText) {
+  const auto files = malformed_files();
+  EXPECT_GE(files.size(), 45U);
+  for (const auto& file : files) {
+    auto expected = file;
+    expected.replace_extension(".expected");
+    ASSERT_TRUE(fs::exists(expected)) << expected;
+    EXPECT_EQ(std::string(refusal(file).what()) + "\n", text_of(expected)) << file;
+  }
+}
+
+TEST(Malformed, APathThatIsNoFileIsRefused) {
+  EXPECT_STREQ(refusal("/nowhere/part.json").what(),
+               "part.json: document: got nothing readable, expected a JSON file");
+  EXPECT_STREQ(refusal(source_path("parts")).what(),
+               "part.json: document: got nothing readable, expected a JSON file");
+}
+
+TEST(Malformed, OneByteTooManyIsRefused) {
+  const auto file = fs::path(testing::TempDir()) / "turnwright_too_large.json";
+  std::ofstream(file) << std::string(ParseLimits{}.bytes, ' ') << '1';
+  EXPECT_STREQ(refusal(file).what(),
+               "part.json: document: got 2000001 bytes, expected at most 2000000 bytes");
+  fs::remove(file);
+}
+
+// Faults of shape are the schema's business too; which setup or price another key asks
+// for, and what an inline document holds, it cannot see.
+bool schema_sees(const Problem& problem) {
+  static const std::set<std::string> kShape{"type", "range", "missing", "unknown-key",
+                                            "format"};
+  return kShape.contains(problem.code) && !problem.pointer.starts_with("/material/") &&
+         problem.pointer != "/rates/price" && !problem.pointer.ends_with("/setup");
+}
+
+TEST(Malformed, TheSchemaSeesEveryFaultOfShape) {
+  const SchemaCheck schema("part.json");
+  int seen = 0;
+  for (const auto& file : malformed_files()) {
+    const auto problems = refusal(file).problems();
+    if (std::none_of(problems.begin(), problems.end(), schema_sees)) continue;
+    EXPECT_NE(schema.fault(parse_file(file)), "") << file;
+    ++seen;
+  }
+  EXPECT_GE(seen, 30);
+}
+
+TEST(Malformed, ReferencesAndContradictionsAreBeyondTheSchema) {
+  // What the reader alone sees must pass the schema, or the schema refuses good shapes.
+  const SchemaCheck schema("part.json");
+  static const std::set<std::string> kMeaning{"unknown-id", "order", "unsupported"};
+  int seen = 0;
+  for (const auto& file : malformed_files()) {
+    const auto problems = refusal(file).problems();
+    if (!std::all_of(problems.begin(), problems.end(),
+                     [](const Problem& p) { return kMeaning.contains(p.code); }))
+      continue;
+    EXPECT_EQ(schema.fault(parse_file(file)), "") << file;
+    ++seen;
+  }
+  EXPECT_GE(seen, 15);
+}
+
+}  // namespace
+}  // namespace turnwright::document

@@ -1,0 +1,34 @@
+#include "schema_check.hpp"
+
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "turnwright/document/file.hpp"
+
+namespace turnwright::document {
+
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+std::filesystem::path source_path(const std::string& path) {
+  return std::filesystem::path(TURNWRIGHT_SOURCE_DIR) / path;
+}
+
+SchemaCheck::SchemaCheck(const std::string& file)
+    : text_(parse_file(source_path("schemas") / file)) {
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(Adapter(text_), schema_);
+}
+
+std::string SchemaCheck::fault(const nlohmann::json& document) const {
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(schema_, Adapter(document), &results)) return "";
+  valijson::ValidationResults::Error error;
+  results.popError(error);
+  std::string where;
+  for (const auto& step : error.context) where += step;
+  return where + ": " + error.description;
+}
+
+}  // namespace turnwright::document
