@@ -1,0 +1,332 @@
+#include "turnwright/document/deflection.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fields.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/deflection/boring_bar.hpp"
+#include "turnwright/deflection/envelope.hpp"
+#include "turnwright/deflection/face.hpp"
+#include "turnwright/deflection/feedback.hpp"
+#include "turnwright/deflection/response.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using namespace turnwright::deflection;
+using nlohmann::json;
+
+constexpr std::size_t kSegments = 10000, kPositions = 100000;
+const Bounds kLength = above_up_to(0, 1e6, "mm"), kOuter = above_up_to(0, 1e5, "mm"),
+             kInner = within(0, 1e5, "mm"), kForce = within(-1e9, 1e9, "N"),
+             kCompliance = within(0, 1, "mm/N");
+
+struct Face {
+  double z_mm = 0;
+  Facing facing;
+};
+
+struct Request {
+  part::Shaft shaft;
+  Clamping clamping;
+  std::optional<BoringBar> bar;
+  std::vector<double> positions_mm;
+  std::optional<Load> load;
+  std::optional<ForceLaw> force_law;
+  std::optional<Face> face;
+  Workpiece::Options options;
+};
+
+part::Segment read_segment(Reader r) {
+  r = r.as_object();
+  const part::Segment s{.length_mm = r.number("length_mm", kLength),
+                        .outer_left_mm = r.number("outer_left_mm", kOuter),
+                        .outer_right_mm = r.number("outer_right_mm", kOuter),
+                        .inner_left_mm = r.number_or("inner_left_mm", kInner, 0),
+                        .inner_right_mm = r.number_or("inner_right_mm", kInner, 0)};
+  r.finish();
+  const auto wall = [&r](const char* key, double inner, double outer) {
+    if (inner >= outer)
+      r.problem_at(key, expected_number(at_least_below(0, outer, "mm")), "conflict");
+  };
+  wall("inner_left_mm", s.inner_left_mm, s.outer_left_mm);
+  wall("inner_right_mm", s.inner_right_mm, s.outer_right_mm);
+  return s;
+}
+
+part::Shaft read_shaft(Reader r) {
+  part::Shaft shaft{.E_MPa = r.number("E_MPa", above_up_to(0, 1e7, "MPa")),
+                    .nu = r.number("nu", at_least_below(0, 0.5)),
+                    .segments = {}};
+  for (const Reader& item : r.items("segments", 1, kSegments))
+    shaft.segments.push_back(read_segment(item));
+  r.finish();
+  return shaft;
+}
+
+Root read_root(Reader& chuck, std::string_view plane) {
+  auto r = chuck.optional_object(plane);
+  if (!r) return {};
+  const Root root{
+      .c0_mm_N = r->number_or("c0_mm_N", kCompliance, 0),
+      .c1_rad_N = r->number_or("c1_rad_N", within(-1, 1, "rad/N"), 0),
+      .c2_rad_Nmm = r->number_or("c2_rad_Nmm", within(0, 1, "rad/(N mm)"), 0)};
+  r->finish();
+  const bool read = !std::isnan(root.c0_mm_N + root.c1_rad_N + root.c2_rad_Nmm);
+  if (read && !elastic(root))
+    r->problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");
+  return root;
+}
+
+void read_centre(Reader& clamping, std::string_view key, double Supports::*compliance,
+                 Clamping& c) {
+  auto r = clamping.optional_object(key);
+  if (!r) return;
+  c.radial.*compliance = r->number_or("radial_mm_N", kCompliance, 0);
+  c.tangential.*compliance = r->number_or("tangential_mm_N", kCompliance, 0);
+  r->finish();
+}
+
+void read_clamping(Reader r, Request& q) {
+  enum class Hold { chuck, between_centres, chuck_tailstock, boring_bar };
+  const auto hold = r.choice<Hold>("method", {{"chuck", Hold::chuck},
+                                              {"between-centres", Hold::between_centres},
+                                              {"chuck-tailstock", Hold::chuck_tailstock},
+                                              {"boring-bar", Hold::boring_bar}});
+  const Method method = hold == Hold::between_centres   ? Method::between_centres
+                        : hold == Hold::chuck_tailstock ? Method::chuck_tailstock
+                                                        : Method::chuck;
+  q.clamping.radial.method = q.clamping.tangential.method = method;
+  if (auto chuck = r.optional_object("chuck")) {
+    q.clamping.radial.root = read_root(*chuck, "radial");
+    q.clamping.tangential.root = read_root(*chuck, "tangential");
+    chuck->finish();
+  }
+  if (hold == Hold::boring_bar) {
+    q.bar = {.tip_offset_mm = r.number("tip_offset_mm", within(0, 1e5, "mm")),
+             .bore_diameter_mm = r.number("bore_diameter_mm", kOuter)};
+  } else {
+    read_centre(r, "tail_centre", &Supports::tail_mm_N, q.clamping);
+    read_centre(r, "head_centre", &Supports::head_mm_N, q.clamping);
+  }
+  r.finish();
+}
+
+std::optional<Load> read_load(Reader& request) {
+  auto r = request.optional_object("load");
+  if (!r) return std::nullopt;
+  const Load load{.Fr_N = r->number("Fr_N", kForce),
+                  .Ft_N = r->number("Ft_N", kForce),
+                  .Fa_N = r->number("Fa_N", kForce)};
+  r->finish();
+  return load;
+}
+
+std::optional<ForceLaw> read_force_law(Reader& request) {
+  auto r = request.optional_object("force_law");
+  if (!r) return std::nullopt;
+  const Bounds ratio = within(-1000, 1000);
+  const ForceLaw law{.c_N = r->number("c_N", above_up_to(0, 1e9, "N")),
+                     .x = r->number("x", above_up_to(0, 5)),
+                     .Fa_over_Fr = r->number("Fa_over_Fr", ratio),
+                     .Ft_over_Fr = r->number("Ft_over_Fr", ratio),
+                     .ap_mm = r->number("ap_mm", above_up_to(0, 1e4, "mm"))};
+  r->finish();
+  return law;
+}
+
+/// A place on the shaft; beyond its end by the rounding of the caller's sum is on it.
+double read_place(const Reader& r, const Bounds& shaft) {
+  const double x = r.is_number() ? r.json().get<double>() : 0;
+  if (x > shaft.upper && x <= shaft.upper * (1 + 1e-12)) return shaft.upper;
+  return r.as_number(shaft);
+}
+
+std::optional<Face> read_face(Reader& request, const Bounds& shaft) {
+  auto r = request.optional_object("face");
+  if (!r) return std::nullopt;
+  const Face face{.z_mm = read_place(r->at("z_mm", expected_number(shaft)), shaft),
+                  .facing = {.rho_min_mm = r->number("rho_min_mm", kInner),
+                             .rho_max_mm = r->number("rho_max_mm", kOuter),
+                             .Ff_N = r->number("Ff_N", kForce),
+                             .Fp_N = r->number("Fp_N", kForce)}};
+  r->finish();
+  if (face.facing.rho_min_mm >= face.facing.rho_max_mm)
+    r->problem_at("rho_min_mm",
+                  expected_number(at_least_below(0, face.facing.rho_max_mm, "mm")),
+                  "conflict");
+  return face;
+}
+
+std::optional<Cut> read_in_process(Reader& request) {
+  auto r = request.optional_object("in_process");
+  if (!r) return std::nullopt;
+  const Cut cut{.ap_mm = r->number("ap_mm", within(0, 1e4, "mm")),
+                .towards = r->choice<part::FeedTowards>(
+                    "feed_towards", {{"chuck", part::FeedTowards::chuck},
+                                     {"tail", part::FeedTowards::tail}})};
+  r->finish();
+  return cut;
+}
+
+Request read_request(const json& document) {
+  Problems problems{.document = "deflection"};
+  Reader r = Reader(document, problems).as_object();
+  Request q;
+  read_format(r, "turnwright-deflection/1");
+  q.shaft = read_shaft(r.object("shaft"));
+  read_clamping(r.object("clamping"), q);
+
+  // The length of a shaft that could not be read is no measure for the rest.
+  const Bounds on_shaft = problems.list.empty()
+                              ? within(0, part::length_mm(q.shaft.segments), "mm")
+                              : at_least(0, "mm");
+  // A bar has its tip and a face its place; everything else needs positions.
+  if (r.has("positions_mm") || !(q.bar || r.has("face")))
+    for (const Reader& place : r.items("positions_mm", 0, kPositions))
+      q.positions_mm.push_back(read_place(place, on_shaft));
+
+  if (q.bar) {
+    for (const char* key : {"force_law", "face", "in_process", "shoulder_correction"})
+      if (r.has(key))
+        r.problem_at(key, "nothing: a boring bar is not turned", "conflict");
+  } else {
+    q.force_law = read_force_law(r);
+    q.face = read_face(r, on_shaft);
+    q.options = {.in_process = read_in_process(r),
+                 .shoulder_correction = r.boolean_or("shoulder_correction", false)};
+  }
+  q.load = read_load(r);
+  if (q.load && r.has("force_law"))
+    r.problem_at("force_law", "either load or force_law", "conflict");
+  if (!r.has("load") && !r.has("force_law") && (q.bar || !r.has("face")))
+    r.problem_at("load", q.bar ? "a load" : "load or force_law", "missing");
+  r.finish();
+  problems.throw_if_any();
+  return q;
+}
+
+json flexibility(const Flexibility& f) {
+  return {{"f_ww_mm_N", f.f_ww_mm_N},
+          {"f_wp_rad_N", f.f_wp_rad_N},
+          {"f_pp_rad_Nmm", f.f_pp_rad_Nmm}};
+}
+
+json position(const Response& at) {
+  return {{"a_mm", at.a_mm},
+          {"radial", flexibility(at.radial)},
+          {"tangential", flexibility(at.tangential)},
+          {"delta_r_mm", at.delta_r_mm},
+          {"delta_t_mm", at.delta_t_mm},
+          {"theta_r_rad", at.theta_r_rad},
+          {"radius_error_mm", at.radius_error_mm},
+          {"tail_reaction_N", at.tail_reaction_N}};
+}
+
+json position(double a_mm, double D_mm, const Flexibility& radial,
+              const Flexibility& tangential, const ForceLaw& law) {
+  const Equilibrium e = equilibrium(D_mm, radial, tangential, law);
+  json out = position(response(a_mm, D_mm, radial, tangential,
+                               {.Fr_N = e.Fr_N,
+                                .Ft_N = law.Ft_over_Fr * e.Fr_N,
+                                .Fa_N = law.Fa_over_Fr * e.Fr_N}));
+  out["Fr_N"] = e.Fr_N;
+  out["radius_error_mm"] = e.radius_error_mm;
+  out["radius_error_without_feedback_mm"] = e.radius_error_without_feedback_mm;
+  out["loop_gain"] = e.loop_gain;
+  return out;
+}
+
+struct Planes {
+  std::vector<Flexibility> radial, tangential;
+};
+
+Planes flexibilities_at(const Workpiece& part, const Clamping& clamping,
+                        std::span<const double> a_mm) {
+  Planes f{std::vector<Flexibility>(a_mm.size()), std::vector<Flexibility>(a_mm.size())};
+  part.at(a_mm, clamping.radial, f.radial);
+  part.at(a_mm, clamping.tangential, f.tangential);
+  return f;
+}
+
+json positions(const Workpiece& part, const Request& q) {
+  json list = json::array();
+  const Planes f = flexibilities_at(part, q.clamping, q.positions_mm);
+  for (std::size_t i = 0; i < q.positions_mm.size(); ++i) {
+    const double a = q.positions_mm[i], D = part.diameter_mm(part.segment_at(a), a);
+    list.push_back(q.force_law
+                       ? position(a, D, f.radial[i], f.tangential[i], *q.force_law)
+                       : position(response(a, D, f.radial[i], f.tangential[i],
+                                           q.load.value_or(Load{}))));
+  }
+  return list;
+}
+
+json largest_error(const Workpiece& part, const Request& q) {
+  const Envelope e = envelope(part.ends_mm(), [&](std::size_t segment,
+                                                  std::span<const double> a_mm,
+                                                  std::span<double> e_mm) {
+    const Planes f = flexibilities_at(part, q.clamping, a_mm);
+    for (std::size_t i = 0; i < a_mm.size(); ++i) {
+      const double D = part.diameter_mm(segment, a_mm[i]);
+      e_mm[i] =
+          q.force_law
+              ? equilibrium(D, f.radial[i], f.tangential[i], *q.force_law).radius_error_mm
+              : response(a_mm[i], D, f.radial[i], f.tangential[i],
+                         q.load.value_or(Load{}))
+                    .radius_error_mm;
+    }
+  });
+  return {{"max_mm", e.max_mm}, {"at_mm", e.at_mm}};
+}
+
+json face(const Workpiece& part, const Request& q) {
+  const Planes f = flexibilities_at(part, q.clamping, {&q.face->z_mm, 1});
+  const FaceForm form = face_form(f.radial[0], q.face->facing);
+  return {{"peak_to_valley_mm", form.peak_to_valley_mm},
+          {"profile", {{"rho_mm", form.rho_mm}, {"g_mm", form.g_mm}}}};
+}
+
+json warnings(const part::Shaft& shaft) {
+  json list = json::array();
+  for (const std::size_t i : thin_walls(shaft.segments))
+    list.push_back("/shaft/segments/" + std::to_string(i) +
+                   ": the wall is thinner than 0.2 of the radius; rings ovalise and the "
+                   "beam model is void");
+  return list;
+}
+
+void require_finite(const json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    throw ModelRangeError("deflection: a result is beyond what a number holds");
+  if (value.is_structured())
+    for (const json& member : value) require_finite(member);
+}
+
+}  // namespace
+
+json deflection(const json& request) {
+  const Request q = read_request(request);
+  const Workpiece part(q.shaft, q.options);
+  json result{{"format", "turnwright-deflection-result/1"},
+              {"positions", positions(part, q)},
+              {"warnings", warnings(q.shaft)}};
+  if (q.bar) {
+    const BarTip tip = bar_tip(Beam(q.shaft), q.clamping, *q.bar, *q.load);
+    result["y_r_mm"] = tip.y_r_mm;
+    result["y_t_mm"] = tip.y_t_mm;
+    result["twist_rad_Nmm"] = tip.twist_rad_Nmm;
+    result["bore_radius_error_mm"] = tip.bore_radius_error_mm;
+  } else {
+    result["envelope"] = largest_error(part, q);
+  }
+  if (q.face) result["face"] = face(part, q);
+  require_finite(result);
+  return result;
+}
+
+}  // namespace turnwright::document

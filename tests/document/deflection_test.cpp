@@ -1,0 +1,323 @@
+#include "turnwright/document/deflection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "turnwright/base/errors.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+json from_file(const std::string& path) {
+  std::ifstream in(std::string(TURNWRIGHT_SOURCE_DIR) + "/" + path);
+  return json::parse(in);
+}
+
+bool valid(const std::string& schema_path, const json& document) {
+  const json text = from_file(schema_path);
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(Adapter(text), schema);
+  return valijson::Validator().validate(schema, Adapter(document), nullptr);
+}
+
+bool valid_request(const json& d) { return valid("schemas/deflection.request.json", d); }
+
+json answered(const json& request) {
+  EXPECT_TRUE(valid_request(request)) << request;
+  json result = deflection(request);
+  EXPECT_TRUE(valid("schemas/deflection.result.json", result)) << result;
+  return result;
+}
+
+std::string refused(const json& request) {
+  try {
+    deflection(request);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+json bar_segment(double length, double d) {
+  return {{"length_mm", length},
+          {"outer_left_mm", d},
+          {"outer_right_mm", d},
+          {"inner_left_mm", 0},
+          {"inner_right_mm", 0}};
+}
+
+json request(const char* method = "chuck") {
+  return {{"shaft",
+           {{"E_MPa", 210000},
+            {"nu", 0.3},
+            {"segments", {bar_segment(80, 60), bar_segment(120, 40)}}}},
+          {"clamping", {{"method", method}}},
+          {"positions_mm", {40, 80, 120}},
+          {"load", {{"Fr_N", 250}, {"Ft_N", 600}, {"Fa_N", 180}}}};
+}
+
+TEST(Deflection, ReferenceFileThroughTheDoor) {
+  const json file = from_file("tests/data/deflection_reference.json");
+  const json shafts = file.at("shafts");
+  for (const json& c : file.at("cases")) {
+    json q = request();
+    for (const json& s : shafts)
+      if (s.at("id") == c.at("shaft")) {
+        q["shaft"] = {
+            {"E_MPa", s.at("E")}, {"nu", s.at("nu")}, {"segments", json::array()}};
+        for (const json& g : s.at("segments"))
+          q["shaft"]["segments"].push_back({{"length_mm", g.at("len")},
+                                            {"outer_left_mm", g.at("de0")},
+                                            {"outer_right_mm", g.at("de1")},
+                                            {"inner_left_mm", g.at("di0")},
+                                            {"inner_right_mm", g.at("di1")}});
+      }
+    const std::string clamp = c.at("clamp");
+    q["clamping"]["method"] = clamp == "chuck"     ? "chuck"
+                              : clamp == "centres" ? "between-centres"
+                                                   : "chuck-tailstock";
+    const json k = file.at("supports").at(c.at("support").get<std::string>());
+    if (!k.at("rigid").get<bool>())
+      for (const auto& [plane, p] :
+           {std::pair{"radial", "r"}, std::pair{"tangential", "t"}}) {
+        const auto spring = [&](const std::string& name) {
+          return k.at(name + p).get<double>();
+        };
+        const double Lc = k.at("Lc"), k2 = spring("k2");
+        q["clamping"]["chuck"][plane] = {{"c0_mm_N", 1 / spring("k1") + Lc * Lc / k2},
+                                         {"c1_rad_N", Lc / k2},
+                                         {"c2_rad_Nmm", 1 / k2 + 1 / spring("k3")}};
+        const std::string key = std::string(plane) + "_mm_N";
+        q["clamping"]["tail_centre"][key] = 1 / spring("kt");
+        q["clamping"]["head_centre"][key] = 1 / spring("kh");
+      }
+    q["positions_mm"] = c.at("positions");
+    const json result = answered(q);
+
+    const auto compare = [&](const std::string& name, const json::json_pointer& at) {
+      const std::vector<double> expected = c.at(name);
+      double largest = 0;
+      for (const double x : expected) largest = std::max(largest, std::abs(x));
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(result["positions"][i].at(at), expected[i], 1e-12 * largest)
+            << c.at("shaft") << clamp << name;
+    };
+    compare("f_ww_r", "/radial/f_ww_mm_N"_json_pointer);
+    compare("f_wp_r", "/radial/f_wp_rad_N"_json_pointer);
+    compare("f_pp_r", "/radial/f_pp_rad_Nmm"_json_pointer);
+    compare("f_ww_t", "/tangential/f_ww_mm_N"_json_pointer);
+    compare("f_wp_t", "/tangential/f_wp_rad_N"_json_pointer);
+    compare("f_pp_t", "/tangential/f_pp_rad_Nmm"_json_pointer);
+    compare("delta_r", "/delta_r_mm"_json_pointer);
+    compare("delta_t", "/delta_t_mm"_json_pointer);
+    compare("theta_r", "/theta_r_rad"_json_pointer);
+    compare("radius_error", "/radius_error_mm"_json_pointer);
+    compare("positions", "/a_mm"_json_pointer);
+    // the tail carries its share of Fr and of the couple -Fa D/2
+    for (std::size_t i = 0; i < result["positions"].size(); ++i) {
+      const double RF = c.at("RF_r").at(i), RC = c.at("RC_r").at(i),
+                   D = c.at("D_tool").at(i);
+      EXPECT_NEAR(result["positions"][i]["tail_reaction_N"], RF * 250 - RC * 180 * D / 2,
+                  1e-10);
+      EXPECT_GE(result["envelope"]["max_mm"].get<double>() * (1 + 1e-12),
+                std::abs(result["positions"][i]["radius_error_mm"].get<double>()));
+    }
+  }
+}
+
+TEST(Deflection, ExamplesOfTheSchemaAreAnswered) {
+  for (const json& example : from_file("schemas/deflection.request.json")["examples"])
+    answered(example);
+}
+
+TEST(Deflection, EnvelopeCountsBothSidesOfAStep) {
+  // right of the step the couple is smaller (D = 40, not 60) and the error larger than
+  // what the door says of the position itself
+  json q = request("between-centres");
+  q["shaft"]["segments"] = {bar_segment(100, 60), bar_segment(100, 59)};
+  q["positions_mm"] = {100};
+  const json r = answered(q);
+  EXPECT_GT(r["envelope"]["max_mm"], r["positions"][0]["radius_error_mm"]);
+}
+
+TEST(Deflection, ForceLawIsTheLinearFormulaWhereThatHolds) {
+  json q = request();
+  q.erase("load");
+  q["force_law"] = {
+      {"c_N", 400}, {"x", 1}, {"Fa_over_Fr", 0.6}, {"Ft_over_Fr", 0}, {"ap_mm", 1.5}};
+  const json r = answered(q);
+  for (const json& p : r["positions"]) {
+    const double mu = p["loop_gain"], D = p["a_mm"] <= 80 ? 60 : 40;
+    const double A = p["radial"]["f_ww_mm_N"].get<double>() -
+                     p["radial"]["f_wp_rad_N"].get<double>() * 0.6 * D / 2;
+    EXPECT_NEAR(mu, 400 * A, 1e-15);
+    EXPECT_NEAR(p["radius_error_mm"], 1.5 * mu / (1 + mu), 1e-15);
+    EXPECT_NEAR(p["radius_error_without_feedback_mm"], 1.5 * mu, 1e-15);
+    EXPECT_NEAR(p["Fr_N"], 400 * 1.5 / (1 + mu), 1e-10);
+    EXPECT_NEAR(p["delta_r_mm"], p["radius_error_mm"], 1e-15);
+  }
+}
+
+TEST(Deflection, ADigInIsOutsideTheModel) {
+  json q = request();
+  q.erase("load");
+  q["force_law"] = {
+      {"c_N", 1e7}, {"x", 1}, {"Fa_over_Fr", 50}, {"Ft_over_Fr", 0}, {"ap_mm", 1.5}};
+  EXPECT_THROW(deflection(q), ModelRangeError);
+}
+
+TEST(Deflection, InProcessAndShouldersChangeTheStiffness) {
+  const double plain = answered(request())["positions"][2]["delta_t_mm"];
+  json q = request();
+  q["in_process"] = {{"ap_mm", 2}, {"feed_towards", "chuck"}};
+  EXPECT_LT(answered(q)["positions"][2]["delta_t_mm"], plain);
+  q["in_process"]["feed_towards"] = "tail";
+  EXPECT_EQ(answered(q)["positions"][2]["delta_t_mm"], plain);
+  q = request();
+  q["shoulder_correction"] = true;
+  EXPECT_GT(answered(q)["positions"][2]["delta_t_mm"], plain);
+}
+
+TEST(Deflection, FaceNeedsNeitherPositionsNorLoad) {
+  json q = request();
+  q.erase("load");
+  q.erase("positions_mm");
+  q["face"] = {
+      {"z_mm", 200}, {"rho_min_mm", 0}, {"rho_max_mm", 20}, {"Ff_N", 90}, {"Fp_N", 0}};
+  const json r = answered(q);
+  json end = request();
+  end["positions_mm"] = {200};
+  const double f_wp = answered(end)["positions"][0]["radial"]["f_wp_rad_N"];
+  EXPECT_NEAR(r["face"]["peak_to_valley_mm"], f_wp * 90 * 20, 1e-17);
+  EXPECT_EQ(r["face"]["profile"]["g_mm"].size(), r["face"]["profile"]["rho_mm"].size());
+  EXPECT_TRUE(r["positions"].empty());
+}
+
+TEST(Deflection, BoringBarTellsItsTip) {
+  json q = request();
+  q.erase("positions_mm");
+  q["clamping"] = {
+      {"method", "boring-bar"}, {"tip_offset_mm", 13}, {"bore_diameter_mm", 60}};
+  const json r = answered(q);
+  EXPECT_FALSE(r.contains("envelope"));
+  const double y_r = r["y_r_mm"], y_t = r["y_t_mm"];
+  EXPECT_NEAR(r["bore_radius_error_mm"], -y_r + y_t * y_t / 60, 1e-18);
+  q["positions_mm"] = {200};
+  const json tip = answered(q)["positions"][0];
+  const double f_ww = tip["radial"]["f_ww_mm_N"], f_wp = tip["radial"]["f_wp_rad_N"];
+  EXPECT_NEAR(y_r, 250 * f_ww - 180 * 13 * f_wp, 1e-16);
+  EXPECT_NEAR(y_t, 600 * (f_ww + 169 * r["twist_rad_Nmm"].get<double>()), 1e-16);
+}
+
+TEST(Deflection, ThinWallsWarn) {
+  json q = request();
+  q["shaft"]["segments"][1]["inner_left_mm"] = 33;
+  const json r = answered(q);
+  ASSERT_EQ(r["warnings"].size(), 1u);
+  EXPECT_EQ(
+      r["warnings"][0],
+      "/shaft/segments/1: the wall is thinner than 0.2 of the radius; rings ovalise "
+      "and the beam model is void");
+  EXPECT_TRUE(answered(request())["warnings"].empty());
+}
+
+TEST(Deflection, AllProblemsAtOnce) {
+  json q = request("chuk");
+  q["shaft"]["nu"] = 0.5;
+  q["shaft"]["segments"][0]["length_mm"] = -40;
+  q["shaft"]["segments"][1]["inner_right_mm"] = 41;
+  q["shaft"]["segments"][1]["diamter_mm"] = 3;
+  q["positions_mm"] = {10, "x"};
+  q["load"].erase("Ft_N");
+  q["shoulder_correction"] = 1;
+  EXPECT_EQ(refused(q),
+            R"(deflection: /shaft/nu: got 0.5, expected a number >= 0 and < 0.5
+deflection: /shaft/segments/0/length_mm: got -40, expected a number > 0 and <= 1000000 mm
+deflection: /shaft/segments/1/diamter_mm: got 3, expected no such key
+deflection: /shaft/segments/1/inner_right_mm: got 41, expected a number >= 0 and < 40 mm
+deflection: /clamping/method: got "chuk", expected "chuck", "between-centres", "chuck-tailstock" or "boring-bar" (did you mean "chuck"?)
+deflection: /positions_mm/1: got "x", expected a number >= 0 mm
+deflection: /shoulder_correction: got 1, expected true or false
+deflection: /load/Ft_N: got nothing, expected a number from -1000000000 to 1000000000 N)");
+}
+
+TEST(Deflection, PlacesMustBeOnTheShaft) {
+  json q = request();
+  q["positions_mm"] = {-1, 0, 200, 200.001};
+  EXPECT_EQ(refused(q),
+            R"(deflection: /positions_mm/0: got -1, expected a number from 0 to 200 mm
+deflection: /positions_mm/3: got 200.001, expected a number from 0 to 200 mm)");
+  q = request();
+  q["face"] = {
+      {"z_mm", 201}, {"rho_min_mm", 20}, {"rho_max_mm", 20}, {"Ff_N", 90}, {"Fp_N", 0}};
+  EXPECT_EQ(refused(q),
+            R"(deflection: /face/z_mm: got 201, expected a number from 0 to 200 mm
+deflection: /face/rho_min_mm: got 20, expected a number >= 0 and < 20 mm)");
+}
+
+TEST(Deflection, RoundingInASumOfLengthsIsForgiven) {
+  json q = request();
+  q["shaft"]["segments"] = {bar_segment(0.1, 1), bar_segment(0.2, 1)};
+  q["positions_mm"] = {0.1 + 0.2, 0.3};
+  EXPECT_EQ(refused(q), "accepted");
+}
+
+TEST(Deflection, TheClampingMustBeAnElasticBody) {
+  json q = request();
+  q["clamping"]["chuck"]["radial"] = {
+      {"c0_mm_N", 1e-5}, {"c1_rad_N", 1e-6}, {"c2_rad_Nmm", 1e-9}};
+  q["clamping"]["tail_centre"] = {{"radial_mm_N", -1}};
+  EXPECT_EQ(
+      refused(q),
+      R"(deflection: /clamping/chuck/radial: got an object, expected c0_mm_N times c2_rad_Nmm at least c1_rad_N squared
+deflection: /clamping/tail_centre/radial_mm_N: got -1, expected a number from 0 to 1 mm/N)");
+}
+
+TEST(Deflection, MembersThatExcludeEachOther) {
+  json q = request();
+  q["force_law"] = {
+      {"c_N", 220}, {"x", 1}, {"Fa_over_Fr", 0.6}, {"Ft_over_Fr", 2.2}, {"ap_mm", 1}};
+  EXPECT_FALSE(valid_request(q));
+  EXPECT_EQ(
+      refused(q),
+      R"(deflection: /force_law: got an object, expected either load or force_law)");
+  q = request();
+  q.erase("load");
+  EXPECT_FALSE(valid_request(q));
+  EXPECT_EQ(refused(q), R"(deflection: /load: got nothing, expected load or force_law)");
+  q = request("boring-bar");
+  q["in_process"] = {{"ap_mm", 2}, {"feed_towards", "chuck"}};
+  EXPECT_FALSE(valid_request(q));
+  EXPECT_EQ(
+      refused(q),
+      R"(deflection: /clamping/tip_offset_mm: got nothing, expected a number from 0 to 100000 mm
+deflection: /clamping/bore_diameter_mm: got nothing, expected a number > 0 and <= 100000 mm
+deflection: /in_process: got an object, expected nothing: a boring bar is not turned)");
+}
+
+TEST(Deflection, ResultsBeyondADoubleAreOutsideTheModel) {
+  json q = request();
+  for (const char* key : {"outer_left_mm", "outer_right_mm"})
+    q["shaft"]["segments"][0][key] = 1e-90;
+  EXPECT_THROW(deflection(q), ModelRangeError);
+}
+
+TEST(Deflection, AnythingButAnObjectIsRefused) {
+  for (const json& q : {json(nullptr), json(3), json::array(), json("x")})
+    EXPECT_NE(refused(q), "accepted");
+}
+
+}  // namespace
+}  // namespace turnwright::document
