@@ -19,8 +19,8 @@ using tolerance::Case;
 using tolerance::counts_deflection;
 using tolerance::Profile;
 
-constexpr std::size_t kCases = 10000, kPoints = 100000, kPieces = 10000,
-                      kCoefficients = 30;
+constexpr std::size_t kCases = 10000, kPoints = 100000, kPieces = 2000,
+                      kCoefficients = 16;
 constexpr double kLargest_mm = 1000;
 const Bounds kDeviation = within(-kLargest_mm, kLargest_mm, "mm");
 const Bounds kPlace = within(-1e6, 1e6, "mm");

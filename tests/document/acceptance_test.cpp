@@ -217,9 +217,9 @@ TEST(Acceptance, RefusesPolynomialsThatAreNone) {
                  "1000 mm at "
                  "most");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1], "coefficients": [[]]})"),
-            at + "coefficients/0: got an empty list, expected a list of 1 to 30 entries");
+            at + "coefficients/0: got an empty list, expected a list of 1 to 16 entries");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1]})"),
-            at + "coefficients: got nothing, expected a list of 1 to 10000 entries");
+            at + "coefficients: got nothing, expected a list of 1 to 2000 entries");
   EXPECT_EQ(e(R"({"breaks_mm": [0, 1], "coefficients": [[1]], "z_mm": [1]})"),
             at + "z_mm: got [1], expected no such key");
 }
