@@ -5,39 +5,30 @@
 #include <cmath>
 #include <fstream>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
+#include "schema_check.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::document {
 namespace {
 
 using nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
 json from_file(const std::string& path) {
-  std::ifstream in(std::string(TURNWRIGHT_SOURCE_DIR) + "/" + path);
-  return json::parse(in);
+  return json::parse(std::ifstream(source_path(path)));
 }
 
-bool valid(const std::string& schema_path, const json& document) {
-  const json text = from_file(schema_path);
-  valijson::Schema schema;
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-      .populateSchema(Adapter(text), schema);
-  return valijson::Validator().validate(schema, Adapter(document), nullptr);
+const SchemaCheck& request_schema() {
+  static const SchemaCheck kSchema("deflection.request.json");
+  return kSchema;
 }
-
-bool valid_request(const json& d) { return valid("schemas/deflection.request.json", d); }
 
 json answered(const json& request) {
-  EXPECT_TRUE(valid_request(request)) << request;
+  static const SchemaCheck kResult("deflection.result.json");
+  EXPECT_EQ(request_schema().fault(request), "") << request;
   json result = deflection(request);
-  EXPECT_TRUE(valid("schemas/deflection.result.json", result)) << result;
+  EXPECT_EQ(kResult.fault(result), "") << result;
   return result;
 }
 
@@ -289,17 +280,17 @@ TEST(Deflection, MembersThatExcludeEachOther) {
   json q = request();
   q["force_law"] = {
       {"c_N", 220}, {"x", 1}, {"Fa_over_Fr", 0.6}, {"Ft_over_Fr", 2.2}, {"ap_mm", 1}};
-  EXPECT_FALSE(valid_request(q));
+  EXPECT_NE(request_schema().fault(q), "");
   EXPECT_EQ(
       refused(q),
       R"(deflection: /force_law: got an object, expected either load or force_law)");
   q = request();
   q.erase("load");
-  EXPECT_FALSE(valid_request(q));
+  EXPECT_NE(request_schema().fault(q), "");
   EXPECT_EQ(refused(q), R"(deflection: /load: got nothing, expected load or force_law)");
   q = request("boring-bar");
   q["in_process"] = {{"ap_mm", 2}, {"feed_towards", "chuck"}};
-  EXPECT_FALSE(valid_request(q));
+  EXPECT_NE(request_schema().fault(q), "");
   EXPECT_EQ(
       refused(q),
       R"(deflection: /clamping/tip_offset_mm: got nothing, expected a number from 0 to 100000 mm
