@@ -3,6 +3,10 @@
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
+#include "turnwright/document/deflection.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/process_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -10,16 +14,46 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr const char* kPlanExample = R"({
+  "format": "turnwright-part/1", "name": "Pin", "material": "C45",
+  "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
+  "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 32},
+            {"id": "d2", "kind": "cylinder", "length_mm": 50, "diameter_mm": 25,
+             "fit": "h8", "Ra_um": 1.6}],
+  "machine": "lathe-small", "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
+  "setups": [{"hold": "left", "grip_mm": 20, "clampings": ["chuck"]},
+             {"hold": "right", "grip_mm": 40, "clampings": ["chuck"]}]})";
+
+constexpr const char* kDeflectionExample = R"({
+  "shaft": {"E_MPa": 210000, "nu": 0.3, "segments": [
+    {"length_mm": 80, "outer_left_mm": 60, "outer_right_mm": 60, "inner_left_mm": 0,
+     "inner_right_mm": 0},
+    {"length_mm": 80, "outer_left_mm": 40, "outer_right_mm": 40, "inner_left_mm": 0,
+     "inner_right_mm": 0}]},
+  "clamping": {"method": "chuck-tailstock"},
+  "positions_mm": [40, 120], "load": {"Fr_N": 250, "Ft_N": 600, "Fa_N": 180}})";
+
 constexpr const char* kAcceptanceExample = R"({"cases": [
   {"id": "seat", "tolerance": "diameter", "e_mm": [0.004, 0.011], "upper_mm": 0.016,
    "lower_mm": 0},
   {"id": "taper", "tolerance": "profile", "e_mm": [-0.002, 0.007], "value_mm": 0.02,
    "half_angle_deg": 10}]})";
 
+ordered_json plan(const json& request, const Context& context) {
+  const auto part = document::load_part_plan(request, context.catalogue, "plan");
+  return document::to_json(planning::plan(part.plan), part.assumed);
+}
+
 }  // namespace
 
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
+      {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan},
+      {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
+       kDeflectionExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::deflection(request);
+       }},
       {"acceptance", "deviations over features and their tolerances -> verdicts",
        kAcceptanceExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -56,7 +56,7 @@ TEST(Answer, RefusesNumbersJsonCannotHold) {
     answer(row, json::object(), {kNothing});
     FAIL() << "NaN went out";
   } catch (const std::domain_error& e) {
-    EXPECT_STREQ(e.what(), "broken/list/1/x: the result is not a finite number");
+    EXPECT_STREQ(e.what(), "broken/list/1/x: not a finite number");
   }
 }
 
