@@ -4,6 +4,7 @@
 // `per_beam` is how many times longer the finite elements take.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

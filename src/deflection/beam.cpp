@@ -7,7 +7,7 @@
 // Departures from the usual flexibility sums: moments are kept about their centroid and
 // merged by the parallel-axis rule, so every sum is one of positive terms, and the
 // chuck-tailstock case is the energy of Eq. (5) instead of f_aa - f_aL^2/f_LL, which
-// loses up to five digits on a part with a thin neck.
+// loses four digits on a part with a thin neck.
 #include "turnwright/deflection/beam.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ struct RootForm {  // S as a hinge of compliance c2 at z = -q and a slide of c0 
 
 RootForm root_form(const Root& root) {
   const double q = root.c2_rad_Nmm > 0 ? root.c1_rad_N / root.c2_rad_Nmm : 0.0;
-  return {root.c2_rad_Nmm, q, std::max(0.0, root.c0_mm_N - root.c1_rad_N * q)};
+  return {root.c2_rad_Nmm, q, root.c0_mm_N - root.c1_rad_N * q};
 }
 
 double length_to_panel_end(const part::Segment& s, double u) {

@@ -49,6 +49,15 @@ TEST(Envelope, PeaksOfKnownFunctions) {
   EXPECT_EQ(zero.at_mm, 3);
 }
 
+TEST(Envelope, EndsCountExactly) {
+  const auto right = of({0, 2}, [](std::size_t, double a) { return a * a * a; });
+  EXPECT_EQ(right.max_mm, 8);
+  EXPECT_EQ(right.at_mm, 2);
+  const auto left = of({0, 2}, [](std::size_t, double a) { return std::exp(-a); });
+  EXPECT_EQ(left.max_mm, 1);
+  EXPECT_EQ(left.at_mm, 0);
+}
+
 TEST(Envelope, ANarrowPeakBesideABroadOneIsFound) {
   // a needle 1e-3 of the length wide, higher by 1e-6 than the broad hill
   const auto e = of({0, 1}, [](std::size_t, double a) {

@@ -42,6 +42,19 @@ TEST(Feedback, ForceAndDeflectionAgreeAtTheAnswer) {
         }
 }
 
+TEST(Feedback, LoopGainIsTheSlopeOfTheUncoupledErrorInTheDepth) {
+  // B = 0: de/dap of e = A c ap^x
+  for (const double x : {0.75, 1.0, 1.6}) {
+    const auto uncoupled = [&](double ap) {
+      return equilibrium(40, kSpring, {}, {220, x, 0, 0, ap})
+          .radius_error_without_feedback_mm;
+    };
+    const double slope = (uncoupled(2 + 1e-5) - uncoupled(2 - 1e-5)) / 2e-5;
+    EXPECT_NEAR(equilibrium(40, kSpring, {}, {220, x, 0, 0, 2}).loop_gain / slope, 1,
+                1e-9);
+  }
+}
+
 TEST(Feedback, TakingTurnsDivergesWhereNewtonDoesNot) {
   const double mu = 3.7, ap = 1;
   double e = 0;

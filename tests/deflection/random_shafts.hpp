@@ -54,6 +54,8 @@ inline std::vector<Named> all(unsigned seed) {
                                                    solid(r(80, 120), 40, 30)})});
   shafts.push_back({"thin neck at the jaws", shaft({solid(20, 60, 60), solid(4, 6, 6),
                                                     solid(r(100, 200), 60, 60)})});
+  shafts.push_back({"neck of 1:20 at the jaws", shaft({solid(5, 60, 60), solid(2, 3, 3),
+                                                       solid(r(100, 200), 60, 60)})});
   shafts.push_back({"two thin necks", shaft({solid(r(20, 60), 50, 50), solid(3, 5, 5),
                                              solid(r(40, 60), 50, 50), solid(3, 4, 4),
                                              solid(r(20, 90), 50, 40)})});
