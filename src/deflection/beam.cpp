@@ -149,19 +149,26 @@ void Beam::measure(const Piece& piece, std::size_t n, const double* t,
     case Piece::Kind::hollow_cone:
       break;
   }
-  Column sum, first, second, sheared;
-  for (std::size_t i = 0; i < n; ++i) sum[i] = first[i] = second[i] = sheared[i] = 0;
+  Column re_0, re_h, ri_0, ri_h, sum, first, second, sheared;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double start = kLeft ? 0 : t[i], h = length(i);
+    re_0[i] = re0 + slope * start;
+    ri_0[i] = ri0 + slope_i * start;
+    re_h[i] = slope * h;
+    ri_h[i] = slope_i * h;
+    sum[i] = first[i] = second[i] = sheared[i] = 0;
+  }
   for (std::size_t k = 0; k < kGauss; ++k) {
-    const double u = kNode[k], v = kNode[kGauss - 1 - k], weight = kWeight[k];
+    const double u = kNode[k], v = 1 - u, vv = v * v, weight = kWeight[k];
     for (std::size_t i = 0; i < n; ++i) {
-      const double x = (kLeft ? 0 : t[i]) + length(i) * u;
-      const double re = re0 + slope * x, ri = ri0 + slope_i * x;
+      const double re = re_0[i] + re_h[i] * u, ri = ri_0[i] + ri_h[i] * u;
       const double minus = (re - ri) * (re + ri), plus = re * re + ri * ri;
-      const double w = weight / (minus * plus * plus), both = re * ri, g = w * plus;
+      const double both = re * ri, square = plus * plus;
+      const double w = weight / (minus * square), g = w * plus;
       sum[i] += g;
       first[i] += g * v;
-      second[i] += g * v * v;
-      sheared[i] += w * (shear * plus * plus + shear_hollow * both * both);  // Eq. (6)
+      second[i] += g * vv;
+      sheared[i] += w * (shear * square + shear_hollow * both * both);  // Eq. (6)
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
