@@ -196,6 +196,12 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
                 .find("/insert: got \"XNMG 120408\", expected an ISO "
                       "1832 designation"),
             std::string::npos);
+  tool = example(kTool);
+  tool["geometry"]["minor_kapr_deg"] = 85;  // with 95 a straight edge
+  EXPECT_EQ(
+      problems_of(read_tool, tool),
+      "/geometry/minor_kapr_deg: got 85, expected a corner: kapr_deg + minor_kapr_deg "
+      "< 180 deg\n");
   auto lathe = example(kLathe);
   lathe["spindle"]["curve"][1]["P_kW"] = 16;
   lathe["spindle"]["n_max_rpm"] = 4001;

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <set>
 
 #include "schema_check.hpp"
@@ -66,6 +67,33 @@ TEST(Malformed, OneByteTooManyIsRefused) {
   EXPECT_STREQ(refusal(file).what(),
                "part.json: document: got 2000001 bytes, expected at most 2000000 bytes");
   fs::remove(file);
+}
+
+TEST(Malformed, DamagedDocumentsAreTakenOrRefusedAndNothingElse) {
+  const auto good = text_of(source_path("tests/data/every_key_of_a_part.json"));
+  std::mt19937 random(1);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  const std::string bytes = "{}[],:\"0123456789-.eE\\nulltruefalse \n\xff\x01";
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    auto text = good;
+    for (std::size_t slips = 1 + below(3); slips > 0; --slips) {
+      const auto at = below(text.size());
+      if (below(3) == 0)
+        text.erase(at, 1 + below(20));
+      else if (below(2) == 0)
+        text.insert(at, text.substr(below(text.size()), below(30)));
+      else
+        text[at] = bytes[below(bytes.size())];
+    }
+    try {
+      load_part_plan(parse(text, "part.json"), test_catalogue(), "part.json");
+    } catch (const InputError& error) {
+      EXPECT_FALSE(error.problems().empty());
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 2000);
 }
 
 // Faults of shape are the schema's business too; which setup or price another key asks
