@@ -7,6 +7,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/report/text.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -48,7 +49,8 @@ ordered_json plan(const json& request, const Context& context) {
 
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
-      {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan},
+      {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
+       report::text},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -1,0 +1,19 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// Writers of results for people; they know the documents' keys and nothing of the
+/// planner.
+namespace turnwright::report {
+
+/// The result document of `plan` (schemas/plan.result.json) as text for a planner to hand
+/// to the shop: setups and conditions, tolerances, corrections, prices and assumptions,
+/// or the limits in conflict and what would have to give.
+///
+/// Lines are at most 100 characters; setups are counted from 0, as in the document and
+/// its sentences.  Numbers are rounded for reading, the document has them whole.  A key
+/// that is missing shows as "-" or leaves its line out; a part's `name` and a setup's
+/// `grip_mm` are shown where the document has them.
+std::string text(const nlohmann::ordered_json& plan_result);
+
+}  // namespace turnwright::report

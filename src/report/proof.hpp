@@ -1,0 +1,14 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// A certificate in words.
+namespace turnwright::report {
+
+/// "0.12 %" for a global certificate, else its kind; "-" for no kind.
+std::string gap(const nlohmann::ordered_json& certificate);
+
+/// A sentence for the plan's certificate.
+std::string proof(const nlohmann::ordered_json& certificate);
+
+}  // namespace turnwright::report
