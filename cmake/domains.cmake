@@ -40,11 +40,26 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
+# The plans of parts/ against a global search that shares only the physics with planning;
+# reference_search writes the stored costs, the test runs a short form of it.
+if(BUILD_TESTING)
+  add_library(reference_search_lib STATIC EXCLUDE_FROM_ALL
+    tests/reference_parts/global_search.cpp tests/reference_parts/surface_search.cpp)
+  target_link_libraries(reference_search_lib PUBLIC turnwright::document
+    PRIVATE tw_dev NLopt::nlopt_cxx)
+  add_executable(reference_search EXCLUDE_FROM_ALL tests/reference_parts/reference_search.cpp)
+  target_link_libraries(reference_search PRIVATE reference_search_lib tw_dev)
+  target_compile_definitions(reference_search PRIVATE
+    TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endif()
+tw_domain(report SOURCES text.cpp setups.cpp proof.cpp fields.cpp layout.cpp
+          DEPENDS base PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
+          TESTS text_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
-          DEPENDS base catalogue planning document PRIVATE_LIBS OpenSSL::Crypto
+          DEPENDS base catalogue planning document report PRIVATE_LIBS OpenSSL::Crypto
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <queue>
 
@@ -23,47 +25,42 @@ struct Later {
   }
 };
 
-Box middle(const Box& box) {
-  Box c;
-  for (std::size_t j = 0; j < box.size(); ++j) c[j] = Interval(mid(box[j]));
-  return c;
-}
-
-// Enclosures of f, the constraints and the combinations over a box, and their values at
-// its middle; index 0 is f, then g, then the combinations (without their cut).
+// Enclosures of f, the constraints and the combinations over a box with their gradients,
+// and values at the points that serve each of them best; index 0 is f, then g, then the
+// combinations (without their cut).
 class Functions {
  public:
   void evaluate(const Piece& piece, const Box& box) {
+    piece_ = &piece;
     box_ = box;
-    take(piece, box, over_);
-    take(piece, middle(box), at_middle_);
+    piece.bound(box, f_, g_);
+    gather(f_, g_, over_);
+    for (auto& v : at_) v.clear();
     lower_.resize(over_.size());
-    for (std::size_t k = 0; k < over_.size(); ++k) lower_[k] = least(k);
+    for (std::size_t k = 0; k < over_.size(); ++k) lower_[k] = over_[k].v.lo;
   }
   std::size_t size() const { return over_.size(); }
-  double lower(std::size_t k) const { return lower_[k]; }
+  auto grad(std::size_t k) const { return over_[k].d; }
+  double natural(std::size_t k) const { return lower_[k]; }
+  double upper(std::size_t k) const { return over_[k].v.hi; }
+
+  // Lower bound by (1) or by the natural extension.
+  double lower(std::size_t k) {
+    return std::max(lower_[k], sum(terms(k)));
+  }
 
   // Narrows the box to where function k can be <= limit; false if nowhere.
-  bool narrow(std::size_t k, double limit, Box& box) const {
-    const Box c = middle(box_);
-    std::array<double, kBoxVariables> least{};
-    double sum = at_middle_[k].v.lo;
-    for (std::size_t j = 0; j < box_.size(); ++j) {
-      least[j] = (over_[k].d[j] * (box_[j] - c[j])).lo;
-      sum += least[j];
-    }
-    if (!std::isfinite(sum)) return true;
+  bool narrow(std::size_t k, double limit, Box& box) {
+    const Terms t = terms(k);
+    const double least = sum(t);
+    if (!std::isfinite(least)) return true;
     for (std::size_t j = 0; j < box.size(); ++j) {
-      const double rest =
-          limit + kRounding - (sum - least[j]);  // H_j (y_j - c_j) <= rest
+      const double rest = limit + kRounding - (least - t.least[j]);  // H (y - c) <= rest
       const Interval H = over_[k].d[j];
-      const double m = c[j].lo;
       if (H.lo > 0)
-        box[j].hi = std::min(box[j].hi, m + (rest >= 0 ? rest / H.lo : rest / H.hi));
+        box[j].hi = std::min(box[j].hi, t.centre[j] + (rest >= 0 ? rest / H.lo : rest / H.hi));
       else if (H.hi < 0)
-        box[j].lo = std::max(box[j].lo, m + (rest >= 0 ? rest / H.hi : rest / H.lo));
-      else if (rest < 0)  // both signs: a gap in the middle, kept as it is
-        continue;
+        box[j].lo = std::max(box[j].lo, t.centre[j] + (rest >= 0 ? rest / H.hi : rest / H.lo));
       if (box[j].lo > box[j].hi) return false;
     }
     return true;
@@ -81,29 +78,61 @@ class Functions {
   }
 
  private:
-  void take(const Piece& piece, const Box& box, std::vector<Bound>& out) {
-    piece.bound(box, f_, g_);
-    out.clear();
-    out.push_back(f_);
-    out.insert(out.end(), g_.begin(), g_.end());
-    for (const auto& c : piece.combinations) {
-      Bound sum = f_ * c.weight;
-      for (std::size_t i = 0; i < g_.size(); ++i)
-        if (c.multipliers[i] > 0) sum = sum + g_[i] * c.multipliers[i];
-      out.push_back(sum);
-    }
-  }
-  double least(std::size_t k) const {
-    Interval form = at_middle_[k].v;
-    for (std::size_t j = 0; j < box_.size(); ++j)
-      form = form + over_[k].d[j] * (box_[j] - Interval(mid(box_[j])));  // Eq. (1)
-    return form.lo > over_[k].v.lo ? form.lo : over_[k].v.lo;
+  // Eq. (1) of one function: its centre, the value there and the least of each term.
+  struct Terms {
+    Point centre{};
+    double value = 0;
+    std::array<double, kBoxVariables> least{};
+  };
+  static double sum(const Terms& t) {
+    double s = t.value;
+    for (const double x : t.least) s += x;
+    return s;
   }
 
+  Terms terms(std::size_t k) {
+    Terms t;
+    std::size_t code = 0;
+    for (std::size_t j = 0; j < box_.size(); ++j) {
+      const Interval& H = over_[k].d[j];
+      const bool rises = H.lo >= 0, falls = H.hi <= 0;
+      t.centre[j] = rises ? box_[j].lo : falls ? box_[j].hi : mid(box_[j]);
+      code = 3 * code + (rises ? 0 : falls ? 1 : 2);
+      const double half = width(box_[j]) / 2;
+      if (!rises && !falls && half > 0) t.least[j] = half * std::min(H.lo, -H.hi);
+    }
+    t.value = values_at(code, t.centre)[k];
+    return t;
+  }
+
+  const std::vector<double>& values_at(std::size_t code, const Point& centre) {
+    auto& v = at_[code];
+    if (v.empty()) {
+      double f = 0;
+      piece_->value(centre, f, values_);
+      gather(f, values_, v);
+    }
+    return v;
+  }
+
+  template <class T>
+  void gather(const T& f, const std::vector<T>& g, std::vector<T>& all) const {
+    all.assign(1, f);
+    all.insert(all.end(), g.begin(), g.end());
+    for (const auto& c : piece_->combinations) {
+      T sum = f * c.weight;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        if (c.multipliers[i] > 0) sum = sum + g[i] * c.multipliers[i];
+      all.push_back(sum);
+    }
+  }
+
+  const Piece* piece_ = nullptr;
   Box box_;
   Bound f_;
-  std::vector<Bound> g_, over_, at_middle_;
-  std::vector<double> lower_;
+  std::vector<Bound> g_, over_;
+  std::vector<double> lower_, values_;
+  std::array<std::vector<double>, 27> at_;  // by the choice of lower, upper, middle
 };
 
 class Search {
@@ -154,15 +183,31 @@ class Search {
     for (int round = 0; round < kNarrowings; ++round) {
       ++result_.nodes;
       functions_.evaluate(piece, node.box);
-      node.lower = std::max(node.lower, functions_.lower(0));
       const double before = size(node.box);
+      for (std::size_t k = 0; k < functions_.size(); ++k)
+        if (functions_.natural(k) > limit(piece, k) + kRounding)
+          return settle(node.piece, cut());  // holds nothing feasible below the cut
+      node.lower = std::max(node.lower, functions_.lower(0));
       for (std::size_t k = 0; k < functions_.size(); ++k) {
         const double most = limit(piece, k);
+        if (!std::isfinite(most) || functions_.upper(k) <= most) continue;
         if (functions_.lower(k) > most + kRounding ||
-            (std::isfinite(most) && !functions_.narrow(k, most, node.box)))
-          return settle(node.piece, cut());  // holds nothing feasible below the cut
+            !functions_.narrow(k, most, node.box))
+          return settle(node.piece, cut());
       }
       if (size(node.box) > kWorthwhile * before) break;
+    }
+    if (getenv("TWD") && result_.nodes % 100 < 3) {
+      fprintf(stderr, "n %ld q %zu piece %zu lower-cut %.3e up %.6f box", result_.nodes, queue_.size(), node.piece, node.lower - cut(), result_.upper_bound);
+      for (auto& x : node.box) fprintf(stderr, " [%.5f w %.1e]", mid(x), width(x));
+      fprintf(stderr, "\n");
+      if (result_.nodes % 500 < 3)
+      for (std::size_t k = 0; k < functions_.size(); ++k) {
+        if (functions_.upper(k) <= limit(piece, k)) continue;
+        fprintf(stderr, "   k %zu nat %.3e low %.3e up %.3e lim %.3e grad", k, functions_.natural(k), functions_.lower(k), functions_.upper(k), limit(piece,k));
+        for (int j = 0; j < 3; ++j) fprintf(stderr, " [%.3g %.3g]", functions_.grad(k)[j].lo, functions_.grad(k)[j].hi);
+        fprintf(stderr, "\n");
+      }
     }
     if (piece.try_point)
       result_.upper_bound = std::min(result_.upper_bound, piece.try_point(node.box));

@@ -148,7 +148,9 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
   if (!kept) {
     e.shift = 0;
     y = first;
-    if (keep(y, run(nlopt::LD_CCSAQ, e, y, options)))
+    auto brief = options;  // far slower a step, and only to find a foothold
+    brief.max_evaluations = std::min(40, options.max_evaluations);
+    if (keep(y, run(nlopt::LD_CCSAQ, e, y, brief)))
       keep(y, run(nlopt::LD_SLSQP, e, y, options));
   }
   s.evaluations = e.evaluations;

@@ -20,7 +20,8 @@ struct Affine {
   template <class T>
   T operator()(const T& a) const {
     if (c1 == 0) return T(c0);
-    return c0 == 0 ? T(c1 * a) : T(c0 + c1 * a);
+    if (c0 == 0) return c1 * a;
+    return c1 > 0 ? T(T(c0) + c1 * a) : T(T(c0) - T(-c1 * a));
   }
 };
 
@@ -236,11 +237,10 @@ Window<T> speed_window(const OperationModel& o, const T& f, const T& a,
   return w;
 }
 
-/// Minutes and edges of all passes of an operation.
+/// Minutes and edges of all passes of an operation at a speed and the life it gives.
 template <class T>
 cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& a,
-                      const T& n_cap) {
-  const T life = cutting::tool_life_min(o.cut, v, f, o.depth_mm(a));
+                      const T& n_cap, const T& life) {
   cutting::Duty<T> sum;
   for (std::size_t k = 0; k < o.passes.size(); ++k) {
     const auto d =
@@ -257,11 +257,21 @@ T objective(const OperationModel& o, const Weights& w, const cutting::Duty<T>& d
          (w.minute * o.tool->change_min + w.edge * o.tool->edge_cost) * d.edges;
 }
 
-/// Eq. (1) at given coefficients.
+/// A law at one finishing depth.
 template <class T>
-T law_mm(const Law& law, const T& a, const cutting::Forces<T>& F) {
-  return law.p(a) * F.Fp_N + law.q(a) * F.Ff_N + law.s(a) * F.Fc_N +
-         law.r(a) * sqr(F.Fc_N);
+struct Coefficients {
+  T p, q, s, r;
+};
+template <class T>
+Coefficients<T> at(const Law& law, const T& a) {
+  return {law.p(a), law.q(a), law.s(a), law.r(a)};
+}
+
+/// Eq. (1).
+template <class T>
+Signed<T> law_mm(const Coefficients<Signed<T>>& c, const cutting::Forces<T>& forces) {
+  const Signed<T> Fc = linear(forces.Fc_N);
+  return forces.Fp_N * c.p + linear(forces.Ff_N) * c.q + Fc * c.s + sqr(Fc) * c.r;
 }
 
 /// Depth-of-cut feedback: the surface that yields by e is cut less deep by e,
@@ -270,66 +280,58 @@ T law_mm(const Law& law, const T& a, const cutting::Forces<T>& F) {
 ///     left (2)
 ///
 /// Source: derived here; the loop gain is d law/d depth.
-double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap, double f,
-                   double e_before);
+double yielding_mm(const Coefficients<double>& law, const cutting::Cut& cut, double ap,
+                   double f, double e_before);
 
-namespace detail {
-/// d law/d depth, the loop gain.
-template <class V>
-Dual<V, 1> along_depth(const Law& law, const cutting::Cut& cut, const V& a,
-                       const V& depth, const V& f) {
-  using D = Dual<V, 1>;
-  D aa, ff;
-  aa.v = a;
-  ff.v = f;
-  return law_mm(law, aa, cutting::forces_N(cut, variable<V, 1>(depth, 0), ff));
-}
-}  // namespace detail
+/// d law/d depth.
+double loop_gain(const Coefficients<double>& law, const cutting::Cut& cut, double depth,
+                 double f);
 
 /// (2) with its gradient, by the implicit function theorem: e' = law'/(1 + gain).
 template <int N>
 Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
                             const Dual<double, N>& a, const Dual<double, N>& ap,
                             const Dual<double, N>& f, const Dual<double, N>& e_before) {
-  const double e = yielding_mm(law, cut, a.v, ap.v, f.v, e_before.v);
+  const auto c = at(law, a);
+  const Coefficients<double> point{c.p.v, c.q.v, c.s.v, c.r.v};
+  const double e = yielding_mm(point, cut, ap.v, f.v, e_before.v);
   const Dual<double, N> depth = ap + e_before - e;
-  const auto direct = law_mm(law, a, cutting::forces_N(cut, depth, f));
-  const double gain = detail::along_depth(law, cut, a.v, depth.v, f.v).d[0];
-  Dual<double, N> r = direct * (1 / (1 + gain));
+  const auto direct = law_mm<Dual<double, N>>(c, cutting::forces_N(cut, depth, f));
+  Dual<double, N> r = direct * (1 / (1 + loop_gain(point, cut, depth.v, f.v)));
   r.v = e;
   return r;
 }
 
-/// (2) enclosed over a box.  With e0 = law at full depth and gain g over every depth the
-/// cut can have, the mean value theorem gives e = e0/(1 + g) if g > -1/2 keeps the depths
-/// within [0, 2 e0] of the full one; anything else says nothing.
+/// What is known of (2) where law, f and the full depth ap + e_before are intervals.
+struct Yielding {
+  Interval e = Interval::whole();
+  Interval gain = Interval::whole();
+};
+Yielding yielding_range(const Coefficients<Interval>& law, const cutting::Cut& cut,
+                        const Interval& full, const Interval& f);
+
+/// (2) enclosed over a box with its gradient.
 template <int N>
-Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
-                              const Dual<Interval, N>& a, const Dual<Interval, N>& ap,
-                              const Dual<Interval, N>& f,
+Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut, const LogDual<N>& a,
+                              const LogDual<N>& ap, const LogDual<N>& f,
                               const Dual<Interval, N>& e_before) {
-  using Box = Dual<Interval, N>;
-  const Box full = ap + e_before;
-  Box nothing(Interval::whole(), {});
-  nothing.d.fill(Interval::whole());
-  if (!(full.v.lo > 0)) return nothing;
-  using Point = Dual<Interval, 1>;
-  Point aa, dd, ff;
-  aa.v = a.v;
-  dd.v = full.v;
-  ff.v = f.v;
-  const Interval e0 = law_mm(law, aa, cutting::forces_N(cut, dd, ff)).v;
-  Box depth = full;
-  depth.v = full.v - hull(Interval(0), Interval(2) * e0);
-  if (!(depth.v.lo > 0)) return nothing;
-  const Interval gain = detail::along_depth(law, cut, a.v, depth.v, f.v).d[0];
-  if (!(gain.lo > -0.5)) return nothing;
-  const Interval factor = Interval(1) / (Interval(1) + gain);
-  const auto direct = law_mm(law, a, cutting::forces_N(cut, depth, f));
-  Box r;
-  r.v = e0 * factor;
-  for (int i = 0; i < N; ++i) r.d[i] = direct.d[i] * factor;
+  const auto c = at(law, linear(a));
+  Dual<Interval, N> depth = linear(ap) + e_before, r;
+  const Yielding y =
+      yielding_range({c.p.v, c.q.v, c.s.v, c.r.v}, cut, depth.v, exp(f.ln));
+  r.v = y.e;
+  r.d.fill(Interval::whole());
+  depth.v = depth.v - y.e;
+  if (!(depth.v.lo > 0 && y.gain.lo > -1)) return r;
+  const auto direct = law_mm<LogDual<N>>(c, cutting::forces_N(cut, positive(depth), f));
+  const Interval factor = Interval(1) / (Interval(1) + y.gain);
+  for (std::size_t i = 0; i < N; ++i) r.d[i] = direct.d[i] * factor;
   return r;
+}
+
+inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap,
+                          double f, double e_before) {
+  return yielding_mm(at(law, a), cut, ap, f, e_before);
 }
 
 inline optimise::LogCurvature yielding_mm(const Law&, const cutting::Cut&,
@@ -343,15 +345,15 @@ inline optimise::LogCurvature yielding_mm(const Law&, const cutting::Cut&,
 /// Error of the finished surface at a station after all passes.  On faces there is no
 /// feedback: what yields along the axis is the length, not the depth.
 template <class T>
-T error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
-           const std::array<cutting::Forces<T>, 2>& F) {
-  T e = T(0.0);
+Signed<T> error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
+                   const std::array<cutting::Forces<T>, 2>& F) {
+  Signed<T> e(0.0);
   std::size_t k = 0;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
     const T ap = o.depth_mm(c.a);
     for (std::size_t p = 0; p < o.passes.size(); ++p, ++k)
-      e = o.face ? law_mm(station.passes[k], c.a, F[i])
+      e = o.face ? law_mm<T>(at(station.passes[k], linear(c.a)), F[i])
                  : yielding_mm(station.passes[k], o.cut, c.a, ap, c.f[i], e);
   }
   return e;
@@ -362,15 +364,15 @@ template <class T, class Sink>
 void tolerance_checks(const Chain& chain, const Choice<T>& c,
                       const std::array<cutting::Forces<T>, 2>& F, const Sink& sink) {
   if (chain.functionals.empty()) return;
-  std::vector<T> e;
+  std::vector<Signed<T>> e;
   e.reserve(chain.stations.size());
   for (const auto& s : chain.stations) e.push_back(error_mm(chain, s, c, F));
   for (std::size_t i = 0; i < chain.functionals.size(); ++i) {
     const auto& g = chain.functionals[i];
-    T sum = e[g.terms[0].first] * g.terms[0].second;
+    Signed<T> sum = e[g.terms[0].first] * g.terms[0].second;
     for (std::size_t k = 1; k < g.terms.size(); ++k)
       sum = sum + e[g.terms[k].first] * g.terms[k].second;
-    sink(i, Check::tolerance, false, sum, T(g.limit));
+    sink(i, Check::tolerance, false, sum, Signed<T>(g.limit));
   }
 }
 
@@ -403,7 +405,8 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
     speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
-    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap));
+    const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
+    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
   }
   tolerance_checks(chain, c, F, sink);
   return sum;
@@ -412,11 +415,14 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
 /// The same with each speed at its best for the feed and depth: the economic one, held in
 /// its window.  c.v is set.  The cost falls and then rises with the speed (both terms of
 /// the duty are powers of it while unclamped, and stand still where clamped), so the
-/// nearest speed of the window is the best one.
+/// nearest speed of the window is the best one.  Its life follows from how far it is from
+/// the economic one, T_e (v/v_e)^(-1/n): over a box that says more than Taylor's law with
+/// a speed, feed and depth that each vary.
 template <class T, class Sink>
 T evaluate_at_best_speed(const Chain& chain, Choice<T>& c, const Sink& sink) {
   using std::max;
   using std::min;
+  using std::pow;
   const auto F = forces(chain, c);
   T sum = T(chain.weights.minute * chain.fixed_min);
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
@@ -427,8 +433,10 @@ T evaluate_at_best_speed(const Chain& chain, Choice<T>& c, const Sink& sink) {
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const T economic = cutting::speed_for_life_m_min(o.cut, o.economic_life_min, c.f[i],
                                                      o.depth_mm(c.a));
-    c.v[i] = min(max(economic, w.lower), w.upper);
-    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap));
+    const T ratio = min(max(T(1.0), T(w.lower / economic)), T(w.upper / economic));
+    c.v[i] = economic * ratio;
+    const T life = o.economic_life_min * pow(ratio, -1 / o.cut.taylor.n);
+    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
   }
   tolerance_checks(chain, c, F, sink);
   return sum;

@@ -17,7 +17,9 @@ struct Chosen {
 
 cutting::Duty<double> duty_of(const Chosen& x, std::size_t i) {
   const auto& o = x.chain.operations[i];
-  return duty(o, x.c.v[i], x.c.f[i], x.c.a, spindle_cap(o, x.F[i], x.c.a));
+  const double life =
+      cutting::tool_life_min(o.cut, x.c.v[i], x.c.f[i], o.depth_mm(x.c.a));
+  return duty(o, x.c.v[i], x.c.f[i], x.c.a, spindle_cap(o, x.F[i], x.c.a), life);
 }
 
 std::vector<Pass> passes(const Chosen& x, std::size_t i) {

@@ -157,10 +157,8 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
     o.Ra_um = finishing ? Ra_um_ : 0;
     o.Rz_um = finishing ? Rz_um_ : 0;
   }
-  // f <= 0.8 r keeps the corner in the cut; f <= 2 r sin(kappa') the roughness formula.
-  const double corner =
-      std::min(0.8 * tool.re_mm, 2 * tool.re_mm * std::sin(o.cut.minor_kapr_rad));
-  o.f = {tool.f_mm_rev.lower, std::min(tool.f_mm_rev.upper, corner)};
+  o.f = {tool.f_mm_rev.lower,
+         std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
   o.ap = {std::max(tool.ap_mm.lower, 2.0 / 3.0 * tool.re_mm), tool.ap_mm.upper};
   o.vc = tool.vc_m_min;
   if (want.f_mm_rev) o.f = {*want.f_mm_rev, *want.f_mm_rev};
@@ -185,6 +183,9 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
     c.operations.push_back(operation(*recipe.rough, false, recipe.rough_range, economy));
   if (recipe.finish)
     c.operations.push_back(operation(*recipe.finish, true, recipe.finish_range, economy));
+  for (const auto& o : c.operations)
+    if (!(o.f.lower <= o.f.upper))
+      return {};  // no feed suits both corner and chip breaker
   // Roughing leaves on a shoulder the least depth its tool can cut.
   if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
 

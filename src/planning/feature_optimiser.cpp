@@ -1,8 +1,12 @@
 #include "feature_optimiser.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "exchange.hpp"
@@ -14,9 +18,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 
 struct Candidate {
-  std::shared_ptr<RecipeModel> model;
-  double root_bound = -kInfinity;
-  std::optional<optimise::Solution> local;  // feasible
+  Recipe recipe;
+  double root_bound = -kInfinity;      // of ln(objective), tolerances left out
+  std::shared_ptr<RecipeModel> model;  // built when first needed, anew in every round
+  std::optional<optimise::Solution> local;
+  std::optional<double> settled;  // proved bound; more places only raise it
 };
 
 struct Best {
@@ -25,139 +31,250 @@ struct Best {
   double f = kInfinity;
 };
 
-std::vector<Candidate> candidates(const FeatureTask& task, const Exchange& exchange) {
-  std::vector<Candidate> all;
-  for (const auto& recipe : task.recipes) {
-    auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
-    if (!chain) continue;
-    chain->functionals = exchange.functionals();
-    Candidate c;
-    c.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
+// One task's search over recipes; the places of its tolerances grow from round to round.
+class FeatureSearch {
+ public:
+  FeatureSearch(const FeatureTask& task, double gap)
+      : task_(task), gap_(gap), exchange_(task.feature, task.demands) {
+    for (const auto& recipe : task.recipes) add(recipe);
+    std::stable_sort(all_.begin(), all_.end(),
+                     [](const Candidate& a, const Candidate& b) {
+                       return a.root_bound < b.root_bound;
+                     });
+  }
+
+  FeatureAnswer run() {
+    for (int round = 0; round < kRounds; ++round) {
+      const Best before_places = best_;
+      best_ = {};
+      for (auto& c : all_) {
+        c.model.reset();
+        c.local.reset();
+      }
+      // The optimum before the new places is the best start, of its recipe first.
+      if (!before_places.y.empty())
+        local_search(before_places.candidate, {before_places.y});
+      search_recipes();
+      if (std::isfinite(best_.f) && violated()) continue;
+      const double before = best_.f;
+      certify();
+      if (!std::isfinite(best_.f)) return infeasible();
+      auto s = polished();
+      if (best_.f < before && violated()) continue;
+      return answer(std::move(s));
+    }
+    throw std::runtime_error("planning " + task_.feature.surface() +
+                             ": the places of its tolerances keep moving");
+  }
+
+ private:
+  void add(const Recipe& recipe) {
+    auto chain = task_.feature.chain(recipe, task_.economy, {});
+    if (!chain) return;
+    const RecipeModel model(recipe, std::move(*chain));
     optimise::Bound f;
     std::vector<optimise::Bound> g;
-    const auto piece = c.model->piece();
+    const auto piece = model.piece();
     piece.bound(piece.box, f, g);
-    c.root_bound = std::isfinite(f.v.lo) ? f.v.lo : -kInfinity;
-    all.push_back(std::move(c));
+    for (const auto& row : g)
+      if (row.v.lo > 0) return;  // no condition keeps this limit
+    Candidate c;
+    c.recipe = recipe;
+    if (std::isfinite(f.v.lo)) c.root_bound = f.v.lo;
+    all_.push_back(std::move(c));
   }
-  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    return a.root_bound < b.root_bound;
-  });
-  return all;
-}
 
-// Local minima from a few starts, recipes with the lowest bounds first; a recipe whose
-// bound is above the best so far needs none.
-Best local_search(std::vector<Candidate>& all) {
-  Best best;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    auto& c = all[k];
-    if (c.root_bound >= best.f) continue;
-    for (const auto& [feed, depth] : {std::pair{0.85, 0.15}, {0.4, 0.5}}) {
-      const auto s =
-          optimise::local_minimum(c.model->problem(), c.model->start(feed, depth));
-      if (s.status == optimise::Status::no_feasible_point_met) continue;
-      if (!c.local || s.f < c.local->f) c.local = s;
-      if (s.f < best.f) best = {k, s.y, s.f};
-      break;  // the search that follows finds what this start has missed
+  const std::shared_ptr<RecipeModel>& model(std::size_t k) {
+    auto& c = all_[k];
+    if (!c.model) {
+      auto chain = task_.feature.chain(c.recipe, task_.economy, exchange_.stations());
+      chain->functionals = exchange_.functionals();
+      c.model = std::make_shared<RecipeModel>(c.recipe, std::move(*chain));
     }
+    return c.model;
   }
-  return best;
-}
 
-optimise::Solution least_violation(const RecipeModel& m) {
-  optimise::Solution best;
-  best.f = kInfinity;
-  for (const auto& [feed, depth] : {std::pair{0.2, 0.2}, {0.6, 0.5}, {0.05, 0.05}}) {
-    auto s = optimise::least_violation(m.problem(), m.start(feed, depth), -1.0);
-    if (s.f < best.f) best = std::move(s);
-  }
-  return best;
-}
-
-// What is proved about the best value over all candidates; finds better points on the
-// way.
-Certificate certify(std::vector<Candidate>& all, Best& best, double gap) {
-  Certificate certificate;
-  double bound = kInfinity;
-  std::vector<optimise::Piece> pieces;
-  std::vector<std::size_t> of;
-  bool convex_only = true;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    auto& c = all[k];
-    if (c.local && c.model->convex()) {
-      optimise::Values v{0, std::vector<double>(kConditions), {}, {}};
-      const auto& p = c.model->problem();
-      v.g.resize(p.constraints);
-      v.dg.resize(p.constraints * kConditions);
-      p.evaluate(c.local->y, v);
-      bound = std::min(
-          bound, optimise::convex_lower_bound(p, c.local->y, v, c.local->multipliers));
-      ++certificate.nodes;
-      continue;
-    }
-    convex_only = false;
-    auto piece = c.model->piece();
-    if (c.local)
-      piece.combinations.push_back(c.model->combination(1, c.local->multipliers));
-    else if (c.root_bound < best.f) {
-      const auto worst = least_violation(*c.model);
-      if (worst.f > 0)
-        piece.combinations.push_back(c.model->combination(0, worst.multipliers));
-    }
-    piece.try_point = [&best, k, model = c.model](const optimise::Box& b) {
+  optimise::Piece piece(std::size_t k) {
+    auto p = model(k)->piece();
+    p.try_point = [this, k](const optimise::Box& b) {
       Choice<double> choice{
           {1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
-      const double f = model->feasible_value(choice);
-      if (f < best.f) best = {k, model->point(choice), f};
+      const double f = all_[k].model->feasible_value(choice);
+      if (f < best_.f) best_ = {k, all_[k].model->point(choice), f};
       return f;
     };
-    pieces.push_back(std::move(piece));
-    of.push_back(k);
+    return p;
   }
-  certificate.kind = CertificateKind::global;
-  certificate.engine = convex_only ? "convex" : "branch-and-bound";
-  if (!pieces.empty()) {
-    const auto r = optimise::branch_and_bound(pieces, best.f, {.gap = gap});
-    bound = std::min(bound, r.lower_bound);
-    certificate.nodes += r.nodes;
-    if (!r.complete) {
-      certificate.kind = CertificateKind::local;
-      certificate.reason = "the budget of " + std::to_string(r.nodes) +
-                           " boxes ended before every box was settled";
+
+  // Cheapest-looking recipes first: a few boxes settle most of those that cannot win, and
+  // a local minimum of the others brings the value down that they have to beat.
+  void search_recipes() {
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      auto& c = all_[k];
+      if (c.root_bound >= best_.f || c.settled || c.local) continue;
+      std::vector<optimise::Piece> one{piece(k)};
+      const auto r = optimise::branch_and_bound(one, best_.f,
+                                                {.gap = gap_, .max_nodes = kFirstBoxes});
+      nodes_ += r.nodes;
+      if (r.complete && !(r.upper_bound < kInfinity && best_.candidate == k &&
+                          r.upper_bound == best_.f)) {
+        c.settled = r.lower_bound;
+        continue;
+      }
+      if (best_.candidate == k && std::isfinite(best_.f))
+        local_search(k, {best_.y});
+      else
+        local_search(k, {model(k)->start(0.85, 0.15), model(k)->start(0.4, 0.5)});
     }
   }
-  certificate.lower_bound = std::exp(bound);
-  return certificate;
-}
 
-FeatureAnswer infeasible(std::vector<Candidate>& all, const Certificate& certificate) {
-  FeatureAnswer answer;
-  answer.certificate = certificate;
-  answer.least_violation = kInfinity;
-  for (auto& c : all) {
-    const auto s = least_violation(*c.model);
-    if (!(s.f < answer.least_violation)) continue;
-    answer.least_violation = s.f;
-    answer.model = c.model;
-    answer.choice = c.model->choice(s.y);
-    answer.multipliers = s.multipliers;
+  // A local minimum from the first start that leads to one; what it misses the search
+  // over boxes finds.
+  void local_search(std::size_t k, const std::vector<std::vector<double>>& starts) {
+    auto& c = all_[k];
+    for (const auto& start : starts) {
+      const auto s = optimise::local_minimum(model(k)->problem(), start);
+      if (s.status == optimise::Status::no_feasible_point_met) continue;
+      c.local = s;
+      if (s.f < best_.f) best_ = {k, s.y, s.f};
+      return;
+    }
   }
-  return answer;
-}
 
-// d ln(objective)/d y_j that no row explains: what a bound of the box carries.
-std::vector<double> slopes(const optimise::Problem& p, const optimise::Solution& s) {
-  optimise::Values v{0, std::vector<double>(kConditions),
-                     std::vector<double>(p.constraints),
-                     std::vector<double>(p.constraints * kConditions)};
-  p.evaluate(s.y, v);
-  auto r = v.df;
-  for (std::size_t i = 0; i < p.constraints; ++i)
-    for (std::size_t j = 0; j < r.size(); ++j)
-      r[j] += s.multipliers[i] * v.dg[i * r.size() + j];
-  return r;
-}
+  // Settles what is left, by curvature or by boxes; may find better points on the way.
+  void certify() {
+    std::vector<optimise::Piece> pieces;
+    bound_ = kInfinity;
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      auto& c = all_[k];
+      if (c.settled || c.root_bound >= best_.f) {
+        bound_ = std::min(bound_, c.settled.value_or(c.root_bound));
+        continue;
+      }
+      if (c.local && model(k)->convex()) {
+        bound_ = std::min(bound_, convex_bound(*c.model, *c.local));
+        ++nodes_;
+        engines_.insert("convex");
+        continue;
+      }
+      auto p = piece(k);
+      if (c.local)
+        p.combinations.push_back(c.model->combination(1, c.local->multipliers));
+      else if (const auto worst = least_violation(*c.model); worst.f > 0)
+        p.combinations.push_back(c.model->combination(0, worst.multipliers));
+      pieces.push_back(std::move(p));
+    }
+    if (!pieces.empty()) {
+      engines_.insert("branch-and-bound");
+      const auto r = optimise::branch_and_bound(pieces, best_.f, {.gap = gap_, .max_nodes = kMostBoxes});
+      bound_ = std::min(bound_, r.lower_bound);
+      nodes_ += r.nodes;
+      if (!r.complete)
+        unfinished_ = "the budget of " + std::to_string(r.nodes) +
+                      " boxes ended before every box was settled";
+    }
+    // Recipes settled against an earlier, dearer best are settled against this one.
+    bound_ = std::max(bound_, std::min(bound_, best_.f - gap_));
+  }
+
+  static double convex_bound(const RecipeModel& m, const optimise::Solution& s) {
+    const auto v = values_at(m.problem(), s.y);
+    return optimise::convex_lower_bound(m.problem(), s.y, v, s.multipliers);
+  }
+
+  static optimise::Values values_at(const optimise::Problem& p,
+                                    const std::vector<double>& y) {
+    optimise::Values v{0, std::vector<double>(y.size()),
+                       std::vector<double>(p.constraints),
+                       std::vector<double>(p.constraints * y.size())};
+    p.evaluate(y, v);
+    return v;
+  }
+
+  bool violated() {
+    const auto& m = *model(best_.candidate);
+    return exchange_.add_violated(m.recipe(), task_.economy, m.choice(best_.y));
+  }
+
+  optimise::Solution polished() {
+    const auto& problem = model(best_.candidate)->problem();
+    auto s = optimise::local_minimum(problem, best_.y);
+    if (s.status == optimise::Status::no_feasible_point_met || s.f > best_.f) {
+      s.y = best_.y;  // the search's own point, feasible by its test
+      s.f = best_.f;
+      s.multipliers = optimise::multipliers_at(problem, s.y, values_at(problem, s.y));
+    }
+    best_.y = s.y;
+    best_.f = s.f;
+    return s;
+  }
+
+  Certificate certificate() const {
+    Certificate c;
+    c.kind = unfinished_.empty() ? CertificateKind::global : CertificateKind::local;
+    c.reason = unfinished_;
+    c.nodes = nodes_;
+    for (const auto& e : engines_) c.engine += (c.engine.empty() ? "" : " and ") + e;
+    if (c.engine.empty()) c.engine = "branch-and-bound";
+    c.lower_bound = std::exp(bound_);
+    return c;
+  }
+
+  FeatureAnswer answer(optimise::Solution s) {
+    FeatureAnswer a;
+    a.feasible = true;
+    a.model = model(best_.candidate);
+    a.choice = a.model->choice(best_.y);
+    a.objective = std::exp(best_.f);
+    a.multipliers = std::move(s.multipliers);
+    a.profile = task_.feature.profile(a.model->recipe(), task_.economy, a.choice);
+    a.certificate = certificate();
+    a.certificate.lower_bound = std::min(a.certificate.lower_bound, a.objective);
+    a.certificate.gap = 1 - a.certificate.lower_bound / a.objective;
+    return a;
+  }
+
+  FeatureAnswer infeasible() {
+    FeatureAnswer a;
+    a.certificate = certificate();
+    a.least_violation = kInfinity;
+    // The first, the middle and the last recipe stand for all: the least violation only
+    // says how far off the request is.
+    for (const std::size_t k :
+         std::set<std::size_t>{0, all_.size() / 2, all_.size() - 1}) {
+      if (k >= all_.size()) continue;
+      const auto s = least_violation(*model(k));
+      if (!(s.f < a.least_violation)) continue;
+      a.least_violation = s.f;
+      a.model = all_[k].model;
+      a.choice = a.model->choice(s.y);
+      a.multipliers = s.multipliers;
+    }
+    return a;
+  }
+
+  static optimise::Solution least_violation(const RecipeModel& m) {
+    optimise::Solution best;
+    best.f = kInfinity;
+    for (const auto& [feed, depth] : {std::pair{0.2, 0.2}, {0.6, 0.5}}) {
+      auto s = optimise::least_violation(m.problem(), m.start(feed, depth), -1.0);
+      if (s.f < best.f) best = std::move(s);
+    }
+    return best;
+  }
+
+  static constexpr long kFirstBoxes = 60;    // of one recipe, before a local solve
+  static constexpr long kMostBoxes = 30000;  // past it the certificate says `local`
+  const FeatureTask& task_;
+  double gap_;
+  Exchange exchange_;
+  std::vector<Candidate> all_;
+  Best best_;
+  double bound_ = kInfinity;
+  long nodes_ = 0;
+  std::set<std::string> engines_;
+  std::string unfinished_;
+};
 
 }  // namespace
 
@@ -177,44 +294,10 @@ double worst_excess(const std::vector<Demand>& demands,
 }
 
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap) {
-  Exchange exchange(task.feature, task.demands);
-  for (int round = 0; round < kRounds; ++round) {
-    auto all = candidates(task, exchange);
-    Best best = local_search(all);
-    const auto violated = [&] {
-      const auto& model = *all[best.candidate].model;
-      return exchange.add_violated(model.recipe(), task.economy, model.choice(best.y));
-    };
-    if (std::isfinite(best.f) && violated()) continue;
-    const double before = best.f;
-    Certificate certificate = certify(all, best, gap);
-    if (!std::isfinite(best.f)) return infeasible(all, certificate);
-
-    const auto& model = all[best.candidate].model;
-    auto s = optimise::local_minimum(model->problem(), best.y);
-    if (s.status == optimise::Status::no_feasible_point_met || s.f > best.f) {
-      s.y = best.y;  // the search's own point, feasible by its test
-      s.f = best.f;
-    }
-    best.y = s.y;
-    best.f = s.f;
-    if (best.f < before && violated()) continue;
-
-    FeatureAnswer answer;
-    answer.feasible = true;
-    answer.model = model;
-    answer.choice = model->choice(best.y);
-    answer.objective = std::exp(best.f);
-    answer.multipliers = s.multipliers;
-    answer.slopes = slopes(model->problem(), s);
-    answer.profile = task.feature.profile(model->recipe(), task.economy, answer.choice);
-    certificate.lower_bound = std::min(certificate.lower_bound, answer.objective);
-    certificate.gap = 1 - certificate.lower_bound / answer.objective;
-    answer.certificate = certificate;
-    return answer;
-  }
-  throw std::runtime_error("planning " + task.feature.surface() +
-                           ": the places of its tolerances keep moving");
+  auto t0=std::chrono::steady_clock::now();
+  auto a = FeatureSearch(task, gap).run();
+  fprintf(stderr,"  task %s recipes %zu feasible %d nodes %ld ms %.1f gap %.2e %s lv %g\n", task.feature.surface().c_str(), task.recipes.size(), a.feasible, a.certificate.nodes, std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count()*1e3, a.certificate.gap, a.certificate.engine.c_str(), a.least_violation);
+  return a;
 }
 
 }  // namespace turnwright::planning

@@ -127,13 +127,15 @@ struct Tools {
 class SetupPlanner {
  public:
   SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
-               const SetupWork& work, std::vector<bool> done, Economy economy)
+               const SetupWork& work, std::vector<bool> done, Economy economy,
+               bool thorough)
       : p_(p),
         setup_(setup),
         clamping_(clamping),
         work_(work),
         done_(std::move(done)),
-        economy_(economy) {}
+        economy_(economy),
+        thorough_(thorough) {}
 
   SolvedSetup best() {
     std::optional<SolvedSetup> best;
@@ -175,9 +177,13 @@ class SetupPlanner {
 
   SolvedSetup solve(const Tools& tools) {
     SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+    // One infeasible feature decides; the others are solved only to explain.
+    const auto go_on = [&] { return thorough_ || s.feasible(); };
     if (work_.end_face) add(s, face_feature(tools));
-    for (const std::size_t i : work_.elements) add(s, element_feature(i, tools));
-    for (const std::size_t k : work_.shoulders) add(s, shoulder_feature(k, tools));
+    for (const std::size_t i : work_.elements)
+      if (go_on()) add(s, element_feature(i, tools));
+    for (const std::size_t k : work_.shoulders)
+      if (go_on()) add(s, shoulder_feature(k, tools));
     s.indexings = indexings(s);
     const double setup_min = minutes_besides_cutting(s);
     s.objective += economy_.minute * setup_min;
@@ -290,6 +296,7 @@ class SetupPlanner {
   const SetupWork& work_;
   std::vector<bool> done_;
   Economy economy_;
+  bool thorough_;
   std::map<Key, SolvedFeature> memory_;
 };
 
@@ -319,7 +326,8 @@ struct Comparison {
 };
 
 Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
-                             const std::vector<bool>& done, Economy economy) {
+                             const std::vector<bool>& done, Economy economy,
+                             bool thorough) {
   Comparison result;
   std::vector<SolvedSetup> all;
   for (const Clamping c : p.setups[setup].clampings) {
@@ -327,7 +335,7 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      all.push_back(SetupPlanner(p, setup, c, work, done, economy).best());
+      all.push_back(SetupPlanner(p, setup, c, work, done, economy, thorough).best());
   }
   if (all.empty()) return result;
   const auto better = [](const SolvedSetup& a, const SolvedSetup& b) {
@@ -396,11 +404,12 @@ struct Attempt {
   double objective = 0, lower_bound = 0;
 };
 
-Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
+Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy,
+                bool thorough = false) {
   Attempt a;
   std::vector<bool> done(p.drawing.outer.size(), false);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy));
+    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy, thorough));
     const auto& c = a.setups.back();
     a.feasible = a.feasible && c.solved && c.chosen.feasible();
     for (const std::size_t i : work.setups[s].elements) done[i] = true;
@@ -419,7 +428,8 @@ Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
 Attempt best_attempt(const PartPlan& p, const Assignment& work, double& rate) {
   rate = 0;
   auto a = attempt(p, work, economy_of(p, rate));
-  if (p.objective != Objective::profit || !a.feasible) return a;
+  if (!a.feasible) return attempt(p, work, economy_of(p, rate), true);
+  if (p.objective != Objective::profit) return a;
   for (int step = 0; step < 20; ++step) {
     const double next = (*p.price - a.total.cost) / a.total.minutes;
     if (std::abs(next - rate) <= 1e-9 * (1 + std::abs(next))) break;

@@ -18,6 +18,10 @@ T g_of(Check check, const T& value, const T& limit) {
   if (check == Check::tolerance) return value / limit - 1.0;
   return log(value / limit);
 }
+Bound g_of(Check, const LogDual<optimise::kBoxVariables>& value,
+           const LogDual<optimise::kBoxVariables>& limit) {
+  return log(value / limit);
+}
 
 struct Span {
   double lower, upper;
@@ -136,14 +140,27 @@ Box RecipeModel::box() const {
 }
 
 void RecipeModel::bound(const Box& box, Bound& f, std::vector<Bound>& g) const {
-  Choice<Bound> c;
-  for (std::size_t k = 0; k < 2; ++k)
-    c.f[k] =
-        exp(variable<Interval, optimise::kBoxVariables>(box[k], static_cast<int>(k)));
-  c.a = exp(variable<Interval, optimise::kBoxVariables>(box[2], 2));
+  using L = LogDual<optimise::kBoxVariables>;
+  L::Half half;
+  for (std::size_t k = 0; k < half.size(); ++k) half[k] = width(box[k]) / 2;
+  Choice<L> c;
+  for (int k = 0; k < 2; ++k)
+    c.f[static_cast<std::size_t>(k)] =
+        L::variable(box[static_cast<std::size_t>(k)], k, half);
+  c.a = L::variable(box[2], 2, half);
   g.clear();
   f = log(evaluate_at_best_speed(
-      chain_, c, [&](std::size_t, Check check, bool, const Bound& v, const Bound& limit) {
+      chain_, c, [&](std::size_t, Check check, bool, const auto& v, const auto& limit) {
+        g.push_back(g_of(check, v, limit));
+      }));
+}
+
+void RecipeModel::reduced(const optimise::Point& y, double& f,
+                          std::vector<double>& g) const {
+  Choice<double> c{{1, 1}, {std::exp(y[0]), std::exp(y[1])}, std::exp(y[2])};
+  g.clear();
+  f = std::log(evaluate_at_best_speed(
+      chain_, c, [&](std::size_t, Check check, bool, double v, double limit) {
         g.push_back(g_of(check, v, limit));
       }));
 }
@@ -153,6 +170,9 @@ optimise::Piece RecipeModel::piece() const {
   p.box = box();
   p.constraints = reduced_rows_;
   p.bound = [this](const Box& b, Bound& f, std::vector<Bound>& g) { bound(b, f, g); };
+  p.value = [this](const optimise::Point& y, double& f, std::vector<double>& g) {
+    reduced(y, f, g);
+  };
   return p;
 }
 

@@ -67,6 +67,7 @@ class RecipeModel {
   void evaluate(std::span<const double> y, optimise::Values& out) const;
   void bound(const optimise::Box& box, optimise::Bound& f,
              std::vector<optimise::Bound>& g) const;
+  void reduced(const optimise::Point& y, double& f, std::vector<double>& g) const;
 
   Recipe recipe_;
   Chain chain_;

@@ -28,27 +28,27 @@ struct Chuck {
   double jaw_mass_radius_kg_m = 0;  ///< sum of m r over all jaws
   double friction = 0;              ///< mu_sp between jaws and part
   double n_max_rpm = 0;
-  Range diameter_mm;                ///< what it can hold
+  Range diameter_mm;  ///< what it can hold
 };
 
 struct Lathe {
   std::string id, name;
   double n_min_rpm = 0, n_max_rpm = 0;
-  std::vector<CurvePoint> curve;    ///< spindle motor, rising n; log-log between points
-  double efficiency = 0;            ///< spindle to cut
+  std::vector<CurvePoint> curve;  ///< spindle motor, rising n; log-log between points
+  double efficiency = 0;          ///< spindle to cut
   double feed_force_max_N = 0;
   double rapid_mm_min = 0;
-  double index_min = 0;             ///< time to bring in another tool [min]
-  double load_min = 0;              ///< part in and out, per setup [min]
-  double tailstock_min = 0;         ///< extra with tailstock: centring and quill [min]
-  double centres_min = 0;           ///< extra between centres: centring and driver [min]
-  double setup_min = 0;             ///< preparing the machine, per setup and batch [min]
-  double cost_per_min = 0;          ///< used when the request gives no rate
+  double index_min = 0;      ///< time to bring in another tool [min]
+  double load_min = 0;       ///< part in and out, per setup [min]
+  double tailstock_min = 0;  ///< extra with tailstock: centring and quill [min]
+  double centres_min = 0;    ///< extra between centres: centring and driver [min]
+  double setup_min = 0;      ///< preparing the machine, per setup and batch [min]
+  double cost_per_min = 0;   ///< used when the request gives no rate
   double swing_mm = 0, between_centres_mm = 0;
   Chuck chuck;
   CentreCompliance tail_centre, head_centre;
-  double tool_rr_mm_N = 0;          ///< toolpost: radial yield per radial force
-  double tool_rt_mm_N = 0;          ///< and per tangential force (usually towards the work)
+  double tool_rr_mm_N = 0;  ///< toolpost: radial yield per radial force
+  double tool_rt_mm_N = 0;  ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", "between-centres"
 };

@@ -17,27 +17,28 @@ struct Range {
 /// A turning tool: holder and insert, ISO 13399 symbols, and what its maker allows.
 struct Tool {
   std::string id, name;
-  std::string insert;             ///< ISO 1832 designation
+  std::string insert;  ///< ISO 1832 designation
   std::vector<ToolUse> uses;
-  std::vector<IsoGroup> groups;   ///< materials the grade is for
-  double kapr_deg = 0;            ///< tool cutting edge angle KAPR
-  double minor_kapr_deg = 0;      ///< angle of the minor edge kappa', for f <= 2 r sin(kappa')
-  double gamma_deg = 0;           ///< rake
-  double alpha_deg = 0;           ///< clearance
-  double re_mm = 0;               ///< corner radius RE
+  std::vector<IsoGroup> groups;  ///< materials the grade is for
+  double kapr_deg = 0;           ///< tool cutting edge angle KAPR
+  double minor_kapr_deg =
+      0;                 ///< angle of the minor edge kappa', for f <= 2 r sin(kappa')
+  double gamma_deg = 0;  ///< rake
+  double alpha_deg = 0;  ///< clearance
+  double re_mm = 0;      ///< corner radius RE
   bool wiper = false;
-  Range f_mm_rev, ap_mm;          ///< chip-breaker window
-  Range vc_m_min;                 ///< of the grade, all materials
-  double Fc_max_N = 0;            ///< strength of insert and holder
-  Range T_min;                    ///< tool life window [min]
-  double change_min = 0;          ///< time to change a worn edge [min]
-  double edge_cost = 0;           ///< cost of one cutting edge
+  Range f_mm_rev, ap_mm;  ///< chip-breaker window
+  Range vc_m_min;         ///< of the grade, all materials
+  double Fc_max_N = 0;    ///< strength of insert and holder
+  Range T_min;            ///< tool life window [min]
+  double change_min = 0;  ///< time to change a worn edge [min]
+  double edge_cost = 0;   ///< cost of one cutting edge
 };
 
 /// What an ISO 1832 designation of an indexable insert says about geometry.
 struct Insert1832 {
   char shape = 'C';
-  double included_angle_deg = 0;   ///< corner angle
+  double included_angle_deg = 0;  ///< corner angle
   double clearance_deg = 0;
   char tolerance_class = 'M';
   char type = 'G';

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "turnwright/base/dual.hpp"
+#include "turnwright/base/log_dual.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/catalogue/machine.hpp"
 
@@ -114,9 +114,8 @@ T grip_loss_N(const Grip& g, const T& n_rpm) {
 /// at most 0.999 of Fsp0 (beyond, the check at rest fails anyway).
 template <class T>
 T grip_rpm(const Grip& g, const T& needed_N) {
-  using std::max;
   using std::sqrt;
-  const T spare = max(T(g.force_N - needed_N), T(0.001 * g.force_N));
+  const T spare = difference(T(g.force_N), needed_N, 0.001 * g.force_N);
   return sqrt(spare * (1 / g.mr_kg_m)) * (30 / units::kPi);
 }
 
@@ -157,6 +156,84 @@ Duty<T> duty(const Sweep<T>& s, const T& vc_m_min, const T& f_mm_rev, const T& l
   const T scale = s.path_mm / (f_mm_rev * (D2 - D1));
   return {scale * ((Ds - D1) / n_cap_rpm + unclamped),  // Eq. (3)
           scale * (worn + unclamped) / life_min};       // Eq. (4)
+}
+
+namespace detail {
+// Minutes and wear of a sweep, T(v) = 1, per revolution of feed and diameter swept, split
+// at D_s into clamped and unclamped parts.
+struct Split {
+  double clamped_time = 0, clamped_wear = 0, unclamped = 0;
+};
+inline Split split(double D1, double D2, double v, double n_cap, double q) {
+  const double Dc = v / n_cap * (1000 / units::kPi);
+  const double Ds = std::min(std::max(Dc, D1), D2);
+  return {(Ds - D1) / n_cap,
+          (Ds * std::pow(Ds / Dc, q) - D1 * std::pow(D1 / Dc, q)) / n_cap / (q + 1),
+          (D2 - Ds) * (D2 + Ds) / v * (units::kPi / 2000)};
+}
+template <int N>
+LogDual<N> between(double low, double high, double centre,
+                   const typename LogDual<N>::Gradient& d,
+                   const typename LogDual<N>::Half* half) {
+  LogDual<N> r;
+  r.ln = {std::log(low), std::log(high)};
+  r.centre = std::log(centre);
+  r.d = d;
+  r.half = half;
+  return turnwright::detail::centred(r);
+}
+}  // namespace detail
+
+/// (3) and (4) enclosed: time falls with v and n_cap and rises with the diameters, wear
+/// rises with n_cap, and their elasticities are those of the clamped and the unclamped
+/// part in their shares w,
+///
+///     time' = w (D' - v') - (1 - w) n_cap',
+///     wear' = w (D' - v') + (1 - w) ((q - 1) n_cap' + q (D' - v')),  less f' and T'. (5)
+///
+/// Source: derived here under the integrals.
+template <int N>
+Duty<LogDual<N>> duty(const Sweep<LogDual<N>>& s, const LogDual<N>& vc_m_min,
+                      const LogDual<N>& f_mm_rev, const LogDual<N>& life_min,
+                      const LogDual<N>& n_cap_rpm, double taylor_n) {
+  if (!s.tapered) {
+    const auto time =
+        s.D_large_mm * (units::kPi / 1000 * s.path_mm) / (vc_m_min * f_mm_rev);
+    return {time, time / life_min};
+  }
+  const double q = 1 / taylor_n;
+  const auto &v = vc_m_min, &n = n_cap_rpm, &D1 = s.D_small_mm, &D2 = s.D_large_mm;
+  const auto at = [&](double Interval::* D, double Interval::* speed, double Interval::* cap) {
+    return detail::split(std::exp(D1.ln.*D), std::exp(D2.ln.*D), std::exp(v.ln.*speed),
+                         std::exp(n.ln.*cap), q);
+  };
+  constexpr auto lo = &Interval::lo, hi = &Interval::hi;
+  const auto middle = detail::split(std::exp(D1.centre), std::exp(D2.centre),
+                                    std::exp(v.centre), std::exp(n.centre), q);
+  const auto most_clamped = at(lo, hi, lo), least_clamped = at(hi, lo, hi);
+  const auto share = [&](double detail::Split::* part) {
+    return Interval(most_clamped.unclamped / (most_clamped.unclamped + most_clamped.*part),
+                    least_clamped.unclamped /
+                        (least_clamped.unclamped + least_clamped.*part));
+  };
+  const Interval w = share(&detail::Split::clamped_time);
+  const Interval u = share(&detail::Split::clamped_wear);
+  typename LogDual<N>::Gradient time_d, wear_d;
+  for (std::size_t j = 0; j < N; ++j) {
+    const Interval free = (s.reaches_axis ? D2.d[j] : hull(D1.d[j], D2.d[j])) - v.d[j];
+    const Interval cap = n.d[j], worn = Interval(q - 1) * cap + Interval(q) * free;
+    time_d[j] = intersect(hull(free, -cap), -cap + w * (free + cap));
+    wear_d[j] = intersect(hull(free, worn), worn + u * (free - worn));
+  }
+  const auto time = [](const detail::Split& x) { return x.clamped_time + x.unclamped; };
+  const auto wear = [](const detail::Split& x) { return x.clamped_wear + x.unclamped; };
+  const auto half = turnwright::detail::box_of(v, n);
+  const auto per = s.path_mm / (f_mm_rev * (std::exp(D2.centre) - std::exp(D1.centre)));
+  const auto minutes = detail::between<N>(time(at(lo, hi, hi)), time(at(hi, lo, lo)),
+                                          time(middle), time_d, half);
+  const auto worn = detail::between<N>(wear(at(lo, hi, lo)), wear(at(hi, lo, hi)),
+                                       wear(middle), wear_d, half);
+  return {per * minutes, per * worn / life_min};
 }
 
 }  // namespace turnwright::cutting

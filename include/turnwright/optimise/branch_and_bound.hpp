@@ -15,6 +15,7 @@ inline constexpr int kBoxVariables = 3;
 
 /// An unused variable has lower == upper.
 using Box = std::array<Interval, kBoxVariables>;
+using Point = std::array<double, kBoxVariables>;
 using Bound = Dual<Interval, kBoxVariables>;
 
 /// A combination that every feasible point better than the incumbent keeps below zero:
@@ -31,6 +32,8 @@ struct Piece {
   std::size_t constraints = 0;
   /// Encloses ln of the objective and every g_i, with gradients, over a box.
   std::function<void(const Box&, Bound& f, std::vector<Bound>& g)> bound;
+  /// The same at a point.
+  std::function<void(const Point&, double& f, std::vector<double>& g)> value;
   /// Value of the objective at a feasible point near the middle of a box, or +infinity.
   /// May note the point for the caller.
   std::function<double(const Box&)> try_point;
@@ -58,9 +61,11 @@ struct SearchResult {
 /// it holds no feasible point below the cut, upper_bound - gap; otherwise it is narrowed
 /// by the mean value form, solved for each variable,
 ///
-///     h(y) in h(c) + sum_j H_j (y_j - c_j),   H = gradient over the box, c its middle
-///     (1)
+///     h(y) in h(c) + sum_j H_j (y_j - c_j),   H = gradient over the box (1)
 ///
+/// with c, of each function, at the lower end of the variables along which it rises, at
+/// the upper end of those along which it falls and in the middle of the others: a
+/// function monotone over the box is bounded without error,
 /// and halved across the variable that moves the functions most.  Boxes are taken lowest
 /// bound first; ties in the order of birth, so the result is the same on every run.
 /// Near an optimum the Lagrangian's gradient vanishes and (1) errs by the square of the

@@ -1,0 +1,253 @@
+#include "global_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+
+#include "surface_search.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::reference {
+namespace {
+
+using catalogue::Tool;
+using catalogue::ToolUse;
+using planning::Clamping;
+using planning::Demand;
+using planning::Feature;
+using planning::Offset;
+using planning::PartPlan;
+using planning::Recipe;
+
+std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
+  std::vector<const Tool*> all;
+  for (const auto& t : p.tools)
+    if (std::count(t.uses.begin(), t.uses.end(), use) > 0 &&
+        std::count(t.groups.begin(), t.groups.end(), p.material.group) > 0)
+      all.push_back(&t);
+  return all;
+}
+
+// As many passes as the least depth allows; SurfaceSearch refuses what is too deep.
+int most_passes(double stock, const Tool& t) {
+  const double least = std::max(t.ap_mm.lower, 2.0 / 3.0 * t.re_mm);
+  return std::max(1, static_cast<int>(stock / least + 1e-9));
+}
+
+std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Tool* rough,
+                            const Tool* finish) {
+  std::vector<Recipe> all;
+  const auto ranges = cutting::speed_ranges(p.machine).size();
+  const auto add = [&](const Tool* r, int nr, int nf) {
+    for (std::size_t i = 0; i < (r ? ranges : 1); ++i)
+      for (std::size_t j = 0; j < ranges; ++j) all.push_back({r, finish, nr, nf, i, j});
+  };
+  // One finishing pass makes an element; a face may be made in several.
+  const bool element = f.kind() == Feature::Kind::element;
+  for (int n = 1; n <= (element ? 1 : most_passes(f.stock_mm(), *finish)); ++n)
+    add(nullptr, 0, n);
+  if (rough)
+    for (int n = 1; n <= most_passes(f.stock_mm(), *rough); ++n) add(rough, n, 1);
+  return all;
+}
+
+// The surfaces of one setup in one clamping: what each costs with each pair of tools.
+class SetupSearch {
+ public:
+  SetupSearch(const PartPlan& p, std::size_t setup, Clamping clamping,
+              const planning::SetupWork& work, const std::vector<bool>& done,
+              const planning::Economy& economy, const Effort& effort)
+      : p_(p), clamping_(clamping), economy_(economy), effort_(effort) {
+    if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
+    for (const std::size_t i : work.elements) {
+      auto f = Feature::element(p, setup, clamping, work, done, i, {});
+      if (f.stock_mm() > 1e-9) features_.push_back(std::move(f));
+    }
+    for (const std::size_t k : work.shoulders)
+      features_.push_back(Feature::shoulder(p, setup, clamping, work, done, k, {}));
+  }
+
+  SetupFound best() {
+    struct Choice {
+      const Tool *face, *rough, *finish;
+      double bound;
+    };
+    std::vector<Choice> choices;
+    auto rough = tools_for(p_, ToolUse::roughing);
+    rough.push_back(nullptr);
+    const auto or_none = [](std::vector<const Tool*> t) {
+      if (t.empty()) t.push_back(nullptr);
+      return t;
+    };
+    for (const auto* x : or_none(tools_for(p_, ToolUse::facing)))
+      for (const auto* r : rough)
+        for (const auto* f : or_none(tools_for(p_, ToolUse::finishing))) {
+          double bound = economy_.minute * minutes(0);
+          for (std::size_t k = 0; k < features_.size(); ++k)
+            bound += bounds(k, tools(k, x, r, f)).least;
+          if (std::isfinite(bound)) choices.push_back({x, r, f, bound});
+        }
+    std::sort(choices.begin(), choices.end(),
+              [](const Choice& a, const Choice& b) { return a.bound < b.bound; });
+    SetupFound best{clamping_, {}, 0, kInfinity};
+    for (const auto& c : choices) {
+      if (c.bound >= best.objective) break;
+      SetupFound s{clamping_, {}, 0, 0};
+      for (std::size_t k = 0; k < features_.size() && std::isfinite(s.objective); ++k) {
+        s.surfaces.push_back(solved(k, tools(k, c.face, c.rough, c.finish)));
+        s.objective += s.surfaces.back().objective;
+      }
+      if (!std::isfinite(s.objective)) continue;
+      s.indexings = indexings(s);
+      s.objective += economy_.minute * minutes(s.indexings);
+      if (s.objective < best.objective) best = std::move(s);
+    }
+    return best;
+  }
+
+ private:
+  using Tools = std::pair<const Tool*, const Tool*>;
+  using Key = std::tuple<std::size_t, const Tool*, const Tool*>;
+  struct Bounds {
+    std::vector<std::pair<double, Recipe>>
+        recipes;  // cheapest first, tolerances left out
+    double least = kInfinity;
+  };
+
+  Tools tools(std::size_t k, const Tool* face, const Tool* rough,
+              const Tool* finish) const {
+    const bool element = features_[k].kind() == Feature::Kind::element;
+    return element ? Tools{rough, finish} : Tools{nullptr, face};
+  }
+
+  const Bounds& bounds(std::size_t k, Tools t) {
+    const auto [it, missing] = bounds_.try_emplace(Key{k, t.first, t.second});
+    auto& b = it->second;
+    if (!missing || !t.second) return b;
+    for (const auto& r : recipes(p_, features_[k], t.first, t.second)) {
+      const SurfaceSearch s(features_[k], {}, r, economy_, effort_);
+      if (!s.possible()) continue;
+      const auto p = s.without_tolerances();
+      if (p.excess <= 0x1p-36) b.recipes.emplace_back(p.cost, r);
+    }
+    std::sort(b.recipes.begin(), b.recipes.end(),
+              [](const auto& x, const auto& y) { return x.first < y.first; });
+    if (!b.recipes.empty()) b.least = b.recipes.front().first;
+    fprintf(stderr,"%s %s %s least %g of %zu\n",features_[k].surface().c_str(),t.first?t.first->id.c_str():"-",t.second->id.c_str(),b.least,b.recipes.size());
+    return b;
+  }
+
+  // The tool path follows the error only where nothing else keeps the sizes.
+  const SurfaceFound& solved(std::size_t k, Tools t) {
+    const auto [it, missing] = solved_.try_emplace(Key{k, t.first, t.second});
+    if (missing) {
+      it->second = cheapest(k, t, Offset::none);
+      if (!std::isfinite(it->second.objective)) it->second = cheapest(k, t, Offset::free);
+    }
+    return it->second;
+  }
+
+  SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
+    const auto& f = features_[k];
+    const auto demands = planning::demands(p_, f.surface(), offset);
+    SurfaceFound best;
+    best.surface = f.surface();
+    best.objective = kInfinity;
+    for (const auto& [bound, r] : bounds(k, t).recipes) {
+      if (bound >= best.objective) break;
+      const SurfaceSearch s(f, demands, r, economy_, effort_);
+      const auto p = s.best();
+      if (!(p.excess <= 0x1p-36) || !(p.cost < best.objective)) continue;
+      best.rough = r.rough ? r.rough->id : "";
+      best.finish = r.finish->id;
+      best.rough_passes = r.rough_passes;
+      best.finish_passes = r.finish_passes;
+      for (int i = 0; i < 2; ++i) {
+        best.v_m_min[i] = p.choice.v[static_cast<std::size_t>(i)];
+        best.f_mm_rev[i] = p.choice.f[static_cast<std::size_t>(i)];
+      }
+      best.a_mm = p.choice.a;
+      best.objective = p.cost;
+      best.excess = std::max(p.excess, s.tolerance_excess(p.choice, 401));
+    }
+    return best;
+  }
+
+  double minutes(int changes) const {
+    const auto& m = p_.machine;
+    double t = changes * m.index_min + m.load_min + m.setup_min / p_.batch;
+    if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
+    if (clamping_ == Clamping::between_centres) t += m.centres_min;
+    return t;
+  }
+
+  // The end face, all roughing, all finishing, the shoulders: a tool that differs from
+  // the one before is brought in.
+  int indexings(const SetupFound& s) const {
+    std::string before;
+    int count = 0;
+    const auto bring = [&](const std::string& tool) {
+      if (!tool.empty() && tool != before) {
+        ++count;
+        before = tool;
+      }
+    };
+    for (const auto kind :
+         {Feature::Kind::end_face, Feature::Kind::element, Feature::Kind::shoulder})
+      for (const bool rough : {true, false})
+        for (std::size_t k = 0; k < features_.size(); ++k)
+          if (features_[k].kind() == kind)
+            bring(rough ? s.surfaces[k].rough : s.surfaces[k].finish);
+    return count;
+  }
+
+  const PartPlan& p_;
+  Clamping clamping_;
+  planning::Economy economy_;
+  Effort effort_;
+  std::vector<Feature> features_;
+  std::map<Key, Bounds> bounds_;
+  std::map<Key, SurfaceFound> solved_;
+};
+
+// What the chuck and the room between centres can hold.
+bool usable(const PartPlan& p, std::size_t setup, Clamping c) {
+  const auto& m = p.machine;
+  if (p.drawing.stock.outer_mm > m.swing_mm) return false;
+  if (c != Clamping::chuck && p.drawing.stock.length_mm > m.between_centres_mm)
+    return false;
+  if (c == Clamping::between_centres) return true;
+  const double d = planning::grip_diameter_mm(p, setup, c);
+  return m.chuck.diameter_mm.lower <= d && d <= m.chuck.diameter_mm.upper;
+}
+
+}  // namespace
+
+Found search(const PartPlan& p, const Effort& effort) {
+  if (p.operations || p.objective == planning::Objective::profit)
+    throw std::invalid_argument("the search chooses all operations, for cost or time");
+  const bool cost = p.objective == planning::Objective::cost;
+  const planning::Economy economy{cost ? p.machine_per_min : 1.0, cost ? 1.0 : 0.0};
+  const auto work = planning::assign(p);
+  Found found;
+  std::vector<bool> done(p.drawing.outer.size(), false);
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    SetupFound best;
+    best.objective = kInfinity;
+    for (const Clamping c : p.setups[s].clampings) {
+      if (!usable(p, s, c)) continue;
+      auto one = SetupSearch(p, s, c, work.setups[s], done, economy, effort).best();
+      if (one.objective < best.objective) best = std::move(one);
+    }
+    for (const std::size_t i : work.setups[s].elements) done[i] = true;
+    found.objective += best.objective;
+    found.setups.push_back(std::move(best));
+  }
+  if (!work.unreachable.empty()) found.objective = kInfinity;
+  return found;
+}
+
+}  // namespace turnwright::reference
