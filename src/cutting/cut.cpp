@@ -6,6 +6,15 @@
 
 namespace turnwright::cutting {
 
+Corner corner_of(double re_mm, double kapr_rad) {
+  return {re_mm,
+          kapr_rad,
+          std::sin(kapr_rad),
+          1 / std::tan(kapr_rad),
+          std::tan(kapr_rad / 2),
+          re_mm * (1 - std::cos(kapr_rad))};
+}
+
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   const double K_gamma =
       std::clamp(1 - (tool.gamma_deg - material.gamma0_deg) / 100, 0.7, 1.3);
@@ -14,9 +23,8 @@ Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   c.kf = material.kf;
   c.kp = material.kp;
   c.taylor = material.taylor;
-  c.kapr_rad = units::rad_from_deg(tool.kapr_deg);
+  c.corner = corner_of(tool.re_mm, units::rad_from_deg(tool.kapr_deg));
   c.minor_kapr_rad = units::rad_from_deg(tool.minor_kapr_deg);
-  c.re_mm = tool.re_mm;
   c.hmin_mm = material.hmin_mm;
   c.surface_factor = tool.wiper ? 0.5 : 1.0;
   return c;

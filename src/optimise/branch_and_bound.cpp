@@ -117,11 +117,12 @@ class Functions {
 
   template <class T>
   void gather(const T& f, const std::vector<T>& g, std::vector<T>& all) const {
+    const auto n = piece_->constraints;
     all.assign(1, f);
-    all.insert(all.end(), g.begin(), g.end());
+    all.insert(all.end(), g.begin(), g.begin() + static_cast<std::ptrdiff_t>(n));
     for (const auto& c : piece_->combinations) {
-      T sum = f * c.weight;
-      for (std::size_t i = 0; i < g.size(); ++i)
+      T sum = (g.size() > n ? g[n] : f) * c.weight;
+      for (std::size_t i = 0; i < n; ++i)
         if (c.multipliers[i] > 0) sum = sum + g[i] * c.multipliers[i];
       all.push_back(sum);
     }

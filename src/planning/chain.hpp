@@ -209,7 +209,37 @@ void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
          T(o.grip.force_N));
 }
 
-/// The speeds that satisfy speed_checks, as a window; see speed_checks.
+/// The speeds at which each check of speed_checks holds with equality, in its order, to
+/// sink(upper limit?, speed).
+template <class T, class Sink>
+void speed_limits(const OperationModel& o, const T& f, const T& a,
+                  const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
+  using std::min;
+  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
+  const T ap = o.depth_mm(a);
+  for (const auto& l : o.range.lines)
+    if (!cutting::constant_torque(l))
+      sink(l.s < 1, cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap));
+  if (o.vc.lower < o.vc.upper) {
+    sink(false, T(o.vc.lower));
+    sink(true, T(o.vc.upper));
+  }
+  sink(true, cutting::speed_for_life_m_min(o.cut, o.T_min.lower, f, ap));
+  sink(false, cutting::speed_for_life_m_min(o.cut, o.T_min.upper, f, ap));
+  sink(false, T(first.D_large_mm * (o.n_min_rpm * units::kPi / 1000)));
+  if (o.tapered) return;
+  const auto at_rpm = [&](const T& n) {
+    return T(last.D_small_mm * n * (units::kPi / 1000));
+  };
+  sink(true, at_rpm(n_cap));
+  if (o.grip.force_N > 0)
+    sink(true, at_rpm(cutting::grip_rpm(o.grip, grip_needed(o, F, a))));
+}
+
+/// Weights of an operation's speed limits, in their order: the multipliers of its checks.
+using SpeedWeights = std::vector<double>;
+
+/// The speeds that satisfy speed_checks.
 template <class T>
 struct Window {
   T lower{}, upper{};
@@ -217,23 +247,38 @@ struct Window {
 template <class T>
 Window<T> speed_window(const OperationModel& o, const T& f, const T& a,
                        const cutting::Forces<T>& F, const T& n_cap) {
-  using std::max;
-  using std::min;
-  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
-  const T ap = o.depth_mm(a);
   Window<T> w{T(o.vc.lower), T(o.vc.upper)};
-  w.upper = min(w.upper, cutting::speed_for_life_m_min(o.cut, o.T_min.lower, f, ap));
-  w.lower = max(w.lower, cutting::speed_for_life_m_min(o.cut, o.T_min.upper, f, ap));
-  w.lower = max(w.lower, T(first.D_large_mm * (o.n_min_rpm * units::kPi / 1000)));
-  for (const auto& l : o.range.lines) {
-    if (cutting::constant_torque(l)) continue;
-    const T at = cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap);
-    (l.s < 1 ? w.upper : w.lower) = l.s < 1 ? min(w.upper, at) : max(w.lower, at);
-  }
-  if (o.tapered) return w;
-  T n = n_cap;
-  if (o.grip.force_N > 0) n = min(n, cutting::grip_rpm(o.grip, grip_needed(o, F, a)));
-  w.upper = min(w.upper, T(last.D_small_mm * n * (units::kPi / 1000)));
+  speed_limits(o, f, a, F, n_cap, [&](bool upper, const T& v) {
+    using std::max;
+    using std::min;
+    if (upper)
+      w.upper = min(w.upper, v);
+    else
+      w.lower = max(w.lower, v);
+  });
+  return w;
+}
+
+/// A window that holds speed_window and has no corners: each end the mean of its limits in
+/// the proportions of the weights, v1^w1 v2^w2 ... with w1 + w2 + ... = 1, which lies
+/// between them.
+template <class T>
+Window<T> smooth_window(const OperationModel& o, const T& f, const T& a,
+                        const cutting::Forces<T>& F, const T& n_cap,
+                        const SpeedWeights& weights, Window<T> w) {
+  std::array<double, 2> sum{};
+  std::size_t k = 0;
+  speed_limits(o, f, a, F, n_cap,
+               [&](bool upper, const T&) { sum[upper] += weights[k++]; });
+  std::array<T, 2> mean{T(1.0), T(1.0)};
+  k = 0;
+  speed_limits(o, f, a, F, n_cap, [&](bool upper, const T& v) {
+    using std::pow;
+    const double weight = weights[k++];
+    if (weight > 0) mean[upper] = mean[upper] * pow(v, weight / sum[upper]);
+  });
+  if (sum[0] > 0) w.lower = mean[0];
+  if (sum[1] > 0) w.upper = mean[1];
   return w;
 }
 
@@ -412,31 +457,64 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
   return sum;
 }
 
-/// The same with each speed at its best for the feed and depth: the economic one, held in
-/// its window.  c.v is set.  The cost falls and then rises with the speed (both terms of
-/// the duty are powers of it while unclamped, and stand still where clamped), so the
-/// nearest speed of the window is the best one.  Its life follows from how far it is from
-/// the economic one, T_e (v/v_e)^(-1/n): over a box that says more than Taylor's law with
-/// a speed, feed and depth that each vary.
-template <class T, class Sink>
-T evaluate_at_best_speed(const Chain& chain, Choice<T>& c, const Sink& sink) {
+/// Speed of least cost in a window, and the life it gives.
+template <class T>
+struct BestSpeed {
+  T v{}, life{};
+};
+template <class T>
+BestSpeed<T> best_speed(const OperationModel& o, const T& f, const T& a,
+                        const Window<T>& w) {
   using std::max;
   using std::min;
   using std::pow;
+  const T economic = cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f,
+                                                   o.depth_mm(a));
+  const T ratio = min(max(T(1.0), T(w.lower / economic)), T(w.upper / economic));
+  return {economic * ratio, o.economic_life_min * pow(ratio, -1 / o.cut.taylor.n)};
+}
+
+/// Objective with the best speeds, and a function nowhere above it without the corners
+/// that speed limits make where they cross.
+template <class T>
+struct Reduced {
+  T objective{}, smooth{};
+};
+
+/// As `evaluate`, with each speed at its best for the feed and depth: the economic one,
+/// held in its window.  c.v is set.  The cost falls and then rises with the speed (both
+/// terms of the duty are powers of it while unclamped, and stand still where clamped), so
+/// the nearest speed of the window is the best one.  Its life follows from how far it is
+/// from the economic one, T_e (v/v_e)^(-1/n): over a box that says more than Taylor's law
+/// with a speed, feed and depth that each vary.  A wider window cannot cost more, which
+/// gives `smooth` from the weights of each operation's speed limits (none: the objective).
+template <class T, class Sink>
+Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
+                                  const std::array<SpeedWeights, 2>& weights,
+                                  const Sink& sink) {
   const auto F = forces(chain, c);
-  T sum = T(chain.weights.minute * chain.fixed_min);
+  Reduced<T> sum{T(chain.weights.minute * chain.fixed_min), {}};
+  sum.smooth = sum.objective;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
     const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
-    const T economic = cutting::speed_for_life_m_min(o.cut, o.economic_life_min, c.f[i],
-                                                     o.depth_mm(c.a));
-    const T ratio = min(max(T(1.0), T(w.lower / economic)), T(w.upper / economic));
-    c.v[i] = economic * ratio;
-    const T life = o.economic_life_min * pow(ratio, -1 / o.cut.taylor.n);
-    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
+    const auto cost = [&](const BestSpeed<T>& best) {
+      return objective(o, chain.weights,
+                       duty(o, best.v, c.f[i], c.a, n_cap, best.life));
+    };
+    const auto best = best_speed(o, c.f[i], c.a, w);
+    c.v[i] = best.v;
+    const T least = cost(best);
+    sum.objective = sum.objective + least;
+    sum.smooth =
+        sum.smooth +
+        (weights[i].empty()
+             ? least
+             : cost(best_speed(o, c.f[i], c.a,
+                               smooth_window(o, c.f[i], c.a, F[i], n_cap, weights[i], w))));
   }
   tolerance_checks(chain, c, F, sink);
   return sum;

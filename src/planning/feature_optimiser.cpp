@@ -94,8 +94,7 @@ class FeatureSearch {
     return c.model;
   }
 
-  optimise::Piece piece(std::size_t k) {
-    auto p = model(k)->piece();
+  optimise::Piece with_points(std::size_t k, optimise::Piece p) {
     p.try_point = [this, k](const optimise::Box& b) {
       Choice<double> choice{
           {1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
@@ -112,7 +111,7 @@ class FeatureSearch {
     for (std::size_t k = 0; k < all_.size(); ++k) {
       auto& c = all_[k];
       if (c.root_bound >= best_.f || c.settled || c.local) continue;
-      std::vector<optimise::Piece> one{piece(k)};
+      std::vector<optimise::Piece> one{with_points(k, model(k)->piece())};
       const auto r = optimise::branch_and_bound(one, best_.f,
                                                 {.gap = gap_, .max_nodes = kFirstBoxes});
       nodes_ += r.nodes;
@@ -157,12 +156,9 @@ class FeatureSearch {
         engines_.insert("convex");
         continue;
       }
-      auto p = piece(k);
-      if (c.local)
-        p.combinations.push_back(c.model->combination(1, c.local->multipliers));
-      else if (const auto worst = least_violation(*c.model); worst.f > 0)
-        p.combinations.push_back(c.model->combination(0, worst.multipliers));
-      pieces.push_back(std::move(p));
+      auto p = c.local ? model(k)->piece(1, c.local->multipliers)
+                       : model(k)->piece(0, least_violation(*model(k)).multipliers);
+      pieces.push_back(with_points(k, std::move(p)));
     }
     if (!pieces.empty()) {
       engines_.insert("branch-and-bound");

@@ -15,7 +15,7 @@ using catalogue::Tool;
 using catalogue::ToolUse;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGap = 2e-5;  // what engine 2 may leave open, in ln(objective)
+constexpr double kGap = 5e-5;  // what engine 2 may leave open, in ln(objective)
 constexpr int kMostPasses = 40;
 
 bool fits(const Tool& t, ToolUse use, catalogue::IsoGroup group) {

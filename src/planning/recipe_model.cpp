@@ -85,7 +85,7 @@ std::vector<double> RecipeModel::start(double feed_share, double depth_share) co
   Choice<double> c{{1, 1},
                    {std::exp(at(1, feed_share)), std::exp(at(3, feed_share))},
                    std::exp(at(4, depth_share))};
-  evaluate_at_best_speed(chain_, c, [](auto&&...) {});
+  evaluate_at_best_speed(chain_, c, {}, [](auto&&...) {});
   return point(c);
 }
 
@@ -104,11 +104,11 @@ double RecipeModel::objective(const Choice<double>& c) const {
 
 double RecipeModel::feasible_value(Choice<double>& c) const {
   bool kept = true;
-  const double value = evaluate_at_best_speed(
-      chain_, c, [&](std::size_t, Check, bool, double v, double limit) {
+  const auto value = evaluate_at_best_speed(
+      chain_, c, {}, [&](std::size_t, Check, bool, double v, double limit) {
         kept = kept && v <= limit;
       });
-  return kept ? std::log(value) : std::numeric_limits<double>::infinity();
+  return kept ? std::log(value.objective) : std::numeric_limits<double>::infinity();
 }
 
 void RecipeModel::evaluate(std::span<const double> y, optimise::Values& out) const {
@@ -139,7 +139,8 @@ Box RecipeModel::box() const {
   return b;
 }
 
-void RecipeModel::bound(const Box& box, Bound& f, std::vector<Bound>& g) const {
+void RecipeModel::bound(const Box& box, const SpeedWeightsOfAll& weights, Bound& f,
+                        std::vector<Bound>& g) const {
   using L = LogDual<optimise::kBoxVariables>;
   L::Half half;
   for (std::size_t k = 0; k < half.size(); ++k) half[k] = width(box[k]) / 2;
@@ -149,46 +150,59 @@ void RecipeModel::bound(const Box& box, Bound& f, std::vector<Bound>& g) const {
         L::variable(box[static_cast<std::size_t>(k)], k, half);
   c.a = L::variable(box[2], 2, half);
   g.clear();
-  f = log(evaluate_at_best_speed(
-      chain_, c, [&](std::size_t, Check check, bool, const auto& v, const auto& limit) {
+  const auto cost = evaluate_at_best_speed(
+      chain_, c, weights,
+      [&](std::size_t, Check check, bool, const auto& v, const auto& limit) {
         g.push_back(g_of(check, v, limit));
-      }));
+      });
+  f = log(cost.objective);
+  g.push_back(log(cost.smooth));
 }
 
-void RecipeModel::reduced(const optimise::Point& y, double& f,
-                          std::vector<double>& g) const {
+void RecipeModel::value(const optimise::Point& y, const SpeedWeightsOfAll& weights,
+                        double& f, std::vector<double>& g) const {
   Choice<double> c{{1, 1}, {std::exp(y[0]), std::exp(y[1])}, std::exp(y[2])};
   g.clear();
-  f = std::log(evaluate_at_best_speed(
-      chain_, c, [&](std::size_t, Check check, bool, double v, double limit) {
+  const auto cost = evaluate_at_best_speed(
+      chain_, c, weights, [&](std::size_t, Check check, bool, double v, double limit) {
         g.push_back(g_of(check, v, limit));
-      }));
+      });
+  f = std::log(cost.objective);
+  g.push_back(std::log(cost.smooth));
 }
 
-optimise::Piece RecipeModel::piece() const {
+optimise::Piece RecipeModel::piece() const { return piece(SpeedWeightsOfAll{}); }
+
+optimise::Piece RecipeModel::piece(const SpeedWeightsOfAll& weights) const {
   optimise::Piece p;
   p.box = box();
   p.constraints = reduced_rows_;
-  p.bound = [this](const Box& b, Bound& f, std::vector<Bound>& g) { bound(b, f, g); };
-  p.value = [this](const optimise::Point& y, double& f, std::vector<double>& g) {
-    reduced(y, f, g);
+  p.bound = [this, weights](const Box& b, Bound& f, std::vector<Bound>& g) {
+    bound(b, weights, f, g);
+  };
+  p.value = [this, weights](const optimise::Point& y, double& f, std::vector<double>& g) {
+    value(y, weights, f, g);
   };
   return p;
 }
 
-optimise::Combination RecipeModel::combination(
-    double weight, const std::vector<double>& multipliers) const {
-  optimise::Combination c;
-  c.weight = weight;
+optimise::Piece RecipeModel::piece(double weight,
+                                   const std::vector<double>& multipliers) const {
+  optimise::Combination c{weight, {}};
+  SpeedWeightsOfAll speeds;
   // Reduced rows come in the same order, each operation's speed rows as one window.
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const bool window = i > 0 && rows_[i - 1].speed &&
-                        !(rows_[i].speed && rows_[i].operation == rows_[i - 1].operation);
-    if (window) c.multipliers.push_back(0);
-    if (!rows_[i].speed) c.multipliers.push_back(multipliers[i]);
+    const bool last = i + 1 == rows_.size() || rows_[i + 1].operation != rows_[i].operation ||
+                      rows_[i + 1].check == Check::tolerance;
+    if (rows_[i].speed)
+      speeds[rows_[i].operation].push_back(multipliers[i]);
+    else
+      c.multipliers.push_back(multipliers[i]);
+    if (rows_[i].speed && last) c.multipliers.push_back(0);
   }
-  if (!rows_.empty() && rows_.back().speed) c.multipliers.push_back(0);
-  return c;
+  auto p = piece(speeds);
+  p.combinations.push_back(std::move(c));
+  return p;
 }
 
 bool RecipeModel::convex() const {

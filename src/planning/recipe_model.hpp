@@ -45,9 +45,9 @@ class RecipeModel {
   const optimise::Problem& problem() const { return problem_; }
   /// The same with the speeds at their best, over (ln f, ln f, ln a).
   optimise::Piece piece() const;
-  /// Lagrangian or refutation from multipliers of the full problem.
-  optimise::Combination combination(double weight,
-                                    const std::vector<double>& multipliers) const;
+  /// With the Lagrangian (weight 1) or refutation (weight 0) that multipliers of the full
+  /// problem make.
+  optimise::Piece piece(double weight, const std::vector<double>& multipliers) const;
   /// True if curvature proves objective and all checks log-convex.
   bool convex() const;
 
@@ -65,9 +65,12 @@ class RecipeModel {
  private:
   optimise::Box box() const;
   void evaluate(std::span<const double> y, optimise::Values& out) const;
-  void bound(const optimise::Box& box, optimise::Bound& f,
+  using SpeedWeightsOfAll = std::array<SpeedWeights, 2>;
+  void bound(const optimise::Box& box, const SpeedWeightsOfAll& weights, optimise::Bound& f,
              std::vector<optimise::Bound>& g) const;
-  void reduced(const optimise::Point& y, double& f, std::vector<double>& g) const;
+  void value(const optimise::Point& y, const SpeedWeightsOfAll& weights, double& f,
+             std::vector<double>& g) const;
+  optimise::Piece piece(const SpeedWeightsOfAll& weights) const;
 
   Recipe recipe_;
   Chain chain_;

@@ -9,15 +9,13 @@ namespace turnwright::cutting {
 namespace {
 
 using Grad = Dual<double, 2>;
-using Box2 = Dual<Interval, 2>;
 
 Cut steel(double kapr_deg = 95, double re_mm = 0.8) {
   Cut c;
   c.kc = {1600, 0.25};
   c.taylor = {450, 0.255, 0.35, 0.15};
-  c.kapr_rad = kapr_deg * std::numbers::pi / 180;
+  c.corner = corner_of(re_mm, kapr_deg * std::numbers::pi / 180);
   c.minor_kapr_rad = 0.087;
-  c.re_mm = re_mm;
   c.hmin_mm = 0.005;
   return c;
 }
@@ -34,16 +32,16 @@ TEST(Cut, KienzleAtOneMillimetreIsTheMaterialsConstant) {
 TEST(Cut, EdgeIsArcThenStraightAndJoinsSmoothly) {
   for (const double kapr : {45.0, 75.0, 90.0, 95.0, 107.5}) {
     const auto c = steel(kapr);
-    const double corner = corner_depth_mm(c), h = 1e-6;
+    const double corner = c.corner.depth_mm, h = 1e-6;
     const double below = engaged_edge_mm(c, corner - h, 0.2);
     const double at = engaged_edge_mm(c, corner, 0.2);
     const double above = engaged_edge_mm(c, corner + h, 0.2);
-    EXPECT_NEAR(at, c.re_mm * c.kapr_rad + 0.1, 1e-12);  // the whole arc and f/2
-    EXPECT_NEAR((at - below) / h, 1 / std::sin(c.kapr_rad), 1e-5);
-    EXPECT_NEAR((above - at) / h, 1 / std::sin(c.kapr_rad), 1e-9);
+    EXPECT_NEAR(at, c.corner.re_mm * c.corner.kapr_rad + 0.1, 1e-12);  // the whole arc and f/2
+    EXPECT_NEAR((at - below) / h, 1 / std::sin(c.corner.kapr_rad), 1e-5);
+    EXPECT_NEAR((above - at) / h, 1 / std::sin(c.corner.kapr_rad), 1e-9);
   }
   const auto sharp = steel(60, 0);
-  EXPECT_NEAR(engaged_edge_mm(sharp, 2.0, 0.2), 2 / std::sin(sharp.kapr_rad) + 0.1,
+  EXPECT_NEAR(engaged_edge_mm(sharp, 2.0, 0.2), 2 / std::sin(sharp.corner.kapr_rad) + 0.1,
               1e-13);
 }
 
@@ -51,8 +49,8 @@ TEST(Cut, ForcesOfASharpEdgeFollowItsAngle) {
   // kappa_eff -> kappa for ap >> f: chord = edge; F_D = Fc/2 normal to it.
   const auto c = steel(60, 0);
   const auto F = forces_N(c, 5.0, 1e-6);
-  EXPECT_NEAR(F.Ff_N / F.Fc_N, 0.5 * std::sin(c.kapr_rad), 1e-6);
-  EXPECT_NEAR(F.Fp_N / F.Fc_N, 0.5 * std::cos(c.kapr_rad), 1e-6);
+  EXPECT_NEAR(F.Ff_N / F.Fc_N, 0.5 * std::sin(c.corner.kapr_rad), 1e-6);
+  EXPECT_NEAR(F.Fp_N / F.Fc_N, 0.5 * std::cos(c.corner.kapr_rad), 1e-6);
   const auto shallow = forces_N(steel(95), 0.1, 0.2);  // on the corner: mostly passive
   EXPECT_GT(shallow.Fp_N, 1.5 * shallow.Ff_N);
   auto own = steel();
@@ -82,7 +80,7 @@ TEST(Cut, EconomicLifeMakesTheCostStationary) {
 
 TEST(Cut, RoughnessHasBrammertzFloor) {
   auto c = steel();
-  const double f = std::sqrt(2 * c.re_mm * c.hmin_mm);
+  const double f = std::sqrt(2 * c.corner.re_mm * c.hmin_mm);
   EXPECT_NEAR(Rz_um(c, f), 1000 * c.hmin_mm, 1e-12);
   EXPECT_GT(Rz_um(c, 0.9 * f), Rz_um(c, f));
   EXPECT_GT(Rz_um(c, 1.1 * f), Rz_um(c, f));
@@ -115,19 +113,59 @@ TEST(Cut, GradientsAndEnclosuresAgreeWithTheNumbers) {
     };
     const auto value = all(ap, f);
     const auto grad = all(variable<double, 2>(ap, 0), variable<double, 2>(f, 1));
-    const double h = 1e-6, w = 0.05 * unit(seed);
+    const double h = 1e-6;
     const auto up = all(ap * (1 + h), f), down = all(ap * (1 - h), f);
-    const auto box = all(variable<Interval, 2>(Interval(ap, ap + w), 0),
-                         variable<Interval, 2>(Interval(f, f + w), 1));
-    const auto inside = all(ap + w * 0.3, f + w * 0.8);
     for (std::size_t k = 0; k < value.size(); ++k) {
       const double size = std::abs(value[k]);  // Fp of an obtuse edge may pull
       EXPECT_NEAR(grad[k].v, value[k], 1e-12 * size);
       EXPECT_NEAR(grad[k].d[0], (up[k] - down[k]) / (2 * h * ap), 1e-5 * size / ap) << k;
-      EXPECT_LE(box[k].v.lo, inside[k] + 1e-12 * size);
-      EXPECT_GE(box[k].v.hi, inside[k] - 1e-12 * size);
-      EXPECT_LE(box[k].d[0].lo, grad[k].d[0] + 1e-9 * size);
-      EXPECT_GE(box[k].d[0].hi, grad[k].d[0] - 1e-9 * size);
+    }
+  }
+}
+
+// Value and elasticities of every function at random points of random boxes, whole ranges
+// of depth and feed and small ones, must lie in what LogDual says of the box.
+TEST(Cut, BoxesHoldValuesAndElasticities) {
+  std::mt19937 seed(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto linear_of = [](const auto& x) { return linear(x); };
+  for (int trial = 0; trial < 3000; ++trial) {
+    auto c = steel(45 + 70 * unit(seed), trial % 9 == 0 ? 0 : 0.2 + unit(seed));
+    if (trial % 7 == 0) c.kf = Kienzle{400, 0.7}, c.kp = Kienzle{300, 0.5};
+    const double size = std::pow(unit(seed), 3);  // of the box
+    const Interval ap = log(Interval(0.05, 6)), f = log(Interval(0.03, 0.8));
+    const auto part = [&](const Interval& x) {
+      const double low = x.lo + (1 - size) * unit(seed) * width(x);
+      return Interval(low, low + size * width(x));
+    };
+    const std::array<Interval, 2> box{part(ap), part(f)};
+    const LogDual<2>::Half half{width(box[0]) / 2, width(box[1]) / 2};
+    const auto all = [&](auto a, auto g) {
+      const auto F = forces_N(c, a, g);
+      const auto scaled = forces_N(c, a, g, a);
+      auto life = tool_life_min(c, decltype(a)(200.0), g, a);
+      return std::array{linear_of(F.Fc_N), linear_of(F.Ff_N), F.Fp_N, scaled.Fp_N,
+                        linear_of(Rz_um(c, g)),
+                        linear_of(life)};
+    };
+    const auto over = all(LogDual<2>::variable(box[0], 0, half),
+                          LogDual<2>::variable(box[1], 1, half));
+    for (int k = 0; k < 5; ++k) {
+      using D = Dual<double, 2>;
+      const double y0 = box[0].lo + unit(seed) * width(box[0]);
+      const double y1 = box[1].lo + unit(seed) * width(box[1]);
+      const auto at = all(exp(variable<double, 2>(y0, 0)), exp(variable<double, 2>(y1, 1)));
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        if (i == 4 && !(c.corner.re_mm > 0)) continue;
+        const D& x = at[i];
+        const double slack = 1e-11 * (std::abs(x.v) + std::abs(at[0].v));
+        EXPECT_LE(over[i].v.lo, x.v + slack) << i;
+        EXPECT_GE(over[i].v.hi, x.v - slack) << i;
+        for (std::size_t j = 0; j < 2; ++j) {
+          EXPECT_LE(over[i].d[j].lo, x.d[j] + slack) << i << j;
+          EXPECT_GE(over[i].d[j].hi, x.d[j] - slack) << i << j;
+        }
+      }
     }
   }
 }

@@ -31,9 +31,11 @@ struct LogDual {
   Gradient d{};
   const Half* half = nullptr;  ///< of the box, which outlives the number
 
-  LogDual() : LogDual(0.0) {}
+  LogDual() = default;    ///< one
   LogDual(double value)  // NOLINT: a number is a constant
-      : ln(std::log(value)), centre(std::log(value)) {}
+      : centre(std::log(value)) {
+    ln = Interval(centre);
+  }
 
   /// exp of variable number i over its interval.
   static LogDual variable(const Interval& y, int i, const Half& half) {
@@ -195,15 +197,19 @@ LogDual<N> min(const LogDual<N>& a, const LogDual<N>& b) {
 
 template <int N>
 LogDual<N> operator*(double a, const LogDual<N>& b) {
-  return LogDual<N>(a) * b;
+  const double c = std::log(a);
+  LogDual<N> r = b;
+  r.ln = {b.ln.lo + c, b.ln.hi + c};
+  r.centre = b.centre + c;
+  return r;
 }
 template <int N>
 LogDual<N> operator*(const LogDual<N>& a, double b) {
-  return a * LogDual<N>(b);
+  return b * a;
 }
 template <int N>
 LogDual<N> operator/(const LogDual<N>& a, double b) {
-  return a / LogDual<N>(b);
+  return (1 / b) * a;
 }
 template <int N>
 LogDual<N> operator/(double a, const LogDual<N>& b) {

@@ -13,12 +13,21 @@ namespace turnwright::cutting {
 
 using catalogue::Kienzle;
 
+/// Corner radius and tool cutting edge angle of a tool with what follows from the angle.
+struct Corner {
+  double re_mm = 0, kapr_rad = 0;
+  double sine = 0, cotangent = 0, half_tangent = 0;
+  double depth_mm = 0;  ///< r (1 - cos kappa), where the engaged edge leaves the arc
+};
+Corner corner_of(double re_mm, double kapr_rad);
+
 /// Constants of a cut, made by `cut_of`.
 struct Cut {
   Kienzle kc;  ///< kc1.1 [MPa] times K_gamma, and mc
   std::optional<Kienzle> kf, kp;
   catalogue::Taylor taylor;
-  double kapr_rad = 0, minor_kapr_rad = 0, re_mm = 0;
+  Corner corner;
+  double minor_kapr_rad = 0;
   double hmin_mm = 0;
   double surface_factor = 1;  ///< 0.5 with a wiper edge
 };
@@ -26,11 +35,6 @@ struct Cut {
 /// K_gamma = 1 - (gamma - gamma0)/100 with the angles in degrees, held at 0.7 .. 1.3,
 /// where the rule of thumb ends.
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool);
-
-/// Depth [mm] at which the engaged edge leaves the corner arc, r (1 - cos kappa).
-inline double corner_depth_mm(const Cut& c) {
-  return c.re_mm * (1 - std::cos(c.kapr_rad));
-}
 
 /// Angle of an arc of the corner from its height over the radius: acos(1 - x).
 template <class T>
@@ -60,13 +64,13 @@ LogDual<N> arc_angle(const LogDual<N>& x) {
 /// Source: geometry of the corner, derived here; cut_test joins the two.
 template <class T>
 T engaged_edge_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
-  const double r = c.re_mm, kappa = c.kapr_rad;
+  const double r = c.corner.re_mm;
   const auto arc = [&](const T& ap) -> T { return r * arc_angle(T(ap / r)); };  // Eq. (1)
   const auto straight = [&](const T& ap) -> T {                                // Eq. (2)
-    return ap * (1 / std::sin(kappa)) + r * (kappa - std::tan(kappa / 2));
+    return ap * (1 / c.corner.sine) + r * (c.corner.kapr_rad - c.corner.half_tangent);
   };
   if (!(r > 0)) return straight(ap_mm) + 0.5 * f_mm_rev;
-  return branch(ap_mm, corner_depth_mm(c), arc, straight) + 0.5 * f_mm_rev;
+  return branch(ap_mm, c.corner.depth_mm, arc, straight) + 0.5 * f_mm_rev;
 }
 
 /// L is log-convex: (1) is sqrt(2 r ap) times a power series with positive coefficients,
@@ -95,82 +99,91 @@ T kienzle_N(const Kienzle& k, const T& L_mm, const T& ap_mm, const T& f_mm_rev) 
   return k.k11_MPa * pow(L_mm, k.m) * pow(ap_mm * f_mm_rev, 1 - k.m);
 }
 
-/// Direction of the chip's flow: sine and cosine of kappa_eff.
-template <class T>
-struct Flow {
-  T sine{};
-  Signed<T> cosine{};
-};
-
-/// From its cotangent.
-template <class T>
-Flow<T> flow(const T& u) {
-  using std::sqrt;
-  const T sine = 1.0 / sqrt(sqr(u) + 1.0);
-  return {sine, u * sine};
-}
-/// Both are monotone in u (the sine in its size): their ends enclose them.
-template <int N>
-Flow<LogDual<N>> flow(const Dual<Interval, N>& u) {
-  const auto ln_sine = [](double x) { return -0.5 * std::log1p(x * x); };
-  const auto slope = [](double x) { return -x / (1 + x * x); };  // of ln sine, -1/2 .. 1/2
-  const double size = std::max(std::abs(u.v.lo), std::abs(u.v.hi));
-  const bool both = u.v.lo <= 0 && u.v.hi >= 0;
-  Flow<LogDual<N>> r;
-  r.sine.ln = {ln_sine(size),
-               both ? 0.0 : ln_sine(std::min(std::abs(u.v.lo), std::abs(u.v.hi)))};
-  r.sine.centre = turnwright::detail::kUnknown;
-  Interval d(std::min(slope(u.v.lo), slope(u.v.hi)),
-             std::max(slope(u.v.lo), slope(u.v.hi)));
-  if (u.v.lo <= 1 && u.v.hi >= 1) d.lo = -0.5;
-  if (u.v.lo <= -1 && u.v.hi >= -1) d.hi = 0.5;
-  for (std::size_t j = 0; j < N; ++j) r.sine.d[j] = d * u.d[j];
-  const Interval s = exp(r.sine.ln);
-  r.cosine = turnwright::detail::chain(
-      Interval(u.v.lo / std::hypot(1.0, u.v.lo), u.v.hi / std::hypot(1.0, u.v.hi)),
-      s * sqr(s), u);
-  return r;
-}
-
-/// cot(kappa_eff) = u = (x + f/2)/ap                                                  (5)
+/// cot(kappa_eff) = u of the chip's flow, normal to the chord of the engaged edge:
 ///
+///     u = (x + f/2)/ap                                                               (4)
 ///     x/ap = sqrt(2 r/ap - 1) on the arc, cot(kappa) + (r/ap) tan(kappa/2) beyond
 ///
-/// x is the axial extent of the edge.
+/// x is the axial extent of the edge; u < 0 where an obtuse edge pulls the tool in.
 template <class T>
-Signed<T> flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
+T flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   using std::sqrt;
-  const double r = c.re_mm, kappa = c.kapr_rad;
-  const Signed<T> ap = linear(ap_mm);
-  const auto arc = [&](const Signed<T>& a) -> Signed<T> { return sqrt(2 * r / a - 1.0); };
-  const auto straight = [&](const Signed<T>& a) -> Signed<T> {
-    return r * std::tan(kappa / 2) / a + 1 / std::tan(kappa);
+  const double r = c.corner.re_mm, k = r * c.corner.half_tangent;
+  const double cotangent = c.corner.cotangent;
+  const auto arc = [&](const T& ap) -> T {
+    return sqrt(T(2 * r / ap) - T(1.0)) + 0.5 * f_mm_rev / ap;
   };
-  const Signed<T> x = r > 0 ? branch(ap, corner_depth_mm(c), arc, straight) : straight(ap);
-  return x + 0.5 * linear(T(f_mm_rev / ap_mm));
+  const auto straight = [&](const T& ap) -> T {
+    const T u = (0.5 * f_mm_rev + k) / ap;
+    return cotangent < 0 ? T(u - T(-cotangent)) : T(u + cotangent);
+  };
+  return r > 0 ? branch(ap_mm, c.corner.depth_mm, arc, straight) : straight(ap_mm);
 }
 inline optimise::LogCurvature flow_cotangent(const Cut&, const optimise::LogCurvature&,
                                              const optimise::LogCurvature&) {
   return {};
 }
 
-/// All three forces.  Ff and Fp by the material's own kf1.1 and kp1.1 where it has them;
-/// else by the chip-flow direction, normal to the chord of the engaged edge:
+/// Eq. (5) below.
+template <class T>
+Forces<T> chip_flow_forces_N(const Cut& c, const T& Fc_N, const T& ap_mm,
+                             const T& f_mm_rev) {
+  using std::sqrt;
+  const T u = flow_cotangent(c, ap_mm, f_mm_rev);
+  const T Ff = 0.5 * Fc_N / sqrt(sqr(u) + 1.0);
+  return {Fc_N, Ff, Ff * u};
+}
+/// Enclosed by elasticities where u > 0; where an obtuse edge may pull, by the values of
+/// sine and cosine at the ends of u.
+template <int N>
+Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
+                                      const LogDual<N>& ap_mm,
+                                      const LogDual<N>& f_mm_rev) {
+  const LogDual<N> F_D = 0.5 * Fc_N;
+  const auto sine = [](double u) { return 1 / std::hypot(1.0, u); };
+  const double least = flow_cotangent(c, std::exp(ap_mm.ln.hi), std::exp(f_mm_rev.ln.lo));
+  if (least > 0) {
+    const auto ln_sine = [&](double ln_u) { return std::log(sine(std::exp(ln_u))); };
+    // d ln sine/d ln u = -cosine^2
+    const auto slope = [&](const Interval& ln_u) {
+      return Interval(sqr(sine(std::exp(ln_u.hi))), sqr(sine(std::exp(ln_u.lo)))) -
+             Interval(1);
+    };
+    const LogDual<N> u = flow_cotangent(c, ap_mm, f_mm_rev);
+    const LogDual<N> Ff = F_D * monotone(u, ln_sine, slope);
+    return {Fc_N, Ff, linear(Ff * u)};
+  }
+  const auto u = flow_cotangent(c, linear(ap_mm), linear(f_mm_rev));
+  const double most = std::max(std::abs(u.v.lo), std::abs(u.v.hi));
+  const double nearest = u.v.lo <= 0 && u.v.hi >= 0
+                             ? 0
+                             : std::min(std::abs(u.v.lo), std::abs(u.v.hi));
+  const Interval s(sine(most), sine(nearest));
+  LogDual<N> Ff;
+  Ff.ln = F_D.ln + log(s);
+  Ff.centre = turnwright::detail::kUnknown;
+  for (std::size_t j = 0; j < N; ++j) Ff.d[j] = F_D.d[j] - sqr(s) * u.v * u.d[j];
+  const auto cosine = turnwright::detail::chain(
+      Interval(u.v.lo * sine(u.v.lo), u.v.hi * sine(u.v.hi)), s * sqr(s), u);
+  return {Fc_N, Ff, linear(F_D) * cosine};
+}
+
+/// All three forces, divided by `per`.  Ff and Fp by the material's own kf1.1 and kp1.1
+/// where it has them; else by the chip-flow direction:
 ///
-///     F_D = 0.5 Fc,  Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)               (4)
+///     F_D = 0.5 Fc,  Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)               (5)
 ///
 /// Carried with +-30 %.
 /// Source: Colwell (1954), "Predicting the angle of chip flow".
 template <class T>
-Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
+Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
+                   const T& per = T(1.0)) {
   const T L = engaged_edge_mm(c, ap_mm, f_mm_rev);
-  const T Fc = kienzle_N(c.kc, L, ap_mm, f_mm_rev);  // Eq. (3)
-  if (c.kf && c.kp)
-    return {Fc, kienzle_N(*c.kf, L, ap_mm, f_mm_rev),
-            linear(kienzle_N(*c.kp, L, ap_mm, f_mm_rev))};
-  const Flow<T> chip = flow(flow_cotangent(c, ap_mm, f_mm_rev));
-  const T F_D = 0.5 * Fc;
-  return {Fc, F_D * chip.sine, linear(F_D) * chip.cosine};  // Eq. (4)
+  const auto force = [&](const Kienzle& k) -> T {  // Eq. (3)
+    return kienzle_N(k, L, ap_mm, f_mm_rev) / per;
+  };
+  if (c.kf && c.kp) return {force(c.kc), force(*c.kf), linear(force(*c.kp))};
+  return chip_flow_forces_N(c, force(c.kc), ap_mm, f_mm_rev);
 }
 
 /// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: Taylor (1907), extended form.
@@ -199,7 +212,7 @@ T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& a
 /// Source: Brammertz (1961).
 template <class T>
 T Rz_um(const Cut& c, const T& f_mm_rev) {
-  const double r = c.re_mm, h = c.hmin_mm;
+  const double r = c.corner.re_mm, h = c.hmin_mm;
   T Rt = sqr(f_mm_rev) * (1 / (8 * r));
   if (h > 0) Rt = Rt + 0.5 * h + (0.5 * r * h * h) / sqr(f_mm_rev);
   return Rt * (1000 * c.surface_factor);

@@ -30,7 +30,9 @@ struct Combination {
 struct Piece {
   Box box;
   std::size_t constraints = 0;
-  /// Encloses ln of the objective and every g_i, with gradients, over a box.
+  /// Encloses ln of the objective and every g_i, with gradients, over a box.  One more g
+  /// than `constraints` is a function nowhere above f that combinations use in its place:
+  /// where f has a kink, a smooth one ends the search sooner.
   std::function<void(const Box&, Bound& f, std::vector<Bound>& g)> bound;
   /// The same at a point.
   std::function<void(const Point&, double& f, std::vector<double>& g)> value;
