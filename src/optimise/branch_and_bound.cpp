@@ -220,7 +220,7 @@ class Search {
     for (std::size_t j = 1; j < node.box.size(); ++j)
       if (functions_.sweep(j) > functions_.sweep(widest)) widest = j;
     const double m = mid(node.box[widest]);
-    if (!(width(node.box[widest]) > 1e-12))  // below rounding: nothing left to split
+    if (!(width(node.box[widest]) > 1e-10))  // below rounding: nothing left to split
       return settle(node.piece, node.lower);
     Node left = node, right = node;
     left.box[widest].hi = m;

@@ -347,30 +347,34 @@ Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
   return r;
 }
 
-/// What is known of (2) where law, f and the full depth ap + e_before are intervals.
+/// What is known of (2) where law, f and the full depth ap + e_before are intervals: the
+/// error, the depth full - e that is really cut, and the loop gain there.
 struct Yielding {
   Interval e = Interval::whole();
+  Interval depth = Interval::whole();
   Interval gain = Interval::whole();
 };
 Yielding yielding_range(const Coefficients<Interval>& law, const cutting::Cut& cut,
                         const Interval& full, const Interval& f);
 
-/// (2) enclosed over a box with its gradient.
+/// (2) enclosed over a box with its gradient: e' = m law' + (1 - m) full', m = 1/(1 + gain)
+/// and law' without the depth.
 template <int N>
 Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut, const LogDual<N>& a,
                               const LogDual<N>& ap, const LogDual<N>& f,
                               const Dual<Interval, N>& e_before) {
   const auto c = at(law, linear(a));
-  Dual<Interval, N> depth = linear(ap) + e_before, r;
-  const Yielding y =
-      yielding_range({c.p.v, c.q.v, c.s.v, c.r.v}, cut, depth.v, exp(f.ln));
+  const Dual<Interval, N> full = linear(ap) + e_before;
+  const Yielding y = yielding_range({c.p.v, c.q.v, c.s.v, c.r.v}, cut, full.v, exp(f.ln));
+  Dual<Interval, N> r;
   r.v = y.e;
   r.d.fill(Interval::whole());
-  depth.v = depth.v - y.e;
-  if (!(depth.v.lo > 0 && y.gain.lo > -1)) return r;
-  const auto direct = law_mm<LogDual<N>>(c, cutting::forces_N(cut, positive(depth), f));
-  const Interval factor = Interval(1) / (Interval(1) + y.gain);
-  for (std::size_t i = 0; i < N; ++i) r.d[i] = direct.d[i] * factor;
+  if (!(y.gain.lo > -1)) return r;
+  const LogDual<N> depth = positive(Dual<Interval, N>(y.depth, {}));
+  const auto direct = law_mm<LogDual<N>>(c, cutting::forces_N(cut, depth, f));
+  const Interval m = Interval(1) / (Interval(1) + y.gain);
+  for (std::size_t i = 0; i < N; ++i)
+    r.d[i] = direct.d[i] * m + full.d[i] * (Interval(1) - m);
   return r;
 }
 

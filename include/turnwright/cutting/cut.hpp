@@ -150,8 +150,10 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
              Interval(1);
     };
     const LogDual<N> u = flow_cotangent(c, ap_mm, f_mm_rev);
-    const LogDual<N> Ff = F_D * monotone(u, ln_sine, slope);
-    return {Fc_N, Ff, linear(Ff * u)};
+    const auto cosine = monotone(
+        u, [&](double ln_u) { return ln_u + ln_sine(ln_u); },
+        [&](const Interval& ln_u) { return slope(ln_u) + Interval(1); });
+    return {Fc_N, F_D * monotone(u, ln_sine, slope), linear(F_D * cosine)};
   }
   const auto u = flow_cotangent(c, linear(ap_mm), linear(f_mm_rev));
   const double most = std::max(std::abs(u.v.lo), std::abs(u.v.hi));
