@@ -31,12 +31,30 @@ struct Best {
   double f = kInfinity;
 };
 
+// Of ln(objective), tolerances left out; +infinity where no condition keeps some limit.
+double root_bound(const FeatureTask& task, const Recipe& recipe) {
+  auto chain = task.feature.chain(recipe, task.economy, {});
+  if (!chain) return kInfinity;
+  const RecipeModel model(recipe, std::move(*chain));
+  optimise::Bound f;
+  std::vector<optimise::Bound> g;
+  const auto piece = model.piece();
+  piece.bound(piece.box, f, g);
+  g.pop_back();  // not a constraint
+  for (const auto& row : g)
+    if (row.v.lo > 0) return kInfinity;
+  return f.v.lo;
+}
+
 // One task's search over recipes; the places of its tolerances grow from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap)
       : task_(task), gap_(gap), exchange_(task.feature, task.demands) {
-    for (const auto& recipe : task.recipes) add(recipe);
+    for (const auto& recipe : task.recipes) {
+      const double bound = root_bound(task, recipe);
+      if (bound < kInfinity) all_.push_back({recipe, bound, nullptr, {}, {}});
+    }
     std::stable_sort(all_.begin(), all_.end(),
                      [](const Candidate& a, const Candidate& b) {
                        return a.root_bound < b.root_bound;
@@ -68,22 +86,6 @@ class FeatureSearch {
   }
 
  private:
-  void add(const Recipe& recipe) {
-    auto chain = task_.feature.chain(recipe, task_.economy, {});
-    if (!chain) return;
-    const RecipeModel model(recipe, std::move(*chain));
-    optimise::Bound f;
-    std::vector<optimise::Bound> g;
-    const auto piece = model.piece();
-    piece.bound(piece.box, f, g);
-    for (const auto& row : g)
-      if (row.v.lo > 0) return;  // no condition keeps this limit
-    Candidate c;
-    c.recipe = recipe;
-    if (std::isfinite(f.v.lo)) c.root_bound = f.v.lo;
-    all_.push_back(std::move(c));
-  }
-
   const std::shared_ptr<RecipeModel>& model(std::size_t k) {
     auto& c = all_[k];
     if (!c.model) {
@@ -230,22 +232,29 @@ class FeatureSearch {
     return a;
   }
 
+  // The recipe nearest to what is asked.  The first, the middle and the last stand for all
+  // unless the answer is to be explained.
   FeatureAnswer infeasible() {
     FeatureAnswer a;
     a.certificate = certificate();
     a.least_violation = kInfinity;
-    // The first, the middle and the last recipe stand for all: the least violation only
-    // says how far off the request is.
-    for (const std::size_t k :
-         std::set<std::size_t>{0, all_.size() / 2, all_.size() - 1}) {
-      if (k >= all_.size()) continue;
-      const auto s = least_violation(*model(k));
+    const auto n = task_.recipes.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!task_.explain && k != 0 && k != n / 2 && k + 1 != n) continue;
+      const auto& recipe = task_.recipes[k];
+      auto chain = task_.feature.chain(recipe, task_.economy, exchange_.stations());
+      if (!chain) continue;
+      chain->functionals = exchange_.functionals();
+      auto m = std::make_shared<RecipeModel>(recipe, std::move(*chain));
+      const auto s = least_violation(*m);
       if (!(s.f < a.least_violation)) continue;
       a.least_violation = s.f;
-      a.model = all_[k].model;
-      a.choice = a.model->choice(s.y);
+      a.choice = m->choice(s.y);
       a.multipliers = s.multipliers;
+      a.model = std::move(m);
     }
+    if (a.model)
+      a.profile = task_.feature.profile(a.model->recipe(), task_.economy, a.choice);
     return a;
   }
 
@@ -273,6 +282,13 @@ class FeatureSearch {
 };
 
 }  // namespace
+
+double least_objective(const FeatureTask& task) {
+  double least = kInfinity;
+  for (const auto& recipe : task.recipes)
+    least = std::min(least, root_bound(task, recipe));
+  return std::exp(least);
+}
 
 double worst_excess(const std::vector<Demand>& demands,
                     const tolerance::PiecewisePolynomial& e) {

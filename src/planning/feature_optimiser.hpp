@@ -13,6 +13,7 @@ struct FeatureTask {
   std::vector<Demand> demands;
   std::vector<Recipe> recipes;
   Economy economy;
+  bool explain = false;  ///< if nothing is feasible, compare every recipe to say why
 };
 
 struct FeatureAnswer {
@@ -26,6 +27,10 @@ struct FeatureAnswer {
   Certificate certificate;
   double least_violation = 0;  ///< of the best infeasible point, max g
 };
+
+/// A lower bound of the objective over all recipes, tolerances left out; +infinity if no
+/// recipe keeps its limits.  One box per recipe.
+double least_objective(const FeatureTask& task);
 
 /// Minimises over recipes and conditions.  Tolerances enter as functionals at places of
 /// the surface: the worst places of each optimum are added until none is violated

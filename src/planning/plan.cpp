@@ -122,41 +122,87 @@ struct Tools {
   }
 };
 
+// One surface to be made in a setup and what the request says of it.
+struct Job {
+  Feature feature;
+  Wanted wanted;
+};
+
+// A job with its tools: what the best recipe cannot beat, and its answer once asked for.
+struct Entry {
+  double bound = 0;
+  std::optional<SolvedFeature> solved;
+};
+// End faces are cut in the chuck alone: their entries hold for every clamping of a setup.
+using FaceMemory = std::map<const Tool*, Entry>;
+
 // Solves the features of one setup in one clamping, remembering what depends only on part
 // of the tools.
 class SetupPlanner {
  public:
   SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
-               const SetupWork& work, std::vector<bool> done, Economy economy,
-               bool thorough)
+               const SetupWork& work, const std::vector<bool>& done, Economy economy,
+               bool thorough, FaceMemory& faces)
       : p_(p),
         setup_(setup),
         clamping_(clamping),
-        work_(work),
-        done_(std::move(done)),
         economy_(economy),
-        thorough_(thorough) {}
-
-  SolvedSetup best() {
-    std::optional<SolvedSetup> best;
-    for (const auto& tools : choices()) {
-      auto s = solve(tools);
-      if (!best || (s.feasible() && !best->feasible()) ||
-          (s.feasible() == best->feasible() && s.objective < best->objective)) {
-        const double bound = best ? best->lower_bound : kInfinity;
-        best = std::move(s);
-        best->lower_bound = std::min(best->lower_bound, bound);
-      } else {
-        best->lower_bound = std::min(best->lower_bound, s.lower_bound);
-      }
+        thorough_(thorough),
+        faces_(faces) {
+    const auto& e = p.drawing.outer;
+    if (work.end_face) {
+      const auto w = wanted(p, setup, p.setups[setup].hold == part::End::left ? "right" : "left");
+      if (w.finish) jobs_.push_back({Feature::end_face(p, setup, done, w.fixed), w});
     }
-    return best ? *best : SolvedSetup{setup_, clamping_, {}, 0, 0, 0};
+    for (const std::size_t i : work.elements) {
+      const auto w = wanted(p, setup, e[i].id);
+      auto f = Feature::element(p, setup, clamping, work, done, i, w.fixed);
+      if ((w.rough || w.finish) && f.stock_mm() > 1e-9) jobs_.push_back({std::move(f), w});
+    }
+    for (const std::size_t k : work.shoulders) {
+      const auto w = wanted(p, setup, e[k - 1].id + "|" + e[k].id);
+      if (w.finish)
+        jobs_.push_back({Feature::shoulder(p, setup, clamping, work, done, k, w.fixed), w});
+    }
+    memory_.resize(jobs_.size());
+  }
+
+  // Tools that look cheapest first; others are dropped as soon as they cannot win.
+  SolvedSetup best() {
+    std::vector<std::pair<double, Tools>> all;
+    for (const auto& tools : choices()) {
+      double bound = least_besides_cutting();
+      for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
+      all.emplace_back(bound, tools);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::optional<SolvedSetup> best;
+    double bound = kInfinity;
+    for (const auto& [least, tools] : all) {
+      const bool known = best && best->feasible();
+      if (known && !thorough_ && least >= best->objective) {
+        bound = std::min(bound, least);
+        continue;
+      }
+      auto s = solve(tools, least, known && !thorough_ ? best->objective : kInfinity);
+      bound = std::min(bound, s.lower_bound);
+      if (s.abandoned) continue;
+      if (!best || (s.feasible() && !best->feasible()) ||
+          (s.feasible() == best->feasible() && s.objective < best->objective))
+        best = std::move(s);
+    }
+    if (!best) return {setup_, clamping_, {}, 0, 0, 0};
+    best->lower_bound = bound;
+    return *best;
   }
 
  private:
   // Every combination of one facing, one roughing (or none) and one finishing tool.
   std::vector<Tools> choices() const {
-    const bool faces = work_.end_face || !work_.shoulders.empty();
+    bool faces = false, elements = false;
+    for (const auto& j : jobs_)
+      (j.feature.kind() == Feature::Kind::element ? elements : faces) = true;
     auto face =
         faces ? tools_for(p_, ToolUse::facing) : std::vector<const Tool*>{nullptr};
     if (face.empty()) face = {nullptr};
@@ -164,7 +210,7 @@ class SetupPlanner {
     rough.push_back(nullptr);
     auto finish = tools_for(p_, ToolUse::finishing);
     if (finish.empty() || p_.operations) finish.push_back(nullptr);
-    if (work_.elements.empty()) {
+    if (!elements) {
       rough = {nullptr};
       finish = {nullptr};
     }
@@ -175,19 +221,73 @@ class SetupPlanner {
     return all;
   }
 
-  SolvedSetup solve(const Tools& tools) {
+  // The tools of a job: roughing and finishing (or facing).
+  std::pair<const Tool*, const Tool*> tools_of(std::size_t j, const Tools& tools) const {
+    const auto& w = jobs_[j].wanted;
+    if (jobs_[j].feature.kind() != Feature::Kind::element)
+      return {nullptr, w.finish_tool ? w.finish_tool : tools.face};
+    const Tool* rough = w.rough_tool ? w.rough_tool : tools.rough;
+    const Tool* finish = w.finish_tool ? w.finish_tool : tools.finish;
+    return {w.rough ? rough : nullptr, w.finish ? finish : nullptr};
+  }
+
+  FeatureTask task(std::size_t j, const Tools& tools, Offset offset) const {
+    const auto& f = jobs_[j].feature;
+    const auto [rough, finish] = tools_of(j, tools);
+    return {f, demands(p_, f.surface(), offset),
+            recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, thorough_};
+  }
+
+  Entry& entry(std::size_t j, const Tools& tools) {
+    const auto key = tools_of(j, tools);
+    auto& memory = memory_[j];
+    if (jobs_[j].feature.kind() == Feature::Kind::end_face) {
+      const auto [it, fresh] = faces_.try_emplace(key.second);
+      if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
+      return it->second;
+    }
+    const auto [it, fresh] = memory.try_emplace(key);
+    if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
+    return it->second;
+  }
+
+  // Without compensation if that is possible, with it if only that is.
+  const SolvedFeature& solved(std::size_t j, const Tools& tools) {
+    auto& e = entry(j, tools);
+    if (e.solved) return *e.solved;
+    const auto attempt = [&](Offset offset) {
+      auto t = task(j, tools, offset);
+      auto answer = optimise_feature(t, kGap);
+      return SolvedFeature{std::move(t), std::move(answer), offset == Offset::free,
+                           jobs_[j].wanted.ids};
+    };
+    e.solved = attempt(Offset::none);
+    if (e.solved->answer.feasible || e.solved->task.demands.empty()) return *e.solved;
+    auto compensated = attempt(Offset::free);
+    if (compensated.answer.feasible) e.solved = std::move(compensated);
+    return *e.solved;
+  }
+
+  // `least` bounds the setup from below; it rises as features are solved, and past `most`
+  // the rest is left.
+  SolvedSetup solve(const Tools& tools, double least, double most) {
     SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
-    // One infeasible feature decides; the others are solved only to explain.
-    const auto go_on = [&] { return thorough_ || s.feasible(); };
-    if (work_.end_face) add(s, face_feature(tools));
-    for (const std::size_t i : work_.elements)
-      if (go_on()) add(s, element_feature(i, tools));
-    for (const std::size_t k : work_.shoulders)
-      if (go_on()) add(s, shoulder_feature(k, tools));
+    s.lower_bound = least;
+    for (std::size_t j = 0; j < jobs_.size(); ++j) {
+      // One infeasible feature decides; the others are solved only to explain.
+      if (!thorough_ && !s.feasible()) break;
+      const auto& f = solved(j, tools);
+      s.features.push_back(f);
+      if (!f.answer.feasible) continue;
+      s.objective += f.answer.objective;
+      s.lower_bound += f.answer.certificate.lower_bound - entry(j, tools).bound;
+      s.abandoned = std::isfinite(most) && s.lower_bound >= most;
+      if (s.abandoned) return s;
+    }
     s.indexings = indexings(s);
-    const double setup_min = minutes_besides_cutting(s);
-    s.objective += economy_.minute * setup_min;
-    s.lower_bound += economy_.minute * setup_min;
+    const double besides = economy_.minute * minutes_besides_cutting(s);
+    s.objective += besides;
+    s.lower_bound += besides - least_besides_cutting();
     if (!s.feasible()) {
       s.objective = 0;
       for (const auto& f : s.features)
@@ -197,6 +297,10 @@ class SetupPlanner {
       s.lower_bound = kInfinity;
     }
     return s;
+  }
+
+  double least_besides_cutting() const {
+    return economy_.minute * minutes_besides_cutting({setup_, clamping_, {}, 0, 0, 0});
   }
 
   double minutes_besides_cutting(const SolvedSetup& s) const {
@@ -225,79 +329,15 @@ class SetupPlanner {
     return static_cast<int>(sequence.size());
   }
 
-  static void add(SolvedSetup& s, std::optional<SolvedFeature> f) {
-    if (!f) return;
-    s.objective += f->answer.objective;
-    s.lower_bound += f->answer.certificate.lower_bound;
-    s.features.push_back(std::move(*f));
-  }
-
-  using Key = std::tuple<std::string, const Tool*, const Tool*>;
-
-  std::optional<SolvedFeature> remembered(const Key& key, const Feature& feature,
-                                          const Wanted& w, const Tool* rough,
-                                          const Tool* finish) {
-    const auto it = memory_.find(key);
-    if (it != memory_.end()) return it->second;
-    auto solved = optimise(feature, w, rough, finish);
-    memory_.emplace(key, solved);
-    return solved;
-  }
-
-  // Without compensation if that is possible, with it if only that is.
-  SolvedFeature optimise(const Feature& feature, const Wanted& w, const Tool* rough,
-                         const Tool* finish) const {
-    const auto list = recipes(p_, feature, w, rough, finish);
-    const auto attempt = [&](Offset offset) {
-      FeatureTask task{feature, demands(p_, feature.surface(), offset), list, economy_};
-      auto answer = optimise_feature(task, kGap);
-      return SolvedFeature{std::move(task), std::move(answer), offset == Offset::free,
-                           w.ids};
-    };
-    auto plain = attempt(Offset::none);
-    if (plain.answer.feasible || plain.task.demands.empty()) return plain;
-    auto compensated = attempt(Offset::free);
-    return compensated.answer.feasible ? compensated : plain;
-  }
-
-  std::optional<SolvedFeature> face_feature(const Tools& tools) {
-    const auto w =
-        wanted(p_, setup_, p_.setups[setup_].hold == part::End::left ? "right" : "left");
-    const auto f = Feature::end_face(p_, setup_, done_, w.fixed);
-    if (w.given && !w.finish) return {};
-    const Tool* tool = w.finish_tool ? w.finish_tool : tools.face;
-    return remembered({f.surface(), nullptr, tool}, f, w, nullptr, tool);
-  }
-
-  std::optional<SolvedFeature> shoulder_feature(std::size_t k, const Tools& tools) {
-    const auto& e = p_.drawing.outer;
-    const auto w = wanted(p_, setup_, e[k - 1].id + "|" + e[k].id);
-    if (w.given && !w.finish) return {};
-    const auto f = Feature::shoulder(p_, setup_, clamping_, work_, done_, k, w.fixed);
-    const Tool* tool = w.finish_tool ? w.finish_tool : tools.face;
-    return remembered({f.surface(), nullptr, tool}, f, w, nullptr, tool);
-  }
-
-  std::optional<SolvedFeature> element_feature(std::size_t i, const Tools& tools) {
-    const auto w = wanted(p_, setup_, p_.drawing.outer[i].id);
-    if (w.given && !w.rough && !w.finish) return {};
-    const auto f = Feature::element(p_, setup_, clamping_, work_, done_, i, w.fixed);
-    if (!(f.stock_mm() > 1e-9)) return {};
-    const Tool* rough = w.rough_tool ? w.rough_tool : tools.rough;
-    const Tool* finish = w.finish_tool ? w.finish_tool : tools.finish;
-    if (!w.rough) rough = nullptr;
-    if (!w.finish) finish = nullptr;
-    return remembered({f.surface(), rough, finish}, f, w, rough, finish);
-  }
-
   const PartPlan& p_;
   std::size_t setup_;
   Clamping clamping_;
-  const SetupWork& work_;
-  std::vector<bool> done_;
   Economy economy_;
   bool thorough_;
-  std::map<Key, SolvedFeature> memory_;
+  FaceMemory& faces_;
+  std::vector<Job> jobs_;
+  // Per job, by its tools.
+  std::vector<std::map<std::pair<const Tool*, const Tool*>, Entry>> memory_;
 };
 
 // Why a clamping cannot be used on this machine at all, or nothing.
@@ -330,12 +370,14 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
                              bool thorough) {
   Comparison result;
   std::vector<SolvedSetup> all;
+  FaceMemory faces;
   for (const Clamping c : p.setups[setup].clampings) {
     const auto why = unusable(p, setup, c);
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      all.push_back(SetupPlanner(p, setup, c, work, done, economy, thorough).best());
+      all.push_back(
+          SetupPlanner(p, setup, c, work, done, economy, thorough, faces).best());
   }
   if (all.empty()) return result;
   const auto better = [](const SolvedSetup& a, const SolvedSetup& b) {
