@@ -59,8 +59,7 @@ std::size_t Exchange::station(double at_mm) {
   return stations_.size() - 1;
 }
 
-void Exchange::add(std::vector<std::pair<double, double>> terms, double limit,
-                   const Demand& d) {
+void Exchange::add(const Terms& terms, double limit, const Demand& d) {
   Functional g;
   for (const auto& [at, weight] : terms) g.terms.emplace_back(station(at), weight);
   g.limit =
@@ -97,21 +96,27 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
   const auto e = [&](double z) { return evaluate(profile, z); };
   const Place top = largest(e, low, high, 1), bottom = largest(e, low, high, -1);
   const auto before = functionals_.size();
-  const auto broken = [](double value, double limit) {
-    return value > limit * (1 + kAllowed);
+  // The profile finds the places; what counts is the error itself there.
+  const auto add_if_broken = [&](const Terms& terms, double limit, const Demand& d) {
+    std::vector<double> places;
+    for (const auto& t : terms) places.push_back(t.first);
+    const auto exact = feature_->errors(recipe, economy, choice, places);
+    double value = 0;
+    for (std::size_t k = 0; k < terms.size(); ++k) value += terms[k].second * exact[k];
+    if (value > limit * (1 + kAllowed)) add(terms, limit, d);
   };
   using enum Demand::Shape;
   for (const auto& d : demands_) {
     const double w = d.factor;
     if (d.shape == size) {
-      if (broken(w * top.value, d.upper)) add({{top.at, w}}, d.upper, d);
-      if (broken(w * bottom.value, -d.lower)) add({{bottom.at, -w}}, -d.lower, d);
+      if (w * top.value > d.upper) add_if_broken({{top.at, w}}, d.upper, d);
+      if (w * bottom.value > -d.lower) add_if_broken({{bottom.at, -w}}, -d.lower, d);
     } else if (d.shape == range) {
-      if (broken(w * (top.value + bottom.value), d.upper))
-        add({{top.at, w}, {bottom.at, -w}}, d.upper, d);
+      if (w * (top.value + bottom.value) > d.upper)
+        add_if_broken({{top.at, w}, {bottom.at, -w}}, d.upper, d);
     } else if (d.shape == straightness) {
       const auto zone = tolerance::minimum_zone(profile);
-      if (!broken(zone.width_mm, d.upper)) continue;
+      if (!(zone.width_mm > d.upper)) continue;
       // The zone touches at three places, alternating: two on one line, one between them
       // on the other.
       const auto tilted = [&](double z) { return e(z) - zone.slope * z; };
@@ -121,7 +126,8 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
         const Place l = largest(tilted, low, peak.at, -sign);
         const Place r = largest(tilted, peak.at, high, -sign);
         const double share = (r.at - peak.at) / (r.at - l.at);
-        add({{peak.at, sign}, {l.at, -sign * share}, {r.at, -sign * (1 - share)}},
+        add_if_broken(
+            {{peak.at, sign}, {l.at, -sign * share}, {r.at, -sign * (1 - share)}},
             d.upper, d);
       }
     }

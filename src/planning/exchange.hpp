@@ -20,7 +20,8 @@ class Exchange {
 
  private:
   std::size_t station(double at_mm);
-  void add(std::vector<std::pair<double, double>> terms, double limit, const Demand& d);
+  using Terms = std::vector<std::pair<double, double>>;  // place, weight
+  void add(const Terms& terms, double limit, const Demand& d);
   void add_initial(const Demand& d);
 
   const Feature* feature_;

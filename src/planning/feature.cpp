@@ -323,7 +323,7 @@ tolerance::PiecewisePolynomial Feature::profile(const Recipe& recipe,
                                                 const Economy& economy,
                                                 const Choice<double>& choice) const {
   const std::size_t pieces = kind_ == Kind::element ? 8 : 1;
-  const std::size_t points = kind_ == Kind::element ? 7 : 3;
+  const std::size_t points = kind_ == Kind::element ? 9 : 3;
   const double h = (high_ - low_) / static_cast<double>(pieces);
   std::vector<double> u, places;  // Chebyshev points of a piece, on [0, 1]
   for (const double t : chebyshev(points)) u.push_back((1 - t) / 2);

@@ -61,7 +61,7 @@ class Feature {
                              std::optional<double> a_mm = {}) const;
 
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
-  /// through exact values: 8 pieces of degree 6 along an element (interpolation error
+  /// through exact values: 8 pieces of degree 8 along an element (interpolation error
   /// below 1e-10 of the largest), degree 2 on a face, where it is exact.
   tolerance::PiecewisePolynomial profile(const Recipe& recipe, const Economy& economy,
                                          const Choice<double>& choice) const;
