@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "exchange.hpp"
 
@@ -16,19 +17,21 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
+constexpr int kNearestRounds = 5;
 
 struct Candidate {
   Recipe recipe;
-  double root_bound = -kInfinity;      // of ln(objective), tolerances left out
+  double bound = -kInfinity;  // of ln(objective); more places only raise it
   std::shared_ptr<RecipeModel> model;  // built when first needed, anew in every round
   std::optional<optimise::Solution> local;
-  std::optional<double> settled;  // proved bound; more places only raise it
 };
 
+// The best point, or only the value that one has to beat.
 struct Best {
+  double f = kInfinity;
   std::size_t candidate = 0;
   std::vector<double> y;
-  double f = kInfinity;
+  bool found() const { return !y.empty(); }
 };
 
 // Of ln(objective), tolerances left out; +infinity where no condition keeps some limit.
@@ -46,37 +49,46 @@ double root_bound(const FeatureTask& task, const Recipe& recipe) {
   return f.v.lo;
 }
 
+optimise::Solution least_violation(const RecipeModel& m) {
+  optimise::Solution best;
+  best.f = kInfinity;
+  for (const auto& [feed, depth] : {std::pair{0.2, 0.2}, {0.6, 0.5}}) {
+    auto s = optimise::least_violation(m.problem(), m.start(feed, depth), -1.0);
+    if (s.f < best.f) best = std::move(s);
+  }
+  return best;
+}
+
 // One task's search over recipes; the places of its tolerances grow from round to round.
 class FeatureSearch {
  public:
-  FeatureSearch(const FeatureTask& task, double gap)
-      : task_(task), gap_(gap), exchange_(task.feature, task.demands) {
+  FeatureSearch(const FeatureTask& task, double gap, double most)
+      : task_(task), gap_(gap), most_(std::log(most)), exchange_(task.feature, task.demands) {
     for (const auto& recipe : task.recipes) {
       const double bound = root_bound(task, recipe);
-      if (bound < kInfinity) all_.push_back({recipe, bound, nullptr, {}, {}});
+      if (bound < kInfinity) all_.push_back({recipe, bound, nullptr, {}});
     }
-    std::stable_sort(all_.begin(), all_.end(),
-                     [](const Candidate& a, const Candidate& b) {
-                       return a.root_bound < b.root_bound;
-                     });
+    std::stable_sort(
+        all_.begin(), all_.end(),
+        [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
   }
 
   FeatureAnswer run() {
     for (int round = 0; round < kRounds; ++round) {
       const Best before_places = best_;
-      best_ = {};
+      best_ = {most_, 0, {}};
       for (auto& c : all_) {
         c.model.reset();
         c.local.reset();
       }
       // The optimum before the new places is the best start, of its recipe first.
-      if (!before_places.y.empty())
+      if (before_places.found())
         local_search(before_places.candidate, {before_places.y});
       search_recipes();
-      if (std::isfinite(best_.f) && violated()) continue;
+      if (best_.found() && violated()) continue;
       const double before = best_.f;
       certify();
-      if (!std::isfinite(best_.f)) return infeasible();
+      if (!best_.found()) return none();
       auto s = polished();
       if (best_.f < before && violated()) continue;
       return answer(std::move(s));
@@ -86,6 +98,8 @@ class FeatureSearch {
   }
 
  private:
+  double cut() const { return best_.f - gap_; }
+
   const std::shared_ptr<RecipeModel>& model(std::size_t k) {
     auto& c = all_[k];
     if (!c.model) {
@@ -101,7 +115,7 @@ class FeatureSearch {
       Choice<double> choice{
           {1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
       const double f = all_[k].model->feasible_value(choice);
-      if (f < best_.f) best_ = {k, all_[k].model->point(choice), f};
+      if (f < best_.f) best_ = {f, k, all_[k].model->point(choice)};
       return f;
     };
     return p;
@@ -112,19 +126,16 @@ class FeatureSearch {
   void search_recipes() {
     for (std::size_t k = 0; k < all_.size(); ++k) {
       auto& c = all_[k];
-      if (c.root_bound >= best_.f || c.settled || c.local) continue;
+      if (c.bound >= cut() || c.local) continue;
+      const double known = best_.f;
       std::vector<optimise::Piece> one{with_points(k, model(k)->piece())};
-      const auto r = optimise::branch_and_bound(one, best_.f,
-                                                {.gap = gap_, .max_nodes = kFirstBoxes});
+      const auto r =
+          optimise::branch_and_bound(one, known, {.gap = gap_, .max_nodes = kFirstBoxes});
       nodes_ += r.nodes;
-      if (r.complete && !(r.upper_bound < kInfinity && best_.candidate == k &&
-                          r.upper_bound == best_.f)) {
-        c.settled = r.lower_bound;
-        continue;
-      }
-      if (best_.candidate == k && std::isfinite(best_.f))
+      c.bound = std::max(c.bound, r.lower_bound);
+      if (best_.f < known)
         local_search(k, {best_.y});
-      else
+      else if (!r.complete)
         local_search(k, {model(k)->start(0.85, 0.15), model(k)->start(0.4, 0.5)});
     }
   }
@@ -137,7 +148,7 @@ class FeatureSearch {
       const auto s = optimise::local_minimum(model(k)->problem(), start);
       if (s.status == optimise::Status::no_feasible_point_met) continue;
       c.local = s;
-      if (s.f < best_.f) best_ = {k, s.y, s.f};
+      if (s.f < best_.f) best_ = {s.f, k, s.y};
       return;
     }
   }
@@ -148,8 +159,8 @@ class FeatureSearch {
     bound_ = kInfinity;
     for (std::size_t k = 0; k < all_.size(); ++k) {
       auto& c = all_[k];
-      if (c.settled || c.root_bound >= best_.f) {
-        bound_ = std::min(bound_, c.settled.value_or(c.root_bound));
+      if (c.bound >= cut()) {
+        bound_ = std::min(bound_, c.bound);
         continue;
       }
       if (c.local && model(k)->convex()) {
@@ -164,15 +175,14 @@ class FeatureSearch {
     }
     if (!pieces.empty()) {
       engines_.insert("branch-and-bound");
-      const auto r = optimise::branch_and_bound(pieces, best_.f, {.gap = gap_, .max_nodes = kMostBoxes});
+      const auto r = optimise::branch_and_bound(pieces, best_.f,
+                                                {.gap = gap_, .max_nodes = kMostBoxes});
       bound_ = std::min(bound_, r.lower_bound);
       nodes_ += r.nodes;
       if (!r.complete)
         unfinished_ = "the budget of " + std::to_string(r.nodes) +
                       " boxes ended before every box was settled";
     }
-    // Recipes settled against an earlier, dearer best are settled against this one.
-    bound_ = std::max(bound_, std::min(bound_, best_.f - gap_));
   }
 
   static double convex_bound(const RecipeModel& m, const optimise::Solution& s) {
@@ -232,46 +242,18 @@ class FeatureSearch {
     return a;
   }
 
-  // The recipe nearest to what is asked.  The first, the middle and the last stand for all
-  // unless the answer is to be explained.
-  FeatureAnswer infeasible() {
+  FeatureAnswer none() {
     FeatureAnswer a;
+    if (most_ == kInfinity) a = nearest(task_);
+    a.beaten = most_ < kInfinity;
     a.certificate = certificate();
-    a.least_violation = kInfinity;
-    const auto n = task_.recipes.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!task_.explain && k != 0 && k != n / 2 && k + 1 != n) continue;
-      const auto& recipe = task_.recipes[k];
-      auto chain = task_.feature.chain(recipe, task_.economy, exchange_.stations());
-      if (!chain) continue;
-      chain->functionals = exchange_.functionals();
-      auto m = std::make_shared<RecipeModel>(recipe, std::move(*chain));
-      const auto s = least_violation(*m);
-      if (!(s.f < a.least_violation)) continue;
-      a.least_violation = s.f;
-      a.choice = m->choice(s.y);
-      a.multipliers = s.multipliers;
-      a.model = std::move(m);
-    }
-    if (a.model)
-      a.profile = task_.feature.profile(a.model->recipe(), task_.economy, a.choice);
     return a;
-  }
-
-  static optimise::Solution least_violation(const RecipeModel& m) {
-    optimise::Solution best;
-    best.f = kInfinity;
-    for (const auto& [feed, depth] : {std::pair{0.2, 0.2}, {0.6, 0.5}}) {
-      auto s = optimise::least_violation(m.problem(), m.start(feed, depth), -1.0);
-      if (s.f < best.f) best = std::move(s);
-    }
-    return best;
   }
 
   static constexpr long kFirstBoxes = 60;    // of one recipe, before a local solve
   static constexpr long kMostBoxes = 30000;  // past it the certificate says `local`
   const FeatureTask& task_;
-  double gap_;
+  double gap_, most_;
   Exchange exchange_;
   std::vector<Candidate> all_;
   Best best_;
@@ -305,9 +287,39 @@ double worst_excess(const std::vector<Demand>& demands,
   return worst;
 }
 
-FeatureAnswer optimise_feature(const FeatureTask& task, double gap) {
+FeatureAnswer nearest(const FeatureTask& task) {
+  Exchange exchange(task.feature, task.demands);
+  FeatureAnswer a;
+  const auto n = task.recipes.size();
+  std::vector<std::size_t> asked;
+  for (std::size_t k = 0; k < n; ++k)
+    if (task.explain || k == 0 || k == n / 2 || k + 1 == n) asked.push_back(k);
+  for (int round = 0; round < kNearestRounds; ++round) {
+    a.least_violation = kInfinity;
+    for (const std::size_t k : std::exchange(asked, {})) {
+      auto chain = task.feature.chain(task.recipes[k], task.economy, exchange.stations());
+      if (!chain) continue;
+      chain->functionals = exchange.functionals();
+      auto m = std::make_shared<RecipeModel>(task.recipes[k], std::move(*chain));
+      const auto s = least_violation(*m);
+      if (!(s.f < a.least_violation)) continue;
+      a.least_violation = s.f;
+      a.choice = m->choice(s.y);
+      a.multipliers = s.multipliers;
+      a.model = std::move(m);
+      asked.assign(1, k);
+    }
+    if (!a.model || !exchange.add_violated(a.model->recipe(), task.economy, a.choice))
+      break;
+  }
+  if (a.model)
+    a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
+  return a;
+}
+
+FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most) {
   auto t0=std::chrono::steady_clock::now();
-  auto a = FeatureSearch(task, gap).run();
+  auto a = FeatureSearch(task, gap, most).run();
   fprintf(stderr,"  task %s recipes %zu feasible %d nodes %ld ms %.1f gap %.2e %s lv %g\n", task.feature.surface().c_str(), task.recipes.size(), a.feasible, a.certificate.nodes, std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count()*1e3, a.certificate.gap, a.certificate.engine.c_str(), a.least_violation);
   return a;
 }

@@ -18,6 +18,7 @@ struct FeatureTask {
 
 struct FeatureAnswer {
   bool feasible = false;
+  bool beaten = false;  ///< nothing feasible below the value it had to beat
   std::shared_ptr<RecipeModel> model;  ///< of the chosen, or least violated, recipe
   Choice<double> choice;
   double objective = 0;
@@ -37,9 +38,15 @@ double least_objective(const FeatureTask& task);
 /// (exchange); a bound proved with some places holds with all.
 ///
 /// Engine 1 certifies recipes whose curvature proves them convex, engine 2 the others;
-/// `gap` is what engine 2 may leave open, in ln(objective).
+/// `gap` is what engine 2 may leave open, in ln(objective).  With a finite `most` the
+/// search is for answers cheaper than that: none is an answer too, and a quick one.
 /// @throws std::runtime_error if the exchange does not end (40 rounds).
-FeatureAnswer optimise_feature(const FeatureTask& task, double gap);
+FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most);
+
+/// The conditions that break the limits least, as an infeasible answer without
+/// certificate: a local search, which says how far off the request is and by which limit.
+/// Looks at the first, the middle and the last recipe, or at all if `task.explain`.
+FeatureAnswer nearest(const FeatureTask& task);
 
 /// Worst value over limit - 1 of the demands on a surface with this error.
 double worst_excess(const std::vector<Demand>& demands,

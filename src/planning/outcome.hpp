@@ -14,7 +14,6 @@ struct SolvedSetup {
   int indexings = 0;     ///< tools brought in
   double objective = 0;  ///< of the whole setup
   double lower_bound = 0;
-  bool abandoned = false;  ///< not all solved: its lower bound shows it cannot win
   bool feasible() const;
 };
 

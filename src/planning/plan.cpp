@@ -17,6 +17,7 @@ using catalogue::ToolUse;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGap = 5e-5;  // what engine 2 may leave open, in ln(objective)
 constexpr int kMostPasses = 40;
+constexpr double kBeyondRounding = 1e-6;
 
 bool fits(const Tool& t, ToolUse use, catalogue::IsoGroup group) {
   return std::find(t.uses.begin(), t.uses.end(), use) != t.uses.end() &&
@@ -131,6 +132,8 @@ struct Job {
 // A job with its tools: what the best recipe cannot beat, and its answer once asked for.
 struct Entry {
   double bound = 0;
+  double most = 0;  // what the answer had to beat
+  bool compensated = false;  // asked for with compensation too
   std::optional<SolvedFeature> solved;
 };
 // End faces are cut in the chuck alone: their entries hold for every clamping of a setup.
@@ -167,8 +170,11 @@ class SetupPlanner {
     memory_.resize(jobs_.size());
   }
 
-  // Tools that look cheapest first; others are dropped as soon as they cannot win.
-  SolvedSetup best() {
+  void allow_compensation() { compensate_ = true; }
+
+  // Tools that look cheapest first; what cannot cost less than `most` is dropped as soon
+  // as that is known.
+  SolvedSetup best(double most) {
     std::vector<std::pair<double, Tools>> all;
     for (const auto& tools : choices()) {
       double bound = least_besides_cutting();
@@ -177,24 +183,25 @@ class SetupPlanner {
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::optional<SolvedSetup> best;
+    SolvedSetup best{setup_, clamping_, {}, 0, 0, kInfinity};
+    bool any = false;
     double bound = kInfinity;
     for (const auto& [least, tools] : all) {
-      const bool known = best && best->feasible();
-      if (known && !thorough_ && least >= best->objective) {
+      const bool hopeless = !thorough_ && least >= most;
+      if (hopeless && any) {
         bound = std::min(bound, least);
         continue;
       }
-      auto s = solve(tools, least, known && !thorough_ ? best->objective : kInfinity);
+      auto s = solve(tools, least, most);
       bound = std::min(bound, s.lower_bound);
-      if (s.abandoned) continue;
-      if (!best || (s.feasible() && !best->feasible()) ||
-          (s.feasible() == best->feasible() && s.objective < best->objective))
-        best = std::move(s);
+      const bool better = s.feasible() != best.feasible() ? s.feasible()
+                                                          : s.objective < best.objective;
+      if (!any || better) best = std::move(s);
+      any = true;
+      if (best.feasible() && !thorough_) most = std::min(most, best.objective);
     }
-    if (!best) return {setup_, clamping_, {}, 0, 0, 0};
-    best->lower_bound = bound;
-    return *best;
+    best.lower_bound = bound;
+    return best;
   }
 
  private:
@@ -251,38 +258,47 @@ class SetupPlanner {
     return it->second;
   }
 
-  // Without compensation if that is possible, with it if only that is.
-  const SolvedFeature& solved(std::size_t j, const Tools& tools) {
+  const SolvedFeature& solved(std::size_t j, const Tools& tools, double most) {
     auto& e = entry(j, tools);
-    if (e.solved) return *e.solved;
+    const auto settled = [&] {
+      return e.solved && (e.solved->answer.feasible || most <= e.most);
+    };
     const auto attempt = [&](Offset offset) {
       auto t = task(j, tools, offset);
-      auto answer = optimise_feature(t, kGap);
+      auto answer = optimise_feature(t, kGap, most);
       return SolvedFeature{std::move(t), std::move(answer), offset == Offset::free,
                            jobs_[j].wanted.ids};
     };
-    e.solved = attempt(Offset::none);
-    if (e.solved->answer.feasible || e.solved->task.demands.empty()) return *e.solved;
+    // What can be made without compensation at any cost is not compensated.
+    if (compensate_) most = kInfinity;
+    if (!settled()) {
+      e.most = most;
+      e.solved = attempt(Offset::none);
+    }
+    if (!compensate_ || e.solved->answer.feasible || e.compensated ||
+        e.solved->task.demands.empty())
+      return *e.solved;
+    e.compensated = true;
     auto compensated = attempt(Offset::free);
     if (compensated.answer.feasible) e.solved = std::move(compensated);
     return *e.solved;
   }
 
-  // `least` bounds the setup from below; it rises as features are solved, and past `most`
-  // the rest is left.
+  // `least` bounds the setup from below and rises as features are solved; each has what
+  // the others leave of `most`.
   SolvedSetup solve(const Tools& tools, double least, double most) {
     SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
     s.lower_bound = least;
     for (std::size_t j = 0; j < jobs_.size(); ++j) {
-      // One infeasible feature decides; the others are solved only to explain.
+      // One feature that cannot be made decides; the others are solved only to explain.
       if (!thorough_ && !s.feasible()) break;
-      const auto& f = solved(j, tools);
+      const double alone = entry(j, tools).bound;
+      const double left = most - (s.lower_bound - alone);
+      const auto& f = solved(j, tools, thorough_ ? kInfinity : std::max(left, alone));
       s.features.push_back(f);
       if (!f.answer.feasible) continue;
       s.objective += f.answer.objective;
-      s.lower_bound += f.answer.certificate.lower_bound - entry(j, tools).bound;
-      s.abandoned = std::isfinite(most) && s.lower_bound >= most;
-      if (s.abandoned) return s;
+      s.lower_bound += f.answer.certificate.lower_bound - alone;
     }
     s.indexings = indexings(s);
     const double besides = economy_.minute * minutes_besides_cutting(s);
@@ -294,7 +310,7 @@ class SetupPlanner {
         if (!f.answer.feasible)
           s.objective =
               std::max(s.objective, f.answer.model ? f.answer.least_violation : 1e6);
-      s.lower_bound = kInfinity;
+      s.lower_bound = most * (1 - kGap);  // not cheaper than that, if at all
     }
     return s;
   }
@@ -334,6 +350,7 @@ class SetupPlanner {
   Clamping clamping_;
   Economy economy_;
   bool thorough_;
+  bool compensate_ = false;
   FaceMemory& faces_;
   std::vector<Job> jobs_;
   // Per job, by its tools.
@@ -365,41 +382,67 @@ struct Comparison {
   bool solved = false;
 };
 
+// Why a clamping loses to the best one.
+RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s, const SolvedSetup& best) {
+  if (s.feasible())
+    return {s.clamping,
+            fmt::format("costs {:.4f} against {:.4f} for this setup", s.objective,
+                        best.objective),
+            s.objective};
+  const auto f = std::find_if(s.features.begin(), s.features.end(),
+                              [](const auto& x) { return !x.answer.feasible; });
+  SolvedFeature shown = *f;
+  if (!shown.answer.model) shown.answer = nearest(shown.task);
+  if (!shown.answer.model || shown.answer.least_violation > kBeyondRounding)
+    return {s.clamping, obstacle(p, shown), {}};
+  return {s.clamping,
+          fmt::format("cannot cost less than {:.4f} for this setup", best.objective), {}};
+}
+
+// The best of some clampings of one setup, each with its planner.
+std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
+  std::vector<SolvedSetup> all;
+  double most = kInfinity;
+  for (auto& planner : planners) {
+    all.push_back(planner.best(most));
+    if (all.back().feasible()) most = std::min(most, all.back().objective);
+  }
+  return all;
+}
+
+// The stiffer clampings first: what a slender part could do in the chuck alone then has a
+// cost to beat, which is quicker to refute than that it can be made at all.
+// Compensation is proposed only where no clamping does without.
 Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
                              const std::vector<bool>& done, Economy economy,
                              bool thorough) {
   Comparison result;
-  std::vector<SolvedSetup> all;
   FaceMemory faces;
-  for (const Clamping c : p.setups[setup].clampings) {
+  std::vector<SetupPlanner> planners;
+  auto clampings = p.setups[setup].clampings;
+  std::stable_partition(clampings.begin(), clampings.end(),
+                        [](Clamping c) { return c != Clamping::chuck; });
+  for (const Clamping c : clampings) {
     const auto why = unusable(p, setup, c);
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      all.push_back(
-          SetupPlanner(p, setup, c, work, done, economy, thorough, faces).best());
+      planners.emplace_back(p, setup, c, work, done, economy, thorough, faces);
   }
-  if (all.empty()) return result;
-  const auto better = [](const SolvedSetup& a, const SolvedSetup& b) {
-    return a.feasible() != b.feasible() ? a.feasible() : a.objective < b.objective;
-  };
-  const auto best = std::min_element(all.begin(), all.end(), better);
+  if (planners.empty()) return result;
+  auto all = best_of_each(planners);
+  if (std::none_of(all.begin(), all.end(), [](const auto& s) { return s.feasible(); })) {
+    for (auto& planner : planners) planner.allow_compensation();
+    all = best_of_each(planners);
+  }
+  const auto best = std::min_element(
+      all.begin(), all.end(), [](const SolvedSetup& a, const SolvedSetup& b) {
+        return a.feasible() != b.feasible() ? a.feasible() : a.objective < b.objective;
+      });
   double bound = kInfinity;
-  for (const auto& s : all) bound = std::min(bound, s.lower_bound);
   for (const auto& s : all) {
-    if (&s == &*best) continue;
-    if (s.feasible()) {
-      result.rejected.push_back({s.clamping,
-                                 fmt::format("costs {:.4f} against {:.4f} for this setup",
-                                             s.objective, best->objective),
-                                 s.objective});
-      continue;
-    }
-    for (const auto& f : s.features)
-      if (!f.answer.feasible) {
-        result.rejected.push_back({s.clamping, obstacle(p, f), {}});
-        break;
-      }
+    bound = std::min(bound, s.lower_bound);
+    if (&s != &*best) result.rejected.push_back(rejection(p, s, *best));
   }
   result.chosen = *best;
   result.chosen.lower_bound = bound;
