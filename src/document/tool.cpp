@@ -67,7 +67,7 @@ catalogue::Tool read_tool(Reader r) {
   t.Fc_max_N = strength.number("Fc_max_N", above_up_to(0, 1e6, "N"));
   finish_group(strength);
   Reader life = r.object("life");
-  t.T_min = read_range(life, "T_min", above_up_to(0, 1000, "min"));
+  t.T_min = read_range(life, "T_min", above_up_to(0, 1e5, "min"));
   finish_group(life);
   Reader economics = r.object("economics");
   t.change_min = economics.number("change_min", within(0, 1000, "min"));

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <queue>
 
@@ -40,14 +38,11 @@ class Functions {
     for (std::size_t k = 0; k < over_.size(); ++k) lower_[k] = over_[k].v.lo;
   }
   std::size_t size() const { return over_.size(); }
-  auto grad(std::size_t k) const { return over_[k].d; }
   double natural(std::size_t k) const { return lower_[k]; }
   double upper(std::size_t k) const { return over_[k].v.hi; }
 
   // Lower bound by (1) or by the natural extension.
-  double lower(std::size_t k) {
-    return std::max(lower_[k], sum(terms(k)));
-  }
+  double lower(std::size_t k) { return std::max(lower_[k], sum(terms(k))); }
 
   // Narrows the box to where function k can be <= limit; false if nowhere.
   bool narrow(std::size_t k, double limit, Box& box) {
@@ -58,9 +53,11 @@ class Functions {
       const double rest = limit + kRounding - (least - t.least[j]);  // H (y - c) <= rest
       const Interval H = over_[k].d[j];
       if (H.lo > 0)
-        box[j].hi = std::min(box[j].hi, t.centre[j] + (rest >= 0 ? rest / H.lo : rest / H.hi));
+        box[j].hi =
+            std::min(box[j].hi, t.centre[j] + (rest >= 0 ? rest / H.lo : rest / H.hi));
       else if (H.hi < 0)
-        box[j].lo = std::max(box[j].lo, t.centre[j] + (rest >= 0 ? rest / H.hi : rest / H.lo));
+        box[j].lo =
+            std::max(box[j].lo, t.centre[j] + (rest >= 0 ? rest / H.hi : rest / H.lo));
       if (box[j].lo > box[j].hi) return false;
     }
     return true;
@@ -197,18 +194,6 @@ class Search {
           return settle(node.piece, cut());
       }
       if (size(node.box) > kWorthwhile * before) break;
-    }
-    if (getenv("TWD") && result_.nodes % 100 < 3) {
-      fprintf(stderr, "n %ld q %zu piece %zu lower-cut %.3e up %.6f box", result_.nodes, queue_.size(), node.piece, node.lower - cut(), result_.upper_bound);
-      for (auto& x : node.box) fprintf(stderr, " [%.5f w %.1e]", mid(x), width(x));
-      fprintf(stderr, "\n");
-      if (result_.nodes % 500 < 3)
-      for (std::size_t k = 0; k < functions_.size(); ++k) {
-        if (functions_.upper(k) <= limit(piece, k)) continue;
-        fprintf(stderr, "   k %zu nat %.3e low %.3e up %.3e lim %.3e grad", k, functions_.natural(k), functions_.lower(k), functions_.upper(k), limit(piece,k));
-        for (int j = 0; j < 3; ++j) fprintf(stderr, " [%.3g %.3g]", functions_.grad(k)[j].lo, functions_.grad(k)[j].hi);
-        fprintf(stderr, "\n");
-      }
     }
     if (piece.try_point)
       result_.upper_bound = std::min(result_.upper_bound, piece.try_point(node.box));

@@ -91,6 +91,9 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
+  // CCSAQ solves an inner problem a step: near enough is enough for a foothold.
+  solver.set_param("dual_maxeval", 300);
+  solver.set_param("inner_maxeval", 10);
   double f = 0;
   bool spent = false;
   try {

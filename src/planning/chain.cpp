@@ -56,9 +56,8 @@ std::optional<Yielding> little_yielding(const Box& law, const cutting::Cut& cut,
     return std::max(std::abs(x.lo), std::abs(x.hi));
   };
   const auto F = cutting::forces_N(cut, full.hi, f.hi);
-  const double guess =
-      1.5 * (std::abs(F.Fp_N) * size(law.p) + F.Ff_N * size(law.q) +
-             F.Fc_N * size(law.s) + sqr(F.Fc_N) * size(law.r));
+  const double guess = 1.5 * (std::abs(F.Fp_N) * size(law.p) + F.Ff_N * size(law.q) +
+                              F.Fc_N * size(law.s) + sqr(F.Fc_N) * size(law.r));
   if (!(guess < 0.3 * full.lo)) return {};
   const Interval depth = full + Interval(-guess, guess);
   const Slopes s = slopes(law, cut, depth, f);
@@ -151,8 +150,8 @@ double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double 
                upper = std::min(2 * std::max(0.0, first), full);
   if (lower == upper) return 0;
   std::uintmax_t steps = 50;
-  return boost::math::tools::newton_raphson_iterate(
-      G, first / std::max(1.0, slope), lower, upper, 52, steps);
+  return boost::math::tools::newton_raphson_iterate(G, first / std::max(1.0, slope),
+                                                    lower, upper, 52, steps);
 }
 
 }  // namespace turnwright::planning

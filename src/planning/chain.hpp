@@ -219,7 +219,8 @@ void speed_limits(const OperationModel& o, const T& f, const T& a,
   const T ap = o.depth_mm(a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
-      sink(l.s < 1, cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap));
+      sink(l.s < 1,
+           cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap));
   if (o.vc.lower < o.vc.upper) {
     sink(false, T(o.vc.lower));
     sink(true, T(o.vc.upper));
@@ -259,8 +260,8 @@ Window<T> speed_window(const OperationModel& o, const T& f, const T& a,
   return w;
 }
 
-/// A window that holds speed_window and has no corners: each end the mean of its limits in
-/// the proportions of the weights, v1^w1 v2^w2 ... with w1 + w2 + ... = 1, which lies
+/// A window that holds speed_window and has no corners: each end the mean of its limits
+/// in the proportions of the weights, v1^w1 v2^w2 ... with w1 + w2 + ... = 1, which lies
 /// between them.
 template <class T>
 Window<T> smooth_window(const OperationModel& o, const T& f, const T& a,
@@ -357,12 +358,12 @@ struct Yielding {
 Yielding yielding_range(const Coefficients<Interval>& law, const cutting::Cut& cut,
                         const Interval& full, const Interval& f);
 
-/// (2) enclosed over a box with its gradient: e' = m law' + (1 - m) full', m = 1/(1 + gain)
-/// and law' without the depth.
+/// (2) enclosed over a box with its gradient: e' = m law' + (1 - m) full', m = 1/(1 +
+/// gain) and law' without the depth.
 template <int N>
-Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut, const LogDual<N>& a,
-                              const LogDual<N>& ap, const LogDual<N>& f,
-                              const Dual<Interval, N>& e_before) {
+Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
+                              const LogDual<N>& a, const LogDual<N>& ap,
+                              const LogDual<N>& f, const Dual<Interval, N>& e_before) {
   const auto c = at(law, linear(a));
   const Dual<Interval, N> full = linear(ap) + e_before;
   const Yielding y = yielding_range({c.p.v, c.q.v, c.s.v, c.r.v}, cut, full.v, exp(f.ln));
@@ -472,8 +473,8 @@ BestSpeed<T> best_speed(const OperationModel& o, const T& f, const T& a,
   using std::max;
   using std::min;
   using std::pow;
-  const T economic = cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f,
-                                                   o.depth_mm(a));
+  const T economic =
+      cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f, o.depth_mm(a));
   const T ratio = min(max(T(1.0), T(w.lower / economic)), T(w.upper / economic));
   return {economic * ratio, o.economic_life_min * pow(ratio, -1 / o.cut.taylor.n)};
 }
@@ -491,7 +492,8 @@ struct Reduced {
 /// the nearest speed of the window is the best one.  Its life follows from how far it is
 /// from the economic one, T_e (v/v_e)^(-1/n): over a box that says more than Taylor's law
 /// with a speed, feed and depth that each vary.  A wider window cannot cost more, which
-/// gives `smooth` from the weights of each operation's speed limits (none: the objective).
+/// gives `smooth` from the weights of each operation's speed limits (none: the
+/// objective).
 template <class T, class Sink>
 Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
                                   const std::array<SpeedWeights, 2>& weights,
@@ -506,19 +508,18 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const auto cost = [&](const BestSpeed<T>& best) {
-      return objective(o, chain.weights,
-                       duty(o, best.v, c.f[i], c.a, n_cap, best.life));
+      return objective(o, chain.weights, duty(o, best.v, c.f[i], c.a, n_cap, best.life));
     };
     const auto best = best_speed(o, c.f[i], c.a, w);
     c.v[i] = best.v;
     const T least = cost(best);
     sum.objective = sum.objective + least;
-    sum.smooth =
-        sum.smooth +
-        (weights[i].empty()
-             ? least
-             : cost(best_speed(o, c.f[i], c.a,
-                               smooth_window(o, c.f[i], c.a, F[i], n_cap, weights[i], w))));
+    sum.smooth = sum.smooth +
+                 (weights[i].empty()
+                      ? least
+                      : cost(best_speed(
+                            o, c.f[i], c.a,
+                            smooth_window(o, c.f[i], c.a, F[i], n_cap, weights[i], w))));
   }
   tolerance_checks(chain, c, F, sink);
   return sum;

@@ -107,8 +107,9 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit) 
   optimise::Problem p;
   p.lower = both.problem.lower;
   p.upper = both.problem.upper;
+  constexpr double kMost = 1e4;  // times over a limit
   p.lower.push_back(-2);
-  p.upper.push_back(20);
+  p.upper.push_back(kMost);
   p.constraints = both.rows.size();
   p.evaluate = [&](std::span<const double> y, optimise::Values& out) {
     const auto n = y.size() - 1;
@@ -132,7 +133,8 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit) 
     auto start = m.start(feed, depth);
     const auto inner = optimise::least_violation(r.problem, start, -kBroken);
     start = inner.y;
-    start.push_back(20);
+    start.push_back(
+        std::clamp(worst_row(m, m.choice(start), limit).g + 0.1, -2.0, kMost));
     const auto s = optimise::local_minimum(p, start);
     if (s.status == optimise::Status::no_feasible_point_met || !(s.f < least)) continue;
     least = s.f;

@@ -1,8 +1,6 @@
 #include "feature_optimiser.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,10 +16,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
+constexpr long kScouting = 150;  // boxes for a first bound of a task
 
 struct Candidate {
   Recipe recipe;
-  double bound = -kInfinity;  // of ln(objective); more places only raise it
+  double bound = -kInfinity;           // of ln(objective); more places only raise it
   std::shared_ptr<RecipeModel> model;  // built when first needed, anew in every round
   std::optional<optimise::Solution> local;
 };
@@ -34,19 +33,18 @@ struct Best {
   bool found() const { return !y.empty(); }
 };
 
+std::shared_ptr<RecipeModel> without_tolerances(const FeatureTask& task,
+                                                const Recipe& recipe) {
+  auto chain = task.feature.chain(recipe, task.economy, {});
+  return chain ? std::make_shared<RecipeModel>(recipe, std::move(*chain)) : nullptr;
+}
+
 // Of ln(objective), tolerances left out; +infinity where no condition keeps some limit.
 double root_bound(const FeatureTask& task, const Recipe& recipe) {
-  auto chain = task.feature.chain(recipe, task.economy, {});
-  if (!chain) return kInfinity;
-  const RecipeModel model(recipe, std::move(*chain));
-  optimise::Bound f;
-  std::vector<optimise::Bound> g;
-  const auto piece = model.piece();
-  piece.bound(piece.box, f, g);
-  g.pop_back();  // not a constraint
-  for (const auto& row : g)
-    if (row.v.lo > 0) return kInfinity;
-  return f.v.lo;
+  const auto model = without_tolerances(task, recipe);
+  if (!model) return kInfinity;
+  std::vector<optimise::Piece> one{model->piece()};
+  return optimise::branch_and_bound(one, kInfinity, {.max_nodes = 1}).lower_bound;
 }
 
 optimise::Solution least_violation(const RecipeModel& m) {
@@ -63,7 +61,10 @@ optimise::Solution least_violation(const RecipeModel& m) {
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
-      : task_(task), gap_(gap), most_(std::log(most)), exchange_(task.feature, task.demands) {
+      : task_(task),
+        gap_(gap),
+        most_(std::log(most)),
+        exchange_(task.feature, task.demands) {
     for (const auto& recipe : task.recipes) {
       const double bound = root_bound(task, recipe);
       if (bound < kInfinity) all_.push_back({recipe, bound, nullptr, {}});
@@ -82,8 +83,7 @@ class FeatureSearch {
         c.local.reset();
       }
       // The optimum before the new places is the best start, of its recipe first.
-      if (before_places.found())
-        local_search(before_places.candidate, {before_places.y});
+      if (before_places.found()) local_search(before_places.candidate, {before_places.y});
       search_recipes();
       if (best_.found() && violated()) continue;
       const double before = best_.f;
@@ -266,10 +266,15 @@ class FeatureSearch {
 }  // namespace
 
 double least_objective(const FeatureTask& task) {
-  double least = kInfinity;
+  std::vector<std::shared_ptr<RecipeModel>> models;
+  std::vector<optimise::Piece> pieces;
   for (const auto& recipe : task.recipes)
-    least = std::min(least, root_bound(task, recipe));
-  return std::exp(least);
+    if (auto m = without_tolerances(task, recipe)) {
+      pieces.push_back(m->piece());
+      models.push_back(std::move(m));
+    }
+  return std::exp(optimise::branch_and_bound(pieces, kInfinity, {.max_nodes = kScouting})
+                      .lower_bound);
 }
 
 double worst_excess(const std::vector<Demand>& demands,
@@ -318,10 +323,7 @@ FeatureAnswer nearest(const FeatureTask& task) {
 }
 
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most) {
-  auto t0=std::chrono::steady_clock::now();
-  auto a = FeatureSearch(task, gap, most).run();
-  fprintf(stderr,"  task %s recipes %zu feasible %d nodes %ld ms %.1f gap %.2e %s lv %g\n", task.feature.surface().c_str(), task.recipes.size(), a.feasible, a.certificate.nodes, std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count()*1e3, a.certificate.gap, a.certificate.engine.c_str(), a.least_violation);
-  return a;
+  return FeatureSearch(task, gap, most).run();
 }
 
 }  // namespace turnwright::planning

@@ -30,7 +30,7 @@ struct FeatureAnswer {
 };
 
 /// A lower bound of the objective over all recipes, tolerances left out; +infinity if no
-/// recipe keeps its limits.  One box per recipe.
+/// recipe keeps its limits.  A brief search, cheap beside optimise_feature.
 double least_objective(const FeatureTask& task);
 
 /// Minimises over recipes and conditions.  Tolerances enter as functionals at places of

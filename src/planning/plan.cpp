@@ -15,7 +15,7 @@ using catalogue::Tool;
 using catalogue::ToolUse;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGap = 5e-5;  // what engine 2 may leave open, in ln(objective)
+constexpr double kGap = 9e-5;  // what engine 2 may leave open, in ln(objective)
 constexpr int kMostPasses = 40;
 constexpr double kBeyondRounding = 1e-6;
 
@@ -132,7 +132,7 @@ struct Job {
 // A job with its tools: what the best recipe cannot beat, and its answer once asked for.
 struct Entry {
   double bound = 0;
-  double most = 0;  // what the answer had to beat
+  double most = 0;           // what the answer had to beat
   bool compensated = false;  // asked for with compensation too
   std::optional<SolvedFeature> solved;
 };
@@ -145,27 +145,25 @@ class SetupPlanner {
  public:
   SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
                const SetupWork& work, const std::vector<bool>& done, Economy economy,
-               bool thorough, FaceMemory& faces)
-      : p_(p),
-        setup_(setup),
-        clamping_(clamping),
-        economy_(economy),
-        thorough_(thorough),
-        faces_(faces) {
+               FaceMemory& faces)
+      : p_(p), setup_(setup), clamping_(clamping), economy_(economy), faces_(faces) {
     const auto& e = p.drawing.outer;
     if (work.end_face) {
-      const auto w = wanted(p, setup, p.setups[setup].hold == part::End::left ? "right" : "left");
+      const auto w =
+          wanted(p, setup, p.setups[setup].hold == part::End::left ? "right" : "left");
       if (w.finish) jobs_.push_back({Feature::end_face(p, setup, done, w.fixed), w});
     }
     for (const std::size_t i : work.elements) {
       const auto w = wanted(p, setup, e[i].id);
       auto f = Feature::element(p, setup, clamping, work, done, i, w.fixed);
-      if ((w.rough || w.finish) && f.stock_mm() > 1e-9) jobs_.push_back({std::move(f), w});
+      if ((w.rough || w.finish) && f.stock_mm() > 1e-9)
+        jobs_.push_back({std::move(f), w});
     }
     for (const std::size_t k : work.shoulders) {
       const auto w = wanted(p, setup, e[k - 1].id + "|" + e[k].id);
       if (w.finish)
-        jobs_.push_back({Feature::shoulder(p, setup, clamping, work, done, k, w.fixed), w});
+        jobs_.push_back(
+            {Feature::shoulder(p, setup, clamping, work, done, k, w.fixed), w});
     }
     memory_.resize(jobs_.size());
   }
@@ -177,7 +175,7 @@ class SetupPlanner {
   SolvedSetup best(double most) {
     std::vector<std::pair<double, Tools>> all;
     for (const auto& tools : choices()) {
-      double bound = least_besides_cutting();
+      double bound = least_besides_cutting(tools);
       for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
       all.emplace_back(bound, tools);
     }
@@ -187,21 +185,29 @@ class SetupPlanner {
     bool any = false;
     double bound = kInfinity;
     for (const auto& [least, tools] : all) {
-      const bool hopeless = !thorough_ && least >= most;
-      if (hopeless && any) {
+      if (least >= most && any) {
         bound = std::min(bound, least);
         continue;
       }
       auto s = solve(tools, least, most);
       bound = std::min(bound, s.lower_bound);
-      const bool better = s.feasible() != best.feasible() ? s.feasible()
-                                                          : s.objective < best.objective;
-      if (!any || better) best = std::move(s);
+      const bool better =
+          s.feasible() != best.feasible() ? s.feasible() : s.objective < best.objective;
+      if (!any || better) {
+        best = std::move(s);
+        nearest_ = tools;
+      }
       any = true;
-      if (best.feasible() && !thorough_) most = std::min(most, best.objective);
+      if (best.feasible()) most = std::min(most, best.objective);
     }
     best.lower_bound = bound;
     return best;
+  }
+
+  // Every feature with the tools of the best setup, which is not feasible.
+  SolvedSetup explained() {
+    explain_ = true;
+    return solve(nearest_, 0, kInfinity);
   }
 
  private:
@@ -242,7 +248,7 @@ class SetupPlanner {
     const auto& f = jobs_[j].feature;
     const auto [rough, finish] = tools_of(j, tools);
     return {f, demands(p_, f.surface(), offset),
-            recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, thorough_};
+            recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, explain_};
   }
 
   Entry& entry(std::size_t j, const Tools& tools) {
@@ -261,7 +267,7 @@ class SetupPlanner {
   const SolvedFeature& solved(std::size_t j, const Tools& tools, double most) {
     auto& e = entry(j, tools);
     const auto settled = [&] {
-      return e.solved && (e.solved->answer.feasible || most <= e.most);
+      return e.solved && (e.solved->answer.feasible || (most <= e.most && !explain_));
     };
     const auto attempt = [&](Offset offset) {
       auto t = task(j, tools, offset);
@@ -291,10 +297,11 @@ class SetupPlanner {
     s.lower_bound = least;
     for (std::size_t j = 0; j < jobs_.size(); ++j) {
       // One feature that cannot be made decides; the others are solved only to explain.
-      if (!thorough_ && !s.feasible()) break;
+      if (!explain_ && !s.feasible()) break;
       const double alone = entry(j, tools).bound;
-      const double left = most - (s.lower_bound - alone);
-      const auto& f = solved(j, tools, thorough_ ? kInfinity : std::max(left, alone));
+      const double left =
+          std::isfinite(most) ? most - (s.lower_bound - alone) : kInfinity;
+      const auto& f = solved(j, tools, std::max(left, alone));
       s.features.push_back(f);
       if (!f.answer.feasible) continue;
       s.objective += f.answer.objective;
@@ -303,7 +310,7 @@ class SetupPlanner {
     s.indexings = indexings(s);
     const double besides = economy_.minute * minutes_besides_cutting(s);
     s.objective += besides;
-    s.lower_bound += besides - least_besides_cutting();
+    s.lower_bound += besides - least_besides_cutting(tools);
     if (!s.feasible()) {
       s.objective = 0;
       for (const auto& f : s.features)
@@ -315,8 +322,21 @@ class SetupPlanner {
     return s;
   }
 
-  double least_besides_cutting() const {
-    return economy_.minute * minutes_besides_cutting({setup_, clamping_, {}, 0, 0, 0});
+  // Where the request leaves it open, a roughing tool is brought in: plans that do not
+  // use it are those of the choice without one.
+  double least_besides_cutting(const Tools& tools) const {
+    std::vector<const Tool*> first, rough, finish, last;
+    for (std::size_t j = 0; j < jobs_.size(); ++j) {
+      const auto [r, f] = tools_of(j, tools);
+      const auto kind = jobs_[j].feature.kind();
+      if (kind == Feature::Kind::end_face) first.push_back(f);
+      if (kind == Feature::Kind::element) finish.push_back(f);
+      if (kind == Feature::Kind::element && !p_.operations) rough.push_back(r);
+      if (kind == Feature::Kind::shoulder) last.push_back(f);
+    }
+    SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+    s.indexings = changes({first, rough, finish, last});
+    return economy_.minute * minutes_besides_cutting(s);
   }
 
   double minutes_besides_cutting(const SolvedSetup& s) const {
@@ -327,30 +347,41 @@ class SetupPlanner {
     return t;
   }
 
+  // Tools brought in over a sequence of operations.
+  static int changes(const std::vector<std::vector<const Tool*>>& groups) {
+    int count = 0;
+    const Tool* in = nullptr;
+    for (const auto& group : groups)
+      for (const Tool* t : group)
+        if (t && t != in) {
+          in = t;
+          ++count;
+        }
+    return count;
+  }
+
   static int indexings(const SolvedSetup& s) {
     // Faces first, then all roughing, all finishing, shoulders last.
-    std::vector<const Tool*> sequence;
-    const auto each = [&](Feature::Kind kind, bool rough) {
+    const auto group = [&](Feature::Kind kind, bool rough) {
+      std::vector<const Tool*> tools;
       for (const auto& f : s.features) {
         if (f.task.feature.kind() != kind || !f.answer.feasible) continue;
         const auto& r = f.answer.model->recipe();
-        const Tool* t = rough ? r.rough : r.finish;
-        if (t && (sequence.empty() || sequence.back() != t)) sequence.push_back(t);
+        tools.push_back(rough ? r.rough : r.finish);
       }
+      return tools;
     };
-    each(Feature::Kind::end_face, false);
-    each(Feature::Kind::element, true);
-    each(Feature::Kind::element, false);
-    each(Feature::Kind::shoulder, false);
-    return static_cast<int>(sequence.size());
+    return changes(
+        {group(Feature::Kind::end_face, false), group(Feature::Kind::element, true),
+         group(Feature::Kind::element, false), group(Feature::Kind::shoulder, false)});
   }
 
   const PartPlan& p_;
   std::size_t setup_;
   Clamping clamping_;
   Economy economy_;
-  bool thorough_;
-  bool compensate_ = false;
+  bool compensate_ = false, explain_ = false;
+  Tools nearest_;
   FaceMemory& faces_;
   std::vector<Job> jobs_;
   // Per job, by its tools.
@@ -383,7 +414,8 @@ struct Comparison {
 };
 
 // Why a clamping loses to the best one.
-RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s, const SolvedSetup& best) {
+RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s,
+                           const SolvedSetup& best) {
   if (s.feasible())
     return {s.clamping,
             fmt::format("costs {:.4f} against {:.4f} for this setup", s.objective,
@@ -396,7 +428,8 @@ RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s, const Solved
   if (!shown.answer.model || shown.answer.least_violation > kBeyondRounding)
     return {s.clamping, obstacle(p, shown), {}};
   return {s.clamping,
-          fmt::format("cannot cost less than {:.4f} for this setup", best.objective), {}};
+          fmt::format("cannot cost less than {:.4f} for this setup", best.objective),
+          {}};
 }
 
 // The best of some clampings of one setup, each with its planner.
@@ -414,8 +447,7 @@ std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
 // cost to beat, which is quicker to refute than that it can be made at all.
 // Compensation is proposed only where no clamping does without.
 Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
-                             const std::vector<bool>& done, Economy economy,
-                             bool thorough) {
+                             const std::vector<bool>& done, Economy economy) {
   Comparison result;
   FaceMemory faces;
   std::vector<SetupPlanner> planners;
@@ -427,7 +459,7 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      planners.emplace_back(p, setup, c, work, done, economy, thorough, faces);
+      planners.emplace_back(p, setup, c, work, done, economy, faces);
   }
   if (planners.empty()) return result;
   auto all = best_of_each(planners);
@@ -444,7 +476,10 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
     bound = std::min(bound, s.lower_bound);
     if (&s != &*best) result.rejected.push_back(rejection(p, s, *best));
   }
-  result.chosen = *best;
+  result.chosen =
+      best->feasible()
+          ? *best
+          : planners[static_cast<std::size_t>(best - all.begin())].explained();
   result.chosen.lower_bound = bound;
   result.solved = true;
   return result;
@@ -489,12 +524,11 @@ struct Attempt {
   double objective = 0, lower_bound = 0;
 };
 
-Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy,
-                bool thorough = false) {
+Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
   Attempt a;
   std::vector<bool> done(p.drawing.outer.size(), false);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy, thorough));
+    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy));
     const auto& c = a.setups.back();
     a.feasible = a.feasible && c.solved && c.chosen.feasible();
     for (const std::size_t i : work.setups[s].elements) done[i] = true;
@@ -513,8 +547,7 @@ Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy,
 Attempt best_attempt(const PartPlan& p, const Assignment& work, double& rate) {
   rate = 0;
   auto a = attempt(p, work, economy_of(p, rate));
-  if (!a.feasible) return attempt(p, work, economy_of(p, rate), true);
-  if (p.objective != Objective::profit) return a;
+  if (!a.feasible || p.objective != Objective::profit) return a;
   for (int step = 0; step < 20; ++step) {
     const double next = (*p.price - a.total.cost) / a.total.minutes;
     if (std::abs(next - rate) <= 1e-9 * (1 + std::abs(next))) break;

@@ -23,6 +23,10 @@ Bound g_of(Check, const LogDual<optimise::kBoxVariables>& value,
   return log(value / limit);
 }
 
+// A region may be one point - a stock that two deepest cuts just take off - and is met
+// there only to rounding.
+constexpr double kRounding = 1e-10;
+
 struct Span {
   double lower, upper;
 };
@@ -106,7 +110,7 @@ double RecipeModel::feasible_value(Choice<double>& c) const {
   bool kept = true;
   const auto value = evaluate_at_best_speed(
       chain_, c, {}, [&](std::size_t, Check, bool, double v, double limit) {
-        kept = kept && v <= limit;
+        kept = kept && v <= limit + kRounding * std::abs(limit);
       });
   return kept ? std::log(value.objective) : std::numeric_limits<double>::infinity();
 }
@@ -192,7 +196,8 @@ optimise::Piece RecipeModel::piece(double weight,
   SpeedWeightsOfAll speeds;
   // Reduced rows come in the same order, each operation's speed rows as one window.
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const bool last = i + 1 == rows_.size() || rows_[i + 1].operation != rows_[i].operation ||
+    const bool last = i + 1 == rows_.size() ||
+                      rows_[i + 1].operation != rows_[i].operation ||
                       rows_[i + 1].check == Check::tolerance;
     if (rows_[i].speed)
       speeds[rows_[i].operation].push_back(multipliers[i]);

@@ -66,8 +66,8 @@ class RecipeModel {
   optimise::Box box() const;
   void evaluate(std::span<const double> y, optimise::Values& out) const;
   using SpeedWeightsOfAll = std::array<SpeedWeights, 2>;
-  void bound(const optimise::Box& box, const SpeedWeightsOfAll& weights, optimise::Bound& f,
-             std::vector<optimise::Bound>& g) const;
+  void bound(const optimise::Box& box, const SpeedWeightsOfAll& weights,
+             optimise::Bound& f, std::vector<optimise::Bound>& g) const;
   void value(const optimise::Point& y, const SpeedWeightsOfAll& weights, double& f,
              std::vector<double>& g) const;
   optimise::Piece piece(const SpeedWeightsOfAll& weights) const;

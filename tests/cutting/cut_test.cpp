@@ -36,7 +36,8 @@ TEST(Cut, EdgeIsArcThenStraightAndJoinsSmoothly) {
     const double below = engaged_edge_mm(c, corner - h, 0.2);
     const double at = engaged_edge_mm(c, corner, 0.2);
     const double above = engaged_edge_mm(c, corner + h, 0.2);
-    EXPECT_NEAR(at, c.corner.re_mm * c.corner.kapr_rad + 0.1, 1e-12);  // the whole arc and f/2
+    EXPECT_NEAR(at, c.corner.re_mm * c.corner.kapr_rad + 0.1,
+                1e-12);  // the whole arc and f/2
     EXPECT_NEAR((at - below) / h, 1 / std::sin(c.corner.kapr_rad), 1e-5);
     EXPECT_NEAR((above - at) / h, 1 / std::sin(c.corner.kapr_rad), 1e-9);
   }
@@ -144,17 +145,17 @@ TEST(Cut, BoxesHoldValuesAndElasticities) {
       const auto F = forces_N(c, a, g);
       const auto scaled = forces_N(c, a, g, a);
       auto life = tool_life_min(c, decltype(a)(200.0), g, a);
-      return std::array{linear_of(F.Fc_N), linear_of(F.Ff_N), F.Fp_N, scaled.Fp_N,
-                        linear_of(Rz_um(c, g)),
-                        linear_of(life)};
+      return std::array{linear_of(F.Fc_N), linear_of(F.Ff_N),      F.Fp_N,
+                        scaled.Fp_N,       linear_of(Rz_um(c, g)), linear_of(life)};
     };
-    const auto over = all(LogDual<2>::variable(box[0], 0, half),
-                          LogDual<2>::variable(box[1], 1, half));
+    const auto over =
+        all(LogDual<2>::variable(box[0], 0, half), LogDual<2>::variable(box[1], 1, half));
     for (int k = 0; k < 5; ++k) {
       using D = Dual<double, 2>;
       const double y0 = box[0].lo + unit(seed) * width(box[0]);
       const double y1 = box[1].lo + unit(seed) * width(box[1]);
-      const auto at = all(exp(variable<double, 2>(y0, 0)), exp(variable<double, 2>(y1, 1)));
+      const auto at =
+          all(exp(variable<double, 2>(y0, 0)), exp(variable<double, 2>(y1, 1)));
       for (std::size_t i = 0; i < at.size(); ++i) {
         if (i == 4 && !(c.corner.re_mm > 0)) continue;
         const D& x = at[i];

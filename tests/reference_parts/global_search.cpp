@@ -136,7 +136,9 @@ class SetupSearch {
     std::sort(b.recipes.begin(), b.recipes.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
     if (!b.recipes.empty()) b.least = b.recipes.front().first;
-    fprintf(stderr,"%s %s %s least %g of %zu\n",features_[k].surface().c_str(),t.first?t.first->id.c_str():"-",t.second->id.c_str(),b.least,b.recipes.size());
+    fprintf(stderr, "%s %s %s least %g of %zu\n", features_[k].surface().c_str(),
+            t.first ? t.first->id.c_str() : "-", t.second->id.c_str(), b.least,
+            b.recipes.size());
     return b;
   }
 

@@ -10,7 +10,8 @@ namespace turnwright {
 /// Encloses a positive quantity over a box of logarithms y: ln of its value, and its
 /// elasticities d ln(value)/dy.
 ///
-///     (u v)' = u' + v',   (u^p)' = p u',   (u + v)' = u' + w (v' - u'),  w = v/(u + v) (1)
+///     (u v)' = u' + v',   (u^p)' = p u',   (u + v)' = u' + w (v' - u'),  w = v/(u + v)
+///     (1)
 ///
 /// so a product of powers is enclosed without error on any box, and a sum by shares of
 /// what its terms are: the gradient of a cost or a force stays within the hull of its
@@ -31,7 +32,7 @@ struct LogDual {
   Gradient d{};
   const Half* half = nullptr;  ///< of the box, which outlives the number
 
-  LogDual() = default;    ///< one
+  LogDual() = default;   ///< one
   LogDual(double value)  // NOLINT: a number is a constant
       : centre(std::log(value)) {
     ln = Interval(centre);
@@ -236,9 +237,11 @@ LogDual<N> monotone(const LogDual<N>& x, const Value& ln_value, const Elasticity
   return detail::centred(r);
 }
 
-/// See Dual.  Each side is enclosed over its own part of the box, where (2) does not hold.
+/// See Dual.  Each side is enclosed over its own part of the box, where (2) does not
+/// hold.
 template <int N, class Below, class Above>
-LogDual<N> branch(const LogDual<N>& x, double at, const Below& below, const Above& above) {
+LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
+                  const Above& above) {
   const double edge = std::log(at);
   if (x.ln.hi <= edge) return below(x);
   if (x.ln.lo >= edge) return above(x);
@@ -252,12 +255,14 @@ LogDual<N> branch(const LogDual<N>& x, double at, const Below& below, const Abov
   r.half = x.half;
   r.ln = hull(a.ln, b.ln);
   for (std::size_t j = 0; j < N; ++j) r.d[j] = hull(a.d[j], b.d[j]);
-  r.centre = std::isnan(x.centre) ? x.centre
-                                  : (x.centre <= edge ? below(middle) : above(middle)).ln.lo;
+  r.centre = std::isnan(x.centre)
+                 ? x.centre
+                 : (x.centre <= edge ? below(middle) : above(middle)).ln.lo;
   return detail::centred(r);
 }
 
-/// The same quantity where sums change sign, and back for one that is positive, x.v.lo > 0.
+/// The same quantity where sums change sign, and back for one that is positive, x.v.lo >
+/// 0.
 template <int N>
 Dual<Interval, N> linear(const LogDual<N>& x) {
   Dual<Interval, N> r;

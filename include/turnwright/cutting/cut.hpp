@@ -51,7 +51,9 @@ LogDual<N> arc_angle(const LogDual<N>& x) {
   };
   return monotone(
       x, [&](double ln) { return std::log(angle(ln)); },
-      [&](const Interval& ln) { return Interval(slope(angle(ln.lo)), slope(angle(ln.hi))); });
+      [&](const Interval& ln) {
+        return Interval(slope(angle(ln.lo)), slope(angle(ln.hi)));
+      });
 }
 
 /// Engaged edge L [mm] of a corner radius r and tool cutting edge angle kappa:
@@ -66,7 +68,7 @@ template <class T>
 T engaged_edge_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   const double r = c.corner.re_mm;
   const auto arc = [&](const T& ap) -> T { return r * arc_angle(T(ap / r)); };  // Eq. (1)
-  const auto straight = [&](const T& ap) -> T {                                // Eq. (2)
+  const auto straight = [&](const T& ap) -> T {                                 // Eq. (2)
     return ap * (1 / c.corner.sine) + r * (c.corner.kapr_rad - c.corner.half_tangent);
   };
   if (!(r > 0)) return straight(ap_mm) + 0.5 * f_mm_rev;
@@ -157,9 +159,8 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
   }
   const auto u = flow_cotangent(c, linear(ap_mm), linear(f_mm_rev));
   const double most = std::max(std::abs(u.v.lo), std::abs(u.v.hi));
-  const double nearest = u.v.lo <= 0 && u.v.hi >= 0
-                             ? 0
-                             : std::min(std::abs(u.v.lo), std::abs(u.v.hi));
+  const double nearest =
+      u.v.lo <= 0 && u.v.hi >= 0 ? 0 : std::min(std::abs(u.v.lo), std::abs(u.v.hi));
   const Interval s(sine(most), sine(nearest));
   LogDual<N> Ff;
   Ff.ln = F_D.ln + log(s);
@@ -209,9 +210,9 @@ T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& a
 ///     Rt = f^2/(8 r) + (hmin/2)(1 + r hmin/f^2),   least value hmin at f = sqrt(2 r
 ///     hmin)
 ///
-/// times the wiper factor.  Exact for f <= 2 r sin(kappa'); beyond, the straight minor edge
-/// lies below the arc's continuation and shaves the ridge, so the formula stays safe.
-/// Source: Brammertz (1961).
+/// times the wiper factor.  Exact for f <= 2 r sin(kappa'); beyond, the straight minor
+/// edge lies below the arc's continuation and shaves the ridge, so the formula stays
+/// safe. Source: Brammertz (1961).
 template <class T>
 T Rz_um(const Cut& c, const T& f_mm_rev) {
   const double r = c.corner.re_mm, h = c.hmin_mm;

@@ -203,7 +203,8 @@ Duty<LogDual<N>> duty(const Sweep<LogDual<N>>& s, const LogDual<N>& vc_m_min,
   }
   const double q = 1 / taylor_n;
   const auto &v = vc_m_min, &n = n_cap_rpm, &D1 = s.D_small_mm, &D2 = s.D_large_mm;
-  const auto at = [&](double Interval::* D, double Interval::* speed, double Interval::* cap) {
+  const auto at = [&](double Interval::*D, double Interval::*speed,
+                      double Interval::*cap) {
     return detail::split(std::exp(D1.ln.*D), std::exp(D2.ln.*D), std::exp(v.ln.*speed),
                          std::exp(n.ln.*cap), q);
   };
@@ -211,10 +212,10 @@ Duty<LogDual<N>> duty(const Sweep<LogDual<N>>& s, const LogDual<N>& vc_m_min,
   const auto middle = detail::split(std::exp(D1.centre), std::exp(D2.centre),
                                     std::exp(v.centre), std::exp(n.centre), q);
   const auto most_clamped = at(lo, hi, lo), least_clamped = at(hi, lo, hi);
-  const auto share = [&](double detail::Split::* part) {
-    return Interval(most_clamped.unclamped / (most_clamped.unclamped + most_clamped.*part),
-                    least_clamped.unclamped /
-                        (least_clamped.unclamped + least_clamped.*part));
+  const auto share = [&](double detail::Split::*part) {
+    return Interval(
+        most_clamped.unclamped / (most_clamped.unclamped + most_clamped.*part),
+        least_clamped.unclamped / (least_clamped.unclamped + least_clamped.*part));
   };
   const Interval w = share(&detail::Split::clamped_time);
   const Interval u = share(&detail::Split::clamped_wear);
