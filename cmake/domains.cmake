@@ -1,5 +1,5 @@
 # Floor 1
-tw_domain(base SOURCES errors.cpp)
+tw_domain(base SOURCES errors.cpp TESTS log_dual_test.cpp)
 # Floor 2
 tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp DEPENDS base
   PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen

@@ -31,6 +31,11 @@ Piece valleys(bool keep_out) {
     g.clear();
     if (keep_out) g.push_back(ring(x, y));
   };
+  p.value = [keep_out](const Point& y, double& f, std::vector<double>& g) {
+    f = std::log(height(y[0], y[1]));
+    g.clear();
+    if (keep_out) g.push_back(ring(y[0], y[1]));
+  };
   p.try_point = [keep_out](const Box& b) {
     const double x = mid(b[0]), y = mid(b[1]);
     return keep_out && ring(x, y) > 0 ? kInfinity : std::log(height(x, y));
@@ -99,6 +104,10 @@ TEST(BranchAndBound, ALagrangianSavesBoxesAndChangesNoAnswer) {
     f = log(exp(u) + exp(v));
     g.assign(1, -u - v);
   };
+  p.value = [](const Point& y, double& f, std::vector<double>& g) {
+    f = std::log(std::exp(y[0]) + std::exp(y[1]));
+    g.assign(1, -y[0] - y[1]);
+  };
   std::vector<Piece> plain{p}, helped{p};
   helped[0].combinations = {{1.0, {0.5}}};
   const auto a = branch_and_bound(plain, std::log(2.0));
@@ -107,6 +116,34 @@ TEST(BranchAndBound, ALagrangianSavesBoxesAndChangesNoAnswer) {
   EXPECT_NEAR(b.lower_bound, std::log(2.0), 2.1e-5);
   EXPECT_LE(b.lower_bound, std::log(2.0));
   EXPECT_LT(4 * b.nodes, a.nodes);
+}
+
+TEST(BranchAndBound, ASmoothFunctionBelowACornerEndsTheSearchSooner) {
+  // f = max(u, v) with u = y0 + y1^2, v = -y0 + y1^2: a corner along y0 = 0, least 0.
+  // (u + v)/2 lies below both and is flat where f is least.
+  const auto piece = [](bool smooth) {
+    Piece p;
+    p.box = {Interval(-1, 1.1), Interval(-1, 1.2), Interval(0)};
+    p.bound = [smooth](const Box& b, Bound& f, std::vector<Bound>& g) {
+      const auto x = variable<Interval, 3>(b[0], 0), y = variable<Interval, 3>(b[1], 1);
+      f = max(x + sqr(y), sqr(y) - x);
+      g.clear();
+      if (smooth) g.push_back(sqr(y));
+    };
+    p.value = [smooth](const Point& y, double& f, std::vector<double>& g) {
+      f = std::abs(y[0]) + sqr(y[1]);
+      g.clear();
+      if (smooth) g.push_back(sqr(y[1]));
+    };
+    if (smooth) p.combinations = {{1.0, {}}};
+    return p;
+  };
+  std::vector<Piece> plain{piece(false)}, helped{piece(true)};
+  const auto a = branch_and_bound(plain, 0.0), b = branch_and_bound(helped, 0.0);
+  EXPECT_NEAR(a.lower_bound, 0, 2.1e-5);
+  EXPECT_NEAR(b.lower_bound, 0, 2.1e-5);
+  EXPECT_LE(b.lower_bound, 0);
+  EXPECT_LT(2 * b.nodes, a.nodes);
 }
 
 TEST(Interval, EnclosesRandomExpressions) {

@@ -245,7 +245,7 @@ LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
   const double edge = std::log(at);
   if (x.ln.hi <= edge) return below(x);
   if (x.ln.lo >= edge) return above(x);
-  LogDual<N> low = x, high = x, middle;
+  LogDual<N> low = x, high = x, middle;  // the last: where (2) starts from
   low.ln.hi = high.ln.lo = edge;
   low.centre = high.centre = detail::kUnknown;
   middle.ln = Interval(x.centre);
@@ -255,9 +255,7 @@ LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
   r.half = x.half;
   r.ln = hull(a.ln, b.ln);
   for (std::size_t j = 0; j < N; ++j) r.d[j] = hull(a.d[j], b.d[j]);
-  r.centre = std::isnan(x.centre)
-                 ? x.centre
-                 : (x.centre <= edge ? below(middle) : above(middle)).ln.lo;
+  r.centre = (x.centre <= edge ? below(middle) : above(middle)).centre;
   return detail::centred(r);
 }
 
