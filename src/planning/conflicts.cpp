@@ -70,8 +70,7 @@ std::vector<Limit> all_limits(const RecipeModel& m) {
 }
 
 // Deletion filter: what can be left out without making the rest possible, is.
-std::vector<Limit> irreducible(const RecipeModel& m) {
-  auto kept = all_limits(m);
+std::vector<Limit> irreducible(const RecipeModel& m, std::vector<Limit> kept) {
   for (std::size_t i = 0; i < kept.size();) {
     auto without = kept;
     without.erase(without.begin() + static_cast<long>(i));
@@ -81,6 +80,24 @@ std::vector<Limit> irreducible(const RecipeModel& m) {
       kept = std::move(without);
   }
   return kept;
+}
+
+std::vector<Limit> less(std::vector<Limit> limits, const std::vector<Limit>& those) {
+  std::erase_if(limits, [&](const Limit& l) {
+    return std::find(those.begin(), those.end(), l) != those.end();
+  });
+  return limits;
+}
+
+// Irreducible conflicts that share no limit, until the rest can be kept.
+std::vector<std::vector<Limit>> conflicts(const RecipeModel& m) {
+  std::vector<std::vector<Limit>> found;
+  auto rest = all_limits(m);
+  while (!can_be_kept(m, rest)) {
+    found.push_back(irreducible(m, rest));
+    rest = less(std::move(rest), found.back());
+  }
+  return found;
 }
 
 struct Worst {
@@ -95,21 +112,19 @@ Worst worst_row(const RecipeModel& m, const Choice<double>& c, const Limit& limi
   return w;
 }
 
-// Least value of one limit with every other one kept; nothing if they cannot be.
-std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit) {
-  auto others = all_limits(m);
-  std::erase(others, limit);
-  const auto r = restricted(m, others);
-  // min over y of max own g: one variable more, as in least_violation, the others hard.
-  auto all = others;
+// Least value of one limit with some others kept; nothing if they cannot be.
+std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit,
+                                      std::vector<Limit> all) {
+  const auto others = restricted(m, all);
   all.push_back(limit);
   const auto both = restricted(m, all);
+  // min over y of max own g: one variable more, as in least_violation, the others hard.
+  double scale = 1;
   optimise::Problem p;
   p.lower = both.problem.lower;
   p.upper = both.problem.upper;
-  constexpr double kMost = 1e4;  // times over a limit
   p.lower.push_back(-2);
-  p.upper.push_back(kMost);
+  p.upper.push_back(2);
   p.constraints = both.rows.size();
   p.evaluate = [&](std::span<const double> y, optimise::Values& out) {
     const auto n = y.size() - 1;
@@ -122,22 +137,23 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit) 
     std::fill(out.dg.begin(), out.dg.end(), 0.0);
     for (std::size_t i = 0; i < both.rows.size(); ++i) {
       const bool mine = limit_of(m, m.rows()[both.rows[i]]) == limit;
-      out.g[i] = v.g[i] - (mine ? y[n] : 0);
-      for (std::size_t j = 0; j < n; ++j) out.dg[i * (n + 1) + j] = v.dg[i * n + j];
+      const double factor = mine ? 1 / scale : 1;
+      out.g[i] = v.g[i] * factor - (mine ? y[n] : 0);
+      for (std::size_t j = 0; j < n; ++j)
+        out.dg[i * (n + 1) + j] = v.dg[i * n + j] * factor;
       if (mine) out.dg[i * (n + 1) + n] = -1;
     }
   };
   std::optional<Choice<double>> best;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [feed, depth] : {std::pair{0.05, 0.05}, {0.4, 0.3}, {0.9, 0.8}}) {
-    auto start = m.start(feed, depth);
-    const auto inner = optimise::least_violation(r.problem, start, -kBroken);
-    start = inner.y;
-    start.push_back(
-        std::clamp(worst_row(m, m.choice(start), limit).g + 0.1, -2.0, kMost));
+    auto start = optimise::least_violation(others.problem, m.start(feed, depth), -kBroken).y;
+    scale = std::max(1.0, worst_row(m, m.choice(start), limit).g);  // how far it starts
+    start.push_back(1);
     const auto s = optimise::local_minimum(p, start);
-    if (s.status == optimise::Status::no_feasible_point_met || !(s.f < least)) continue;
-    least = s.f;
+    if (s.status == optimise::Status::no_feasible_point_met || !(s.f * scale < least))
+      continue;
+    least = s.f * scale;
     best = m.choice({s.y.begin(), s.y.end() - 1});
   }
   return best;
@@ -167,6 +183,39 @@ std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
       n.unit, over);
 }
 
+namespace {
+
+// What a limit would have to become for the others to be kept.
+std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
+                             const Limit& limit, const std::vector<Limit>& others) {
+  const auto& m = *f.answer.model;
+  const auto c = relaxed(m, limit, others);
+  if (!c) return {};
+  const auto at = worst_row(m, *c, limit);
+  const auto n = check_name(at.row.row.check);
+  const bool tolerance = at.row.row.check == Check::tolerance;
+  const std::string called = row_name(plan, m, at.row.row);
+  const double now = n.at_most ? at.row.limit : at.row.value;
+  double needed = n.at_most ? at.row.value : at.row.limit;
+  if (tolerance) {  // on the whole surface, not only where the optimiser looked
+    const auto profile = f.task.feature.profile(m.recipe(), f.task.economy, *c);
+    for (const auto& d : f.task.demands)
+      if (d.tolerance == m.chain().functionals[at.row.row.operation].tolerance)
+        needed = d.upper * (1 + worst_excess({d}, profile));
+  }
+  Relaxation r{called + " of " + f.task.feature.surface(), now, needed, n.unit, {}};
+  r.sentence =
+      tolerance
+          ? fmt::format("{} would have to open from {:.4g} to {:.4g} {} (what the cut may "
+                        "use), or the part be held {:.2f} times as stiffly",
+                        called, now, needed, n.unit, n.at_most ? needed / now : now / needed)
+          : fmt::format("{} would have to go from {:.4g} to {:.4g} {}", called, now, needed,
+                        n.unit);
+  return r;
+}
+
+}  // namespace
+
 void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature& f,
              ProcessPlan& result) {
   const std::string where = fmt::format("setup {}, {}, {}", setup.setup,
@@ -176,41 +225,28 @@ void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature
     return;
   }
   const auto& m = *f.answer.model;
-  const auto members = irreducible(m);
-  for (const auto& limit : members) {
-    const auto w = worst_row(m, f.answer.choice, limit);
-    const auto n = check_name(w.row.row.check);
-    const std::string called = row_name(plan, m, w.row.row);
-    const double value = n.at_most ? w.row.value : w.row.limit;
-    const double allowed = n.at_most ? w.row.limit : w.row.value;
-    result.conflicts.push_back(
-        {called, where, value, allowed, n.unit,
-         fmt::format(
-             "{}: {} {:.4g} {} against {:.4g} {} at the least violation of all limits",
-             where, called, value, n.unit, allowed, n.unit)});
-    const auto c = relaxed(m, limit);
-    if (!c) continue;
-    const auto at = worst_row(m, *c, limit);
-    const double now = n.at_most ? at.row.limit : at.row.value;
-    double needed = n.at_most ? at.row.value : at.row.limit;
-    if (w.row.row.check == Check::tolerance) {
-      // On the whole surface, not only where the optimiser looked.
-      for (const auto& d : f.task.demands)
-        if (d.tolerance == m.chain().functionals[w.row.row.operation].tolerance)
-          needed = d.upper * (1 + worst_excess({d}, f.task.feature.profile(
-                                                        m.recipe(), f.task.economy, *c)));
+  const auto all = all_limits(m);
+  const auto sets = conflicts(m);
+  std::vector<Limit> members;
+  for (const auto& set : sets) members.insert(members.end(), set.begin(), set.end());
+  for (const auto& set : sets)
+    for (const auto& limit : set) {
+      const auto w = worst_row(m, f.answer.choice, limit);
+      const auto n = check_name(w.row.row.check);
+      const std::string called = row_name(plan, m, w.row.row);
+      const double value = n.at_most ? w.row.value : w.row.limit;
+      const double allowed = n.at_most ? w.row.limit : w.row.value;
+      result.conflicts.push_back(
+          {called, where, value, allowed, n.unit,
+           fmt::format(
+               "{}: {} {:.4g} {} against {:.4g} {} at the least violation of all limits",
+               where, called, value, n.unit, allowed, n.unit)});
+      // The rest of its own conflict and all that is in none stay as they are.
+      auto others = less(all, members);
+      for (const auto& other : set)
+        if (other != limit) others.push_back(other);
+      if (auto r = opening(plan, f, limit, others)) result.relax.push_back(std::move(*r));
     }
-    const double ratio = n.at_most ? needed / now : now / needed;
-    result.relax.push_back(
-        {called + " of " + f.task.feature.surface(), now, needed, n.unit,
-         w.row.row.check == Check::tolerance
-             ? fmt::format(
-                   "{} would have to open from {:.4g} to {:.4g} {} (what the cut may "
-                   "use), or the part be held {:.2f} times as stiffly",
-                   called, now, needed, n.unit, ratio)
-             : fmt::format("{} would have to go from {:.4g} to {:.4g} {}", called, now,
-                           needed, n.unit)});
-  }
 }
 
 }  // namespace turnwright::planning

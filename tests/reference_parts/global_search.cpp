@@ -70,12 +70,42 @@ class SetupSearch {
       features_.push_back(Feature::shoulder(p, setup, clamping, work, done, k, {}));
   }
 
-  SetupFound best() {
-    struct Choice {
-      const Tool *face, *rough, *finish;
-      double bound;
-    };
-    std::vector<Choice> choices;
+  /// With `Offset::free` the path of the tool may follow the error of a surface that the
+  /// tools tried cannot make otherwise.
+  SetupFound best(Offset offset) {
+    SetupFound best{clamping_, {}, 0, kInfinity};
+    for (const auto& c : choices()) {
+      if (c.bound >= best.objective) break;
+      SetupFound s{clamping_, {}, 0, c.bound};
+      for (std::size_t k = 0; k < features_.size() && s.objective < best.objective; ++k) {
+        const auto t = tools(k, c.face, c.rough, c.finish);
+        s.surfaces.push_back(solved(k, t, offset));
+        s.objective += s.surfaces.back().objective - bounds(k, t).least;
+      }
+      if (s.surfaces.size() < features_.size() || !std::isfinite(s.objective)) continue;
+      s.indexings = indexings(s);
+      s.objective += economy_.minute * (minutes(s.indexings) - minutes(0));
+      if (s.objective < best.objective) best = std::move(s);
+    }
+    return best;
+  }
+
+ private:
+  using Tools = std::pair<const Tool*, const Tool*>;
+  using Key = std::tuple<std::size_t, const Tool*, const Tool*, Offset>;
+  struct ToolChoice {
+    const Tool *face, *rough, *finish;
+    double bound;  // tolerances and tools brought in left out
+  };
+  struct Bounds {
+    std::vector<std::pair<double, Recipe>>
+        recipes;  // cheapest first, tolerances left out
+    double least = kInfinity;
+  };
+
+  // One facing, one roughing (or none) and one finishing tool each, cheapest first.
+  std::vector<ToolChoice> choices() {
+    std::vector<ToolChoice> all;
     auto rough = tools_for(p_, ToolUse::roughing);
     rough.push_back(nullptr);
     const auto or_none = [](std::vector<const Tool*> t) {
@@ -88,34 +118,12 @@ class SetupSearch {
           double bound = economy_.minute * minutes(0);
           for (std::size_t k = 0; k < features_.size(); ++k)
             bound += bounds(k, tools(k, x, r, f)).least;
-          if (std::isfinite(bound)) choices.push_back({x, r, f, bound});
+          if (std::isfinite(bound)) all.push_back({x, r, f, bound});
         }
-    std::sort(choices.begin(), choices.end(),
-              [](const Choice& a, const Choice& b) { return a.bound < b.bound; });
-    SetupFound best{clamping_, {}, 0, kInfinity};
-    for (const auto& c : choices) {
-      if (c.bound >= best.objective) break;
-      SetupFound s{clamping_, {}, 0, 0};
-      for (std::size_t k = 0; k < features_.size() && std::isfinite(s.objective); ++k) {
-        s.surfaces.push_back(solved(k, tools(k, c.face, c.rough, c.finish)));
-        s.objective += s.surfaces.back().objective;
-      }
-      if (!std::isfinite(s.objective)) continue;
-      s.indexings = indexings(s);
-      s.objective += economy_.minute * minutes(s.indexings);
-      if (s.objective < best.objective) best = std::move(s);
-    }
-    return best;
+    std::sort(all.begin(), all.end(),
+              [](const ToolChoice& a, const ToolChoice& b) { return a.bound < b.bound; });
+    return all;
   }
-
- private:
-  using Tools = std::pair<const Tool*, const Tool*>;
-  using Key = std::tuple<std::size_t, const Tool*, const Tool*>;
-  struct Bounds {
-    std::vector<std::pair<double, Recipe>>
-        recipes;  // cheapest first, tolerances left out
-    double least = kInfinity;
-  };
 
   Tools tools(std::size_t k, const Tool* face, const Tool* rough,
               const Tool* finish) const {
@@ -124,7 +132,7 @@ class SetupSearch {
   }
 
   const Bounds& bounds(std::size_t k, Tools t) {
-    const auto [it, missing] = bounds_.try_emplace(Key{k, t.first, t.second});
+    const auto [it, missing] = bounds_.try_emplace({k, t.first, t.second});
     auto& b = it->second;
     if (!missing || !t.second) return b;
     for (const auto& r : recipes(p_, features_[k], t.first, t.second)) {
@@ -136,20 +144,16 @@ class SetupSearch {
     std::sort(b.recipes.begin(), b.recipes.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
     if (!b.recipes.empty()) b.least = b.recipes.front().first;
-    fprintf(stderr, "%s %s %s least %g of %zu\n", features_[k].surface().c_str(),
-            t.first ? t.first->id.c_str() : "-", t.second->id.c_str(), b.least,
-            b.recipes.size());
     return b;
   }
 
-  // The tool path follows the error only where nothing else keeps the sizes.
-  const SurfaceFound& solved(std::size_t k, Tools t) {
-    const auto [it, missing] = solved_.try_emplace(Key{k, t.first, t.second});
-    if (missing) {
-      it->second = cheapest(k, t, Offset::none);
-      if (!std::isfinite(it->second.objective)) it->second = cheapest(k, t, Offset::free);
-    }
-    return it->second;
+  const SurfaceFound& solved(std::size_t k, Tools t, Offset offset) {
+    const auto [it, missing] = solved_.try_emplace({k, t.first, t.second, Offset::none});
+    if (missing) it->second = cheapest(k, t, Offset::none);
+    if (offset == Offset::none || std::isfinite(it->second.objective)) return it->second;
+    const auto [free, first] = solved_.try_emplace({k, t.first, t.second, Offset::free});
+    if (first) free->second = cheapest(k, t, Offset::free);
+    return free->second;
   }
 
   SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
@@ -211,7 +215,7 @@ class SetupSearch {
   planning::Economy economy_;
   Effort effort_;
   std::vector<Feature> features_;
-  std::map<Key, Bounds> bounds_;
+  std::map<std::tuple<std::size_t, const Tool*, const Tool*>, Bounds> bounds_;
   std::map<Key, SurfaceFound> solved_;
 };
 
@@ -237,12 +241,18 @@ Found search(const PartPlan& p, const Effort& effort) {
   Found found;
   std::vector<bool> done(p.drawing.outer.size(), false);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    std::vector<SetupSearch> clampings;
+    for (const Clamping c : p.setups[s].clampings)
+      if (usable(p, s, c))
+        clampings.emplace_back(p, s, c, work.setups[s], done, economy, effort);
     SetupFound best;
     best.objective = kInfinity;
-    for (const Clamping c : p.setups[s].clampings) {
-      if (!usable(p, s, c)) continue;
-      auto one = SetupSearch(p, s, c, work.setups[s], done, economy, effort).best();
-      if (one.objective < best.objective) best = std::move(one);
+    for (const auto offset : {Offset::none, Offset::free}) {
+      if (std::isfinite(best.objective)) break;
+      for (auto& clamping : clampings) {
+        auto one = clamping.best(offset);
+        if (one.objective < best.objective) best = std::move(one);
+      }
     }
     for (const std::size_t i : work.setups[s].elements) done[i] = true;
     found.objective += best.objective;

@@ -7,20 +7,22 @@
 /// The cheapest plan of a part by brute force, to hold the planner's optimum against.
 ///
 /// Of planning/ it uses what a surface is and what a pass does (Feature, Chain, evaluate,
-/// errors) and what the drawing asks (demands).  Its own are the pass counts, the speeds
-/// (a scan over the speed window, no economic speed), the conditions (a lattice over ln f
-/// of each operation and ln of the finishing depth, then lattices that shrink around the
-/// best points, then COBYLA over speeds, feeds and depth at once) and the tolerances
-/// (errors at 41 places).  Nothing here is a bound: it finds points, and a point cheaper
-/// than a certificate's bound refutes the certificate.
+/// errors), what the drawing asks (demands) and the rule of when the tool path may follow
+/// the error: in a setup that no clamping can make otherwise.  Its own are the pass
+/// counts, the speeds (a scan over the speed window, no economic speed), the conditions
+/// (a lattice over ln f of each operation and ln of the finishing depth, then lattices
+/// that shrink around the best points, then COBYLA over speeds, feeds and depth at once)
+/// and the tolerances (errors at 41 places).  Nothing here is a bound: it finds points,
+/// and a point cheaper than a certificate's bound refutes the certificate.
 namespace turnwright::reference {
 
 /// How fine the lattices are.
 struct Effort {
   int feeds = 24, depths = 16, speeds = 33;
-  int starts = 4;  ///< lattice points that are refined
+  int starts = 4;        ///< lattice points that are refined
+  double finest = 1e-7;  ///< spacing at which refining ends, in ln
 };
-inline constexpr Effort kShort{10, 6, 17, 1};
+inline constexpr Effort kShort{10, 6, 17, 1, 1e-5};
 
 /// Tolerances are kept to 1 - this, so that what is found holds between the places too.
 inline constexpr double kReserve = 1e-6;

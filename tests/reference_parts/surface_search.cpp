@@ -150,7 +150,7 @@ Point SurfaceSearch::at_best_speed(std::size_t i, double f, double a, bool fine)
   double y = low, step = (high - low) / (n - 1);
   for (int k = 1; k < n; ++k)
     if (const auto p = at(low + step * k); better(p, best)) best = p, y = low + step * k;
-  for (step /= 2; step > (fine ? 1e-11 : 1e-3);) {
+  for (step /= 2; step > (fine ? 1e-4 * effort_.finest : 1e-3);) {
     const double before = y;
     for (const double z : {before - step, before + step})
       if (const auto p = at(std::clamp(z, low, high)); better(p, best))
@@ -275,7 +275,7 @@ Point SurfaceSearch::lattice_best(const Lattice& l, const Point& incumbent,
 Point SurfaceSearch::refine(Point p, bool tolerances) const {
   auto h = spacing();
   for (int round = 0; round < 200; ++round) {
-    if (*std::max_element(h.begin(), h.end()) < 1e-7) break;
+    if (*std::max_element(h.begin(), h.end()) < effort_.finest) break;
     Lattice l;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
       const double x = std::log(k == 0 ? p.choice.a : p.choice.f[k - 1]);
