@@ -25,7 +25,9 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp fea
           recipe_model.cpp exchange.cpp feature_optimiser.cpp describe.cpp
           tolerance_results.cpp prices.cpp conflicts.cpp plan.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
-          PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
+          PRIVATE_LIBS Eigen3::Eigen fmt::fmt
+          TESTS recipe_model_test.cpp plan_test.cpp
+          TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
@@ -49,8 +51,15 @@ if(BUILD_TESTING)
     PRIVATE tw_dev NLopt::nlopt_cxx)
   add_executable(reference_search EXCLUDE_FROM_ALL tests/reference_parts/reference_search.cpp)
   target_link_libraries(reference_search PRIVATE reference_search_lib tw_dev)
-  target_compile_definitions(reference_search PRIVATE
-    TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_executable(reference_parts_test tests/reference_parts/reference_parts_test.cpp)
+  target_link_libraries(reference_parts_test PRIVATE reference_search_lib tw_dev
+    GTest::gtest_main)
+  foreach(program IN ITEMS reference_search reference_parts_test)
+    target_compile_definitions(${program} PRIVATE
+      TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  endforeach()
+  gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
+    PROPERTIES TIMEOUT 600)
 endif()
 tw_domain(report SOURCES text.cpp setups.cpp proof.cpp fields.cpp layout.cpp
           DEPENDS base PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt

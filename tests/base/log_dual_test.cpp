@@ -19,7 +19,9 @@ std::vector<T> expressions(const T& x, const T& y) {
   using std::sqrt;
   const T sum = 2.0 * x * y + 3.0 / y + 0.5;
   const auto below = [&](const T& v) -> T { return v * y; };
-  const auto above = [&](const T& v) -> T { return sqr(v) * y / 1.5; };
+  const auto above = [&](const T& v) -> T {
+    return T(T(sqr(v) / 1.5) - T(1e-3)) * y / (1 - 1e-3 / 1.5);
+  };
   return {sum,
           pow(sum, -1.7) * sqr(x) / sqrt(y),
           max(x, T(sum / 4.0)),
@@ -83,6 +85,30 @@ TEST(LogDual, ElasticityOfASumStaysBetweenThoseOfItsTerms) {
   EXPECT_GE(s.d[0].lo, -1);
   EXPECT_LE(s.d[0].hi, 3);
   EXPECT_LE(s.ln.lo, std::log(std::pow(3.0, -0.75) + std::pow(3.0, 0.25)));
+}
+
+// A quantity whose centre is not known keeps every later one from using (2).
+TEST(LogDual, AnUnknownCentreStaysUnknown) {
+  std::mt19937 seed(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Interval x(1 + unit(seed), 2.1 + unit(seed)), v(-0.5, 0.4);
+    const L::Half half{0, width(v) / 2};
+    const L known = L::variable(v, 1, half);
+    const auto over = expressions(positive(Dual<Interval, 2>(x, {})), known);
+    for (int k = 0; k < 5; ++k) {
+      const double at_x = x.lo + unit(seed) * width(x);
+      const double at_v = v.lo + unit(seed) * width(v);
+      const auto at = expressions(D(at_x), exp(variable<double, 2>(at_v, 1)));
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const D ln = log(at[i]);
+        EXPECT_LE(over[i].ln.lo, ln.v + 1e-12) << i;
+        EXPECT_GE(over[i].ln.hi, ln.v - 1e-12) << i;
+        EXPECT_LE(over[i].d[1].lo, ln.d[1] + 1e-11) << i;
+        EXPECT_GE(over[i].d[1].hi, ln.d[1] - 1e-11) << i;
+      }
+    }
+  }
 }
 
 TEST(LogDual, ZeroIsNeutral) {

@@ -22,6 +22,8 @@ using planning::Offset;
 using planning::PartPlan;
 using planning::Recipe;
 
+constexpr double kFeasible = 0x1p-36;  // of a limit: rounding
+
 std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
   std::vector<const Tool*> all;
   for (const auto& t : p.tools)
@@ -90,6 +92,22 @@ class SetupSearch {
     return best;
   }
 
+  /// Every surface with the tools and conditions a plan gives it.
+  SetupFound as_planned(const planning::SetupPlan& plan,
+                        const std::vector<planning::Compensation>& compensation) {
+    SetupFound s{clamping_, {}, 0, 0};
+    for (std::size_t k = 0; k < features_.size(); ++k) {
+      const bool follows =
+          std::any_of(compensation.begin(), compensation.end(),
+                      [&](const auto& c) { return c.on == features_[k].surface(); });
+      s.surfaces.push_back(as_planned(k, plan, follows ? Offset::free : Offset::none));
+      s.objective += s.surfaces.back().objective;
+    }
+    s.indexings = indexings(s);
+    s.objective += economy_.minute * minutes(s.indexings);
+    return s;
+  }
+
  private:
   using Tools = std::pair<const Tool*, const Tool*>;
   using Key = std::tuple<std::size_t, const Tool*, const Tool*, Offset>;
@@ -139,7 +157,7 @@ class SetupSearch {
       const SurfaceSearch s(features_[k], {}, r, economy_, effort_);
       if (!s.possible()) continue;
       const auto p = s.without_tolerances();
-      if (p.excess <= 0x1p-36) b.recipes.emplace_back(p.cost, r);
+      if (p.excess <= kFeasible) b.recipes.emplace_back(p.cost, r);
     }
     std::sort(b.recipes.begin(), b.recipes.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -157,28 +175,65 @@ class SetupSearch {
   }
 
   SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
-    const auto& f = features_[k];
-    const auto demands = planning::demands(p_, f.surface(), offset);
+    const auto demands = planning::demands(p_, features_[k].surface(), offset);
     SurfaceFound best;
-    best.surface = f.surface();
     best.objective = kInfinity;
     for (const auto& [bound, r] : bounds(k, t).recipes) {
       if (bound >= best.objective) break;
-      const SurfaceSearch s(f, demands, r, economy_, effort_);
+      const SurfaceSearch s(features_[k], demands, r, economy_, effort_);
       const auto p = s.best();
-      if (!(p.excess <= 0x1p-36) || !(p.cost < best.objective)) continue;
-      best.rough = r.rough ? r.rough->id : "";
-      best.finish = r.finish->id;
-      best.rough_passes = r.rough_passes;
-      best.finish_passes = r.finish_passes;
-      for (int i = 0; i < 2; ++i) {
-        best.v_m_min[i] = p.choice.v[static_cast<std::size_t>(i)];
-        best.f_mm_rev[i] = p.choice.f[static_cast<std::size_t>(i)];
-      }
-      best.a_mm = p.choice.a;
-      best.objective = p.cost;
-      best.excess = std::max(p.excess, s.tolerance_excess(p.choice, 401));
+      if (p.excess <= kFeasible && p.cost < best.objective) best = described(k, r, p, s);
     }
+    return best;
+  }
+
+  SurfaceFound described(std::size_t k, const Recipe& r, const Point& p,
+                         const SurfaceSearch& s) const {
+    SurfaceFound x;
+    x.surface = features_[k].surface();
+    x.rough = r.rough ? r.rough->id : "";
+    x.finish = r.finish->id;
+    x.rough_passes = r.rough_passes;
+    x.finish_passes = r.finish_passes;
+    for (std::size_t i = 0; i < 2; ++i) {
+      x.v_m_min[i] = p.choice.v[i];
+      x.f_mm_rev[i] = p.choice.f[i];
+    }
+    x.a_mm = p.choice.a;
+    x.objective = p.cost;
+    x.excess = std::max(p.excess, s.tolerance_excess(p.choice, 401));
+    return x;
+  }
+
+  // In the speed ranges that suit the conditions best: a plan does not name them.
+  SurfaceFound as_planned(std::size_t k, const planning::SetupPlan& plan, Offset offset) {
+    const auto& f = features_[k];
+    const auto demands = planning::demands(p_, f.surface(), offset);
+    Recipe r;
+    Point p;
+    std::size_t i = 0;
+    for (const auto& o : plan.operations) {
+      if (o.on != std::vector{f.surface()}) continue;
+      const auto tool = std::find_if(p_.tools.begin(), p_.tools.end(),
+                                     [&](const Tool& t) { return t.id == o.tool; });
+      const bool rough = o.kind == planning::OperationKind::rough;
+      (rough ? r.rough : r.finish) = &*tool;
+      (rough ? r.rough_passes : r.finish_passes) = static_cast<int>(o.passes.size());
+      p.choice.v[i] = o.passes.front().vc_m_min;
+      p.choice.f[i] = o.passes.front().f_mm_rev;
+      p.choice.a = o.passes.front().ap_mm;
+      ++i;
+    }
+    SurfaceFound best;
+    best.objective = best.excess = kInfinity;
+    const auto ranges = cutting::speed_ranges(p_.machine).size();
+    for (r.rough_range = 0; r.rough_range < (r.rough ? ranges : 1); ++r.rough_range)
+      for (r.finish_range = 0; r.finish && r.finish_range < ranges; ++r.finish_range) {
+        const SurfaceSearch s(f, demands, r, economy_, effort_);
+        if (!s.possible()) continue;
+        const auto x = described(k, r, s.at(p.choice), s);
+        if (x.excess < best.excess) best = x;
+      }
     return best;
   }
 
@@ -230,13 +285,17 @@ bool usable(const PartPlan& p, std::size_t setup, Clamping c) {
   return m.chuck.diameter_mm.lower <= d && d <= m.chuck.diameter_mm.upper;
 }
 
-}  // namespace
-
-Found search(const PartPlan& p, const Effort& effort) {
+planning::Economy economy_of(const PartPlan& p) {
   if (p.operations || p.objective == planning::Objective::profit)
     throw std::invalid_argument("the search chooses all operations, for cost or time");
   const bool cost = p.objective == planning::Objective::cost;
-  const planning::Economy economy{cost ? p.machine_per_min : 1.0, cost ? 1.0 : 0.0};
+  return {cost ? p.machine_per_min : 1.0, cost ? 1.0 : 0.0};
+}
+
+}  // namespace
+
+Found search(const PartPlan& p, const Effort& effort) {
+  const auto economy = economy_of(p);
   const auto work = planning::assign(p);
   Found found;
   std::vector<bool> done(p.drawing.outer.size(), false);
@@ -259,6 +318,22 @@ Found search(const PartPlan& p, const Effort& effort) {
     found.setups.push_back(std::move(best));
   }
   if (!work.unreachable.empty()) found.objective = kInfinity;
+  return found;
+}
+
+Found as_planned(const PartPlan& p, const planning::ProcessPlan& plan) {
+  const auto economy = economy_of(p);
+  const auto work = planning::assign(p);
+  Found found;
+  std::vector<bool> done(p.drawing.outer.size(), false);
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    auto compensation = plan.compensation;
+    std::erase_if(compensation, [&](const auto& c) { return c.setup != s; });
+    SetupSearch setup(p, s, plan.setups[s].clamping, work.setups[s], done, economy, {});
+    found.setups.push_back(setup.as_planned(plan.setups[s], compensation));
+    found.objective += found.setups.back().objective;
+    for (const std::size_t i : work.setups[s].elements) done[i] = true;
+  }
   return found;
 }
 

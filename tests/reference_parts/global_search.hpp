@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 /// The cheapest plan of a part by brute force, to hold the planner's optimum against.
 ///
@@ -22,7 +23,7 @@ struct Effort {
   int starts = 4;        ///< lattice points that are refined
   double finest = 1e-7;  ///< spacing at which refining ends, in ln
 };
-inline constexpr Effort kShort{10, 6, 17, 1, 1e-5};
+inline constexpr Effort kShort{10, 6, 17, 1, 3e-5};
 
 /// Tolerances are kept to 1 - this, so that what is found holds between the places too.
 inline constexpr double kReserve = 1e-6;
@@ -51,5 +52,9 @@ struct Found {
 /// Cost or time per part as `objective` says; not `profit`, and not with operations
 /// given.
 Found search(const planning::PartPlan& plan, const Effort& effort);
+
+/// A plan's clampings, tools and conditions computed anew: costs, tools brought in, and
+/// by how much each surface is over its limits.
+Found as_planned(const planning::PartPlan& part, const planning::ProcessPlan& plan);
 
 }  // namespace turnwright::reference

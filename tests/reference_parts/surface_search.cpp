@@ -150,7 +150,7 @@ Point SurfaceSearch::at_best_speed(std::size_t i, double f, double a, bool fine)
   double y = low, step = (high - low) / (n - 1);
   for (int k = 1; k < n; ++k)
     if (const auto p = at(low + step * k); better(p, best)) best = p, y = low + step * k;
-  for (step /= 2; step > (fine ? 1e-4 * effort_.finest : 1e-3);) {
+  for (step /= 2; step > (fine ? 1e-2 * effort_.finest : 1e-3);) {
     const double before = y;
     for (const double z : {before - step, before + step})
       if (const auto p = at(std::clamp(z, low, high)); better(p, best))
@@ -160,12 +160,12 @@ Point SurfaceSearch::at_best_speed(std::size_t i, double f, double a, bool fine)
   return best;
 }
 
-double SurfaceSearch::excess_of(const std::vector<double>& e) const {
+double SurfaceSearch::excess_of(const std::vector<double>& e, double reserve) const {
   double worst = -1;
   using enum Demand::Shape;
   for (const auto& d : demands_) {
     if (d.shape == none) continue;
-    const double limit = (1 - kReserve) * d.upper;
+    const double limit = (1 - reserve) * d.upper;
     double value = 0;
     if (d.shape == size) {
       std::vector<double> m = e;
@@ -184,12 +184,12 @@ double SurfaceSearch::tolerance_excess(const Choice<double>& c) const {
   const auto F = planning::forces(chain_, c);
   std::vector<double> e;
   for (const auto& s : chain_.stations) e.push_back(planning::error_mm(chain_, s, c, F));
-  return excess_of(e);
+  return excess_of(e, kReserve);
 }
 
 double SurfaceSearch::tolerance_excess(const Choice<double>& c, int count) const {
   if (asks_nothing(demands_)) return -1;
-  return excess_of(feature_->errors(recipe_, economy_, c, places(*feature_, count)));
+  return excess_of(feature_->errors(recipe_, economy_, c, places(*feature_, count)), 0);
 }
 
 SurfaceSearch::Lattice SurfaceSearch::whole() const {
@@ -379,6 +379,17 @@ Point SurfaceSearch::polish(Point p) const {
   } catch (const std::exception&) {  // rounding ends it: the best point seen stands
   }
   return c.best;
+}
+
+Point SurfaceSearch::at(const Choice<double>& c) const {
+  Point p{c, -1, 0};
+  p.cost = planning::evaluate(
+      chain_, c,
+      [&](std::size_t, planning::Check check, bool, double value, double limit) {
+        if (check != planning::Check::tolerance)
+          p.excess = std::max(p.excess, excess(value, limit));
+      });
+  return p;
 }
 
 Point SurfaceSearch::without_tolerances() const {

@@ -31,6 +31,8 @@ class SurfaceSearch {
   Point without_tolerances() const;
   /// The best conditions.
   Point best() const;
+  /// Cost and worst check of given conditions, tolerances left out.
+  Point at(const planning::Choice<double>& choice) const;
   /// value/limit - 1 of the worst demand with exact errors at `places` places.
   double tolerance_excess(const planning::Choice<double>& choice, int places) const;
 
@@ -56,7 +58,7 @@ class SurfaceSearch {
   Point at_best_speed(std::size_t operation, double f, double a, bool fine) const;
   Point evaluated(std::size_t operation, const planning::Choice<double>& c,
                   double& fixed_excess) const;
-  double excess_of(const std::vector<double>& e) const;
+  double excess_of(const std::vector<double>& e, double reserve) const;
   double tolerance_excess(const planning::Choice<double>& choice) const;
   friend struct Cobyla;
 

@@ -150,7 +150,7 @@ LogDual<N> difference(const LogDual<N>& a, const LogDual<N>& b, double least) {
   const double most = 1 - std::exp(floor.ln.lo);
   const double high = std::min(std::exp(q.ln.hi), most);
   const double low = std::min(std::exp(q.ln.lo), most);
-  if (!(low < 1)) return LogDual<N>(least);  // never above it
+  if (low >= 1) return LogDual<N>(least);  // never above it
   const bool held = std::exp(q.ln.hi) + std::exp(floor.ln.hi) > 1;
   LogDual<N> r;
   r.half = q.half;
@@ -255,7 +255,9 @@ LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
   r.half = x.half;
   r.ln = hull(a.ln, b.ln);
   for (std::size_t j = 0; j < N; ++j) r.d[j] = hull(a.d[j], b.d[j]);
-  r.centre = (x.centre <= edge ? below(middle) : above(middle)).centre;
+  r.centre = std::isnan(x.centre)
+                 ? x.centre
+                 : (x.centre <= edge ? below(middle) : above(middle)).centre;
   return detail::centred(r);
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/part_plan.hpp"
+
+namespace turnwright::planning {
+
+inline const document::Catalogue& shop() {
+  static const auto all = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  return all;
+}
+inline PartPlan part(const nlohmann::json& document) {
+  return document::load_part_plan(document, shop(), "part").plan;
+}
+inline nlohmann::json reference_part(const std::string& name) {
+  return document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/parts/" + name +
+                              ".json");
+}
+
+/// A short pin of two cylinders, turned round once in the chuck.
+inline nlohmann::json pin() {
+  return {{"format", "turnwright-part/1"},
+          {"name", "Pin"},
+          {"material", "C45"},
+          {"stock", {{"kind", "bar"}, {"diameter_mm", 42}, {"length_mm", 92}}},
+          {"outer",
+           {{{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 40}},
+            {{"id", "d2"},
+             {"kind", "cylinder"},
+             {"length_mm", 50},
+             {"diameter_mm", 32},
+             {"Ra_um", 3.2}}}},
+          {"machine", "lathe-medium"},
+          {"tools", {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"}},
+          {"setups",
+           {{{"hold", "left"}, {"grip_mm", 30}, {"clampings", {"chuck"}}},
+            {{"hold", "right"}, {"grip_mm", 40}, {"clampings", {"chuck"}}}}},
+          {"operations", "auto"},
+          {"objective", "cost"},
+          {"batch", 10},
+          {"rates", {{"machine_per_min", 1.0}, {"price", 30}}},
+          {"machine_share_um", 1}};
+}
+
+}  // namespace turnwright::planning
