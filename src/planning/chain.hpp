@@ -106,6 +106,7 @@ struct OperationModel {
   catalogue::Range T_min;
   Affine depth_mm;
   std::vector<PassModel> passes;
+  double rapid_min = 0;                   ///< approach and return of all passes
   double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
   bool tapered = false, reaches_axis = false, face = false;
 };
@@ -120,7 +121,6 @@ struct Chain {
   std::vector<Station> stations;
   std::vector<Functional> functionals;
   Weights weights;
-  double fixed_min = 0;  ///< approach and return, part of the objective
 };
 
 /// Conditions of a chain: per operation speed and feed, and the finishing depth.
@@ -296,10 +296,11 @@ cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& 
   return sum;
 }
 
-/// Contribution of an operation to the objective: minutes in the cut and changing edges.
+/// Contribution of an operation to the objective: minutes in the cut, on approach and
+/// return, and changing edges.
 template <class T>
 T objective(const OperationModel& o, const Weights& w, const cutting::Duty<T>& d) {
-  return w.minute * d.time_min +
+  return w.minute * (d.time_min + o.rapid_min) +
          (w.minute * o.tool->change_min + w.edge * o.tool->edge_cost) * d.edges;
 }
 
@@ -449,14 +450,15 @@ auto tagged(const Sink& sink, std::size_t operation, bool speed) {
 template <class T, class Sink>
 T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
   const auto F = forces(chain, c);
-  T sum = T(chain.weights.minute * chain.fixed_min);
+  T sum{};
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
     speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
     const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
-    sum = sum + objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
+    const T cost = objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
+    sum = i == 0 ? cost : sum + cost;
   }
   tolerance_checks(chain, c, F, sink);
   return sum;
@@ -499,8 +501,7 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
                                   const std::array<SpeedWeights, 2>& weights,
                                   const Sink& sink) {
   const auto F = forces(chain, c);
-  Reduced<T> sum{T(chain.weights.minute * chain.fixed_min), {}};
-  sum.smooth = sum.objective;
+  Reduced<T> sum;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
@@ -512,14 +513,14 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     };
     const auto best = best_speed(o, c.f[i], c.a, w);
     c.v[i] = best.v;
-    const T least = cost(best);
-    sum.objective = sum.objective + least;
-    sum.smooth = sum.smooth +
-                 (weights[i].empty()
-                      ? least
-                      : cost(best_speed(
-                            o, c.f[i], c.a,
-                            smooth_window(o, c.f[i], c.a, F[i], n_cap, weights[i], w))));
+    const Reduced<T> own{cost(best),
+                         weights[i].empty()
+                             ? cost(best)
+                             : cost(best_speed(o, c.f[i], c.a,
+                                               smooth_window(o, c.f[i], c.a, F[i], n_cap,
+                                                             weights[i], w)))};
+    sum =
+        i == 0 ? own : Reduced<T>{sum.objective + own.objective, sum.smooth + own.smooth};
   }
   tolerance_checks(chain, c, F, sink);
   return sum;

@@ -147,7 +147,8 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit,
   std::optional<Choice<double>> best;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [feed, depth] : {std::pair{0.05, 0.05}, {0.4, 0.3}, {0.9, 0.8}}) {
-    auto start = optimise::least_violation(others.problem, m.start(feed, depth), -kBroken).y;
+    auto start =
+        optimise::least_violation(others.problem, m.start(feed, depth), -kBroken).y;
     scale = std::max(1.0, worst_row(m, m.choice(start), limit).g);  // how far it starts
     start.push_back(1);
     const auto s = optimise::local_minimum(p, start);
@@ -187,7 +188,7 @@ namespace {
 
 // What a limit would have to become for the others to be kept.
 std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
-                             const Limit& limit, const std::vector<Limit>& others) {
+                                  const Limit& limit, const std::vector<Limit>& others) {
   const auto& m = *f.answer.model;
   const auto c = relaxed(m, limit, others);
   if (!c) return {};
@@ -206,11 +207,12 @@ std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
   Relaxation r{called + " of " + f.task.feature.surface(), now, needed, n.unit, {}};
   r.sentence =
       tolerance
-          ? fmt::format("{} would have to open from {:.4g} to {:.4g} {} (what the cut may "
-                        "use), or the part be held {:.2f} times as stiffly",
-                        called, now, needed, n.unit, n.at_most ? needed / now : now / needed)
-          : fmt::format("{} would have to go from {:.4g} to {:.4g} {}", called, now, needed,
-                        n.unit);
+          ? fmt::format(
+                "{} would have to open from {:.4g} to {:.4g} {} (what the cut may "
+                "use), or the part be held {:.2f} times as stiffly",
+                called, now, needed, n.unit, n.at_most ? needed / now : now / needed)
+          : fmt::format("{} would have to go from {:.4g} to {:.4g} {}", called, now,
+                        needed, n.unit);
   return r;
 }
 

@@ -156,11 +156,11 @@ Spent spent(const FeatureAnswer& answer) {
   const Chosen x{answer.model->chain(), answer.choice,
                  forces(answer.model->chain(), answer.choice)};
   Spent s;
-  s.minutes = x.chain.fixed_min;
   for (std::size_t i = 0; i < x.chain.operations.size(); ++i) {
     const auto d = duty_of(x, i);
-    const auto& tool = *x.chain.operations[i].tool;
-    s.minutes += d.time_min;
+    const auto& o = x.chain.operations[i];
+    const auto& tool = *o.tool;
+    s.minutes += d.time_min + o.rapid_min;
     s.change_min += tool.change_min * d.edges;
     s.edges_cost += tool.edge_cost * d.edges;
   }
@@ -191,7 +191,8 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
     p.passes = passes(x, i);
     const auto d = duty_of(x, i);
     p.time_min = d.time_min;
-    p.cost = rates.machine_per_min * (d.time_min + o.tool->change_min * d.edges) +
+    p.cost = rates.machine_per_min *
+                 (d.time_min + o.rapid_min + o.tool->change_min * d.edges) +
              o.tool->edge_cost * d.edges;
     std::map<std::size_t, double> tolerance_price;
     for (std::size_t r = 0; r < values.size(); ++r) {

@@ -223,7 +223,7 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    c.fixed_min += n * 2 * (path + kApproach_mm) / plan_->machine.rapid_mm_min;
+    o.rapid_min = n * 2 * (path + kApproach_mm) / plan_->machine.rapid_mm_min;
   }
   c.stations.resize(stations.size());
   for (std::size_t i = 0; i < stations.size(); ++i) c.stations[i].at_mm = stations[i];

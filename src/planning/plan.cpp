@@ -82,6 +82,7 @@ std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Wanted& w
                             const Tool* rough, const Tool* finish) {
   const auto ranges = cutting::speed_ranges(p.machine).size();
   std::vector<Recipe> all;
+  if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
   const auto add = [&](Recipe r) {
     for (std::size_t i = 0; i < (r.rough ? ranges : 1); ++i)
       for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j) {

@@ -62,8 +62,8 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
 // feed at its limit, life at the economic one or its least.
 TEST(Plan, SinglePassHasTheEconomicLife) {
   const auto p = part(pin());
-  const auto& o = operation(plan(p), "s1-finish-d1");
-  const auto& pass = o.passes.at(0);
+  const auto r = plan(p);
+  const auto& pass = operation(r, "s1-finish-d1").passes.at(0);
   const auto& tool = p.tools.at(1);
   const double economic =
       (1 / p.material.taylor.n - 1) * (tool.change_min + tool.edge_cost);
@@ -168,8 +168,8 @@ nlohmann::json long_pin(const std::vector<std::string>& clampings) {
   auto d = pin();
   d["stock"]["length_mm"] = 202;
   d["outer"][1]["length_mm"] = 160;
-  d["outer"][1]["diameter_mm"] = 36;
-  d["outer"][1]["limits_mm"] = {-0.012, 0.012};
+  d["outer"][1]["diameter_mm"] = 26;
+  d["outer"][1]["limits_mm"] = {-0.008, 0.008};
   d["setups"][0]["clampings"] = clampings;
   return d;
 }

@@ -72,10 +72,11 @@ TEST_P(Surfaces, GradientsAreTheSlopesOfTheValues) {
       up[j] += h;
       down[j] -= h;
       const auto u = values(up), d = values(down);
-      EXPECT_NEAR(at.df[j], (u.f - d.f) / (2 * h), 1e-6);
+      EXPECT_NEAR(at.df[j], (u.f - d.f) / (2 * h), 1e-6 + 1e-4 * std::abs(at.df[j]));
       for (std::size_t i = 0; i < p.constraints; ++i)
-        EXPECT_NEAR(at.dg[i * y.size() + j], (u.g[i] - d.g[i]) / (2 * h),
-                    1e-6 * (1 + std::abs(at.g[i])))
+        EXPECT_NEAR(
+            at.dg[i * y.size() + j], (u.g[i] - d.g[i]) / (2 * h),
+            1e-6 * (1 + std::abs(at.g[i])) + 1e-4 * std::abs(at.dg[i * y.size() + j]))
             << "row " << i;
     }
   }
@@ -121,7 +122,7 @@ TEST_P(Surfaces, BoxesHoldTheirPoints) {
           Interval step(0);
           for (std::size_t j = 0; j < y.size(); ++j)
             step = step + all[i].d[j] * Interval(y[j] - before[j]);
-          EXPECT_LE(step.lo, v[i] - v_before[i] + slack) << i << " of " << piece.constraints << " " << m->chain().stations[0].at_mm << " size " << size;
+          EXPECT_LE(step.lo, v[i] - v_before[i] + slack) << i;
           EXPECT_GE(step.hi, v[i] - v_before[i] - slack) << i;
         }
         before = y;

@@ -23,6 +23,7 @@ using planning::PartPlan;
 using planning::Recipe;
 
 constexpr double kFeasible = 0x1p-36;  // of a limit: rounding
+constexpr int kFinePlaces = 1601;      // parabolas through them are exact to 1e-10
 
 std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
   std::vector<const Tool*> all;
@@ -201,7 +202,7 @@ class SetupSearch {
     }
     x.a_mm = p.choice.a;
     x.objective = p.cost;
-    x.excess = std::max(p.excess, s.tolerance_excess(p.choice, 401));
+    x.excess = std::max(p.excess, s.tolerance_excess(p.choice, kFinePlaces));
     return x;
   }
 

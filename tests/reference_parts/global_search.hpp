@@ -34,7 +34,7 @@ struct SurfaceFound {
   int rough_passes = 0, finish_passes = 0;
   double v_m_min[2] = {0, 0}, f_mm_rev[2] = {0, 0}, a_mm = 0;
   double objective = 0;  ///< infinite: nothing found
-  double excess = 0;     ///< largest value/limit - 1, errors at 401 places
+  double excess = 0;     ///< largest value/limit - 1, errors at 1601 places
 };
 
 struct SetupFound {

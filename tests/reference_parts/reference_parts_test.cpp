@@ -41,6 +41,14 @@ void expect_global(const planning::Certificate& c, const std::string& of) {
   EXPECT_LE(c.gap, kGap) << of;
 }
 
+double operations_cost(const ProcessPlan& plan, const std::string& surface) {
+  double sum = 0;
+  for (const auto& s : plan.setups)
+    for (const auto& o : s.operations)
+      if (o.on == std::vector{surface}) sum += o.cost;
+  return sum;
+}
+
 class ReferencePart : public testing::TestWithParam<const char*> {
  protected:
   const std::string name = GetParam();
@@ -54,7 +62,8 @@ TEST_P(ReferencePart, HasAPlanThatMeetsEveryTolerance) {
   ASSERT_EQ(plan.tolerances.size(), part.plan.drawing.tolerances.size());
   for (const auto& t : plan.tolerances) {
     EXPECT_EQ(t.verdict, Verdict::met) << t.id << ' ' << t.of;
-    EXPECT_GE(t.margin_mm, -kBeyond * t.allowed_mm.back()) << t.id << ' ' << t.of;
+    EXPECT_GE(t.margin_mm, -kBeyond * std::abs(t.allowed_mm.back()))
+        << t.id << ' ' << t.of;
   }
 }
 
@@ -75,7 +84,10 @@ TEST_P(ReferencePart, KeepsEveryLimitAndCostsWhatItSaysWhenComputedAnew) {
   ASSERT_EQ(plan.status, PlanStatus::ok);
   const auto anew = as_planned(part.plan, plan);
   for (const auto& setup : anew.setups)
-    for (const auto& x : setup.surfaces) EXPECT_LE(x.excess, kBeyond) << x.surface;
+    for (const auto& x : setup.surfaces) {
+      EXPECT_LE(x.excess, kBeyond) << x.surface;
+      EXPECT_NEAR(operations_cost(plan, x.surface), x.objective, kRounding) << x.surface;
+    }
   EXPECT_NEAR(plan.cost_per_part, anew.objective, kRounding * anew.objective);
 }
 
@@ -116,18 +128,77 @@ INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                            return name;
                          });
 
-TEST(X, Y) {
-  const auto part = loaded("infeasible-as-drawn");
-  const auto plan = planning::plan(part.plan);
-  for (auto& c : plan.conflicts)
-    std::cerr << c.limit << '|' << c.where << '|' << c.value << '|' << c.allowed << '|'
-              << c.sentence << '\n';
-  for (auto& c : plan.relax)
-    std::cerr << c.limit << '|' << c.now << '|' << c.needed << '|' << c.sentence << '\n';
-  for (auto& t : part.plan.drawing.tolerances)
-    std::cerr << t.id << ' ' << t.of << ' ' << t.value_mm << '\n';
-  for (auto& s : plan.setups)
-    for (auto& r : s.rejected) std::cerr << r.why << '\n';
+class PartInfeasibleAsDrawn : public testing::Test {
+ protected:
+  const document::LoadedPart part = loaded("infeasible-as-drawn");
+  const ProcessPlan plan = planning::plan(part.plan);
+
+  // The part with what a cut may use of a named tolerance `times` as much.
+  static planning::PartPlan opened(planning::PartPlan p, const std::string& limit,
+                                   double times) {
+    const double share = p.machine_share_um / 1000;
+    for (auto& t : p.drawing.tolerances) {
+      if (t.id + ' ' + part::name(t.kind) + " of " + t.of != limit) continue;
+      t.value_mm = share + (t.value_mm - share) * times;
+      if (!t.limits) continue;
+      const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+      const double width = t.limits->upper_mm - t.limits->lower_mm;
+      const double half = (share + (width - share) * times) / 2;
+      t.limits = part::Limits{middle - half, middle + half};
+    }
+    return p;
+  }
+
+  // All limits that have to give, each opened by what is told times a factor.
+  planning::PartPlan opened(const std::vector<double>& factors) const {
+    auto p = part.plan;
+    for (std::size_t i = 0; i < plan.relax.size(); ++i) {
+      const auto& r = plan.relax[i];
+      p = opened(p, r.limit, factors[i] * r.needed / r.now);
+    }
+    return p;
+  }
+};
+
+TEST_F(PartInfeasibleAsDrawn, IsInfeasibleToTheSearchToo) {
+  EXPECT_EQ(plan.status, PlanStatus::infeasible);
+  EXPECT_TRUE(stored("infeasible-as-drawn").at("infeasible"));
+  EXPECT_FALSE(std::isfinite(search(part.plan, kShort).objective));
+}
+
+TEST_F(PartInfeasibleAsDrawn, NamesTheTolerancesThatFailAndByHowMuch) {
+  ASSERT_FALSE(plan.conflicts.empty());
+  for (const auto& c : plan.conflicts) {
+    EXPECT_TRUE(c.limit == "t1 cylindricity" || c.limit == "d2:diameter diameter")
+        << c.limit;
+    EXPECT_NE(c.where.find("setup 0, chuck, d2"), std::string::npos) << c.where;
+    EXPECT_GT(c.value, c.allowed) << c.limit;
+    EXPECT_EQ(c.unit, "mm");
+  }
+}
+
+TEST_F(PartInfeasibleAsDrawn, CanBeMadeOnceEveryLimitGivesWayAsTold) {
+  ASSERT_FALSE(plan.relax.empty());
+  for (const auto& r : plan.relax) EXPECT_GT(r.needed, r.now) << r.limit;
+  const std::vector<double> all(plan.relax.size(), 1.001);
+  EXPECT_TRUE(std::isfinite(search(opened(all), kShort).objective));
+}
+
+TEST_F(PartInfeasibleAsDrawn, CannotBeMadeWhenOneGivesWayByLess) {
+  ASSERT_FALSE(plan.relax.empty());
+  for (std::size_t i = 0; i < plan.relax.size(); ++i) {
+    std::vector<double> factors(plan.relax.size(), 100);
+    factors[i] = 0.95;
+    EXPECT_FALSE(std::isfinite(search(opened(factors), kShort).objective))
+        << plan.relax[i].limit;
+  }
+}
+
+TEST_F(PartInfeasibleAsDrawn, HasAResultDocument) {
+  const auto json = document::to_json(plan, part.assumed);
+  EXPECT_EQ(json.at("status"), "infeasible");
+  EXPECT_EQ(json.dump(),
+            document::to_json(planning::plan(part.plan), part.assumed).dump());
 }
 
 }  // namespace

@@ -218,7 +218,6 @@ Point SurfaceSearch::lattice_best(const Lattice& l, const Point& incumbent,
   const std::size_t operations = single_.size();
   const std::vector<double> one{0};
   const auto& second = operations > 1 ? l.x[2] : one;
-  const double fixed_cost = chain_.weights.minute * chain_.fixed_min;
   std::vector<std::vector<Point>> table[2];
   std::vector<Cell> cells;
   for (std::size_t k = 0; k < l.x[0].size(); ++k) {
@@ -230,7 +229,7 @@ Point SurfaceSearch::lattice_best(const Lattice& l, const Point& incumbent,
     }
     for (std::size_t m = 0; m < l.x[1].size(); ++m)
       for (std::size_t n = 0; n < second.size(); ++n) {
-        Cell c{{k, m, n}, fixed_cost, -1};
+        Cell c{{k, m, n}, 0, -1};
         for (std::size_t i = 0; i < operations; ++i) {
           const auto& p = table[i][k][i == 0 ? m : n];
           c.cost += p.cost;

@@ -44,7 +44,7 @@ struct OperationPlan {
   Direction direction = Direction::to_chuck;
   std::vector<Pass> passes;
   double time_min = 0;  ///< cutting
-  double cost = 0;
+  double cost = 0;      ///< in the cut, on approach and return, and of edges
   std::vector<ConstraintValue> constraints;
   Certificate certificate;
 };
