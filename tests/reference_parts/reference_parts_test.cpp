@@ -188,7 +188,7 @@ TEST_F(PartInfeasibleAsDrawn, CannotBeMadeWhenOneGivesWayByLess) {
   ASSERT_FALSE(plan.relax.empty());
   for (std::size_t i = 0; i < plan.relax.size(); ++i) {
     std::vector<double> factors(plan.relax.size(), 100);
-    factors[i] = 0.95;
+    factors[i] = 0.99;
     EXPECT_FALSE(std::isfinite(search(opened(factors), kShort).objective))
         << plan.relax[i].limit;
   }

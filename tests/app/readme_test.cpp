@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+// What the README says is what the program does.
+namespace turnwright {
+namespace {
+
+const std::filesystem::path kRoot = TURNWRIGHT_SOURCE_DIR;
+
+std::string readme() {
+  std::ifstream in(kRoot / "README.md");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::vector<std::string>> rows(const std::string& text, std::size_t cells) {
+  std::vector<std::vector<std::string>> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] != '|') continue;
+    std::vector<std::string> row;
+    std::istringstream parts(line.substr(1));
+    for (std::string cell; std::getline(parts, cell, '|');)
+      row.push_back(std::regex_replace(cell, std::regex("^ +| +$"), ""));
+    if (row.size() == cells) all.push_back(row);
+  }
+  return all;
+}
+
+TEST(Readme, CostsAndClampingsAreThoseOfThePlans) {
+  const auto catalogue = document::load_catalogue(kRoot);
+  int checked = 0;
+  for (const auto& row : rows(readme(), 3)) {
+    const auto file = kRoot / "parts" / (row[0] + ".json");
+    if (!std::filesystem::exists(file)) continue;
+    ++checked;
+    const auto plan = planning::plan(
+        document::load_part_plan(document::parse_file(file), catalogue, row[0]).plan);
+    if (row[1] == "infeasible") {
+      EXPECT_EQ(plan.status, planning::PlanStatus::infeasible);
+      for (const auto& c : plan.conflicts)
+        EXPECT_NE(row[2].find(c.limit.substr(0, c.limit.find(' '))), std::string::npos)
+            << c.limit;
+      continue;
+    }
+    char cost[32];
+    std::snprintf(cost, sizeof cost, "%.4f", plan.cost_per_part);
+    EXPECT_EQ(row[1], cost);
+    std::string clampings;
+    for (const auto& s : plan.setups)
+      clampings += (clampings.empty() ? "" : ", ") + std::string(name(s.clamping));
+    EXPECT_EQ(row[2], clampings);
+  }
+  EXPECT_EQ(checked, 4);
+}
+
+TEST(Readme, FilesItNamesExist) {
+  const auto text = readme();
+  const std::regex name(
+      R"((scripts/\w+|docs/[\w/.-]+\w|parts/[\w-]+\.json|src/[\w/]+\.cpp|tests/\w+|src/\w+))");
+  int count = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it) {
+    EXPECT_TRUE(std::filesystem::exists(kRoot / it->str())) << it->str();
+    ++count;
+  }
+  EXPECT_GT(count, 20);
+}
+
+}  // namespace
+}  // namespace turnwright
