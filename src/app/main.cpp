@@ -43,10 +43,22 @@ nlohmann::json read_request(const std::string& file) {
   return document::parse(text, "standard input");
 }
 
+// Problems of the request are told under the name its reader knows.
+nlohmann::ordered_json answer(const service::Request& row, const std::string& file,
+                              const nlohmann::json& request,
+                              const document::Catalogue& catalogue) {
+  try {
+    return service::answer(row, request, {catalogue});
+  } catch (const InputError& e) {
+    if (e.document() != row.name) throw;
+    throw InputError(file == "-" ? "standard input" : file, e.problems());
+  }
+}
+
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
-  const auto result = service::answer(row, request, {catalogue});
+  const auto result = answer(row, arguments.file, request, catalogue);
   const std::string json = result.dump(2) + '\n';
   if (arguments.result_file) write_file(*arguments.result_file, json);
   if (row.text && !arguments.json)

@@ -178,10 +178,9 @@ std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
   const double over = worst.row.check == Check::tolerance ? 100 * g : 100 * std::expm1(g);
   const double value = n.at_most ? worst.value : worst.limit;
   const double limit = n.at_most ? worst.limit : worst.value;
-  return fmt::format(
-      "{}: {} is {:.4g} {} where {:.4g} {} is allowed, {:.1f} % over at best",
-      f.task.feature.surface(), row_name(plan, m, worst.row), value, n.unit, limit,
-      n.unit, over);
+  return fmt::format("{}: {} is {} {} where {} {} is allowed, {:.1f} % over at best",
+                     f.task.feature.surface(), row_name(plan, m, worst.row),
+                     readable(value), n.unit, readable(limit), n.unit, over);
 }
 
 namespace {
@@ -205,14 +204,13 @@ std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
         needed = d.upper * (1 + worst_excess({d}, profile));
   }
   Relaxation r{called + " of " + f.task.feature.surface(), now, needed, n.unit, {}};
-  r.sentence =
-      tolerance
-          ? fmt::format(
-                "{} would have to open from {:.4g} to {:.4g} {} (what the cut may "
-                "use), or the part be held {:.2f} times as stiffly",
-                called, now, needed, n.unit, n.at_most ? needed / now : now / needed)
-          : fmt::format("{} would have to go from {:.4g} to {:.4g} {}", called, now,
-                        needed, n.unit);
+  r.sentence = tolerance ? fmt::format(
+                               "{} would have to open from {} to {} {} (what the cut may "
+                               "use), or the part be held {:.2f} times as stiffly",
+                               called, readable(now), readable(needed), n.unit,
+                               n.at_most ? needed / now : now / needed)
+                         : fmt::format("{} would have to go from {} to {} {}", called,
+                                       readable(now), readable(needed), n.unit);
   return r;
 }
 
@@ -240,9 +238,9 @@ void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature
       const double allowed = n.at_most ? w.row.limit : w.row.value;
       result.conflicts.push_back(
           {called, where, value, allowed, n.unit,
-           fmt::format(
-               "{}: {} {:.4g} {} against {:.4g} {} at the least violation of all limits",
-               where, called, value, n.unit, allowed, n.unit)});
+           fmt::format("{}: {} {} {} against {} {} at the least violation of all limits",
+                       where, called, readable(value), n.unit, readable(allowed),
+                       n.unit)});
       // The rest of its own conflict and all that is in none stay as they are.
       auto others = less(all, members);
       for (const auto& other : set)

@@ -27,6 +27,9 @@ std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);
 /// Every limit that costs something, dearest first.
 std::vector<Price> prices(const PartPlan& plan, const std::vector<SolvedSetup>& setups);
 
+/// A number in a sentence: four digits, whole from ten thousand on.
+std::string readable(double value);
+
 /// One sentence: what stands against this feature, and by how much.
 std::string obstacle(const PartPlan& plan, const SolvedFeature& feature);
 

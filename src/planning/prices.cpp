@@ -37,13 +37,18 @@ void add(const PartPlan& p, const SolvedFeature& f, const OperationPlan& o,
   price.saves_per_part_for_10_percent = gain;
   const double then = c.at_most ? c.limit * 1.1 : c.limit / 1.1;
   price.sentence =
-      fmt::format("{} {} of {} from {:.4g} to {:.4g} {} saves {:.4f}{} per part",
-                  c.at_most ? "raising" : "lowering", c.name, o.id, c.limit, then, c.unit,
-                  gain, unit_of_objective(p));
+      fmt::format("{} {} of {} from {} to {} {} saves {:.4f}{} per part",
+                  c.at_most ? "raising" : "lowering", c.name, o.id, readable(c.limit),
+                  readable(then), c.unit, gain, unit_of_objective(p));
   all.push_back(std::move(price));
 }
 
 }  // namespace
+
+std::string readable(double value) {
+  return std::abs(value) < 1e4 ? fmt::format("{:.4g}", value)
+                               : fmt::format("{:.0f}", value);
+}
 
 std::vector<Price> prices(const PartPlan& p, const std::vector<SolvedSetup>& setups) {
   std::vector<Price> all;
