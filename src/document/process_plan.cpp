@@ -146,9 +146,13 @@ ordered_json json_of(const Assumption& a) {
 }  // namespace
 
 ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
+  const auto if_planned = [&](double x) -> ordered_json {
+    if (plan.status == PlanStatus::infeasible) return nullptr;
+    return x;
+  };
   ordered_json out{{"status", word(plan.status)},
-                   {"cost_per_part", plan.cost_per_part},
-                   {"time_per_part_min", plan.time_per_part_min}};
+                   {"cost_per_part", if_planned(plan.cost_per_part)},
+                   {"time_per_part_min", if_planned(plan.time_per_part_min)}};
   if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
   out["certificate"] = json_of(plan.certificate);
   out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });

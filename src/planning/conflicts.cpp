@@ -10,7 +10,10 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kBroken = 1e-9;  // a limit counts as over beyond this, in ln
+constexpr double kBroken = 1e-9;   // a limit counts as over beyond this, in ln
+constexpr double kOpening = 1.01;  // how exactly the least widening is found
+
+constexpr double kStart = 1;  // of the scaled excess that is to be least
 
 // Rows that are one limit to a reader: all places of a tolerance, all lines of a curve.
 using Limit = std::pair<std::size_t, std::pair<Check, std::size_t>>;
@@ -150,8 +153,13 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit,
     auto start =
         optimise::least_violation(others.problem, m.start(feed, depth), -kBroken).y;
     scale = std::max(1.0, worst_row(m, m.choice(start), limit).g);  // how far it starts
-    start.push_back(1);
-    const auto s = optimise::local_minimum(p, start);
+    start.push_back(kStart);
+    auto s = optimise::local_minimum(p, start);
+    // SLSQP may end where limits cross; started anew from there it goes on.
+    for (double before = kStart; s.f < before * 0.999;) {
+      before = s.f;
+      s = optimise::local_minimum(p, s.y);
+    }
     if (s.status == optimise::Status::no_feasible_point_met || !(s.f * scale < least))
       continue;
     least = s.f * scale;
@@ -185,6 +193,48 @@ std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
 
 namespace {
 
+// The surface with one tolerance `times` as wide and only those of `others` beside it.
+FeatureTask opened(const FeatureTask& task, std::size_t tolerance, double times,
+                   const std::vector<Limit>& others) {
+  FeatureTask t = task;
+  t.explain = false;
+  std::erase_if(t.demands, [&](const Demand& d) {
+    const Limit l{0, {Check::tolerance, d.tolerance}};
+    return d.tolerance != tolerance &&
+           std::find(others.begin(), others.end(), l) == others.end();
+  });
+  for (auto& d : t.demands)
+    if (d.tolerance == tolerance) {
+      d.lower *= times;
+      d.upper *= times;
+    }
+  return t;
+}
+
+// Least widening of a tolerance over every recipe, from one that suffices: in growing
+// steps down to one that is refuted, which costs most, then by bisection.
+double least_widening(const FeatureTask& task, std::size_t tolerance, double enough,
+                      const std::vector<Limit>& others) {
+  const auto suffices = [&](double times) {
+    return can_be_made(opened(task, tolerance, times, others));
+  };
+  double low = 1, step = kOpening;
+  while (low == 1 && enough > kOpening) {
+    const double less = std::max(1.0, enough / step);
+    if (less == 1 || !suffices(less))
+      low = less;
+    else
+      enough = less;
+    step *= step;
+    if (low == 1 && less == 1) break;
+  }
+  while (enough > low * kOpening) {
+    const double middle = std::sqrt(low * enough);
+    (suffices(middle) ? enough : low) = middle;
+  }
+  return enough;
+}
+
 // What a limit would have to become for the others to be kept.
 std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
                                   const Limit& limit, const std::vector<Limit>& others) {
@@ -201,7 +251,8 @@ std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
     const auto profile = f.task.feature.profile(m.recipe(), f.task.economy, *c);
     for (const auto& d : f.task.demands)
       if (d.tolerance == m.chain().functionals[at.row.row.operation].tolerance)
-        needed = d.upper * (1 + worst_excess({d}, profile));
+        needed = d.upper * least_widening(f.task, d.tolerance,
+                                          1 + worst_excess({d}, profile), others);
   }
   Relaxation r{called + " of " + f.task.feature.surface(), now, needed, n.unit, {}};
   r.sentence = tolerance ? fmt::format(

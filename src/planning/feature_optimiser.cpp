@@ -16,7 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
-constexpr long kScouting = 150;  // boxes for a first bound of a task
+constexpr double kAnyCost = 1e3;  // a gap in ln(objective) that the first find leaves
+constexpr long kScouting = 150;   // boxes for a first bound of a task
 
 struct Candidate {
   Recipe recipe;
@@ -224,7 +225,6 @@ class FeatureSearch {
     c.nodes = nodes_;
     for (const auto& e : engines_) c.engine += (c.engine.empty() ? "" : " and ") + e;
     if (c.engine.empty()) c.engine = "branch-and-bound";
-    c.lower_bound = std::exp(bound_);
     return c;
   }
 
@@ -237,7 +237,8 @@ class FeatureSearch {
     a.multipliers = std::move(s.multipliers);
     a.profile = task_.feature.profile(a.model->recipe(), task_.economy, a.choice);
     a.certificate = certificate();
-    a.certificate.lower_bound = std::min(a.certificate.lower_bound, a.objective);
+    a.lower_bound = std::exp(bound_);
+    a.certificate.lower_bound = std::min(a.lower_bound, a.objective);
     a.certificate.gap = 1 - a.certificate.lower_bound / a.objective;
     return a;
   }
@@ -245,8 +246,11 @@ class FeatureSearch {
   FeatureAnswer none() {
     FeatureAnswer a;
     if (most_ == kInfinity) a = nearest(task_);
-    a.beaten = most_ < kInfinity;
+    a.lower_bound = std::exp(bound_);
     a.certificate = certificate();
+    a.certificate.kind = CertificateKind::none;
+    if (unfinished_.empty())
+      a.certificate.reason = "proved: no conditions keep every limit";
     return a;
   }
 
@@ -320,6 +324,10 @@ FeatureAnswer nearest(const FeatureTask& task) {
   if (a.model)
     a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
   return a;
+}
+
+bool can_be_made(const FeatureTask& task) {
+  return FeatureSearch(task, kAnyCost, kInfinity).run().feasible;
 }
 
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most) {

@@ -18,13 +18,13 @@ struct FeatureTask {
 
 struct FeatureAnswer {
   bool feasible = false;
-  bool beaten = false;  ///< nothing feasible below the value it had to beat
   std::shared_ptr<RecipeModel> model;  ///< of the chosen, or least violated, recipe
   Choice<double> choice;
   double objective = 0;
   std::vector<double> multipliers;  ///< of the model's rows
   std::vector<double> slopes;  ///< d ln(objective) along each variable, less the rows'
   tolerance::PiecewisePolynomial profile;
+  double lower_bound = 0;  ///< proved; +infinity: nothing is feasible
   Certificate certificate;
   double least_violation = 0;  ///< of the best infeasible point, max g
 };
@@ -42,6 +42,10 @@ double least_objective(const FeatureTask& task);
 /// search is for answers cheaper than that: none is an answer too, and a quick one.
 /// @throws std::runtime_error if the exchange does not end (40 rounds).
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most);
+
+/// True if some conditions keep every limit, whatever they cost; false is proved unless
+/// the budget of boxes ends.
+bool can_be_made(const FeatureTask& task);
 
 /// The conditions that break the limits least, as an infeasible answer without
 /// certificate: a local search, which says how far off the request is and by which limit.

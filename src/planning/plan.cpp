@@ -15,7 +15,8 @@ using catalogue::Tool;
 using catalogue::ToolUse;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGap = 9e-5;  // what engine 2 may leave open, in ln(objective)
+constexpr double kGap = 9e-5;        // what engine 2 may leave open, in ln(objective)
+constexpr double kCertified = 1e-4;  // what a global certificate may leave open
 constexpr int kMostPasses = 40;
 constexpr double kBeyondRounding = 1e-6;
 
@@ -268,7 +269,7 @@ class SetupPlanner {
   const SolvedFeature& solved(std::size_t j, const Tools& tools, double most) {
     auto& e = entry(j, tools);
     const auto settled = [&] {
-      return e.solved && (e.solved->answer.feasible || (most <= e.most && !explain_));
+      return e.solved && (e.solved->answer.feasible || most <= e.most);
     };
     const auto attempt = [&](Offset offset) {
       auto t = task(j, tools, offset);
@@ -278,6 +279,10 @@ class SetupPlanner {
     };
     // What can be made without compensation at any cost is not compensated.
     if (compensate_) most = kInfinity;
+    if (explain_ && !(e.solved && e.solved->answer.feasible)) {
+      e.solved = attempt(compensate_ ? Offset::free : Offset::none);
+      return *e.solved;
+    }
     if (!settled()) {
       e.most = most;
       e.solved = attempt(Offset::none);
@@ -304,21 +309,20 @@ class SetupPlanner {
           std::isfinite(most) ? most - (s.lower_bound - alone) : kInfinity;
       const auto& f = solved(j, tools, std::max(left, alone));
       s.features.push_back(f);
-      if (!f.answer.feasible) continue;
-      s.objective += f.answer.objective;
-      s.lower_bound += f.answer.certificate.lower_bound - alone;
+      if (std::isfinite(alone)) s.lower_bound += f.answer.lower_bound - alone;
+      if (f.answer.feasible) s.objective += f.answer.objective;
     }
     s.indexings = indexings(s);
     const double besides = economy_.minute * minutes_besides_cutting(s);
     s.objective += besides;
-    s.lower_bound += besides - least_besides_cutting(tools);
-    if (!s.feasible()) {
+    if (s.feasible()) {
+      s.lower_bound += besides - least_besides_cutting(tools);
+    } else {
       s.objective = 0;
       for (const auto& f : s.features)
         if (!f.answer.feasible)
           s.objective =
               std::max(s.objective, f.answer.model ? f.answer.least_violation : 1e6);
-      s.lower_bound = most * (1 - kGap);  // not cheaper than that, if at all
     }
     return s;
   }
@@ -533,6 +537,7 @@ Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
     const auto& c = a.setups.back();
     a.feasible = a.feasible && c.solved && c.chosen.feasible();
     for (const std::size_t i : work.setups[s].elements) done[i] = true;
+    if (!c.solved) a.lower_bound = kInfinity;
     if (!c.solved) continue;
     const auto t = totals(p, c.chosen);
     a.total.minutes += t.minutes;
@@ -576,6 +581,24 @@ Certificate total_certificate(const Attempt& a) {
   for (const auto& e : engines) c.engine += (c.engine.empty() ? "" : " and ") + e;
   c.lower_bound = std::min(a.lower_bound, a.objective);
   c.gap = a.objective > 0 ? 1 - c.lower_bound / a.objective : 0;
+  if (c.kind == CertificateKind::global && c.gap > kCertified) {
+    c.kind = CertificateKind::local;
+    c.reason =
+        "with other tools or another clamping the budget of boxes ended before "
+        "every box was settled";
+  }
+  return c;
+}
+
+Certificate no_certificate(const Attempt& a) {
+  Certificate c;
+  c.reason =
+      a.lower_bound < kInfinity
+          ? "no plan was found, but the budget of boxes ended before every box was "
+            "settled"
+          : "proved: no plan keeps every limit";
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) c.nodes += f.answer.certificate.nodes;
   return c;
 }
 
@@ -631,10 +654,11 @@ ProcessPlan plan(const PartPlan& p) {
                t.allowed_mm.back())});
     }
   if (!ok) result.status = PlanStatus::infeasible;
-  result.cost_per_part = a.total.cost;
-  result.time_per_part_min = a.total.minutes;
-  if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
+  if (result.status == PlanStatus::infeasible) result.certificate = no_certificate(a);
   if (result.status == PlanStatus::ok) {
+    result.cost_per_part = a.total.cost;
+    result.time_per_part_min = a.total.minutes;
+    if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
     result.certificate = total_certificate(a);
     result.compensation = compensations(chosen);
     result.prices = prices(p, chosen);

@@ -44,7 +44,7 @@ std::string proof(const ordered_json& certificate) {
     return fmt::format(
         "not proven, the best of its neighbourhood only{}; bound {}, gap {} %", why,
         bound, gap);
-  return "not proven" + why;
+  return reason.empty() ? "not proven" : reason;
 }
 
 }  // namespace turnwright::report

@@ -87,7 +87,8 @@ std::string note(const ordered_json& operation) {
   text += binding.empty() ? "; no limit binds" : "; bound by " + joined(binding);
   const auto certificate = operation.find("certificate");
   const auto reason = certificate == operation.end() ? "" : word(*certificate, "reason");
-  if (!reason.empty()) text += "; not proven: " + reason;
+  if (!reason.empty())
+    text += (word(*certificate, "kind") == "local" ? "; not proven: " : "; ") + reason;
   return text;
 }
 

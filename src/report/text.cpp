@@ -24,6 +24,8 @@ std::string header(const ordered_json& result) {
   std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
   if (word(result, "status") == "infeasible") {
     out += paragraph("status  ", "infeasible: no plan keeps every limit");
+    if (const auto c = result.find("certificate"); c != result.end())
+      out += paragraph("proof   ", proof(*c));
   } else {
     out += paragraph("status  ", "every limit is kept");
     out += paragraph("cost    ", shown(number(result, "cost_per_part"), 4) + " per part");
