@@ -17,9 +17,10 @@ tw_domain(deflection SOURCES beam.cpp boring_bar.cpp envelope.cpp face.cpp feedb
                 feedback_test.cpp response_test.cpp seed_test.cpp shoulder_test.cpp
                 workpiece_test.cpp)
 # Floor 4
-tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp
+tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
-  TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp)
+  TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp
+        budget_test.cpp)
 # Floor 5
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp describe.cpp

@@ -102,6 +102,7 @@ void judge_size(const Case& c, const Extremes& e, double guard_mm, Verdict& v) {
   v.measured_mm = high - low;
   v.allowed_mm = u - l;
   v.margin_mm = std::min(u - high, low - l);  // Eqs. (1), (2)
+  v.room_mm = {l - low - guard_mm, u - high + guard_mm};
   v.margin_after_offset_mm = v.allowed_mm - v.measured_mm;
   v.offset_into_limits_mm = (u + l - high - low) / (2 * per);
   v.seed_verdict = spread <= v.allowed_mm + guard_mm;  // seed Eqs. (11), (15)
@@ -157,6 +158,10 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
   v.margin_mm = t - without_offset;
   v.margin_after_offset_mm = t - with_offset;
   v.offset_into_limits_mm = v.offset_mm;
+  v.room_mm = rule == Rule::profile ? Extremes{-t / 2 - e.min_mm * cosine - guard_mm,
+                                               t / 2 - e.max_mm * cosine + guard_mm}
+                                    : Extremes{-std::numeric_limits<double>::infinity(),
+                                               v.margin_mm + guard_mm};
   conclude(v, guard_mm, fmt::format(fmt::runtime(found), um(v.measured_mm), um(t)),
            rule == Rule::profile);
   if (rule == Rule::range || rule == Rule::runout)

@@ -81,7 +81,11 @@ struct Verdict {
   double margin_mm = 0;    ///< distance to the nearest limit, < 0 outside, on the
                            ///< size (1)-(3) or the zone
   double margin_after_offset_mm = 0;  ///< allowed less what no offset can remove
-  std::string why;                    ///< one sentence with the numbers, in um
+  /// How far the size, the located profile (normal to its surface) or the zone's width
+  /// may still move, down (min) and up (max), rounding forgiven; down without end for
+  /// zones.
+  Extremes room_mm = {};
+  std::string why;  ///< one sentence with the numbers, in um
 };
 
 /// The verdict on one case; no other case enters.

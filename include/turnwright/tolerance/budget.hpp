@@ -1,0 +1,150 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "turnwright/tolerance/acceptance.hpp"
+
+/// Budget of a tolerance: what uncertain sources add to the cut's deviation.
+///
+///     S = sum_i s_i X_i                                                       (1)
+///
+/// moves the whole feature (size, located profile) or widens its zone (all other kinds):
+/// s_i sensitivity, X_i independent sources with value a, [um]:
+///
+///     distribution  X                              mean           sigma reach normal
+///     sigma a                        0              a                 -3 a .. 3 a
+///     uniform       half-width a                   0              a/sqrt 3          -a
+///     .. a triangular    half-width a                   0              a/sqrt 6 -a .. a
+///     arcsine       half-width a, U-shaped         0              a/sqrt 2          -a
+///     .. a fixed         a known bias a                 a              0 a rayleigh
+///     length of a vector with two    a sqrt(pi/2)   a sqrt(2 - pi/2)  0 .. 3.635 a
+///                   normal components of sigma a
+///
+/// arcsine is a sine seen at a random phase (a slow swing of temperature); rayleigh an
+/// eccentricity of random direction.  Reach: all of it, or what 0.135 % exceed (the 3
+/// sigma of a normal).  Then, upwards and downwards alike:
+///
+///     worst case     W = sum_i of the reach of s_i X_i                        (2)
+///     root of sum of squares
+///                    R = mean S +- sqrt(sum_i (reach - mean of s_i X_i)^2)    (3)
+///     share          s_i^2 sigma_i^2 / sum_j s_j^2 sigma_j^2                  (4)
+///
+/// A case (acceptance.hpp) leaves S the room  down <= S <= up:
+///
+///     diameter, length        down = l - low,               up = u - high
+///     profile by datums       down = -t/2 - e_min cos alpha, up = t/2 - e_max cos alpha
+///     all others              no lower end,                 up = t - measured (5)
+///
+/// low, high: least and largest deviation of the size, (1)-(3) there.  Against it:
+///
+///     conformity     P = P(down <= S <= up)                                   (6)
+///     index          min[ (up - Q50)/(Q99.865 - Q50), (Q50 - down)/(Q50 - Q0.135) ],
+///                    for zones the first alone                                (7)
+///     acceptance     (6) with the room narrowed by U at each end              (8)
+///
+/// Q: percentiles of S; U: expanded uncertainty of the measurement that has to prove
+/// conformity.  A source that scales the deviation e itself (relative uncertainty r of a
+/// force or stiffness) goes in as normal with value r and the largest |e| as sensitivity:
+/// never too favourable, because the end of the feature that deviates less is moved as
+/// much as the other (derived here, checked in budget_test).
+///
+/// Independence is assumed; S does not feed back on e.  A form's zone cannot be negative:
+/// symmetrical sources let S narrow it, which only the percentiles below the median see.
+/// Sources: (2), (3) common practice; (7) the percentile method of ISO 22514-2/-4 as
+/// Minitab's help quotes it (pinzhi.org, "ISO method for nonnormal capability analysis");
+/// (8) the rule of ISO 14253-1, from general knowledge.
+namespace turnwright::tolerance {
+
+enum class Distribution { normal, uniform, triangular, arcsine, fixed, rayleigh };
+
+struct Source {
+  std::string name;
+  Distribution distribution = Distribution::normal;
+  double value_um = 0;     ///< a; >= 0 except of a fixed bias
+  double sensitivity = 1;  ///< of the size (2 for a radius on a diameter) or zone
+};
+
+/// From `down` up to `up`; `down` is -infinity where there is no lower end.
+struct Span {
+  double down_um = 0, up_um = 0;
+};
+
+/// How far S may go: (5).
+Span room_um(const Verdict& v);
+
+/// Number k = 0, 1, .. of SplitMix64 started at `state`, without those before it.
+/// Source: Rosetta Code, "Pseudo-random numbers/Splitmix64", which lists the first five.
+std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k);
+
+struct Draws {
+  std::uint64_t seed = 1;
+  std::size_t count = 100'000;  ///< > 0; P's error falls with its square root
+  unsigned threads = 1;  ///< changes the time alone; 0: all the machine has, at most 64
+};
+
+/// Draws of S, rising, the same for the same sources, draws and seed.
+///
+/// Draw k of source i is a function of (seed, i, k) alone: numbers 2 k and 2 k + 1 of
+/// SplitMix64 started at a state that is itself number i of the seed's, 53 bits of each a
+/// number in (0, 1); normal and rayleigh from them by Box and Muller.  So no draw depends
+/// on how they are spread over threads, nor on how many there are.  Two sources' streams
+/// are pieces of one cycle of 2^64 at random places: any of 100 with 10^7 draws overlap
+/// with probability 1e-8.
+/// @throws std::domain_error if a value is negative or not finite (fixed: not finite), a
+///   sensitivity is not finite, or draws is 0.
+std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws);
+
+/// The p-quantile of rising draws, linear between the ranks (n - 1) p.  With p = (1 +
+/// P)/2 and (1 - P)/2 (zones: P) this is the room to leave for a conformity P.
+/// @throws std::domain_error if there are no draws or p is not in [0, 1].
+double quantile_um(std::span<const double> rising_um, double p);
+
+/// Share of rising draws within the room, both ends included.
+double share_within(std::span<const double> rising_um, const Span& room);
+
+/// ISO 14253-1 on a lot: what the measurement can prove.
+enum class Decision {
+  conforms,         ///< (8) >= the wanted conformity
+  not_proven,       ///< neither
+  does_not_conform  ///< (6) falls short of it even in the room widened by U at each end
+};
+
+struct BudgetDemand {
+  std::vector<Source> sources;
+  double conformity = 0.9973;   ///< wanted, in [0, 1]
+  double measurement_U_um = 0;  ///< expanded uncertainty, >= 0
+  Draws draws = {};
+};
+
+struct SourceShare {
+  std::string name;
+  double worst_case_um = 0;   ///< largest |s X| within reach
+  double variance_share = 0;  ///< (4); 0 for all if nothing spreads
+};
+
+struct Budget {
+  Span room_um;                  ///< (5)
+  Span worst_case_um = {};       ///< (2)
+  Span rss_um = {};              ///< (3)
+  bool worst_case_fits = false;  ///< within the room
+  bool rss_fits = false;
+  double mean_um = 0, sigma_um = 0;      ///< of S, in closed form
+  std::vector<SourceShare> shares = {};  ///< in the order of the sources
+  double P_conform = 0;                  ///< (6)
+  double P_low = 0, P_high = 0;          ///< Wilson's 95 % interval of P_conform by draws
+  double P_accept = 0;                   ///< (8)
+  double Q0_135_um = 0, Q50_um = 0, Q99_865_um = 0;
+  std::optional<double> index = {};  ///< (7); none if S does not spread
+  Decision decision = Decision::not_proven;
+};
+
+/// The budget of a tolerance that leaves the sources this room.
+/// @throws std::domain_error as rising_sum_um(), or if the wanted conformity or U is out
+/// of
+///   range or `room` has an end that is NaN.
+Budget budget(const BudgetDemand& demand, const Span& room);
+
+}  // namespace turnwright::tolerance

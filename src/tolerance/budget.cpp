@@ -1,0 +1,226 @@
+#include "turnwright/tolerance/budget.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::tolerance {
+namespace {
+
+/// Of a distribution with value 1.
+struct Moments {
+  double mean, sigma, low, high;
+};
+
+Moments moments(Distribution d) {
+  constexpr double kTail = 0.00135;  // beyond 3 sigma of a normal, one side
+  switch (d) {
+    case Distribution::normal:
+      return {0, 1, -3, 3};
+    case Distribution::uniform:
+      return {0, 1 / std::sqrt(3.0), -1, 1};
+    case Distribution::triangular:
+      return {0, 1 / std::sqrt(6.0), -1, 1};
+    case Distribution::arcsine:
+      return {0, 1 / std::sqrt(2.0), -1, 1};
+    case Distribution::fixed:
+      return {1, 0, 1, 1};
+    case Distribution::rayleigh:
+      return {std::sqrt(units::kPi / 2), std::sqrt(2 - units::kPi / 2), 0,
+              std::sqrt(-2 * std::log(kTail))};
+  }
+  throw std::domain_error("budget: not a distribution");
+}
+
+/// s_i a_i times the moments; a negative sensitivity turns low and high round.
+Moments moments_um(const Source& s) {
+  const double scale = s.sensitivity * s.value_um;
+  const Moments m = moments(s.distribution);
+  const auto [low, high] = std::minmax({scale * m.low, scale * m.high});
+  return {scale * m.mean, std::abs(scale) * m.sigma, low, high};
+}
+
+void require(bool kept, const std::string& rule) {
+  if (!kept) throw std::domain_error("budget: " + rule);
+}
+
+void check(std::span<const Source> sources) {
+  for (const Source& s : sources) {
+    const bool bias = s.distribution == Distribution::fixed;
+    require(std::isfinite(s.value_um) && (bias || s.value_um >= 0),
+            fmt::format("the value of '{}' must be {}", s.name,
+                        bias ? "finite" : ">= 0 um and finite"));
+    require(std::isfinite(s.sensitivity),
+            fmt::format("the sensitivity of '{}' must be finite", s.name));
+  }
+}
+
+/// X of value 1 from two numbers in (0, 1).
+double unit_draw(Distribution d, double u, double w) {
+  switch (d) {
+    case Distribution::normal:
+      return std::sqrt(-2 * std::log(u)) * std::cos(2 * units::kPi * w);
+    case Distribution::uniform:
+      return 2 * u - 1;
+    case Distribution::triangular:
+      return u + w - 1;
+    case Distribution::arcsine:
+      return std::cos(units::kPi * u);
+    case Distribution::fixed:
+      return 1;
+    case Distribution::rayleigh:
+      return std::sqrt(-2 * std::log(u));
+  }
+  throw std::domain_error("budget: not a distribution");
+}
+
+/// Eq. (1) for the draws first .. first + sums.size() - 1.
+void add_draws(std::span<const Source> sources, std::uint64_t seed, std::size_t first,
+               std::span<double> sums) {
+  const auto number = [](std::uint64_t bits) {
+    return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  };
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Source& s = sources[i];
+    const double scale = s.sensitivity * s.value_um;
+    const std::uint64_t state = splitmix64(splitmix64(seed, 0), i);
+    for (std::size_t j = 0; j < sums.size(); ++j) {
+      const std::uint64_t k = 2 * static_cast<std::uint64_t>(first + j);
+      sums[j] += scale * unit_draw(s.distribution, number(splitmix64(state, k)),
+                                   number(splitmix64(state, k + 1)));
+    }
+  }
+}
+
+/// Eqs. (2)-(4).
+void add_closed_forms(std::span<const Source> sources, Budget& b) {
+  double up = 0, down = 0, variance = 0;
+  for (const Source& s : sources) {
+    const Moments m = moments_um(s);
+    b.worst_case_um.down_um += m.low;
+    b.worst_case_um.up_um += m.high;
+    b.mean_um += m.mean;
+    up += (m.high - m.mean) * (m.high - m.mean);
+    down += (m.mean - m.low) * (m.mean - m.low);
+    variance += m.sigma * m.sigma;
+  }
+  b.rss_um = {b.mean_um - std::sqrt(down), b.mean_um + std::sqrt(up)};
+  b.sigma_um = std::sqrt(variance);
+  for (const Source& s : sources) {
+    const Moments m = moments_um(s);
+    b.shares.push_back(
+        {.name = s.name,
+         .worst_case_um = std::max(std::abs(m.low), std::abs(m.high)),
+         .variance_share = variance > 0 ? m.sigma * m.sigma / variance : 0});
+  }
+}
+
+bool fits(const Span& inner, const Span& outer) {
+  return inner.down_um >= outer.down_um && inner.up_um <= outer.up_um;
+}
+
+/// Wilson's score interval of a share p found in n draws.
+void add_interval(double p, double n, Budget& b) {
+  constexpr double kZ = 1.959963984540054;  // 97.5 % of a normal lie below
+  const double z2 = kZ * kZ / n;
+  const double middle = (p + z2 / 2) / (1 + z2);
+  const double half = std::sqrt(z2 * (p * (1 - p) + z2 / 4)) / (1 + z2);
+  b.P_low = std::max(0.0, middle - half);
+  b.P_high = std::min(1.0, middle + half);
+}
+
+/// Eq. (7).
+std::optional<double> index(const Budget& b) {
+  const double above = b.Q99_865_um - b.Q50_um, below = b.Q50_um - b.Q0_135_um;
+  if (!(above > 0 && below > 0)) return std::nullopt;
+  return std::min((b.room_um.up_um - b.Q50_um) / above,
+                  (b.Q50_um - b.room_um.down_um) / below);
+}
+
+}  // namespace
+
+Span room_um(const Verdict& v) {
+  return {units::um_from_mm(v.room_mm.min_mm), units::um_from_mm(v.room_mm.max_mm)};
+}
+
+std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k) {
+  std::uint64_t z = state + (k + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws) {
+  check(sources);
+  require(draws.count > 0, "there must be a draw");
+  std::vector<double> sums(draws.count, 0.0);
+  const std::size_t asked =
+      draws.threads ? draws.threads : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t threads = std::min({asked, draws.count, std::size_t{64}});
+  const auto part = [&](std::size_t t) {
+    const std::size_t first = draws.count * t / threads;
+    const std::size_t last = draws.count * (t + 1) / threads;
+    add_draws(sources, draws.seed, first, std::span(sums).subspan(first, last - first));
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t t = 1; t < threads; ++t) others.emplace_back(part, t);
+    part(0);
+  }
+  std::ranges::sort(sums);
+  return sums;
+}
+
+double quantile_um(std::span<const double> rising_um, double p) {
+  require(!rising_um.empty(), "a quantile needs draws");
+  require(p >= 0 && p <= 1, "a quantile's p must lie in [0, 1]");
+  const double rank = p * static_cast<double>(rising_um.size() - 1);
+  const auto k = static_cast<std::size_t>(rank);
+  if (k + 1 == rising_um.size()) return rising_um[k];
+  return std::lerp(rising_um[k], rising_um[k + 1], rank - static_cast<double>(k));
+}
+
+double share_within(std::span<const double> rising_um, const Span& room) {
+  require(!rising_um.empty(), "a share needs draws");
+  const auto first = std::ranges::lower_bound(rising_um, room.down_um);
+  const auto last = std::ranges::upper_bound(rising_um, room.up_um);
+  return last <= first
+             ? 0
+             : static_cast<double>(last - first) / static_cast<double>(rising_um.size());
+}
+
+Budget budget(const BudgetDemand& demand, const Span& room) {
+  require(demand.conformity >= 0 && demand.conformity <= 1,
+          "the wanted conformity must lie in [0, 1]");
+  require(std::isfinite(demand.measurement_U_um) && demand.measurement_U_um >= 0,
+          "the measurement's uncertainty must be >= 0 um and finite");
+  require(!std::isnan(room.down_um) && !std::isnan(room.up_um),
+          "the room must have two ends");
+  const std::vector<double> rising = rising_sum_um(demand.sources, demand.draws);
+  Budget b{.room_um = room};
+  add_closed_forms(demand.sources, b);
+  b.worst_case_fits = fits(b.worst_case_um, room);
+  b.rss_fits = fits(b.rss_um, room);
+  b.P_conform = share_within(rising, room);  // Eq. (6)
+  add_interval(b.P_conform, static_cast<double>(rising.size()), b);
+  const double U = demand.measurement_U_um;
+  b.P_accept = share_within(rising, {room.down_um + U, room.up_um - U});  // Eq. (8)
+  b.Q0_135_um = quantile_um(rising, 0.00135);
+  b.Q50_um = quantile_um(rising, 0.5);
+  b.Q99_865_um = quantile_um(rising, 0.99865);
+  b.index = index(b);
+  if (b.P_accept >= demand.conformity)
+    b.decision = Decision::conforms;
+  else if (share_within(rising, {room.down_um - U, room.up_um + U}) < demand.conformity)
+    b.decision = Decision::does_not_conform;
+  return b;
+}
+
+}  // namespace turnwright::tolerance
