@@ -327,9 +327,6 @@ TEST(Identifiability, PlacesAndCouplesAreNamedWhenMissing) {
   EXPECT_EQ(missing(cuts({300}, {70})),
             (Words{"a cut at another force in setup A", "a cut at a second z in setup A",
                    "a cut at a third z in setup A"}));
-  EXPECT_EQ(missing(cuts({0}, {30, 80, 90})),
-            (Words{"a cut at another force in setup A", "a cut at another z in setup A",
-                   "a cut at another z in setup A"}));
 }
 
 TEST(Identifiability, EveryMissingTestInTurnMakesTheDesignWhole) {

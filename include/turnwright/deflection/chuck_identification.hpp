@@ -81,13 +81,14 @@ struct Identifiability {
 ///
 ///     x = (F, 2 z F + C, z^2 F + z C)                                            (2)
 ///
-/// less their means over each setup, which is what a free offset leaves of them: a
-/// setup with a single force has F - mean(F) = 0, so its c0 cannot be told from its
-/// offset.  Columns are scaled to unit length (before the means are taken out) and
+/// less their means over each setup, which is what a free offset leaves of them: a setup
+/// with a single force has F - mean(F) = 0, so its c0 cannot be told from its offset.
+/// In units of the largest force and |z| and over the root of the number of cuts,
 /// singular values below 1e-6 count as none: forces typed to six digits that differ in
-/// the last are one force. Missing tests are found by trial: copies of the cuts at twice
-/// the force, at another z or with another couple, the first that raises the rank, in
-/// that order. Degenerate input: no cuts, rank 0 and nothing is named.
+/// the last are one force.
+/// Missing tests are found by trial: copies of the cuts at twice the force, at another z
+/// or with another couple, the first that raises the rank, in that order.
+/// Degenerate input: no cuts, rank 0 and nothing is named.
 Identifiability identifiability(std::span<const PlaneTest> tests, Plane plane);
 
 /// The root in one plane as identified.
@@ -115,10 +116,12 @@ struct PlaneFit {
 
 /// Robust least squares for y = x . (c0, c1, c2) + offset of the setup, Eq. (2).
 ///
-/// Start: least absolute deviations.  Scale: median of the non-zero |residuals| times
-/// 1.4826.  Then Tukey's loss (4.685 scales) by reweighting, then ordinary least squares
-/// over the cuts within kOutlier standard deviations, left out and taken back until they
-/// stay.  So a cut is either used in full or named as an outlier.
+/// Start: least trimmed squares, which bears a third of the cuts beyond the unknowns
+/// being wrong.  Scale: median |residual| times 1.4826 (1 + 5/(n - unknowns)).  Then
+/// Tukey's loss (4.685 scales) by reweighting, then ordinary least squares over the cuts
+/// within kOutlier standard deviations, left out and taken back until they stay: a cut is
+/// either used in full or named as an outlier.  Where what is left cannot tell the
+/// compliance, all cuts are used.
 ///
 /// S = L L^T with L lower triangular has no indefinite values.  The loss is convex in S
 /// and the elastic S are a convex cone, so: if the best S of all is elastic, that is it;
