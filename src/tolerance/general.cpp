@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
+
+#include "turnwright/base/units.hpp"
 
 namespace turnwright::tolerance {
 namespace {
@@ -20,6 +23,17 @@ constexpr std::array<std::array<double, 8>, 4> kLinear{
      {0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 4},
      {kNone, 0.5, 1, 1.5, 2.5, 4, 6, 8}}};
 
+// Its radii and chamfers, and its angles [minutes].
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+constexpr std::array<double, 3> kEdgeTo{3, 6, kNoEnd};
+constexpr std::array<std::array<double, 3>, 4> kEdge{
+    {{0.2, 0.5, 1}, {0.2, 0.5, 1}, {0.4, 1, 2}, {0.4, 1, 2}}};
+constexpr std::array<double, 5> kAngleTo{10, 50, 120, 400, kNoEnd};
+constexpr std::array<std::array<double, 5>, 4> kAngle_min{{{60, 30, 20, 10, 5},
+                                                           {60, 30, 20, 10, 5},
+                                                           {90, 60, 30, 15, 10},
+                                                           {180, 120, 60, 30, 20}}};
+
 // Part 2: the same for H, K, L.
 constexpr std::array<double, 6> kStraightnessTo{10, 30, 100, 300, 1000, 3000};
 constexpr std::array<std::array<double, 6>, 3> kStraightness{
@@ -29,10 +43,12 @@ constexpr std::array<std::array<double, 6>, 3> kStraightness{
 constexpr std::array<double, 4> kPerpendicularityTo{100, 300, 1000, 3000};
 constexpr std::array<std::array<double, 4>, 3> kPerpendicularity{
     {{0.2, 0.3, 0.4, 0.5}, {0.4, 0.6, 0.8, 1}, {0.6, 1, 1.5, 2}}};
+constexpr std::array<std::array<double, 4>, 3> kSymmetry{
+    {{0.5, 0.5, 0.5, 0.5}, {0.6, 0.6, 0.8, 1}, {0.6, 1, 1.5, 2}}};
 constexpr std::array<double, 3> kRunout{0.1, 0.2, 0.5};
 
 template <std::size_t N>
-double value_mm(double size_mm, const std::array<double, N>& up_to,
+double value_of(double size_mm, const std::array<double, N>& up_to,
                 const std::array<double, N>& values) {
   const auto range = std::ranges::lower_bound(up_to, size_mm) - up_to.begin();
   return values[static_cast<std::size_t>(range)];
@@ -74,7 +90,7 @@ part::Limits general_limits_mm(double nominal_mm, LinearClass tolerance_class) {
     throw std::domain_error(fmt::format(
         "nominal size {} mm: ISO 2768-1 holds from 0.5 to 4000 mm", nominal_mm));
   const double dev =
-      value_mm(nominal_mm, kLinearTo, kLinear[static_cast<std::size_t>(tolerance_class)]);
+      value_of(nominal_mm, kLinearTo, kLinear[static_cast<std::size_t>(tolerance_class)]);
   if (dev == kNone)
     throw std::domain_error(fmt::format("nominal size {} mm: ISO 2768-1 {}", nominal_mm,
                                         tolerance_class == LinearClass::f
@@ -83,16 +99,39 @@ part::Limits general_limits_mm(double nominal_mm, LinearClass tolerance_class) {
   return {.lower_mm = -dev, .upper_mm = dev};
 }
 
+part::Limits general_edge_limits_mm(double nominal_mm, LinearClass tolerance_class) {
+  if (!(nominal_mm >= 0.5))
+    throw std::domain_error(
+        fmt::format("radius or chamfer {} mm: ISO 2768-1 holds from 0.5 mm", nominal_mm));
+  const double dev =
+      value_of(nominal_mm, kEdgeTo, kEdge[static_cast<std::size_t>(tolerance_class)]);
+  return {.lower_mm = -dev, .upper_mm = dev};
+}
+
+double general_angle_rad(double leg_mm, LinearClass tolerance_class) {
+  if (!(leg_mm > 0))
+    throw std::domain_error(
+        fmt::format("shorter leg {} mm: ISO 2768-1 holds above 0 mm", leg_mm));
+  const auto row = static_cast<std::size_t>(tolerance_class);
+  return units::rad_from_deg(value_of(leg_mm, kAngleTo, kAngle_min[row]) / 60);
+}
+
 double general_straightness_mm(double length_mm, GeometricalClass tolerance_class) {
   check_length(length_mm);
-  return value_mm(length_mm, kStraightnessTo,
+  return value_of(length_mm, kStraightnessTo,
                   kStraightness[static_cast<std::size_t>(tolerance_class)]);
 }
 
 double general_perpendicularity_mm(double length_mm, GeometricalClass tolerance_class) {
   check_length(length_mm);
-  return value_mm(length_mm, kPerpendicularityTo,
+  return value_of(length_mm, kPerpendicularityTo,
                   kPerpendicularity[static_cast<std::size_t>(tolerance_class)]);
+}
+
+double general_symmetry_mm(double length_mm, GeometricalClass tolerance_class) {
+  check_length(length_mm);
+  return value_of(length_mm, kPerpendicularityTo,
+                  kSymmetry[static_cast<std::size_t>(tolerance_class)]);
 }
 
 double general_runout_mm(GeometricalClass tolerance_class) {

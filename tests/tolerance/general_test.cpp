@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -41,7 +42,34 @@ TEST(General, LinearDeviationsEqualTheTable) {
   }
 }
 
-// Handbook values of ISO 2768-2, typed range by range.
+// ISO 2768-1, radii and chamfers, angles, as two public transcriptions have them.
+TEST(General, EdgesAndAnglesEqualTheTables) {
+  struct Row {
+    double over_mm, to_mm, f_m, c, v;
+  };
+  for (const Row& r :
+       std::vector<Row>{{0.4999, 3, 0.2, 0.4, 0.4}, {3, 6, 0.5, 1, 1}, {6, 1e4, 1, 2, 2}})
+    for (const double size : {std::max(0.5, std::nextafter(r.over_mm, 1e9)), r.to_mm})
+      for (const auto& [tolerance_class, value] :
+           {std::pair{f, r.f_m}, {m, r.f_m}, {c, r.c}, {v, r.v}}) {
+        const auto limits = general_edge_limits_mm(size, tolerance_class);
+        EXPECT_EQ(limits.upper_mm, value) << size;
+        EXPECT_EQ(limits.lower_mm, -value) << size;
+      }
+  for (const Row& r : std::vector<Row>{{0, 10, 60, 90, 180},
+                                       {10, 50, 30, 60, 120},
+                                       {50, 120, 20, 30, 60},
+                                       {120, 400, 10, 15, 30},
+                                       {400, 1e4, 5, 10, 20}})
+    for (const double leg : {std::nextafter(r.over_mm, 1e9), r.to_mm})
+      for (const auto& [tolerance_class, minutes] :
+           {std::pair{f, r.f_m}, {m, r.f_m}, {c, r.c}, {v, r.v}})
+        EXPECT_NEAR(general_angle_rad(leg, tolerance_class) * 10800 / std::acos(-1.0),
+                    minutes, 1e-12)
+            << leg;
+}
+
+// ISO 2768-2 as a public transcription has it (run-outs: handbook), typed range by range.
 TEST(General, FormAndPositionEqualTheTables) {
   struct Row {
     double over_mm, to_mm, H_mm, K_mm, L_mm;
@@ -65,6 +93,15 @@ TEST(General, FormAndPositionEqualTheTables) {
       EXPECT_EQ(general_perpendicularity_mm(size, H), r.H_mm) << size;
       EXPECT_EQ(general_perpendicularity_mm(size, K), r.K_mm) << size;
       EXPECT_EQ(general_perpendicularity_mm(size, L), r.L_mm) << size;
+    }
+  for (const Row& r : std::vector<Row>{{0, 100, 0.5, 0.6, 0.6},
+                                       {100, 300, 0.5, 0.6, 1},
+                                       {300, 1000, 0.5, 0.8, 1.5},
+                                       {1000, 3000, 0.5, 1, 2}})
+    for (const double size : {std::nextafter(r.over_mm, 1e9), r.to_mm}) {
+      EXPECT_EQ(general_symmetry_mm(size, H), r.H_mm) << size;
+      EXPECT_EQ(general_symmetry_mm(size, K), r.K_mm) << size;
+      EXPECT_EQ(general_symmetry_mm(size, L), r.L_mm) << size;
     }
   EXPECT_EQ(general_runout_mm(H), 0.1);
   EXPECT_EQ(general_runout_mm(K), 0.2);
@@ -107,7 +144,12 @@ TEST(General, RefusesSizesOutsideTheTables) {
   for (const double bad : {0.0, 3000.1, -5.0, std::nan("")}) {
     EXPECT_THROW(general_straightness_mm(bad, H), std::domain_error) << bad;
     EXPECT_THROW(general_perpendicularity_mm(bad, H), std::domain_error) << bad;
+    EXPECT_THROW(general_symmetry_mm(bad, H), std::domain_error) << bad;
   }
+  for (const double bad : {0.0, 0.49, -5.0, std::nan("")})
+    EXPECT_THROW(general_edge_limits_mm(bad, m), std::domain_error) << bad;
+  for (const double bad : {0.0, -5.0, std::nan("")})
+    EXPECT_THROW(general_angle_rad(bad, m), std::domain_error) << bad;
 }
 
 }  // namespace
