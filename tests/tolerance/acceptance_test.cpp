@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -123,6 +125,69 @@ TEST(Seed, Eq22RefusesWhatAnOffsetWouldCure) {
 // At 75 deg t/cos(alpha) is nearly 4 t: 19 um at one end passes the seed at t = 5 um,
 // where 19 cos 75 = 4.92 > 2.5.
 TEST(Seed, Eq22PassesOnASteepCone) { expect(cone({0, 0.019}, 0.005, 75), kShift); }
+
+// The table "Bad parts that the seed passes" of docs/tolerances.md: each row, the case it
+// stands for and by how much it is out [um], worked out by hand.
+TEST(Seed, PassesTheBadPartsOfTheDocs) {
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/docs/tolerances.md");
+  const std::string docs(std::istreambuf_iterator<char>(file), {});
+  const auto class_of = [](double size_mm, const char* c, std::vector<double> e_mm) {
+    const Limits l = fit_limits_mm(size_mm, c);
+    return sized(diameter, std::move(e_mm), l.lower_mm, l.upper_mm);
+  };
+  Case bent = sized(diameter, {-0.004, 0.002}, -0.010, 0.010);
+  bent.envelope = Envelope::shaft;
+  bent.machine_mm = 0.008;
+  Case faces = sized(length, {0.2, 0.2}, -0.1, 0.1);
+  faces.other_mm = samples({0.2, 0.2});
+  Case radial = zoned(total_radial_runout, {-0.002, 0.004}, 0.010);
+  radial.machine_mm = 0.005;
+  Case axial = radial;
+  axial.kind = total_axial_runout;
+  struct Row {
+    const char* part;
+    Case value;
+    double out_um;
+    bool cured;  ///< by one constant offset
+  };
+  const std::vector<Row> rows{
+      {"∅ 0 / +16", sized(diameter, {0.004, 0.011}, 0, 0.016), 6, true},
+      {"∅ 30 k6, +2 / +15", class_of(30, "k6", {0, 0.004}), 2, true},
+      {"∅ 25 H7, 0 / +21", class_of(25, "H7", {-0.003, 0.002}), 6, true},
+      {"∅ ±100", sized(diameter, {0.5, 0.5}, -0.1, 0.1), 900, true},
+      {"∅ ±10 (E), axis bent by 8", bent, 2, true},
+      {"length ±100", faces, 300, true},
+      // twice the distance from the surface, less the zone: 18 cos 10 - 10
+      {"cone, t = 10, α = 10°", cone({0, 0.009}, 0.010, 10), 7.7265, true},
+      {"cone, t = 5, α = 75°", cone({0, 0.019}, 0.005, 75), 4.8351, true},
+      {"cylinder profile, t = 12, α = 0", cone({-0.001, 0.010}, 0.012, 0), 8, true},
+      {"total radial run-out 10, machine 5", radial, 1, false},
+      {"total axial run-out 10, machine 5", axial, 1, false}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.part);
+    expect(row.value, {false, row.cured, true});
+    EXPECT_NEAR(verdict(row.value).margin_mm, -row.out_um * kUm, 1e-7);
+    EXPECT_NE(docs.find(std::string("\n| ") + row.part + " |"), std::string::npos);
+  }
+  const auto from = docs.find("## Bad parts that the seed passes");
+  const auto to = docs.find("\n## ", from + 1);
+  std::size_t lines = 0;
+  for (auto at = docs.find("\n| ", from); at < to; at = docs.find("\n| ", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, rows.size() + 2);  // its head and rule
+}
+
+// g = 0.2 um/mm2 (rho - 20)^2 over 10 .. 30 mm: no slope at the mean diameter, 20 um
+// apart.
+TEST(Seed, Eq12OverlooksAVertex) {
+  const PiecewisePolynomial g{.breaks_mm = {10, 30},
+                              .coefficients = {{0.02, -4e-3, 2e-4}}};
+  const double slope_at_20 = -4e-3 + 2 * 2e-4 * (20 - 10);
+  EXPECT_NEAR((60 - 20) / 2 * slope_at_20, 0, 1e-16);  // Eq. (12)
+  const Verdict v = verdict({.kind = flatness, .e_mm = g, .value_mm = 0.010});
+  EXPECT_FALSE(v.accepted);
+  EXPECT_NEAR(v.measured_mm, 0.020, 1e-16);
+}
 
 // Eq. (12): a face of constant slope, D_m = 20 to D_M = 60 mm: e = 20 tan(theta).
 TEST(Seed, Eq12IsTheConstantSlopeOfAFace) {
