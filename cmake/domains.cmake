@@ -35,7 +35,7 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
-          setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp
+          setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp
           DEPENDS base catalogue part deflection tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "budget.hpp"
 #include "fields.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/tolerance/acceptance.hpp"
@@ -22,12 +23,14 @@ using tolerance::Profile;
 constexpr std::size_t kCases = 10000, kPoints = 100000, kPieces = 2000,
                       kCoefficients = 16;
 constexpr double kLargest_mm = 1000;
+constexpr double kMostWork = 1e9;  // draws times sources of one request: half a minute
 const Bounds kDeviation = within(-kLargest_mm, kLargest_mm, "mm");
 const Bounds kPlace = within(-1e6, 1e6, "mm");
 
 struct Named {
   std::string id;  ///< empty: the request gave none
   Case value;
+  std::optional<tolerance::BudgetDemand> budget;
 };
 
 const Choices<Kind>& kinds() {
@@ -149,11 +152,19 @@ std::vector<Named> read_request(const nlohmann::json& request) {
   for (Reader item : r.items("cases", 1, kCases)) {
     item = item.as_object();
     std::string id = item.text_or("id", "");
+    std::optional<tolerance::BudgetDemand> budget;
+    if (const auto asked = item.find("budget")) budget = read_budget(*asked);
     if (auto value = read_case(item)) {
       item.finish();
-      out.push_back({.id = std::move(id), .value = std::move(*value)});
+      out.push_back({std::move(id), std::move(*value), std::move(budget)});
     }
   }
+  double work = 0;
+  for (const Named& c : out)
+    if (c.budget)
+      work += static_cast<double>(c.budget->draws.count * c.budget->sources.size());
+  if (work > kMostWork)
+    r.problem_at("cases", "budgets of 1e9 draws times sources in all", "range");
   r.finish();
   problems.throw_if_any();
   return out;
@@ -163,7 +174,7 @@ std::vector<Named> read_request(const nlohmann::json& request) {
 
 nlohmann::json acceptance(const nlohmann::json& request) {
   auto cases = nlohmann::json::array();
-  for (const auto& [id, value] : read_request(request)) {
+  for (const auto& [id, value, budget] : read_request(request)) {
     const tolerance::Verdict v = tolerance::verdict(value);
     nlohmann::json out{{"accepted", v.accepted},
                        {"accepted_after_offset", v.accepted_after_offset},
@@ -177,6 +188,7 @@ nlohmann::json acceptance(const nlohmann::json& request) {
                        {"margin_after_offset_mm", v.margin_after_offset_mm},
                        {"why", v.why}};
     if (!id.empty()) out["id"] = id;
+    if (budget) out["budget"] = to_json(tolerance::budget(*budget, room_um(v)));
     cases.push_back(std::move(out));
   }
   return {{"cases", std::move(cases)}};

@@ -197,8 +197,8 @@ double share_within(std::span<const double> rising_um, const Span& room) {
 }
 
 Budget budget(const BudgetDemand& demand, const Span& room) {
-  require(demand.conformity >= 0 && demand.conformity <= 1,
-          "the wanted conformity must lie in [0, 1]");
+  require(demand.conformance >= 0 && demand.conformance <= 1,
+          "the wanted conformance must lie in [0, 1]");
   require(std::isfinite(demand.measurement_U_um) && demand.measurement_U_um >= 0,
           "the measurement's uncertainty must be >= 0 um and finite");
   require(!std::isnan(room.down_um) && !std::isnan(room.up_um),
@@ -216,9 +216,9 @@ Budget budget(const BudgetDemand& demand, const Span& room) {
   b.Q50_um = quantile_um(rising, 0.5);
   b.Q99_865_um = quantile_um(rising, 0.99865);
   b.index = index(b);
-  if (b.P_accept >= demand.conformity)
+  if (b.P_accept >= demand.conformance)
     b.decision = Decision::conforms;
-  else if (share_within(rising, {room.down_um - U, room.up_um + U}) < demand.conformity)
+  else if (share_within(rising, {room.down_um - U, room.up_um + U}) < demand.conformance)
     b.decision = Decision::does_not_conform;
   return b;
 }

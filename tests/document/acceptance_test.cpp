@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -262,6 +263,127 @@ TEST(Acceptance, TheSchemaRefusesWhatTheReaderRefuses) {
     EXPECT_FALSE(valid_request({{"cases", json::array({c})}})) << text;
     EXPECT_NE(refused_case(c), "accepted") << text;
   }
+}
+
+// 2 .. 8 um of 0 .. 21 um leave S from -2 to 13 um; S is normal with mean 3 and sigma
+// hypot(3, 2 * 2) = 5: P = Phi(2) - Phi(-1).
+TEST(Budget, OfADiameter) {
+  json c = json::parse(
+      R"({"tolerance": "diameter", "e_mm": [0.001, 0.004], "upper_mm": 0.021, "lower_mm": 0,
+          "budget": {"measurement_U_um": 1, "conformance": 0.8, "seed": 5, "draws": 200000,
+            "sources": [{"name": "repeatability", "distribution": "normal", "value_um": 3},
+              {"name": "setting", "distribution": "normal", "value_um": 2,
+               "sensitivity": 2},
+              {"name": "offset", "distribution": "fixed", "value_um": -3,
+               "sensitivity": -1}]}})");
+  const json b = one(c)["budget"];
+  const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+  EXPECT_NEAR(b["room_um"][0], -2, 1e-11);
+  EXPECT_NEAR(b["room_um"][1], 13, 1e-11);
+  EXPECT_NEAR(b["worst_case_um"][0], 3 - 21, 1e-12);
+  EXPECT_NEAR(b["worst_case_um"][1], 3 + 21, 1e-12);
+  EXPECT_EQ(b["worst_case_fits"], false);
+  EXPECT_NEAR(b["rss_um"][0], 3 - 15, 1e-12);
+  EXPECT_NEAR(b["rss_um"][1], 3 + 15, 1e-12);
+  EXPECT_EQ(b["rss_fits"], false);
+  EXPECT_NEAR(b["mean_um"], 3, 1e-15);
+  EXPECT_NEAR(b["sigma_um"], 5, 1e-15);
+  EXPECT_EQ(b["shares"][1]["name"], "setting");
+  EXPECT_NEAR(b["shares"][1]["variance_share"], 0.64, 1e-15);
+  EXPECT_NEAR(b["shares"][1]["worst_case_um"], 12, 1e-15);
+  EXPECT_EQ(b["shares"][2]["variance_share"], 0);
+  const double P = below(2) - below(-1), accept = below(1.8) - below(-0.8);
+  EXPECT_NEAR(b["P_conform"], P, 4 * std::sqrt(P * (1 - P) / 2e5));
+  EXPECT_LT(b["P_interval"][0], P);
+  EXPECT_GT(b["P_interval"][1], P);
+  EXPECT_NEAR(b["P_accept"], accept, 4 * std::sqrt(accept * (1 - accept) / 2e5));
+  EXPECT_NEAR(b["percentiles_um"]["p0_135"], 3 - 15, 0.4);
+  EXPECT_NEAR(b["percentiles_um"]["p50"], 3, 0.06);
+  EXPECT_NEAR(b["percentiles_um"]["p99_865"], 3 + 15, 0.4);
+  EXPECT_NEAR(b["index"], 5.0 / 15, 0.02);
+  EXPECT_EQ(b["decision"], "not-proven");  // 0.752 < 0.8 < 0.819
+  c["budget"]["conformance"] = 0.7;
+  EXPECT_EQ(one(c)["budget"]["decision"], "conforms");
+  c["budget"]["conformance"] = 0.95;
+  EXPECT_EQ(one(c)["budget"]["decision"], "does-not-conform");
+}
+
+TEST(Budget, OfAZoneHasNoLowerEnd) {
+  const json b = one(json::parse(
+      R"({"tolerance": "circular-radial-runout", "value_mm": 0.01, "machine_mm": 0.002,
+          "budget": {"sources": [{"name": "chuck", "distribution": "fixed",
+                                  "value_um": 5}]}})"))["budget"];
+  EXPECT_TRUE(b["room_um"][0].is_null());
+  EXPECT_NEAR(b["room_um"][1], 8, 1e-11);
+  EXPECT_TRUE(b["index"].is_null());
+  EXPECT_EQ(b["P_conform"], 1);
+  EXPECT_EQ(b["decision"], "conforms");
+}
+
+TEST(Budget, IsTheSameEveryTimeAndOfNoOtherCase) {
+  const json c = json::parse(
+      R"({"tolerance": "flatness", "e_mm": [0, 0.004], "value_mm": 0.01, "budget":
+          {"sources": [{"name": "a", "distribution": "rayleigh", "value_um": 3}]}})");
+  json other = c;
+  other["budget"]["seed"] = 2;
+  const json both = acceptance({{"cases", {other, c}}});
+  EXPECT_EQ(both["cases"][1], one(c));
+  EXPECT_NE(both["cases"][0]["budget"]["P_conform"],
+            both["cases"][1]["budget"]["P_conform"]);
+  EXPECT_FALSE(one({{"tolerance", "flatness"}, {"e_mm", {0}}, {"value_mm", 1}})
+                   .contains("budget"));
+}
+
+TEST(Budget, RefusesWhatIsNone) {
+  const auto with = [](const char* budget) {
+    return json{{"tolerance", "flatness"},
+                {"e_mm", {0}},
+                {"value_mm", 1},
+                {"budget", json::parse(budget)}};
+  };
+  const auto message = [&](const char* budget) { return refused_case(with(budget)); };
+  EXPECT_EQ(
+      message("{}"),
+      "acceptance: /cases/0/budget/sources: got nothing, expected a list of 1 to 100 "
+      "entries");
+  EXPECT_EQ(message(R"({"sources": [{"name": "a", "distribution": "normal",
+                                     "value_um": -1}]})"),
+            "acceptance: /cases/0/budget/sources/0/value_um: got -1, expected a number "
+            "from 0 to 1000000 um");
+  EXPECT_EQ(message(R"({"sources": [{"name": "a", "distribution": "fixed",
+                                     "value_um": -1}]})"),
+            "accepted");
+  for (const char* text :
+       {R"({"sources": []})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": -1}]})",
+        R"({"sources": [{"name": "a", "distribution": "gauss", "value_um": 1}]})",
+        R"({"sources": [{"distribution": "normal", "value_um": 1}]})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": 1}],
+            "conformance": 1.1})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": 1}],
+            "measurement_U_um": -1})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": 1}],
+            "seed": -1})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": 1}],
+            "draws": 999})",
+        R"({"sources": [{"name": "a", "distribution": "normal", "value_um": 1}],
+            "drows": 1000})"}) {
+    EXPECT_FALSE(valid_request({{"cases", json::array({with(text)})}})) << text;
+    EXPECT_NE(message(text), "accepted") << text;
+  }
+}
+
+// Half a minute's work is the most one request may ask for.
+TEST(Budget, RefusesTooMuchWork) {
+  json budget{{"draws", 10'000'000}, {"sources", json::array()}};
+  for (int i = 0; i < 100; ++i)
+    budget["sources"].push_back(
+        {{"name", "a"}, {"distribution", "fixed"}, {"value_um", 0}});
+  const json c{
+      {"tolerance", "flatness"}, {"e_mm", {0}}, {"value_mm", 1}, {"budget", budget}};
+  EXPECT_EQ(refused({{"cases", {c, c}}}),
+            "acceptance: /cases: got a list of 2 entries, expected budgets of 1e9 draws "
+            "times sources in all");
 }
 
 }  // namespace

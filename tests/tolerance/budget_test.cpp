@@ -288,9 +288,9 @@ TEST(Decisions, OfOneMeasuredPart) {
 
 // A lot of sigma 3 in +-9 um: 0.9973 conform, 0.9876 of them within +-7.5 um.
 TEST(Decisions, OfALot) {
-  const auto of = [](double conformity, double U_um) {
+  const auto of = [](double conformance, double U_um) {
     return budget({.sources = {source(normal, 3)},
-                   .conformity = conformity,
+                   .conformance = conformance,
                    .measurement_U_um = U_um},
                   {-9, 9});
   };
@@ -405,7 +405,7 @@ TEST(Quantiles, AreLinearBetweenRanks) {
   EXPECT_THROW(share_within({}, {0, 1}), std::domain_error);
 }
 
-// The room that planning must leave for a wanted conformity: one-sided Phi^-1(0.95).
+// The room that planning must leave for a wanted conformance: one-sided Phi^-1(0.95).
 TEST(Quantiles, AreTheRoomToLeave) {
   const auto rising = rising_sum_um(std::vector{source(normal, 3)}, {});
   EXPECT_NEAR(quantile_um(rising, 0.95), 3 * 1.644854, 0.1);
@@ -431,8 +431,8 @@ TEST(BudgetRefusals, NameTheRule) {
             "budget: the value of 'x' must be finite");
   EXPECT_EQ(message({.sources = {source(normal, 1, nan)}}),
             "budget: the sensitivity of 'x' must be finite");
-  EXPECT_EQ(message({.sources = {}, .conformity = nan}),
-            "budget: the wanted conformity must lie in [0, 1]");
+  EXPECT_EQ(message({.sources = {}, .conformance = nan}),
+            "budget: the wanted conformance must lie in [0, 1]");
   EXPECT_EQ(message({.sources = {}, .measurement_U_um = -1}),
             "budget: the measurement's uncertainty must be >= 0 um and finite");
   EXPECT_EQ(message({.sources = {}, .draws = {.count = 0}}),

@@ -11,6 +11,8 @@ namespace turnwright::document {
 /// spaced) or a piecewise polynomial {"breaks_mm", "coefficients"}: piece k on
 /// [breaks_mm[k], breaks_mm[k + 1]] is sum_j coefficients[k][j] (z - breaks_mm[k])^j. For
 /// a length it may be a list of two such profiles, one for each face, positive = longer.
+/// A case with a "budget" gets one back: what its uncertain sources add to the deviation,
+/// as tolerance::budget() has it.
 /// @throws InputError with every problem of the request.
 nlohmann::json acceptance(const nlohmann::json& request);
 

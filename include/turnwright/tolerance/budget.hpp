@@ -40,7 +40,7 @@
 ///
 /// low, high: least and largest deviation of the size, (1)-(3) there.  Against it:
 ///
-///     conformity     P = P(down <= S <= up)                                   (6)
+///     conformance    P = P(down <= S <= up)                                   (6)
 ///     index          min[ (up - Q50)/(Q99.865 - Q50), (Q50 - down)/(Q50 - Q0.135) ],
 ///                    for zones the first alone                                (7)
 ///     acceptance     (6) with the room narrowed by U at each end              (8)
@@ -98,7 +98,7 @@ struct Draws {
 std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws);
 
 /// The p-quantile of rising draws, linear between the ranks (n - 1) p.  With p = (1 +
-/// P)/2 and (1 - P)/2 (zones: P) this is the room to leave for a conformity P.
+/// P)/2 and (1 - P)/2 (zones: P) this is the room to leave for a conformance P.
 /// @throws std::domain_error if there are no draws or p is not in [0, 1].
 double quantile_um(std::span<const double> rising_um, double p);
 
@@ -107,14 +107,14 @@ double share_within(std::span<const double> rising_um, const Span& room);
 
 /// ISO 14253-1 on a lot: what the measurement can prove.
 enum class Decision {
-  conforms,         ///< (8) >= the wanted conformity
+  conforms,         ///< (8) >= the wanted conformance
   not_proven,       ///< neither
   does_not_conform  ///< (6) falls short of it even in the room widened by U at each end
 };
 
 struct BudgetDemand {
   std::vector<Source> sources;
-  double conformity = 0.9973;   ///< wanted, in [0, 1]
+  double conformance = 0.9973;  ///< wanted (6), in [0, 1]
   double measurement_U_um = 0;  ///< expanded uncertainty, >= 0
   Draws draws = {};
 };
@@ -142,7 +142,7 @@ struct Budget {
 };
 
 /// The budget of a tolerance that leaves the sources this room.
-/// @throws std::domain_error as rising_sum_um(), or if the wanted conformity or U is out
+/// @throws std::domain_error as rising_sum_um(), or if the wanted conformance or U is out
 /// of
 ///   range or `room` has an end that is NaN.
 Budget budget(const BudgetDemand& demand, const Span& room);
