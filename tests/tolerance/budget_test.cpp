@@ -188,6 +188,7 @@ TEST(ClosedForms, SignsCount) {
   const Budget turned = budget({.sources = {source(rayleigh, 2, -1)}}, {-10, 1});
   EXPECT_DOUBLE_EQ(turned.worst_case_um.down_um, -e.worst_case_um.up_um);
   EXPECT_DOUBLE_EQ(turned.rss_um.down_um, -e.rss_um.up_um);
+  EXPECT_DOUBLE_EQ(turned.shares[0].worst_case_um, reach);
 }
 
 TEST(ClosedForms, RssLiesWithinTheWorstCase) {
@@ -241,6 +242,9 @@ TEST(Conformity, OfAnEccentricityIsTheClosedForm) {
   const double q50 = 2 * std::sqrt(2 * std::log(2)),
                q99 = 2 * std::sqrt(-2 * std::log(0.00135));
   EXPECT_NEAR(*b.index, (5 - q50) / (q99 - q50), 0.02);
+  // and turned round, against a lower limit alone near enough to matter
+  const Budget low = budget({.sources = {source(rayleigh, 2, -1)}}, {-5, 100});
+  EXPECT_NEAR(*low.index, (5 - q50) / (q99 - q50), 0.02);
 }
 
 TEST(Conformity, WithoutSpreadIsAllOrNothing) {

@@ -219,6 +219,20 @@ TEST(Iso286, WellKnownClasses) {
   limits(40, "K7", -18, 7);
   limits(40, "p6", 26, 42);
   limits(8, "P9", -51, -15);
+  limits(40, "m6", 9, 25);
+  limits(30, "p6", 22, 35);
+  limits(25, "n6", 15, 28);
+  limits(30, "r6", 28, 41);
+  limits(60, "s6", 53, 72);
+  limits(10, "e8", -47, -25);
+  limits(20, "d9", -117, -65);
+  limits(120, "g6", -34, -12);
+  limits(200, "h7", -46, 0);
+  limits(100, "H8", 0, 54);
+  limits(18, "H11", 0, 110);
+  limits(25, "JS7", -10.5, 10.5);
+  limits(63, "M7", -30, 0);
+  limits(50, "N7", -33, -8);
 }
 
 // The decimal number itself, so that 2 e = 0.013 meets its limit.

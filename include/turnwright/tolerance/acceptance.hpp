@@ -26,7 +26,8 @@
 ///     circularity, angularity, position, coaxiality, circular runouts, perpendicularity
 ///       of an axis           (9)  m <= t                              the same
 ///
-/// with r = e_max - e_min, l and u the limits of the size.  In (9) the cut's deflection
+/// with r = e_max - e_min, l and u the limits of the size.  In (6) a cone's W is radial,
+/// 1/cos(alpha) of the zone across it: on the safe side.  In (9) the cut's deflection
 /// has no term: it is the same all round and the axis springs back; lobes of clamping and
 /// spindle and rechucking eccentricity count, and are m.  In (3) m is form that a
 /// two-point size does not show (lobes, a bent axis), on the diameter; (2) alone judges
