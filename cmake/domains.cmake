@@ -10,12 +10,16 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 # Floor 3
 tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
   TESTS cut_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp boring_bar.cpp envelope.cpp face.cpp feedback.cpp
-                             response.cpp shoulder.cpp workpiece.cpp
-          DEPENDS base part
-          TESTS beam_test.cpp boring_bar_test.cpp envelope_test.cpp face_test.cpp
-                feedback_test.cpp response_test.cpp seed_test.cpp shoulder_test.cpp
-                workpiece_test.cpp)
+tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp envelope.cpp
+                             copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
+                             rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp
+                             workpiece.cpp
+          DEPENDS base part PRIVATE_LIBS Eigen3::Eigen
+          TESTS beam_test.cpp boring_bar_test.cpp chuck_identification_test.cpp
+                envelope_test.cpp face_test.cpp
+                feedback_test.cpp copying_test.cpp ovality_test.cpp response_test.cpp
+                rest_test.cpp ring_test.cpp seed_test.cpp shop_errors_test.cpp
+                shoulder_test.cpp thrust_test.cpp workpiece_test.cpp)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt

@@ -408,6 +408,16 @@ void Beam::at(std::span<const double> a_mm, const Supports& supports,
   flexibilities(*this, *this, a_mm, supports, out);
 }
 
+Beam::Body Beam::body(double a_mm) const {
+  if (!(a_mm >= 0 && a_mm <= length_mm_ * (1 + kEnd)))
+    throw std::domain_error("Beam: positions must be in [0, L]");
+  const Piece& p = pieces_[piece_at(a_mm, 0)];
+  const double t = std::min(a_mm - p.z_mm, p.h_mm);
+  Sums sums;
+  left_of(p, 0, 1, &t, sums);
+  return {sums.M0[0], sums.d[0], sums.J[0], sums.S[0]};
+}
+
 Flexibility Beam::at(double a_mm, const Supports& supports) const {
   Flexibility f;
   at(std::span(&a_mm, 1), supports, std::span(&f, 1));

@@ -79,8 +79,11 @@ std::vector<double> radius_errors_of_passes(double D_mm, const Flexibility& radi
   std::vector<double> errors;
   double left_over = 0;
   for (const double ap : ap_mm) {
+    if (!(ap >= 0)) throw std::domain_error("passes: depths must be >= 0 mm");
     law.ap_mm = ap + left_over;
-    left_over = equilibrium(D_mm, radial, tangential, law).radius_error_mm;
+    // a tool that meets nothing leaves what is there
+    left_over = law.ap_mm > 0 ? equilibrium(D_mm, radial, tangential, law).radius_error_mm
+                              : law.ap_mm;
     errors.push_back(left_over);
   }
   return errors;

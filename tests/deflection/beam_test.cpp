@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "agreement.hpp"
 #include "finite_elements.hpp"
 #include "random_shafts.hpp"
 #include "reference.hpp"
@@ -25,38 +26,11 @@ constexpr double kRounding = 1e-13;
 // What is promised of every case: parts of its own largest value.
 constexpr double kPromised = 1e-12;
 
-using Field = double Flexibility::*;
-constexpr Field kFields[] = {&Flexibility::f_ww_mm_N, &Flexibility::f_wp_rad_N,
-                             &Flexibility::f_pp_rad_Nmm, &Flexibility::tail_per_N,
-                             &Flexibility::tail_per_Nmm};
-
 std::vector<Flexibility> at(const Beam& beam, const std::vector<double>& a_mm,
                             const Supports& supports) {
   std::vector<Flexibility> out(a_mm.size());
   beam.at(a_mm, supports, out);
   return out;
-}
-
-/// Largest difference of two tables, field by field, in parts of the field's largest.
-double difference(const std::vector<Flexibility>& x, const std::vector<Flexibility>& y) {
-  double worst = 0;
-  for (const Field f : kFields) {
-    double largest = 0, apart = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      largest = std::max(largest, std::abs(y[i].*f));
-      apart = std::max(apart, std::abs(x[i].*f - y[i].*f));
-      if (!(std::isfinite(x[i].*f))) return kNaN;
-    }
-    if (apart > 0) worst = std::max(worst, apart / largest);
-  }
-  return worst;
-}
-
-std::vector<double> positions(double L) {
-  std::vector<double> a;
-  for (const double u : {0.01, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.99, 1.0})
-    a.push_back(u * L);
-  return a;
 }
 
 double EI(const Shaft& s) {

@@ -88,6 +88,22 @@ TEST(Feedback, EveryPassAlsoCutsWhatTheLastOneLeft) {
   }
 }
 
+TEST(Feedback, SpringPassesTakeMuOverOnePlusMuEach) {
+  for (const double mu : {0.05, 0.75, 3.7}) {
+    const auto e = radius_errors_of_passes(40, kSpring, {}, {mu * 1e3, 1, 0, 0, 0},
+                                           std::vector<double>{1.5, 0, 0, 0});
+    for (std::size_t k = 0; k < e.size(); ++k)
+      EXPECT_NEAR(e[k], 1.5 * std::pow(mu / (1 + mu), static_cast<double>(k + 1)), 1e-13);
+  }
+  // nothing left, nothing to cut
+  EXPECT_EQ(radius_errors_of_passes(40, {}, {}, {200, 0.8, 0.6, 2.2, 0},
+                                    std::vector<double>{2, 0, 0}),
+            (std::vector<double>{0, 0, 0}));
+  EXPECT_THROW(radius_errors_of_passes(40, kSpring, {}, {200, 1, 0, 0, 0},
+                                       std::vector<double>{1, -0.1}),
+               std::domain_error);
+}
+
 TEST(Feedback, ARigidPartIsCutAsSet) {
   const Equilibrium e = equilibrium(40, {}, {}, {200, 0.8, 0.6, 2.2, 2});
   EXPECT_EQ(e.radius_error_mm, 0);

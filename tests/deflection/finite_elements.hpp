@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "turnwright/deflection/beam.hpp"
+#include "turnwright/deflection/rest.hpp"
 
 /// An independent model of the same beam: Timoshenko elements between all segment ends
 /// and load positions, assembled into a banded stiffness matrix and solved with 113 bits.
@@ -88,11 +90,12 @@ inline std::array<std::array<Real, 4>, 4> stiffness(const part::Shaft& shaft,
 struct Solved {
   std::vector<Flexibility> flexibility;
   std::vector<double> deflection_per_couple;  ///< the other entry of Maxwell's pair
+  std::vector<double> rest_per_N, rest_per_Nmm;
 };
 
-/// At rising positions in (0, L].
+/// At rising positions in (0, L].  An elastic rest stands at one of them.
 inline Solved solved(const part::Shaft& shaft, std::span<const double> a_mm,
-                     const Supports& supports) {
+                     const Supports& supports, const SteadyRest* rest = nullptr) {
   std::vector<std::array<std::array<Real, 4>, 4>> elements;
   std::vector<std::size_t> node_of;  // of each position
   Real z = 0;
@@ -143,6 +146,12 @@ inline Solved solved(const part::Shaft& shaft, std::span<const double> a_mm,
     }
   }
   if (supports.method != Method::chuck) spring(n - 2, supports.tail_mm_N);
+  std::size_t rest_dof = 0;
+  if (rest) {
+    const auto place = std::find(a_mm.begin(), a_mm.end(), rest->z_mm) - a_mm.begin();
+    rest_dof = 2 * node_of.at(static_cast<std::size_t>(place));
+    spring(rest_dof, rest->compliance_mm_N);
+  }
   std::array<Real, 4> tail_row{};  // equations of the last two nodes' forces
   for (std::size_t j = 0; j < 4; ++j) tail_row[j] = elements.back()[2][j];
   for (std::size_t i = 0; i < n; ++i)
@@ -185,6 +194,11 @@ inline Solved solved(const part::Shaft& shaft, std::span<const double> a_mm,
                                static_cast<double>(tail(force, 2 * node)),
                                static_cast<double>(tail(couple, 2 * node + 1))});
     out.deflection_per_couple.push_back(static_cast<double>(couple[2 * node]));
+    if (rest) {
+      const Real c = rest->compliance_mm_N;
+      out.rest_per_N.push_back(static_cast<double>(Real(force[rest_dof] / c)));
+      out.rest_per_Nmm.push_back(static_cast<double>(Real(couple[rest_dof] / c)));
+    }
   }
   return out;
 }

@@ -64,7 +64,7 @@ bool elastic(const Root& root);
 /// Sections: EI = pi E (re^4 - ri^4)/4, GA = pi E (re^2 - ri^2)/(2 (1 + nu)), and the
 /// shear factor, m = ri/re,
 ///     chi = ((7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2)/(6 (1 + nu)(1 + m^2)^2) (6)
-/// Solid cones and all cylinders are closed forms; hollow cones take 8 Gauss points on
+/// Solid cones and all cylinders are closed forms; hollow cones take 6 Gauss points on
 /// panels so short that the rule is exact to rounding (see beam.cpp).
 ///
 /// Valid for walls above a fifth of the radius (thin rings ovalise); sections stay plane,
@@ -88,6 +88,16 @@ class Beam {
   /// All positions at once, fastest in rising order.  `out` is as long as `a_mm`.
   void at(std::span<const double> a_mm, const Supports& supports,
           std::span<Flexibility> out) const;
+
+  /// Eq. (1) left of a, the bare part without its supports.
+  struct Body {
+    double M0_rad_Nmm = 0;  ///< angular flexibility
+    double d_mm = 0;        ///< how far its centroid lies behind a
+    double J_mm_N = 0;      ///< its moment about the centroid
+    double S_mm_N = 0;      ///< its shear
+  };
+  /// @throws std::domain_error unless 0 <= a <= L (as `at`).
+  Body body(double a_mm) const;
 
   /// int_0^L dz/GJ with J = 2 I: twist of the end per unit torque [rad/(N mm)].
   double twist_rad_Nmm() const noexcept { return twist_; }

@@ -1,0 +1,34 @@
+#include "turnwright/deflection/ring.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::deflection {
+
+double wall_EI_Nmm2(double E_MPa, double width_mm, double wall_mm) {
+  if (!(E_MPa > 0 && width_mm > 0 && wall_mm > 0))
+    throw std::domain_error("wall_EI: E, width and wall must be > 0");
+  return E_MPa * width_mm * wall_mm * wall_mm * wall_mm / 12;
+}
+
+double squeeze_mm(const Ring& ring, int jaws, double jaw_force_N, double angle_rad) {
+  const double R = ring.R_mm, EI = ring.EI_Nmm2, F = jaw_force_N;
+  if (!(R > 0 && EI > 0 && jaws >= 2 && std::isfinite(F) && std::isfinite(angle_rad)))
+    throw std::domain_error("squeeze: R and EI must be > 0, at least two jaws");
+  const double alpha = units::kPi / jaws;
+  const double sin_a = std::sin(alpha), cos_a = std::cos(alpha);
+  // remainder lies within alpha of a jaw; the middle is alpha away
+  const double phi = alpha - std::abs(std::remainder(angle_rad, 2 * alpha));
+  return F * R * R * R / (2 * EI) *  // Eq. (2)
+         (phi * std::sin(phi) / (2 * sin_a) - 1 / alpha +
+          std::cos(phi) * (sin_a + alpha * cos_a) / (2 * sin_a * sin_a));
+}
+
+double lobing_mm(const Ring& ring, int jaws, double jaw_force_N) {
+  return std::abs(squeeze_mm(ring, jaws, jaw_force_N, 0) -
+                  squeeze_mm(ring, jaws, jaw_force_N, units::kPi / jaws));
+}
+
+}  // namespace turnwright::deflection

@@ -1,0 +1,86 @@
+#include "turnwright/deflection/ring.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace turnwright::deflection {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Ring kRing{40, 3e6};
+
+/// Eq. (1) of ring.hpp, summed from the small end; what is left out is below
+/// 1/(n^4 3 k^3) of it.
+double series(const Ring& r, int jaws, double F, double t) {
+  long double sum = 0;
+  for (int k = 20000; k > 0; --k) {
+    const long double m = static_cast<long double>(k) * jaws;
+    sum += std::cos(m * t) / ((m * m - 1) * (m * m - 1));
+  }
+  return static_cast<double>(jaws * F * std::pow(r.R_mm, 3) / (kPi * r.EI_Nmm2) * sum);
+}
+
+TEST(Ring, ClosedFormIsTheSeries) {
+  for (const int jaws : {2, 3, 4, 6})
+    for (const double t : {0.0, 0.3, 1.0, kPi / 3, 2.0, kPi, 4.0, -1.0, 7.0}) {
+      const double lobe = lobing_mm(kRing, jaws, 2500);
+      EXPECT_NEAR(squeeze_mm(kRing, jaws, 2500, t), series(kRing, jaws, 2500, t),
+                  1e-11 * lobe)
+          << jaws << " jaws at " << t;
+    }
+}
+
+TEST(Ring, ThreeJawsLobeBy302TenThousandths) {
+  // 0.0302 F R^3/(E I): half of the last digit
+  EXPECT_NEAR(lobing_mm({1, 1}, 3, 1), 0.0302, 5e-5);
+  EXPECT_NEAR(lobing_mm(kRing, 3, 5000),
+              lobing_mm({1, 1}, 3, 1) * 5000 * 40 * 40 * 40 / 3e6, 1e-12);
+}
+
+TEST(Ring, TwoOpposedForcesAreTheTextbookRing) {
+  // diameter shortens by F R^3/EI (pi/4 - 2/pi) along the forces and lengthens by
+  // F R^3/EI (2/pi - 1/2) across them: handbook values
+  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, 0), kPi / 4 - 2 / kPi, 1e-14);
+  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, kPi / 2), 0.5 - 2 / kPi, 1e-14);
+}
+
+TEST(Ring, NoStretchOnAverageAndLargestInwardsAtTheJaws) {
+  for (const int jaws : {3, 6}) {
+    double mean = 0, largest = 0;
+    const int n = 3600;
+    for (int i = 0; i < n; ++i) {
+      const double w = squeeze_mm(kRing, jaws, 2500, 2 * kPi * (i + 0.5) / n);
+      mean += w / n;
+      largest = std::max(largest, w);
+    }
+    EXPECT_NEAR(mean, 0, 1e-5 * largest);
+    EXPECT_LE(largest, squeeze_mm(kRing, jaws, 2500, 0));
+    EXPECT_LT(squeeze_mm(kRing, jaws, 2500, kPi / jaws), 0);
+  }
+}
+
+TEST(Ring, SixJawsSqueezeNineteenTimesLess) {
+  // the same total force on twice as many jaws: (6^2 - 1)^2/(3^2 - 1)^2 = 19.1 in the
+  // first terms, which make 98.8 % of the lobes
+  EXPECT_NEAR(lobing_mm(kRing, 3, 1000) / lobing_mm(kRing, 6, 500),
+              35.0 * 35.0 / (8.0 * 8.0), 0.1);
+}
+
+TEST(Ring, WallOfARectangle) { EXPECT_EQ(wall_EI_Nmm2(210000, 20, 6), 210000 * 360.0); }
+
+TEST(Ring, RefusesWhatIsNoRing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(squeeze_mm({0, 1}, 3, 1, 0), std::domain_error);
+  EXPECT_THROW(squeeze_mm({1, nan}, 3, 1, 0), std::domain_error);
+  EXPECT_THROW(squeeze_mm({1, 1}, 1, 1, 0), std::domain_error);
+  EXPECT_THROW(squeeze_mm({1, 1}, 3, nan, 0), std::domain_error);
+  EXPECT_THROW(lobing_mm({1, 0}, 3, 1), std::domain_error);
+  EXPECT_THROW(wall_EI_Nmm2(210000, 0, 6), std::domain_error);
+}
+
+}  // namespace
+}  // namespace turnwright::deflection
