@@ -14,18 +14,18 @@
 /// moves the whole feature (size, located profile) or widens its zone (all other kinds):
 /// s_i sensitivity, X_i independent sources with value a, [um]:
 ///
-///     distribution  X                              mean           sigma reach normal
-///     sigma a                        0              a                 -3 a .. 3 a
-///     uniform       half-width a                   0              a/sqrt 3          -a
-///     .. a triangular    half-width a                   0              a/sqrt 6 -a .. a
-///     arcsine       half-width a, U-shaped         0              a/sqrt 2          -a
-///     .. a fixed         a known bias a                 a              0 a rayleigh
-///     length of a vector with two    a sqrt(pi/2)   a sqrt(2 - pi/2)  0 .. 3.635 a
-///                   normal components of sigma a
+///     distribution  X                  mean          sigma             reach
+///     normal        sigma a            0             a                 -3 a .. 3 a
+///     uniform       half-width a       0             a/sqrt 3          -a .. a
+///     triangular    half-width a       0             a/sqrt 6          -a .. a
+///     arcsine       half-width a       0             a/sqrt 2          -a .. a
+///     fixed         a known bias a     a             0                 a
+///     rayleigh      length of a vector a sqrt(pi/2)  a sqrt(2 - pi/2)  0 .. 3.635 a
 ///
-/// arcsine is a sine seen at a random phase (a slow swing of temperature); rayleigh an
-/// eccentricity of random direction.  Reach: all of it, or what 0.135 % exceed (the 3
-/// sigma of a normal).  Then, upwards and downwards alike:
+/// arcsine is a sine seen at a random phase (a slow swing of temperature); the rayleigh
+/// vector has two normal components of sigma a: an eccentricity of random direction.
+/// Reach: all of it, or what 0.135 % exceed (the 3 sigma of a normal).  Then, upwards and
+/// downwards alike:
 ///
 ///     worst case     W = sum_i of the reach of s_i X_i                        (2)
 ///     root of sum of squares
@@ -46,10 +46,10 @@
 ///     acceptance     (6) with the room narrowed by U at each end              (8)
 ///
 /// Q: percentiles of S; U: expanded uncertainty of the measurement that has to prove
-/// conformity.  A source that scales the deviation e itself (relative uncertainty r of a
-/// force or stiffness) goes in as normal with value r and the largest |e| as sensitivity:
-/// never too favourable, because the end of the feature that deviates less is moved as
-/// much as the other (derived here, checked in budget_test).
+/// conformance.  A source that scales the deviation itself (relative uncertainty r of a
+/// force or stiffness) goes in as normal with value r and the largest deviation of the
+/// size or zone as sensitivity: never too favourable, because the end of the feature that
+/// deviates less is moved as much as the other (derived here, checked in budget_test).
 ///
 /// Independence is assumed; S does not feed back on e.  A form's zone cannot be negative:
 /// symmetrical sources let S narrow it, which only the percentiles below the median see.
