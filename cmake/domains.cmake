@@ -10,12 +10,14 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 # Floor 3
 tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
   TESTS cut_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp envelope.cpp
+tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
+                             deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
                              rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp
                              workpiece.cpp
           DEPENDS base part PRIVATE_LIBS Eigen3::Eigen
           TESTS beam_test.cpp boring_bar_test.cpp chuck_identification_test.cpp
+                deviation_graph_test.cpp
                 envelope_test.cpp face_test.cpp
                 feedback_test.cpp copying_test.cpp ovality_test.cpp response_test.cpp
                 rest_test.cpp ring_test.cpp seed_test.cpp shop_errors_test.cpp

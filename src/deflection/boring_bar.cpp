@@ -10,9 +10,13 @@ BarTip bar_tip(const Beam& bar, const Clamping& block, const BoringBar& at,
   const double f = at.tip_offset_mm, D = at.bore_diameter_mm, L = bar.length_mm();
   if (!(D > 0 && f >= 0 && std::isfinite(f)))
     throw std::domain_error("bar_tip: D_bore must be > 0 mm and the offset >= 0 mm");
+  if (at.tip_mm_N && !(*at.tip_mm_N >= 0 && std::isfinite(*at.tip_mm_N)))
+    throw std::domain_error("bar_tip: a measured compliance must be >= 0 mm/N");
   const auto tip = [&](Supports held) {
     held.method = Method::chuck;  // nothing supports the tip
-    return bar.at(L, held);
+    Flexibility at_tip = bar.at(L, held);
+    at_tip.f_ww_mm_N = at.tip_mm_N.value_or(at_tip.f_ww_mm_N);
+    return at_tip;
   };
   const Flexibility r = tip(block.radial), t = tip(block.tangential);
   const double twist = bar.twist_rad_Nmm();

@@ -143,8 +143,16 @@ TEST(Beam, FiniteElementsAgreeOnEveryKindOfShaft) {
   }
 }
 
+/// The free end of a single segment is its integrals: f_ww, f_wp, f_pp.
+double against_quadrature(const Segment& s) {
+  const Shaft shaft{210000, 0.3, {s}};
+  const std::vector<double> end{s.length_mm};
+  const Supports rigid{Method::chuck, {}, 0, 0};
+  return difference(at(Beam(shaft), end, rigid),
+                    finite_elements::flexibilities(shaft, end, rigid));
+}
+
 TEST(Beam, ConeIntegralsAreGoodTo1em13) {
-  // The free end of a single segment: f_ww, f_wp, f_pp are K20, K20 + K11 and so on.
   std::mt19937_64 random(3);
   for (int i = 0; i < 60; ++i) {
     const auto r = [&](double low, double high) {
@@ -152,14 +160,54 @@ TEST(Beam, ConeIntegralsAreGoodTo1em13) {
     };
     const double left = r(3, 60), right = r(3, 60);
     const Segment s{r(5, 300), left, right, left * r(0, 0.95), right * r(0, 0.95)};
-    const Shaft shaft{210000, 0.3, {s}};
-    const std::vector<double> end{s.length_mm};
-    const Supports rigid{Method::chuck, {}, 0, 0};
-    EXPECT_LE(difference(at(Beam(shaft), end, rigid),
-                         finite_elements::flexibilities(shaft, end, rigid)),
-              1e-13)
+    EXPECT_LE(against_quadrature(s), kRounding)
         << s.length_mm << ' ' << left << ' ' << right << ' ' << s.inner_left_mm << ' '
         << s.inner_right_mm;
+  }
+}
+
+TEST(Beam, ConeIntegralsFromNoTaperTo20To1AndNoBoreTo95Percent) {
+  for (const double ratio :
+       {1.0, 1 + 1e-12, 1 + 1e-8, 1 + 1e-4, 1.01, 1.3, 2.0, 5.0, 20.0})
+    for (const double bore_left : {0.0, 1e-6, 0.1, 0.5, 0.8, 0.95})
+      for (const double bore_right : {0.0, 1e-6, 0.3, 0.95})
+        for (const bool grows : {false, true}) {
+          const double left = grows ? 60 / ratio : 60, right = grows ? 60 : 60 / ratio;
+          EXPECT_LE(
+              against_quadrature({70, left, right, bore_left * left, bore_right * right}),
+              kRounding)
+              << left << ' ' << right << ' ' << bore_left << ' ' << bore_right;
+        }
+}
+
+TEST(Beam, SlopesUnderForceAndCoupleAgree) {
+  // theta = f_wp Fr + f_pp C and the reaction of the same load, in parts of the case's
+  // largest; Fr, Fa of a rough cut at the local diameter
+  const double Fr = 800, Fa = 1400;
+  for (const auto& [name, shaft] : random_shafts::all(5)) {
+    const Beam beam(shaft);
+    const std::vector<double> a = positions(beam.length_mm());
+    const Supports s = random_shafts::supports()[a.size() % 2 == 0 ? 5 : 4];
+    const auto mine = at(beam, a, s),
+               theirs = finite_elements::flexibilities(shaft, a, s);
+    double largest[2] = {}, apart[2] = {};
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double C = -Fa * (30 - 20 * a[i] / beam.length_mm()) / 2;
+      const auto theta = [&](const Flexibility& f) {
+        return f.f_wp_rad_N * Fr + f.f_pp_rad_Nmm * C;
+      };
+      const auto reaction = [&](const Flexibility& f) {
+        return f.tail_per_N * Fr + f.tail_per_Nmm * C;
+      };
+      const double x[2] = {theta(mine[i]), reaction(mine[i])},
+                   y[2] = {theta(theirs[i]), reaction(theirs[i])};
+      for (std::size_t k = 0; k < 2; ++k) {
+        largest[k] = std::max(largest[k], std::abs(y[k]));
+        apart[k] = std::max(apart[k], std::abs(x[k] - y[k]));
+      }
+    }
+    EXPECT_LE(apart[0], kPromised * largest[0]) << name;
+    EXPECT_LE(apart[1], kPromised * largest[1]) << name;
   }
 }
 

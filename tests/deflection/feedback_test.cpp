@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "finite_elements.hpp"
+#include "random_shafts.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::deflection {
@@ -40,6 +42,36 @@ TEST(Feedback, ForceAndDeflectionAgreeAtTheAnswer) {
           EXPECT_NEAR(std::pow(e.Fr_N / c, 1 / x), h, 1e-12 * ap);
           EXPECT_LE(e.radius_error_mm, e.radius_error_without_feedback_mm);
         }
+}
+
+TEST(Feedback, EquilibriumOnRealShaftsUpToLoopGain3Point7) {
+  // the part as finite elements see it under the force that comes back: what it gives way
+  // by and what the force law says of the depth left are one number
+  const double D = 30, ap = 1.2, Fa_over_Fr = 0.7, Ft_over_Fr = 2.3;
+  for (const auto& [name, shaft] : random_shafts::all(43)) {
+    const Beam beam(shaft);
+    const std::vector<double> a{0.4 * beam.length_mm(), 0.9 * beam.length_mm()};
+    const Supports s = random_shafts::supports().back();
+    const auto elements = finite_elements::flexibilities(shaft, a, s);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (const double mu : {0.05, 0.9, 3.7})
+        for (const double x : {0.75, 1.0}) {
+          const Flexibility f = beam.at(a[i], s);
+          const double A = f.f_ww_mm_N - f.f_wp_rad_N * Fa_over_Fr * D / 2;
+          if (!(A > 0)) continue;  // the couple pulls the part in: another test
+          const ForceLaw law{mu / (A * x * std::pow(ap, x - 1)), x, Fa_over_Fr,
+                             Ft_over_Fr, ap};
+          const Equilibrium e = equilibrium(D, f, f, law);
+          EXPECT_NEAR(e.loop_gain / mu, 1, 1e-12) << name;
+          const Load load{e.Fr_N, Ft_over_Fr * e.Fr_N, Fa_over_Fr * e.Fr_N};
+          const double given =
+              response(a[i], D, elements[i], elements[i], load).radius_error_mm;
+          EXPECT_NEAR(e.radius_error_mm, given, 1e-10 * ap) << name;
+          EXPECT_NEAR(law.c_N * std::pow(ap - given, x), e.Fr_N,
+                      1e-10 * law.c_N * std::pow(ap, x))
+              << name;
+        }
+  }
 }
 
 TEST(Feedback, LoopGainIsTheSlopeOfTheUncoupledErrorInTheDepth) {

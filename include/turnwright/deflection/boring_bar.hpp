@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "turnwright/deflection/response.hpp"
 
 namespace turnwright::deflection {
@@ -10,11 +12,15 @@ namespace turnwright::deflection {
 ///     bore radius error = -y_r + y_t^2/D_bore                                   (3)
 ///
 /// Positive y_r: the bar gives way from the wall, the bore comes out smaller.
-/// The tool block is a root like a chuck; it is stiff against twist here.
+/// Necks and coolant bores are segments of the bar.  The tool block is a root like a
+/// chuck; it is stiff against twist here.  A compliance measured at the tip (damped and
+/// carbide bars, whose EI is nowhere stated) stands for f_ww in both planes; the rotation
+/// f_wp and the twist stay those of the drawing.
 /// Source: derived here from beam.hpp (3); St. Venant torsion of round bars.
 struct BoringBar {
-  double tip_offset_mm = 0;     ///< f
-  double bore_diameter_mm = 0;  ///< D_bore
+  double tip_offset_mm = 0;                       ///< f
+  double bore_diameter_mm = 0;                    ///< D_bore
+  std::optional<double> tip_mm_N = std::nullopt;  ///< measured, shank and holder together
 };
 
 struct BarTip {
@@ -23,7 +29,7 @@ struct BarTip {
   double bore_radius_error_mm = 0;
 };
 
-/// @throws std::domain_error unless D_bore > 0 and f >= 0.
+/// @throws std::domain_error unless D_bore > 0, f >= 0 and a measured compliance >= 0.
 BarTip bar_tip(const Beam& bar, const Clamping& block, const BoringBar& at,
                const Load& load);
 
