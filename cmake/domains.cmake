@@ -22,6 +22,9 @@ tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
                 feedback_test.cpp copying_test.cpp ovality_test.cpp response_test.cpp
                 rest_test.cpp ring_test.cpp seed_test.cpp shop_errors_test.cpp
                 shoulder_test.cpp thrust_test.cpp workpiece_test.cpp)
+tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp response.cpp
+  DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
+  TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt

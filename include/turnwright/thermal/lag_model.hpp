@@ -1,0 +1,63 @@
+#pragma once
+#include <span>
+#include <vector>
+
+/// Thermal drift of a spindle from what the control already knows: speed and ambient
+/// temperature.
+namespace turnwright::thermal {
+
+/// Rows of a log or of a plan, at rising times.  The spindle keeps rpm[i] from time_s[i]
+/// to time_s[i + 1]; the ambient runs straight from one row to the next.
+struct Inputs {
+  std::vector<double> time_s, rpm, ambient_degC;
+};
+
+/// One heat store of the spindle: its share of the drift, and how slowly it fills.
+struct Lag {
+  double tau_s = 0;
+  double K_um = 0;  ///< its drift when soaked at n_max
+};
+
+/// Drift e [um] of the tool against the part, by first-order lags:
+///
+///     e(t) = sum_j K_j x_j(t) + b w(t) + a exp(-(t - t_0)/tau_amb) + c              (1)
+///     tau_j dx_j/dt = (n(t)/n_max)^p - x_j,          x_j(t_0) = 0                   (2)
+///     tau_amb dw/dt = (T_amb(t) - T0) - w,           w(t_0) = T_amb(t_0) - T0       (3)
+///
+/// Symbols: t time [s], t_0 the first row's, n spindle speed [1/min], p exponent of the
+/// heat over speed, T_amb ambient [degC], w the low-passed ambient's distance from T0
+/// [K], b [um/K], c [um] the drift of a cold spindle in a machine soaked at T0.  a [um]
+/// is what remains of the past at t_0: the structure is a/b [K] from its ambient; it is
+/// the same as leaving w(t_0) free.
+///
+/// Valid for a spindle that is cold at the first row, within the speeds and ambients of
+/// the log.  Neglects the heat of the cut and of the coolant, and growth that follows a
+/// speed at once (centrifugal), but for what a lag as short as the sampling takes up.
+///
+/// Degenerate input: one row gives b w + a + c there.
+///
+/// Source: lumped heat balance, one equation for each store, derived here.
+struct LagModel {
+  std::vector<Lag> lags = {};
+  double p = 1;
+  double n_max_rpm = 0;
+  double tau_amb_s = 0;
+  double b_um_K = 0;
+  double a_um = 0;
+  double c_um = 0;
+  double T0_degC = 20;
+};
+
+/// e [um] at every row.  Exact: between rows (2) and (3) have closed forms, so the step
+/// does not matter.
+/// @throws std::invalid_argument if the inputs differ in length or the times do not rise.
+std::vector<double> drift_um(const LagModel& model, const Inputs& inputs);
+
+/// The same inputs with rows at `times_s` too, those outside the inputs left out.
+Inputs with_rows_at(const Inputs& inputs, std::span<const double> times_s);
+
+/// `later` beginning where `first` ends, its times counted from there; its own first row
+/// takes the place of the last row of `first`.
+Inputs joined(const Inputs& first, const Inputs& later);
+
+}  // namespace turnwright::thermal

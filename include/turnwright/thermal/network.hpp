@@ -1,0 +1,65 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// A small neural network for thermal drift, for comparison with the lags.
+namespace turnwright::thermal {
+
+/// The inputs of the published model: spindle speed [1/min], feed [mm/min], operation
+/// time [s], ambient temperature [degC].
+inline constexpr std::size_t kInputs = 4;
+using Row = std::array<double, kInputs>;
+
+struct NetworkOptions {
+  std::size_t hidden = 6;     ///< neurons; more bend more and extrapolate worse
+  std::uint64_t seed = 1;     ///< of the first weights
+  double decay = 1e-3;        ///< on the squared weights; more is smoother
+  std::size_t starts = 4;     ///< trainings from new weights, the best is kept
+  int max_evaluations = 600;  ///< of one training
+};
+
+/// One hidden layer on standardised inputs z_i = (x_i - m_i)/s_i (an input that does not
+/// vary, s_i = 0, is left out: z_i = 0):
+///
+///     e = m_e + s_e (v_0 + sum_h v_h tanh(w_h0 + sum_i w_hi z_i)) (9)
+struct Network {
+  std::size_t hidden = 0;
+  Row mean{}, scale{};
+  double error_mean_um = 0, error_scale_um = 1;
+  std::vector<double> weights = {};  ///< (w_h0, w_h1 .. w_h4, v_h) for each h, then v_0
+  double rms_um = 0;                 ///< of the rows trained on
+  Row least{}, largest{};            ///< of the rows trained on
+  std::vector<Row> hull = {};        ///< rows of them that lie outermost
+};
+
+/// Weights that minimise
+///
+///     1/2 mean((e - e_i)^2)/s_e^2 + decay/2 mean(w^2) (10)
+///
+/// by SLSQP (a dense quasi-Newton method for so few weights) with the gradient by the
+/// chain rule, from `starts` sets of random weights.  The same seed gives the same
+/// network.
+///
+/// Source: derived here; the inputs are those of Valiño et al. (2008), section II.B.
+/// @throws std::invalid_argument if rows and errors differ in number or there are none.
+Network train(std::span<const Row> rows, std::span<const double> error_um,
+              const NetworkOptions& options = {});
+
+double drift_um(const Network& network, const Row& row);
+
+/// Why a row is an extrapolation; a network says nothing of such rows.
+enum class Reach {
+  inside,        ///< in the convex hull of the rows trained on
+  between_rows,  ///< in their ranges, but no mixture of them: a combination never seen
+  outside,       ///< an input beyond its range
+};
+
+/// By the ranges, then by the convex hull of the outermost rows (found along a fixed set
+/// of directions, so that it is never larger than the true hull).
+Reach reach(const Network& network, const Row& row);
+
+}  // namespace turnwright::thermal

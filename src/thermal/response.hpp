@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+#include "turnwright/thermal/lag_model.hpp"
+
+/// The states of LagModel with their derivatives by the parameters that enter
+/// nonlinearly.
+namespace turnwright::thermal {
+
+struct Response {
+  Eigen::VectorXd x;
+  Eigen::VectorXd by_ln_tau;  ///< dx/d ln tau
+  Eigen::VectorXd by_p;       ///< dx/dp; of the spindle alone
+};
+
+/// h = (n/n_max)^p at every row, and dh/dp; a standing spindle makes no heat.
+struct Heat {
+  Eigen::VectorXd h, by_p;
+};
+
+/// @throws std::invalid_argument if the inputs differ in length or the times do not rise.
+void check(const Inputs& inputs);
+
+Heat heat(std::span<const double> rpm, double n_max_rpm, double p);
+
+/// x of (2), the heat held from row to row.
+Response spindle(std::span<const double> time_s, const Heat& heat, double tau_s);
+
+/// w of (3), the ambient straight from row to row.
+Response ambient(const Inputs& inputs, double T0_degC, double tau_s);
+
+/// exp(-(t - t_0)/tau).
+Response decay(std::span<const double> time_s, double tau_s);
+
+}  // namespace turnwright::thermal
