@@ -6,6 +6,7 @@
 #include "turnwright/document/deflection.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/text.hpp"
 
@@ -40,6 +41,22 @@ constexpr const char* kAcceptanceExample = R"({"cases": [
   {"id": "taper", "tolerance": "profile", "e_mm": [-0.002, 0.007], "value_mm": 0.02,
    "half_angle_deg": 10}]})";
 
+constexpr const char* kThermalExample = R"({
+  "log": {"csv": ["time_s,rpm,ambient_degC,error_um",
+    "0,0,22.00,0.32", "300,0,22.10,0.12", "600,0,22.19,0.02",
+    "900,3000,22.27,-0.07", "1200,3000,22.34,1.95", "1500,3000,22.38,3.71",
+    "1800,3000,22.40,5.08", "2100,3000,22.39,6.33", "2400,3000,22.36,7.38",
+    "2700,3000,22.31,8.20", "3000,3000,22.24,9.00", "3300,3000,22.15,9.62",
+    "3600,3000,22.06,10.24", "3900,3000,21.96,10.77", "4200,0,21.86,11.16",
+    "4500,0,21.77,9.40", "4800,0,21.70,7.87", "5100,0,21.64,6.71",
+    "5400,0,21.61,5.71", "5700,0,21.60,4.81", "6000,0,21.62,4.10",
+    "6300,0,21.66,3.41", "6600,0,21.72,2.88", "6900,0,21.80,2.39",
+    "7200,0,21.89,1.89", "7500,0,21.99,1.52"]},
+  "model": {"lags": 1, "start": "soaked"},
+  "shift": {"start": "cold", "time_s": [0, 7200], "rpm": [3000, 3000],
+            "ambient_degC": [22, 22],
+            "batch": {"first_s": 300, "cycle_s": 240, "parts": 25, "offset_every": 5}}})";
+
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
   return document::to_json(planning::plan(part.plan), part.assumed);
@@ -60,6 +77,10 @@ std::span<const Request> requests() {
        kAcceptanceExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::acceptance(request);
+       }},
+      {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::thermal(request);
        }},
   };
   return kTable;
