@@ -8,18 +8,14 @@
 namespace turnwright::deflection {
 namespace {
 
-Beam beam(const part::Shaft& material, std::span<const part::Segment> shape,
-          bool shoulder_correction) {
-  part::Shaft body{material.E_MPa, material.nu, {shape.begin(), shape.end()}};
-  if (shoulder_correction) body.segments = shoulder_corrected(shape);
-  return Beam(body);
-}
-
-std::vector<part::Segment> side(const part::Shaft& finished,
-                                const std::optional<Cut>& cut,
-                                part::FeedTowards uncut_when) {
-  return cut && cut->towards == uncut_when ? part::uncut(finished.segments, cut->ap_mm)
-                                           : finished.segments;
+/// The part on the side of the tool that is uncut when the feed goes as told.
+part::Shaft side(const part::Shaft& finished, const Workpiece::Options& options,
+                 part::FeedTowards uncut_when) {
+  part::Shaft body = finished;
+  if (const auto& cut = options.in_process; cut && cut->towards == uncut_when)
+    body.segments = part::uncut(finished.segments, cut->ap_mm);
+  if (options.shoulder_correction) body.segments = shoulder_corrected(body.segments);
+  return body;
 }
 
 }  // namespace
@@ -27,11 +23,14 @@ std::vector<part::Segment> side(const part::Shaft& finished,
 Workpiece::Workpiece(const part::Shaft& finished, const Options& options)
     : finished_(finished.segments),
       ends_mm_(part::ends_mm(finished.segments)),
-      left_(beam(finished, side(finished, options.in_process, part::FeedTowards::chuck),
-                 options.shoulder_correction)) {
-  if (options.in_process)
-    right_ = beam(finished, side(finished, options.in_process, part::FeedTowards::tail),
-                  options.shoulder_correction);
+      left_body_(side(finished, options, part::FeedTowards::chuck)),
+      right_body_(side(finished, options, part::FeedTowards::tail)),
+      left_(left_body_) {
+  if (options.in_process) right_ = Beam(right_body_);
+}
+
+RestedBeam Workpiece::rested(const Supports& supports, const SteadyRest& rest) const {
+  return RestedBeam(left_body_, right_body_, supports, rest);
 }
 
 std::size_t Workpiece::segment_at(double a_mm) const {

@@ -1,5 +1,3 @@
-#include "turnwright/document/deflection.hpp"
-
 #include <cmath>
 #include <optional>
 #include <string>
@@ -13,6 +11,7 @@
 #include "turnwright/deflection/face.hpp"
 #include "turnwright/deflection/feedback.hpp"
 #include "turnwright/deflection/response.hpp"
+#include "turnwright/document/deflection.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -30,9 +29,14 @@ struct Face {
   Facing facing;
 };
 
+struct Steady {
+  SteadyRest radial, tangential;
+};
+
 struct Request {
   part::Shaft shaft;
   Clamping clamping;
+  std::optional<Steady> steady;
   std::optional<BoringBar> bar;
   std::vector<double> positions_mm;
   std::optional<Load> load;
@@ -91,7 +95,18 @@ void read_centre(Reader& clamping, std::string_view key, double Supports::*compl
   r->finish();
 }
 
-void read_clamping(Reader r, Request& q) {
+/// A steady rest stands between the ends of the shaft.
+std::optional<Steady> read_steady(Reader& clamping, const Bounds& on_shaft) {
+  auto r = clamping.optional_object("steady");
+  if (!r) return std::nullopt;
+  const double z = r->number("at_mm", on_shaft);
+  const Steady steady{{z, r->number_or("radial_mm_N", kCompliance, 0)},
+                      {z, r->number_or("tangential_mm_N", kCompliance, 0)}};
+  r->finish();
+  return steady;
+}
+
+void read_clamping(Reader r, Request& q, const Bounds& inside) {
   enum class Hold { chuck, between_centres, chuck_tailstock, boring_bar };
   const auto hold = r.choice<Hold>("method", {{"chuck", Hold::chuck},
                                               {"between-centres", Hold::between_centres},
@@ -112,6 +127,7 @@ void read_clamping(Reader r, Request& q) {
   } else {
     read_centre(r, "tail_centre", &Supports::tail_mm_N, q.clamping);
     read_centre(r, "head_centre", &Supports::head_mm_N, q.clamping);
+    q.steady = read_steady(r, inside);
   }
   r.finish();
 }
@@ -179,12 +195,14 @@ Request read_request(const json& document) {
   Request q;
   read_format(r, "turnwright-deflection/1");
   q.shaft = read_shaft(r.object("shaft"));
-  read_clamping(r.object("clamping"), q);
-
   // The length of a shaft that could not be read is no measure for the rest.
-  const Bounds on_shaft = problems.list.empty()
-                              ? within(0, part::length_mm(q.shaft.segments), "mm")
-                              : at_least(0, "mm");
+  const bool measured = problems.list.empty();
+  const double length = part::length_mm(q.shaft.segments);
+  const Bounds on_shaft = measured ? within(0, length, "mm") : at_least(0, "mm");
+  Bounds inside = measured ? at_least_below(0, length, "mm") : at_least(0, "mm");
+  inside.lower_open = true;
+  read_clamping(r.object("clamping"), q, inside);
+
   // A bar has its tip and a face its place; everything else needs positions.
   if (r.has("positions_mm") || !(q.bar || r.has("face")))
     for (const Reader& place : r.items("positions_mm", 0, kPositions))
@@ -216,6 +234,43 @@ json flexibility(const Flexibility& f) {
           {"f_pp_rad_Nmm", f.f_pp_rad_Nmm}};
 }
 
+/// The part in its clamping: flexibilities of both planes at any places.
+struct Planes {
+  std::vector<Flexibility> radial, tangential;
+  std::vector<RestedFlexibility> rested;  ///< radial, with a steady rest
+};
+
+class Held {
+ public:
+  Held(const Workpiece& part, const Request& q) : part_(&part), clamping_(&q.clamping) {
+    if (!q.steady) return;
+    rested_.push_back(part.rested(q.clamping.radial, q.steady->radial));
+    rested_.push_back(part.rested(q.clamping.tangential, q.steady->tangential));
+  }
+
+  Planes at(std::span<const double> a_mm) const {
+    Planes f;
+    if (!rested_.empty()) {
+      for (const double a : a_mm) {
+        f.rested.push_back(rested_[0].at(a));
+        f.radial.push_back(f.rested.back().part);
+        f.tangential.push_back(rested_[1].at(a).part);
+      }
+      return f;
+    }
+    f.radial.resize(a_mm.size());
+    f.tangential.resize(a_mm.size());
+    part_->at(a_mm, clamping_->radial, f.radial);
+    part_->at(a_mm, clamping_->tangential, f.tangential);
+    return f;
+  }
+
+ private:
+  const Workpiece* part_;
+  const Clamping* clamping_;
+  std::vector<RestedBeam> rested_;  // radial and tangential, or none
+};
+
 json position(const Response& at) {
   return {{"a_mm", at.a_mm},
           {"radial", flexibility(at.radial)},
@@ -241,36 +296,39 @@ json position(double a_mm, double D_mm, const Flexibility& radial,
   return out;
 }
 
-struct Planes {
-  std::vector<Flexibility> radial, tangential;
-};
-
-Planes flexibilities_at(const Workpiece& part, const Clamping& clamping,
-                        std::span<const double> a_mm) {
-  Planes f{std::vector<Flexibility>(a_mm.size()), std::vector<Flexibility>(a_mm.size())};
-  part.at(a_mm, clamping.radial, f.radial);
-  part.at(a_mm, clamping.tangential, f.tangential);
-  return f;
+/// Fr and Fa at a position that has been answered.
+std::pair<double, double> radial_load(const Request& q, const json& answered) {
+  if (!q.force_law) {
+    const Load load = q.load.value_or(Load{});
+    return {load.Fr_N, load.Fa_N};
+  }
+  const double Fr = answered.at("Fr_N");
+  return {Fr, q.force_law->Fa_over_Fr * Fr};
 }
 
-json positions(const Workpiece& part, const Request& q) {
+json positions(const Workpiece& part, const Held& held, const Request& q) {
   json list = json::array();
-  const Planes f = flexibilities_at(part, q.clamping, q.positions_mm);
+  const Planes f = held.at(q.positions_mm);
   for (std::size_t i = 0; i < q.positions_mm.size(); ++i) {
     const double a = q.positions_mm[i], D = part.diameter_mm(part.segment_at(a), a);
     list.push_back(q.force_law
                        ? position(a, D, f.radial[i], f.tangential[i], *q.force_law)
                        : position(response(a, D, f.radial[i], f.tangential[i],
                                            q.load.value_or(Load{}))));
+    if (q.steady) {
+      const auto [Fr, Fa] = radial_load(q, list.back());
+      list.back()["rest_reaction_N"] =
+          f.rested[i].rest_per_N * Fr - f.rested[i].rest_per_Nmm * Fa * D / 2;
+    }
   }
   return list;
 }
 
-json largest_error(const Workpiece& part, const Request& q) {
+json largest_error(const Workpiece& part, const Held& held, const Request& q) {
   const Envelope e = envelope(part.ends_mm(), [&](std::size_t segment,
                                                   std::span<const double> a_mm,
                                                   std::span<double> e_mm) {
-    const Planes f = flexibilities_at(part, q.clamping, a_mm);
+    const Planes f = held.at(a_mm);
     for (std::size_t i = 0; i < a_mm.size(); ++i) {
       const double D = part.diameter_mm(segment, a_mm[i]);
       e_mm[i] =
@@ -284,8 +342,8 @@ json largest_error(const Workpiece& part, const Request& q) {
   return {{"max_mm", e.max_mm}, {"at_mm", e.at_mm}};
 }
 
-json face(const Workpiece& part, const Request& q) {
-  const Planes f = flexibilities_at(part, q.clamping, {&q.face->z_mm, 1});
+json face(const Held& held, const Request& q) {
+  const Planes f = held.at({&q.face->z_mm, 1});
   const FaceForm form = face_form(f.radial[0], q.face->facing);
   return {{"peak_to_valley_mm", form.peak_to_valley_mm},
           {"profile", {{"rho_mm", form.rho_mm}, {"g_mm", form.g_mm}}}};
@@ -312,8 +370,9 @@ void require_finite(const json& value) {
 json deflection(const json& request) {
   const Request q = read_request(request);
   const Workpiece part(q.shaft, q.options);
+  const Held held(part, q);
   json result{{"format", "turnwright-deflection-result/1"},
-              {"positions", positions(part, q)},
+              {"positions", positions(part, held, q)},
               {"warnings", warnings(q.shaft)}};
   if (q.bar) {
     const BarTip tip = bar_tip(Beam(q.shaft), q.clamping, *q.bar, *q.load);
@@ -322,9 +381,9 @@ json deflection(const json& request) {
     result["twist_rad_Nmm"] = tip.twist_rad_Nmm;
     result["bore_radius_error_mm"] = tip.bore_radius_error_mm;
   } else {
-    result["envelope"] = largest_error(part, q);
+    result["envelope"] = largest_error(part, held, q);
   }
-  if (q.face) result["face"] = face(part, q);
+  if (q.face) result["face"] = face(held, q);
   require_finite(result);
   return result;
 }

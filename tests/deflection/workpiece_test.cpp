@@ -44,6 +44,23 @@ TEST(Workpiece, InProcessTheUncutSideIsTheThickerPart) {
   }
 }
 
+TEST(Workpiece, ASteadyRestSeesThePartBeingCut) {
+  for (const auto towards : {FeedTowards::chuck, FeedTowards::tail}) {
+    const Workpiece part(kStepped, {.in_process = Cut{2, towards}});
+    for (const Supports& s : random_shafts::supports()) {
+      const SteadyRest rest{63, 2e-5};
+      const RestedBeam rested = part.rested(s, rest);
+      for (const double a : {5.0, 50.0, 63.0, 105.0}) {
+        const RestedBeam built({kStepped.E_MPa, kStepped.nu,
+                                part::in_process(kStepped.segments, a, 2, towards)},
+                               s, rest);
+        EXPECT_NEAR(rested.at(a).part.f_ww_mm_N / built.at(a).part.f_ww_mm_N, 1, 1e-12);
+        EXPECT_NEAR(rested.at(a).rest_per_N, built.at(a).rest_per_N, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(Workpiece, ACantileverTurnedAwayFromTheChuckIsTheFinishedOne) {
   const Workpiece cut(kStepped, {.in_process = Cut{2, FeedTowards::tail}}),
       finished(kStepped);

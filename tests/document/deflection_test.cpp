@@ -181,6 +181,98 @@ TEST(Deflection, InProcessAndShouldersChangeTheStiffness) {
   EXPECT_GT(answered(q)["positions"][2]["delta_t_mm"], plain);
 }
 
+TEST(Deflection, ASteadyRestHoldsThePartWhereItStands) {
+  // two equal spans between centres, so slender that shear is nothing: 23 F l^3/1536 EI
+  // under a force in the middle of one, the rest takes 11/16, the far centre is lifted
+  // by 3/32
+  json q = request("between-centres");
+  const double l = 1e4, d = 1, EI = 210000 * 3.14159265358979324 / 64;
+  q["shaft"]["segments"] = {bar_segment(2 * l, d)};
+  q["clamping"]["steady"] = {{"at_mm", l}};
+  q["positions_mm"] = {l / 2, l};
+  q["load"] = {{"Fr_N", 2}, {"Ft_N", 0}, {"Fa_N", 0}};
+  const json r = answered(q)["positions"];
+  EXPECT_NEAR(r[0]["delta_r_mm"].get<double>() / (2 * 23 * l * l * l / (1536 * EI)), 1,
+              1e-7);
+  EXPECT_NEAR(r[0]["rest_reaction_N"], 2 * 11.0 / 16, 1e-7);
+  EXPECT_NEAR(r[0]["tail_reaction_N"], -2 * 3.0 / 32, 1e-7);
+  EXPECT_NEAR(r[1]["delta_r_mm"], 0, 1e-12);
+  EXPECT_NEAR(r[1]["rest_reaction_N"], 2, 1e-12);
+  // no rest, no word of it
+  q["clamping"].erase("steady");
+  EXPECT_FALSE(answered(q)["positions"][0].contains("rest_reaction_N"));
+}
+
+TEST(Deflection, ASoftSteadyRestIsNoneInAllThatIsAsked) {
+  json q = request("chuck-tailstock");
+  q["in_process"] = {{"ap_mm", 1}, {"feed_towards", "chuck"}};
+  q["face"] = {
+      {"z_mm", 150}, {"rho_min_mm", 2}, {"rho_max_mm", 20}, {"Ff_N", 90}, {"Fp_N", 260}};
+  q.erase("load");
+  q["force_law"] = {
+      {"c_N", 220}, {"x", 1}, {"Fa_over_Fr", 0.6}, {"Ft_over_Fr", 2.2}, {"ap_mm", 1}};
+  const json without = answered(q);
+  q["clamping"]["steady"] = {{"at_mm", 110}, {"radial_mm_N", 1}, {"tangential_mm_N", 1}};
+  const json soft = answered(q);
+  q["clamping"]["steady"] = {{"at_mm", 110}};
+  const json rigid = answered(q);
+  const auto near = [](const json& x, const json& y, double part) {
+    EXPECT_NEAR(x.get<double>() / y.get<double>(), 1, part);
+  };
+  near(soft["positions"][2]["radius_error_mm"],
+       without["positions"][2]["radius_error_mm"], 1e-3);
+  near(soft["envelope"]["max_mm"], without["envelope"]["max_mm"], 1e-3);
+  near(soft["face"]["peak_to_valley_mm"], without["face"]["peak_to_valley_mm"], 1e-3);
+  EXPECT_LT(rigid["envelope"]["max_mm"], without["envelope"]["max_mm"]);
+  EXPECT_LT(rigid["positions"][2]["radius_error_mm"],
+            without["positions"][2]["radius_error_mm"]);
+  // at equilibrium the rest carries what the loads of that force ask for
+  const json& p = rigid["positions"][2];
+  EXPECT_GT(p["rest_reaction_N"].get<double>(), 0);
+  EXPECT_LT(p["rest_reaction_N"].get<double>(), 1.2 * p["Fr_N"].get<double>());
+}
+
+TEST(Deflection, ASteadyRestStandsBetweenTheEnds) {
+  json q = request();
+  for (const int z : {0, 200}) {
+    q["clamping"]["steady"] = {{"at_mm", z}, {"radial_mm_N", -1}};
+    EXPECT_EQ(refused(q),
+              "deflection: /clamping/steady/at_mm: got " + std::to_string(z) +
+                  ", expected a number > 0 and < 200 mm\n"
+                  "deflection: /clamping/steady/radial_mm_N: got -1, expected a number "
+                  "from 0 to 1 mm/N");
+  }
+  q = request("boring-bar");
+  q["clamping"]["tip_offset_mm"] = 13;
+  q["clamping"]["bore_diameter_mm"] = 60;
+  q["clamping"]["steady"] = {{"at_mm", 50}};
+  EXPECT_NE(request_schema().fault(q), "");
+  EXPECT_EQ(refused(q),
+            "deflection: /clamping/steady: got an object, expected no such key");
+}
+
+TEST(Deflection, ShouldersAgainstThreeDimensionalElasticity) {
+  const json file = from_file("tests/data/stepped_cantilevers.json");
+  EXPECT_GE(file.at("cases").size(), 7u);
+  for (const json& c : file.at("cases")) {
+    json q = request();
+    q["shaft"] = {{"E_MPa", file.at("E_MPa")}, {"nu", file.at("nu")}, {"segments", {}}};
+    double end = 0;
+    for (const json& s : c.at("segments")) {
+      q["shaft"]["segments"].push_back(
+          bar_segment(s.at("length_mm"), s.at("diameter_mm")));
+      end += s.at("length_mm").get<double>();
+    }
+    q["positions_mm"] = {end};
+    q["load"] = {{"Fr_N", 1000}, {"Ft_N", 0}, {"Fa_N", 0}};
+    q["shoulder_correction"] = true;
+    const double f = c.at("meshes").back().at("f_mm_N");
+    EXPECT_NEAR(answered(q)["positions"][0]["delta_r_mm"].get<double>() / (1000 * f), 1,
+                0.03)
+        << c.at("name");
+  }
+}
+
 TEST(Deflection, FaceNeedsNeitherPositionsNorLoad) {
   json q = request();
   q.erase("load");

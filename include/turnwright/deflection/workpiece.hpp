@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "turnwright/deflection/beam.hpp"
+#include "turnwright/deflection/rest.hpp"
 
 namespace turnwright::deflection {
 
@@ -41,10 +42,14 @@ class Workpiece {
   void at(std::span<const double> a_mm, const Supports& supports,
           std::span<Flexibility> out) const;
 
+  /// The same with a steady rest in this plane.
+  RestedBeam rested(const Supports& supports, const SteadyRest& rest) const;
+
  private:
   std::vector<part::Segment> finished_;
   std::vector<double> ends_mm_;
-  Beam left_;                  // of the tool
+  part::Shaft left_body_, right_body_;  // of the tool, as stiff as they are
+  Beam left_;
   std::optional<Beam> right_;  // where it is another body than left_
 };
 
