@@ -46,7 +46,6 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp drift_csv.cpp thermal.cpp
-           drift_csv.cpp thermal.cpp
           DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
