@@ -1,3 +1,5 @@
+#include "turnwright/document/deflection.hpp"
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -5,13 +7,13 @@
 #include <vector>
 
 #include "fields.hpp"
+#include "shaft_fields.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/deflection/boring_bar.hpp"
 #include "turnwright/deflection/envelope.hpp"
 #include "turnwright/deflection/face.hpp"
 #include "turnwright/deflection/feedback.hpp"
 #include "turnwright/deflection/response.hpp"
-#include "turnwright/document/deflection.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -19,10 +21,9 @@ namespace {
 using namespace turnwright::deflection;
 using nlohmann::json;
 
-constexpr std::size_t kSegments = 10000, kPositions = 100000;
-const Bounds kLength = above_up_to(0, 1e6, "mm"), kOuter = above_up_to(0, 1e5, "mm"),
-             kInner = within(0, 1e5, "mm"), kForce = within(-1e9, 1e9, "N"),
-             kCompliance = within(0, 1, "mm/N");
+constexpr std::size_t kPositions = 100000;
+const Bounds kOuter = above_up_to(0, 1e5, "mm"), kInner = within(0, 1e5, "mm"),
+             kForce = within(-1e9, 1e9, "N"), kCompliance = within(0, 1, "mm/N");
 
 struct Face {
   double z_mm = 0;
@@ -44,33 +45,6 @@ struct Request {
   std::optional<Face> face;
   Workpiece::Options options;
 };
-
-part::Segment read_segment(Reader r) {
-  r = r.as_object();
-  const part::Segment s{.length_mm = r.number("length_mm", kLength),
-                        .outer_left_mm = r.number("outer_left_mm", kOuter),
-                        .outer_right_mm = r.number("outer_right_mm", kOuter),
-                        .inner_left_mm = r.number_or("inner_left_mm", kInner, 0),
-                        .inner_right_mm = r.number_or("inner_right_mm", kInner, 0)};
-  r.finish();
-  const auto wall = [&r](const char* key, double inner, double outer) {
-    if (inner >= outer)
-      r.problem_at(key, expected_number(at_least_below(0, outer, "mm")), "conflict");
-  };
-  wall("inner_left_mm", s.inner_left_mm, s.outer_left_mm);
-  wall("inner_right_mm", s.inner_right_mm, s.outer_right_mm);
-  return s;
-}
-
-part::Shaft read_shaft(Reader r) {
-  part::Shaft shaft{.E_MPa = r.number("E_MPa", above_up_to(0, 1e7, "MPa")),
-                    .nu = r.number("nu", at_least_below(0, 0.5)),
-                    .segments = {}};
-  for (const Reader& item : r.items("segments", 1, kSegments))
-    shaft.segments.push_back(read_segment(item));
-  r.finish();
-  return shaft;
-}
 
 Root read_root(Reader& chuck, std::string_view plane) {
   auto r = chuck.optional_object(plane);

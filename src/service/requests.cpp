@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
+#include "turnwright/document/chuck.hpp"
 #include "turnwright/document/deflection.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
@@ -41,6 +42,22 @@ constexpr const char* kAcceptanceExample = R"({"cases": [
   {"id": "taper", "tolerance": "profile", "e_mm": [-0.002, 0.007], "value_mm": 0.02,
    "half_angle_deg": 10}]})";
 
+constexpr const char* kChuckExample = R"({"tests": [
+  {"setup": "A", "z_mm": 20, "D_mm": 60, "Fr_N": 150, "Ft_N": 330, "Fa_N": 90,
+   "radius_error_mm": 0.0031},
+  {"setup": "A", "z_mm": 20, "D_mm": 60, "Fr_N": 700, "Ft_N": 1540, "Fa_N": 420,
+   "radius_error_mm": 0.0141},
+  {"setup": "A", "z_mm": 90, "D_mm": 60, "Fr_N": 150, "Ft_N": 330, "Fa_N": 90,
+   "radius_error_mm": 0.0057},
+  {"setup": "A", "z_mm": 90, "D_mm": 60, "Fr_N": 700, "Ft_N": 1540, "Fa_N": 420,
+   "radius_error_mm": 0.0270},
+  {"setup": "A", "z_mm": 150, "D_mm": 60, "Fr_N": 150, "Ft_N": 330, "Fa_N": 90,
+   "radius_error_mm": 0.0098},
+  {"setup": "A", "z_mm": 150, "D_mm": 60, "Fr_N": 700, "Ft_N": 1540, "Fa_N": 420,
+   "radius_error_mm": 0.0446}],
+  "tool_rr_mm_N": 0, "predict": [
+    {"z_mm": 120, "D_mm": 60, "Fr_N": 250, "Ft_N": 550, "Fa_N": 150}]})";
+
 constexpr const char* kThermalExample = R"({
   "log": {"csv": ["time_s,rpm,ambient_degC,error_um",
     "0,0,22.00,0.32", "300,0,22.10,0.12", "600,0,22.19,0.02",
@@ -77,6 +94,10 @@ std::span<const Request> requests() {
        kAcceptanceExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::acceptance(request);
+       }},
+      {"chuck", "test cuts -> chuck compliance with uncertainties", kChuckExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::chuck(request);
        }},
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "schema_check.hpp"
+#include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 
@@ -137,6 +138,23 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
   Slips(lathe, refused_entry<catalogue::Lathe, read_lathe>,
         example("machines/lathe-medium.json"))
       .try_all();
+}
+
+std::string refused_chuck(const json& document) {
+  try {
+    chuck(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAChuckRequest) {
+  const SchemaCheck schema("chuck.request.json");
+  const auto text = parse_file(source_path("schemas/chuck.request.json"));
+  auto request = text.at("examples").at(0);
+  request["graph"] = text.at("examples").at(3).at("graph");
+  Slips(schema, refused_chuck, request).try_all();
 }
 
 }  // namespace
