@@ -100,6 +100,14 @@ TEST(LagModel, AShiftAfterALogGoesOnWhereItEnded) {
   for (std::size_t i = 0; i < e.size(); ++i) ASSERT_NEAR(e[i], f[i], 1e-10);
 }
 
+TEST(LagModel, TheShiftsFirstRowTakesThePlaceOfTheLogsLast) {
+  const Inputs both =
+      joined({{0, 60}, {3000, 3000}, {20, 20}}, {{500, 800}, {1200, 0}, {24, 25}});
+  EXPECT_EQ(both.time_s, (std::vector<double>{0, 60, 360}));
+  EXPECT_EQ(both.rpm, (std::vector<double>{3000, 1200, 0}));
+  EXPECT_EQ(both.ambient_degC, (std::vector<double>{20, 24, 25}));
+}
+
 TEST(LagModel, RefusesTimesThatDoNotRise) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double second : {0.0, -1.0, nan})
