@@ -32,8 +32,9 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
         budget_test.cpp)
 # Floor 5
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp feature.cpp
-          recipe_model.cpp exchange.cpp feature_optimiser.cpp describe.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp plan.cpp
+          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
+          describe.cpp
+          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS recipe_model_test.cpp plan_test.cpp
@@ -43,7 +44,7 @@ file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
-          catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp tolerances.cpp
+          catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp
           DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json

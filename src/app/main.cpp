@@ -121,6 +121,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string(service::version()));
   app.require_subcommand(1);
   Arguments arguments;
+  app.fallthrough();
   app.add_option("--data", arguments.data,
                  "folder with materials/, tools/ and machines/");
   std::string examples = "Examples:\n  turnwright list parts\n";

@@ -27,6 +27,9 @@ double finish_group(Reader& group);
 
 const Choices<catalogue::IsoGroup>& iso_groups();
 
+/// {"c0_mm_N", "c1_rad_N", "c2_rad_Nmm"}: a compliance that does no negative work.
+catalogue::RootCompliance read_compliance(Reader r);
+
 /// A list of distinct words.
 template <class E>
 std::vector<E> read_set(Reader& r, std::string_view key, const Choices<E>& choices) {

@@ -71,19 +71,6 @@ void read_chuck(Reader group, catalogue::Chuck& c) {
   finish_group(group);
 }
 
-catalogue::RootCompliance read_root(Reader r) {
-  const catalogue::RootCompliance c{
-      .c0_mm_N = r.number("c0_mm_N", kCompliance),
-      .c1_rad_N = r.number("c1_rad_N", within(-0.01, 0.01, "rad/N")),
-      .c2_rad_Nmm = r.number("c2_rad_Nmm", within(0, 1e-3, "rad/(N mm)"))};
-  r.finish();
-  // The work done by a force and a couple is never negative; equality up to rounding.
-  const double product = c.c0_mm_N * c.c2_rad_Nmm;
-  if (c.c1_rad_N * c.c1_rad_N > product * (1 + 1e-12))
-    r.problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");
-  return c;
-}
-
 catalogue::CentreCompliance read_centre(Reader r) {
   const catalogue::CentreCompliance c{
       .radial_mm_N = r.number("radial_mm_N", kCompliance),
@@ -93,8 +80,8 @@ catalogue::CentreCompliance read_centre(Reader r) {
 }
 
 void read_stiffness(Reader group, catalogue::Lathe& m) {
-  m.chuck.radial = read_root(group.object("chuck_radial"));
-  m.chuck.tangential = read_root(group.object("chuck_tangential"));
+  m.chuck.radial = read_compliance(group.object("chuck_radial"));
+  m.chuck.tangential = read_compliance(group.object("chuck_tangential"));
   m.chuck.axial_mm_N = group.number("chuck_axial_mm_N", kCompliance);
   m.tail_centre = read_centre(group.object("tail_centre"));
   m.head_centre = read_centre(group.object("head_centre"));
@@ -122,7 +109,7 @@ catalogue::Lathe read_lathe(Reader r) {
   finish_group(feed);
   read_times(r.object("times"), m);
   Reader rate = r.object("rate");
-  m.cost_per_min = rate.number("cost_per_min", within(0, 1e4));
+  m.cost_per_min = rate.number("cost_per_min", within(1e-6, 1e4));
   finish_group(rate);
   Reader room = r.object("room");
   m.swing_mm = room.number("swing_mm", above_up_to(0, 20000, "mm"));

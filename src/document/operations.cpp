@@ -14,28 +14,42 @@ const Choices<std::optional<OperationKind>>& kinds() {
   static const auto kKinds = [] {
     Choices<std::optional<OperationKind>> out;
     for (const auto kind :
-         {OperationKind::face, OperationKind::rough, OperationKind::finish})
+         {OperationKind::face, OperationKind::rough, OperationKind::finish,
+          OperationKind::bore_rough, OperationKind::bore_finish})
       out.emplace_back(name(kind), kind);
-    for (const auto* word : {"bore-rough", "bore-finish", "fixed"})
-      out.emplace_back(word, std::nullopt);
+    out.emplace_back("fixed", std::nullopt);
     return out;
   }();
   return kKinds;
 }
 
+bool is_boring(OperationKind kind) {
+  return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
+}
+
 std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind kind) {
   if (features(drawing).empty()) return {};  // unreadable: nothing can be judged
-  if (kind == OperationKind::face) return {"left", "right"};
   std::vector<std::string> out;
-  for (const auto& e : drawing.outer) out.push_back(e.id);
+  if (kind == OperationKind::face)
+    for (const auto& named : features(drawing))
+      if (named.feature == Feature::face) out.push_back(named.id);
+  if (kind == OperationKind::face) return out;
+  if (is_boring(kind))
+    for (const auto& e : drawing.inner) out.push_back(e.id);
+  else
+    for (const auto& e : drawing.outer) out.push_back(e.id);
   return out;
 }
 
+const char* wanted(OperationKind kind) {
+  if (kind == OperationKind::face) return "a face";
+  return is_boring(kind) ? "an inner element" : "an outer element";
+}
+
 void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
-  const bool face = op.kind == OperationKind::face;
   const auto known = surfaces(draft.drawing(), op.kind);
-  for (const auto& item : r.items("on", 1, face ? 1 : 100)) {
-    auto id = checked_reference(item, known, face ? "an end face" : "an outer element");
+  for (const auto& item : r.items("on", 1, 100)) {
+    auto id = checked_reference(item, known, wanted(op.kind));
     if (!id.empty() && std::find(op.on.begin(), op.on.end(), id) != op.on.end())
       item.problem("each element once", "duplicate");
     op.on.push_back(std::move(id));
@@ -51,6 +65,12 @@ void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op
   std::vector<std::string> known;
   for (const auto& tool : draft.plan().tools) known.push_back(tool.id);
   op.tool = checked_reference(r.at("tool"), known, "a tool of this request");
+  for (const auto& tool : draft.plan().tools)
+    if (tool.id == *op.tool && tool.bar.has_value() != is_boring(op.kind))
+      r.problem_at("tool",
+                   is_boring(op.kind) ? "a tool with a boring bar"
+                                      : "a tool for the outside, not a boring bar",
+                   "conflict");
 }
 
 void read_conditions(Draft& draft, Reader& r, planning::Conditions& c) {
@@ -87,12 +107,34 @@ planning::OperationRequest read_operation(Draft& draft, Reader r) {
   const auto kind = r.choice<std::optional<OperationKind>>("kind", kinds());
   if (!kind) return op;
   op.kind = *kind;
+  if (is_boring(op.kind) && draft.drawing().inner.empty()) {
+    r.problem_at("kind", "an operation on the outside: the part has no bores",
+                 "conflict");
+    return op;
+  }
   read_on(draft, r, op);
   read_tool_reference(draft, r, op);
   read_direction(draft, r, op);
   read_conditions(draft, r, op.conditions);
   r.finish();
   return op;
+}
+
+// An element is made in one setup, by one roughing and one finishing operation at most.
+void check_pair(Reader r, const planning::OperationRequest& earlier,
+                const planning::OperationRequest& op) {
+  const auto shared = std::find_first_of(op.on.begin(), op.on.end(), earlier.on.begin(),
+                                         earlier.on.end());
+  if (shared == op.on.end() || shared->empty()) return;
+  if (earlier.kind == op.kind)
+    r.problem_at("on",
+                 "elements that " + earlier.id + ", also \"" + name(op.kind) +
+                     "\", does not cut: not " + *shared,
+                 "duplicate");
+  else if (earlier.setup != op.setup)
+    r.problem_at("setup",
+                 "the setup of " + earlier.id + ", which cuts " + *shared + " too",
+                 "conflict");
 }
 
 }  // namespace
@@ -114,9 +156,11 @@ void read_operations(Draft& draft) {
   auto& operations = draft.plan().operations.emplace();
   for (const auto& item : value->as_items(1, 200)) {
     auto op = read_operation(draft, item);
-    for (const auto& earlier : operations)
+    for (const auto& earlier : operations) {
       if (!op.id.empty() && earlier.id == op.id)
         item.problem_at("id", "an id no other operation has", "duplicate");
+      check_pair(item, earlier, op);
+    }
     operations.push_back(std::move(op));
   }
 }

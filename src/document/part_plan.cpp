@@ -22,7 +22,7 @@ void read_rates(Draft& draft) {
   auto& plan = draft.plan();
   auto rates = draft.root.optional_object("rates");
   if (rates) {
-    if (const auto rate = rates->optional_number("machine_per_min", within(0, 1e4)))
+    if (const auto rate = rates->optional_number("machine_per_min", within(1e-6, 1e4)))
       plan.machine_per_min = *rate;
     plan.price = rates->optional_number("price", above_up_to(0, 1e9));
     rates->finish();
@@ -80,6 +80,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_catalogue_choices(draft);
     read_elements(draft);
     read_stock(draft);
+    check_bores(draft);
     read_tolerances(draft);
     read_setups(draft);
     read_operations(draft);

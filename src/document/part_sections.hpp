@@ -23,6 +23,7 @@ struct Draft {
 void read_catalogue_choices(Draft& draft);  // material, machine, tools
 void read_elements(Draft& draft);           // outer, inner, faces
 void read_stock(Draft& draft);              // after the elements
+void check_bores(Draft& draft);             // after the stock
 void read_tolerances(Draft& draft);         // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups

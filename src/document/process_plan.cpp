@@ -110,7 +110,9 @@ ordered_json json_of(const ToleranceResult& t) {
           {"P_conform", t.P_conform}};
 }
 
-ordered_json json_of(const Compensation& c) {
+// Compensation or Deviation.
+template <class Table>
+ordered_json json_of_table(const Table& c) {
   return {{"on", c.on},
           {"setup", c.setup},
           {"table_mm", list(c.table_mm, [](const std::pair<double, double>& row) {
@@ -147,7 +149,7 @@ ordered_json json_of(const Assumption& a) {
 
 ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
   const auto if_planned = [&](double x) -> ordered_json {
-    if (plan.status == PlanStatus::infeasible) return nullptr;
+    if (!(plan.time_per_part_min > 0)) return nullptr;
     return x;
   };
   ordered_json out{{"status", word(plan.status)},
@@ -158,8 +160,10 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });
   out["tolerances"] =
       list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
+  out["deviations"] =
+      list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
   out["compensation"] =
-      list(plan.compensation, [](const Compensation& c) { return json_of(c); });
+      list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });
   out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });

@@ -101,6 +101,11 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "half the held diameter, at least 15 mm");
   }
   read_clampings(draft, r, setup);
+  if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
+    setup.clampings = {setup.clampings.front()};
+    draft.assume(r.pointer_of("clampings"), words(setup.clampings),
+                 "the first: predict compares none");
+  }
   r.finish();
   check_setup(draft, r, i, setup);
   return setup;

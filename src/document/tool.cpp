@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,6 +33,38 @@ void read_window(Reader group, catalogue::Tool& t) {
   t.ap_mm = read_range(group, "ap_mm", above_up_to(0, 50, "mm"));
   t.vc_m_min = read_range(group, "vc_m_min", above_up_to(0, 5000, "m/min"));
   finish_group(group);
+}
+
+catalogue::BarSegment read_bar_segment(Reader r) {
+  r = r.as_object();
+  const auto size = above_up_to(0, 2000, "mm");
+  catalogue::BarSegment s{.length_mm = r.number("length_mm", size),
+                          .diameter_mm = r.number("diameter_mm", size),
+                          .bore_mm = r.number_or("bore_mm", within(0, 2000, "mm"), 0)};
+  if (s.bore_mm >= s.diameter_mm)
+    r.problem_at("bore_mm", "less than diameter_mm", "order");
+  r.finish();
+  return s;
+}
+
+catalogue::BoringBar read_bar(Reader group) {
+  catalogue::BoringBar bar;
+  bar.E_MPa = group.number("E_MPa", within(1e3, 1e6, "MPa"));
+  bar.nu = group.number("nu", at_least_below(0, 0.5));
+  for (const auto& segment : group.items("segments", 1, 20))
+    bar.segments.push_back(read_bar_segment(segment));
+  bar.tip_offset_mm = group.number("tip_offset_mm", within(0, 1000, "mm"));
+  bar.min_bore_mm = group.number("min_bore_mm", above_up_to(0, 20000, "mm"));
+  bar.holder = read_compliance(group.object("holder"));
+  bar.tip_mm_N = group.optional_number("tip_mm_N", above_up_to(0, 0.1, "mm/N"));
+  finish_group(group);
+  for (const auto& s : bar.segments)
+    if (s.diameter_mm / 2 > bar.min_bore_mm - bar.tip_offset_mm)
+      group.problem_at("min_bore_mm",
+                       "a hole with room for shank and corner: at least tip_offset_mm "
+                       "and half of every diameter_mm",
+                       "conflict");
+  return bar;
 }
 
 // The designation must be one of ISO 1832 and agree with the corner radius given.
@@ -73,6 +106,9 @@ catalogue::Tool read_tool(Reader r) {
   t.change_min = economics.number("change_min", within(0, 1000, "min"));
   t.edge_cost = economics.number("edge_cost", within(0, 1e5));
   finish_group(economics);
+  const bool bores =
+      std::find(t.uses.begin(), t.uses.end(), catalogue::ToolUse::boring) != t.uses.end();
+  if (bores || r.has("bar")) t.bar = read_bar(r.object("bar"));
   check_insert(r, t);
   r.finish();
   return t;

@@ -8,8 +8,7 @@ namespace turnwright::document {
 namespace {
 
 constexpr std::array<std::string_view, 3> kElements{"arc", "groove", "thread"};
-constexpr std::array<std::string_view, 3> kOperations{"bore-rough", "bore-finish",
-                                                      "fixed"};
+constexpr std::array<std::string_view, 1> kOperations{"fixed"};
 
 template <std::size_t N>
 void refuse_kinds(Reader root, std::string_view list,
@@ -32,12 +31,13 @@ void refuse_unsupported(const Reader& root) {
   refuse_kinds(root, "outer", kElements,
                "a kind this version can plan: \"cylinder\" or \"cone\"");
   refuse_kinds(root, "operations", kOperations,
-               "a kind this version can plan: \"face\", \"rough\" or \"finish\"");
+               "a kind this version can plan: \"face\", \"rough\", \"finish\", "
+               "\"bore-rough\" or \"bore-finish\"");
+  refuse_kinds(root, "inner", kElements,
+               "a kind this version can plan: \"cylinder\" or \"cone\"");
   Reader r = root;
-  for (const auto* key : {"inner", "milling"})
-    if (r.has(key) && r.json()[key].is_array() && !r.json()[key].empty())
-      r.problem_at(key, "none: this version plans outer turning and facing only",
-                   "unsupported");
+  if (r.has("milling") && r.json()["milling"].is_array() && !r.json()["milling"].empty())
+    r.problem_at("milling", "none: this version plans turning only", "unsupported");
 }
 
 }  // namespace turnwright::document

@@ -55,6 +55,18 @@ double left_z_mm(const Drawing& drawing, std::size_t i) {
   return sum;
 }
 
+double inner_left_z_mm(const Drawing& drawing, std::size_t i) {
+  if (!(i < drawing.inner.size()))
+    throw std::domain_error("inner_left_z_mm: element " + std::to_string(i) + " of " +
+                            std::to_string(drawing.inner.size()));
+  const End from = drawing.inner[i].from;
+  double depth = 0;  // of its outer end
+  for (std::size_t k = 0; k < i; ++k)
+    if (drawing.inner[k].from == from) depth += drawing.inner[k].length_mm;
+  if (from == End::left) return depth;
+  return length_mm(drawing) - depth - drawing.inner[i].length_mm;
+}
+
 double right_allowance_mm(const Drawing& drawing) {
   return drawing.stock.length_mm - drawing.stock.left_allowance_mm - length_mm(drawing);
 }

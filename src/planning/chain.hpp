@@ -44,8 +44,14 @@ struct Polynomial {
 ///     e = p Fp + q Ff + s Fc + r Fc^2                                                (1)
 ///
 /// Turning: p = f_ww + c_rr, q = -+ f_wp D/2, s = c_rt, r = f_ww,t^2/D; facing at radius
-/// rho: p = f_pp rho^2 + c_ax, q = -f_wp rho.  Each depends on the finishing depth
-/// through the body that stands in the machine during the pass.
+/// rho: p = f_pp rho^2 + c_ax, q = -f_wp rho.  In bores e is the material left, less than
+/// nothing of radius: with the bar's y_w, y_p per Fp and Ff at its tip f and y_t per Fc,
+///
+///     p = f_ww + y_w + c_rr,  q = +-(f_wp D/2 - y_p f),  s = -c_rt,
+///     r = -(f_ww,t + y_t)^2/D                                                        (3)
+///
+/// Each depends on the finishing depth through the body that stands in the machine during
+/// the pass.
 struct Law {
   Polynomial p, q, s, r;
 };
@@ -97,18 +103,26 @@ struct OperationModel {
   cutting::Cut cut;
   cutting::SpeedRange range;
   cutting::Grip grip;
-  double n_cap_rpm = 0;  ///< machine, chuck and centrifugal loss
+  double n_cap_rpm = 0;        ///< machine, chuck and centrifugal loss
+  bool n_cap_of_grip = false;  ///< it is the loss that sets it
   double n_min_rpm = 0;
   double feed_force_max_N = 0;
   double economic_life_min = 0;
   double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
-  catalogue::Range vc, f, ap;   ///< ranges of tool, or what the request fixes
+  catalogue::Range vc, f;       ///< to choose from: the tool's, or what the request fixes
+  catalogue::Range vc_window, f_window, ap;  ///< what the tool allows
   catalogue::Range T_min;
   Affine depth_mm;
   std::vector<PassModel> passes;
   double rapid_min = 0;                   ///< approach and return of all passes
   double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
-  bool tapered = false, reaches_axis = false, face = false;
+  bool tapered = false, reaches_axis = false, face = false, finishing = false;
+  bool inner = false;     ///< a bore: what is left makes it narrower
+  double least_D_mm = 0;  ///< of a bore: the hole it starts from
+
+  /// The pass at the largest and at the smallest diameter.
+  const PassModel& widest() const { return inner ? passes.back() : passes.front(); }
+  const PassModel& narrowest() const { return inner ? passes.front() : passes.back(); }
 };
 
 struct Weights {
@@ -136,6 +150,7 @@ cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a)
   const T left = p.left_mm(a);
   const auto D = [&](double finished) -> T {
     if (o.face) return T(finished);
+    if (o.inner) return difference(T(finished), T(left * 2.0), o.least_D_mm);
     return left * 2.0 + finished;
   };
   return {p.path_mm, D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
@@ -144,9 +159,9 @@ cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a)
 /// Force on the tool needed from the jaws [N], the largest of the passes.
 template <class T>
 T grip_needed(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
-  const T D = sweep(o, o.passes.front(), a).D_large_mm;
+  const T D = sweep(o, o.widest(), a).D_large_mm;
   return cutting::grip_needed_N(o.grip, F.Fc_N, F.Ff_N,
-                                o.face ? D : T(D + 2.0 * o.depth_mm(a)));
+                                o.face || o.inner ? D : T(D + 2.0 * o.depth_mm(a)));
 }
 
 /// The spindle limit [1/min] of an operation: fixed, and where the grip ends.
@@ -166,43 +181,40 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
     sink(Check::depth_min, T(o.ap.lower), ap);
     sink(Check::depth_max, ap, T(o.ap.upper));
   }
-  if (o.f.lower < o.f.upper) {
-    sink(Check::feed_min, T(o.f.lower), f);
-    sink(Check::feed_max, f, T(o.f.upper));
-  }
+  sink(Check::feed_min, T(o.f_window.lower), f);
+  sink(Check::feed_max, f, T(o.f_window.upper));
   sink(Check::force, F.Fc_N, T(o.tool->Fc_max_N));
   sink(Check::feed_force, F.Ff_N, T(o.feed_force_max_N));
   if (o.grip.force_N > 0 && o.tapered)
     sink(Check::grip, grip_needed(o, F, a), T(0.999 * o.grip.force_N));
-  const auto first = sweep(o, o.passes.front(), a);  // the largest diameter
+  const auto widest = sweep(o, o.widest(), a);
   for (const auto& l : o.range.lines)
     if (cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
-           cutting::power_share(l, F.Fc_N, first, T(1.0), T(o.n_cap_rpm)), T(1.0));
+           cutting::power_share(l, F.Fc_N, widest, T(1.0), T(o.n_cap_rpm)), T(1.0));
   if (o.Ra_um > 0) sink(Check::Ra, cutting::Ra_um(o.cut, f), T(o.Ra_um));
   if (o.Rz_um > 0) sink(Check::Rz, cutting::Rz_um(o.cut, f), T(o.Rz_um));
 }
 
-/// And every check of the speed.  The first pass has the largest diameter, the last the
-/// smallest.
+/// And every check of the speed.
 template <class T, class Sink>
 void speed_checks(const OperationModel& o, const T& v, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
-  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
+  const auto widest = sweep(o, o.widest(), a), narrowest = sweep(o, o.narrowest(), a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
       sink(l.torque ? Check::torque : Check::power,
-           cutting::power_share(l, F.Fc_N, l.s >= 0 ? first : last, v, n_cap), T(1.0));
-  if (o.vc.lower < o.vc.upper) {
-    sink(Check::vc_min, T(o.vc.lower), v);
-    sink(Check::vc_max, v, T(o.vc.upper));
-  }
+           cutting::power_share(l, F.Fc_N, l.s >= 0 ? widest : narrowest, v, n_cap),
+           T(1.0));
+  sink(Check::vc_min, T(o.vc_window.lower), v);
+  sink(Check::vc_max, v, T(o.vc_window.upper));
   const T life = cutting::tool_life_min(o.cut, v, f, o.depth_mm(a));
   sink(Check::life_min, T(o.T_min.lower), life);
   sink(Check::life_max, life, T(o.T_min.upper));
-  sink(Check::spindle_min, T(o.n_min_rpm), T(v / first.D_large_mm * (1000 / units::kPi)));
+  sink(Check::spindle_min, T(o.n_min_rpm),
+       T(v / widest.D_large_mm * (1000 / units::kPi)));
   if (o.tapered) return;  // the clamp keeps n <= n_cap
-  const T n = v / last.D_small_mm * (1000 / units::kPi);
+  const T n = v / narrowest.D_small_mm * (1000 / units::kPi);
   sink(Check::spindle_max, n, n_cap);
   if (o.grip.force_N > 0)
     sink(Check::grip, grip_needed(o, F, a) + cutting::grip_loss_N(o.grip, n),
@@ -215,22 +227,20 @@ template <class T, class Sink>
 void speed_limits(const OperationModel& o, const T& f, const T& a,
                   const cutting::Forces<T>& F, const T& n_cap, const Sink& sink) {
   using std::min;
-  const auto first = sweep(o, o.passes.front(), a), last = sweep(o, o.passes.back(), a);
+  const auto widest = sweep(o, o.widest(), a), narrowest = sweep(o, o.narrowest(), a);
   const T ap = o.depth_mm(a);
   for (const auto& l : o.range.lines)
     if (!cutting::constant_torque(l))
-      sink(l.s < 1,
-           cutting::speed_at_power_m_min(l, F.Fc_N, l.s >= 0 ? first : last, n_cap));
-  if (o.vc.lower < o.vc.upper) {
-    sink(false, T(o.vc.lower));
-    sink(true, T(o.vc.upper));
-  }
+      sink(l.s < 1, cutting::speed_at_power_m_min(l, F.Fc_N,
+                                                  l.s >= 0 ? widest : narrowest, n_cap));
+  sink(false, T(o.vc_window.lower));
+  sink(true, T(o.vc_window.upper));
   sink(true, cutting::speed_for_life_m_min(o.cut, o.T_min.lower, f, ap));
   sink(false, cutting::speed_for_life_m_min(o.cut, o.T_min.upper, f, ap));
-  sink(false, T(first.D_large_mm * (o.n_min_rpm * units::kPi / 1000)));
+  sink(false, T(widest.D_large_mm * (o.n_min_rpm * units::kPi / 1000)));
   if (o.tapered) return;
   const auto at_rpm = [&](const T& n) {
-    return T(last.D_small_mm * n * (units::kPi / 1000));
+    return T(narrowest.D_small_mm * n * (units::kPi / 1000));
   };
   sink(true, at_rpm(n_cap));
   if (o.grip.force_N > 0)
@@ -379,6 +389,23 @@ Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
     r.d[i] = direct.d[i] * m + full.d[i] * (Interval(1) - m);
   return r;
 }
+
+/// The last pass of a chain at a station: its law, full depth and feed.
+struct LastPass {
+  Coefficients<double> law{};
+  const cutting::Cut* cut = nullptr;
+  double depth_mm = 0, f_mm_rev = 0;
+};
+LastPass last_pass(const Chain& chain, const Station& station,
+                   const Choice<double>& choice);
+
+/// How far the path of a last pass must go towards the material for nothing to be left:
+/// the law at the depth that is then cut in full, s = law(full).  Not -e: cutting deeper
+/// yields more.  On a face the depth plays no part.
+double correction_mm(const LastPass& pass);
+/// What is left with the path moved by s towards the material, (2) with a depth larger by
+/// s: y = law(full + s - y), e = y - s.
+double corrected_error_mm(const LastPass& pass, double s_mm);
 
 inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap,
                           double f, double e_before) {

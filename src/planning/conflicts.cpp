@@ -11,6 +11,7 @@ namespace turnwright::planning {
 namespace {
 
 constexpr double kBroken = 1e-9;   // a limit counts as over beyond this, in ln
+constexpr long kBoxes = 2000;      // of one refutation: what it leaves open counts as not
 constexpr double kOpening = 1.01;  // how exactly the least widening is found
 
 constexpr double kStart = 1;  // of the scaled excess that is to be least
@@ -108,11 +109,15 @@ struct Worst {
   RowValue row;
 };
 
-Worst worst_row(const RecipeModel& m, const Choice<double>& c, const Limit& limit) {
+template <class Counts>
+Worst worst_row(const RecipeModel& m, const Choice<double>& c, const Counts& counts) {
   Worst w;
   for (const auto& r : m.values(c))
-    if (limit_of(m, r.row) == limit && violation(r) > w.g) w = {violation(r), r};
+    if (counts(r.row) && violation(r) > w.g) w = {violation(r), r};
   return w;
+}
+Worst worst_row(const RecipeModel& m, const Choice<double>& c, const Limit& limit) {
+  return worst_row(m, c, [&](const Row& r) { return limit_of(m, r) == limit; });
 }
 
 // Least value of one limit with some others kept; nothing if they cannot be.
@@ -170,25 +175,31 @@ std::optional<Choice<double>> relaxed(const RecipeModel& m, const Limit& limit,
 
 }  // namespace
 
+namespace {
+std::string why_none(const Feature& f) {
+  const auto& fixed = f.fixed();
+  if (fixed.rough.ap_mm || fixed.finish.ap_mm)
+    return fmt::format(": the given passes do not add up to the {} mm to take off",
+                       readable(f.stock_mm()));
+  if (f.kind() == Feature::Kind::bore)
+    return ": no boring bar is thin and long enough, or none can cut the depth that is "
+           "left";
+  return ": no tool and pass count give a depth its tool can cut";
+}
+}  // namespace
+
 std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
-  if (!f.answer.model)
-    return f.task.feature.surface() +
-           ": no tool and pass count give a depth its tool can cut";
+  const auto& feature = f.task.feature;
+  if (!f.answer.model) return feature.surface() + why_none(feature);
   const auto& m = *f.answer.model;
-  RowValue worst;
-  double g = -std::numeric_limits<double>::infinity();
-  for (const auto& r : m.values(f.answer.choice))
-    if (violation(r) > g) {
-      g = violation(r);
-      worst = r;
-    }
-  const auto n = check_name(worst.row.check);
-  const double over = worst.row.check == Check::tolerance ? 100 * g : 100 * std::expm1(g);
-  const double value = n.at_most ? worst.value : worst.limit;
-  const double limit = n.at_most ? worst.limit : worst.value;
-  return fmt::format("{}: {} is {} {} where {} {} is allowed, {:.1f} % over at best",
-                     f.task.feature.surface(), row_name(plan, m, worst.row),
-                     readable(value), n.unit, readable(limit), n.unit, over);
+  const auto w = worst_row(m, f.answer.choice, [](const Row&) { return true; });
+  const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
+  const bool tolerance = w.row.row.check == Check::tolerance;
+  return fmt::format(
+      "{}: {} is {} {} where {} {} is allowed, {:.1f} % over at the nearest conditions "
+      "found",
+      feature.surface(), c.name, readable(c.value), c.unit, readable(c.limit), c.unit,
+      100 * (tolerance ? w.g : std::expm1(w.g)));
 }
 
 namespace {
@@ -198,6 +209,7 @@ FeatureTask opened(const FeatureTask& task, std::size_t tolerance, double times,
                    const std::vector<Limit>& others) {
   FeatureTask t = task;
   t.explain = false;
+  t.boxes = kBoxes;
   std::erase_if(t.demands, [&](const Demand& d) {
     const Limit l{0, {Check::tolerance, d.tolerance}};
     return d.tolerance != tolerance &&
@@ -211,24 +223,21 @@ FeatureTask opened(const FeatureTask& task, std::size_t tolerance, double times,
   return t;
 }
 
-// Least widening of a tolerance over every recipe, from one that suffices: in growing
-// steps down to one that is refuted, which costs most, then by bisection.
+// Least widening of a tolerance over every recipe, from one that suffices: down in
+// growing steps to one that is refuted, which costs most, then by bisection between.
 double least_widening(const FeatureTask& task, std::size_t tolerance, double enough,
                       const std::vector<Limit>& others) {
   const auto suffices = [&](double times) {
     return can_be_made(opened(task, tolerance, times, others));
   };
-  double low = 1, step = kOpening;
-  while (low == 1 && enough > kOpening) {
-    const double less = std::max(1.0, enough / step);
-    if (less == 1 || !suffices(less))
-      low = less;
-    else
-      enough = less;
+  double step = kOpening, low = enough / step;
+  while (low > 1 && suffices(low)) {
+    enough = low;
     step *= step;
-    if (low == 1 && less == 1) break;
+    low = enough / step;
   }
-  while (enough > low * kOpening) {
+  low = std::max(low, 1.0);
+  while (enough > low * kOpening * (1 + 1e-9)) {
     const double middle = std::sqrt(low * enough);
     (suffices(middle) ? enough : low) = middle;
   }
@@ -241,27 +250,27 @@ std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
   const auto& m = *f.answer.model;
   const auto c = relaxed(m, limit, others);
   if (!c) return {};
-  const auto at = worst_row(m, *c, limit);
-  const auto n = check_name(at.row.row.check);
-  const bool tolerance = at.row.row.check == Check::tolerance;
-  const std::string called = row_name(plan, m, at.row.row);
-  const double now = n.at_most ? at.row.limit : at.row.value;
-  double needed = n.at_most ? at.row.value : at.row.limit;
+  const auto w = worst_row(m, *c, limit);
+  const auto at = constraint(plan, m.chain(), *c, w.row);
+  const bool tolerance = w.row.row.check == Check::tolerance;
+  double needed = at.value;
   if (tolerance) {  // on the whole surface, not only where the optimiser looked
     const auto profile = f.task.feature.profile(m.recipe(), f.task.economy, *c);
     for (const auto& d : f.task.demands)
-      if (d.tolerance == m.chain().functionals[at.row.row.operation].tolerance)
+      if (d.tolerance == m.chain().functionals[w.row.row.operation].tolerance)
         needed = d.upper * least_widening(f.task, d.tolerance,
                                           1 + worst_excess({d}, profile), others);
   }
-  Relaxation r{called + " of " + f.task.feature.surface(), now, needed, n.unit, {}};
-  r.sentence = tolerance ? fmt::format(
-                               "{} would have to open from {} to {} {} (what the cut may "
-                               "use), or the part be held {:.2f} times as stiffly",
-                               called, readable(now), readable(needed), n.unit,
-                               n.at_most ? needed / now : now / needed)
-                         : fmt::format("{} would have to go from {} to {} {}", called,
-                                       readable(now), readable(needed), n.unit);
+  Relaxation r{
+      at.name + " of " + f.task.feature.surface(), at.limit, needed, at.unit, {}};
+  r.sentence =
+      tolerance
+          ? fmt::format(
+                "{} would have to open from {} to {} {} (what the cut may use), or "
+                "the part be held {:.2f} times as stiffly",
+                at.name, readable(at.limit), readable(needed), at.unit, needed / at.limit)
+          : fmt::format("{} would have to go from {} to {} {}", at.name,
+                        readable(at.limit), readable(needed), at.unit);
   return r;
 }
 
@@ -282,16 +291,13 @@ void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature
   for (const auto& set : sets) members.insert(members.end(), set.begin(), set.end());
   for (const auto& set : sets)
     for (const auto& limit : set) {
-      const auto w = worst_row(m, f.answer.choice, limit);
-      const auto n = check_name(w.row.row.check);
-      const std::string called = row_name(plan, m, w.row.row);
-      const double value = n.at_most ? w.row.value : w.row.limit;
-      const double allowed = n.at_most ? w.row.limit : w.row.value;
+      const auto c = constraint(plan, m.chain(), f.answer.choice,
+                                worst_row(m, f.answer.choice, limit).row);
       result.conflicts.push_back(
-          {called, where, value, allowed, n.unit,
+          {c.name, where, c.value, c.limit, c.unit,
            fmt::format("{}: {} {} {} against {} {} at the least violation of all limits",
-                       where, called, readable(value), n.unit, readable(allowed),
-                       n.unit)});
+                       where, c.name, readable(c.value), c.unit, readable(c.limit),
+                       c.unit)});
       // The rest of its own conflict and all that is in none stay as they are.
       auto others = less(all, members);
       for (const auto& other : set)

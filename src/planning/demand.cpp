@@ -11,13 +11,6 @@ namespace {
 using part::Tolerance;
 using part::ToleranceKind;
 
-const part::OuterElement* find_element(const PartPlan& p, const std::string& id) {
-  const auto& e = p.drawing.outer;
-  const auto it =
-      std::find_if(e.begin(), e.end(), [&](const auto& x) { return x.id == id; });
-  return it == e.end() ? nullptr : &*it;
-}
-
 double width_mm(const Tolerance& t) {
   return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
 }
@@ -32,11 +25,11 @@ double faces_cut(const PartPlan& p, const Tolerance& t) {
          static_cast<double>(face_is_cut(p, t.between[1]));
 }
 
-Demand demand(const PartPlan& p, std::size_t index, const part::OuterElement* element,
+Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_angle,
               Offset offset) {
   const Tolerance& t = p.drawing.tolerances[index];
   const double left = std::max(0.0, width_mm(t) - units::mm_from_um(p.machine_share_um));
-  const double cosine = element ? std::cos(half_angle_rad(*element)) : 1;
+  const double cosine = std::cos(half_angle.value_or(0));
   using Shape = Demand::Shape;
   const bool free = offset == Offset::free;
   Demand d{index, Shape::none, 1, 0, left, middle_mm(t)};
@@ -71,7 +64,7 @@ Demand demand(const PartPlan& p, std::size_t index, const part::OuterElement* el
       d.shape = Shape::range;
       break;
     case ToleranceKind::perpendicularity:
-      d.shape = element ? Shape::none : Shape::range;
+      d.shape = half_angle ? Shape::none : Shape::range;
       break;
     default:
       break;
@@ -81,8 +74,15 @@ Demand demand(const PartPlan& p, std::size_t index, const part::OuterElement* el
 
 }  // namespace
 
-double half_angle_rad(const part::OuterElement& e) {
-  return std::atan2(std::abs(e.right_mm - e.left_mm) / 2, e.length_mm);
+std::optional<double> half_angle_rad(const part::Drawing& d, const std::string& surface) {
+  const auto find = [&](const auto& elements) -> std::optional<double> {
+    for (const auto& e : elements)
+      if (e.id == surface)
+        return std::atan2(std::abs(e.right_mm - e.left_mm) / 2, e.length_mm);
+    return {};
+  };
+  const auto outer = find(d.outer);
+  return outer ? outer : find(d.inner);
 }
 
 bool face_is_cut(const PartPlan& p, const std::string& face) {
@@ -94,13 +94,13 @@ bool face_is_cut(const PartPlan& p, const std::string& face) {
 std::vector<Demand> demands(const PartPlan& p, const std::string& surface,
                             Offset offset) {
   std::vector<Demand> all;
-  const auto* element = find_element(p, surface);
+  const auto half_angle = half_angle_rad(p.drawing, surface);
   const auto& tolerances = p.drawing.tolerances;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     const auto& t = tolerances[i];
     if (t.of == surface || (t.kind == ToleranceKind::length &&
                             (t.between[0] == surface || t.between[1] == surface)))
-      all.push_back(demand(p, i, element, offset));
+      all.push_back(demand(p, i, half_angle, offset));
   }
   return all;
 }

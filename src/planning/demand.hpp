@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Demand {
   double middle_mm = 0;  ///< programmed deviation of a size: the middle of its limits
 };
 
-/// With `compensated` the offset of the tool is free, so a size asks only for its range.
+/// With a free offset of the tool a size asks only for its range.
 enum class Offset { none, free };
 
 /// The tolerances that bear on an outer element or on a face ("left", "right", "d1|d2"),
@@ -27,15 +28,16 @@ enum class Offset { none, free };
 ///
 ///     diameter      |2 e| <= (t - m)/2 about the programmed middle of the limits
 ///     profile       |e| cos(alpha) <= (t - m)/2
-///     length        |g| <= (t - m)/4 for each of its two faces, half if one is given
+///     length        |g| <= (t - m)/4 for each of its faces if both are cut, else half
 ///     others        as tolerance::verdict's (4) to (8)
 ///
 /// A width that the share uses up gives upper = 0, which nothing can keep.
 std::vector<Demand> demands(const PartPlan& plan, const std::string& surface,
                             Offset offset);
 
-/// Half angle [rad] of an outer element, 0 of a cylinder.
-double half_angle_rad(const part::OuterElement& element);
+/// Half angle [rad] of an element, 0 of a cylinder; nothing for a face.
+std::optional<double> half_angle_rad(const part::Drawing& drawing,
+                                     const std::string& surface);
 
 /// True if an operation of this plan makes the face (its end has stock, or it is a
 /// shoulder).

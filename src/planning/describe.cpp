@@ -46,25 +46,7 @@ std::vector<Pass> passes(const Chosen& x, std::size_t i) {
   return all;
 }
 
-// Value and limit in the check's own unit, from a row's quotient.
-ConstraintValue constraint(const Chosen& x, const RowValue& r, double multiplier) {
-  const auto n = check_name(r.row.check);
-  ConstraintValue c;
-  c.name = n.name;
-  c.unit = n.unit;
-  c.at_most = n.at_most;
-  c.value = n.at_most ? r.value : r.limit;
-  c.limit = n.at_most ? r.limit : r.value;
-  if (r.row.check == Check::power || r.row.check == Check::torque) {
-    const auto& o = x.chain.operations[r.row.operation];
-    const double Fc = x.F[r.row.operation].Fc_N, share = r.value / r.limit;
-    c.value = r.row.check == Check::power
-                  ? units::power_kW(Fc, x.c.v[r.row.operation])
-                  : units::torque_Nm(Fc, sweep(o, o.passes.front(), x.c.a).D_large_mm);
-    c.limit = c.value / share;
-  }
-  c.margin = -violation(r);
-  c.binding = c.margin < kBinding;
+ConstraintValue priced(ConstraintValue c, double multiplier) {
   c.shadow_price = multiplier;
   return c;
 }
@@ -99,6 +81,21 @@ ConstraintValue tolerance_constraint(const PartPlan& plan, const Demand& d,
   return c;
 }
 
+}  // namespace
+
+namespace {
+// "s0-face-d3-d4": an id that a request may carry.
+std::string own_id(std::size_t setup, OperationKind kind, std::string surface) {
+  std::replace(surface.begin(), surface.end(), '|', '-');
+  return "s" + std::to_string(setup) + "-" + name(kind) + "-" + surface;
+}
+
+OperationKind kind_of(const Feature& feature, bool rough) {
+  if (feature.is_face()) return OperationKind::face;
+  if (feature.kind() == Feature::Kind::bore)
+    return rough ? OperationKind::bore_rough : OperationKind::bore_finish;
+  return rough ? OperationKind::rough : OperationKind::finish;
+}
 }  // namespace
 
 CheckName check_name(Check check) {
@@ -145,11 +142,34 @@ CheckName check_name(Check check) {
   return {"", "", true};
 }
 
-std::string row_name(const PartPlan& plan, const RecipeModel& model, const Row& row) {
+std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row) {
+  if (row.check == Check::spindle_max && chain.operations[row.operation].n_cap_of_grip)
+    return "spindle speed that leaves a third of the grip";
   if (row.check != Check::tolerance) return check_name(row.check).name;
-  const auto& t =
-      plan.drawing.tolerances[model.chain().functionals[row.operation].tolerance];
+  const auto& t = plan.drawing.tolerances[chain.functionals[row.operation].tolerance];
   return t.id + " " + part::name(t.kind);
+}
+
+ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
+                           const Choice<double>& choice, const RowValue& r) {
+  const auto n = check_name(r.row.check);
+  ConstraintValue c;
+  c.name = row_name(plan, chain, r.row);
+  c.unit = n.unit;
+  c.at_most = n.at_most;
+  c.value = n.at_most ? r.value : r.limit;
+  c.limit = n.at_most ? r.limit : r.value;
+  if (r.row.check == Check::power || r.row.check == Check::torque) {  // from their share
+    const auto& o = chain.operations[r.row.operation];
+    const double Fc = forces(chain, choice)[r.row.operation].Fc_N;
+    c.value = r.row.check == Check::power
+                  ? units::power_kW(Fc, choice.v[r.row.operation])
+                  : units::torque_Nm(Fc, sweep(o, o.widest(), choice.a).D_large_mm);
+    c.limit = c.value / (r.value / r.limit);
+  }
+  c.margin = -violation(r);
+  c.binding = c.margin < kBinding;
+  return c;
 }
 
 Spent spent(const FeatureAnswer& answer) {
@@ -179,11 +199,9 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
     const bool last = i + 1 == x.chain.operations.size();
     const bool rough = a.model->recipe().rough && i == 0;
     OperationPlan p;
-    p.kind = o.face ? OperationKind::face
-                    : (rough ? OperationKind::rough : OperationKind::finish);
+    p.kind = kind_of(feature, rough);
     p.id = i < solved.operation_ids.size() ? solved.operation_ids[i]
-                                           : "s" + std::to_string(setup) + "-" +
-                                                 name(p.kind) + "-" + feature.surface();
+                                           : own_id(setup, p.kind, feature.surface());
     p.on = {feature.surface()};
     p.tool = o.tool->id;
     p.direction =
@@ -200,7 +218,8 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
         tolerance_price[x.chain.functionals[values[r].row.operation].tolerance] +=
             a.multipliers[r];
       else if (values[r].row.operation == i)
-        merge(p.constraints, constraint(x, values[r], a.multipliers[r]));
+        merge(p.constraints,
+              priced(constraint(plan, x.chain, a.choice, values[r]), a.multipliers[r]));
     }
     if (last)
       for (const auto& demand : solved.task.demands)

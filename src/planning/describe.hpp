@@ -33,7 +33,11 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
                                     const SolvedFeature& solved, const Rates& rates);
 
 /// "t1 cylindricity" for a tolerance row, else the check's name.
-std::string row_name(const PartPlan& plan, const RecipeModel& model, const Row& row);
+std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row);
+
+/// A row at a choice in its own unit, with its name.
+ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
+                           const Choice<double>& choice, const RowValue& row);
 
 /// Minutes, edge cost and money of the answer's operations, approach included.
 struct Spent {

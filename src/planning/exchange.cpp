@@ -61,7 +61,8 @@ std::size_t Exchange::station(double at_mm) {
 
 void Exchange::add(const Terms& terms, double limit, const Demand& d) {
   Functional g;
-  for (const auto& [at, weight] : terms) g.terms.emplace_back(station(at), weight);
+  for (const auto& [at, weight] : terms)
+    g.terms.emplace_back(station(at), feature_->sign() * weight);
   g.limit =
       std::max(limit, 1e-12);  // a tolerance the machine has used up: kept by nothing
   g.tolerance = d.tolerance;

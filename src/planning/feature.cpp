@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -42,20 +44,83 @@ Polynomial polynomial(const Eigen::VectorXd& c, double centre, double half) {
 double clamping_rpm(const PartPlan& p, Clamping clamping) {
   const auto& m = p.machine;
   if (clamping == Clamping::between_centres) return m.n_max_rpm;
-  // Centrifugal loss of the grip at most 67 % (VDI 3106).
-  const auto& c = m.chuck;
-  const double n_loss =
-      c.jaw_mass_radius_kg_m > 0
-          ? std::sqrt(cutting::kGripLoss * c.grip_force_N / c.jaw_mass_radius_kg_m) * 30 /
-                units::kPi
-          : m.n_max_rpm;
-  return std::min({m.n_max_rpm, c.n_max_rpm, n_loss});
+  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
 }
 
-std::vector<bool> with(std::vector<bool> done, const std::vector<std::size_t>& elements,
-                       std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) done[elements[k]] = true;
-  return done;
+// Where the centrifugal loss of the grip reaches 67 % (VDI 3106).
+double grip_loss_rpm(const PartPlan& p, Clamping clamping) {
+  const auto& c = p.machine.chuck;
+  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(cutting::kGripLoss * c.grip_force_N / c.jaw_mass_radius_kg_m) * 30 /
+         units::kPi;
+}
+
+constexpr int kTable = 11;  // places of a correction
+
+double interpolated(const Feature::Table& table, double at) {
+  std::size_t k = 0;
+  while (k + 2 < table.size() && at > table[k + 1].first) ++k;
+  const auto& [z0, dr0] = table[k];
+  const auto& [z1, dr1] = table[k + 1];
+  return dr0 + (dr1 - dr0) * (at - z0) / (z1 - z0);
+}
+
+// Pieces of equal length through exact values at Chebyshev points.
+tolerance::PiecewisePolynomial through_exact(
+    double low, double high, int pieces, std::size_t points,
+    const std::function<std::vector<double>(const std::vector<double>&)>& errors) {
+  const double h = (high - low) / pieces;
+  std::vector<double> u, places;  // the points of a piece, on [0, 1]
+  for (const double t : chebyshev(points)) u.push_back((1 - t) / 2);
+  for (int k = 0; k < pieces; ++k)
+    for (const double t : u) places.push_back(low + h * (k + t));
+  const auto e = errors(places);
+  tolerance::PiecewisePolynomial result;
+  result.breaks_mm.push_back(low);
+  for (int k = 0; k < pieces; ++k) {
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(points), 1);
+    for (std::size_t i = 0; i < points; ++i)
+      values(static_cast<Eigen::Index>(i), 0) =
+          e[static_cast<std::size_t>(k) * points + i];
+    const Eigen::MatrixXd c = through(u, values);
+    std::vector<double> s;
+    for (Eigen::Index j = 0; j < c.rows(); ++j)
+      s.push_back(c(j, 0) / std::pow(h, static_cast<double>(j)));
+    result.coefficients.push_back(std::move(s));
+    result.breaks_mm.push_back(low + h * (k + 1));
+  }
+  return result;
+}
+
+// What stands when the elements before the one at `place` have been made.
+Finished with(Finished finished, const std::vector<std::size_t>& elements,
+              std::size_t place, std::vector<bool> Finished::*which) {
+  for (std::size_t k = 0; k < place; ++k) (finished.*which)[elements[k]] = true;
+  return finished;
+}
+
+std::size_t place_of(const std::vector<std::size_t>& elements, std::size_t index) {
+  return static_cast<std::size_t>(std::find(elements.begin(), elements.end(), index) -
+                                  elements.begin());
+}
+
+// What the tip of a bar does: per passive, feed and cutting force.
+struct BarTip {
+  double w = 0, p = 0, t = 0;  // y_w, y_p, y_t of chain.hpp (3)
+};
+BarTip tip_of(const catalogue::BoringBar& bar) {
+  part::Shaft shaft{bar.E_MPa, bar.nu, {}};
+  for (const auto& s : bar.segments)
+    shaft.segments.push_back(
+        {s.length_mm, s.diameter_mm, s.diameter_mm, s.bore_mm, s.bore_mm});
+  const deflection::Beam beam(shaft);
+  const auto& h = bar.holder;
+  const auto f = beam.at(beam.length_mm(), {deflection::Method::chuck,
+                                            {h.c0_mm_N, h.c1_rad_N, h.c2_rad_Nmm}});
+  const double offset = bar.tip_offset_mm;
+  const double w = bar.tip_mm_N.value_or(f.f_ww_mm_N);
+  return {w, f.f_wp_rad_N * offset, w + offset * offset * beam.twist_rad_Nmm()};
 }
 
 const part::Face* find_face(const PartPlan& p, const std::string& id) {
@@ -81,32 +146,41 @@ Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kin
 }
 
 Feature Feature::element(const PartPlan& plan, std::size_t setup, Clamping clamping,
-                         const SetupWork& work, const std::vector<bool>& done_before,
-                         std::size_t index, const Fixed& fixed) {
+                         const SetupWork& work, const Finished& before, std::size_t index,
+                         const Fixed& fixed) {
   const auto& e = plan.drawing.outer[index];
   Feature f(plan, setup, clamping, Kind::element, e.id, fixed);
-  f.index_ = index;
-  f.low_ = part::left_z_mm(plan.drawing, index);
-  f.high_ = f.low_ + e.length_mm;
-  f.D_small_ = std::min(e.left_mm, e.right_mm);
-  f.D_large_ = std::max(e.left_mm, e.right_mm);
+  f.take(e, index, part::left_z_mm(plan.drawing, index));
   f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
-  f.Ra_um_ = e.Ra_um.value_or(0);
-  f.Rz_um_ = e.Rz_um.value_or(0);
-  const auto place = static_cast<std::size_t>(
-      std::find(work.elements.begin(), work.elements.end(), index) -
-      work.elements.begin());
-  f.bodies_.emplace_back(plan, setup, clamping, with(done_before, work.elements, place));
-  f.bodies_.emplace_back(plan, setup, clamping,
-                         with(done_before, work.elements, work.elements.size()));
+  for (const auto place : {place_of(work.elements, index), work.elements.size()})
+    f.bodies_.emplace_back(plan, setup, clamping,
+                           with(before, work.elements, place, &Finished::outer));
   return f;
 }
 
-Feature Feature::end_face(const PartPlan& plan, std::size_t setup,
-                          const std::vector<bool>& done_before, const Fixed& fixed) {
+Feature Feature::bore(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                      const SetupWork& work, const Finished& before, std::size_t index,
+                      const Fixed& fixed) {
+  const auto& e = plan.drawing.inner[index];
+  Feature f(plan, setup, clamping, Kind::bore, e.id, fixed);
+  f.take(e, index, part::inner_left_z_mm(plan.drawing, index));
+  f.stock_ = (f.D_large_ - plan.drawing.stock.inner_mm) / 2;
+  f.depth_mm_ =
+      e.from == part::End::left ? f.high_ : part::length_mm(plan.drawing) - f.low_;
+  // Bores come after everything outside.
+  const auto outside =
+      with(before, work.elements, work.elements.size(), &Finished::outer);
+  for (const auto place : {place_of(work.bores, index), work.bores.size()})
+    f.bodies_.emplace_back(plan, setup, clamping,
+                           with(outside, work.bores, place, &Finished::inner));
+  return f;
+}
+
+Feature Feature::end_face(const PartPlan& plan, std::size_t setup, const Finished& before,
+                          const Fixed& fixed) {
   const bool left = plan.setups[setup].hold == part::End::right;
   Feature f(plan, setup, Clamping::chuck, Kind::end_face, left ? "left" : "right", fixed);
-  f.bodies_.emplace_back(plan, setup, Clamping::chuck, done_before);
+  f.bodies_.emplace_back(plan, setup, Clamping::chuck, before);
   f.face_x_ = f.bodies_[0].length_mm();
   f.stock_ = left ? plan.drawing.stock.left_allowance_mm
                   : part::right_allowance_mm(plan.drawing);
@@ -115,18 +189,22 @@ Feature Feature::end_face(const PartPlan& plan, std::size_t setup,
   // The face of the finished part ends at its outermost element.
   const auto& outer = plan.drawing.outer;
   f.low_ = f.D_small_ / 2;
+  for (const auto& e : plan.drawing.inner)
+    if ((e.from == part::End::left) == left)
+      f.low_ = std::max(f.low_, (left ? e.left_mm : e.right_mm) / 2);
   f.high_ = (left ? outer.front().left_mm : outer.back().right_mm) / 2;
   return f;
 }
 
 Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
-                          const SetupWork& work, const std::vector<bool>& done_before,
+                          const SetupWork& work, const Finished& before,
                           std::size_t index, const Fixed& fixed) {
   const auto& outer = plan.drawing.outer;
   Feature f(plan, setup, clamping, Kind::shoulder,
             outer[index - 1].id + "|" + outer[index].id, fixed);
-  f.bodies_.emplace_back(plan, setup, clamping,
-                         with(done_before, work.elements, work.elements.size()));
+  f.bodies_.emplace_back(
+      plan, setup, clamping,
+      with(before, work.elements, work.elements.size(), &Finished::outer));
   f.face_x_ = f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index));
   const auto [small, large] =
       std::minmax(outer[index - 1].right_mm, outer[index].left_mm);
@@ -135,6 +213,19 @@ Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clam
   f.low_ = small / 2;
   f.high_ = large / 2;
   return f;
+}
+
+template <class OuterOrInner>
+void Feature::take(const OuterOrInner& e, std::size_t index, double left_z_mm) {
+  index_ = index;
+  low_ = left_z_mm;
+  high_ = left_z_mm + e.length_mm;
+  left_mm_ = e.left_mm;
+  right_mm_ = e.right_mm;
+  D_small_ = std::min(e.left_mm, e.right_mm);
+  D_large_ = std::max(e.left_mm, e.right_mm);
+  Ra_um_ = e.Ra_um.value_or(0);
+  Rz_um_ = e.Rz_um.value_or(0);
 }
 
 OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
@@ -148,25 +239,29 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   if (clamping_ != Clamping::between_centres)
     o.grip = {m.chuck.grip_force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
               grip_diameter_mm(*plan_, setup_, clamping_)};
-  o.n_cap_rpm = std::min(o.range.n_max_rpm, clamping_rpm(*plan_, clamping_));
+  const double n_grip = grip_loss_rpm(*plan_, clamping_);
+  o.n_cap_rpm = std::min({o.range.n_max_rpm, clamping_rpm(*plan_, clamping_), n_grip});
+  o.n_cap_of_grip = o.n_cap_rpm == n_grip;
   o.n_min_rpm = o.range.n_min_rpm;
   o.feed_force_max_N = m.feed_force_max_N;
   o.economic_life_min = cutting::economic_life_min(
       o.cut, tool.change_min, economy.edge * tool.edge_cost / economy.minute);
-  if (finishing || !fixed_.finish.passes) {
-    o.Ra_um = finishing ? Ra_um_ : 0;
-    o.Rz_um = finishing ? Rz_um_ : 0;
-  }
-  o.f = {tool.f_mm_rev.lower,
-         std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
+  o.finishing = finishing;
+  o.f_window = {
+      tool.f_mm_rev.lower,
+      std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
   o.ap = {std::max(tool.ap_mm.lower, 2.0 / 3.0 * tool.re_mm), tool.ap_mm.upper};
-  o.vc = tool.vc_m_min;
+  o.vc_window = tool.vc_m_min;
+  o.f = o.f_window;
+  o.vc = o.vc_window;
   if (want.f_mm_rev) o.f = {*want.f_mm_rev, *want.f_mm_rev};
   if (want.vc_m_min) o.vc = {*want.vc_m_min, *want.vc_m_min};
   o.T_min = tool.T_min;
   o.D_small_mm = D_small_;
   o.D_large_mm = D_large_;
-  o.face = kind_ != Kind::element;
+  o.face = is_face();
+  o.inner = kind_ == Kind::bore;
+  o.least_D_mm = plan_->drawing.stock.inner_mm;
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -184,8 +279,12 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
   if (recipe.finish)
     c.operations.push_back(operation(*recipe.finish, true, recipe.finish_range, economy));
   for (const auto& o : c.operations)
-    if (!(o.f.lower <= o.f.upper))
+    if (!(o.f.lower <= o.f.upper) || !enters(*o.tool))
       return {};  // no feed suits both corner and chip breaker
+  if (!c.operations.empty()) {
+    c.operations.back().Ra_um = Ra_um_;
+    c.operations.back().Rz_um = Rz_um_;
+  }
   // Roughing leaves on a shoulder the least depth its tool can cut.
   if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
 
@@ -197,6 +296,10 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
     if (fixed_.finish.ap_mm) c.a.lower = c.a.upper = *fixed_.finish.ap_mm;
     if (fixed_.rough.ap_mm)
       c.a.lower = c.a.upper = (stock - nr * *fixed_.rough.ap_mm) / nf;
+    if (fixed_.finish.ap_mm && fixed_.rough.ap_mm &&
+        std::abs(nr * *fixed_.rough.ap_mm + nf * *fixed_.finish.ap_mm - stock) >
+            1e-6 * stock)
+      return {};
     if (a_mm) c.a.lower = c.a.upper = *a_mm;
     if (!(c.a.lower > 0 && c.a.lower <= c.a.upper && c.a.upper * nf < stock)) return {};
     if (c.a.lower == c.a.upper) {
@@ -210,20 +313,19 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
     rough = finish = {depth, 0};
     c.a.lower = c.a.upper = depth;
   }
-  const double path = kind_ == Kind::element
-                          ? std::hypot(high_ - low_, (D_large_ - D_small_) / 2)
-                          : (D_large_ - D_small_) / 2;
+  const double path = is_face() ? (D_large_ - D_small_) / 2
+                                : std::hypot(high_ - low_, (D_large_ - D_small_) / 2);
   for (auto& o : c.operations) {
-    const bool finishing = &o == &c.operations.back() && recipe.finish;
-    const int n = finishing ? recipe.finish_passes : recipe.rough_passes;
-    o.depth_mm = finishing ? finish : rough;
+    const int n = o.finishing ? recipe.finish_passes : recipe.rough_passes;
+    o.depth_mm = o.finishing ? finish : rough;
     for (int k = 1; k <= n; ++k) {  // what the passes after this one will take off
-      const double later = n - k, after = finishing ? 0 : nf;
+      const double later = n - k, after = o.finishing ? 0 : nf;
       o.passes.push_back({{later * o.depth_mm.c0 + after * finish.c0,
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    o.rapid_min = n * 2 * (path + kApproach_mm) / plan_->machine.rapid_mm_min;
+    const double way = o.inner ? depth_mm_ : path;  // a bar goes in and out all the way
+    o.rapid_min = n * 2 * (way + kApproach_mm) / plan_->machine.rapid_mm_min;
   }
   c.stations.resize(stations.size());
   for (std::size_t i = 0; i < stations.size(); ++i) c.stations[i].at_mm = stations[i];
@@ -231,47 +333,63 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
   return c;
 }
 
+bool Feature::enters(const catalogue::Tool& tool) const {
+  if (kind_ != Kind::bore) return true;
+  if (!tool.bar || tool.bar->min_bore_mm > plan_->drawing.stock.inner_mm) return false;
+  double overhang = 0;
+  for (const auto& s : tool.bar->segments) overhang += s.length_mm;
+  return overhang >= depth_mm_ + kApproach_mm;
+}
+
+std::vector<std::vector<Feature::Values>> Feature::face_laws(const Chain& chain) const {
+  const auto& m = plan_->machine;
+  const deflection::Beam beam(bodies_[0].shaft());
+  const auto f = beam.at(face_x_, planes(m, clamping_).radial);
+  const double c_ax = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
+  std::vector<std::vector<Values>> all(chain.stations.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double rho = chain.stations[i].at_mm;
+    for (const auto& o : chain.operations)
+      all[i].insert(all[i].end(), o.passes.size(),
+                    {f.f_pp_rad_Nmm * rho * rho + c_ax, -f.f_wp_rad_N * rho, 0, 0});
+  }
+  return all;
+}
+
 std::vector<std::vector<Feature::Values>> Feature::laws_at(const Chain& chain,
                                                            double a) const {
+  if (is_face()) return face_laws(chain);
   const auto& m = plan_->machine;
   const auto supports = planes(m, clamping_);
   const std::size_t n = chain.stations.size();
   std::vector<std::vector<Values>> all(n);
-  if (kind_ != Kind::element) {
-    const deflection::Beam beam(bodies_[0].shaft());
-    const auto f = beam.at(face_x_, supports.radial);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double rho = chain.stations[i].at_mm;
-      const double c_ax = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
-      for (const auto& o : chain.operations)
-        all[i].insert(all[i].end(), o.passes.size(),
-                      {f.f_pp_rad_Nmm * rho * rho + c_ax, -f.f_wp_rad_N * rho, 0, 0});
-    }
-    return all;
-  }
   std::vector<double> x(n);
   std::vector<deflection::Flexibility> r(n), t(n);
-  const auto& e = plan_->drawing.outer[index_];
+  const Element element{kind_ == Kind::bore, index_};
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
-    const bool finishing = i + 1 == chain.operations.size() && i > 0;
-    const auto& body = bodies_[finishing ? 1 : 0];
-    const bool to_chuck = (finishing ? fixed_.finish_direction
-                                     : fixed_.rough_direction) == Direction::to_chuck;
+    const auto& body = bodies_[o.finishing ? 1 : 0];
+    const bool to_chuck = (o.finishing ? fixed_.finish_direction
+                                       : fixed_.rough_direction) == Direction::to_chuck;
+    const BarTip bar = o.inner ? tip_of(*o.tool->bar) : BarTip{};
     for (std::size_t k = 0; k < n; ++k)
       x[k] = std::clamp(body.x_mm(chain.stations[k].at_mm), 0.0, body.length_mm());
     for (const auto& pass : o.passes) {
       const double left = pass.left_mm(a), uncut = left + o.depth_mm(a);
-      const deflection::Beam chuck_side(body.shaft(index_, to_chuck ? uncut : left));
-      const deflection::Beam tail_side(body.shaft(index_, to_chuck ? left : uncut));
+      const deflection::Beam chuck_side(body.shaft(element, to_chuck ? uncut : left));
+      const deflection::Beam tail_side(body.shaft(element, to_chuck ? left : uncut));
       flexibilities(chuck_side, tail_side, x, supports.radial, r);
       flexibilities(chuck_side, tail_side, x, supports.tangential, t);
       for (std::size_t k = 0; k < n; ++k) {
         const double u = (chain.stations[k].at_mm - low_) / (high_ - low_);
-        const double D = e.left_mm + (e.right_mm - e.left_mm) * u + 2 * left;
-        const double couple = (to_chuck ? -0.5 : 0.5) * D;
-        all[k].push_back({r[k].f_ww_mm_N + m.tool_rr_mm_N, couple * r[k].f_wp_rad_N,
-                          m.tool_rt_mm_N, t[k].f_ww_mm_N * t[k].f_ww_mm_N / D});
+        const double D = std::max(
+            left_mm_ + (right_mm_ - left_mm_) * u + sign() * 2 * left, o.least_D_mm);
+        const double slip = t[k].f_ww_mm_N + bar.t;
+        // Towards the chuck the feed force bends an outside away from the tool less.
+        const double towards = (to_chuck ? -1 : 1) * sign();
+        all[k].push_back({r[k].f_ww_mm_N + bar.w + m.tool_rr_mm_N,
+                          towards * (r[k].f_wp_rad_N * D / 2 - bar.p),
+                          sign() * m.tool_rt_mm_N, sign() * slip * slip / D});
       }
     }
   }
@@ -315,35 +433,56 @@ std::vector<double> Feature::errors(const Recipe& recipe, const Economy& economy
   const auto c = *chain(recipe, economy, places, choice.a);
   const auto F = forces(c, choice);
   std::vector<double> e;
-  for (const auto& station : c.stations) e.push_back(error_mm(c, station, choice, F));
+  for (const auto& station : c.stations)
+    e.push_back(sign() * error_mm(c, station, choice, F));
+  return e;
+}
+
+Feature::Table Feature::corrections(const Recipe& recipe, const Economy& economy,
+                                    const Choice<double>& choice) const {
+  std::vector<double> places;
+  for (int k = 0; k < kTable; ++k)
+    places.push_back(low_ + (high_ - low_) * k / (kTable - 1));
+  const auto c = *chain(recipe, economy, places, choice.a);
+  Table table;
+  for (const auto& station : c.stations)
+    table.emplace_back(station.at_mm,
+                       -sign() * correction_mm(last_pass(c, station, choice)));
+  return table;
+}
+
+std::vector<double> Feature::corrected(const Recipe& recipe, const Economy& economy,
+                                       const Choice<double>& choice,
+                                       const std::vector<double>& places,
+                                       const Table& table) const {
+  const auto c = *chain(recipe, economy, places, choice.a);
+  std::vector<double> e;
+  for (const auto& station : c.stations) {
+    const auto pass = last_pass(c, station, choice);
+    const double s = -sign() * interpolated(table, station.at_mm);
+    e.push_back(sign() *
+                (is_face() ? correction_mm(pass) - s : corrected_error_mm(pass, s)));
+  }
   return e;
 }
 
 tolerance::PiecewisePolynomial Feature::profile(const Recipe& recipe,
                                                 const Economy& economy,
                                                 const Choice<double>& choice) const {
-  const std::size_t pieces = kind_ == Kind::element ? 8 : 1;
-  const std::size_t points = kind_ == Kind::element ? 9 : 3;
-  const double h = (high_ - low_) / static_cast<double>(pieces);
-  std::vector<double> u, places;  // Chebyshev points of a piece, on [0, 1]
-  for (const double t : chebyshev(points)) u.push_back((1 - t) / 2);
-  for (std::size_t k = 0; k < pieces; ++k)
-    for (const double t : u) places.push_back(low_ + h * (static_cast<double>(k) + t));
-  const auto e = errors(recipe, economy, choice, places);
-  tolerance::PiecewisePolynomial result;
-  result.breaks_mm.push_back(low_);
-  for (std::size_t k = 0; k < pieces; ++k) {
-    Eigen::MatrixXd values(static_cast<Eigen::Index>(points), 1);
-    for (std::size_t i = 0; i < points; ++i)
-      values(static_cast<Eigen::Index>(i), 0) = e[k * points + i];
-    const Eigen::MatrixXd c = through(u, values);
-    std::vector<double> s;
-    for (Eigen::Index j = 0; j < c.rows(); ++j)
-      s.push_back(c(j, 0) / std::pow(h, static_cast<double>(j)));
-    result.coefficients.push_back(std::move(s));
-    result.breaks_mm.push_back(low_ + h * static_cast<double>(k + 1));
-  }
-  return result;
+  return through_exact(low_, high_, is_face() ? 1 : 8, is_face() ? 3 : 9,
+                       [&](const std::vector<double>& places) {
+                         return errors(recipe, economy, choice, places);
+                       });
+}
+
+tolerance::PiecewisePolynomial Feature::corrected_profile(const Recipe& recipe,
+                                                          const Economy& economy,
+                                                          const Choice<double>& choice,
+                                                          const Table& table) const {
+  return through_exact(low_, high_, kTable - 1, 5,
+                       [&](const std::vector<double>& places) {
+                         return corrected(recipe, economy, choice, places, table);
+                       });
 }
 
 }  // namespace turnwright::planning

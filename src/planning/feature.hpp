@@ -8,7 +8,8 @@
 #include "turnwright/planning/setup_geometry.hpp"
 #include "turnwright/tolerance/piecewise.hpp"
 
-/// One surface in one setup and clamping: an outer element, an end face or a shoulder.
+/// One surface in one setup and clamping: an outer element, a bore, an end face or a
+/// shoulder.
 namespace turnwright::planning {
 
 /// How a surface may be made: tools, passes and speed ranges are fixed, conditions open.
@@ -32,18 +33,22 @@ struct Economy {
 
 class Feature {
  public:
-  enum class Kind { element, end_face, shoulder };
+  enum class Kind { element, bore, end_face, shoulder };
 
   static Feature element(const PartPlan& plan, std::size_t setup, Clamping clamping,
-                         const SetupWork& work, const std::vector<bool>& done_before,
-                         std::size_t index, const Fixed& fixed);
-  static Feature end_face(const PartPlan& plan, std::size_t setup,
-                          const std::vector<bool>& done_before, const Fixed& fixed);
+                         const SetupWork& work, const Finished& before, std::size_t index,
+                         const Fixed& fixed);
+  static Feature bore(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                      const SetupWork& work, const Finished& before, std::size_t index,
+                      const Fixed& fixed);
+  static Feature end_face(const PartPlan& plan, std::size_t setup, const Finished& before,
+                          const Fixed& fixed);
   static Feature shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
-                          const SetupWork& work, const std::vector<bool>& done_before,
+                          const SetupWork& work, const Finished& before,
                           std::size_t index, const Fixed& fixed);
 
   Kind kind() const { return kind_; }
+  bool is_face() const { return kind_ == Kind::end_face || kind_ == Kind::shoulder; }
   const std::string& surface() const { return surface_; }
   const Fixed& fixed() const { return fixed_; }
   double low_mm() const { return low_; }  ///< least z, or rho of a face
@@ -51,6 +56,9 @@ class Feature {
   double stock_mm() const {
     return stock_;
   }  ///< to take off: on the radius, or of the face
+  /// Material left is more radius outside (+1) and less in a bore (-1): the factor from
+  /// the chain's errors to those of the surface.
+  double sign() const { return kind_ == Kind::bore ? -1 : 1; }
 
   /// The chain of a recipe without functionals; stations at the given places.  Over an
   /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points
@@ -71,18 +79,38 @@ class Feature {
                              const Choice<double>& choice,
                              const std::vector<double>& places) const;
 
+  /// (z or rho, dr): what to add to the radius (of a face: the length) of the last pass
+  /// for nothing to be left or taken too much at these places, linear between them.
+  using Table = std::vector<std::pair<double, double>>;
+  Table corrections(const Recipe& recipe, const Economy& economy,
+                    const Choice<double>& choice) const;
+  /// As `profile`, with the path of the last pass corrected.
+  tolerance::PiecewisePolynomial corrected_profile(const Recipe& recipe,
+                                                   const Economy& economy,
+                                                   const Choice<double>& choice,
+                                                   const Table& table) const;
+
+  /// And at given places.
+  std::vector<double> corrected(const Recipe& recipe, const Economy& economy,
+                                const Choice<double>& choice,
+                                const std::vector<double>& places,
+                                const Table& table) const;
+
  private:
   Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
           std::string surface, const Fixed& fixed);
+  template <class OuterOrInner>
+  void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
   OperationModel operation(const catalogue::Tool& tool, bool finishing, std::size_t range,
                            const Economy& economy) const;
-  catalogue::Range finishing_depths(const Recipe& recipe) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].
   struct Values {
     double p, q, s, r;
   };
   std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
+  std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
+  bool enters(const catalogue::Tool& tool) const;
 
   const PartPlan* plan_;
   std::size_t setup_;
@@ -90,10 +118,12 @@ class Feature {
   Kind kind_;
   std::string surface_;
   Fixed fixed_;
-  std::size_t index_ = 0;  // outer element
+  std::size_t index_ = 0;  // outer or inner element
   double low_ = 0, high_ = 0, stock_ = 0;
   double D_small_ = 0, D_large_ = 0;
-  double face_x_ = 0;  // of a face, from the root
+  double face_x_ = 0;                  // of a face, from the root
+  double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
+  double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
   std::vector<SetupBody> bodies_;  // while roughing, while finishing
 };

@@ -16,8 +16,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
-constexpr double kAnyCost = 1e3;  // a gap in ln(objective) that the first find leaves
-constexpr long kScouting = 150;   // boxes for a first bound of a task
+constexpr std::size_t kNearest = 40;  // recipes asked for the nearest conditions
+constexpr double kAnyCost = 1e3;      // a gap in ln(objective) that the first find leaves
+constexpr long kScouting = 150;       // boxes for a first bound of a task
 
 struct Candidate {
   Recipe recipe;
@@ -165,10 +166,13 @@ class FeatureSearch {
         continue;
       }
       if (c.local && model(k)->convex()) {
-        bound_ = std::min(bound_, convex_bound(*c.model, *c.local));
         ++nodes_;
-        engines_.insert("convex");
-        continue;
+        c.bound = std::max(c.bound, convex_bound(*c.model, *c.local));
+        if (c.bound >= cut()) {
+          engines_.insert("convex");
+          bound_ = std::min(bound_, c.bound);
+          continue;
+        }
       }
       auto p = c.local ? model(k)->piece(1, c.local->multipliers)
                        : model(k)->piece(0, least_violation(*model(k)).multipliers);
@@ -177,7 +181,7 @@ class FeatureSearch {
     if (!pieces.empty()) {
       engines_.insert("branch-and-bound");
       const auto r = optimise::branch_and_bound(pieces, best_.f,
-                                                {.gap = gap_, .max_nodes = kMostBoxes});
+                                                {.gap = gap_, .max_nodes = task_.boxes});
       bound_ = std::min(bound_, r.lower_bound);
       nodes_ += r.nodes;
       if (!r.complete)
@@ -240,6 +244,10 @@ class FeatureSearch {
     a.lower_bound = std::exp(bound_);
     a.certificate.lower_bound = std::min(a.lower_bound, a.objective);
     a.certificate.gap = 1 - a.certificate.lower_bound / a.objective;
+    if (a.certificate.gap <= kCertified) {  // whatever was left open is as good
+      a.certificate.kind = CertificateKind::global;
+      a.certificate.reason.clear();
+    }
     return a;
   }
 
@@ -254,8 +262,7 @@ class FeatureSearch {
     return a;
   }
 
-  static constexpr long kFirstBoxes = 60;    // of one recipe, before a local solve
-  static constexpr long kMostBoxes = 30000;  // past it the certificate says `local`
+  static constexpr long kFirstBoxes = 60;  // of one recipe, before a local solve
   const FeatureTask& task_;
   double gap_, most_;
   Exchange exchange_;
@@ -300,9 +307,10 @@ FeatureAnswer nearest(const FeatureTask& task) {
   Exchange exchange(task.feature, task.demands);
   FeatureAnswer a;
   const auto n = task.recipes.size();
+  const std::size_t stride = task.explain ? 1 : (n + kNearest - 1) / kNearest;
   std::vector<std::size_t> asked;
-  for (std::size_t k = 0; k < n; ++k)
-    if (task.explain || k == 0 || k == n / 2 || k + 1 == n) asked.push_back(k);
+  for (std::size_t k = 0; k < n; k += std::max<std::size_t>(stride, 1))
+    asked.push_back(k);
   for (int round = 0; round < kNearestRounds; ++round) {
     a.least_violation = kInfinity;
     for (const std::size_t k : std::exchange(asked, {})) {

@@ -8,12 +8,16 @@
 /// The cheapest way to make one surface, with its certificate, or why there is none.
 namespace turnwright::planning {
 
+/// What a global certificate may leave open, of the objective.
+inline constexpr double kCertified = 1e-4;
+
 struct FeatureTask {
   Feature feature;
   std::vector<Demand> demands;
   std::vector<Recipe> recipes;
   Economy economy;
   bool explain = false;  ///< if nothing is feasible, compare every recipe to say why
+  long boxes = 30000;    ///< past them the certificate says `local`
 };
 
 struct FeatureAnswer {
@@ -22,7 +26,6 @@ struct FeatureAnswer {
   Choice<double> choice;
   double objective = 0;
   std::vector<double> multipliers;  ///< of the model's rows
-  std::vector<double> slopes;  ///< d ln(objective) along each variable, less the rows'
   tolerance::PiecewisePolynomial profile;
   double lower_bound = 0;  ///< proved; +infinity: nothing is feasible
   Certificate certificate;
@@ -49,7 +52,7 @@ bool can_be_made(const FeatureTask& task);
 
 /// The conditions that break the limits least, as an infeasible answer without
 /// certificate: a local search, which says how far off the request is and by which limit.
-/// Looks at the first, the middle and the last recipe, or at all if `task.explain`.
+/// Looks at some forty recipes, or at all if `task.explain`.
 FeatureAnswer nearest(const FeatureTask& task);
 
 /// Worst value over limit - 1 of the demands on a surface with this error.

@@ -22,6 +22,10 @@ const char* name(OperationKind k) {
       return "rough";
     case OperationKind::finish:
       return "finish";
+    case OperationKind::bore_rough:
+      return "bore-rough";
+    case OperationKind::bore_finish:
+      return "bore-finish";
   }
   return "";
 }

@@ -17,11 +17,29 @@ struct SolvedSetup {
   bool feasible() const;
 };
 
+struct Totals {
+  double minutes = 0, cost = 0;
+};
+/// Time and cost of a setup, per part.
+Totals totals(const PartPlan& plan, const SolvedSetup& setup);
+
+/// Its operations in the order they are cut: faces, roughing, finishing, shoulders,
+/// bores.
+std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
+                                               const SolvedSetup& setup);
+
+/// What stands against a plan before any condition is chosen: surfaces that no setup
+/// makes, tolerances that the machine's share uses up.
+void add_obstacles(const PartPlan& plan, const Assignment& work, ProcessPlan& result);
+
 /// Predicted against allowed for every tolerance of the drawing, at the answers.
 std::vector<ToleranceResult> tolerance_results(const PartPlan& plan,
                                                const std::vector<SolvedSetup>& setups);
 
-/// Correction of the tool path, -e(z), where a tolerance needs it.
+/// The error of every surface at 21 places, as it is made.
+std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups);
+
+/// Correction of the tool path where a tolerance needs it.
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);
 
 /// Every limit that costs something, dearest first.

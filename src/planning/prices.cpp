@@ -11,11 +11,14 @@ namespace {
 constexpr double kWorthNaming = 1e-7;  // of the objective: below it a price is rounding
 const double kTenPercent = std::log(1.1);
 
+double width_mm(const part::Tolerance& t) {
+  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
 // What 10 % on the drawing's own width does to what is left of it for the cut.
 double leverage(const PartPlan& p, const part::Tolerance& t) {
-  const double width = t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
-  const double left = width - units::mm_from_um(p.machine_share_um);
-  return left > 0 ? width / left : 1;
+  const double left = width_mm(t) - units::mm_from_um(p.machine_share_um);
+  return left > 0 ? width_mm(t) / left : 1;
 }
 
 const char* unit_of_objective(const PartPlan& p) {
@@ -30,15 +33,17 @@ void add(const PartPlan& p, const SolvedFeature& f, const OperationPlan& o,
   price.limit = o.id + ": " + c.name;
   price.now = c.limit;
   price.unit = c.unit;
-  for (const auto& d : f.task.demands) {
+  for (const auto& d : f.task.demands) {  // of the width that the drawing gives
     const auto& t = p.drawing.tolerances[d.tolerance];
-    if (c.name == t.id + " " + part::name(t.kind)) gain *= leverage(p, t);
+    if (c.name != t.id + " " + part::name(t.kind)) continue;
+    gain *= leverage(p, t);
+    price.now = width_mm(t);
   }
   price.saves_per_part_for_10_percent = gain;
-  const double then = c.at_most ? c.limit * 1.1 : c.limit / 1.1;
+  const double then = c.at_most ? price.now * 1.1 : price.now / 1.1;
   price.sentence =
       fmt::format("{} {} of {} from {} to {} {} saves {:.4f}{} per part",
-                  c.at_most ? "raising" : "lowering", c.name, o.id, readable(c.limit),
+                  c.at_most ? "raising" : "lowering", c.name, o.id, readable(price.now),
                   readable(then), c.unit, gain, unit_of_objective(p));
   all.push_back(std::move(price));
 }

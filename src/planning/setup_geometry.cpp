@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace turnwright::planning {
 namespace {
 
 using part::End;
-
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 const part::Drawing& drawing(const PartPlan& p) { return p.drawing; }
 bool holds_left(const PartPlan& p, std::size_t s) {
@@ -25,7 +24,7 @@ double jaw_z(const PartPlan& p, std::size_t s) {
 
 double largest(const part::OuterElement& e) { return std::max(e.left_mm, e.right_mm); }
 
-// Diameter of element i at the end that looks towards the free end, and at the other.
+// Whether a tool can get at outer element i from the free end.
 bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   const auto& e = drawing(p).outer;
   const double z0 = part::left_z_mm(drawing(p), i), z1 = z0 + e[i].length_mm;
@@ -40,6 +39,22 @@ bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   return true;
 }
 
+// A bore opens to the free end and narrows inwards, itself and with all before it.
+bool bore_reachable(const PartPlan& p, std::size_t s, std::size_t i) {
+  const auto& inner = drawing(p).inner;
+  const auto& e = inner[i];
+  const bool right = e.from == End::right;
+  if (holds_left(p, s) != right) return false;
+  const double opening = right ? e.right_mm : e.left_mm;
+  const double deep = right ? e.left_mm : e.right_mm;
+  if (deep > opening) return false;
+  for (std::size_t k = 0; k < i; ++k)
+    if (inner[k].from == e.from &&
+        std::min(inner[k].left_mm, inner[k].right_mm) < opening - 1e-9)
+      return false;
+  return true;
+}
+
 bool face_named(const part::Drawing& d, const std::string& id) {
   const auto names = [&](const part::Tolerance& t) {
     return t.of == id || t.between[0] == id || t.between[1] == id;
@@ -49,6 +64,34 @@ bool face_named(const part::Drawing& d, const std::string& id) {
          std::any_of(d.tolerances.begin(), d.tolerances.end(), names);
 }
 
+// Whether the request leaves it to the planner to make a surface in this setup, or asks
+// for it there.
+bool wanted_in(const PartPlan& p, std::size_t s, const std::string& surface) {
+  if (!p.operations) return true;
+  return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
+    return o.setup == s && std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+  });
+}
+
+// The first setup that is to make a surface and can; else why there is none.
+template <class Can>
+std::optional<std::size_t> place(const PartPlan& p, const std::string& surface,
+                                 const std::string& why, const Can& can, Assignment& a) {
+  bool asked = false;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    if (!wanted_in(p, s, surface)) continue;
+    asked = true;
+    if (can(s)) return s;
+  }
+  if (!asked)
+    a.unreachable.push_back(surface + " has no operation: it would stay as the stock is");
+  else
+    a.unreachable.push_back(
+        surface + " cannot be cut in " +
+        (p.operations ? "the setup of its operations: " : "any setup: ") + why);
+  return {};
+}
+
 void assign_faces(const PartPlan& p, Assignment& a) {
   const auto& d = drawing(p);
   for (const End end : {End::left, End::right}) {
@@ -56,41 +99,64 @@ void assign_faces(const PartPlan& p, Assignment& a) {
         end == End::left ? d.stock.left_allowance_mm : part::right_allowance_mm(d);
     if (!(allowance > 1e-9)) continue;
     const std::string id = end == End::left ? "left" : "right";
-    std::size_t s = 0;
-    while (s < p.setups.size() && p.setups[s].hold == end) ++s;
-    if (s < p.setups.size())
-      a.setups[s].end_face = true;
-    else if (face_named(d, id))
-      a.unreachable.push_back("face " + id + " is held in every setup");
+    const auto free = [&](std::size_t s) { return p.setups[s].hold != end; };
+    bool open = face_named(d, id);  // nobody asks for it: it may stay
+    for (std::size_t s = 0; s < p.setups.size(); ++s)
+      open = open || (free(s) && wanted_in(p, s, id));
+    if (!open) continue;
+    if (const auto s = place(p, id, "its end is held", free, a))
+      a.setups[*s].end_face = true;
   }
   for (std::size_t k = 1; k < d.outer.size(); ++k) {
-    const std::string id = d.outer[k - 1].id + "|" + d.outer[k].id;
-    if (!face_named(d, id) || d.outer[k - 1].right_mm == d.outer[k].left_mm) continue;
-    const std::size_t larger = d.outer[k - 1].right_mm > d.outer[k].left_mm ? k - 1 : k;
-    const std::size_t smaller = larger == k ? k - 1 : k;
-    for (auto& work : a.setups)
-      if (std::find(work.elements.begin(), work.elements.end(), smaller) !=
-          work.elements.end())
-        work.shoulders.push_back(k);
+    const auto id = shoulder_id(d, k);
+    const auto &before = d.outer[k - 1], &after = d.outer[k];
+    if (!face_named(d, id) || before.right_mm == after.left_mm) continue;
+    const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
+    const auto s = place(
+        p, id, "it is made with its smaller element",
+        [&](std::size_t i) {
+          const auto& e = a.setups[i].elements;
+          return std::find(e.begin(), e.end(), smaller) != e.end();
+        },
+        a);
+    if (s) a.setups[*s].shoulders.push_back(k);
   }
 }
 
 }  // namespace
 
+Finished nothing_finished(const part::Drawing& d) {
+  return {std::vector<bool>(d.outer.size()), std::vector<bool>(d.inner.size())};
+}
+
+void finish(Finished& finished, const SetupWork& work) {
+  for (const std::size_t i : work.elements) finished.outer[i] = true;
+  for (const std::size_t i : work.bores) finished.inner[i] = true;
+}
+
+std::string shoulder_id(const part::Drawing& d, std::size_t k) {
+  return d.outer[k - 1].id + "|" + d.outer[k].id;
+}
+
+const char* free_face(const PartPlan& p, std::size_t s) {
+  return holds_left(p, s) ? "right" : "left";
+}
+
 Assignment assign(const PartPlan& p) {
   Assignment a;
   a.setups.resize(p.setups.size());
   const auto& outer = drawing(p).outer;
-  for (std::size_t i = 0; i < outer.size(); ++i) {
-    std::size_t s = 0;
-    while (s < p.setups.size() && !reachable(p, s, i)) ++s;
-    if (s < p.setups.size())
-      a.setups[s].elements.push_back(i);
-    else
-      a.unreachable.push_back("element " + outer[i].id +
-                              " cannot be cut in any setup: it lies in the jaws, or "
-                              "behind a larger diameter");
-  }
+  for (std::size_t i = 0; i < outer.size(); ++i)
+    if (const auto s = place(
+            p, outer[i].id, "it lies in the jaws, or behind a larger diameter",
+            [&](std::size_t k) { return reachable(p, k, i); }, a))
+      a.setups[*s].elements.push_back(i);
+  const auto& inner = drawing(p).inner;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    if (const auto s = place(
+            p, inner[i].id, "its end is held, or it lies behind a narrower bore",
+            [&](std::size_t k) { return bore_reachable(p, k, i); }, a))
+      a.setups[*s].bores.push_back(i);
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     if (holds_left(p, s))
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
@@ -127,50 +193,79 @@ double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
 }
 
 SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
-                     const std::vector<bool>& finished)
+                     const Finished& finished)
     : plan_(&p),
       root_z_(root_z_mm(p, s, clamping)),
       sign_(holds_left(p, s) ? 1 : -1),
       length_(sign_ * (free_z_mm(p, s) - root_z_)) {
   const auto& d = drawing(p);
   const double stock = d.stock.outer_mm, far = 1e9;
-  const double L = part::length_mm(d);
-  zones_.push_back({-far, 0, stock, stock, kNone});
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const double z0 = part::left_z_mm(d, i);
     const auto& e = d.outer[i];
-    zones_.push_back({z0, z0 + e.length_mm, finished[i] ? e.left_mm : stock,
-                      finished[i] ? e.right_mm : stock, i});
+    outer_.push_back({z0, z0 + e.length_mm, finished.outer[i] ? e.left_mm : stock,
+                      finished.outer[i] ? e.right_mm : stock});
   }
-  zones_.push_back({L, far, stock, stock, kNone});
+  outer_.push_back({-far, 0, stock, stock});
+  outer_.push_back({part::length_mm(d), far, stock, stock});
+  const double hole = d.stock.inner_mm;
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z0 = part::inner_left_z_mm(d, i);
+    const auto& e = d.inner[i];
+    inner_.push_back({z0, z0 + e.length_mm, finished.inner[i] ? e.left_mm : hole,
+                      finished.inner[i] ? e.right_mm : hole});
+  }
+  inner_.push_back({-far, far, hole, hole});  // where no element is
 }
 
-part::Shaft SetupBody::shaft(std::size_t element, double offset_mm) const {
-  const double inner = drawing(*plan_).stock.inner_mm;
+part::Shaft SetupBody::shaft(const std::vector<Zone>& outer,
+                             const std::vector<Zone>& inner) const {
   const double low = std::min(root_z_, root_z_ + sign_ * length_);
-  const double high = low + length_;
+  std::vector<double> ends{low, low + length_};
+  for (const auto* zones : {&outer, &inner})
+    for (const auto& zone : *zones)
+      for (const double z : {zone.z0, zone.z1})
+        if (z > ends[0] && z < ends[1]) ends.push_back(z);
+  std::sort(ends.begin(), ends.end());
+  // The first zone about a place counts; elements stand before what is beside them.
+  const auto zone_at = [](const std::vector<Zone>& zones, double z) {
+    return *std::find_if(zones.begin(), zones.end(),
+                         [&](const Zone& zone) { return zone.z0 <= z && z <= zone.z1; });
+  };
+  const auto diameter = [](const Zone& zone, double z) {
+    return zone.d0 + (zone.d1 - zone.d0) * (z - zone.z0) / (zone.z1 - zone.z0);
+  };
+  const double hole = drawing(*plan_).stock.inner_mm;
   part::Shaft shaft{plan_->material.E_MPa, plan_->material.nu, {}};
-  for (const auto& zone : zones_) {
-    const double z0 = std::max(zone.z0, low), z1 = std::min(zone.z1, high);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    double z0 = ends[k], z1 = ends[k + 1];
     if (!(z1 - z0 > 1e-9)) continue;
-    double d0 = zone.d0, d1 = zone.d1;
-    if (zone.element != kNone && zone.element == element) {
-      const auto& e = drawing(*plan_).outer[element];
-      d0 = e.left_mm + 2 * offset_mm;
-      d1 = e.right_mm + 2 * offset_mm;
-    }
-    const auto at = [&](double z) {
-      return d0 + (d1 - d0) * (z - zone.z0) / (zone.z1 - zone.z0);
-    };
-    part::Segment segment{z1 - z0, at(z0), at(z1), inner, inner};
-    if (sign_ < 0) std::swap(segment.outer_left_mm, segment.outer_right_mm);
-    shaft.segments.push_back(segment);
+    const auto o = zone_at(outer, (z0 + z1) / 2), i = zone_at(inner, (z0 + z1) / 2);
+    const double length = z1 - z0;
+    if (sign_ < 0) std::swap(z0, z1);
+    shaft.segments.push_back({length, diameter(o, z0), diameter(o, z1),
+                              std::max(hole, diameter(i, z0)),
+                              std::max(hole, diameter(i, z1))});
   }
   if (sign_ < 0) std::reverse(shaft.segments.begin(), shaft.segments.end());
   return shaft;
 }
 
-part::Shaft SetupBody::shaft() const { return shaft(kNone, 0); }
+part::Shaft SetupBody::shaft(const Element& element, double left_mm) const {
+  auto outer = outer_, inner = inner_;
+  const auto leave = [&](Zone& zone, const auto& e, double more) {
+    zone.d0 = e.left_mm + more;
+    zone.d1 = e.right_mm + more;
+  };
+  const auto& d = drawing(*plan_);
+  if (element.inner)
+    leave(inner[element.index], d.inner[element.index], -2 * left_mm);
+  else
+    leave(outer[element.index], d.outer[element.index], 2 * left_mm);
+  return shaft(outer, inner);
+}
+
+part::Shaft SetupBody::shaft() const { return shaft(outer_, inner_); }
 
 Planes planes(const catalogue::Lathe& m, Clamping clamping) {
   const auto root = [](const catalogue::RootCompliance& c) {

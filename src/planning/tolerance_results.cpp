@@ -13,6 +13,11 @@ using part::ToleranceKind;
 
 constexpr double kOver = 1e-9;  // of a tolerance: what an optimum may be over its limit
 
+Feature::Table correction(const SolvedFeature& f) {
+  return f.task.feature.corrections(f.answer.model->recipe(), f.task.economy,
+                                    f.answer.choice);
+}
+
 struct Found {
   const SolvedFeature* feature = nullptr;
   const Demand* demand = nullptr;
@@ -34,15 +39,22 @@ tolerance::Profile profile(const Found& f) {
   return f.feature->answer.profile;
 }
 
+// With the tool's path corrected where the plan says so.
+tolerance::Profile as_made(const Found& f) {
+  if (!f.feature || !f.feature->compensated) return profile(f);
+  const auto& a = f.feature->answer;
+  const auto& task = f.feature->task;
+  return task.feature.corrected_profile(a.model->recipe(), task.economy, a.choice,
+                                        correction(*f.feature));
+}
+
 // The tolerance less the machine's share, as tolerance/ judges it; sizes about the middle
 // that the tool is programmed to.
-tolerance::Case judged(const Tolerance& t, const Found& at, const Found& other,
-                       double share_mm, double half_angle) {
+tolerance::Case judged(const Tolerance& t, const Found& at, double share_mm,
+                       double half_angle) {
   tolerance::Case c;
   c.kind = t.kind;
   c.half_angle_rad = half_angle;
-  c.e_mm = profile(at);
-  c.other_mm = profile(other);
   const bool bare = !at.demand || at.demand->shape == Demand::Shape::none;
   if (t.limits) {
     const double half = (t.limits->upper_mm - t.limits->lower_mm - share_mm) / 2;
@@ -58,17 +70,99 @@ tolerance::Case judged(const Tolerance& t, const Found& at, const Found& other,
   return c;
 }
 
+tolerance::Verdict verdict(tolerance::Case c, tolerance::Profile e,
+                           tolerance::Profile other) {
+  c.e_mm = std::move(e);
+  c.other_mm = std::move(other);
+  if (c.limits && tolerance::empty(c.e_mm)) std::swap(c.e_mm, c.other_mm);
+  return tolerance::verdict(c);
+}
+
 // Relative standard deviation of the error: force and stiffness multiply it.
 double spread(const PartPlan& p) {
   return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
          100;
 }
 
-// P(value (1 + spread Z) <= limit), Z normal.
-double conformance(double value, double limit, double spread) {
-  if (!(value > 0)) return limit >= 0 ? 1 : 0;
-  if (!(spread > 0)) return value <= limit ? 1 : 0;
-  return boost::math::erfc(-(limit / value - 1) / spread / std::sqrt(2.0)) / 2;
+// P(value + scatter Z <= limit), Z normal.
+double conformance(double value, double limit, double scatter) {
+  if (!(scatter > 0)) return value <= limit ? 1 : 0;
+  return boost::math::erfc(-(limit - value) / scatter / std::sqrt(2.0)) / 2;
+}
+
+// What is compared, and against what: of a size the deviation that goes furthest from the
+// middle of its limits.
+struct Compared {
+  double value_mm = 0, limit_mm = 0;
+};
+Compared compared(const tolerance::Case& c, const tolerance::Verdict& v) {
+  if (!c.limits) return {v.measured_mm, v.allowed_mm};
+  const double factor = c.kind == ToleranceKind::diameter ? 2 : 1;
+  return {factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm),
+          c.limits->upper_mm};
+}
+
+double width_mm(const Tolerance& t) {
+  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
+// The machine alone needs more than there is.
+void used_up(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
+  const double share_mm = units::mm_from_um(p.machine_share_um);
+  r.verdict = Verdict::not_met;
+  r.seed_verdict = false;
+  r.predicted_mm = {share_mm};
+  r.allowed_mm = {width_mm(t)};
+  r.margin_mm = width_mm(t) - share_mm;
+  r.P_conform = 0;
+}
+
+void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
+             ToleranceResult& r) {
+  const double share_mm = units::mm_from_um(p.machine_share_um);
+  const auto c = judged(t, at, share_mm, half_angle_rad(p.drawing, t.of).value_or(0));
+  const auto cut = verdict(c, profile(at), profile(other));
+  const bool corrected = (at.feature && at.feature->compensated) ||
+                         (other.feature && other.feature->compensated);
+  const auto made = corrected ? verdict(c, as_made(at), as_made(other)) : cut;
+  r.seed_verdict = cut.seed_verdict;
+  r.margin_mm = made.margin_mm;
+  const double rounding = kOver * width_mm(t);
+  r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
+              : cut.margin_mm < -rounding ? Verdict::met_with_offset
+                                          : Verdict::met;
+  const auto before = compared(c, cut), after = compared(c, made);
+  const double cut_mm = std::max(0.0, made.measured_mm - c.machine_mm);
+  r.shares.insert(r.shares.begin(), {"deflection", units::um_from_mm(cut_mm)});
+  if (t.limits) {
+    const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+    const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
+    r.predicted_mm = {middle + factor * made.extremes_mm.min_mm,
+                      middle + factor * made.extremes_mm.max_mm};
+    r.allowed_mm = {t.limits->lower_mm + share_mm / 2, t.limits->upper_mm - share_mm / 2};
+  } else {
+    r.predicted_mm = {made.measured_mm};
+    r.allowed_mm = {made.allowed_mm};
+  }
+  // What is not known of forces and stiffness is not known of a correction either.
+  r.P_conform = cut_mm > 0 || corrected ? conformance(after.value_mm, after.limit_mm,
+                                                      spread(p) * before.value_mm)
+                                        : (made.accepted ? 1 : 0);
+}
+
+// Of surfaces left as the stock has them only the machine's share is predicted.
+void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
+  if (!t.limits) {
+    r.predicted_mm = {units::mm_from_um(p.machine_share_um)};
+    r.allowed_mm = {t.value_mm};
+    r.margin_mm = r.allowed_mm[0] - r.predicted_mm[0];
+    return;
+  }
+  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+  const double half = (width_mm(t) - units::mm_from_um(p.machine_share_um)) / 2;
+  r.predicted_mm = {middle, middle};
+  r.allowed_mm = {middle - half, middle + half};
+  r.margin_mm = half;
 }
 
 }  // namespace
@@ -76,99 +170,57 @@ double conformance(double value, double limit, double spread) {
 std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
                                                const std::vector<SolvedSetup>& setups) {
   std::vector<ToleranceResult> all;
-  const double share_mm = units::mm_from_um(p.machine_share_um);
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
     const auto& t = p.drawing.tolerances[i];
     const bool length = t.kind == ToleranceKind::length;
     const Found at = find(setups, length ? t.between[1] : t.of, i);
     const Found other = length ? find(setups, t.between[0], i) : Found{};
-    double half_angle = 0;
-    for (const auto& e : p.drawing.outer)
-      if (e.id == t.of) half_angle = half_angle_rad(e);
-
     ToleranceResult r;
     r.id = t.id;
     r.kind = t.kind;
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
-    const double width = t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
-    if (width - share_mm <= 0) {
-      r.verdict = Verdict::not_met;
-      r.seed_verdict = false;
-      r.predicted_mm = {share_mm};
-      r.allowed_mm = {width};
-      r.margin_mm = width - share_mm;
-      r.shares = {{"machine", p.machine_share_um}};
-      r.P_conform = 0;
-      all.push_back(std::move(r));
-      continue;
-    }
-    const bool used_offset = (at.feature && at.feature->compensated) ||
-                             (other.feature && other.feature->compensated);
-    const auto c = judged(t, at, other, share_mm, half_angle);
-    const bool no_error = tolerance::empty(c.e_mm) && tolerance::empty(c.other_mm);
-    if (t.limits && no_error) {  // an end left as the stock has it: nothing is predicted
-      r.predicted_mm = {0, 0};
-      r.allowed_mm = {t.limits->lower_mm, t.limits->upper_mm};
-      r.shares = {{"machine", p.machine_share_um}};
-      all.push_back(std::move(r));
-      continue;
-    }
-    tolerance::Case full = c;
-    if (t.limits && tolerance::empty(full.e_mm)) std::swap(full.e_mm, full.other_mm);
-    const auto v = tolerance::verdict(full);
-    r.seed_verdict = v.seed_verdict;
-    r.margin_mm = used_offset ? v.margin_after_offset_mm : v.margin_mm;
-    const bool kept = r.margin_mm >= -kOver * width;
-    r.verdict = !kept         ? Verdict::not_met
-                : used_offset ? Verdict::met_with_offset
-                              : Verdict::met;
-    const double cut_um =
-        std::max(0.0, units::um_from_mm(v.measured_mm) - units::um_from_mm(c.machine_mm));
-    r.shares = {{"deflection", cut_um}, {"machine", p.machine_share_um}};
-    double value = v.measured_mm, limit = v.allowed_mm;
-    if (t.limits) {
-      const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
-      const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
-      double low = factor * v.extremes_mm.min_mm, high = factor * v.extremes_mm.max_mm;
-      if (used_offset) {
-        const double centre = (low + high) / 2;
-        low -= centre;
-        high -= centre;
-      }
-      r.predicted_mm = {middle + low, middle + high};
-      r.allowed_mm = {t.limits->lower_mm + share_mm / 2,
-                      t.limits->upper_mm - share_mm / 2};
-      value = std::max(high, -low);
-      limit = c.limits->upper_mm;
-    } else {
-      r.predicted_mm = {v.measured_mm};
-      r.allowed_mm = {v.allowed_mm};
-    }
-    r.P_conform =
-        cut_um > 0 ? conformance(value, limit, spread(p)) : (v.accepted ? 1 : 0);
+    r.shares = {{"machine", p.machine_share_um}};
+    if (width_mm(t) <= units::mm_from_um(p.machine_share_um))
+      used_up(p, t, r);
+    else if (!at.feature && !other.feature)
+      left_as_stock(p, t, r);
+    else
+      predict(p, t, at, other, r);
     all.push_back(std::move(r));
   }
   return all;
 }
 
-std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups) {
-  constexpr int kPoints = 11;
-  std::vector<Compensation> all;
+std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups) {
+  constexpr int kPlaces = 21;
+  std::vector<Deviation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features) {
-      if (!f.compensated || !f.answer.feasible) continue;
+      if (!f.answer.model) continue;
       const auto& feature = f.task.feature;
+      const auto& recipe = f.answer.model->recipe();
       std::vector<double> places;
-      for (int k = 0; k < kPoints; ++k)
+      for (int k = 0; k < kPlaces; ++k)
         places.push_back(feature.low_mm() +
-                         (feature.high_mm() - feature.low_mm()) * k / (kPoints - 1));
-      const auto e = feature.errors(f.answer.model->recipe(), f.task.economy,
-                                    f.answer.choice, places);
-      Compensation c{feature.surface(), s.setup, {}};
+                         (feature.high_mm() - feature.low_mm()) * k / (kPlaces - 1));
+      const auto e =
+          f.compensated ? feature.corrected(recipe, f.task.economy, f.answer.choice,
+                                            places, correction(f))
+                        : feature.errors(recipe, f.task.economy, f.answer.choice, places);
+      Deviation d{feature.surface(), s.setup, {}};
       for (std::size_t k = 0; k < places.size(); ++k)
-        c.table_mm.emplace_back(places[k], -e[k]);
-      all.push_back(std::move(c));
+        d.table_mm.emplace_back(places[k], e[k]);
+      all.push_back(std::move(d));
     }
+  return all;
+}
+
+std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups) {
+  std::vector<Compensation> all;
+  for (const auto& s : setups)
+    for (const auto& f : s.features)
+      if (f.compensated && f.answer.feasible)
+        all.push_back({f.task.feature.surface(), s.setup, correction(f)});
   return all;
 }
 

@@ -34,7 +34,10 @@ bool flag(const ordered_json& parent, const char* key) {
 std::string shown(std::optional<double> value, int decimals) {
   if (!value) return "-";
   if (!(std::abs(*value) < 1e7)) return fmt::format("{:.4g}", *value);
-  return fmt::format("{:.{}f}", *value + 0.0, decimals);  // + 0.0: no "-0"
+  auto text = fmt::format("{:.{}f}", *value, decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-')
+    text.erase(0, 1);  // nothing has no sign
+  return text;
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between) {

@@ -23,7 +23,7 @@ std::string header(const ordered_json& result) {
   const auto name = word(result, "name");
   std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
   if (word(result, "status") == "infeasible") {
-    out += paragraph("status  ", "infeasible: no plan keeps every limit");
+    out += paragraph("status  ", "infeasible");
     if (const auto c = result.find("certificate"); c != result.end())
       out += paragraph("proof   ", proof(*c));
   } else {

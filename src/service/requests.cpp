@@ -79,12 +79,41 @@ ordered_json plan(const json& request, const Context& context) {
   return document::to_json(planning::plan(part.plan), part.assumed);
 }
 
+ordered_json predict(const json& request, const Context& context) {
+  const auto part = document::load_part_plan(request, context.catalogue, "predict",
+                                             document::Purpose::predict);
+  return document::to_json(planning::predict(part.plan), part.assumed);
+}
+
+constexpr const char* kPredictExample = R"({
+  "format": "turnwright-part/1", "name": "Pin", "material": "C45",
+  "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
+  "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 32},
+            {"id": "d2", "kind": "cylinder", "length_mm": 50, "diameter_mm": 30,
+             "fit": "h9", "Ra_um": 3.2}],
+  "machine": "lathe-small",
+  "setups": [{"hold": "left", "grip_mm": 20, "clampings": ["chuck"]},
+             {"hold": "right", "grip_mm": 40, "clampings": ["chuck"]}],
+  "operations": [
+    {"id": "f1", "setup": 0, "kind": "face", "on": ["right"], "tool": "PCLNL-CNMG120408-PM",
+     "conditions": {"passes": 1, "ap_mm": 2, "f_mm_rev": 0.2, "vc_m_min": 200}},
+    {"id": "r2", "setup": 0, "kind": "rough", "on": ["d2"], "tool": "PCLNL-CNMG120408-PM",
+     "conditions": {"passes": 1, "ap_mm": 2, "f_mm_rev": 0.3, "vc_m_min": 180}},
+    {"id": "e2", "setup": 0, "kind": "finish", "on": ["d2"], "tool": "PDJNL-DNMG150604-PF",
+     "conditions": {"passes": 1, "ap_mm": 0.5, "f_mm_rev": 0.15, "vc_m_min": 220}},
+    {"id": "f2", "setup": 1, "kind": "face", "on": ["left"], "tool": "PCLNL-CNMG120408-PM",
+     "conditions": {"passes": 1, "ap_mm": 2, "f_mm_rev": 0.2, "vc_m_min": 200}},
+    {"id": "e1", "setup": 1, "kind": "finish", "on": ["d1"], "tool": "PDJNL-DNMG150604-PF",
+     "conditions": {"passes": 1, "ap_mm": 1.5, "f_mm_rev": 0.2, "vc_m_min": 200}}]})";
+
 }  // namespace
 
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
        report::text},
+      {"predict", "part plan with conditions given -> deviations and verdicts",
+       kPredictExample, predict, report::text},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -1,6 +1,7 @@
 #include "turnwright/document/catalogue.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -32,7 +33,9 @@ std::string problems_of(T (*read)(Reader), const nlohmann::json& json) {
 /// A data folder of our own, gone at the end of the test.
 class Folder {
  public:
-  Folder() : path_(fs::path(testing::TempDir()) / "turnwright_catalogue_test") {
+  Folder()  // tests run side by side, each in its own process
+      : path_(fs::path(testing::TempDir()) /
+              ("turnwright_catalogue_test_" + std::to_string(::getpid()))) {
     fs::remove_all(path_);
     for (const auto* kind : {"materials", "tools", "machines"})
       fs::create_directories(path_ / kind);

@@ -1,5 +1,6 @@
 // Every document of tests/data/malformed is refused with exactly the text beside it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -62,7 +63,8 @@ TEST(Malformed, APathThatIsNoFileIsRefused) {
 }
 
 TEST(Malformed, OneByteTooManyIsRefused) {
-  const auto file = fs::path(testing::TempDir()) / "turnwright_too_large.json";
+  const auto file = fs::path(testing::TempDir()) /
+                    ("turnwright_too_large_" + std::to_string(::getpid()) + ".json");
   std::ofstream(file) << std::string(ParseLimits{}.bytes, ' ') << '1';
   EXPECT_STREQ(refusal(file).what(),
                "part.json: document: got 2000001 bytes, expected at most 2000000 bytes");

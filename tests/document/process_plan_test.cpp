@@ -54,6 +54,7 @@ ProcessPlan every_field() {
   form.allowed_mm = {0.01};
   form.verdict = Verdict::not_met;
   p.tolerances = {size, form};
+  p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
   p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
   p.prices = {{"d1: diameter", 26, "mm", 27, "saves"}};
   p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash"}};
@@ -88,6 +89,7 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("predicted_mm":0.004,"allowed_mm":0.01,"margin_mm":0.01,"verdict":"not-met",)"
       R"("seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
       R"("P_conform":0.99}],)"
+      R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
       R"("compensation":[{"on":"d1","setup":1,"table_mm":[[22.0,23.0],[24.0,25.0]]}],)"
       R"("prices":[{"limit":"d1: diameter","now":26.0,"unit":"mm",)"
       R"("saves_per_part_for_10_percent":27.0,"sentence":"saves"}],)"

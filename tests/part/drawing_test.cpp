@@ -27,6 +27,19 @@ TEST(Drawing, ElementsStandOneAfterTheOther) {
   EXPECT_THROW(left_z_mm(d, 3), std::domain_error);
 }
 
+TEST(Drawing, BoresGoInwardsFromTheirEnd) {
+  Drawing d = three_steps();  // 162 long
+  d.inner = {{.id = "r1", .from = End::right, .length_mm = 30},
+             {.id = "l1", .from = End::left, .length_mm = 12},
+             {.id = "r2", .from = End::right, .length_mm = 50},
+             {.id = "l2", .from = End::left, .length_mm = 8}};
+  EXPECT_EQ(inner_left_z_mm(d, 0), 132);
+  EXPECT_EQ(inner_left_z_mm(d, 1), 0);
+  EXPECT_EQ(inner_left_z_mm(d, 2), 82);
+  EXPECT_EQ(inner_left_z_mm(d, 3), 12);
+  EXPECT_THROW(inner_left_z_mm(d, 4), std::domain_error);
+}
+
 TEST(Drawing, AllowancesAndPartFillTheStock) {
   const Drawing d = three_steps();
   EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162

@@ -4,6 +4,7 @@
 
 #include "parts.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/cutting/cut.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -194,6 +195,318 @@ TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
   EXPECT_EQ(held.setups[0].clamping, Clamping::chuck_tailstock);
   ASSERT_EQ(held.setups[0].rejected.size(), 1u);
   EXPECT_EQ(held.setups[0].rejected[0].clamping, Clamping::chuck);
+}
+
+// A pin of one diameter in the chuck, both operations given.
+nlohmann::json given_pin(const std::string& direction) {
+  auto d = long_pin({"chuck"});
+  d["outer"][1]["limits_mm"] = {-0.2, 0.2};
+  d["outer"][1]["diameter_mm"] = 40.5;
+  d["outer"][0]["diameter_mm"] = 41;
+  const auto tool = "PDJNL-DNMG150604-PF";
+  d["operations"] = {
+      {{"id", "a"}, {"setup", 0}, {"kind", "face"}, {"on", {"right"}}},
+      {{"id", "b"},
+       {"setup", 0},
+       {"kind", "finish"},
+       {"on", {"d2"}},
+       {"tool", tool},
+       {"direction", direction},
+       {"conditions", {{"f_mm_rev", 0.1}}}},
+      {{"id", "c"}, {"setup", 1}, {"kind", "face"}, {"on", {"left"}}},
+      {{"id", "d"}, {"setup", 1}, {"kind", "finish"}, {"on", {"d1"}}, {"tool", tool}}};
+  return d;
+}
+
+const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
+  for (const auto& t : p.tolerances)
+    if (t.id == id) return t;
+  throw std::out_of_range(id);
+}
+
+// What a force and a couple do at the end of a stepped cantilever of cylinders.
+struct Stretch {
+  double length, outer, inner = 0;
+};
+struct Tip {
+  double ww, wp, twist;
+};
+Tip tip(const std::vector<Stretch>& stretches, double E, double nu,
+        const catalogue::RootCompliance& root) {
+  double a = 0;
+  for (const auto& s : stretches) a += s.length;
+  Tip t{root.c0_mm_N + 2 * root.c1_rad_N * a + root.c2_rad_Nmm * a * a,
+        root.c1_rad_N + root.c2_rad_Nmm * a, 0};
+  const double G = E / (2 * (1 + nu));
+  double far = a;
+  for (const auto& s : stretches) {
+    const double near = far - s.length, m2 = std::pow(s.inner / s.outer, 2);
+    const double I = units::kPi * (std::pow(s.outer, 4) - std::pow(s.inner, 4)) / 64;
+    const double A = units::kPi * (s.outer * s.outer - s.inner * s.inner) / 4;
+    const double chi = ((7 + 6 * nu) * (1 + m2) * (1 + m2) + (20 + 12 * nu) * m2) /
+                       (6 * (1 + nu) * (1 + m2) * (1 + m2));  // Cowper
+    t.ww +=
+        (std::pow(far, 3) - std::pow(near, 3)) / (3 * E * I) + chi * s.length / (G * A);
+    t.wp += (far * far - near * near) / (2 * E * I);
+    t.twist += s.length / (G * 2 * I);
+    far = near;
+  }
+  return t;
+}
+
+// In the chuck, what stands at the tool's root side is stock when it goes towards the
+// chuck and the finished pin when it comes from there.
+//   e = law(ap - e),  law = (f_ww + c_rr) Fp -+ f_wp Ff D/2 + c_rt Fc + (f_ww,t Fc)^2/D
+TEST(Plan, AFinishingCutAloneYieldsAsItsDirectionSays) {
+  for (const std::string direction : {"to-chuck", "from-chuck"}) {
+    const auto p = part(given_pin(direction));
+    const auto r = plan(p);
+    ASSERT_EQ(r.status, PlanStatus::ok) << direction;
+    const auto& o = operation(r, "b");
+    ASSERT_EQ(o.passes.size(), 1u);
+    const auto& pass = o.passes[0];
+    EXPECT_NEAR(pass.ap_mm, 0.75, 1e-12);
+
+    // From the jaws at z = 29 on, 11 mm of d1 are stock whatever d2 is.
+    const double D = 40.5, d = direction == "to-chuck" ? 42 : D;
+    const auto& m = p.machine;
+    const auto at = [&](const catalogue::RootCompliance& root) {
+      return tip({{11, 42}, {160, d}}, p.material.E_MPa, p.material.nu, root);
+    };
+    const Tip radial = at(m.chuck.radial), tangential = at(m.chuck.tangential);
+    const double sign = direction == "to-chuck" ? -1 : 1;
+    const auto& tool = p.tools[1];
+    const auto cut = cutting::cut_of(p.material, tool);
+    double e = 0;  // by fixed point: the pin is stiff
+    for (int k = 0; k < 200; ++k) {
+      const auto F = cutting::forces_N(cut, 0.75 - e, 0.1);
+      const double slip = tangential.ww * F.Fc_N;
+      e = (radial.ww + m.tool_rr_mm_N) * F.Fp_N + sign * radial.wp * F.Ff_N * D / 2 +
+          m.tool_rt_mm_N * F.Fc_N + slip * slip / D;
+    }
+    EXPECT_NEAR(tolerance(r, "d2:diameter").predicted_mm[1], 2 * e, 1e-10) << direction;
+  }
+}
+
+nlohmann::json bush() {
+  auto d = pin();
+  d["stock"] = {{"kind", "tube"}, {"outer_mm", 64}, {"inner_mm", 36}, {"length_mm", 74}};
+  d["outer"][0]["length_mm"] = 20;
+  d["outer"][0]["diameter_mm"] = 62;
+  d["outer"][1]["diameter_mm"] = 60;
+  d["inner"] = {{{"id", "b"},
+                 {"kind", "cylinder"},
+                 {"from", "right"},
+                 {"length_mm", 50},
+                 {"diameter_mm", 40},
+                 {"fit", "H7"},
+                 {"Ra_um", 1.6}}};
+  d["setups"][0]["grip_mm"] = 15;
+  d["tools"].push_back("S25T-SCLCR-CCMT09T304-PF");
+  return d;
+}
+
+// The wall springs away from the corner and the bar away from the wall: both leave the
+// bore narrower, by m = law(ap - m) on the radius.
+TEST(Plan, ABoreComesOutNarrowerByWhatWallAndBarYield) {
+  const auto p = part(bush());
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  const auto& o = operation(r, "s0-bore-finish-b");
+  ASSERT_EQ(o.passes.size(), 1u);
+  const auto& pass = o.passes[0];
+  EXPECT_NEAR(pass.ap_mm, 2, 1e-12);
+  EXPECT_NEAR(pass.n_rpm, 1000 * pass.vc_m_min / (units::kPi * 40), 1e-9 * pass.n_rpm);
+
+  const auto& m = p.machine;
+  const auto at = [&](const catalogue::RootCompliance& root) {
+    return tip({{7, 64, 36}, {50, 60, 36}}, p.material.E_MPa, p.material.nu, root);
+  };
+  const Tip radial = at(m.chuck.radial), tangential = at(m.chuck.tangential);
+  const auto& tool = p.tools[2];
+  const double f = tool.bar->tip_offset_mm;
+  const Tip bar = tip({{72, 25, 6}, {16, 22, 6}}, 210000, 0.3, tool.bar->holder);
+  const auto cut = cutting::cut_of(p.material, tool);
+  double left = 0;
+  for (int k = 0; k < 200; ++k) {
+    const auto F = cutting::forces_N(cut, 2 - left, pass.f_mm_rev);
+    const double slip = (tangential.ww + bar.ww + f * f * bar.twist) * F.Fc_N;
+    left = (radial.ww + bar.ww + m.tool_rr_mm_N) * F.Fp_N +
+           (radial.wp * 20 - bar.wp * f) * F.Ff_N - m.tool_rt_mm_N * F.Fc_N -
+           slip * slip / 40;
+  }
+  const double middle = 0.025 / 2;  // of 40 H7
+  EXPECT_NEAR(tolerance(r, "b:diameter").predicted_mm[0], middle - 2 * left, 1e-10);
+}
+
+TEST(Plan, AHoleNoBarEntersIsTold) {
+  auto d = bush();
+  d["stock"]["inner_mm"] = 30;
+  d["inner"][0]["diameter_mm"] = 34;
+  const auto r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_FALSE(r.conflicts.empty());
+  EXPECT_NE(r.conflicts[0].sentence.find("b: no boring bar is thin and long enough"),
+            std::string::npos)
+      << r.conflicts[0].sentence;
+}
+
+TEST(Plan, WhatNoOperationMakesIsAConflict) {
+  auto d = given_pin("to-chuck");
+  d["operations"].erase(1);
+  auto r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_EQ(r.conflicts.size(), 1u);
+  EXPECT_EQ(r.conflicts[0].sentence,
+            "d2 has no operation: it would stay as the stock is");
+  d = given_pin("to-chuck");
+  d["operations"][1]["setup"] = 1;
+  r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_FALSE(r.conflicts.empty());
+  EXPECT_EQ(r.conflicts[0].sentence,
+            "d2 cannot be cut in the setup of its operations: it lies in the jaws, or "
+            "behind a larger diameter");
+  d = given_pin("to-chuck");
+  d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 3.2}}};
+  r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  d["operations"].push_back(
+      {{"id", "s"}, {"setup", 0}, {"kind", "face"}, {"on", {"d1|d2"}}});
+  r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(operation(r, "s").on, std::vector<std::string>{"d1|d2"});
+}
+
+TEST(Plan, RoughnessHoldsForTheLastOperationWhateverItIs) {
+  auto d = given_pin("to-chuck");
+  d["operations"][1]["kind"] = "rough";
+  d["operations"][1]["conditions"] = nlohmann::json::object();
+  d["outer"][1]["Ra_um"] = 0.8;
+  const auto r = planned(d);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  bool asked = false;
+  for (const auto& c : operation(r, "b").constraints)
+    if (c.name == "roughness Ra") {
+      asked = true;
+      EXPECT_EQ(c.limit, 0.8);
+      EXPECT_GE(c.margin, -1e-9);
+    }
+  EXPECT_TRUE(asked);
+}
+
+TEST(Plan, GivenConditionsOutsideTheToolsWindowAreAConflict) {
+  auto d = given_pin("to-chuck");
+  d["operations"][1]["conditions"]["f_mm_rev"] = 0.35;  // the tool takes 0.3 mm/rev
+  const auto r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  bool told = false;
+  for (const auto& c : r.conflicts) told = told || c.limit == "largest feed";
+  EXPECT_TRUE(told);
+}
+
+// The corrected path, followed with the law of yielding written anew: y = law(ap + s - y)
+// is what the pin springs back, y - s what is left of it on the radius.
+TEST(Plan, ACorrectedPathLeavesNothing) {
+  auto d = given_pin("to-chuck");
+  d["outer"][1]["limits_mm"] = {-0.006, 0.006};
+  const auto p = part(d);
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  ASSERT_EQ(r.compensation.size(), 1u);
+  const auto& t = tolerance(r, "d2:diameter");
+  EXPECT_EQ(t.verdict, Verdict::met_with_offset);
+  const auto& [z, dr] = r.compensation[0].table_mm.back();
+  EXPECT_EQ(z, 200);
+  const auto cut = cutting::cut_of(p.material, p.tools[1]);
+  const auto& pass = operation(r, "b").passes[0];
+  const auto F = cutting::forces_N(cut, pass.ap_mm, pass.f_mm_rev);
+  // At the end the whole depth is cut again, and springs back by just as much.
+  const double D = 40.5;
+  const auto at = [&](const catalogue::RootCompliance& root) {
+    return tip({{171, 42}}, p.material.E_MPa, p.material.nu, root);
+  };
+  const Tip radial = at(p.machine.chuck.radial);
+  const double slip = at(p.machine.chuck.tangential).ww * F.Fc_N;
+  const double s = (radial.ww + p.machine.tool_rr_mm_N) * F.Fp_N -
+                   radial.wp * F.Ff_N * D / 2 + p.machine.tool_rt_mm_N * F.Fc_N +
+                   slip * slip / D;
+  EXPECT_NEAR(dr, -s, 1e-10);
+  EXPECT_LT(t.predicted_mm[1] - t.predicted_mm[0], 1e-4);
+  EXPECT_LT(t.P_conform, 1);  // the correction is no more certain than the forces
+}
+
+// A plan's own conditions, given back whole.
+nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
+  d["operations"] = nlohmann::json::array();
+  for (std::size_t s = 0; s < r.setups.size(); ++s) {
+    d["setups"][s]["clampings"] = {name(r.setups[s].clamping)};
+    for (const auto& o : r.setups[s].operations)
+      d["operations"].push_back({{"id", o.id},
+                                 {"setup", s},
+                                 {"kind", name(o.kind)},
+                                 {"on", o.on},
+                                 {"tool", o.tool},
+                                 {"direction", name(o.direction)},
+                                 {"conditions",
+                                  {{"passes", o.passes.size()},
+                                   {"ap_mm", o.passes[0].ap_mm},
+                                   {"f_mm_rev", o.passes[0].f_mm_rev},
+                                   {"vc_m_min", o.passes[0].vc_m_min}}}});
+  }
+  return d;
+}
+
+PartPlan part_to_predict(const nlohmann::json& document) {
+  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
+      .plan;
+}
+
+TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
+  for (const auto* part_name : {"gearbox-input-shaft", "piston-rod", "spindle-nose"}) {
+    const auto document = reference_part(part_name);
+    const auto planned_part = planned(document);
+    const auto r = predict(part_to_predict(as_planned(document, planned_part)));
+    EXPECT_EQ(r.status, PlanStatus::ok) << part_name;
+    EXPECT_NEAR(r.cost_per_part, planned_part.cost_per_part, 1e-9) << part_name;
+    EXPECT_NEAR(r.time_per_part_min, planned_part.time_per_part_min, 1e-9) << part_name;
+    ASSERT_EQ(r.tolerances.size(), planned_part.tolerances.size());
+    for (std::size_t i = 0; i < r.tolerances.size(); ++i) {
+      const auto &a = r.tolerances[i], &b = planned_part.tolerances[i];
+      EXPECT_NEAR(a.margin_mm, b.margin_mm, 1e-9) << part_name << ' ' << a.id;
+      EXPECT_EQ(a.verdict, b.verdict) << part_name << ' ' << a.id;
+    }
+  }
+}
+
+TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
+  auto d = as_planned(pin(), planned(pin()));
+  for (auto& o : d["operations"])
+    if (o["id"] == "s0-finish-d2") o["conditions"]["f_mm_rev"] = 0.29;
+  d["outer"][1]["limits_mm"] = {-0.001, 0.001};
+  d["machine_share_um"] = 0;
+  const auto r = predict(part_to_predict(d));
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  EXPECT_GT(r.cost_per_part, 0);
+  EXPECT_EQ(tolerance(r, "d2:diameter").verdict, Verdict::not_met);
+  bool roughness = false, size = false;
+  for (const auto& c : r.conflicts) {
+    roughness = roughness || c.limit == "roughness Ra";
+    size = size || c.limit == "d2:diameter diameter";
+  }
+  EXPECT_TRUE(roughness);
+  EXPECT_TRUE(size);
+}
+
+TEST(Predict, PassesThatDoNotAddUpAreTold) {
+  auto d = as_planned(pin(), planned(pin()));
+  for (auto& o : d["operations"])
+    if (o["id"] == "s0-finish-d2") o["conditions"]["ap_mm"] = 0.3;
+  const auto r = predict(part_to_predict(d));
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_EQ(r.conflicts.size(), 1u);
+  EXPECT_EQ(r.conflicts[0].sentence,
+            "d2: the given passes do not add up to the 5 mm to take off");
 }
 
 TEST(Plan, SameRequestSameBytes) {

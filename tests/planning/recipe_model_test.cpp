@@ -18,13 +18,13 @@ class Surfaces : public testing::TestWithParam<const char*> {
   void SetUp() override {
     plan_ = part(reference_part(GetParam()));
     const auto work = assign(plan_);
-    std::vector<bool> done(plan_.drawing.outer.size(), false);
+    auto done = nothing_finished(plan_.drawing);
     for (std::size_t s = 0; s < work.setups.size(); ++s) {
       for (const auto clamping : plan_.setups[s].clampings)
         for (const std::size_t i : work.setups[s].elements)
           add(Feature::element(plan_, s, clamping, work.setups[s], done, i, {}));
       if (work.setups[s].end_face) add(Feature::end_face(plan_, s, done, {}));
-      for (const std::size_t i : work.setups[s].elements) done[i] = true;
+      finish(done, work.setups[s]);
     }
     ASSERT_GT(models_.size(), 5u);
   }

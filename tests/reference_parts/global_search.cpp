@@ -48,12 +48,12 @@ std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Tool* rou
     for (std::size_t i = 0; i < (r ? ranges : 1); ++i)
       for (std::size_t j = 0; j < ranges; ++j) all.push_back({r, finish, nr, nf, i, j});
   };
-  // One finishing pass makes an element; a face may be made in several.
-  const bool element = f.kind() == Feature::Kind::element;
-  for (int n = 1; n <= (element ? 1 : most_passes(f.stock_mm(), *finish)); ++n)
-    add(nullptr, 0, n);
+  // At most two finishing passes make an element or a bore; a face may take more.
+  const int finishing = f.is_face() ? most_passes(f.stock_mm(), *finish) : 2;
+  for (int n = 1; n <= finishing; ++n) add(nullptr, 0, n);
   if (rough)
-    for (int n = 1; n <= most_passes(f.stock_mm(), *rough); ++n) add(rough, n, 1);
+    for (int nf = 1; nf <= finishing; ++nf)
+      for (int n = 1; n <= most_passes(f.stock_mm(), *rough); ++n) add(rough, n, nf);
   return all;
 }
 
@@ -61,7 +61,7 @@ std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Tool* rou
 class SetupSearch {
  public:
   SetupSearch(const PartPlan& p, std::size_t setup, Clamping clamping,
-              const planning::SetupWork& work, const std::vector<bool>& done,
+              const planning::SetupWork& work, const planning::Finished& done,
               const planning::Economy& economy, const Effort& effort)
       : p_(p), clamping_(clamping), economy_(economy), effort_(effort) {
     if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
@@ -71,6 +71,10 @@ class SetupSearch {
     }
     for (const std::size_t k : work.shoulders)
       features_.push_back(Feature::shoulder(p, setup, clamping, work, done, k, {}));
+    for (const std::size_t i : work.bores) {
+      auto f = Feature::bore(p, setup, clamping, work, done, i, {});
+      if (f.stock_mm() > 1e-9) features_.push_back(std::move(f));
+    }
   }
 
   /// With `Offset::free` the path of the tool may follow the error of a surface that the
@@ -81,7 +85,7 @@ class SetupSearch {
       if (c.bound >= best.objective) break;
       SetupFound s{clamping_, {}, 0, c.bound};
       for (std::size_t k = 0; k < features_.size() && s.objective < best.objective; ++k) {
-        const auto t = tools(k, c.face, c.rough, c.finish);
+        const auto t = tools(k, c);
         s.surfaces.push_back(solved(k, t, offset));
         s.objective += s.surfaces.back().objective - bounds(k, t).least;
       }
@@ -113,8 +117,8 @@ class SetupSearch {
   using Tools = std::pair<const Tool*, const Tool*>;
   using Key = std::tuple<std::size_t, const Tool*, const Tool*, Offset>;
   struct ToolChoice {
-    const Tool *face, *rough, *finish;
-    double bound;  // tolerances and tools brought in left out
+    const Tool *face, *rough, *finish, *bore_rough, *bore_finish;
+    double bound = 0;  // tolerances and tools brought in left out
   };
   struct Bounds {
     std::vector<std::pair<double, Recipe>>
@@ -122,32 +126,37 @@ class SetupSearch {
     double least = kInfinity;
   };
 
-  // One facing, one roughing (or none) and one finishing tool each, cheapest first.
+  // One facing, one roughing (or none), one finishing tool and as many for bores,
+  // cheapest first.
   std::vector<ToolChoice> choices() {
-    std::vector<ToolChoice> all;
-    auto rough = tools_for(p_, ToolUse::roughing);
-    rough.push_back(nullptr);
-    const auto or_none = [](std::vector<const Tool*> t) {
-      if (t.empty()) t.push_back(nullptr);
+    const auto list = [&](bool wanted, ToolUse use, bool none_too) {
+      auto t = wanted ? tools_for(p_, use) : std::vector<const Tool*>{};
+      if (t.empty() || none_too) t.push_back(nullptr);
       return t;
     };
-    for (const auto* x : or_none(tools_for(p_, ToolUse::facing)))
-      for (const auto* r : rough)
-        for (const auto* f : or_none(tools_for(p_, ToolUse::finishing))) {
-          double bound = economy_.minute * minutes(0);
-          for (std::size_t k = 0; k < features_.size(); ++k)
-            bound += bounds(k, tools(k, x, r, f)).least;
-          if (std::isfinite(bound)) all.push_back({x, r, f, bound});
-        }
+    const bool bores = std::any_of(features_.begin(), features_.end(), [](const auto& f) {
+      return f.kind() == Feature::Kind::bore;
+    });
+    std::vector<ToolChoice> all;
+    for (const auto* x : list(true, ToolUse::facing, false))
+      for (const auto* r : list(true, ToolUse::roughing, true))
+        for (const auto* f : list(true, ToolUse::finishing, false))
+          for (const auto* br : list(bores, ToolUse::boring, true))
+            for (const auto* bf : list(bores, ToolUse::boring, false)) {
+              ToolChoice c{x, r, f, br, bf, economy_.minute * minutes(0)};
+              for (std::size_t k = 0; k < features_.size(); ++k)
+                c.bound += bounds(k, tools(k, c)).least;
+              if (std::isfinite(c.bound)) all.push_back(c);
+            }
     std::sort(all.begin(), all.end(),
               [](const ToolChoice& a, const ToolChoice& b) { return a.bound < b.bound; });
     return all;
   }
 
-  Tools tools(std::size_t k, const Tool* face, const Tool* rough,
-              const Tool* finish) const {
-    const bool element = features_[k].kind() == Feature::Kind::element;
-    return element ? Tools{rough, finish} : Tools{nullptr, face};
+  Tools tools(std::size_t k, const ToolChoice& c) const {
+    if (features_[k].is_face()) return {nullptr, c.face};
+    const bool bore = features_[k].kind() == Feature::Kind::bore;
+    return bore ? Tools{c.bore_rough, c.bore_finish} : Tools{c.rough, c.finish};
   }
 
   const Bounds& bounds(std::size_t k, Tools t) {
@@ -217,7 +226,8 @@ class SetupSearch {
       if (o.on != std::vector{f.surface()}) continue;
       const auto tool = std::find_if(p_.tools.begin(), p_.tools.end(),
                                      [&](const Tool& t) { return t.id == o.tool; });
-      const bool rough = o.kind == planning::OperationKind::rough;
+      const bool rough = o.kind == planning::OperationKind::rough ||
+                         o.kind == planning::OperationKind::bore_rough;
       (rough ? r.rough : r.finish) = &*tool;
       (rough ? r.rough_passes : r.finish_passes) = static_cast<int>(o.passes.size());
       p.choice.v[i] = o.passes.front().vc_m_min;
@@ -246,8 +256,8 @@ class SetupSearch {
     return t;
   }
 
-  // The end face, all roughing, all finishing, the shoulders: a tool that differs from
-  // the one before is brought in.
+  // The end face, all roughing, all finishing, the shoulders, the bores: a tool that
+  // differs from the one before is brought in.
   int indexings(const SetupFound& s) const {
     std::string before;
     int count = 0;
@@ -257,8 +267,8 @@ class SetupSearch {
         before = tool;
       }
     };
-    for (const auto kind :
-         {Feature::Kind::end_face, Feature::Kind::element, Feature::Kind::shoulder})
+    for (const auto kind : {Feature::Kind::end_face, Feature::Kind::element,
+                            Feature::Kind::shoulder, Feature::Kind::bore})
       for (const bool rough : {true, false})
         for (std::size_t k = 0; k < features_.size(); ++k)
           if (features_[k].kind() == kind)
@@ -299,7 +309,7 @@ Found search(const PartPlan& p, const Effort& effort) {
   const auto economy = economy_of(p);
   const auto work = planning::assign(p);
   Found found;
-  std::vector<bool> done(p.drawing.outer.size(), false);
+  auto done = planning::nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     std::vector<SetupSearch> clampings;
     for (const Clamping c : p.setups[s].clampings)
@@ -314,7 +324,7 @@ Found search(const PartPlan& p, const Effort& effort) {
         if (one.objective < best.objective) best = std::move(one);
       }
     }
-    for (const std::size_t i : work.setups[s].elements) done[i] = true;
+    planning::finish(done, work.setups[s]);
     found.objective += best.objective;
     found.setups.push_back(std::move(best));
   }
@@ -326,14 +336,14 @@ Found as_planned(const PartPlan& p, const planning::ProcessPlan& plan) {
   const auto economy = economy_of(p);
   const auto work = planning::assign(p);
   Found found;
-  std::vector<bool> done(p.drawing.outer.size(), false);
+  auto done = planning::nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     auto compensation = plan.compensation;
     std::erase_if(compensation, [&](const auto& c) { return c.setup != s; });
     SetupSearch setup(p, s, plan.setups[s].clamping, work.setups[s], done, economy, {});
     found.setups.push_back(setup.as_planned(plan.setups[s], compensation));
     found.objective += found.setups.back().objective;
-    for (const std::size_t i : work.setups[s].elements) done[i] = true;
+    planning::finish(done, work.setups[s]);
   }
   return found;
 }

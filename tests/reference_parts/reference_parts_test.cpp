@@ -121,7 +121,9 @@ TEST_P(ReferencePart, HasTheSameBytesWhenPlannedAgain) {
 
 INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                          testing::Values("gearbox-input-shaft", "piston-rod",
-                                         "spindle-nose"),
+                                         "spindle-nose", "flanged-bush", "motor-shaft",
+                                         "pump-shaft", "iron-hub", "titanium-pin",
+                                         "aluminium-tube", "bearing-seat"),
                          [](const auto& at) {
                            std::string name = at.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -26,15 +26,18 @@ TEST(Listing, HoldsTheShippedCatalogue) {
                                    "AlMgSi", "C15", "C45", "CuZn39Pb3", "E295",
                                    "EN-GJL-250", "EN-GJS-500-7", "Inconel-718",
                                    "Ti-6Al-4V", "X2CrNiMoN22-5-3", "X5CrNi18-10"}));
-  EXPECT_GE(ids(list_tools(catalogue)).size(), 8u);
-  EXPECT_EQ(ids(list_machines(catalogue)),
-            (std::set<std::string>{"lathe-medium", "lathe-small"}));
+  EXPECT_GE(ids(list_tools(catalogue)).size(), 14u);
+  EXPECT_EQ(
+      ids(list_machines(catalogue)),
+      (std::set<std::string>{"lathe-heavy", "lathe-medium", "lathe-small", "turn-mill"}));
 }
 
 TEST(Listing, HoldsTheReferenceParts) {
   EXPECT_EQ(ids(list_parts(TURNWRIGHT_SOURCE_DIR)),
-            (std::set<std::string>{"gearbox-input-shaft", "infeasible-as-drawn",
-                                   "piston-rod", "spindle-nose"}));
+            (std::set<std::string>{"aluminium-tube", "bearing-seat", "flanged-bush",
+                                   "gearbox-input-shaft", "infeasible-as-drawn",
+                                   "iron-hub", "motor-shaft", "piston-rod", "pump-shaft",
+                                   "spindle-nose", "titanium-pin"}));
 }
 
 TEST(Listing, AFolderWithoutPartsHasNone) {

@@ -10,12 +10,6 @@ struct CurvePoint {
   double n_rpm = 0, P_kW = 0, M_Nm = 0;
 };
 
-/// Symmetric positive semi-definite root compliance [[c0, c1], [c1, c2]]: deflection and
-/// rotation of the part at the jaw face per unit force and couple there.
-struct RootCompliance {
-  double c0_mm_N = 0, c1_rad_N = 0, c2_rad_Nmm = 0;
-};
-
 struct CentreCompliance {
   double radial_mm_N = 0, tangential_mm_N = 0;
 };

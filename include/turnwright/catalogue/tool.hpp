@@ -14,6 +14,28 @@ struct Range {
   double lower = 0, upper = 0;
 };
 
+/// A stretch of a boring bar's shank, from the tool block outwards.
+struct BarSegment {
+  double length_mm = 0, diameter_mm = 0;
+  double bore_mm = 0;  ///< coolant bore, 0: none
+};
+
+/// Symmetric positive semi-definite compliance [[c0, c1], [c1, c2]] of what holds a body:
+/// deflection and rotation at its root per unit force and couple there.
+struct RootCompliance {
+  double c0_mm_N = 0, c1_rad_N = 0, c2_rad_Nmm = 0;
+};
+
+/// The shank of a boring tool.
+struct BoringBar {
+  double E_MPa = 0, nu = 0;
+  std::vector<BarSegment> segments;
+  double tip_offset_mm = 0;        ///< corner from the bar's axis
+  double min_bore_mm = 0;          ///< smallest hole it enters
+  RootCompliance holder;           ///< in both planes
+  std::optional<double> tip_mm_N;  ///< measured at the tip, in place of shank and holder
+};
+
 /// A turning tool: holder and insert, ISO 13399 symbols, and what its maker allows.
 struct Tool {
   std::string id, name;
@@ -27,12 +49,13 @@ struct Tool {
   double alpha_deg = 0;  ///< clearance
   double re_mm = 0;      ///< corner radius RE
   bool wiper = false;
-  Range f_mm_rev, ap_mm;  ///< chip-breaker window
-  Range vc_m_min;         ///< of the grade, all materials
-  double Fc_max_N = 0;    ///< strength of insert and holder
-  Range T_min;            ///< tool life window [min]
-  double change_min = 0;  ///< time to change a worn edge [min]
-  double edge_cost = 0;   ///< cost of one cutting edge
+  Range f_mm_rev, ap_mm;         ///< chip-breaker window
+  Range vc_m_min;                ///< of the grade, all materials
+  double Fc_max_N = 0;           ///< strength of insert and holder
+  Range T_min;                   ///< tool life window [min]
+  double change_min = 0;         ///< time to change a worn edge [min]
+  double edge_cost = 0;          ///< cost of one cutting edge
+  std::optional<BoringBar> bar;  ///< of a tool for boring
 };
 
 /// What an ISO 1832 designation of an indexable insert says about geometry.

@@ -28,7 +28,7 @@ struct OuterElement {
 
 enum class End { left, right };
 
-/// One inner element, listed from its end inwards.
+/// One inner element, listed from its end inwards; left_mm and right_mm along the part.
 struct InnerElement {
   std::string id;
   ElementKind kind = ElementKind::cylinder;
@@ -102,6 +102,8 @@ struct Drawing {
 double length_mm(const Drawing& drawing);
 /// Left end z [mm] of outer element i.
 double left_z_mm(const Drawing& drawing, std::size_t i);
+/// Left end z [mm] of inner element i.
+double inner_left_z_mm(const Drawing& drawing, std::size_t i);
 /// Material right of the finished right end [mm].
 double right_allowance_mm(const Drawing& drawing);
 

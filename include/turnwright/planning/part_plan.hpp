@@ -21,7 +21,7 @@ struct SetupRequest {
   std::vector<Clamping> clampings;   ///< candidates, at least one
 };
 
-enum class OperationKind { face, rough, finish };
+enum class OperationKind { face, rough, finish, bore_rough, bore_finish };
 const char* name(OperationKind kind);
 
 enum class Direction { to_chuck, from_chuck };
@@ -37,7 +37,7 @@ struct OperationRequest {
   std::string id;
   std::size_t setup = 0;
   OperationKind kind = OperationKind::rough;
-  std::vector<std::string> on;      ///< outer elements, or one end face
+  std::vector<std::string> on;      ///< elements, or one end face
   std::optional<std::string> tool;  ///< absent: chosen from the tools
   Direction direction = Direction::to_chuck;
   Conditions conditions;

@@ -91,6 +91,14 @@ struct Compensation {
       table_mm;  ///< (z, dr): add dr to the tool path radius
 };
 
+/// Error of a surface as it is made, corrected path included.
+struct Deviation {
+  std::string on;
+  std::size_t setup = 0;
+  std::vector<std::pair<double, double>>
+      table_mm;  ///< (z, or rho of a face; error of the radius, or along the axis)
+};
+
 struct Price {
   std::string limit;  ///< "d1: diameter", "rough d2: power", ...
   double now = 0;
@@ -118,11 +126,12 @@ enum class PlanStatus { ok, infeasible };
 
 struct ProcessPlan {
   PlanStatus status = PlanStatus::ok;
-  double cost_per_part = 0, time_per_part_min = 0;
+  double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
   std::optional<double> profit_per_min;
   Certificate certificate;
   std::vector<SetupPlan> setups;
   std::vector<ToleranceResult> tolerances;
+  std::vector<Deviation> deviations;
   std::vector<Compensation> compensation;
   std::vector<Price> prices;  ///< largest saving first
   std::vector<Conflict> conflicts;
@@ -131,5 +140,10 @@ struct ProcessPlan {
 
 /// Certified cheapest process plan of a part.
 ProcessPlan plan(const PartPlan& request);
+
+/// Deviations, margins, time and cost of a part whose operations are given whole, in the
+/// first clamping of each setup.  Nothing is optimised; limits that are not kept are
+/// `conflicts`, and the tolerances are judged all the same.
+ProcessPlan predict(const PartPlan& request);
 
 }  // namespace turnwright::planning

@@ -16,6 +16,21 @@ struct SetupWork {
   bool end_face = false;              ///< the face of the free end
   std::vector<std::size_t>
       shoulders;  ///< element k: the face "k-1|k", where the drawing asks
+  std::vector<std::size_t> bores;  ///< indices into drawing.inner
+};
+
+/// Which elements have their final diameters; the others are stock.
+struct Finished {
+  std::vector<bool> outer, inner;
+};
+Finished nothing_finished(const part::Drawing& drawing);
+/// With all that a setup cuts.
+void finish(Finished& finished, const SetupWork& work);
+
+/// One element, outer or inner.
+struct Element {
+  bool inner = false;
+  std::size_t index = 0;
 };
 
 struct Assignment {
@@ -27,9 +42,16 @@ struct Assignment {
 /// Gives every element to the first setup that can cut it: it lies outside the jaws and
 /// nothing between it and the free end is larger than it.  An end face goes to the first
 /// setup whose free end it is, if the stock leaves material there; a shoulder to the
-/// setup of its larger element, if a face, tolerance or roughness of the drawing names
-/// it.
+/// setup of its smaller element, if a face, tolerance or roughness of the drawing names
+/// it.  A bore goes to the first setup whose free end it opens to, if nothing before it
+/// is narrower.
+/// With given operations they say in which setup; what none of them makes is unreachable.
 Assignment assign(const PartPlan& plan);
+
+/// "d1|d2": the face between outer elements k-1 and k.
+std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
+/// "left" or "right": the end that a setup leaves free.
+const char* free_face(const PartPlan& plan, std::size_t setup);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
 double root_z_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
@@ -39,31 +61,32 @@ double free_z_mm(const PartPlan& plan, std::size_t setup);
 /// Diameter [mm] the jaws close on, 0 between centres.
 double grip_diameter_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
 
-/// The body from the root to the free end.  `finished` says per outer element whether it
-/// has its final diameters; the others are stock.  The end at the root is as the setups
-/// before left it.
+/// The body from the root to the free end; the end at the root is as the setups before
+/// left it.
 class SetupBody {
  public:
   SetupBody(const PartPlan& plan, std::size_t setup, Clamping clamping,
-            const std::vector<bool>& finished);
+            const Finished& finished);
 
   /// Distance from the root [mm], of a z of the part.
   double x_mm(double z_mm) const { return sign_ * (z_mm - root_z_); }
   double length_mm() const { return length_; }
 
-  /// The body with radius offsets [mm] on all of one outer element: what a pass leaves.
-  part::Shaft shaft(std::size_t element, double offset_mm) const;
+  /// The body with material of this thickness [mm] on all of one element: what a pass
+  /// leaves.  A hole is never narrower than the stock's.
+  part::Shaft shaft(const Element& element, double left_mm) const;
   /// The body as `finished` says.
   part::Shaft shaft() const;
 
  private:
   struct Zone {
     double z0, z1, d0, d1;  // left and right end and the diameters there
-    std::size_t element;
   };
+  part::Shaft shaft(const std::vector<Zone>& outer, const std::vector<Zone>& inner) const;
+
   const PartPlan* plan_;
   double root_z_, sign_, length_;
-  std::vector<Zone> zones_;
+  std::vector<Zone> outer_, inner_;  // one an element, then what is beside them
 };
 
 /// Supports of the radial and the tangential plane of a clamping on a lathe.

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <cmath>
+
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+constexpr double kThin = 0.2;  // wall over radius: below it a ring ovalises
+
+// Diameter of a list of elements beside z, on the side `towards` (+1: right); `beyond`
+// where there is none.
+template <class Element, class LeftEnd>
+double diameter_mm(const std::vector<Element>& elements, const LeftEnd& left_end,
+                   double z, double towards, double beyond) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const auto& e = elements[i];
+    const double u = (z - left_end(i)) / e.length_mm;
+    const double inwards = u + towards * 1e-9;
+    if (inwards > 0 && inwards < 1) return e.left_mm + (e.right_mm - e.left_mm) * u;
+  }
+  return beyond;
+}
+
+struct Wall {
+  double z_mm = 0, share = 1;  // of the radius
+};
+
+// Where the finished part is thinnest: at an end of some element, on one of its sides.
+Wall thinnest(const part::Drawing& d) {
+  std::vector<double> ends{0, part::length_mm(d)};
+  for (std::size_t i = 0; i < d.outer.size(); ++i) ends.push_back(part::left_z_mm(d, i));
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    for (const double u : {0.0, d.inner[i].length_mm})
+      ends.push_back(part::inner_left_z_mm(d, i) + u);
+  Wall wall;
+  for (const double z : ends)
+    for (const double side : {-1.0, 1.0}) {
+      const double outer = diameter_mm(
+          d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); }, z, side, 0);
+      const double inner = diameter_mm(
+          d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); }, z, side,
+          d.stock.inner_mm);
+      if (outer > 0 && 1 - inner / outer < wall.share) wall = {z, 1 - inner / outer};
+    }
+  return wall;
+}
+
+bool readable(const part::Drawing& d) {
+  const auto sound = [](const auto& e) {
+    return e.length_mm > 0 && e.left_mm > 0 && e.right_mm > 0;
+  };
+  return d.stock.outer_mm > 0 && std::all_of(d.outer.begin(), d.outer.end(), sound) &&
+         std::all_of(d.inner.begin(), d.inner.end(), sound);
+}
+
+void check_hole(const Reader& list, const part::Drawing& d) {
+  if (d.stock.kind == part::StockKind::bar) {
+    list.problem("bores in a bar", "stock of kind \"tube\": this version drills no hole",
+                 "unsupported");
+    return;
+  }
+  const auto items = list.as_items(0, d.inner.size());
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (std::min(d.inner[i].left_mm, d.inner[i].right_mm) < d.stock.inner_mm)
+      items[i].problem("a bore narrower than the tube's hole",
+                       "diameters of at least " + number_text(d.stock.inner_mm) + " mm",
+                       "conflict");
+}
+
+}  // namespace
+
+void check_bores(Draft& draft) {
+  const auto& d = draft.drawing();
+  if (!readable(d)) return;
+  const auto list = draft.root.find("inner");
+  double depth = 0;
+  for (const auto& e : d.inner) depth += e.length_mm;
+  if (!d.inner.empty()) check_hole(*list, d);
+  if (depth > part::length_mm(d) * (1 + 1e-12)) {
+    list->problem("bores of " + number_text(depth) + " mm in all",
+                  "at most the part's length, " + number_text(part::length_mm(d)) + " mm",
+                  "conflict");
+    return;
+  }
+  const Wall wall = thinnest(d);
+  const bool told = d.inner.empty() && wall.share <= 0;  // of the stock
+  if (wall.share >= kThin || told) return;
+  const Reader at = d.inner.empty() ? draft.root.at("stock") : *list;
+  at.problem("a wall of " + number_text(std::round(1e4 * wall.share) / 1e4) +
+                 " of the radius at z = " + number_text(wall.z_mm) + " mm",
+             "a wall of at least 0.2 of the radius: thinner ones ovalise, which a beam "
+             "does not show",
+             "conflict");
+}
+
+}  // namespace turnwright::document

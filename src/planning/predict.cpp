@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "setup_planner.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kBeyondRounding = 1e-9;
+
+double worst_violation(const RecipeModel& m, const Choice<double>& c) {
+  double worst = -std::numeric_limits<double>::infinity();
+  for (const auto& row : m.values(c)) worst = std::max(worst, violation(row));
+  return worst;
+}
+
+// The answer that given conditions are: in the speed ranges that suit them best.
+FeatureAnswer as_given(const FeatureTask& task) {
+  FeatureAnswer a;
+  a.least_violation = std::numeric_limits<double>::infinity();
+  const auto& fixed = task.feature.fixed();
+  for (const auto& recipe : task.recipes) {
+    auto chain = task.feature.chain(recipe, task.economy, {});
+    if (!chain) continue;
+    Choice<double> c{{1, 1}, {1, 1}, chain->a.lower};
+    for (std::size_t i = 0; i < chain->operations.size(); ++i) {
+      const auto& given = chain->operations[i].finishing ? fixed.finish : fixed.rough;
+      c.v[i] = *given.vc_m_min;
+      c.f[i] = *given.f_mm_rev;
+    }
+    auto m = std::make_shared<RecipeModel>(recipe, std::move(*chain));
+    const double worst = worst_violation(*m, c);
+    if (!(worst < a.least_violation)) continue;
+    a.feasible = true;
+    a.least_violation = worst;
+    a.choice = c;
+    a.model = std::move(m);
+  }
+  if (!a.model) return a;
+  a.objective = a.model->objective(a.choice);
+  a.multipliers.assign(a.model->rows().size(), 0);
+  a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
+  a.certificate.reason = "conditions as given";
+  return a;
+}
+
+void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) {
+  for (const auto& o : setup.operations)
+    for (const auto& c : o.constraints)
+      if (c.margin < -kBeyondRounding)
+        result.conflicts.push_back(
+            {c.name, fmt::format("setup {}, {}", index, o.id), c.value, c.limit, c.unit,
+             fmt::format("{}: {} is {} {} against {} {}", o.id, c.name, readable(c.value),
+                         c.unit, readable(c.limit), c.unit)});
+}
+
+}  // namespace
+
+ProcessPlan predict(const PartPlan& p) {
+  ProcessPlan result;
+  const auto work = assign(p);
+  add_obstacles(p, work, result);
+  auto done = nothing_finished(p.drawing);
+  std::vector<SolvedSetup> setups;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    FaceMemory faces;
+    SetupPlanner planner(p, s, p.setups[s].clampings.front(), work.setups[s], done,
+                         {p.machine_per_min, 1}, faces);
+    setups.push_back(planner.as_given(as_given));
+    finish(done, work.setups[s]);
+    SetupPlan setup;
+    setup.hold = p.setups[s].hold;
+    setup.clamping = p.setups[s].clampings.front();
+    setup.operations = operations_in_order(p, setups.back());
+    for (const auto& f : setups.back().features)
+      if (!f.answer.model)
+        result.conflicts.push_back(
+            {"depth of cut", fmt::format("setup {}", s), 0, 0, "mm", obstacle(p, f)});
+    add_broken(setup, s, result);
+    result.setups.push_back(std::move(setup));
+  }
+  result.certificate.reason = "conditions as given";
+  const bool whole =
+      work.unreachable.empty() &&
+      std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); });
+  if (whole) {
+    result.tolerances = tolerance_results(p, setups);
+    result.deviations = deviations(setups);
+    for (const auto& s : setups) {
+      const auto t = totals(p, s);
+      result.cost_per_part += t.cost;
+      result.time_per_part_min += t.minutes;
+    }
+    if (p.price)
+      result.profit_per_min =
+          (*p.price - result.cost_per_part) / result.time_per_part_min;
+  }
+  if (!result.conflicts.empty()) result.status = PlanStatus::infeasible;
+  return result;
+}
+
+}  // namespace turnwright::planning

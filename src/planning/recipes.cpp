@@ -1,0 +1,113 @@
+#include "recipes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::Tool;
+using catalogue::ToolUse;
+
+bool fits(const Tool& t, ToolUse use, catalogue::IsoGroup group) {
+  return std::find(t.uses.begin(), t.uses.end(), use) != t.uses.end() &&
+         std::find(t.groups.begin(), t.groups.end(), group) != t.groups.end();
+}
+
+const Tool* tool_named(const PartPlan& p, const std::optional<std::string>& id) {
+  if (!id) return nullptr;
+  for (const auto& t : p.tools)
+    if (t.id == *id) return &t;
+  return nullptr;
+}
+
+double least_depth(const Tool& t) { return std::max(t.ap_mm.lower, 2.0 / 3.0 * t.re_mm); }
+
+// Numbers of passes.
+struct Counts {
+  int low = 1, high = 0;
+};
+
+// Those whose depths, equal or up to the tool's least and largest, sum up to `stock`.
+Counts counts(const std::optional<int>& given, double least_stock, double most_stock,
+              const Tool& t) {
+  if (given) return {*given, *given};
+  const int low = static_cast<int>(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
+  const int high = static_cast<int>(std::floor(most_stock / least_depth(t) + 1e-9));
+  return {std::max(1, low), high};
+}
+
+// The one pass over what is left by the least depth of a shoulder or thinner than that.
+Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t) {
+  auto c = counts(given, stock, stock, t);
+  c.high = std::max(c.low, c.high);
+  return c;
+}
+
+}  // namespace
+
+std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
+  std::vector<const Tool*> all;
+  for (const auto& t : p.tools)
+    if (fits(t, use, p.material.group)) all.push_back(&t);
+  return all;
+}
+
+Wanted wanted(const PartPlan& p, std::size_t setup, const std::string& surface) {
+  Wanted w;
+  if (!p.operations) return w;
+  w.given = true;
+  w.rough = w.finish = false;
+  for (const auto& o : *p.operations) {
+    if (o.setup != setup || std::find(o.on.begin(), o.on.end(), surface) == o.on.end())
+      continue;
+    const bool rough =
+        o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
+    (rough ? w.rough : w.finish) = true;
+    (rough ? w.rough_tool : w.finish_tool) = tool_named(p, o.tool);
+    (rough ? w.fixed.rough : w.fixed.finish) = o.conditions;
+    (rough ? w.fixed.rough_direction : w.fixed.finish_direction) = o.direction;
+    const std::string id = o.on.size() > 1 ? o.id + ":" + surface : o.id;
+    w.ids.insert(rough ? w.ids.begin() : w.ids.end(), id);
+  }
+  return w;
+}
+
+std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Wanted& w,
+                            const Tool* rough, const Tool* finish) {
+  std::vector<Recipe> all;
+  if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
+  const auto ranges = cutting::speed_ranges(p.machine).size();
+  const auto add = [&](Recipe r) {
+    for (std::size_t i = 0; i < (r.rough ? ranges : 1); ++i)
+      for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j) {
+        r.rough_range = i;
+        r.finish_range = j;
+        all.push_back(r);
+      }
+  };
+  const bool free = !w.given && !f.is_face();
+  const double stock =
+      f.kind() == Feature::Kind::shoulder && finish ? least_depth(*finish) : f.stock_mm();
+  if (finish && (!w.given || !w.rough)) {  // without roughing
+    const auto c = counts_alone(w.fixed.finish.passes, stock, *finish);
+    const int most = free ? std::min(c.high, kFinishingPasses) : c.high;
+    for (int n = c.low; n <= most; ++n) add({nullptr, finish, 0, n, 0, 0});
+  }
+  if (rough && finish) {
+    const int first = w.fixed.finish.passes.value_or(1);
+    const int last = w.fixed.finish.passes.value_or(free ? kFinishingPasses : 1);
+    for (int nf = first; nf <= last; ++nf) {
+      const auto c = counts(w.fixed.rough.passes, stock - nf * finish->ap_mm.upper,
+                            stock - nf * least_depth(*finish), *rough);
+      for (int n = c.low; n <= c.high; ++n) add({rough, finish, n, nf, 0, 0});
+    }
+  }
+  if (rough && !finish && w.given) {
+    const auto c = counts_alone(w.fixed.rough.passes, stock, *rough);
+    for (int n = c.low; n <= c.high; ++n) add({rough, nullptr, n, 0, 0, 0});
+  }
+  return all;
+}
+
+}  // namespace turnwright::planning

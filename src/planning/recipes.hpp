@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "feature.hpp"
+
+/// In how many passes, with which speed ranges and which tools a surface may be made.
+namespace turnwright::planning {
+
+/// What the request says about one surface: which operations, which tools.
+struct Wanted {
+  bool rough = true, finish = true;  ///< allowed
+  bool given = false;                ///< by `operations`
+  const catalogue::Tool *rough_tool = nullptr, *finish_tool = nullptr;
+  Fixed fixed;
+  std::vector<std::string> ids;  ///< of the given operations, rough first
+};
+Wanted wanted(const PartPlan& plan, std::size_t setup, const std::string& surface);
+
+/// The tools of the request for a use and the plan's material.
+std::vector<const catalogue::Tool*> tools_for(const PartPlan& plan,
+                                              catalogue::ToolUse use);
+
+/// Finishing passes that `auto` may take on an element or a bore.
+inline constexpr int kFinishingPasses = 2;
+
+/// Every number of passes that the depths of the tools allow, or as given, with every
+/// speed range; on elements and bores at most kFinishingPasses finishing passes unless
+/// given.
+std::vector<Recipe> recipes(const PartPlan& plan, const Feature& feature,
+                            const Wanted& wanted, const catalogue::Tool* rough,
+                            const catalogue::Tool* finish);
+
+}  // namespace turnwright::planning

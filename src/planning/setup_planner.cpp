@@ -1,0 +1,281 @@
+#include "setup_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::Tool;
+using catalogue::ToolUse;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Boxes that a setup in one clamping may take, and those that every search has: to refute
+// what is far too slender takes thousands for each pass count and tool.
+constexpr long kBoxes = 20000, kLeastBoxes = 300;
+constexpr double kGap = 9e-5;  // what engine 2 may leave open, in ln(objective)
+
+// Tools brought in over a sequence of operations.
+int changes(const std::vector<std::vector<const Tool*>>& groups) {
+  int count = 0;
+  const Tool* in = nullptr;
+  for (const auto& group : groups)
+    for (const Tool* t : group)
+      if (t && t != in) {
+        in = t;
+        ++count;
+      }
+  return count;
+}
+
+int indexings(const SolvedSetup& s) {
+  std::vector<std::vector<const Tool*>> order(kPlaces);
+  for (const auto& f : s.features) {
+    if (!f.answer.feasible) continue;
+    const auto& r = f.answer.model->recipe();
+    const auto kind = f.task.feature.kind();
+    order[place_in_setup(kind, true)].push_back(r.rough);
+    order[place_in_setup(kind, false)].push_back(r.finish);
+  }
+  return changes(order);
+}
+
+}  // namespace
+
+std::size_t place_in_setup(Feature::Kind kind, bool rough) {
+  using enum Feature::Kind;
+  if (kind == end_face) return 0;
+  if (kind == element) return rough ? 1 : 2;
+  if (kind == shoulder) return 3;
+  return rough ? 4 : 5;
+}
+
+double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int indexings) {
+  const auto& m = plan.machine;
+  double t = indexings * m.index_min + m.load_min + m.setup_min / plan.batch;
+  if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
+  if (clamping == Clamping::between_centres) t += m.centres_min;
+  return t;
+}
+
+SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
+                           const SetupWork& work, const Finished& before,
+                           const Economy& economy, FaceMemory& faces)
+    : p_(p), setup_(setup), clamping_(clamping), economy_(economy), faces_(faces) {
+  const auto& d = p.drawing;
+  const auto add = [&](const std::string& surface, const auto& make) {
+    auto w = wanted(p, setup, surface);
+    jobs_.push_back({make(w.fixed), w});
+  };
+  if (work.end_face)
+    add(free_face(p, setup),
+        [&](const Fixed& fixed) { return Feature::end_face(p, setup, before, fixed); });
+  for (const std::size_t i : work.elements)
+    add(d.outer[i].id, [&](const Fixed& fixed) {
+      return Feature::element(p, setup, clamping, work, before, i, fixed);
+    });
+  for (const std::size_t k : work.shoulders)
+    add(shoulder_id(d, k), [&](const Fixed& fixed) {
+      return Feature::shoulder(p, setup, clamping, work, before, k, fixed);
+    });
+  for (const std::size_t i : work.bores)
+    add(d.inner[i].id, [&](const Fixed& fixed) {
+      return Feature::bore(p, setup, clamping, work, before, i, fixed);
+    });
+  memory_.resize(jobs_.size());
+}
+
+SolvedSetup SetupPlanner::best(double most) {
+  std::vector<std::pair<double, Tools>> all;
+  for (const auto& tools : choices()) {
+    double bound = least_besides_cutting(tools);
+    for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
+    all.emplace_back(bound, tools);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  SolvedSetup best{setup_, clamping_, {}, 0, 0, kInfinity};
+  bool any = false;
+  double bound = kInfinity;
+  for (const auto& [least, tools] : all) {
+    if (least >= most && any) {
+      bound = std::min(bound, least);
+      continue;
+    }
+    auto s = solve(tools, least, most);
+    bound = std::min(bound, s.lower_bound);
+    const bool better =
+        s.feasible() != best.feasible() ? s.feasible() : s.objective < best.objective;
+    if (!any || better) {
+      best = std::move(s);
+      nearest_ = tools;
+    }
+    any = true;
+    if (best.feasible()) most = std::min(most, best.objective);
+  }
+  best.lower_bound = bound;
+  return best;
+}
+
+SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) const {
+  SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+  for (std::size_t j = 0; j < jobs_.size(); ++j) {
+    auto t = task(j, {}, Offset::none);
+    auto a = answer(t);
+    s.features.push_back({std::move(t), std::move(a), false, jobs_[j].wanted.ids});
+  }
+  s.indexings = indexings(s);
+  return s;
+}
+
+SolvedSetup SetupPlanner::explained() {
+  explain_ = true;
+  return solve(nearest_, 0, kInfinity);
+}
+
+bool SetupPlanner::any(Feature::Kind kind) const {
+  return std::any_of(jobs_.begin(), jobs_.end(),
+                     [&](const Job& j) { return j.feature.kind() == kind; });
+}
+
+// Every combination of one tool for each use that the setup has; roughing, and what the
+// request leaves out, may do without.
+std::vector<Tools> SetupPlanner::choices() const {
+  using List = std::vector<const Tool*>;
+  const auto list = [&](bool wanted, ToolUse use, bool or_none) {
+    List tools = wanted ? tools_for(p_, use) : List{};
+    if (tools.empty() || or_none) tools.push_back(nullptr);
+    return tools;
+  };
+  const bool given = p_.operations.has_value();
+  const bool elements = any(Feature::Kind::element), bores = any(Feature::Kind::bore);
+  const bool faces = any(Feature::Kind::end_face) || any(Feature::Kind::shoulder);
+  const auto face = list(faces, ToolUse::facing, false);
+  const auto rough = list(elements, ToolUse::roughing, elements);
+  const auto finish = list(elements, ToolUse::finishing, elements && given);
+  const auto bore_rough = list(bores, ToolUse::boring, bores);
+  const auto bore_finish = list(bores, ToolUse::boring, bores && given);
+  std::vector<Tools> all;
+  for (const auto* x : face)
+    for (const auto* r : rough)
+      for (const auto* f : finish)
+        for (const auto* br : bore_rough)
+          for (const auto* bf : bore_finish) all.push_back({x, r, f, br, bf});
+  return all;
+}
+
+// The tools of a job: roughing and finishing (or facing).
+SetupPlanner::ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools) const {
+  const auto& w = jobs_[j].wanted;
+  if (jobs_[j].feature.is_face())
+    return {nullptr, w.finish_tool ? w.finish_tool : tools.face};
+  const bool bore = jobs_[j].feature.kind() == Feature::Kind::bore;
+  const Tool* rough =
+      w.rough_tool ? w.rough_tool : (bore ? tools.bore_rough : tools.rough);
+  const Tool* finish =
+      w.finish_tool ? w.finish_tool : (bore ? tools.bore_finish : tools.finish);
+  return {w.rough ? rough : nullptr, w.finish ? finish : nullptr};
+}
+
+FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset) const {
+  const auto& f = jobs_[j].feature;
+  const auto [rough, finish] = tools_of(j, tools);
+  return {f, demands(p_, f.surface(), offset),
+          recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, explain_};
+}
+
+Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {
+  const auto key = tools_of(j, tools);
+  auto& memory = memory_[j];
+  if (jobs_[j].feature.kind() == Feature::Kind::end_face) {
+    const auto [it, fresh] = faces_.try_emplace(key.second);
+    if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
+    return it->second;
+  }
+  const auto [it, fresh] = memory.try_emplace(key);
+  if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
+  return it->second;
+}
+
+const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
+                                          double most) {
+  auto& e = entry(j, tools);
+  const auto settled = [&] {
+    return e.solved && (e.solved->answer.feasible || most <= e.most);
+  };
+  const auto attempt = [&](Offset offset) {
+    auto t = task(j, tools, offset);
+    t.boxes = std::clamp(kBoxes - boxes_, kLeastBoxes, t.boxes);
+    auto answer = optimise_feature(t, kGap, most);
+    boxes_ += answer.certificate.nodes;
+    return SolvedFeature{std::move(t), std::move(answer), offset == Offset::free,
+                         jobs_[j].wanted.ids};
+  };
+  // What can be made without compensation at any cost is not compensated.
+  if (compensate_) most = kInfinity;
+  if (explain_ && !(e.solved && e.solved->answer.feasible)) {
+    e.solved = attempt(compensate_ ? Offset::free : Offset::none);
+    return *e.solved;
+  }
+  if (!settled()) {
+    e.most = most;
+    e.solved = attempt(Offset::none);
+  }
+  if (!compensate_ || e.solved->answer.feasible || e.compensated ||
+      e.solved->task.demands.empty())
+    return *e.solved;
+  e.compensated = true;
+  auto compensated = attempt(Offset::free);
+  if (compensated.answer.feasible) e.solved = std::move(compensated);
+  return *e.solved;
+}
+
+// `least` bounds the setup from below and rises as features are solved; each has what
+// the others leave of `most`.
+SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
+  SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+  s.lower_bound = least;
+  for (std::size_t j = 0; j < jobs_.size(); ++j) {
+    // One feature that cannot be made decides; the others are solved only to explain.
+    if (!explain_ && !s.feasible()) break;
+    const double alone = entry(j, tools).bound;
+    const double left = std::isfinite(most) ? most - (s.lower_bound - alone) : kInfinity;
+    const auto& f = solved(j, tools, std::max(left, alone));
+    s.features.push_back(f);
+    if (std::isfinite(alone)) s.lower_bound += f.answer.lower_bound - alone;
+    if (f.answer.feasible) s.objective += f.answer.objective;
+  }
+  s.indexings = indexings(s);
+  const double besides = economy_.minute * minutes_besides_cutting(s.indexings);
+  s.objective += besides;
+  if (s.feasible()) {
+    s.lower_bound += besides - least_besides_cutting(tools);
+  } else {
+    s.objective = 0;
+    for (const auto& f : s.features)
+      if (!f.answer.feasible)
+        s.objective =
+            std::max(s.objective, f.answer.model ? f.answer.least_violation : 1e6);
+  }
+  return s;
+}
+
+// Where the request leaves it open, a roughing tool is brought in: plans that do not
+// use it are those of the choice without one.
+double SetupPlanner::least_besides_cutting(const Tools& tools) const {
+  std::vector<std::vector<const Tool*>> order(kPlaces);
+  for (std::size_t j = 0; j < jobs_.size(); ++j) {
+    const auto [r, f] = tools_of(j, tools);
+    const auto kind = jobs_[j].feature.kind();
+    order[place_in_setup(kind, false)].push_back(f);
+    if (!p_.operations) order[place_in_setup(kind, true)].push_back(r);
+  }
+  return economy_.minute * minutes_besides_cutting(changes(order));
+}
+
+double SetupPlanner::minutes_besides_cutting(int indexings) const {
+  return planning::minutes_besides_cutting(p_, clamping_, indexings);
+}
+
+}  // namespace turnwright::planning

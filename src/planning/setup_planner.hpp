@@ -1,0 +1,91 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "outcome.hpp"
+#include "recipes.hpp"
+
+/// The surfaces of one setup in one clamping, and the tools they share.
+namespace turnwright::planning {
+
+/// The tools of a setup, one for each use.
+struct Tools {
+  const catalogue::Tool *face = nullptr, *rough = nullptr, *finish = nullptr;
+  const catalogue::Tool *bore_rough = nullptr, *bore_finish = nullptr;
+};
+
+/// A surface with its tools: what the best recipe cannot beat, and its answer once asked
+/// for.
+struct Entry {
+  double bound = 0;
+  double most = 0;           ///< what the answer had to beat
+  bool compensated = false;  ///< asked for with compensation too
+  std::optional<SolvedFeature> solved;
+};
+/// End faces are cut in the chuck alone: their entries hold for every clamping of a
+/// setup.
+using FaceMemory = std::map<const catalogue::Tool*, Entry>;
+
+/// Solves the features of one setup in one clamping, remembering what depends only on
+/// part of the tools.  The plan must outlive it.
+class SetupPlanner {
+ public:
+  SetupPlanner(const PartPlan& plan, std::size_t setup, Clamping clamping,
+               const SetupWork& work, const Finished& before, const Economy& economy,
+               FaceMemory& faces);
+
+  /// From now on the tool path may follow the error of what cannot be made otherwise.
+  void allow_compensation() { compensate_ = true; }
+
+  /// The cheapest tools with their answers: those that look cheapest first; what cannot
+  /// cost less than `most` is dropped as soon as that is known.
+  SolvedSetup best(double most);
+
+  /// Every feature with the tools and conditions given, answered by `answer`.
+  SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&)) const;
+
+  /// Every feature with the tools of the best setup, which is not feasible.
+  SolvedSetup explained();
+
+ private:
+  // One surface to be made and what the request says of it.
+  struct Job {
+    Feature feature;
+    Wanted wanted;
+  };
+  using ToolPair = std::pair<const catalogue::Tool*, const catalogue::Tool*>;
+  using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
+
+  bool any(Feature::Kind kind) const;
+  std::vector<Tools> choices() const;
+  ToolPair tools_of(std::size_t job, const Tools& tools) const;
+  FeatureTask task(std::size_t job, const Tools& tools, Offset offset) const;
+  Entry& entry(std::size_t job, const Tools& tools);
+  const SolvedFeature& solved(std::size_t job, const Tools& tools, double most);
+  SolvedSetup solve(const Tools& tools, double least, double most);
+  double least_besides_cutting(const Tools& tools) const;
+  double minutes_besides_cutting(int indexings) const;
+
+  const PartPlan& p_;
+  std::size_t setup_;
+  Clamping clamping_;
+  Economy economy_;
+  bool compensate_ = false, explain_ = false;
+  long boxes_ = 0;  // bounded so far
+  Tools nearest_;
+  FaceMemory& faces_;
+  std::vector<Job> jobs_;
+  std::vector<std::map<ToolPair, Entry>> memory_;  // per job, by its tools
+};
+
+/// Minutes of a setup beside its operations: tools brought in, loading, preparing.
+double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int indexings);
+
+/// Where a surface's operations stand in the order of a setup: faces first, then all
+/// roughing, all finishing, shoulders, and the bores in the same way.
+inline constexpr std::size_t kPlaces = 6;
+std::size_t place_in_setup(Feature::Kind kind, bool rough);
+
+}  // namespace turnwright::planning
