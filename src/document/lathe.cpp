@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "fields.hpp"
@@ -52,13 +53,14 @@ void read_spindle(Reader group, catalogue::Lathe& m) {
   finish_group(group);
 }
 
-void read_times(Reader group, catalogue::Lathe& m) {
+void read_times(Reader group, catalogue::Lathe& m, bool steady) {
   const auto time = within(0, 1e4, "min");
   m.index_min = group.number("index_min", time);
   m.load_min = group.number("load_min", time);
   m.tailstock_min = group.number("tailstock_min", time);
   m.centres_min = group.number("centres_min", time);
   m.setup_min = group.number("setup_min", time);
+  if (steady || group.has("steady_min")) m.steady_min = group.number("steady_min", time);
   finish_group(group);
 }
 
@@ -79,12 +81,14 @@ catalogue::CentreCompliance read_centre(Reader r) {
   return c;
 }
 
-void read_stiffness(Reader group, catalogue::Lathe& m) {
+void read_stiffness(Reader group, catalogue::Lathe& m, bool steady) {
   m.chuck.radial = read_compliance(group.object("chuck_radial"));
   m.chuck.tangential = read_compliance(group.object("chuck_tangential"));
   m.chuck.axial_mm_N = group.number("chuck_axial_mm_N", kCompliance);
   m.tail_centre = read_centre(group.object("tail_centre"));
   m.head_centre = read_centre(group.object("head_centre"));
+  if (steady || group.has("steady_rest"))
+    m.steady_rest = read_centre(group.object("steady_rest"));
   m.tool_rr_mm_N = group.number("tool_rr_mm_N", kCompliance);
   m.tool_rt_mm_N = group.number("tool_rt_mm_N", within(-0.1, 0.1, "mm/N"));
   m.stiffness_uncertainty_pct = finish_group(group);
@@ -101,13 +105,16 @@ catalogue::Lathe read_lathe(Reader r) {
   m.clampings = read_set<std::string>(r, "clampings",
                                       {{"chuck", "chuck"},
                                        {"chuck-tailstock", "chuck-tailstock"},
-                                       {"between-centres", "between-centres"}});
+                                       {"between-centres", "between-centres"},
+                                       {"chuck-steady", "chuck-steady"}});
+  const bool steady = std::find(m.clampings.begin(), m.clampings.end(), "chuck-steady") !=
+                      m.clampings.end();
   read_spindle(r.object("spindle"), m);
   Reader feed = r.object("feed");
   m.feed_force_max_N = feed.number("feed_force_max_N", kForce);
   m.rapid_mm_min = feed.number("rapid_mm_min", above_up_to(0, 1e6, "mm/min"));
   finish_group(feed);
-  read_times(r.object("times"), m);
+  read_times(r.object("times"), m, steady);
   Reader rate = r.object("rate");
   m.cost_per_min = rate.number("cost_per_min", within(1e-6, 1e4));
   finish_group(rate);
@@ -116,7 +123,7 @@ catalogue::Lathe read_lathe(Reader r) {
   m.between_centres_mm = room.number("between_centres_mm", above_up_to(0, 20000, "mm"));
   finish_group(room);
   read_chuck(r.object("chuck"), m.chuck);
-  read_stiffness(r.object("stiffness"), m);
+  read_stiffness(r.object("stiffness"), m, steady);
   r.finish();
   return m;
 }

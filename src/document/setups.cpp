@@ -13,7 +13,8 @@ constexpr std::size_t kSetups = 10;
 
 const Choices<Clamping>& clampings() {
   static const auto kClampings =
-      named({Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres});
+      named({Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres,
+             Clamping::chuck_steady});
   return kClampings;
 }
 
@@ -25,7 +26,8 @@ bool machine_has(const Draft& draft, Clamping clamping) {
 std::vector<Clamping> all_clampings(const Draft& draft) {
   std::vector<Clamping> out;
   for (const auto& [word, clamping] : clampings())
-    if (machine_has(draft, clamping)) out.push_back(clamping);
+    if (machine_has(draft, clamping) && clamping != Clamping::chuck_steady)
+      out.push_back(clamping);
   return out;
 }
 
@@ -84,9 +86,28 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
   for (const auto clamping : setup.clampings)
     if (!draft.loaded.plan.machine.clampings.empty() && !machine_has(draft, clamping))
       r.problem_at("clampings",
-                   "what " + draft.loaded.plan.machine.id +
-                       " has: " + words(all_clampings(draft)).dump(),
+                   "what " + draft.loaded.plan.machine.id + " has: " +
+                       nlohmann::json(draft.loaded.plan.machine.clampings).dump(),
                    "conflict");
+}
+
+// Where the steady rest stands: needed by its clamping and by no other.
+void read_steady(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  const bool wanted = std::find(setup.clampings.begin(), setup.clampings.end(),
+                                Clamping::chuck_steady) != setup.clampings.end();
+  const double length_mm = part::length_mm(draft.loaded.plan.drawing);
+  if (wanted)
+    setup.steady_z_mm = r.number("steady_mm", above_up_to(0, 20000, "mm"));
+  else if (r.has("steady_mm"))
+    r.problem_at("steady_mm", "nothing: no clamping here is \"chuck-steady\"",
+                 "conflict");
+  if (!wanted || !(length_mm > 0)) return;
+  const double from_jaws_mm = setup.hold == part::End::left
+                                  ? setup.steady_z_mm - setup.grip_mm
+                                  : length_mm - setup.grip_mm - setup.steady_z_mm;
+  if (setup.steady_z_mm >= length_mm || from_jaws_mm <= 0)
+    r.problem_at("steady_mm", "a place on the part beside the jaws, z from its left end",
+                 "conflict");
 }
 
 planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
@@ -101,6 +122,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "half the held diameter, at least 15 mm");
   }
   read_clampings(draft, r, setup);
+  read_steady(draft, r, setup);
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};
     draft.assume(r.pointer_of("clampings"), words(setup.clampings),

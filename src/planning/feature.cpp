@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "turnwright/deflection/rest.hpp"
+
 namespace turnwright::planning {
 namespace {
 
@@ -341,10 +343,35 @@ bool Feature::enters(const catalogue::Tool& tool) const {
   return overhang >= depth_mm_ + kApproach_mm;
 }
 
+void Feature::yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
+                     const SetupBody& body, const std::vector<double>& x,
+                     std::vector<deflection::Flexibility>& radial,
+                     std::vector<deflection::Flexibility>& tangential) const {
+  const auto supports = planes(plan_->machine, clamping_);
+  if (clamping_ != Clamping::chuck_steady) {
+    const deflection::Beam left(chuck_side), right(tail_side);
+    flexibilities(left, right, x, supports.radial, radial);
+    flexibilities(left, right, x, supports.tangential, tangential);
+    return;
+  }
+  const double z = body.x_mm(plan_->setups[setup_].steady_z_mm);
+  const auto& rest = plan_->machine.steady_rest;
+  const deflection::RestedBeam r(chuck_side, tail_side, supports.radial,
+                                 {z, rest.radial_mm_N});
+  const deflection::RestedBeam t(chuck_side, tail_side, supports.tangential,
+                                 {z, rest.tangential_mm_N});
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    radial[k] = r.at(x[k]).part;
+    tangential[k] = t.at(x[k]).part;
+  }
+}
+
 std::vector<std::vector<Feature::Values>> Feature::face_laws(const Chain& chain) const {
   const auto& m = plan_->machine;
-  const deflection::Beam beam(bodies_[0].shaft());
-  const auto f = beam.at(face_x_, planes(m, clamping_).radial);
+  const auto body = bodies_[0].shaft();
+  std::vector<deflection::Flexibility> radial(1), tangential(1);
+  yields(body, body, bodies_[0], {face_x_}, radial, tangential);
+  const auto& f = radial[0];
   const double c_ax = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
   std::vector<std::vector<Values>> all(chain.stations.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -360,7 +387,6 @@ std::vector<std::vector<Feature::Values>> Feature::laws_at(const Chain& chain,
                                                            double a) const {
   if (is_face()) return face_laws(chain);
   const auto& m = plan_->machine;
-  const auto supports = planes(m, clamping_);
   const std::size_t n = chain.stations.size();
   std::vector<std::vector<Values>> all(n);
   std::vector<double> x(n);
@@ -376,10 +402,8 @@ std::vector<std::vector<Feature::Values>> Feature::laws_at(const Chain& chain,
       x[k] = std::clamp(body.x_mm(chain.stations[k].at_mm), 0.0, body.length_mm());
     for (const auto& pass : o.passes) {
       const double left = pass.left_mm(a), uncut = left + o.depth_mm(a);
-      const deflection::Beam chuck_side(body.shaft(element, to_chuck ? uncut : left));
-      const deflection::Beam tail_side(body.shaft(element, to_chuck ? left : uncut));
-      flexibilities(chuck_side, tail_side, x, supports.radial, r);
-      flexibilities(chuck_side, tail_side, x, supports.tangential, t);
+      yields(body.shaft(element, to_chuck ? uncut : left),
+             body.shaft(element, to_chuck ? left : uncut), body, x, r, t);
       for (std::size_t k = 0; k < n; ++k) {
         const double u = (chain.stations[k].at_mm - low_) / (high_ - low_);
         const double D = std::max(

@@ -109,6 +109,11 @@ class Feature {
     double p, q, s, r;
   };
   std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
+  // Of the bodies left and right of the tool, at distances from the root.
+  void yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
+              const SetupBody& body, const std::vector<double>& x,
+              std::vector<deflection::Flexibility>& radial,
+              std::vector<deflection::Flexibility>& tangential) const;
   std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
   bool enters(const catalogue::Tool& tool) const;
 

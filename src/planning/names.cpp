@@ -10,6 +10,8 @@ const char* name(Clamping c) {
       return "chuck-tailstock";
     case Clamping::between_centres:
       return "between-centres";
+    case Clamping::chuck_steady:
+      return "chuck-steady";
   }
   return "";
 }

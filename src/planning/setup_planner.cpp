@@ -56,6 +56,7 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
   double t = indexings * m.index_min + m.load_min + m.setup_min / plan.batch;
   if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
   if (clamping == Clamping::between_centres) t += m.centres_min;
+  if (clamping == Clamping::chuck_steady) t += m.steady_min;
   return t;
 }
 

@@ -17,6 +17,8 @@ using nlohmann::ordered_json;
 std::string clamped(const std::string& clamping, const std::string& end) {
   const std::string other = end == "left" ? "right" : "left";
   if (clamping == "chuck") return fmt::format("{} end in the chuck", end);
+  if (clamping == "chuck-steady")
+    return fmt::format("{} end in the chuck, on a steady rest", end);
   if (clamping == "chuck-tailstock")
     return fmt::format("{} end in the chuck, {} end on the tailstock centre", end, other);
   if (clamping == "between-centres")

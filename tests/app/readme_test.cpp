@@ -60,7 +60,7 @@ TEST(Readme, CostsAndClampingsAreThoseOfThePlans) {
       clampings += (clampings.empty() ? "" : ", ") + std::string(name(s.clamping));
     EXPECT_EQ(row[2], clampings);
   }
-  EXPECT_EQ(checked, 11);
+  EXPECT_EQ(checked, 12);
 }
 
 TEST(Readme, FilesItNamesExist) {

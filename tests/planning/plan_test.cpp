@@ -288,6 +288,32 @@ TEST(Plan, AFinishingCutAloneYieldsAsItsDirectionSays) {
   }
 }
 
+// A plan's own conditions, given back whole.
+nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
+  d["operations"] = nlohmann::json::array();
+  for (std::size_t s = 0; s < r.setups.size(); ++s) {
+    d["setups"][s]["clampings"] = {name(r.setups[s].clamping)};
+    for (const auto& o : r.setups[s].operations)
+      d["operations"].push_back({{"id", o.id},
+                                 {"setup", s},
+                                 {"kind", name(o.kind)},
+                                 {"on", o.on},
+                                 {"tool", o.tool},
+                                 {"direction", name(o.direction)},
+                                 {"conditions",
+                                  {{"passes", o.passes.size()},
+                                   {"ap_mm", o.passes[0].ap_mm},
+                                   {"f_mm_rev", o.passes[0].f_mm_rev},
+                                   {"vc_m_min", o.passes[0].vc_m_min}}}});
+  }
+  return d;
+}
+
+PartPlan part_to_predict(const nlohmann::json& document) {
+  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
+      .plan;
+}
+
 nlohmann::json bush() {
   auto d = pin();
   d["stock"] = {{"kind", "tube"}, {"outer_mm", 64}, {"inner_mm", 36}, {"length_mm", 74}};
@@ -349,6 +375,41 @@ TEST(Plan, AHoleNoBarEntersIsTold) {
   EXPECT_NE(r.conflicts[0].sentence.find("b: no boring bar is thin and long enough"),
             std::string::npos)
       << r.conflicts[0].sentence;
+}
+
+TEST(Plan, ASteadyRestHoldsWhereNoCentreCan) {
+  auto d = reference_part("roller-tube");
+  const auto r = planned(d);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(r.setups[1].clamping, Clamping::chuck_steady);
+  bool centre = false;
+  for (const auto& x : r.setups[1].rejected)
+    centre = centre || x.why == "the centre stands where bore b1 is cut";
+  EXPECT_TRUE(centre);
+  // A soft rest is none, a stiff one near the bore lets it yield least.
+  double before = 1e9;
+  for (const double c : {1.0, 1e-3, 1e-4, 1e-6}) {
+    auto given = part_to_predict(as_planned(d, r));
+    given.machine.steady_rest = {c, c};
+    const auto q = predict(given);
+    const double e = std::abs(tolerance(q, "b1:diameter").predicted_mm[0] - 0.0125);
+    EXPECT_LT(e, before) << c;
+    before = e;
+  }
+  auto soft = part_to_predict(as_planned(d, r)), none = soft;
+  soft.machine.steady_rest = {1e6, 1e6};
+  none.setups[1].clampings = {Clamping::chuck};
+  EXPECT_NEAR(tolerance(predict(soft), "b1:diameter").predicted_mm[0],
+              tolerance(predict(none), "b1:diameter").predicted_mm[0], 1e-8);
+  d["setups"][1]["steady_mm"] = 375;  // on d3, which is cut there
+  const auto on_d3 = planned(d);
+  EXPECT_EQ(on_d3.status, PlanStatus::ok);  // with an offset of the tool, in the chuck
+  bool told = false;
+  for (const auto& x : on_d3.setups[1].rejected)
+    told = told || x.why ==
+                       "the steady rest at z = 375 mm stands on d3, which this setup "
+                       "cuts";
+  EXPECT_TRUE(told);
 }
 
 TEST(Plan, WhatNoOperationMakesIsAConflict) {
@@ -434,32 +495,6 @@ TEST(Plan, ACorrectedPathLeavesNothing) {
   EXPECT_NEAR(dr, -s, 1e-10);
   EXPECT_LT(t.predicted_mm[1] - t.predicted_mm[0], 1e-4);
   EXPECT_LT(t.P_conform, 1);  // the correction is no more certain than the forces
-}
-
-// A plan's own conditions, given back whole.
-nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
-  d["operations"] = nlohmann::json::array();
-  for (std::size_t s = 0; s < r.setups.size(); ++s) {
-    d["setups"][s]["clampings"] = {name(r.setups[s].clamping)};
-    for (const auto& o : r.setups[s].operations)
-      d["operations"].push_back({{"id", o.id},
-                                 {"setup", s},
-                                 {"kind", name(o.kind)},
-                                 {"on", o.on},
-                                 {"tool", o.tool},
-                                 {"direction", name(o.direction)},
-                                 {"conditions",
-                                  {{"passes", o.passes.size()},
-                                   {"ap_mm", o.passes[0].ap_mm},
-                                   {"f_mm_rev", o.passes[0].f_mm_rev},
-                                   {"vc_m_min", o.passes[0].vc_m_min}}}});
-  }
-  return d;
-}
-
-PartPlan part_to_predict(const nlohmann::json& document) {
-  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
-      .plan;
 }
 
 TEST(Predict, APlansConditionsGiveWhatThePlanSays) {

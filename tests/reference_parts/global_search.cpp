@@ -253,6 +253,7 @@ class SetupSearch {
     double t = changes * m.index_min + m.load_min + m.setup_min / p_.batch;
     if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
     if (clamping_ == Clamping::between_centres) t += m.centres_min;
+    if (clamping_ == Clamping::chuck_steady) t += m.steady_min;
     return t;
   }
 
@@ -286,8 +287,11 @@ class SetupSearch {
 };
 
 // What the chuck and the room between centres can hold.
-bool usable(const PartPlan& p, std::size_t setup, Clamping c) {
+bool usable(const PartPlan& p, std::size_t setup, Clamping c,
+            const planning::SetupWork& work) {
   const auto& m = p.machine;
+  const bool centre = c == Clamping::chuck_tailstock || c == Clamping::between_centres;
+  if (centre && !work.bores.empty()) return false;
   if (p.drawing.stock.outer_mm > m.swing_mm) return false;
   if (c != Clamping::chuck && p.drawing.stock.length_mm > m.between_centres_mm)
     return false;
@@ -313,7 +317,7 @@ Found search(const PartPlan& p, const Effort& effort) {
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     std::vector<SetupSearch> clampings;
     for (const Clamping c : p.setups[s].clampings)
-      if (usable(p, s, c))
+      if (usable(p, s, c, work.setups[s]))
         clampings.emplace_back(p, s, c, work.setups[s], done, economy, effort);
     SetupFound best;
     best.objective = kInfinity;

@@ -37,7 +37,7 @@ TEST(Listing, HoldsTheReferenceParts) {
             (std::set<std::string>{"aluminium-tube", "bearing-seat", "flanged-bush",
                                    "gearbox-input-shaft", "infeasible-as-drawn",
                                    "iron-hub", "motor-shaft", "piston-rod", "pump-shaft",
-                                   "spindle-nose", "titanium-pin"}));
+                                   "roller-tube", "spindle-nose", "titanium-pin"}));
 }
 
 TEST(Listing, AFolderWithoutPartsHasNone) {

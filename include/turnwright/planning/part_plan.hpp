@@ -12,13 +12,14 @@
 /// default filled in (document/ reports which under `assumed`).
 namespace turnwright::planning {
 
-enum class Clamping { chuck, chuck_tailstock, between_centres };
+enum class Clamping { chuck, chuck_tailstock, between_centres, chuck_steady };
 const char* name(Clamping clamping);
 
 struct SetupRequest {
   part::End hold = part::End::left;  ///< the end in the jaws or at the headstock
   double grip_mm = 0;                ///< jaws hold the outermost grip_mm of that end
   std::vector<Clamping> clampings;   ///< candidates, at least one
+  double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
 };
 
 enum class OperationKind { face, rough, finish, bore_rough, bore_finish };

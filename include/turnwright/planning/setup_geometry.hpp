@@ -89,10 +89,14 @@ class SetupBody {
   std::vector<Zone> outer_, inner_;  // one an element, then what is beside them
 };
 
-/// Supports of the radial and the tangential plane of a clamping on a lathe.
+/// Supports of the radial and the tangential plane of a clamping on a lathe.  A steady
+/// rest has its place from the plan, its compliance from the machine.
 struct Planes {
   deflection::Supports radial, tangential;
 };
 Planes planes(const catalogue::Lathe& machine, Clamping clamping);
+
+/// Width of a steady rest along the axis [mm]: what it stands on is not cut.
+inline constexpr double kSteadyWidth_mm = 20;
 
 }  // namespace turnwright::planning
