@@ -50,9 +50,8 @@ BENCHMARK_CAPTURE(plan_of, infeasible_as_drawn, "infeasible-as-drawn")
 // asked at three places: 5 variables, 26 constraints.
 RecipeModel seat(const PartPlan& part) {
   const auto work = assign(part);
-  const auto feature =
-      Feature::element(part, 0, Clamping::chuck, work.setups[0],
-                       std::vector<bool>(part.drawing.outer.size(), false), 4, {});
+  const auto feature = Feature::element(part, 0, Clamping::chuck, work.setups[0],
+                                        nothing_finished(part.drawing), 4, {});
   const catalogue::Tool *rough = nullptr, *finish = nullptr;
   for (const auto& t : part.tools) {
     if (t.id == "PCLNL-CNMG120412-PR") rough = &t;

@@ -262,7 +262,7 @@ class FeatureSearch {
     return a;
   }
 
-  static constexpr long kFirstBoxes = 60;  // of one recipe, before a local solve
+  static constexpr long kFirstBoxes = 120;  // of one recipe, before a local solve
   const FeatureTask& task_;
   double gap_, most_;
   Exchange exchange_;
