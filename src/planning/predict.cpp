@@ -82,10 +82,7 @@ ProcessPlan predict(const PartPlan& p) {
     result.setups.push_back(std::move(setup));
   }
   result.certificate.reason = "conditions as given";
-  const bool whole =
-      work.unreachable.empty() &&
-      std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); });
-  if (whole) {
+  if (std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); })) {
     result.tolerances = tolerance_results(p, setups);
     result.deviations = deviations(setups);
     for (const auto& s : setups) {

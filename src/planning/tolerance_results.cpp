@@ -150,6 +150,26 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
                                         : (made.accepted ? 1 : 0);
 }
 
+// An element that nothing cuts has the stock's diameter, and no form.
+void not_made(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
+  const auto& d = p.drawing;
+  double off = d.stock.outer_mm;
+  for (const auto& e : d.outer)
+    if (e.id == t.of) off = d.stock.outer_mm - std::min(e.left_mm, e.right_mm);
+  for (const auto& e : d.inner)
+    if (e.id == t.of) off = d.stock.inner_mm - std::max(e.left_mm, e.right_mm);
+  r.verdict = Verdict::not_met;
+  r.seed_verdict = false;
+  r.P_conform = 0;
+  r.margin_mm = -std::abs(off);
+  r.predicted_mm = {std::abs(off)};
+  r.allowed_mm = {width_mm(t)};
+  if (t.limits) {
+    r.predicted_mm = {off, off};
+    r.allowed_mm = {t.limits->lower_mm, t.limits->upper_mm};
+  }
+}
+
 // Of surfaces left as the stock has them only the machine's share is predicted.
 void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
   if (!t.limits) {
@@ -182,6 +202,8 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.shares = {{"machine", p.machine_share_um}};
     if (width_mm(t) <= units::mm_from_um(p.machine_share_um))
       used_up(p, t, r);
+    else if (!at.feature && half_angle_rad(p.drawing, t.of))
+      not_made(p, t, r);
     else if (!at.feature && !other.feature)
       left_as_stock(p, t, r);
     else

@@ -533,6 +533,22 @@ TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
   EXPECT_TRUE(size);
 }
 
+TEST(Predict, WhatNothingCutsIsNotMetAndTheRestIsPredicted) {
+  auto d = as_planned(pin(), planned(pin()));
+  d["outer"][0]["limits_mm"] = {-0.1, 0.1};
+  d["outer"][1]["limits_mm"] = {-0.1, 0.1};
+  auto& all = d["operations"];
+  for (std::size_t k = all.size(); k-- > 0;)
+    if (all[k]["on"][0] == "d1") all.erase(k);
+  const auto r = predict(part_to_predict(d));
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  EXPECT_EQ(r.conflicts.at(0).sentence,
+            "d1 has no operation: it would stay as the stock is");
+  EXPECT_EQ(tolerance(r, "d1:diameter").verdict, Verdict::not_met);
+  EXPECT_EQ(tolerance(r, "d1:diameter").predicted_mm[0], 2);  // stock 42, drawn 40
+  EXPECT_EQ(tolerance(r, "d2:diameter").verdict, Verdict::met);
+}
+
 TEST(Predict, PassesThatDoNotAddUpAreTold) {
   auto d = as_planned(pin(), planned(pin()));
   for (auto& o : d["operations"])
