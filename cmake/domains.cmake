@@ -73,8 +73,9 @@ if(BUILD_TESTING)
     PROPERTIES TIMEOUT 600)
 endif()
 tw_domain(report SOURCES text.cpp setups.cpp proof.cpp fields.cpp layout.cpp
-          DEPENDS base PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp)
+                           drawing.cpp contour.cpp svg.cpp
+          DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
+          TESTS text_test.cpp drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

@@ -31,6 +31,7 @@ struct Arguments {
   std::optional<std::filesystem::path> data;
   std::string file;
   std::optional<std::filesystem::path> result_file;
+  std::optional<std::filesystem::path> drawings;
   bool json = false;
   std::string listed;
 };
@@ -44,23 +45,33 @@ nlohmann::json read_request(const std::string& file) {
 }
 
 // Problems of the request are told under the name its reader knows.
-nlohmann::ordered_json answer(const service::Request& row, const std::string& file,
-                              const nlohmann::json& request,
-                              const document::Catalogue& catalogue) {
+service::Drawn answer(const service::Request& row, const Arguments& arguments,
+                      const nlohmann::json& request,
+                      const document::Catalogue& catalogue) {
   try {
-    return service::answer(row, request, {catalogue});
+    if (arguments.drawings) return service::drawn_answer(row, request, {catalogue});
+    return {service::answer(row, request, {catalogue}), {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
-    throw InputError(file == "-" ? "standard input" : file, e.problems());
+    const bool piped = arguments.file == "-";
+    throw InputError(piped ? "standard input" : arguments.file, e.problems());
   }
+}
+
+void write_drawings(const std::filesystem::path& folder,
+                    const std::vector<std::string>& drawings) {
+  make_folder(folder);
+  for (std::size_t i = 0; i < drawings.size(); ++i)
+    write_file(folder / ("setup-" + std::to_string(i) + ".svg"), drawings[i]);
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
-  const auto result = answer(row, arguments.file, request, catalogue);
+  const auto [result, drawings] = answer(row, arguments, request, catalogue);
   const std::string json = result.dump(2) + '\n';
   if (arguments.result_file) write_file(*arguments.result_file, json);
+  if (arguments.drawings) write_drawings(*arguments.drawings, drawings);
   if (row.text && !arguments.json)
     print(row.text(result));
   else if (arguments.json || !arguments.result_file)
@@ -99,6 +110,10 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     command->add_option("-o,--output", arguments.result_file,
                         "write the result (JSON) here");
     command->add_flag("--json", arguments.json, "print the result as JSON");
+    if (row.drawn)
+      command->add_option(
+          "--drawings", arguments.drawings,
+          "write a picture of each setup (setup-0.svg, ..) to this folder");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <system_error>
 
 namespace turnwright::app {
 namespace {
@@ -79,6 +80,14 @@ void write_file(const fs::path& file, const std::string& text) {
     ::unlink(temporary.c_str());
     fail(file, error);
   }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) fail(folder, error.value());
 }
 
 void print(const std::string& text) {

@@ -16,6 +16,9 @@ class OutputError : public std::runtime_error {
 /// pipe) is written straight.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
+/// Makes the folder if it is missing, and those above it.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes to standard output and makes sure that it arrived.
 void print(const std::string& text);
 

@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "turnwright/document/finite.hpp"
 #include "turnwright/service/digest.hpp"
 #include "turnwright/service/requests.hpp"
@@ -6,14 +8,32 @@ namespace turnwright::service {
 
 std::string_view version() { return TURNWRIGHT_VERSION; }
 
-nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
-                              const Context& context) {
-  nlohmann::ordered_json result = row.result(request, context);
+namespace {
+
+void sign(nlohmann::ordered_json& result, const Request& row,
+          const nlohmann::json& request) {
   document::require_finite(result, row.name);
   result.emplace("format", "turnwright-" + row.name + "-result/1");
   result["turnwright_version"] = version();
   result["request_digest"] = sha256_hex(request.dump());
+}
+
+}  // namespace
+
+nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
+                              const Context& context) {
+  nlohmann::ordered_json result = row.result(request, context);
+  sign(result, row, request);
   return result;
+}
+
+Drawn drawn_answer(const Request& row, const nlohmann::json& request,
+                   const Context& context) {
+  if (!row.drawn)
+    throw std::domain_error("drawn_answer: " + row.name + " has no pictures");
+  Drawn all = row.drawn(request, context);
+  sign(all.result, row, request);
+  return all;
 }
 
 bool infeasible(const nlohmann::ordered_json& result) {

@@ -9,6 +9,7 @@
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
 
 namespace turnwright::service {
@@ -85,6 +86,21 @@ ordered_json predict(const json& request, const Context& context) {
   return document::to_json(planning::predict(part.plan), part.assumed);
 }
 
+Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
+  return {document::to_json(plan, part.assumed), report::setup_drawings(part.plan, plan)};
+}
+
+Drawn drawn_plan(const json& request, const Context& context) {
+  const auto part = document::load_part_plan(request, context.catalogue, "plan");
+  return drawn(part, planning::plan(part.plan));
+}
+
+Drawn drawn_predict(const json& request, const Context& context) {
+  const auto part = document::load_part_plan(request, context.catalogue, "predict",
+                                             document::Purpose::predict);
+  return drawn(part, planning::predict(part.plan));
+}
+
 constexpr const char* kPredictExample = R"({
   "format": "turnwright-part/1", "name": "Pin", "material": "C45",
   "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
@@ -111,9 +127,9 @@ constexpr const char* kPredictExample = R"({
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text},
+       report::text, drawn_plan},
       {"predict", "part plan with conditions given -> deviations and verdicts",
-       kPredictExample, predict, report::text},
+       kPredictExample, predict, report::text, drawn_predict},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "turnwright/document/catalogue.hpp"
 
@@ -16,6 +17,12 @@ struct Context {
   const document::Catalogue& catalogue;
 };
 
+/// A result with its pictures, as SVG.
+struct Drawn {
+  nlohmann::ordered_json result;
+  std::vector<std::string> drawings;  ///< one a setup
+};
+
 struct Request {
   std::string name;     ///< as in `turnwright NAME` and `POST /v1/NAME`
   std::string summary;  ///< one line for people
@@ -23,6 +30,8 @@ struct Request {
   nlohmann::ordered_json (*result)(const nlohmann::json& request, const Context& context);
   std::string (*text)(const nlohmann::ordered_json& result) =
       nullptr;  ///< for a terminal
+  /// `result` with pictures, of rows that have any.
+  Drawn (*drawn)(const nlohmann::json& request, const Context& context) = nullptr;
 };
 
 std::span<const Request> requests();
@@ -37,6 +46,11 @@ std::string_view version();
 ///   the result is not finite.
 nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
                               const Context& context);
+
+/// The same with the row's pictures.
+/// @throws std::domain_error if the row has none.
+Drawn drawn_answer(const Request& row, const nlohmann::json& request,
+                   const Context& context);
 
 /// Whether the result says that no plan can meet the request.
 bool infeasible(const nlohmann::ordered_json& result);

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+/// The part's outline between its setups.
+namespace turnwright::report {
+
+/// From z0 to z1 > z0 the radius goes straight from r0 to r1 [mm].
+struct Run {
+  double z0 = 0, z1 = 0, r0 = 0, r1 = 0;
+};
+/// End to end, left to right.
+using Runs = std::vector<Run>;
+
+struct Contour {
+  Runs outer, inner;  ///< both over the whole length; inner 0 where there is no bore
+};
+
+/// As the part stands after `setup`: what no setup up to it has cut is stock.
+Contour contour_after(const planning::PartPlan& part, const planning::Assignment& work,
+                      std::size_t setup);
+
+/// Run of an element as drawn.
+Run outer_run(const part::Drawing& drawing, std::size_t i);
+Run inner_run(const part::Drawing& drawing, std::size_t i);
+
+/// The line through the run, also beside it.
+double radius_mm(const Run& run, double z_mm);
+/// Largest radius between two places.
+double largest_mm(const Runs& runs, double from_z_mm, double to_z_mm);
+
+}  // namespace turnwright::report

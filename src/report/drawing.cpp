@@ -1,0 +1,429 @@
+#include "turnwright/report/drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "contour.hpp"
+#include "layout.hpp"
+#include "svg.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using part::End;
+using planning::Clamping;
+using planning::Deviation;
+using planning::PartPlan;
+using planning::ProcessPlan;
+
+// Millimetres of paper.
+constexpr double kWidth = 190, kBeside = 16, kHighest = 70, kError = 6;
+constexpr double kTop = 17, kJaw = 9, kAround = kJaw + 2.5, kLabelGap = 3.6;
+constexpr double kCharacter = 1.55;  // of 2.8 mm type, on average
+constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;
+constexpr std::size_t kNameLength = 70, kIdLength = 24;
+
+/// The largest of 1, 2, 5, 10, .. (and 0.5, 0.2, ..) that is not above `limit`.
+double round_below(double limit) {
+  const double power = std::pow(10, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= limit * (1 + 1e-12)) return digit * power;
+  return power;
+}
+
+/// What a deviation is of: its surface as drawn; none for a face.
+std::optional<Run> surface_of(const part::Drawing& d, const std::string& id) {
+  for (std::size_t i = 0; i < d.outer.size(); ++i)
+    if (d.outer[i].id == id) return outer_run(d, i);
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (d.inner[i].id == id) return inner_run(d, i);
+  return std::nullopt;
+}
+
+/// Common to the pictures of a plan.
+struct Scales {
+  double length = 0;  ///< paper mm of a mm
+  double factor = 0;  ///< an error is drawn so much larger; 0: there is none
+};
+
+Scales scales(const PartPlan& p, const ProcessPlan& plan) {
+  const auto& stock = p.drawing.stock;
+  Scales s;
+  s.length =
+      std::min((kWidth - 2 * kBeside) / stock.length_mm, kHighest / stock.outer_mm);
+  if (!(s.length > 0) || !std::isfinite(s.length))
+    throw std::domain_error("setup_drawings: the stock must have a length and diameter");
+  double largest = 0;
+  for (const auto& d : plan.deviations)
+    if (surface_of(p.drawing, d.on))
+      for (const auto& [z, e] : d.table_mm) largest = std::max(largest, std::abs(e));
+  if (largest > 0) s.factor = round_below(kError / (s.length * largest));
+  return s;
+}
+
+struct Label {
+  double x = 0, y = 0;  ///< where its leader ends
+  std::string text;
+  bool corrected = false;
+};
+
+/// One setup on its sheet.
+struct Sheet {
+  const PartPlan& part;
+  const ProcessPlan& plan;
+  const planning::SetupWork& work;
+  std::size_t setup;
+  Scales scale;
+  Contour contour;
+  double axis = 0;  ///< y of the centre line
+  Svg svg = {};
+
+  Clamping clamping() const { return plan.setups[setup].clamping; }
+  bool holds_left() const { return part.setups[setup].hold == End::left; }
+  double x(double z) const {
+    const auto& stock = part.drawing.stock;
+    return (kWidth - scale.length * stock.length_mm) / 2 +
+           scale.length * (z + stock.left_allowance_mm);
+  }
+  Point at(double z, double r) const { return {x(z), axis - scale.length * r}; }
+  double stock_height() const { return scale.length * part.drawing.stock.outer_mm / 2; }
+  double left_z() const { return contour.outer.front().z0; }
+  double right_z() const { return contour.outer.back().z1; }
+};
+
+std::string id_and_size(const std::string& id, double left_mm, double right_mm,
+                        const std::optional<std::string>& fit) {
+  std::string text = clipped(id, kIdLength) + "  \u00d8" + plain(left_mm);
+  if (left_mm != right_mm) text += "\u2013" + plain(right_mm);
+  return fit ? text + ' ' + clipped(*fit, kIdLength) : text;
+}
+
+bool corrected(const Sheet& s, const std::string& id) {
+  return std::any_of(s.plan.compensation.begin(), s.plan.compensation.end(),
+                     [&](const auto& c) { return c.setup == s.setup && c.on == id; });
+}
+
+/// Ids and sizes of the outer elements, and of the bores that are there; left to right.
+std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
+  std::vector<Label> all;
+  const auto add = [&](const auto& e, const Run& run, double r) {
+    const Point end = s.at((run.z0 + run.z1) / 2, r);
+    const bool offset = corrected(s, e.id);
+    all.push_back({end.x, end.y,
+                   id_and_size(e.id, e.left_mm, e.right_mm, e.fit) +
+                       (offset ? ", path corrected" : ""),
+                   offset});
+  };
+  const auto& d = s.part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const Run run = outer_run(d, i);
+    const double stock = d.stock.outer_mm / 2;
+    add(d.outer[i], run, finished.outer[i] ? (run.r0 + run.r1) / 2 : stock);
+  }
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const Run run = inner_run(d, i);
+    if (finished.inner[i]) add(d.inner[i], run, (run.r0 + run.r1) / 2);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Label& a, const Label& b) { return a.x < b.x; });
+  return all;
+}
+
+double text_width(const std::string& text) {
+  return kCharacter * static_cast<double>(characters(text));
+}
+
+/// Whether the labels have room side by side, each over its element.
+bool fit_side_by_side(const std::vector<Label>& all) {
+  double end = 0;
+  for (const auto& label : all) {
+    const double half = text_width(label.text) / 2;
+    if (label.x - half < end + 1.5 || label.x + half > kWidth) return false;
+    end = label.x + half;
+  }
+  return true;
+}
+
+/// Ascending places moved as little as keeps them `gap` apart and on the page.
+std::vector<double> spread(std::vector<double> x, double gap) {
+  const double low = 4, high = kWidth - 2;
+  if (x.size() > 1) gap = std::min(gap, (high - low) / static_cast<double>(x.size() - 1));
+  double least = low;
+  for (auto& place : x) least = (place = std::max(place, least)) + gap;
+  double most = high;
+  for (auto place = x.rbegin(); place != x.rend(); ++place)
+    most = (*place = std::min(*place, most)) - gap;
+  return x;
+}
+
+double label_height(const std::vector<Label>& all) {
+  if (fit_side_by_side(all)) return 3;
+  double longest = 0;
+  for (const auto& label : all) longest = std::max(longest, text_width(label.text));
+  return longest;
+}
+
+void draw_labels(Sheet& s, const std::vector<Label>& all) {
+  const double foot = s.axis - s.stock_height() - kAround - 3;
+  std::vector<double> x;
+  for (const auto& label : all) x.push_back(label.x);
+  const bool flat = fit_side_by_side(all);
+  if (!flat) x = spread(std::move(x), kLabelGap);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string css_class = all[i].corrected ? "accent" : "";
+    if (flat)
+      s.svg.text({x[i], foot}, Anchor::middle, all[i].text, css_class);
+    else
+      s.svg.text_upwards({x[i] + 1, foot}, Anchor::start, all[i].text, css_class);
+    s.svg.polyline("leader", {{x[i], foot + 0.8},
+                              {x[i], foot + 2},
+                              {all[i].x, foot + 4},
+                              {all[i].x, all[i].y}});
+  }
+}
+
+void draw_body(Sheet& s) {
+  std::vector<Point> section;
+  for (const auto& run : s.contour.outer) {
+    section.push_back(s.at(run.z0, run.r0));
+    section.push_back(s.at(run.z1, run.r1));
+  }
+  for (auto run = s.contour.inner.rbegin(); run != s.contour.inner.rend(); ++run) {
+    section.push_back(s.at(run->z1, run->r1));
+    section.push_back(s.at(run->z0, run->r0));
+  }
+  s.svg.polygon("body", section);
+}
+
+void draw_stock(Sheet& s) {
+  const auto& stock = s.part.drawing.stock;
+  const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
+  const double r = stock.outer_mm / 2, hole = stock.inner_mm / 2;
+  s.svg.polyline("stock",
+                 {s.at(z0, -r), s.at(z0, r), s.at(z1, r), s.at(z1, -r), s.at(z0, -r)});
+  if (hole > 0)
+    for (const double side : {hole, -hole})
+      s.svg.line("stock", s.at(z0, side), s.at(z1, side));
+}
+
+/// The outline above (section) and below (view) the centre line, with the edges that are
+/// seen; of bores below what is hidden.
+void draw_contour(Sheet& s) {
+  std::vector<Point> above, below;
+  const auto& outer = s.contour.outer;
+  above.push_back(s.at(s.left_z(), s.contour.inner.front().r0));
+  below.push_back(s.at(s.left_z(), 0));
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    for (const auto& [z, r] :
+         {std::pair{outer[i].z0, outer[i].r0}, {outer[i].z1, outer[i].r1}}) {
+      above.push_back(s.at(z, r));
+      below.push_back(s.at(z, -r));
+    }
+    if (i > 0 && outer[i - 1].r1 != outer[i].r0)
+      s.svg.line("thin", s.at(outer[i].z0, 0), s.at(outer[i].z0, -outer[i].r0));
+  }
+  above.push_back(s.at(s.right_z(), s.contour.inner.back().r1));
+  below.push_back(s.at(s.right_z(), 0));
+  s.svg.polyline("contour", above);
+  s.svg.polyline("contour", below);
+  const auto& inner = s.contour.inner;
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    const auto& run = inner[i];
+    if (run.r0 > 0 || run.r1 > 0) {
+      s.svg.line("contour", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
+      s.svg.line("hidden", s.at(run.z0, -run.r0), s.at(run.z1, -run.r1));
+    }
+    if (i > 0 && inner[i - 1].r1 != run.r0) {
+      s.svg.line("contour", s.at(run.z0, 0),
+                 s.at(run.z0, std::max(inner[i - 1].r1, run.r0)));
+      s.svg.line("hidden", s.at(run.z0, -inner[i - 1].r1), s.at(run.z0, -run.r0));
+    }
+  }
+}
+
+/// What this setup cuts, in thick lines.
+void draw_cut(Sheet& s) {
+  const auto& d = s.part.drawing;
+  const auto both = [&](double z0, double r0, double z1, double r1) {
+    s.svg.line("cut", s.at(z0, r0), s.at(z1, r1));
+    s.svg.line("cut", s.at(z0, -r0), s.at(z1, -r1));
+  };
+  for (const std::size_t i : s.work.elements) {
+    const Run run = outer_run(d, i);
+    both(run.z0, run.r0, run.z1, run.r1);
+  }
+  for (const std::size_t i : s.work.bores) {
+    const Run run = inner_run(d, i);
+    s.svg.line("cut", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
+  }
+  for (const std::size_t k : s.work.shoulders) {
+    const double z = part::left_z_mm(d, k);
+    both(z, d.outer[k - 1].right_mm / 2, z, d.outer[k].left_mm / 2);
+  }
+  if (!s.work.end_face) return;
+  const bool right = s.holds_left();
+  const double bore = right ? s.contour.inner.back().r1 : s.contour.inner.front().r0;
+  const double z = right ? s.right_z() : s.left_z();
+  both(z, bore, z, right ? s.contour.outer.back().r1 : s.contour.outer.front().r0);
+}
+
+void draw_errors(Sheet& s) {
+  if (!(s.scale.factor > 0)) return;
+  for (const auto& d : s.plan.deviations) {
+    const auto surface = surface_of(s.part.drawing, d.on);
+    if (d.setup != s.setup || !surface || d.table_mm.empty()) continue;
+    std::vector<Point> made, outline;
+    for (const auto& [z, e] : d.table_mm) {
+      made.push_back(s.at(z, radius_mm(*surface, z) + s.scale.factor * e));  // Eq. (1)
+      outline.push_back(s.at(z, radius_mm(*surface, z)));
+    }
+    outline.insert(outline.end(), made.rbegin(), made.rend());
+    s.svg.polygon("error", outline);
+    s.svg.polyline("made", made);
+  }
+}
+
+void draw_jaws(Sheet& s) {
+  const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
+  const double grip = s.part.setups[s.setup].grip_mm;
+  const double outward = s.holds_left() ? end - grip : end + grip;
+  const double z0 = std::min(end, outward), z1 = std::max(end, outward);
+  const double r = largest_mm(s.contour.outer, z0, z1), top = r + kJaw / s.scale.length;
+  for (const double side : {1.0, -1.0})
+    s.svg.polygon("jaw", {s.at(z0, side * r), s.at(z1, side * r), s.at(z1, side * top),
+                          s.at(z0, side * top)});
+}
+
+/// A 60 degree point in the part's end: as deep as the bore lets it, or a centre hole.
+void draw_centre(Sheet& s, End end) {
+  const double out = end == End::left ? -1 : 1;
+  const double bore =
+      end == End::left ? s.contour.inner.front().r0 : s.contour.inner.back().r1;
+  const double depth = std::max(1.5, s.scale.length * bore / kTan30);
+  const Point face = s.at(end == End::left ? s.left_z() : s.right_z(), 0);
+  const double base = face.x + out * 3, half = (depth + 3) * kTan30;
+  s.svg.polygon("centre", {{face.x - out * depth, s.axis},
+                           {base, s.axis - half},
+                           {base + out * kCentreShank, s.axis - half},
+                           {base + out * kCentreShank, s.axis + half},
+                           {base, s.axis + half}});
+}
+
+void draw_clamping(Sheet& s) {
+  const End held = s.part.setups[s.setup].hold;
+  const End free = held == End::left ? End::right : End::left;
+  if (s.clamping() == Clamping::between_centres)
+    draw_centre(s, held);
+  else
+    draw_jaws(s);
+  if (s.clamping() != Clamping::chuck) draw_centre(s, free);
+}
+
+/// z of every end of an element, with lines down from the part; y of the foot.
+double draw_ruler(Sheet& s) {
+  std::vector<double> z;
+  for (const auto& run : s.contour.outer) z.insert(z.end(), {run.z0, run.z1});
+  for (const auto& run : s.contour.inner) z.insert(z.end(), {run.z0, run.z1});
+  std::sort(z.begin(), z.end());
+  z.erase(std::unique(z.begin(), z.end(),
+                      [](double a, double b) { return std::abs(a - b) < 1e-6; }),
+          z.end());
+  std::vector<double> x;
+  for (const double place : z) x.push_back(s.x(place));
+  const auto labels_x = spread(x, 3.2);
+  const double ruler = s.axis + s.stock_height() + kAround + 1, foot = ruler + 4.5;
+  double longest = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto text = plain(z[i]);
+    longest = std::max(longest, text_width(text));
+    s.svg.polyline("leader", {{x[i], s.axis + s.stock_height() + 1},
+                              {x[i], ruler + 1.2},
+                              {labels_x[i], foot - 0.8}});
+    s.svg.text_upwards({labels_x[i] + 1, foot}, Anchor::end, text);
+  }
+  s.svg.line("thin", {x.front(), ruler}, {x.back(), ruler});
+  s.svg.text({x.front() - 3, ruler + 1}, Anchor::end, "z [mm]");
+  return foot + longest;
+}
+
+void draw_bar(Sheet& s, Point from, Point to) {
+  s.svg.line("bar", from, to);
+  const Point tick = from.x == to.x ? Point{1, 0} : Point{0, 1};
+  for (const auto& end : {from, to})
+    s.svg.line("thin", {end.x - tick.x, end.y - tick.y},
+               {end.x + tick.x, end.y + tick.y});
+}
+
+/// The bars of both scales and what the lines mean; y of the foot.
+double draw_legend(Sheet& s, double top) {
+  const double foot = top + kError + 2, mm = round_below(30 / s.scale.length);
+  draw_bar(s, {10, foot}, {10 + s.scale.length * mm, foot});
+  s.svg.text({10, foot - 2}, Anchor::start, plain(mm) + " mm");
+  s.svg.text({80, foot - 3.6}, Anchor::start,
+             "thick: cut in this setup; dashed: stock; above the axis in section");
+  if (!(s.scale.factor > 0)) {
+    s.svg.text({80, foot}, Anchor::start, "no deviation of a radius is predicted");
+    return foot;
+  }
+  const double drawn = s.scale.length * s.scale.factor;  // paper mm of a mm of error
+  const double bar_mm = round_below(kError / drawn);
+  draw_bar(s, {54, foot}, {54, foot - drawn * bar_mm});
+  s.svg.text({56.5, foot - drawn * bar_mm / 2 + 1}, Anchor::start,
+             plain(units::um_from_mm(bar_mm)) + " \u00b5m", "accent");
+  s.svg.text({80, foot}, Anchor::start,
+             "coloured: the surface as made, its error " + plain(s.scale.factor) +
+                 ":1 to the lengths",
+             "accent");
+  return foot;
+}
+
+std::string heading(const Sheet& s) {
+  const auto& request = s.part.setups[s.setup];
+  std::string text = "Setup " + std::to_string(s.setup) + ": " + name(s.clamping()) +
+                     ", " + (s.holds_left() ? "left" : "right") + " end held";
+  if (s.clamping() != Clamping::between_centres)
+    text += ", grip " + plain(request.grip_mm) + " mm";
+  return text;
+}
+
+std::string drawn(Sheet s, const planning::Finished& finished) {
+  s.axis = kTop + label_height(labels(s, finished)) + 3 + kAround + s.stock_height();
+  const auto title = clipped(s.part.drawing.name, kNameLength);
+  s.svg.text({10, 9}, Anchor::start, title, "title");
+  s.svg.text({10, 14}, Anchor::start, heading(s));
+  if (s.plan.status == planning::PlanStatus::infeasible)
+    s.svg.text({kWidth - 10, 14}, Anchor::end, "no plan keeps every limit", "accent");
+  draw_body(s);
+  draw_stock(s);
+  draw_contour(s);
+  draw_clamping(s);
+  draw_labels(s, labels(s, finished));
+  draw_cut(s);
+  draw_errors(s);
+  s.svg.line("axis", {s.x(s.left_z()) - 10, s.axis}, {s.x(s.right_z()) + 10, s.axis});
+  const double foot = draw_legend(s, draw_ruler(s) + 2);
+  return s.svg.page(kWidth, foot + 6, title + " - " + heading(s));
+}
+
+}  // namespace
+
+std::vector<std::string> setup_drawings(const PartPlan& part, const ProcessPlan& plan) {
+  if (plan.setups.size() > part.setups.size())
+    throw std::domain_error("setup_drawings: the plan has more setups than the part");
+  const auto work = planning::assign(part);
+  const auto scale = scales(part, plan);
+  auto finished = planning::nothing_finished(part.drawing);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < plan.setups.size(); ++i) {
+    planning::finish(finished, work.setups[i]);
+    all.push_back(drawn(
+        {part, plan, work.setups[i], i, scale, contour_after(part, work, i)}, finished));
+  }
+  return all;
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,130 @@
+#include "svg.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace turnwright::report {
+namespace {
+
+// Black on white, one colour for what the cut adds; the sizes are mm of paper.
+constexpr const char* kHead =
+    R"svg(<defs><pattern id="hatch" width="1.4" height="1.4" patternUnits="userSpaceOnUse"
+patternTransform="rotate(45)"><rect width="1.4" height="1.4" fill="#fff"/>
+<line x1="0" y1="0" x2="0" y2="1.4"/></pattern></defs>
+<style>
+polyline, line { fill: none; stroke: #000; stroke-width: 0.3 }
+text { font-family: Helvetica, Arial, sans-serif; font-size: 2.8px; fill: #000 }
+.title { font-size: 4.2px; font-weight: bold }
+.body { fill: #ececec }
+.cut { stroke-width: 0.8; stroke-linecap: square }
+.stock { stroke-width: 0.2; stroke-dasharray: 1.6 1 }
+.hidden { stroke-width: 0.2; stroke-dasharray: 0.8 0.6 }
+.axis { stroke-width: 0.2; stroke-dasharray: 5 1 0.8 1 }
+.thin { stroke-width: 0.15 }
+.leader { stroke-width: 0.12; stroke: #555 }
+.jaw { fill: url(#hatch); stroke: #000; stroke-width: 0.3 }
+.centre { fill: #fff; stroke: #000; stroke-width: 0.3 }
+.error { fill: #c8102e; fill-opacity: 0.2 }
+.made { stroke: #c8102e; stroke-width: 0.35 }
+text.accent { fill: #c8102e }
+.bar { stroke-width: 0.6 }
+</style>
+)svg";
+
+// Thousandths of a mm of paper; never "-0.000".
+std::string coordinate(double value) {
+  if (!std::isfinite(value))
+    throw std::domain_error("a drawing's coordinate must be finite");
+  return fmt::format("{:.3f}", std::abs(value) < 0.0005 ? 0.0 : value);
+}
+
+std::string class_of(const std::string& name) {
+  return name.empty() ? "" : " class=\"" + name + '"';
+}
+
+const char* name(Anchor anchor) {
+  return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
+}
+
+}  // namespace
+
+std::string plain(double value, int decimals) {
+  if (!std::isfinite(value)) throw std::domain_error("a drawn number must be finite");
+  auto text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+void Svg::shape(const char* element, const std::string& css_class,
+                const std::vector<Point>& points) {
+  body_ += fmt::format("<{}{} points=\"", element, class_of(css_class));
+  for (const auto& p : points) {
+    if (&p != points.data()) body_ += ' ';
+    body_ += coordinate(p.x) + ',' + coordinate(p.y);
+  }
+  body_ += "\"/>\n";
+}
+
+void Svg::polyline(const std::string& css_class, const std::vector<Point>& points) {
+  shape("polyline", css_class, points);
+}
+
+void Svg::polygon(const std::string& css_class, const std::vector<Point>& points) {
+  shape("polygon", css_class, points);
+}
+
+void Svg::line(const std::string& css_class, Point from, Point to) {
+  body_ += fmt::format("<line{} x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n",
+                       class_of(css_class), coordinate(from.x), coordinate(from.y),
+                       coordinate(to.x), coordinate(to.y));
+}
+
+void Svg::text(Point at, Anchor anchor, std::string_view text,
+               const std::string& css_class) {
+  body_ += fmt::format("<text{} x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n",
+                       class_of(css_class), coordinate(at.x), coordinate(at.y),
+                       name(anchor), escaped(text));
+}
+
+void Svg::text_upwards(Point at, Anchor anchor, std::string_view text,
+                       const std::string& css_class) {
+  body_ += fmt::format(
+      "<text{} transform=\"translate({} {}) rotate(-90)\" text-anchor=\"{}\">{}</text>\n",
+      class_of(css_class), coordinate(at.x), coordinate(at.y), name(anchor),
+      escaped(text));
+}
+
+std::string Svg::page(double width, double height, std::string_view title) const {
+  const auto w = coordinate(width), h = coordinate(height);
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" "
+             "height=\"{1}mm\" "
+             "viewBox=\"0 0 {0} {1}\" role=\"img\">\n<title>{2}</title>\n",
+             w, h, escaped(title)) +
+         kHead + fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", w, h) +
+         body_ + "</svg>\n";
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// A page of SVG, written front to back.  Coordinates are mm of paper, y downwards.
+namespace turnwright::report {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+/// At most `decimals`, without trailing zeros: "30", "0.25".
+std::string plain(double value, int decimals = 3);
+
+/// For text and attribute values of XML.
+std::string escaped(std::string_view text);
+
+enum class Anchor { start, middle, end };
+
+class Svg {
+ public:
+  void polyline(const std::string& css_class, const std::vector<Point>& points);
+  void polygon(const std::string& css_class, const std::vector<Point>& points);
+  void line(const std::string& css_class, Point from, Point to);
+  void text(Point at, Anchor anchor, std::string_view text,
+            const std::string& css_class = {});
+  /// Reads upwards from `at`.
+  void text_upwards(Point at, Anchor anchor, std::string_view text,
+                    const std::string& css_class = {});
+
+  /// The file; `title` is what a reader that does not draw tells.
+  std::string page(double width, double height, std::string_view title) const;
+
+ private:
+  void shape(const char* element, const std::string& css_class,
+             const std::vector<Point>& points);
+  std::string body_;
+};
+
+}  // namespace turnwright::report
