@@ -60,7 +60,11 @@ Scales scales(const PartPlan& p, const ProcessPlan& plan) {
   double largest = 0;
   for (const auto& d : plan.deviations)
     if (surface_of(p.drawing, d.on))
-      for (const auto& [z, e] : d.table_mm) largest = std::max(largest, std::abs(e));
+      for (const auto& [z, e] : d.table_mm) {
+        if (!std::isfinite(e))
+          throw std::domain_error("setup_drawings: deviations must be finite");
+        largest = std::max(largest, std::abs(e));
+      }
   if (largest > 0) s.factor = round_below(kError / (s.length * largest));
   return s;
 }
