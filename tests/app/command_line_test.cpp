@@ -219,6 +219,35 @@ TEST_F(CommandLine, FilesThatAreNoDocumentsAreNamed) {
             0u);
 }
 
+TEST_F(CommandLine, DrawingsAreWrittenOneASetup) {
+  for (const std::string name : {"plan", "predict"}) {
+    SCOPED_TRACE(name);
+    put(folder_ / "request.json", row(name).example);
+    const std::string command = "turnwright " + name + " request.json --json";
+    const auto outcome = shell(command + " --drawings new/" + name);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, shell(command).out);
+    for (const std::string setup : {"0", "1"}) {
+      const auto svg = contents(folder_ / "new" / name / ("setup-" + setup + ".svg"));
+      EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
+      EXPECT_NE(svg.find("Setup " + setup + ": chuck"), std::string::npos);
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
+  }
+}
+
+TEST_F(CommandLine, DrawingsThatCannotBeWrittenAreTold) {
+  put(folder_ / "request.json", row("predict").example);
+  put(folder_ / "file", "old");
+  for (const std::string target : {"file", "file/below"}) {
+    const auto outcome = shell("turnwright predict request.json --drawings " + target);
+    EXPECT_EQ(outcome.code, 74);
+    EXPECT_EQ(outcome.err.rfind(target + ": cannot be written: ", 0), 0u) << outcome.err;
+  }
+  EXPECT_EQ(contents(folder_ / "file"), "old");
+  EXPECT_EQ(shell("turnwright acceptance request.json --drawings new").code, 2);
+}
+
 TEST_F(CommandLine, SaysWhenTheResultCannotBeWritten) {
   put(folder_ / "request.json", row("acceptance").example);
   for (const std::string target : {"nowhere/result.json", "."}) {
