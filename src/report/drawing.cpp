@@ -302,6 +302,17 @@ void draw_jaws(Sheet& s) {
                           s.at(z0, side * top)});
 }
 
+/// Where its rollers run, narrower towards the part.
+void draw_steady_rest(Sheet& s) {
+  const double z = s.part.setups[s.setup].steady_z_mm;
+  const double half = planning::kSteadyWidth_mm / 2;
+  const double r = largest_mm(s.contour.outer, z - half, z + half),
+               top = r + kJaw / s.scale.length;
+  for (const double side : {1.0, -1.0})
+    s.svg.polygon("rest", {s.at(z - half / 2, side * r), s.at(z + half / 2, side * r),
+                           s.at(z + half, side * top), s.at(z - half, side * top)});
+}
+
 /// A 60 degree point in the part's end: as deep as the bore lets it, or a centre hole.
 void draw_centre(Sheet& s, End end) {
   const double out = end == End::left ? -1 : 1;
@@ -324,7 +335,10 @@ void draw_clamping(Sheet& s) {
     draw_centre(s, held);
   else
     draw_jaws(s);
-  if (s.clamping() != Clamping::chuck) draw_centre(s, free);
+  if (s.clamping() == Clamping::chuck_steady)
+    draw_steady_rest(s);
+  else if (s.clamping() != Clamping::chuck)
+    draw_centre(s, free);
 }
 
 /// z of every end of an element, with lines down from the part; y of the foot.

@@ -25,7 +25,7 @@ text { font-family: Helvetica, Arial, sans-serif; font-size: 2.8px; fill: #000 }
 .thin { stroke-width: 0.15 }
 .leader { stroke-width: 0.12; stroke: #555 }
 .jaw { fill: url(#hatch); stroke: #000; stroke-width: 0.3 }
-.centre { fill: #fff; stroke: #000; stroke-width: 0.3 }
+.centre, .rest { fill: #fff; stroke: #000; stroke-width: 0.3 }
 .error { fill: #c8102e; fill-opacity: 0.2 }
 .made { stroke: #c8102e; stroke-width: 0.35 }
 text.accent { fill: #c8102e }

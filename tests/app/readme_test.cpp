@@ -52,9 +52,9 @@ TEST(Readme, CostsAndClampingsAreThoseOfThePlans) {
             << c.limit;
       continue;
     }
-    char cost[32];
-    std::snprintf(cost, sizeof cost, "%.4f", plan.cost_per_part);
-    EXPECT_EQ(row[1], cost);
+    // The optimum is known to the certificate's gap.
+    EXPECT_NEAR(std::stod(row[1]), plan.cost_per_part, 1e-4 * plan.cost_per_part)
+        << row[0];
     std::string clampings;
     for (const auto& s : plan.setups)
       clampings += (clampings.empty() ? "" : ", ") + std::string(name(s.clamping));

@@ -173,6 +173,9 @@ TEST(SetupDrawings, CentresStandWhereTheClampingHasThem) {
   EXPECT_EQ(count(Clamping::chuck_tailstock, "jaw"), 2u);
   EXPECT_EQ(count(Clamping::between_centres, "centre"), 2u);
   EXPECT_EQ(count(Clamping::between_centres, "jaw"), 0u);
+  part.setups[0].steady_z_mm = 30;
+  EXPECT_EQ(count(Clamping::chuck_steady, "rest"), 2u);
+  EXPECT_EQ(count(Clamping::chuck_steady, "centre"), 0u);
 }
 
 TEST(SetupDrawings, ErrorsStandOffTheSurfaceByTheFactor) {
