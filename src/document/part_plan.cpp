@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -67,6 +68,44 @@ void read_economics(Draft& draft) {
                                 plan.conformance, plan.conformance);
 }
 
+void read_budget(Draft& draft) {
+  auto budget = draft.root.optional_object("budget");
+  if (!budget) {
+    draft.assume("/budget", nlohmann::json::object(),
+                 "nothing but the cut, the machine's share and the clamping");
+    return;
+  }
+  auto& shop = draft.plan().shop;
+  const auto read = [&](const char* key, double& value, const Bounds& bounds) {
+    if (const auto given = budget->optional_number(key, bounds)) value = *given;
+  };
+  const auto error = within(0, 1000, "um");
+  read("drift_um", shop.drift_um, error);
+  read("drift_axial_um", shop.drift_axial_um, error);
+  read("repeatability_um", shop.repeatability_um, error);
+  read("part_warm_K", shop.part_warm_K, within(0, 200, "K"));
+  read("life_between_offsets", shop.life_between_offsets, within(0, 1));
+  read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
+  read("rechucking_um", shop.rechucking_um, error);
+  read("measurement_U_um", shop.measurement_U_um, error);
+  budget->finish();
+}
+
+// A tube's jaw force where the request gives none; needs the whole part.
+void assume_grip_forces(Draft& draft) {
+  auto& plan = draft.plan();
+  for (std::size_t s = 0; s < plan.setups.size(); ++s) {
+    const double most = plan.machine.chuck.grip_force_N;
+    if (plan.setups[s].grip_force_N) continue;
+    const double force = planning::gentle_grip_N(plan, s);
+    if (!(force < most)) continue;
+    plan.setups[s].grip_force_N = force;
+    draft.assume("/setups/" + std::to_string(s) + "/grip_force_N", force,
+                 "less than the chuck's " + number_text(most) +
+                     " N: the jaws' lobes may take a quarter of a roundness");
+  }
+}
+
 }  // namespace
 
 LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
@@ -85,11 +124,13 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_setups(draft);
     read_operations(draft);
     read_economics(draft);
+    read_budget(draft);
     root.optional_items("milling", 0, 100);
     refuse_unsupported(root);
     root.finish();
   }
   problems.throw_if_any();
+  assume_grip_forces(draft);
   return std::move(draft.loaded);
 }
 

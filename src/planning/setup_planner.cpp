@@ -57,6 +57,7 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
   if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
   if (clamping == Clamping::between_centres) t += m.centres_min;
   if (clamping == Clamping::chuck_steady) t += m.steady_min;
+  if (clamping == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
   return t;
 }
 
@@ -182,8 +183,9 @@ SetupPlanner::ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools)
 FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset) const {
   const auto& f = jobs_[j].feature;
   const auto [rough, finish] = tools_of(j, tools);
-  return {f, demands(p_, f.surface(), offset),
-          recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, explain_};
+  const Making making{setup_, clamping_, finish ? finish : rough};
+  return {f, demands(p_, f.surface(), offset, making),
+          recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, making, explain_};
 }
 
 Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {

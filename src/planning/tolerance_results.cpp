@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "outcome.hpp"
@@ -48,24 +47,24 @@ tolerance::Profile as_made(const Found& f) {
                                         correction(*f.feature));
 }
 
-// The tolerance less the machine's share, as tolerance/ judges it; sizes about the middle
+// The tolerance less what is taken of it, as tolerance/ judges it; sizes about the middle
 // that the tool is programmed to.
-tolerance::Case judged(const Tolerance& t, const Found& at, double share_mm,
+tolerance::Case judged(const Tolerance& t, const Found& at, double taken_mm,
                        double half_angle) {
   tolerance::Case c;
   c.kind = t.kind;
   c.half_angle_rad = half_angle;
   const bool bare = !at.demand || at.demand->shape == Demand::Shape::none;
   if (t.limits) {
-    const double half = (t.limits->upper_mm - t.limits->lower_mm - share_mm) / 2;
+    const double half = (t.limits->upper_mm - t.limits->lower_mm - taken_mm) / 2;
     c.limits = part::Limits{-half, half};
   } else if (bare) {
     c.value_mm = t.value_mm;
-    c.machine_mm = share_mm;  // the cut has no term here
+    c.machine_mm = taken_mm;  // the cut has no term here
     if (t.kind == ToleranceKind::perpendicularity)
       c.controlled = tolerance::Controlled::axis;
   } else {
-    c.value_mm = t.value_mm - share_mm;
+    c.value_mm = t.value_mm - taken_mm;
   }
   return c;
 }
@@ -84,43 +83,58 @@ double spread(const PartPlan& p) {
          100;
 }
 
-// P(value + scatter Z <= limit), Z normal.
-double conformance(double value, double limit, double scatter) {
-  if (!(scatter > 0)) return value <= limit ? 1 : 0;
-  return boost::math::erfc(-(limit - value) / scatter / std::sqrt(2.0)) / 2;
+// What all but the cut takes: at each of the surfaces that are made.
+Allowance taken(const PartPlan& p, std::size_t tolerance, const Found& at,
+                const Found& other) {
+  Allowance all{.fixed = {{"machine", p.machine_share_um}}, .spread = {}};
+  for (const auto* found : {&at, &other}) {
+    if (!found->feature) continue;
+    const auto own = allowance(p, tolerance, found->feature->task.making);
+    all.fixed = own.fixed;
+    all.spread.insert(all.spread.end(), own.spread.begin(), own.spread.end());
+  }
+  if (p.drawing.tolerances[tolerance].limits) all.ends = 2;
+  return all;
 }
 
-// What is compared, and against what: of a size the deviation that goes furthest from the
-// middle of its limits.
-struct Compared {
-  double value_mm = 0, limit_mm = 0;
-};
-Compared compared(const tolerance::Case& c, const tolerance::Verdict& v) {
-  if (!c.limits) return {v.measured_mm, v.allowed_mm};
+// What a force or stiffness that is not known scales: of a size the deviation that goes
+// furthest from the middle of its limits.
+double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
+  if (!c.limits) return std::max(0.0, v.measured_mm - c.machine_mm);
   const double factor = c.kind == ToleranceKind::diameter ? 2 : 1;
-  return {factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm),
-          c.limits->upper_mm};
+  return factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm);
 }
 
-double width_mm(const Tolerance& t) {
-  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+// P(conform) in the room that is left with what spreads given back: it is drawn instead.
+// The measurement takes nothing from the part.
+double conformance(const PartPlan& p, const Allowance& a, const tolerance::Verdict& made,
+                   double scaled) {
+  double back_um = tolerance::rss_um(a.spread).up_um;
+  for (const auto& f : a.fixed)
+    if (f.source == "measurement") back_um += f.um / a.ends;
+  auto room = tolerance::room_um(made);
+  room.up_um += back_um;
+  room.down_um -= back_um;
+  auto sources = a.spread;
+  sources.push_back({"force and stiffness", tolerance::Distribution::normal, spread(p),
+                     units::um_from_mm(scaled)});
+  return tolerance::conformance(sources, room);
 }
 
-// The machine alone needs more than there is.
-void used_up(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
-  const double share_mm = units::mm_from_um(p.machine_share_um);
+// All but the cut needs more than there is.
+void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.verdict = Verdict::not_met;
   r.seed_verdict = false;
-  r.predicted_mm = {share_mm};
+  r.predicted_mm = {taken_mm};
   r.allowed_mm = {width_mm(t)};
-  r.margin_mm = width_mm(t) - share_mm;
+  r.margin_mm = width_mm(t) - taken_mm;
   r.P_conform = 0;
 }
 
 void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
-             ToleranceResult& r) {
-  const double share_mm = units::mm_from_um(p.machine_share_um);
-  const auto c = judged(t, at, share_mm, half_angle_rad(p.drawing, t.of).value_or(0));
+             const Allowance& all, ToleranceResult& r) {
+  const double taken = taken_mm(all);
+  const auto c = judged(t, at, taken, half_angle_rad(p.drawing, t.of).value_or(0));
   const auto cut = verdict(c, profile(at), profile(other));
   const bool corrected = (at.feature && at.feature->compensated) ||
                          (other.feature && other.feature->compensated);
@@ -131,7 +145,6 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
   r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
               : cut.margin_mm < -rounding ? Verdict::met_with_offset
                                           : Verdict::met;
-  const auto before = compared(c, cut), after = compared(c, made);
   const double cut_mm = std::max(0.0, made.measured_mm - c.machine_mm);
   r.shares.insert(r.shares.begin(), {"deflection", units::um_from_mm(cut_mm)});
   if (t.limits) {
@@ -139,15 +152,13 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
     r.predicted_mm = {middle + factor * made.extremes_mm.min_mm,
                       middle + factor * made.extremes_mm.max_mm};
-    r.allowed_mm = {t.limits->lower_mm + share_mm / 2, t.limits->upper_mm - share_mm / 2};
+    r.allowed_mm = {t.limits->lower_mm + taken / 2, t.limits->upper_mm - taken / 2};
   } else {
     r.predicted_mm = {made.measured_mm};
     r.allowed_mm = {made.allowed_mm};
   }
   // What is not known of forces and stiffness is not known of a correction either.
-  r.P_conform = cut_mm > 0 || corrected ? conformance(after.value_mm, after.limit_mm,
-                                                      spread(p) * before.value_mm)
-                                        : (made.accepted ? 1 : 0);
+  r.P_conform = conformance(p, all, made, scaled_mm(c, cut));
 }
 
 // An element that nothing cuts has the stock's diameter, and no form.
@@ -189,7 +200,7 @@ void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
 
 std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
                                                const std::vector<SolvedSetup>& setups) {
-  std::vector<ToleranceResult> all;
+  std::vector<ToleranceResult> results;
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
     const auto& t = p.drawing.tolerances[i];
     const bool length = t.kind == ToleranceKind::length;
@@ -199,18 +210,19 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.id = t.id;
     r.kind = t.kind;
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
-    r.shares = {{"machine", p.machine_share_um}};
-    if (width_mm(t) <= units::mm_from_um(p.machine_share_um))
-      used_up(p, t, r);
+    const auto all = taken(p, i, at, other);
+    r.shares = shares(all);
+    if (width_mm(t) <= taken_mm(all))
+      used_up(t, taken_mm(all), r);
     else if (!at.feature && half_angle_rad(p.drawing, t.of))
       not_made(p, t, r);
     else if (!at.feature && !other.feature)
       left_as_stock(p, t, r);
     else
-      predict(p, t, at, other, r);
-    all.push_back(std::move(r));
+      predict(p, t, at, other, all, r);
+    results.push_back(std::move(r));
   }
-  return all;
+  return results;
 }
 
 std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups) {

@@ -99,19 +99,16 @@ void add_draws(std::span<const Source> sources, std::uint64_t seed, std::size_t 
   }
 }
 
-/// Eqs. (2)-(4).
+/// Eqs. (2), (4).
 void add_closed_forms(std::span<const Source> sources, Budget& b) {
-  double up = 0, down = 0, variance = 0;
+  double variance = 0;
   for (const Source& s : sources) {
     const Moments m = moments_um(s);
     b.worst_case_um.down_um += m.low;
     b.worst_case_um.up_um += m.high;
     b.mean_um += m.mean;
-    up += (m.high - m.mean) * (m.high - m.mean);
-    down += (m.mean - m.low) * (m.mean - m.low);
     variance += m.sigma * m.sigma;
   }
-  b.rss_um = {b.mean_um - std::sqrt(down), b.mean_um + std::sqrt(up)};
   b.sigma_um = std::sqrt(variance);
   for (const Source& s : sources) {
     const Moments m = moments_um(s);
@@ -196,6 +193,43 @@ double share_within(std::span<const double> rising_um, const Span& room) {
              : static_cast<double>(last - first) / static_cast<double>(rising_um.size());
 }
 
+Span rss_um(std::span<const Source> sources) {
+  check(sources);
+  double mean = 0, up = 0, down = 0;
+  for (const Source& s : sources) {
+    const Moments m = moments_um(s);
+    mean += m.mean;
+    up += (m.high - m.mean) * (m.high - m.mean);
+    down += (m.mean - m.low) * (m.mean - m.low);
+  }
+  return {mean - std::sqrt(down), mean + std::sqrt(up)};
+}
+
+double conformance(std::span<const Source> sources, const Span& room,
+                   const Draws& draws) {
+  check(sources);
+  double mean = 0, variance = 0;
+  std::vector<Source> rest;
+  for (const Source& s : sources) {
+    if (s.distribution != Distribution::normal && s.distribution != Distribution::fixed) {
+      rest.push_back(s);
+      continue;
+    }
+    const Moments m = moments_um(s);
+    mean += m.mean;
+    variance += m.sigma * m.sigma;
+  }
+  const auto drawn = rest.empty() ? std::vector{0.0} : rising_sum_um(rest, draws);
+  const Span left{room.down_um - mean, room.up_um - mean};
+  if (!(variance > 0)) return share_within(drawn, left);
+  const double scale = std::sqrt(2 * variance);
+  double sum = 0;
+  for (const double x : drawn)
+    sum += std::max(0.0, std::erf((left.up_um - x) / scale) -
+                             std::erf((left.down_um - x) / scale));
+  return sum / 2 / static_cast<double>(drawn.size());
+}
+
 Budget budget(const BudgetDemand& demand, const Span& room) {
   require(demand.conformance >= 0 && demand.conformance <= 1,
           "the wanted conformance must lie in [0, 1]");
@@ -206,6 +240,7 @@ Budget budget(const BudgetDemand& demand, const Span& room) {
   const std::vector<double> rising = rising_sum_um(demand.sources, demand.draws);
   Budget b{.room_um = room};
   add_closed_forms(demand.sources, b);
+  b.rss_um = rss_um(demand.sources);
   b.worst_case_fits = fits(b.worst_case_um, room);
   b.rss_fits = fits(b.rss_um, room);
   b.P_conform = share_within(rising, room);  // Eq. (6)

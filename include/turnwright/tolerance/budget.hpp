@@ -105,6 +105,16 @@ double quantile_um(std::span<const double> rising_um, double p);
 /// Share of rising draws within the room, both ends included.
 double share_within(std::span<const double> rising_um, const Span& room);
 
+/// Eq. (3).  @throws std::domain_error as rising_sum_um().
+Span rss_um(std::span<const Source> sources);
+
+/// Eq. (6) with what is normal or fixed taken in closed form and only the rest drawn:
+/// without a rest exact, else smooth in the room and within 4e-4 (one standard deviation,
+/// 20 000 draws) wherever the room ends.
+/// @throws std::domain_error as rising_sum_um().
+double conformance(std::span<const Source> sources, const Span& room,
+                   const Draws& draws = {.count = 20'000});
+
 /// ISO 14253-1 on a lot: what the measurement can prove.
 enum class Decision {
   conforms,         ///< (8) >= the wanted conformance
