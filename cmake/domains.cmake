@@ -37,7 +37,7 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp allowance.cpp
           tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS recipe_model_test.cpp plan_test.cpp
+          TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)

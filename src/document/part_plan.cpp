@@ -91,18 +91,19 @@ void read_budget(Draft& draft) {
   budget->finish();
 }
 
-// A tube's jaw force where the request gives none; needs the whole part.
+// A tube's jaws are eased where the request does not say how far; needs the whole part.
 void assume_grip_forces(Draft& draft) {
   auto& plan = draft.plan();
   for (std::size_t s = 0; s < plan.setups.size(); ++s) {
-    const double most = plan.machine.chuck.grip_force_N;
-    if (plan.setups[s].grip_force_N) continue;
+    auto& setup = plan.setups[s];
+    if (setup.finishing_grip_force_N) continue;
+    const double most = setup.grip_force_N.value_or(plan.machine.chuck.grip_force_N);
     const double force = planning::gentle_grip_N(plan, s);
     if (!(force < most)) continue;
-    plan.setups[s].grip_force_N = force;
-    draft.assume("/setups/" + std::to_string(s) + "/grip_force_N", force,
-                 "less than the chuck's " + number_text(most) +
-                     " N: the jaws' lobes may take a quarter of a roundness");
+    setup.finishing_grip_force_N = force;
+    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N", force,
+                 "the jaws are eased from " + number_text(most) +
+                     " N: their lobes may take a quarter of a roundness");
   }
 }
 

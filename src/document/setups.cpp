@@ -31,8 +31,7 @@ bool has_rest(Clamping c) {
 std::vector<Clamping> all_clampings(const Draft& draft) {
   std::vector<Clamping> out;
   for (const auto& [word, clamping] : clampings())
-    if (machine_has(draft, clamping) && !has_rest(clamping))
-      out.push_back(clamping);
+    if (machine_has(draft, clamping) && !has_rest(clamping)) out.push_back(clamping);
   return out;
 }
 
@@ -96,12 +95,17 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
                    "conflict");
 }
 
-void read_grip_force(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
-  setup.grip_force_N = r.optional_number("grip_force_N", above_up_to(0, 1e7, "N"));
-  const double most = draft.loaded.plan.machine.chuck.grip_force_N;
-  if (setup.grip_force_N && most > 0 && *setup.grip_force_N > most)
-    r.problem_at("grip_force_N",
-                 "at most the " + number_text(most) + " N of the chuck", "conflict");
+void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  const auto force = [&](const char* key, double most, const char* of) {
+    const auto given = r.optional_number(key, above_up_to(0, 1e7, "N"));
+    if (given && most > 0 && *given > most)
+      r.problem_at(key, "at most the " + number_text(most) + " N of " + of, "conflict");
+    return given;
+  };
+  const double chuck = draft.loaded.plan.machine.chuck.grip_force_N;
+  setup.grip_force_N = force("grip_force_N", chuck, "the chuck");
+  setup.finishing_grip_force_N =
+      force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), "the roughing");
 }
 
 // Where the steady rest stands: needed by its clamping and by no other.
@@ -135,7 +139,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "half the held diameter, at least 15 mm");
   }
   read_clampings(draft, r, setup);
-  read_grip_force(draft, r, setup);
+  read_grip_forces(draft, r, setup);
   read_steady(draft, r, setup);
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};

@@ -121,8 +121,8 @@ bool datum_elsewhere(const PartPlan& p, const Tolerance& t, const Making& making
   return !t.datum.empty() && setup_of(assign(p), p, t.datum) != making.setup;
 }
 
-// Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne by
-// the tube beside it, 1/2 lambda wide at its end.
+// Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
+// by the tube beside it, 1/2 lambda wide at its end.
 double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
   const double outer = grip_diameter_mm(p, m.setup, m.clamping);
   const double inner = gripped_bore_mm(p, m.setup);
@@ -132,7 +132,7 @@ double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
   const double width = std::max(p.setups[m.setup].grip_mm, 1 / (2 * decay));
   const auto ring = deflection::with_shear(
       {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
-  const double F = jaw_force_N(p, m.setup, m.clamping) / kJaws;
+  const double F = jaw_force_N(p, m.setup, m.clamping, Stage::finishing) / kJaws;
   const double lobes = t.kind == ToleranceKind::profile
                            ? 2 * deflection::squeeze_mm(ring, kJaws, F, 0)
                            : deflection::lobing_mm(ring, kJaws, F);
@@ -172,7 +172,7 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
 
 double gentle_grip_N(const PartPlan& p, std::size_t setup) {
   constexpr double kOfZone = 0.25, kLeast = 0.05;
-  const double most = p.machine.chuck.grip_force_N;
+  const double most = jaw_force_N(p, setup, Clamping::chuck, Stage::roughing);
   const auto& clampings = p.setups[setup].clampings;
   const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
     return c != Clamping::between_centres;
@@ -183,7 +183,8 @@ double gentle_grip_N(const PartPlan& p, std::size_t setup) {
   for (const auto& t : p.drawing.tolerances) {
     if (setup_of(work, p, t.of) != setup) continue;
     const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
-    share = std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
+    share =
+        std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
   }
   return most * std::max(kLeast, share);
 }

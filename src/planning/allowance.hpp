@@ -30,9 +30,10 @@ struct Making {
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, twice: run-out and coaxiality to a datum of another setup
 ///
-/// Three lobes leave two-point diameters as they are, but for their even orders (a tenth).
+/// Three lobes leave two-point diameters as they are, but for their even orders (a
+/// tenth).
 struct Allowance {
-  std::vector<Share> fixed;                ///< [um] of the width
+  std::vector<Share> fixed;               ///< [um] of the width
   std::vector<tolerance::Source> spread;  ///< of one end, sensitivities included
   double ends = 1;  ///< of the width: 1 of a zone, 2 of a size, for each face of a length
 };

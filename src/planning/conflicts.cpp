@@ -196,9 +196,13 @@ Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& f, const De
   for (const auto& s : shares(allowance(plan, d.tolerance, f.task.making)))
     sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
   const auto called = t.id + " " + part::name(t.kind);
-  return {called, f.task.feature.surface(), d.taken_mm, width_mm(t), "mm",
-          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})", called,
-                      f.task.feature.surface(), readable(d.taken_mm),
+  return {called,
+          f.task.feature.surface(),
+          d.taken_mm,
+          width_mm(t),
+          "mm",
+          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
+                      called, f.task.feature.surface(), readable(d.taken_mm),
                       readable(width_mm(t)), sources)};
 }
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace turnwright::planning {
 namespace {
 
@@ -81,8 +80,8 @@ bool face_is_cut(const PartPlan& p, const std::string& face) {
   return true;
 }
 
-std::vector<Demand> demands(const PartPlan& p, const std::string& surface,
-                            Offset offset, const Making& making) {
+std::vector<Demand> demands(const PartPlan& p, const std::string& surface, Offset offset,
+                            const Making& making) {
   std::vector<Demand> all;
   const auto half_angle = half_angle_rad(p.drawing, surface);
   const auto& tolerances = p.drawing.tolerances;

@@ -51,11 +51,11 @@ double clamping_rpm(const PartPlan& p, Clamping clamping) {
 }
 
 // Where the centrifugal loss of the grip reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& p, std::size_t setup, Clamping clamping) {
+double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
   const auto& c = p.machine.chuck;
   if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
     return std::numeric_limits<double>::infinity();
-  return std::sqrt(cutting::kGripLoss * jaw_force_N(p, setup, clamping) / c.jaw_mass_radius_kg_m) * 30 /
+  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
          units::kPi;
 }
 
@@ -250,10 +250,14 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
   o.range = cutting::speed_ranges(m)[range];
+  // End faces come first, before the jaws are eased.
+  const bool eased = finishing && kind_ != Kind::end_face;
+  const double force_N =
+      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
   if (clamping_ != Clamping::between_centres)
-    o.grip = {jaw_force_N(*plan_, setup_, clamping_), m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
               grip_diameter_mm(*plan_, setup_, clamping_)};
-  const double n_grip = grip_loss_rpm(*plan_, setup_, clamping_);
+  const double n_grip = grip_loss_rpm(*plan_, clamping_, force_N);
   o.n_cap_rpm = std::min({o.range.n_max_rpm, clamping_rpm(*plan_, clamping_), n_grip});
   o.n_cap_of_grip = o.n_cap_rpm == n_grip;
   o.n_min_rpm = o.range.n_min_rpm;

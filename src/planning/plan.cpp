@@ -212,7 +212,8 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
     return s;
   }
   s.clamping = c.chosen.clamping;
-  s.grip_force_N = jaw_force_N(p, index, s.clamping);
+  s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
+  s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
   for (const auto& f : c.chosen.features)
     if (!f.answer.feasible) explain(p, c.chosen, f, result);
   s.operations = operations_in_order(p, c.chosen);

@@ -95,7 +95,8 @@ ProcessPlan predict(const PartPlan& p) {
     SetupPlan setup;
     setup.hold = p.setups[s].hold;
     setup.clamping = p.setups[s].clampings.front();
-    setup.grip_force_N = jaw_force_N(p, s, setup.clamping);
+    setup.grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::roughing);
+    setup.finishing_grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::finishing);
     setup.operations = operations_in_order(p, setups.back());
     for (const auto& f : setups.back().features)
       if (!f.answer.model)

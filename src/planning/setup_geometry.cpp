@@ -195,7 +195,6 @@ double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
 double gripped_bore_mm(const PartPlan& p, std::size_t s) {
   const auto& d = drawing(p);
   double bore = d.stock.inner_mm;
-  if (s == 0) return bore;
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
     if (holds_left(p, s) ? z0 < jaw_z(p, s) : z1 > jaw_z(p, s))
@@ -204,9 +203,11 @@ double gripped_bore_mm(const PartPlan& p, std::size_t s) {
   return bore;
 }
 
-double jaw_force_N(const PartPlan& p, std::size_t s, Clamping clamping) {
+double jaw_force_N(const PartPlan& p, std::size_t s, Clamping clamping, Stage stage) {
   if (clamping == Clamping::between_centres) return 0;
-  return p.setups[s].grip_force_N.value_or(p.machine.chuck.grip_force_N);
+  const auto& setup = p.setups[s];
+  const double force = setup.grip_force_N.value_or(p.machine.chuck.grip_force_N);
+  return stage == Stage::roughing ? force : setup.finishing_grip_force_N.value_or(force);
 }
 
 SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,

@@ -184,8 +184,12 @@ FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset)
   const auto& f = jobs_[j].feature;
   const auto [rough, finish] = tools_of(j, tools);
   const Making making{setup_, clamping_, finish ? finish : rough};
-  return {f, demands(p_, f.surface(), offset, making),
-          recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, making, explain_};
+  return {f,
+          demands(p_, f.surface(), offset, making),
+          recipes(p_, f, jobs_[j].wanted, rough, finish),
+          economy_,
+          making,
+          explain_};
 }
 
 Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {

@@ -64,11 +64,15 @@ double grip_diameter_mm(const PartPlan& plan, std::size_t setup, Clamping clampi
 /// Largest bore [mm] that may stand between the jaws, 0 of a solid part.
 double gripped_bore_mm(const PartPlan& plan, std::size_t setup);
 
-/// Force of all jaws at rest [N], 0 between centres.
-double jaw_force_N(const PartPlan& plan, std::size_t setup, Clamping clamping);
+/// Force of all jaws at rest [N], 0 between centres; they may be eased when the roughing
+/// of a setup is done.
+enum class Stage { roughing, finishing };
+double jaw_force_N(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                   Stage stage);
 
-/// Jaw force for a setup whose request gives none: the chuck's own, or as much less as
-/// leaves the lobes a quarter of every zone that sees them; at least a twentieth [N].
+/// Jaw force for finishing in a setup whose request gives none: that of roughing, or as
+/// much less as leaves the lobes a quarter of every zone that sees them; at least a
+/// twentieth [N].
 double gentle_grip_N(const PartPlan& plan, std::size_t setup);
 
 /// The body from the root to the free end; the end at the root is as the setups before
