@@ -63,6 +63,10 @@ void read_economics(Draft& draft) {
       or_assumed(draft, "machine_share_um",
                  r.optional_number("machine_share_um", within(0, 1000, "um")),
                  plan.machine_share_um, plan.machine_share_um);
+  if (draft.root.has("robust"))
+    plan.robust = draft.root.boolean("robust");
+  else
+    draft.assume("/robust", false, "default");
   plan.conformance = or_assumed(draft, "conformance",
                                 r.optional_number("conformance", at_least_below(0.5, 1)),
                                 plan.conformance, plan.conformance);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "demand.hpp"
 #include "turnwright/base/units.hpp"
@@ -17,6 +18,7 @@ using part::ToleranceKind;
 using tolerance::Distribution;
 
 constexpr int kJaws = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_size(ToleranceKind kind) {
   return kind == ToleranceKind::diameter || kind == ToleranceKind::length ||
@@ -139,6 +141,19 @@ double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
   return units::um_from_mm(lobes) * std::exp(-decay * beyond_jaws_mm(p, t.of, m));
 }
 
+// The largest E in [0, most] that suffices, of a condition that fails from some E on.
+template <class Suffices>
+double largest(double most, const Suffices& suffices) {
+  constexpr int kHalvings = 40;
+  double low = 0, high = most;
+  if (suffices(high)) return high;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (suffices(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& making) {
@@ -193,6 +208,29 @@ double taken_mm(const Allowance& a) {
   double um = a.ends * tolerance::rss_um(a.spread).up_um;
   for (const auto& f : a.fixed) um += f.um;
   return units::mm_from_um(um);
+}
+
+double force_spread(const PartPlan& p) {
+  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
+         100;
+}
+
+double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
+               bool corrected) {
+  const double width = width_mm(p.drawing.tolerances[tolerance]);
+  if (!p.robust) return std::max(0.0, width - taken_mm(a));
+  double fixed_um = 0;
+  for (const auto& f : a.fixed) fixed_um += f.um;
+  const double h = (units::um_from_mm(width) - fixed_um) / a.ends;
+  if (!(h > 0)) return 0;
+  const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
+  const double r = force_spread(p), below = a.ends > 1 ? -1 : -kInfinity;
+  const tolerance::Spread spread(a.spread);
+  const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
+    const double room = corrected ? h : h - e;
+    return spread.within({below * room, room}, r * e) >= wanted;
+  });
+  return units::mm_from_um(a.ends * E);
 }
 
 std::vector<Share> shares(const Allowance& a) {

@@ -43,6 +43,27 @@ Allowance allowance(const PartPlan& plan, std::size_t tolerance, const Making& m
 /// squares of the spread, (3) of tolerance/budget.hpp [mm].
 double taken_mm(const Allowance& allowance);
 
+/// Relative standard deviation of what the cut leaves: of forces and of stiffness.
+double force_spread(const PartPlan& plan);
+
+/// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
+/// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
+/// the largest E of which parts whose force and stiffness spread by r keep the limits
+/// with the wanted probability,
+///
+///     P(|S + r E Z| <= h - E) = p  of a size,  P(S + r E Z <= h - E) = p  of a zone (1)
+///
+/// S the spread, Z standard normal; each face of a length may fail with (1 - p)/faces.
+/// With the path corrected E leaves nothing but what is not known of it,
+///
+///     P(|S + r E Z| <= h) = p                                                        (2)
+///
+/// Source: derived here; the left sides fall as E grows.
+/// @param corrected (2) in place of (1); without effect on a plan that is not robust.
+/// @return ends E [mm].
+double left_mm(const PartPlan& plan, std::size_t tolerance, const Allowance& allowance,
+               bool corrected);
+
 /// What each source takes of the width on its own; a spread by its reach.
 std::vector<Share> shares(const Allowance& allowance);
 

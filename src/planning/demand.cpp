@@ -16,16 +16,18 @@ double middle_mm(const Tolerance& t) {
 Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_angle,
               Offset offset, const Making& making) {
   const Tolerance& t = p.drawing.tolerances[index];
-  const double taken = taken_mm(allowance(p, index, making));
-  const double left = std::max(0.0, width_mm(t) - taken);
+  const bool free = offset == Offset::free;
+  const auto others = allowance(p, index, making);
+  const double left = left_mm(p, index, others, false);
+  const double taken = left > 0 ? width_mm(t) - left : taken_mm(others);
   const double cosine = std::cos(half_angle.value_or(0));
   using Shape = Demand::Shape;
-  const bool free = offset == Offset::free;
   Demand d{index, Shape::none, 1, 0, left, middle_mm(t), taken};
   const auto size = [&](double factor, double share) {
     d.factor = factor;
-    d.shape = free ? Shape::range : Shape::size;
-    d.upper = free ? left * share : left * share / 2;
+    d.shape = free && !p.robust ? Shape::range : Shape::size;
+    d.upper = d.shape == Shape::range ? left * share
+                                      : left_mm(p, index, others, free) * share / 2;
     d.lower = -d.upper;
   };
   switch (t.kind) {

@@ -22,7 +22,8 @@ struct Demand {
   double taken_mm = 0;   ///< of the width, by all but the cut
 };
 
-/// With a free offset of the tool a size asks only for its range.
+/// With a free offset of the tool a size asks only for its range, or in a robust plan for
+/// an error that is known well enough to be corrected.
 enum class Offset { none, free };
 
 /// The tolerances that bear on an outer element or on a face ("left", "right", "d1|d2"),

@@ -77,48 +77,38 @@ tolerance::Verdict verdict(tolerance::Case c, tolerance::Profile e,
   return tolerance::verdict(c);
 }
 
-// Relative standard deviation of the error: force and stiffness multiply it.
-double spread(const PartPlan& p) {
-  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
-         100;
-}
-
-// What all but the cut takes: at each of the surfaces that are made.
-Allowance taken(const PartPlan& p, std::size_t tolerance, const Found& at,
-                const Found& other) {
-  Allowance all{.fixed = {{"machine", p.machine_share_um}}, .spread = {}};
+// What all but the cut takes, of the surfaces that are made.
+struct Taken {
+  Allowance by;
+  double mm = 0;        // of the width; of a length the faces' own, each half
+  double fixed_mm = 0;  // of it what parts have, not their measurement
+};
+Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
+            const Found& other) {
+  Taken all{.by = {.fixed = {{"machine", p.machine_share_um}}, .spread = {}}};
+  double made = 0;
   for (const auto* found : {&at, &other}) {
     if (!found->feature) continue;
     const auto own = allowance(p, tolerance, found->feature->task.making);
-    all.fixed = own.fixed;
-    all.spread.insert(all.spread.end(), own.spread.begin(), own.spread.end());
+    all.by.fixed = own.fixed;
+    all.by.spread.insert(all.by.spread.end(), own.spread.begin(), own.spread.end());
+    all.mm += found->demand->taken_mm;
+    ++made;
   }
-  if (p.drawing.tolerances[tolerance].limits) all.ends = 2;
+  all.mm = made > 0 ? all.mm / made : units::mm_from_um(p.machine_share_um);
+  if (p.drawing.tolerances[tolerance].limits) all.by.ends = 2;
+  for (const auto& f : all.by.fixed)
+    if (f.source != "measurement") all.fixed_mm += units::mm_from_um(f.um);
   return all;
 }
 
 // What a force or stiffness that is not known scales: of a size the deviation that goes
 // furthest from the middle of its limits.
 double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
-  if (!c.limits) return std::max(0.0, v.measured_mm - c.machine_mm);
   const double factor = c.kind == ToleranceKind::diameter ? 2 : 1;
-  return factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm);
-}
-
-// P(conform) in the room that is left with what spreads given back: it is drawn instead.
-// The measurement takes nothing from the part.
-double conformance(const PartPlan& p, const Allowance& a, const tolerance::Verdict& made,
-                   double scaled) {
-  double back_um = tolerance::rss_um(a.spread).up_um;
-  for (const auto& f : a.fixed)
-    if (f.source == "measurement") back_um += f.um / a.ends;
-  auto room = tolerance::room_um(made);
-  room.up_um += back_um;
-  room.down_um -= back_um;
-  auto sources = a.spread;
-  sources.push_back({"force and stiffness", tolerance::Distribution::normal, spread(p),
-                     units::um_from_mm(scaled)});
-  return tolerance::conformance(sources, room);
+  if (c.limits) return factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm);
+  const double zone = std::max(0.0, v.measured_mm - c.machine_mm);
+  return c.kind == ToleranceKind::profile ? zone / 2 : zone;
 }
 
 // All but the cut needs more than there is.
@@ -132,13 +122,15 @@ void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
 }
 
 void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
-             const Allowance& all, ToleranceResult& r) {
-  const double taken = taken_mm(all);
-  const auto c = judged(t, at, taken, half_angle_rad(p.drawing, t.of).value_or(0));
+             const Taken& all, ToleranceResult& r) {
+  const double half_angle = half_angle_rad(p.drawing, t.of).value_or(0);
+  const auto c = judged(t, at, all.mm, half_angle);
   const auto cut = verdict(c, profile(at), profile(other));
   const bool corrected = (at.feature && at.feature->compensated) ||
                          (other.feature && other.feature->compensated);
-  const auto made = corrected ? verdict(c, as_made(at), as_made(other)) : cut;
+  const auto made_at = corrected ? as_made(at) : profile(at);
+  const auto made_other = corrected ? as_made(other) : profile(other);
+  const auto made = verdict(c, made_at, made_other);
   r.seed_verdict = cut.seed_verdict;
   r.margin_mm = made.margin_mm;
   const double rounding = kOver * width_mm(t);
@@ -152,13 +144,16 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
     r.predicted_mm = {middle + factor * made.extremes_mm.min_mm,
                       middle + factor * made.extremes_mm.max_mm};
-    r.allowed_mm = {t.limits->lower_mm + taken / 2, t.limits->upper_mm - taken / 2};
+    r.allowed_mm = {t.limits->lower_mm + all.mm / 2, t.limits->upper_mm - all.mm / 2};
   } else {
     r.predicted_mm = {made.measured_mm};
     r.allowed_mm = {made.allowed_mm};
   }
   // What is not known of forces and stiffness is not known of a correction either.
-  r.P_conform = conformance(p, all, made, scaled_mm(c, cut));
+  const auto room = tolerance::room_um(
+      verdict(judged(t, at, all.fixed_mm, half_angle), made_at, made_other));
+  r.P_conform = tolerance::Spread(all.by.spread)
+                    .within(room, force_spread(p) * units::um_from_mm(scaled_mm(c, cut)));
 }
 
 // An element that nothing cuts has the stock's diameter, and no form.
@@ -211,9 +206,9 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.kind = t.kind;
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
     const auto all = taken(p, i, at, other);
-    r.shares = shares(all);
-    if (width_mm(t) <= taken_mm(all))
-      used_up(t, taken_mm(all), r);
+    r.shares = shares(all.by);
+    if (width_mm(t) <= all.mm)
+      used_up(t, all.mm, r);
     else if (!at.feature && half_angle_rad(p.drawing, t.of))
       not_made(p, t, r);
     else if (!at.feature && !other.feature)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -205,10 +206,8 @@ Span rss_um(std::span<const Source> sources) {
   return {mean - std::sqrt(down), mean + std::sqrt(up)};
 }
 
-double conformance(std::span<const Source> sources, const Span& room,
-                   const Draws& draws) {
+Spread::Spread(std::span<const Source> sources, const Draws& draws) {
   check(sources);
-  double mean = 0, variance = 0;
   std::vector<Source> rest;
   for (const Source& s : sources) {
     if (s.distribution != Distribution::normal && s.distribution != Distribution::fixed) {
@@ -216,18 +215,29 @@ double conformance(std::span<const Source> sources, const Span& room,
       continue;
     }
     const Moments m = moments_um(s);
-    mean += m.mean;
-    variance += m.sigma * m.sigma;
+    mean_um_ += m.mean;
+    variance_um2_ += m.sigma * m.sigma;
   }
-  const auto drawn = rest.empty() ? std::vector{0.0} : rising_sum_um(rest, draws);
-  const Span left{room.down_um - mean, room.up_um - mean};
-  if (!(variance > 0)) return share_within(drawn, left);
+  drawn_um_ = rest.empty() ? std::vector{0.0} : rising_sum_um(rest, draws);
+  constexpr std::size_t kNeighbours = 20;
+  if (drawn_um_.size() % kNeighbours != 0) {
+    means_um_ = drawn_um_;
+    return;
+  }
+  for (auto at = drawn_um_.begin(); at != drawn_um_.end(); at += kNeighbours)
+    means_um_.push_back(std::accumulate(at, at + kNeighbours, 0.0) / kNeighbours);
+}
+
+double Spread::within(const Span& room, double further_sigma_um) const {
+  const Span left{room.down_um - mean_um_, room.up_um - mean_um_};
+  const double variance = variance_um2_ + further_sigma_um * further_sigma_um;
+  if (!(variance > 0)) return share_within(drawn_um_, left);
   const double scale = std::sqrt(2 * variance);
   double sum = 0;
-  for (const double x : drawn)
-    sum += std::max(0.0, std::erf((left.up_um - x) / scale) -
-                             std::erf((left.down_um - x) / scale));
-  return sum / 2 / static_cast<double>(drawn.size());
+  for (const double x : means_um_)
+    sum += std::max(
+        0.0, std::erf((left.up_um - x) / scale) - std::erf((left.down_um - x) / scale));
+  return sum / 2 / static_cast<double>(means_um_.size());
 }
 
 Budget budget(const BudgetDemand& demand, const Span& room) {

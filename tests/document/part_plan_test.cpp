@@ -262,6 +262,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/rates/machine_per_min", 1.0},
                         {"/machine_share_um", 0.0},
                         {"/budget", json::object()},
+                        {"/robust", false},
                         {"/conformance", 0.9973}}));
   EXPECT_EQ(loaded.plan.drawing.stock.left_allowance_mm, 1.5);
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 23);

@@ -202,6 +202,48 @@ TEST(Budget, ThatIsUsedUpWithoutTheCutIsAConflict) {
   EXPECT_EQ(r.certificate.kind, CertificateKind::none);
 }
 
+nlohmann::json robust(nlohmann::json d, double p) {
+  d["robust"] = true;
+  d["conformance"] = p;
+  return d;
+}
+
+// Without other sources (1) is E (1 + r z) = h for a zone, z the normal's quantile.
+TEST(Robust, AZoneKeepsRoomForWhatIsNotKnownOfTheForce) {
+  auto d = pin_with(nlohmann::json::object());
+  d["tolerances"] = {
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.011}}};
+  const auto p = part(robust(d, 0.99865));
+  const auto left = left_mm(p, tolerance(p, "z"),
+                            allowance(p, tolerance(p, "z"), in_chuck(p, 0)), false);
+  EXPECT_NEAR(left, 0.010 / (1 + 3 * force_spread(p)), 1e-7);
+}
+
+// Where the spread is nil and both limits are equally near, both tails count: with E
+// small against h the wanted share lies within z of 0.9973 on both sides, 3 sigma.
+TEST(Robust, ACorrectedSizeIsAskedForWhatCorrectingLeavesUnknown) {
+  const auto p =
+      part(robust(pin_with(nlohmann::json::object()), std::erf(3 / std::sqrt(2.0))));
+  const auto i = tolerance(p, "d2:diameter");
+  const auto left = left_mm(p, i, allowance(p, i, in_chuck(p, 0)), true);
+  EXPECT_NEAR(left, 2 * 0.0245 / (3 * force_spread(p)), 1e-7);
+}
+
+TEST(Robust, PlansConformAsAskedAndCostNoLess) {
+  auto d =
+      pin_with({{"drift_um", 3}, {"repeatability_um", 1}, {"life_between_offsets", 0.1}});
+  d["tolerances"] = {
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.004}}};
+  double before = 0;
+  for (const double wanted : {0.6, 0.9, 0.99, 0.9973, 0.9999}) {
+    const auto r = plan(part(robust(d, wanted)));
+    ASSERT_EQ(r.status, PlanStatus::ok) << wanted;
+    EXPECT_GE(r.cost_per_part, before * (1 - 1e-4)) << wanted;
+    before = r.cost_per_part;
+    for (const auto& t : r.tolerances) EXPECT_GE(t.P_conform, wanted - 1e-6) << t.id;
+  }
+}
+
 // A thrust of half the buckling load doubles what the tailstock leaves of the deflection.
 TEST(Tailstock, ItsThrustAddsToTheDeflection) {
   const auto slender = [](double thrust_N) {

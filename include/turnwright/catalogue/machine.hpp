@@ -43,9 +43,9 @@ struct Lathe {
   double swing_mm = 0, between_centres_mm = 0;
   Chuck chuck;
   CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;
-  double tail_thrust_N = 0;   ///< of the tailstock on the part
-  double tool_rr_mm_N = 0;  ///< toolpost: radial yield per radial force
-  double tool_rt_mm_N = 0;  ///< and per tangential force (usually towards the work)
+  double tail_thrust_N = 0;  ///< of the tailstock on the part
+  double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
+  double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
 };

@@ -82,6 +82,7 @@ struct PartPlan {
   double machine_share_um = 0;  ///< subtracted from every tolerance
   ShopErrors shop;
   double conformance = 0.9973;
+  bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
 };
 
 }  // namespace turnwright::planning
