@@ -10,7 +10,7 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 # Floor 3
 tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
   TESTS cut_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
+tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
                              rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp

@@ -1,6 +1,8 @@
 #include "turnwright/document/deflection.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,6 +82,29 @@ std::optional<Steady> read_steady(Reader& clamping, const Bounds& on_shaft) {
   return steady;
 }
 
+double widest_mm(const part::Shaft& shaft) {
+  double d = 0;
+  for (const part::Segment& s : shaft.segments)
+    d = std::max({d, s.outer_left_mm, s.outer_right_mm});
+  return d;
+}
+
+/// The bar turns its tip to the wall: where it is widest it takes D/2 + f of the bore.
+BoringBar read_bar(Reader& clamping, double widest_mm) {
+  const BoringBar bar{.tip_offset_mm = clamping.number("tip_offset_mm", kInner),
+                      .bore_diameter_mm = clamping.number("bore_diameter_mm", kOuter)};
+  const double room = bar.bore_diameter_mm - widest_mm / 2;
+  if (bar.bore_diameter_mm < widest_mm)
+    clamping.problem_at(
+        "bore_diameter_mm",
+        expected_number(at_least(widest_mm, "mm")) + ", the bar's largest diameter",
+        "conflict");
+  else if (bar.tip_offset_mm > room)
+    clamping.problem_at("tip_offset_mm", expected_number(within(0, room, "mm")),
+                        "conflict");
+  return bar;
+}
+
 void read_clamping(Reader r, Request& q, const Bounds& inside) {
   enum class Hold { chuck, between_centres, chuck_tailstock, boring_bar };
   const auto hold = r.choice<Hold>("method", {{"chuck", Hold::chuck},
@@ -96,8 +121,7 @@ void read_clamping(Reader r, Request& q, const Bounds& inside) {
     chuck->finish();
   }
   if (hold == Hold::boring_bar) {
-    q.bar = {.tip_offset_mm = r.number("tip_offset_mm", within(0, 1e5, "mm")),
-             .bore_diameter_mm = r.number("bore_diameter_mm", kOuter)};
+    q.bar = read_bar(r, widest_mm(q.shaft));
   } else {
     read_centre(r, "tail_centre", &Supports::tail_mm_N, q.clamping);
     read_centre(r, "head_centre", &Supports::head_mm_N, q.clamping);
@@ -129,26 +153,52 @@ std::optional<ForceLaw> read_force_law(Reader& request) {
   return law;
 }
 
-/// A place on the shaft; beyond its end by the rounding of the caller's sum is on it.
-double read_place(const Reader& r, const Bounds& shaft) {
+/// A number that passes its bounds by no more than the rounding of the caller's own sum
+/// is the bound.
+double read_rounded(const Reader& r, const Bounds& bounds) {
+  constexpr double kRounding = 1e-12;
   const double x = r.is_number() ? r.json().get<double>() : 0;
-  if (x > shaft.upper && x <= shaft.upper * (1 + 1e-12)) return shaft.upper;
-  return r.as_number(shaft);
+  if (x > bounds.upper && x <= bounds.upper * (1 + kRounding)) return bounds.upper;
+  if (x < bounds.lower && x >= bounds.lower * (1 - kRounding)) return bounds.lower;
+  return r.as_number(bounds);
 }
 
-std::optional<Face> read_face(Reader& request, const Bounds& shaft) {
+double read_rounded(Reader& parent, std::string_view key, const Bounds& bounds) {
+  return read_rounded(parent.at(key, expected_number(bounds)), bounds);
+}
+
+/// Radii a face at z can have: at a step those of either side.
+Bounds face_radii(const part::Shaft& shaft, double z_mm) {
+  double outer = 0, bore = std::numeric_limits<double>::infinity();
+  const std::vector<double> ends = part::ends_mm(shaft.segments);
+  for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
+    if (!(ends[i] <= z_mm && z_mm <= ends[i + 1])) continue;
+    const part::Segment& s = shaft.segments[i];
+    const double u = (z_mm - ends[i]) / (ends[i + 1] - ends[i]);
+    outer = std::max(outer, std::lerp(s.outer_left_mm, s.outer_right_mm, u) / 2);
+    bore = std::min(bore, std::lerp(s.inner_left_mm, s.inner_right_mm, u) / 2);
+  }
+  return outer > 0 ? at_least_below(bore, outer, "mm") : kInner;
+}
+
+std::optional<Face> read_face(Reader& request, const part::Shaft& shaft,
+                              const Bounds& on_shaft) {
   auto r = request.optional_object("face");
   if (!r) return std::nullopt;
-  const Face face{.z_mm = read_place(r->at("z_mm", expected_number(shaft)), shaft),
-                  .facing = {.rho_min_mm = r->number("rho_min_mm", kInner),
-                             .rho_max_mm = r->number("rho_max_mm", kOuter),
+  const double z = read_rounded(*r, "z_mm", on_shaft);
+  const Bounds radii = face_radii(shaft, z);
+  const Face face{.z_mm = z,
+                  .facing = {.rho_min_mm = read_rounded(*r, "rho_min_mm", radii),
+                             .rho_max_mm = read_rounded(
+                                 *r, "rho_max_mm", above_up_to(0, radii.upper, "mm")),
                              .Ff_N = r->number("Ff_N", kForce),
                              .Fp_N = r->number("Fp_N", kForce)}};
   r->finish();
   if (face.facing.rho_min_mm >= face.facing.rho_max_mm)
-    r->problem_at("rho_min_mm",
-                  expected_number(at_least_below(0, face.facing.rho_max_mm, "mm")),
-                  "conflict");
+    r->problem_at(
+        "rho_min_mm",
+        expected_number(at_least_below(radii.lower, face.facing.rho_max_mm, "mm")),
+        "conflict");
   return face;
 }
 
@@ -169,8 +219,9 @@ Request read_request(const json& document) {
   Request q;
   read_format(r, "turnwright-deflection/1");
   q.shaft = read_shaft(r.object("shaft"));
-  // The length of a shaft that could not be read is no measure for the rest.
+  // A shaft that could not be read is no measure for the rest.
   const bool measured = problems.list.empty();
+  if (!measured) q.shaft.segments.clear();
   const double length = part::length_mm(q.shaft.segments);
   const Bounds on_shaft = measured ? within(0, length, "mm") : at_least(0, "mm");
   Bounds inside = measured ? at_least_below(0, length, "mm") : at_least(0, "mm");
@@ -180,7 +231,7 @@ Request read_request(const json& document) {
   // A bar has its tip and a face its place; everything else needs positions.
   if (r.has("positions_mm") || !(q.bar || r.has("face")))
     for (const Reader& place : r.items("positions_mm", 0, kPositions))
-      q.positions_mm.push_back(read_place(place, on_shaft));
+      q.positions_mm.push_back(read_rounded(place, on_shaft));
 
   if (q.bar) {
     for (const char* key : {"force_law", "face", "in_process", "shoulder_correction"})
@@ -188,7 +239,7 @@ Request read_request(const json& document) {
         r.problem_at(key, "nothing: a boring bar is not turned", "conflict");
   } else {
     q.force_law = read_force_law(r);
-    q.face = read_face(r, on_shaft);
+    q.face = read_face(r, q.shaft, on_shaft);
     q.options = {.in_process = read_in_process(r),
                  .shoulder_correction = r.boolean_or("shoulder_correction", false)};
   }
@@ -323,12 +374,16 @@ json face(const Held& held, const Request& q) {
           {"profile", {{"rho_mm", form.rho_mm}, {"g_mm", form.g_mm}}}};
 }
 
-json warnings(const part::Shaft& shaft) {
+json warnings(const Request& q) {
   json list = json::array();
-  for (const std::size_t i : thin_walls(shaft.segments))
+  for (const std::size_t i : thin_walls(q.shaft.segments))
     list.push_back("/shaft/segments/" + std::to_string(i) +
                    ": the wall is thinner than 0.2 of the radius; rings ovalise and the "
                    "beam model is void");
+  if (q.bar && q.bar->tip_offset_mm < widest_mm(q.shaft) / 2)
+    list.push_back(
+        "/clamping/tip_offset_mm: the bar's radius is larger; where it is widest it "
+        "touches the bore before its tip does");
   return list;
 }
 
@@ -347,7 +402,7 @@ json deflection(const json& request) {
   const Held held(part, q);
   json result{{"format", "turnwright-deflection-result/1"},
               {"positions", positions(part, held, q)},
-              {"warnings", warnings(q.shaft)}};
+              {"warnings", warnings(q)}};
   if (q.bar) {
     const BarTip tip = bar_tip(Beam(q.shaft), q.clamping, *q.bar, *q.load);
     result["y_r_mm"] = tip.y_r_mm;

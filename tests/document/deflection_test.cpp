@@ -350,6 +350,81 @@ deflection: /positions_mm/3: got 200.001, expected a number from 0 to 200 mm)");
 deflection: /face/rho_min_mm: got 20, expected a number >= 0 and < 20 mm)");
 }
 
+TEST(Deflection, AFaceLiesOnTheShaft) {
+  json q = request();
+  q["shaft"]["segments"][1]["outer_right_mm"] = 30;
+  q["shaft"]["segments"][1]["inner_left_mm"] = 10;
+  const auto with = [&](double z, double rho_min, double rho_max) {
+    q["face"] = {{"z_mm", z},
+                 {"rho_min_mm", rho_min},
+                 {"rho_max_mm", rho_max},
+                 {"Ff_N", 90},
+                 {"Fp_N", 0}};
+    EXPECT_EQ(request_schema().fault(q), "");
+    return refused(q);
+  };
+  // 40 to 30 mm outside, 10 to 0 mm inside: half way 35 and 5 mm
+  EXPECT_EQ(with(140, 2.5, 17.5), "accepted");
+  EXPECT_EQ(with(140, 2.5 * (1 - 1e-15), 17.5 * (1 + 1e-15)), "accepted");
+  EXPECT_EQ(
+      with(140, 2.4, 17.6),
+      R"(deflection: /face/rho_min_mm: got 2.4, expected a number >= 2.5 and < 17.5 mm
+deflection: /face/rho_max_mm: got 17.6, expected a number > 0 and <= 17.5 mm)");
+  EXPECT_EQ(
+      with(140, 9, 8),
+      R"(deflection: /face/rho_min_mm: got 9.0, expected a number >= 2.5 and < 8 mm)");
+  // at a step the face of either side: 30 mm radius left of it, no bore there
+  EXPECT_EQ(with(80, 0, 30), "accepted");
+  EXPECT_EQ(
+      with(80, 0, 31),
+      R"(deflection: /face/rho_max_mm: got 31.0, expected a number > 0 and <= 30 mm)");
+  EXPECT_EQ(with(104, 0, 30),
+            R"(deflection: /face/rho_min_mm: got 0.0, expected a number >= 4 and < 19 mm
+deflection: /face/rho_max_mm: got 30.0, expected a number > 0 and <= 19 mm)");
+  EXPECT_EQ(with(0, 0, 30), "accepted");
+  EXPECT_EQ(with(200, 0, 15), "accepted");
+  // without a place no radius is too large
+  EXPECT_EQ(with(201, 0, 1000),
+            "deflection: /face/z_mm: got 201.0, expected a number from 0 to 200 mm");
+}
+
+TEST(Deflection, ABoringBarFitsItsBore) {
+  json q = request();
+  q["shaft"]["segments"] = {bar_segment(60, 32), bar_segment(80, 25)};
+  const auto with = [&](double tip_offset, double bore) {
+    q["clamping"] = {{"method", "boring-bar"},
+                     {"tip_offset_mm", tip_offset},
+                     {"bore_diameter_mm", bore}};
+    return refused(q);
+  };
+  EXPECT_EQ(with(16, 32), "accepted");
+  EXPECT_EQ(with(44, 60), "accepted");
+  EXPECT_EQ(with(16, 31.9),
+            "deflection: /clamping/bore_diameter_mm: got 31.9, expected a number >= 32 "
+            "mm, the bar's largest diameter");
+  EXPECT_EQ(with(44.1, 60),
+            "deflection: /clamping/tip_offset_mm: got 44.1, expected a number from 0 to "
+            "44 mm");
+  // a bar that is no body is no measure
+  q["shaft"]["segments"][0]["length_mm"] = 0;
+  EXPECT_EQ(with(44.1, 60),
+            "deflection: /shaft/segments/0/length_mm: got 0, expected a number > 0 and "
+            "<= 1000000 mm");
+}
+
+TEST(Deflection, ABarWiderThanItsTipReachesIsWarnedOf) {
+  json q = request();
+  q["shaft"]["segments"] = {bar_segment(60, 32), bar_segment(80, 25)};
+  q["positions_mm"] = {140};
+  q["clamping"] = {
+      {"method", "boring-bar"}, {"tip_offset_mm", 15.9}, {"bore_diameter_mm", 60}};
+  EXPECT_EQ(answered(q)["warnings"],
+            json({"/clamping/tip_offset_mm: the bar's radius is larger; where it is "
+                  "widest it touches the bore before its tip does"}));
+  q["clamping"]["tip_offset_mm"] = 16;
+  EXPECT_TRUE(answered(q)["warnings"].empty());
+}
+
 TEST(Deflection, RoundingInASumOfLengthsIsForgiven) {
   json q = request();
   q["shaft"]["segments"] = {bar_segment(0.1, 1), bar_segment(0.2, 1)};
