@@ -547,6 +547,10 @@ TEST(SeedChuck, ItsFiguresAreOneSet) {
   const auto force = [](const SeedSprings& k) { return kSeedA / (1 / k.k2 + 1 / k.k3); };
   EXPECT_NEAR(force(kSeedRadial), 801.3, 0.05);
   EXPECT_NEAR(force(kSeedTangential), 801.5, 0.05);
+  // without a feed force, B = 2 F Lc/k2: two arms for one chuck
+  const auto arm = [](const SeedSprings& k, double F) { return kSeedB * k.k2 / (2 * F); };
+  EXPECT_NEAR(arm(kSeedRadial, 801.3), 97.9, 0.05);
+  EXPECT_NEAR(arm(kSeedTangential, 801.5), 119.6, 0.05);
   // half of it is a plausible whole cutting force on 0.8 mm x 0.2 mm of carbon steel
   EXPECT_NEAR(force(kSeedRadial) / 2 / (0.8 * 0.2), 2500, 10);
   // C in mm cannot be a deflection; it lies under the 100 mm bar's diameter
