@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common.hpp"
 #include "fields.hpp"
 #include "layout.hpp"
 #include "proof.hpp"
@@ -42,12 +43,7 @@ std::string header(const ordered_json& result) {
     const auto certificate = result.find("certificate");
     if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
   }
-  const auto version = word(result, "turnwright_version");
-  const auto digest = word(result, "request_digest");
-  if (!version.empty() && !digest.empty())
-    out += paragraph("made by ",
-                     "turnwright " + version + " from request " + digest.substr(0, 12));
-  return out;
+  return out + made_by(result);
 }
 
 // One sentence of each member, in the order of importance.

@@ -503,6 +503,33 @@ TEST(Springs, AreAViewOfTheRootAndBack) {
   EXPECT_FALSE(arms({1.8e-6, 8.6e-8, 1.1e-9}));
 }
 
+// The delta method against differences, the arm held.
+TEST(Springs, HaveTheErrorsOfTheCompliance) {
+  PlaneFit fit;
+  fit.root = kChuck;
+  fit.covariance = {
+      {{4e-14, 1e-16, 2e-18}, {1e-16, 9e-18, -1e-20}, {2e-18, -1e-20, 1e-20}}};
+  const double Lc = 110;
+  const Springs u = spring_errors(fit, Lc);
+  const std::array fields{&Root::c0_mm_N, &Root::c1_rad_N, &Root::c2_rad_Nmm};
+  for (const auto spring :
+       {&Springs::per_k1_mm_N, &Springs::per_k2_rad_Nmm, &Springs::per_k3_rad_Nmm}) {
+    std::array<double, 3> g{};
+    for (std::size_t j = 0; j < 3; ++j) {
+      Root up = fit.root, down = fit.root;
+      const double h = 1e-3 * fit.root.*fields[j];
+      up.*fields[j] += h;
+      down.*fields[j] -= h;
+      g[j] =
+          (springs(up, Lc).value().*spring - springs(down, Lc).value().*spring) / (2 * h);
+    }
+    double variance = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) variance += g[j] * fit.covariance[j][k] * g[k];
+    EXPECT_NEAR(u.*spring / std::sqrt(variance), 1, 1e-8);
+  }
+}
+
 // The seed's section III as printed (N/mm and N mm/rad).
 struct SeedSprings {
   double k1, k2, k3;
@@ -520,6 +547,10 @@ TEST(SeedChuck, ItsFiguresAreOneSet) {
   const auto force = [](const SeedSprings& k) { return kSeedA / (1 / k.k2 + 1 / k.k3); };
   EXPECT_NEAR(force(kSeedRadial), 801.3, 0.05);
   EXPECT_NEAR(force(kSeedTangential), 801.5, 0.05);
+  // without a feed force, B = 2 F Lc/k2: two arms for one chuck
+  const auto arm = [](const SeedSprings& k, double F) { return kSeedB * k.k2 / (2 * F); };
+  EXPECT_NEAR(arm(kSeedRadial, 801.3), 97.9, 0.05);
+  EXPECT_NEAR(arm(kSeedTangential, 801.5), 119.6, 0.05);
   // half of it is a plausible whole cutting force on 0.8 mm x 0.2 mm of carbon steel
   EXPECT_NEAR(force(kSeedRadial) / 2 / (0.8 * 0.2), 2500, 10);
   // C in mm cannot be a deflection; it lies under the 100 mm bar's diameter
