@@ -46,7 +46,7 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp thermal.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp
           DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
