@@ -23,17 +23,18 @@ bool meet(const Slot& a, const Slot& b, double outer_mm) {
   return between < half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm);
 }
 
+// Without a width the slot is a flat, as wide as the chord at its floor.
 Slot read_slot(Reader r, const part::Segment& s) {
   r = r.as_object();
-  const double outer = s.outer_left_mm, bore = s.inner_left_mm;
+  const double R = s.outer_left_mm / 2, bore = s.inner_left_mm / 2;
   Slot slot;
-  slot.width_mm = r.number("width_mm", above_up_to(0, outer, "mm"));
-  const double rim =
-      std::sqrt(std::max(0.0, outer * outer - slot.width_mm * slot.width_mm)) / 2;
-  slot.floor_mm =
-      r.number("floor_mm", within(bore / 2, rim > bore / 2 ? rim : outer, "mm"));
   slot.angle_rad =
       units::rad_from_deg(r.number_or("angle_deg", within(-360, 360, "deg"), 0));
+  const auto width = r.optional_number("width_mm", above_up_to(0, 2 * R, "mm"));
+  const double rim =
+      width && *width <= 2 * R ? std::sqrt(R * R - *width * *width / 4) : R;
+  slot.floor_mm = r.number("floor_mm", at_least_below(bore, std::max(rim, bore), "mm"));
+  slot.width_mm = width.value_or(2 * std::sqrt(R * R - slot.floor_mm * slot.floor_mm));
   r.finish();
   return slot;
 }

@@ -11,8 +11,8 @@ namespace turnwright::document {
 /// A shaft of cylinders with keyways and flats milled into some of them.
 using MilledShaft = std::vector<deflection::Stretch>;
 
-/// Reads "shaft" with `slots` in its segments: {"width_mm", "floor_mm", "angle_deg"}
-/// each, within the rim and clear of the bore and of each other.
+/// Reads "shaft" with `slots` (without a width: flats) in its segments: {"width_mm",
+/// "floor_mm", "angle_deg"} each, within the rim and clear of the bore and of each other.
 /// @return the shaft, and its sections if any segment has slots.
 struct ReadShaft {
   part::Shaft shaft;
