@@ -79,6 +79,12 @@ ordered_json json_of(const RejectedClamping& r) {
   return out;
 }
 
+ordered_json json_of(const RejectedTool& r) {
+  ordered_json out{{"tool", r.tool}, {"use", r.use}, {"why", r.why}};
+  if (r.at_least) out["at_least"] = *r.at_least;
+  return out;
+}
+
 ordered_json json_of(const SetupPlan& s) {
   return {{"hold", word(s.hold)},
           {"clamping", name(s.clamping)},
@@ -86,6 +92,8 @@ ordered_json json_of(const SetupPlan& s) {
           {"finishing_grip_force_N", s.finishing_grip_force_N},
           {"rejected",
            list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
+          {"rejected_tools",
+           list(s.rejected_tools, [](const RejectedTool& r) { return json_of(r); })},
           {"operations",
            list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
 }

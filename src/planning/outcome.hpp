@@ -14,6 +14,7 @@ struct SolvedSetup {
   int indexings = 0;     ///< tools brought in
   double objective = 0;  ///< of the whole setup
   double lower_bound = 0;
+  std::vector<RejectedTool> rejected_tools = {};
   bool feasible() const;
 };
 

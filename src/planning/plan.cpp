@@ -205,6 +205,7 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
   SetupPlan s;
   s.hold = p.setups[index].hold;
   s.rejected = c.rejected;
+  s.rejected_tools = c.chosen.rejected_tools;
   if (!c.solved) {
     for (const auto& r : c.rejected)
       result.conflicts.push_back({"clamping", fmt::format("setup {}", index), 0, 0, "",

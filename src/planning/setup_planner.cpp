@@ -1,6 +1,9 @@
 #include "setup_planner.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +42,18 @@ int indexings(const SolvedSetup& s) {
     order[place_in_setup(kind, false)].push_back(r.finish);
   }
   return changes(order);
+}
+
+RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
+                       const Considered& best) {
+  if (!least) return {t.id, use, "its grades are not for this material", {}};
+  if (!std::isfinite(least->at_least))
+    return {t.id, use, "cannot make every surface within its limits", {}};
+  return {t.id, use,
+          fmt::format("{} {:.4f} against {:.4f} for this setup",
+                      least->solved ? "comes to" : "cannot come below", least->at_least,
+                      best.at_least),
+          least->at_least};
 }
 
 }  // namespace
@@ -100,24 +115,62 @@ SolvedSetup SetupPlanner::best(double most) {
   SolvedSetup best{setup_, clamping_, {}, 0, 0, kInfinity};
   bool any = false;
   double bound = kInfinity;
+  std::size_t chosen = 0;
+  std::vector<Considered> considered;
   for (const auto& [least, tools] : all) {
     if (least >= most && any) {
       bound = std::min(bound, least);
+      considered.push_back({tools, least});
       continue;
     }
     auto s = solve(tools, least, most);
     bound = std::min(bound, s.lower_bound);
+    considered.push_back(
+        {tools, s.feasible() ? s.objective : s.lower_bound, s.feasible()});
     const bool better =
         s.feasible() != best.feasible() ? s.feasible() : s.objective < best.objective;
     if (!any || better) {
       best = std::move(s);
       nearest_ = tools;
+      chosen = considered.size() - 1;
     }
     any = true;
     if (best.feasible()) most = std::min(most, best.objective);
   }
   best.lower_bound = bound;
+  if (best.feasible()) best.rejected_tools = rejected(considered, considered[chosen]);
   return best;
+}
+
+// Every tool of the request in every use that this setup has and it was not chosen for.
+std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& all,
+                                                 const Considered& best) const {
+  struct Use {
+    ToolUse use;
+    const char* name;
+    const Tool* Tools::*tool;
+  };
+  constexpr std::array kUses{Use{ToolUse::facing, "facing", &Tools::face},
+                             Use{ToolUse::roughing, "roughing", &Tools::rough},
+                             Use{ToolUse::finishing, "finishing", &Tools::finish},
+                             Use{ToolUse::boring, "boring, rough", &Tools::bore_rough},
+                             Use{ToolUse::boring, "boring, finish", &Tools::bore_finish}};
+  std::vector<RejectedTool> out;
+  for (const auto& [use, name, member] : kUses) {
+    const bool needed = std::any_of(all.begin(), all.end(), [&](const Considered& c) {
+      return c.tools.*member != nullptr;
+    });
+    for (const Tool& t : p_.tools) {
+      if (!needed || best.tools.*member == &t ||
+          std::find(t.uses.begin(), t.uses.end(), use) == t.uses.end())
+        continue;
+      const Considered* least = nullptr;
+      for (const auto& c : all)
+        if (c.tools.*member == &t && (!least || c.at_least < least->at_least)) least = &c;
+      out.push_back(rejection(t, name, least, best));
+    }
+  }
+  return out;
 }
 
 SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) {

@@ -17,6 +17,13 @@ struct Tools {
   const catalogue::Tool *bore_rough = nullptr, *bore_finish = nullptr;
 };
 
+/// What a setup comes to with some tools: its optimum, or what it cannot beat.
+struct Considered {
+  Tools tools;
+  double at_least = 0;
+  bool solved = false;
+};
+
 /// A surface with its tools: what the best recipe cannot beat, and its answer once asked
 /// for.
 struct Entry {
@@ -68,6 +75,8 @@ class SetupPlanner {
   Entry& entry(std::size_t job, const Tools& tools);
   const SolvedFeature& solved(std::size_t job, const Tools& tools, double most);
   SolvedSetup solve(const Tools& tools, double least, double most);
+  std::vector<RejectedTool> rejected(const std::vector<Considered>& all,
+                                     const Considered& best) const;
   double least_besides_cutting(const Tools& tools) const;
   double minutes_besides_cutting(int indexings) const;
 

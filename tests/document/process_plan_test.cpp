@@ -38,6 +38,8 @@ ProcessPlan every_field() {
   setup.finishing_grip_force_N = 15000;
   setup.rejected = {{Clamping::chuck, "dearer", 20},
                     {Clamping::between_centres, "no", {}}};
+  setup.rejected_tools = {{"T2", "facing", "dear", 2.5},
+                          {"T3", "boring, rough", "no", {}}};
   setup.operations = {op};
   p.setups = {setup};
   ToleranceResult size;
@@ -76,6 +78,8 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("grip_force_N":60000.0,"finishing_grip_force_N":15000.0,"rejected":[)"
       R"({"clamping":"chuck","why":"dearer","cost":20.0},)"
       R"({"clamping":"between-centres","why":"no"}],)"
+      R"("rejected_tools":[{"tool":"T2","use":"facing","why":"dear","at_least":2.5},)"
+      R"({"tool":"T3","use":"boring, rough","why":"no"}],)"
       R"("operations":[{"id":"rough d1","kind":"rough","on":["d1","c1"],"tool":"T1",)"
       R"("direction":"from-chuck","passes":[{"ap_mm":1.0,"f_mm_rev":2.0,"vc_m_min":3.0,)"
       R"("n_rpm":4.0,"time_min":5.0,"Fc_N":6.0,"Ff_N":7.0,"Fp_N":8.0,"Pc_kW":9.0,)"

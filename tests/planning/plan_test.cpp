@@ -85,6 +85,38 @@ TEST(Plan, EveryPlanIsCertified) {
     }
 }
 
+// Allowed no other finishing tool, a plan of one setup costs at least what was said.
+TEST(Plan, ToolsNotChosenCostWhatIsSaidAtLeast) {
+  auto d = pin();
+  d.erase("tools");
+  d["stock"]["length_mm"] = 132;
+  d["stock"]["left_allowance_mm"] = 40;
+  d["setups"].erase(1);
+  const auto p = part(d);
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  int judged = 0;
+  for (const auto& rejected : r.setups[0].rejected_tools) {
+    if (rejected.use != "finishing") continue;
+    auto only = p;
+    std::erase_if(only.tools, [&](const catalogue::Tool& t) {
+      return t.id != rejected.tool &&
+             std::count(t.uses.begin(), t.uses.end(), catalogue::ToolUse::finishing) > 0;
+    });
+    const auto with = plan(only);
+    if (!rejected.at_least) {
+      EXPECT_EQ(with.status, PlanStatus::infeasible) << rejected.tool;
+      continue;
+    }
+    ++judged;
+    EXPECT_GE(*rejected.at_least, r.cost_per_part * (1 - 1e-4));
+    if (with.status == PlanStatus::ok) {
+      EXPECT_GE(with.cost_per_part, *rejected.at_least * (1 - 1e-9)) << rejected.tool;
+    }
+  }
+  EXPECT_GT(judged, 0);
+}
+
 // d cost/d ln(limit) of the certificate against two plans with the limit moved.
 TEST(Plan, PricesAreSlopesOfTheCost) {
   const auto with_Ra = [](double Ra) {

@@ -55,12 +55,20 @@ struct RejectedClamping {
   std::optional<double> cost;  ///< per part, absent when infeasible
 };
 
+/// A tool that could serve a setup, or looks as if, and is not chosen for that use.
+struct RejectedTool {
+  std::string tool, use;  ///< "facing", "roughing", "finishing", "boring"
+  std::string why;
+  std::optional<double> at_least;  ///< proved: the setup's objective with it
+};
+
 struct SetupPlan {
   part::End hold = part::End::left;
   Clamping clamping = Clamping::chuck;
   double grip_force_N = 0;            ///< of all jaws at rest; 0 between centres
   double finishing_grip_force_N = 0;  ///< from the first finishing pass on
   std::vector<RejectedClamping> rejected;
+  std::vector<RejectedTool> rejected_tools;  ///< in the clamping chosen
   std::vector<OperationPlan> operations;
 };
 
