@@ -31,7 +31,7 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
   TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp
         budget_test.cpp)
 # Floor 5
-tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
+tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
           tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp

@@ -63,6 +63,8 @@ void read_economics(Draft& draft) {
       or_assumed(draft, "machine_share_um",
                  r.optional_number("machine_share_um", within(0, 1000, "um")),
                  plan.machine_share_um, plan.machine_share_um);
+  plan.pareto =
+      static_cast<std::size_t>(draft.root.optional_integer("pareto", 2, 50).value_or(0));
   if (draft.root.has("robust"))
     plan.robust = draft.root.boolean("robust");
   else

@@ -130,6 +130,13 @@ ordered_json json_of_table(const Table& c) {
            })}};
 }
 
+ordered_json json_of(const ParetoPoint& x) {
+  ordered_json out{{"cost_per_part", x.cost_per_part},
+                   {"time_per_part_min", x.time_per_part_min}};
+  if (x.minute_worth) out["minute_worth"] = *x.minute_worth;
+  return out;
+}
+
 ordered_json json_of(const Price& p) {
   return {{"limit", p.limit},
           {"now", p.now},
@@ -180,6 +187,8 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
       list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
   out["compensation"] =
       list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });
+  if (!plan.pareto.empty())
+    out["pareto"] = list(plan.pareto, [](const ParetoPoint& x) { return json_of(x); });
   out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });

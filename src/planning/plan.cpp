@@ -5,162 +5,12 @@
 #include <limits>
 #include <set>
 
-#include "setup_planner.hpp"
-#include "usable.hpp"
+#include "attempt.hpp"
 
 namespace turnwright::planning {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kBeyondRounding = 1e-6;
-
-struct Comparison {
-  SolvedSetup chosen;
-  std::vector<RejectedClamping> rejected;
-  bool solved = false;
-};
-
-// What a setup takes, in the terms of the objective.
-std::string takes(const PartPlan& p, const Totals& t) {
-  if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.minutes);
-  if (p.objective == Objective::profit)
-    return fmt::format("{:.4f} in {:.4f} min", t.cost, t.minutes);
-  return fmt::format("{:.4f}", t.cost);
-}
-
-// Why a clamping loses to the best one.
-RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s,
-                           const SolvedSetup& best) {
-  const char* verb = p.objective == Objective::time ? "takes" : "costs";
-  const auto least = takes(p, totals(p, best));
-  if (s.feasible()) {
-    const auto t = totals(p, s);
-    return {s.clamping,
-            fmt::format("{} {} against {} for this setup", verb, takes(p, t), least),
-            t.cost};
-  }
-  const auto f = std::find_if(s.features.begin(), s.features.end(),
-                              [](const auto& x) { return !x.answer.feasible; });
-  SolvedFeature shown = *f;
-  if (!shown.answer.model) shown.answer = nearest(shown.task);
-  if (!shown.answer.model || shown.answer.least_violation > kBeyondRounding)
-    return {s.clamping, obstacle(p, shown), {}};
-  return {s.clamping, fmt::format("cannot do better than {} for this setup", least), {}};
-}
-
-// The best of some clampings of one setup, each with its planner.
-std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
-  std::vector<SolvedSetup> all;
-  double most = kInfinity;
-  for (auto& planner : planners) {
-    all.push_back(planner.best(most));
-    if (all.back().feasible()) most = std::min(most, all.back().objective);
-  }
-  return all;
-}
-
-// The stiffer clampings first: what a slender part could do in the chuck alone then has a
-// cost to beat, which is quicker to refute than that it can be made at all.
-// Compensation is proposed only where no clamping does without.
-Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
-                             const Finished& done, Economy economy) {
-  Comparison result;
-  FaceMemory faces;
-  std::vector<SetupPlanner> planners;
-  auto clampings = p.setups[setup].clampings;
-  std::stable_partition(clampings.begin(), clampings.end(),
-                        [](Clamping c) { return c != Clamping::chuck; });
-  for (const Clamping c : clampings) {
-    const auto why = unusable(p, setup, c, work, done);
-    if (!why.empty())
-      result.rejected.push_back({c, why, {}});
-    else
-      planners.emplace_back(p, setup, c, work, done, economy, faces);
-  }
-  if (planners.empty()) return result;
-  auto all = best_of_each(planners);
-  if (std::none_of(all.begin(), all.end(), [](const auto& s) { return s.feasible(); })) {
-    for (auto& planner : planners) planner.allow_compensation();
-    all = best_of_each(planners);
-  }
-  const auto best = std::min_element(
-      all.begin(), all.end(), [](const SolvedSetup& a, const SolvedSetup& b) {
-        return a.feasible() != b.feasible() ? a.feasible() : a.objective < b.objective;
-      });
-  double bound = kInfinity;
-  for (const auto& s : all) {
-    bound = std::min(bound, s.lower_bound);
-    if (&s != &*best) result.rejected.push_back(rejection(p, s, *best));
-  }
-  result.chosen =
-      best->feasible()
-          ? *best
-          : planners[static_cast<std::size_t>(best - all.begin())].explained();
-  result.chosen.lower_bound = bound;
-  result.solved = true;
-  return result;
-}
-
-Economy economy_of(const PartPlan& p, double profit_rate) {
-  switch (p.objective) {
-    case Objective::cost:
-      return {p.machine_per_min, 1};
-    case Objective::time:
-      return {1, 0};
-    case Objective::profit:
-      return {p.machine_per_min + profit_rate, 1};
-  }
-  return {};
-}
-
-struct Attempt {
-  std::vector<Comparison> setups;
-  bool feasible = true;
-  Totals total;
-  double objective = 0, lower_bound = 0;
-};
-
-Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
-  Attempt a;
-  auto done = nothing_finished(p.drawing);
-  for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy));
-    const auto& c = a.setups.back();
-    a.feasible = a.feasible && c.solved && c.chosen.feasible();
-    finish(done, work.setups[s]);
-    if (!c.solved) a.lower_bound = kInfinity;
-    if (!c.solved) continue;
-    const auto t = totals(p, c.chosen);
-    a.total.minutes += t.minutes;
-    a.total.cost += t.cost;
-    a.objective += c.chosen.objective;
-    a.lower_bound += c.chosen.lower_bound;
-  }
-  return a;
-}
-
-// Dinkelbach: the profit rate R is best when min C + R t equals the price; each step
-// takes the R of the plan before, which rises until the certificates' gap hides what is
-// left.  A part that earns nothing at least cost is made at least cost.
-Attempt best_attempt(const PartPlan& p, const Assignment& work) {
-  constexpr double kRises = 1e-6;
-  auto best = attempt(p, work, economy_of(p, 0));
-  if (p.objective != Objective::profit) return best;
-  const auto rate = [&](const Attempt& a) {
-    return (*p.price - a.total.cost) / a.total.minutes;
-  };
-  while (best.feasible && rate(best) > 0) {
-    auto next = attempt(p, work, economy_of(p, rate(best)));
-    if (!next.feasible || !(rate(next) > rate(best) * (1 + kRises))) {
-      next.lower_bound = std::min(next.lower_bound, next.objective);
-      best.objective = best.total.cost + rate(best) * best.total.minutes;
-      best.lower_bound = next.lower_bound;
-      break;
-    }
-    best = std::move(next);
-  }
-  return best;
-}
 
 Certificate total_certificate(const Attempt& a) {
   Certificate c;
@@ -287,8 +137,63 @@ ProcessPlan robust_plan(PartPlan p) {
   return result;
 }
 
+// The corner of the convex hull of cost against time that a line through two of its
+// corners cuts off, and those beyond; nothing cheaper by more than the certificates' gap.
+void add_corners(const PartPlan& p, const Assignment& work, const ParetoPoint& slow,
+                 const ParetoPoint& fast, std::vector<ParetoPoint>& all) {
+  constexpr double kWorth = 2e-4;
+  const double saved = slow.time_per_part_min - fast.time_per_part_min;
+  const double minute = (fast.cost_per_part - slow.cost_per_part) / saved;
+  if (!(saved > kWorth * fast.time_per_part_min && minute > 0) || all.size() >= p.pareto)
+    return;
+  const auto a = attempt(p, work, {p.machine_per_min + minute, 1});
+  const ParetoPoint corner{a.total.cost, a.total.minutes, minute};
+  const auto worth = [&](const ParetoPoint& x) {
+    return x.cost_per_part + minute * x.time_per_part_min;
+  };
+  if (!a.feasible || !(worth(corner) < worth(slow) * (1 - kWorth))) return;
+  all.push_back(corner);
+  add_corners(p, work, slow, corner, all);
+  add_corners(p, work, corner, fast, all);
+}
+
+// Of points with rising cost those on the hull: time falls, a minute gets ever dearer.
+// The certificates' gap may leave a point beside it.
+std::vector<ParetoPoint> hull(const std::vector<ParetoPoint>& rising) {
+  std::vector<ParetoPoint> kept;
+  const auto minute = [](const ParetoPoint& a, const ParetoPoint& b) {
+    return (b.cost_per_part - a.cost_per_part) /
+           (a.time_per_part_min - b.time_per_part_min);
+  };
+  for (const auto& x : rising) {
+    if (!kept.empty() && !(x.time_per_part_min < kept.back().time_per_part_min)) continue;
+    while (kept.size() > 1 &&
+           minute(kept.end()[-2], kept.back()) >= minute(kept.back(), x))
+      kept.pop_back();
+    kept.push_back(x);
+  }
+  return kept;
+}
+
+std::vector<ParetoPoint> pareto(const PartPlan& p) {
+  const auto work = assign(p);
+  const auto cheapest = attempt(p, work, {p.machine_per_min, 1});
+  const auto fastest = attempt(p, work, {1, 0});
+  std::vector<ParetoPoint> all{{cheapest.total.cost, cheapest.total.minutes, 0},
+                               {fastest.total.cost, fastest.total.minutes, {}}};
+  add_corners(p, work, all[0], all[1], all);
+  std::sort(all.begin(), all.end(), [](const ParetoPoint& a, const ParetoPoint& b) {
+    return a.cost_per_part < b.cost_per_part;
+  });
+  return hull(all);
+}
+
 }  // namespace
 
-ProcessPlan plan(const PartPlan& p) { return p.robust ? robust_plan(p) : planned(p); }
+ProcessPlan plan(const PartPlan& p) {
+  auto result = p.robust ? robust_plan(p) : planned(p);
+  if (p.pareto > 0 && result.status == PlanStatus::ok) result.pareto = pareto(p);
+  return result;
+}
 
 }  // namespace turnwright::planning

@@ -168,6 +168,37 @@ TEST(Plan, EachObjectiveIsBestAtItsOwn) {
   EXPECT_GE(*profit.profit_per_min, *time.profit_per_min * (1 - 1e-4));
 }
 
+// Corners of a convex curve from the cheapest plan to the fastest; each is the plan of
+// its own worth of a minute.
+TEST(Plan, CostAgainstTimeIsAConvexCurveOfPlans) {
+  auto d = pin();
+  d["rates"]["machine_per_min"] = 0.15;  // so that edges count
+  d["pareto"] = 6;
+  const auto r = planned(d);
+  ASSERT_GE(r.pareto.size(), 3u);
+  ASSERT_LE(r.pareto.size(), 6u);
+  const auto& all = r.pareto;
+  EXPECT_NEAR(all.front().cost_per_part, r.cost_per_part, 1e-4 * r.cost_per_part);
+  d["objective"] = "time";
+  EXPECT_LE(all.back().time_per_part_min, planned(d).time_per_part_min * (1 + 1e-4));
+  const auto slope = [&](std::size_t k) {  // cost of a minute saved
+    return (all[k + 1].cost_per_part - all[k].cost_per_part) /
+           (all[k].time_per_part_min - all[k + 1].time_per_part_min);
+  };
+  for (std::size_t k = 0; k + 2 < all.size(); ++k) {
+    EXPECT_GT(slope(k), 0);
+    EXPECT_LT(slope(k), slope(k + 1));
+  }
+  for (const auto& x : all) {
+    if (!x.minute_worth || *x.minute_worth == 0) continue;
+    auto worth = pin();
+    worth["rates"]["machine_per_min"] = 0.15 + *x.minute_worth;
+    const double least = planned(worth).cost_per_part;
+    EXPECT_NEAR(x.cost_per_part + *x.minute_worth * x.time_per_part_min, least,
+                2e-4 * least);
+  }
+}
+
 TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   auto d = pin();
   d["operations"] = {

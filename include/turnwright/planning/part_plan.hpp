@@ -84,6 +84,7 @@ struct PartPlan {
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
+  std::size_t pareto = 0;  ///< corners of cost against time to find, 0: none
   std::map<std::size_t, double> other_ends = {};  ///< of a robust plan, allowance.hpp (2)
 };
 

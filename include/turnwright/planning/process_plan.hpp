@@ -132,6 +132,13 @@ struct Relaxation {
   std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
 };
 
+/// A certified plan on the convex hull of cost against time: no plan has less of
+/// cost + minute time.
+struct ParetoPoint {
+  double cost_per_part = 0, time_per_part_min = 0;
+  std::optional<double> minute_worth;  ///< above the machine's rate; none: time alone
+};
+
 /// What a plan would take that keeps its tolerances only nominally.
 struct Robustness {
   double conformance = 0;
@@ -151,6 +158,7 @@ struct ProcessPlan {
   std::vector<Compensation> compensation;
   std::vector<Price> prices;             ///< largest saving first
   std::optional<Robustness> robustness;  ///< of a robust plan
+  std::vector<ParetoPoint> pareto;       ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
 };
