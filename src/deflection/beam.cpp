@@ -109,7 +109,7 @@ double Beam::end_of(std::size_t k) const {
 
 std::size_t Beam::piece_at(double a_mm, std::size_t hint) const {
   const auto holds = [&](std::size_t k) {
-    return pieces_[k].z_mm <= a_mm && a_mm <= end_of(k);
+    return pieces_[k].z_mm <= a_mm && a_mm < end_of(k);
   };
   if (holds(hint)) return hint;
   if (hint + 1 < pieces_.size() && holds(hint + 1)) return hint + 1;
@@ -205,10 +205,13 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     r = right.piece_at(a_mm[i], r);
     const Beam::Piece &left_piece = left.pieces_[l], &right_piece = right.pieces_[r];
     const double from = std::max(left_piece.z_mm, right_piece.z_mm),
-                 to = std::min({left.end_of(l), right.end_of(r), end});
+                 to = std::min(left.end_of(l), right.end_of(r));
     const std::size_t most = std::min(kRun, a_mm.size() - i);
-    for (n = 0; n < most && a_mm[i + n] >= from && a_mm[i + n] <= to; ++n)
-      a[n] = std::min(a_mm[i + n], L);
+    for (n = 0; n < most; ++n) {
+      const double x = a_mm[i + n];
+      if (!(x >= from && x < to && x <= end)) break;
+      a[n] = std::min(x, L);
+    }
 
     const std::span<const double> at(a.data(), n);
     Beam::measure(left_piece, at, in_left);

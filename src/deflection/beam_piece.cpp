@@ -3,6 +3,7 @@
 // digits at small taper.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "beam_run.hpp"
 #include "turnwright/base/units.hpp"
@@ -27,12 +28,16 @@ constexpr std::array<double, kGauss> kWeight = {
 // rho^-10 = 2e-18 times 10^3/6 for a pole of order four.
 constexpr double kPanel = 0.125;
 
+// A wall that closes to rounding would take panels without end: they are at least kLeast.
+constexpr double kLeast = std::numeric_limits<double>::epsilon();
+
 double length_to_panel_end(double x, double dx, double y, double dy) {
   const auto reach = [](double value, double change) {
     return change == 0 ? 1.0 : kPanel * value / std::abs(change);
   };
-  return std::min({reach(x, dx), reach(y, dy),
-                   reach(std::sqrt(x * x + y * y), std::sqrt(dx * dx + dy * dy))});
+  return std::max(
+      kLeast, std::min({reach(x, dx), reach(y, dy),
+                        reach(std::sqrt(x * x + y * y), std::sqrt(dx * dx + dy * dy))}));
 }
 
 void cylinder(const auto& piece, auto& run) {
