@@ -118,13 +118,6 @@ std::size_t Beam::piece_at(double a_mm, std::size_t hint) const {
   return static_cast<std::size_t>(next - pieces_.begin()) - 1;
 }
 
-void Beam::measure(const Piece& piece, std::span<const double> a_mm, Run& run) {
-  run.n = a_mm.size();
-  for (std::size_t i = 0; i < run.n; ++i)
-    run.t[i] = std::min(a_mm[i] - piece.z_mm, piece.h_mm);
-  piece.measure(run);
-}
-
 namespace {
 
 // Eq. (2) for what lies left of every position of a run.
@@ -214,8 +207,8 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     }
 
     const std::span<const double> at(a.data(), n);
-    Beam::measure(left_piece, at, in_left);
-    if (&left != &right) Beam::measure(right_piece, at, in_right);
+    left_piece.measure(at, in_left);
+    if (&left != &right) right_piece.measure(at, in_right);
     const Beam::Bodies& after = &left == &right ? in_left.right : in_right.right;
     const double tail = supports.tail_mm_N + right_piece.right.moment_mm_N;
     const auto places = out.subspan(i, n);
@@ -242,7 +235,7 @@ Body Beam::body(double a_mm) const {
     throw std::domain_error("Beam: positions must be in [0, L]");
   const Piece& piece = pieces_[piece_at(a_mm, 0)];
   Run run;
-  measure(piece, {&a_mm, 1}, run);
+  piece.measure({&a_mm, 1}, run);
   const auto& left = run.left;
   return joined(piece.before, run.t[0], {left.M[0], left.d[0], left.X[0]});
 }
