@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "fields.hpp"
-#include "shaft_fields.hpp"
+#include "milled_shaft.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
 #include "turnwright/deflection/boring_bar.hpp"
+#include "turnwright/deflection/copying.hpp"
 #include "turnwright/deflection/envelope.hpp"
 #include "turnwright/deflection/face.hpp"
 #include "turnwright/deflection/feedback.hpp"
@@ -36,6 +38,12 @@ struct Steady {
   SteadyRest radial, tangential;
 };
 
+/// Passes in a row, and what the blank runs out.
+struct Passes {
+  std::vector<double> ap_mm;
+  double runout_mm = 0;
+};
+
 struct Request {
   part::Shaft shaft;
   Clamping clamping;
@@ -44,6 +52,8 @@ struct Request {
   std::vector<double> positions_mm;
   std::optional<Load> load;
   std::optional<ForceLaw> force_law;
+  std::optional<Passes> passes;
+  std::optional<MilledShaft> milled;
   std::optional<Face> face;
   Workpiece::Options options;
 };
@@ -140,7 +150,24 @@ std::optional<Load> read_load(Reader& request) {
   return load;
 }
 
-std::optional<ForceLaw> read_force_law(Reader& request) {
+std::optional<Passes> read_passes(Reader& law) {
+  if (!law.has("passes_ap_mm")) {
+    if (law.has("blank_runout_mm"))
+      law.problem_at("blank_runout_mm", "nothing without passes_ap_mm", "conflict");
+    return std::nullopt;
+  }
+  Passes p;
+  p.ap_mm = law.numbers("passes_ap_mm", within(0, 1e4, "mm"), 1, 100);
+  const double first = p.ap_mm.empty() ? 0 : p.ap_mm.front();
+  if (!p.ap_mm.empty() && !(first > 0))
+    law.problem_at("passes_ap_mm", "a first pass that cuts: above 0 mm", "range");
+  // The tool must not leave the part in the first pass.
+  p.runout_mm = law.number_or("blank_runout_mm",
+                              at_least_below(0, first > 0 ? first : 1e4, "mm"), 0);
+  return p;
+}
+
+std::optional<ForceLaw> read_force_law(Reader& request, std::optional<Passes>& passes) {
   auto r = request.optional_object("force_law");
   if (!r) return std::nullopt;
   const Bounds ratio = within(-1000, 1000);
@@ -149,6 +176,7 @@ std::optional<ForceLaw> read_force_law(Reader& request) {
                      .Fa_over_Fr = r->number("Fa_over_Fr", ratio),
                      .Ft_over_Fr = r->number("Ft_over_Fr", ratio),
                      .ap_mm = r->number("ap_mm", above_up_to(0, 1e4, "mm"))};
+  passes = read_passes(*r);
   r->finish();
   return law;
 }
@@ -218,7 +246,9 @@ Request read_request(const json& document) {
   Reader r = Reader(document, problems).as_object();
   Request q;
   read_format(r, "turnwright-deflection/1");
-  q.shaft = read_shaft(r.object("shaft"));
+  auto read = read_milled_shaft(r.object("shaft"));
+  q.shaft = std::move(read.shaft);
+  q.milled = std::move(read.milled);
   // A shaft that could not be read is no measure for the rest.
   const bool measured = problems.list.empty();
   if (!measured) q.shaft.segments.clear();
@@ -238,11 +268,14 @@ Request read_request(const json& document) {
       if (r.has(key))
         r.problem_at(key, "nothing: a boring bar is not turned", "conflict");
   } else {
-    q.force_law = read_force_law(r);
+    q.force_law = read_force_law(r, q.passes);
     q.face = read_face(r, q.shaft, on_shaft);
     q.options = {.in_process = read_in_process(r),
                  .shoulder_correction = r.boolean_or("shoulder_correction", false)};
   }
+  if (q.milled && (q.bar || q.steady))
+    r.problem_at("shaft", q.bar ? "a bar without slots" : "no slots with a steady rest",
+                 "conflict");
   q.load = read_load(r);
   if (q.load && r.has("force_law"))
     r.problem_at("force_law", "either load or force_law", "conflict");
@@ -331,6 +364,25 @@ std::pair<double, double> radial_load(const Request& q, const json& answered) {
   return {Fr, q.force_law->Fa_over_Fr * Fr};
 }
 
+/// The error each pass leaves, and of the blank's run-out what it keeps.
+void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tangential,
+                const Request& q, json& out) {
+  out["errors_of_passes_mm"] =
+      radius_errors_of_passes(D_mm, radial, tangential, *q.force_law, q.passes->ap_mm);
+  out["copied_runout_mm"] = copied_runout_of_passes(
+      D_mm, radial, tangential, *q.force_law, q.passes->runout_mm, q.passes->ap_mm);
+}
+
+/// Two lobes of a part with slots, as it turns under the load.
+json oval(const Request& q, double a_mm, double Fr_N, double Ft_N) {
+  const OvalFlexibility f =
+      oval_flexibility(*q.milled, q.shaft.E_MPa, q.clamping.radial, a_mm);
+  return {{"mean_mm_N", f.mean_mm_N},
+          {"lobe_mm_N", f.lobe_mm_N},
+          {"softest_deg", f.softest_rad * 180 / units::kPi},
+          {"amplitude_mm", oval_error(f, Fr_N, Ft_N).amplitude_mm}};
+}
+
 json positions(const Workpiece& part, const Held& held, const Request& q) {
   json list = json::array();
   const Planes f = held.at(q.positions_mm);
@@ -340,6 +392,13 @@ json positions(const Workpiece& part, const Held& held, const Request& q) {
                        ? position(a, D, f.radial[i], f.tangential[i], *q.force_law)
                        : position(response(a, D, f.radial[i], f.tangential[i],
                                            q.load.value_or(Load{}))));
+    if (q.passes) add_passes(D, f.radial[i], f.tangential[i], q, list.back());
+    if (q.milled) {
+      const double Fr = radial_load(q, list.back()).first;
+      list.back()["oval"] =
+          oval(q, a, Fr,
+               q.force_law ? q.force_law->Ft_over_Fr * Fr : q.load.value_or(Load{}).Ft_N);
+    }
     if (q.steady) {
       const auto [Fr, Fa] = radial_load(q, list.back());
       list.back()["rest_reaction_N"] =
