@@ -109,20 +109,13 @@ double Beam::end_of(std::size_t k) const {
 
 std::size_t Beam::piece_at(double a_mm, std::size_t hint) const {
   const auto holds = [&](std::size_t k) {
-    return pieces_[k].z_mm <= a_mm && a_mm <= end_of(k);
+    return pieces_[k].z_mm <= a_mm && a_mm < end_of(k);
   };
   if (holds(hint)) return hint;
   if (hint + 1 < pieces_.size() && holds(hint + 1)) return hint + 1;
   const auto next = std::upper_bound(pieces_.begin() + 1, pieces_.end(), a_mm,
                                      [](double a, const Piece& p) { return a < p.z_mm; });
   return static_cast<std::size_t>(next - pieces_.begin()) - 1;
-}
-
-void Beam::measure(const Piece& piece, std::span<const double> a_mm, Run& run) {
-  run.n = a_mm.size();
-  for (std::size_t i = 0; i < run.n; ++i)
-    run.t[i] = std::min(a_mm[i] - piece.z_mm, piece.h_mm);
-  piece.measure(run);
 }
 
 namespace {
@@ -205,14 +198,17 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     r = right.piece_at(a_mm[i], r);
     const Beam::Piece &left_piece = left.pieces_[l], &right_piece = right.pieces_[r];
     const double from = std::max(left_piece.z_mm, right_piece.z_mm),
-                 to = std::min({left.end_of(l), right.end_of(r), end});
+                 to = std::min(left.end_of(l), right.end_of(r));
     const std::size_t most = std::min(kRun, a_mm.size() - i);
-    for (n = 0; n < most && a_mm[i + n] >= from && a_mm[i + n] <= to; ++n)
-      a[n] = std::min(a_mm[i + n], L);
+    for (n = 0; n < most; ++n) {
+      const double x = a_mm[i + n];
+      if (!(x >= from && x < to && x <= end)) break;
+      a[n] = std::min(x, L);
+    }
 
     const std::span<const double> at(a.data(), n);
-    Beam::measure(left_piece, at, in_left);
-    if (&left != &right) Beam::measure(right_piece, at, in_right);
+    left_piece.measure(at, in_left);
+    if (&left != &right) right_piece.measure(at, in_right);
     const Beam::Bodies& after = &left == &right ? in_left.right : in_right.right;
     const double tail = supports.tail_mm_N + right_piece.right.moment_mm_N;
     const auto places = out.subspan(i, n);
@@ -239,7 +235,7 @@ Body Beam::body(double a_mm) const {
     throw std::domain_error("Beam: positions must be in [0, L]");
   const Piece& piece = pieces_[piece_at(a_mm, 0)];
   Run run;
-  measure(piece, {&a_mm, 1}, run);
+  piece.measure({&a_mm, 1}, run);
   const auto& left = run.left;
   return joined(piece.before, run.t[0], {left.M[0], left.d[0], left.X[0]});
 }

@@ -3,6 +3,7 @@
 // digits at small taper.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "beam_run.hpp"
 #include "turnwright/base/units.hpp"
@@ -27,12 +28,16 @@ constexpr std::array<double, kGauss> kWeight = {
 // rho^-10 = 2e-18 times 10^3/6 for a pole of order four.
 constexpr double kPanel = 0.125;
 
+// A wall that closes to rounding would take panels without end: they are at least kLeast.
+constexpr double kLeast = std::numeric_limits<double>::epsilon();
+
 double length_to_panel_end(double x, double dx, double y, double dy) {
   const auto reach = [](double value, double change) {
     return change == 0 ? 1.0 : kPanel * value / std::abs(change);
   };
-  return std::min({reach(x, dx), reach(y, dy),
-                   reach(std::sqrt(x * x + y * y), std::sqrt(dx * dx + dy * dy))});
+  return std::max(
+      kLeast, std::min({reach(x, dx), reach(y, dy),
+                        reach(std::sqrt(x * x + y * y), std::sqrt(dx * dx + dy * dy))}));
 }
 
 void cylinder(const auto& piece, auto& run) {
@@ -50,7 +55,7 @@ void cylinder(const auto& piece, auto& run) {
 
 // From r0 to r = y r0 over a length h the integrals of u^0, u, u^2 over r^4 are
 // elementary and free of cancellation: with Q = 1 + y + y^2
-//     M = h Q/(3 r0^4 y^3),  d = h y (y + 1/2)/Q,  J = h^3/(4 r0^4 y Q),
+//     M = h Q/(3 r0^4 y^3),  d = h y (y + 1/2)/Q,  h^3/(4 r0^4 y Q) in X,
 // and the shear's is h/(r0^2 y).
 void solid_cone(const auto& piece, auto& run) {
   const double bend = piece.bend, shear = piece.shear, whole = piece.h_mm;
@@ -176,7 +181,13 @@ void Beam::add_pieces(const part::Shaft& shaft, const part::Segment& s, double z
   }
 }
 
-void Beam::Piece::measure(Run& run) const {
+void Beam::Piece::measure(std::span<const double> a_mm, Run& run) const {
+  run.n = a_mm.size();
+  for (std::size_t i = 0; i < run.n; ++i) run.t[i] = std::min(a_mm[i] - z_mm, h_mm);
+  both_sides(run);
+}
+
+void Beam::Piece::both_sides(Run& run) const {
   switch (kind) {
     case Kind::cylinder:
       return cylinder(*this, run);
@@ -202,7 +213,7 @@ Body Beam::Piece::measured() const {
   Run all;
   all.n = 1;
   all.t[0] = h_mm;
-  measure(all);
+  both_sides(all);
   return {all.left.M[0], all.left.d[0], all.left.X[0]};
 }
 

@@ -152,25 +152,87 @@ double against_quadrature(const Segment& s) {
                     finite_elements::flexibilities(shaft, end, rigid));
 }
 
-TEST(Beam, ConeIntegralsAreGoodTo1em13) {
+TEST(Beam, ConeIntegralsAreGoodTo1em13UpToEveryPlace) {
+  // each place in parts of its own value, so that no large one hides a small one
   std::mt19937_64 random(3);
-  for (int i = 0; i < 60; ++i) {
+  const Supports rigid{Method::chuck, {}, 0, 0};
+  for (int i = 0; i < 40; ++i) {
     const auto r = [&](double low, double high) {
       return random_shafts::between(random, low, high);
     };
     const double left = r(3, 60), right = r(3, 60);
     const Segment s{r(5, 300), left, right, left * r(0, 0.95), right * r(0, 0.95)};
-    EXPECT_LE(against_quadrature(s), kRounding)
-        << s.length_mm << ' ' << left << ' ' << right << ' ' << s.inner_left_mm << ' '
-        << s.inner_right_mm;
+    const Shaft shaft{210000, 0.3, {s}};
+    std::vector<double> places;
+    for (const double u : {0.003, 0.1, 0.31, 0.49, 0.51, 0.83, 1.0})
+      places.push_back(u * s.length_mm);
+    const auto mine = at(Beam(shaft), places, rigid),
+               theirs = finite_elements::flexibilities(shaft, places, rigid);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      for (const Field f : {kFields[0], kFields[1], kFields[2]})
+        EXPECT_NEAR(mine[k].*f / (theirs[k].*f), 1, kRounding)
+            << s.length_mm << ' ' << left << ' ' << right << ' ' << s.inner_left_mm << ' '
+            << s.inner_right_mm << " at " << places[k];
+  }
+}
+
+TEST(Beam, ShaftsOfAnyProportionsAgree) {
+  // from discs to wires, tapers up to 20:1 either way, bores up to 95 %
+  std::mt19937_64 random(29);
+  const auto r = [&](double low, double high) {
+    return random_shafts::between(random, low, high);
+  };
+  const auto any = [&](double low, double high) {
+    return low * std::pow(high / low, r(0, 1));
+  };
+  const std::vector<Supports> supports = random_shafts::supports();
+  for (int k = 0; k < 30; ++k) {
+    const double D = any(1, 500), L_D = any(0.05, 300);
+    const auto segments = static_cast<std::size_t>(r(1, 9));
+    Shaft shaft{any(4e4, 6e5), r(0, 0.49), {}};
+    for (std::size_t i = 0; i < segments; ++i) {
+      const double left = D * any(0.05, 1), right = i % 3 == 0 ? left : D * any(0.05, 1);
+      const double bore = i % 2 == 0 ? r(0, 0.95) : 0;
+      shaft.segments.push_back({D * L_D / static_cast<double>(segments) * any(0.2, 1),
+                                left, right, bore * left,
+                                i % 4 == 0 ? bore * right : r(0, 0.95) * right});
+    }
+    const Beam beam(shaft);
+    const std::vector<double> a = positions(beam.length_mm());
+    const std::size_t way = static_cast<std::size_t>(k) % supports.size();
+    EXPECT_LE(difference(at(beam, a, supports[way]),
+                         finite_elements::flexibilities(shaft, a, supports[way])),
+              kPromised)
+        << "shaft " << k << ", D " << D << ", L/D " << L_D << ", supports " << way;
+  }
+}
+
+TEST(Beam, AThousandSegmentsAgree) {
+  std::mt19937_64 random(31);
+  const auto r = [&](double low, double high) {
+    return random_shafts::between(random, low, high);
+  };
+  Shaft shaft{210000, 0.3, {}};
+  for (int i = 0; i < 1000; ++i) {
+    const double left = r(30, 60), right = i % 2 == 0 ? left : r(30, 60);
+    const double bore = i % 10 == 1 ? r(0.1, 0.95) : 0;
+    shaft.segments.push_back({r(0.5, 3), left, right, bore * left, bore * right});
+  }
+  const Beam beam(shaft);
+  const std::vector<double> a = positions(beam.length_mm());
+  for (const std::size_t way : {3, 5}) {  // centres and tailstock, elastic
+    const Supports s = random_shafts::supports()[way];
+    EXPECT_LE(difference(at(beam, a, s), finite_elements::flexibilities(shaft, a, s)),
+              kPromised)
+        << way;
   }
 }
 
 TEST(Beam, ConeIntegralsFromNoTaperTo20To1AndNoBoreTo95Percent) {
   for (const double ratio :
        {1.0, 1 + 1e-12, 1 + 1e-8, 1 + 1e-4, 1.01, 1.3, 2.0, 5.0, 20.0})
-    for (const double bore_left : {0.0, 1e-6, 0.1, 0.5, 0.8, 0.95})
-      for (const double bore_right : {0.0, 1e-6, 0.3, 0.95})
+    for (const double bore_left : {0.0, 1e-6, 0.5, 0.95})
+      for (const double bore_right : {0.0, 0.3, 0.95})
         for (const bool grows : {false, true}) {
           const double left = grows ? 60 / ratio : 60, right = grows ? 60 : 60 / ratio;
           EXPECT_LE(
@@ -178,6 +240,22 @@ TEST(Beam, ConeIntegralsFromNoTaperTo20To1AndNoBoreTo95Percent) {
               kRounding)
               << left << ' ' << right << ' ' << bore_left << ' ' << bore_right;
         }
+}
+
+TEST(Beam, AWallThatClosesToRoundingIsABody) {
+  // softer and softer with the logarithm of the wall, from either end, and no end of
+  // panels
+  const auto turns = [](const Segment& s) {
+    return Beam({210000, 0.3, {s}}).at(100, {}).f_pp_rad_Nmm;
+  };
+  std::vector<double> f;
+  for (const double wall : {1e-6, 1e-9, 1e-12, 1e-15}) {
+    const double bore = 40 * (1 - wall);
+    f.push_back(turns({100, 60, 40, 20, bore}));
+    EXPECT_NEAR(turns({100, 40, 60, bore, 20}) / f.back(), 1, 1e-6) << wall;
+  }
+  EXPECT_NEAR((f[2] - f[1]) / (f[1] - f[0]), 1, 1e-4);
+  EXPECT_NEAR((f[3] - f[2]) / (f[1] - f[0]), 1, 0.05);  // the wall has one digit left
 }
 
 TEST(Beam, SlopesUnderForceAndCoupleAgree) {
@@ -281,19 +359,21 @@ TEST(Beam, ScalesLikeALengthOverStiffness) {
 }
 
 TEST(Beam, AnyOrderOfPositionsGivesTheSame) {
+  // to the last bit, ends of segments included
   for (const auto& [name, shaft] : random_shafts::all(17)) {
     const Beam beam(shaft);
-    std::vector<double> a = positions(beam.length_mm());
-    for (const double z : part::ends_mm(shaft.segments)) a.push_back(z);
-    std::reverse(a.begin(), a.end());
-    for (const Supports& s : random_shafts::supports()) {
-      const auto together = at(beam, a, s);
-      for (std::size_t i = 0; i < a.size(); ++i)
-        for (const Field f : kFields)
-          EXPECT_NEAR(together[i].*f, beam.at(a[i], s).*f,
-                      kPromised * std::abs(together[i].*f))
-              << name << " at " << a[i];
-    }
+    std::vector<double> rising = positions(beam.length_mm());
+    for (const double z : part::ends_mm(shaft.segments)) rising.push_back(z);
+    std::vector<double> mixed = rising;
+    std::sort(rising.begin(), rising.end());
+    const std::vector<double> falling(rising.rbegin(), rising.rend());
+    for (const Supports& s : random_shafts::supports())
+      for (const auto& a : {rising, falling, mixed}) {
+        const auto together = at(beam, a, s);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          for (const Field f : kFields)
+            EXPECT_EQ(together[i].*f, beam.at(a[i], s).*f) << name << " at " << a[i];
+      }
   }
 }
 
@@ -359,6 +439,10 @@ TEST(Beam, TwistOfATubeIsTheTextbooks) {
 TEST(Beam, RoundingInTheLastPositionIsForgiven) {
   const Beam beam({210000, 0.3, std::vector<Segment>(3, Segment{0.1, 1, 1, 0, 0})});
   EXPECT_NO_THROW(beam.at(0.1 + 0.1 + 0.1, {}));
+  const double L = beam.length_mm();
+  for (const Supports& s : random_shafts::supports())
+    for (const Field f : kFields)
+      EXPECT_EQ(beam.at(L * (1 + 5e-13), s).*f, beam.at(L, s).*f);
   EXPECT_THROW(beam.at(0.3001, {}), std::domain_error);
 }
 

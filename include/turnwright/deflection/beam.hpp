@@ -56,7 +56,8 @@ Body body(const Root& root);
 ///     M = M_1 + M_2,  d = (M_1 e + M_2 d_2)/M,
 ///     X = X_1 + X_2 + (e - d_2)^2 M_1 M_2/M                                    (2)
 ///
-/// Nothing is subtracted but e - d_2, which lies within the two.
+/// Every term is positive; where e - d_2, the distance of the two centroids, is small and
+/// so inexact, its term is small.
 Body joined(const Body& behind, double length_mm, const Body& stretch);
 
 /// The bending and shearing part: its bodies once, then every position in O(1) after
@@ -139,14 +140,15 @@ class Beam {
     End left, right;
     Body whole, before;  // the piece, and all left of it
 
-    void measure(Run& run) const;
+    /// What lies between each of the positions, all within the piece, and its ends.
+    void measure(std::span<const double> a_mm, Run& run) const;
+    void both_sides(Run& run) const;
     Body measured() const;
   };
 
   void add_pieces(const part::Shaft& shaft, const part::Segment& segment, double z_mm);
   double end_of(std::size_t piece) const;
   std::size_t piece_at(double a_mm, std::size_t hint) const;
-  static void measure(const Piece& piece, std::span<const double> a_mm, Run& run);
 
   std::vector<Piece> pieces_;
   double length_mm_ = 0;
