@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
+#include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/geometry.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/thermal.hpp"
@@ -74,6 +76,21 @@ constexpr const char* kThermalExample = R"({
   "shift": {"start": "cold", "time_s": [0, 7200], "rpm": [3000, 3000],
             "ambient_degC": [22, 22],
             "batch": {"first_s": 300, "cycle_s": 240, "parts": 25, "offset_every": 5}}})";
+
+constexpr const char* kGeometryExample = R"({
+  "chain": "wCfZXt", "tool_point_mm": [0, 0, 0], "axes": [
+    {"name": "C", "loc": {"EX0C": 0.008}, "err": {"EXC": {"f": [[0, 0], [0.001, 0]]}}},
+    {"name": "Z", "sq": {"EB0Z": 2e-5}, "err": {"EXZ": {"c": [0, 0, 0.005, 0]}}},
+    {"name": "X", "err": {"EXX": {"c": [0, 0.003, 0, 0], "b": -0.0012}}}],
+  "points": [{"q": {"X": 30, "Z": 20}, "sign": {"X": -1, "Z": -1}},
+             {"q": {"X": 30, "Z": 120, "C": 0.5}, "sign": {"Z": -1}}]})";
+
+constexpr const char* kBallBarExample = R"({"analyse": {
+  "plane": "XY", "R_mm": 100,
+  "ccw_mm": [0.0012, 0.0021, 0.0013, -0.0012, -0.002, -0.0011, 0.0009, 0.0014, 0.0006,
+             -0.0016, -0.0027, -0.0017],
+  "cw_mm": [0.0001, 0.0008, 0.001, -0.0009, -0.0008, 0.0001, 0.0021, 0.0027, 0.001,
+            -0.0012, -0.0014, -0.0004]}})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -147,6 +164,16 @@ std::span<const Request> requests() {
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
+       }},
+      {"geometry", "kinematic chain with errors, positions -> tip and direction errors",
+       kGeometryExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::geometry(request);
+       }},
+      {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
+       kBallBarExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::ball_bar(request);
        }},
   };
   return kTable;
