@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 
 namespace turnwright::document {
@@ -27,7 +28,8 @@ std::vector<std::string_view> split(std::string_view s, char separator) {
 nlohmann::json cell(std::string_view s, bool text) {
   double x = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
-  if (text || error != std::errc() || end != s.data() + s.size()) return std::string(s);
+  if (text || error != std::errc() || end != s.data() + s.size() || !std::isfinite(x))
+    return std::string(s);
   return x;
 }
 

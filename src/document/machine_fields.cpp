@@ -1,6 +1,11 @@
 #include "machine_fields.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/volumetric/axis_table.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -8,7 +13,7 @@ namespace {
 using namespace volumetric;
 using nlohmann::json;
 
-constexpr std::size_t kHarmonics = 64;
+constexpr std::size_t kHarmonics = 64, kReadings = 10000;
 const Bounds kShift = within(-1e3, 1e3, "mm"), kTurn = within(-10, 10, "rad"),
              kPlace = within(-1e6, 1e6, "mm"), kAngle = within(-1e6, 1e6, "rad");
 
@@ -27,9 +32,53 @@ bool has_location(char axis, std::size_t direction) {
   return is_rotary(axis) || (direction > 2 && direction != letter_index(axis) + 3);
 }
 
-ErrorFunction read_error(Reader r, char axis, const Bounds& bounds) {
+/// {"q", "plus", "minus", "unit", "sign", "degree"} fitted; `side` is -1 of axes between
+/// bed and workpiece.
+ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
+                               double side) {
+  AxisTable t;
+  const std::size_t problems = r.problems().list.size();
+  t.q = r.numbers("q", travel, 1, kReadings);
+  const Choices<double> shifts = {{"mm", 1}, {"um", units::mm_from_um(1)}},
+                        angles = {{"rad", 1}, {"urad", 1e-6}};
+  const double unit = r.choice<double>("unit", turns ? angles : shifts);
+  const double sign =
+      r.choice<double>("sign", {{"physical", 1}, {"tool-minus-workpiece", side}});
+  const int degree = static_cast<int>(r.integer_or("degree", 0, 3, 3));
+  const auto column = [&](const char* key, std::vector<double>& out) {
+    if (!r.has(key)) return;
+    out = r.numbers(key, within(-1e6, 1e6), 1, kReadings);
+    if (!out.empty() && !t.q.empty() && out.size() != t.q.size())
+      r.problem_at(key, "as many readings as q has positions", "count");
+    for (double& x : out) x *= sign * unit;
+  };
+  column("plus", t.plus);
+  column("minus", t.minus);
+  r.finish();
+  if (r.problems().list.size() != problems) return {};
+  const std::set<double> places(t.q.begin(), t.q.end());
+  if (t.plus.empty() && t.minus.empty())
+    r.problem("neither", "plus, minus or both: readings by direction of approach",
+              "missing");
+  else if (places.size() < static_cast<std::size_t>(degree) + 1)
+    r.problem_at("q", std::to_string(degree + 1) + " positions or more", "count");
+  else
+    return fit_axis(t, Q, degree).error;
+  return {};
+}
+
+/// `side` as in read_error_table.
+ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction, double side) {
   r = r.as_object();
+  const char axis = of.name;
+  const Bounds& bounds = error_bounds(direction);
   ErrorFunction e;
+  if (auto table = r.optional_object("table")) {
+    e = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace, direction > 2, of.Q,
+                         side);
+    r.finish();
+    return e;
+  }
   if (r.has("c")) {
     const auto c = r.numbers("c", bounds, 4, 4);
     std::ranges::copy(c, e.c.begin());
@@ -43,14 +92,14 @@ ErrorFunction read_error(Reader r, char axis, const Bounds& bounds) {
   return e;
 }
 
-Axis read_axis(Reader r, char name) {
+Axis read_axis(Reader r, char name, double side) {
   Axis axis{.name = name, .Q = default_Q(name)};
   if (r.has("p_mm")) axis.p_mm = read_vec3(r, "p_mm", kPlace);
   axis.Q = r.number_or("Q", above_up_to(0, 1e6, is_rotary(name) ? "rad" : "mm"), axis.Q);
   if (auto err = r.optional_object("err")) {
     for (std::size_t k = 0; k < kDirections; ++k)
       if (const auto e = err->find(error_name(k, "", name)))
-        axis.errors[k] = read_error(*e, name, error_bounds(k));
+        axis.errors[k] = read_error(*e, axis, k, side);
     err->finish();
   }
   for (const char* group : {"loc", "sq"}) {
@@ -92,14 +141,15 @@ Machine read_chain(Reader& r) {
       item.problem_at("name", "an axis of the chain " + m.chain, "reference");
     if (std::ranges::find(m.axes, name, &Axis::name) != m.axes.end())
       item.problem_at("name", "each axis once", "duplicate");
-    m.axes.push_back(read_axis(item, name));
+    const bool table = known && m.chain.find(name) < m.chain.find('f');
+    m.axes.push_back(read_axis(item, name, table ? -1 : 1));
   }
   if (known && r.json().contains("axes") && r.json()["axes"].is_array())
     for (const char c : m.chain)
       if (letter_index(c) != std::string_view::npos &&
           std::ranges::find(m.axes, c, &Axis::name) == m.axes.end())
-        r.problem(std::string("no axis ") + c,
-                  "an entry under axes for each axis of the chain " + m.chain, "missing");
+        r.problems().add({r.pointer_of("axes"), std::string("no axis ") + c,
+                          "an entry for each axis of the chain " + m.chain, "missing"});
   return m;
 }
 

@@ -9,6 +9,9 @@
 ///     "chain": "wCfZXt", "axes": [{"name": "X", "p_mm": [0, 0, 0], "Q": 100,
 ///       "err": {"EXX": {"c": [c0, c1, c2, c3], "b": 0, "f": [[a1, d1]]}},
 ///       "sq": {"EB0X": 0}, "loc": {"EX0C": 0}}]
+///
+/// Instead of coefficients an error may hold readings of a laser or a ball array,
+/// {"table": {"q": [..], "plus": [..], "minus": [..], "unit": "um", "sign": "physical"}}.
 namespace turnwright::document {
 
 /// Members "chain" and "axes".  A machine with problems is not fit for Kinematics.
