@@ -19,8 +19,10 @@ using Eigen::VectorXd;
 
 constexpr const char* kChain = "wCBXfZYt";
 constexpr std::string_view kAxes = "XYZBC";
-constexpr double kLever = 100;   // of angles against shifts [mm]
-constexpr double kMoves = 1e-6;  // above it a null vector moves an unknown
+constexpr double kLever = 100;  // of angles against shifts [mm]
+// Above it a null vector moves an unknown.  Directions that are null but for 1e-7 drag
+// all others along by up to 2e-6, what they really move by more than 1e-3.
+constexpr double kMoves = 5e-5;
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -207,9 +209,11 @@ std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknow
   }
   for (Index i = 0; i < N.rows(); ++i) {
     VectorXd v = N.row(i).normalized();
-    Index largest = 0;
-    v.cwiseAbs().maxCoeff(&largest);
-    if (v[largest] < 0) v = -v;
+    // The first of the largest components is positive, whatever rounding made of them.
+    const double largest = v.cwiseAbs().maxCoeff() * (1 - 1e-9);
+    Index first = 0;
+    while (std::abs(v[first]) < largest) ++first;
+    if (v[first] < 0) v = -v;
     NullVector vector;
     for (Index j = 0; j < v.size(); ++j)
       if (std::abs(v[j]) > kMoves) vector[unknowns[static_cast<std::size_t>(j)]] = v[j];
