@@ -25,6 +25,11 @@ tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identi
 tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp response.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
+tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensation.cpp
+          kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp samba.cpp
+  DEPENDS base PRIVATE_LIBS Eigen3::Eigen Boost::headers
+  TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
+        kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -47,9 +52,10 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp
-          DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          machine_fields.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
+          DEPENDS base catalogue part deflection thermal volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
-                malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
+                malformed_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()

@@ -223,6 +223,18 @@ bool add_row(const Reader& csv, const Line& line, const Header& header,
 
 }  // namespace
 
+std::vector<std::string> csv_header(const Reader& csv) {
+  const auto lines = lines_of(csv);
+  if (csv.broken() || !is_text(csv, lines)) return {};
+  for (const Line& line : lines) {
+    const auto text = trimmed(line.text);
+    if (!text.empty() && !text.starts_with('#'))
+      return cells_of(csv, line, separator_of(line.text), 0)
+          .value_or(std::vector<std::string>{});
+  }
+  return {};
+}
+
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows) {
   const std::size_t before = csv.problems().list.size();

@@ -3,10 +3,15 @@
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
+#include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/chuck.hpp"
+#include "turnwright/document/compare.hpp"
+#include "turnwright/document/compensate.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/geometry.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/document/samba.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/drawing.hpp"
@@ -74,6 +79,43 @@ constexpr const char* kThermalExample = R"({
   "shift": {"start": "cold", "time_s": [0, 7200], "rpm": [3000, 3000],
             "ambient_degC": [22, 22],
             "batch": {"first_s": 300, "cycle_s": 240, "parts": 25, "offset_every": 5}}})";
+
+constexpr const char* kGeometryExample = R"({
+  "chain": "wCfZXt", "tool_point_mm": [0, 0, 0], "axes": [
+    {"name": "C", "loc": {"EX0C": 0.008}, "err": {"EXC": {"f": [[0, 0], [0.001, 0]]}}},
+    {"name": "Z", "sq": {"EB0Z": 2e-5}, "err": {"EXZ": {"c": [0, 0, 0.005, 0]}}},
+    {"name": "X", "err": {"EXX": {"c": [0, 0.003, 0, 0], "b": -0.0012}}}],
+  "points": [{"q": {"X": 30, "Z": 20}, "sign": {"X": -1, "Z": -1}},
+             {"q": {"X": 30, "Z": 120, "C": 0.5}, "sign": {"Z": -1}}]})";
+
+constexpr const char* kBallBarExample = R"({"analyse": {
+  "plane": "XY", "R_mm": 100,
+  "ccw_mm": [0.0012, 0.0021, 0.0013, -0.0012, -0.002, -0.0011, 0.0009, 0.0014, 0.0006,
+             -0.0016, -0.0027, -0.0017],
+  "cw_mm": [0.0001, 0.0008, 0.001, -0.0009, -0.0008, 0.0001, 0.0021, 0.0027, 0.001,
+            -0.0012, -0.0014, -0.0004]}})";
+
+constexpr const char* kSambaExample = R"({
+  "strategy": {
+    "indexations_deg": [[0, 0], [60, 40], [-50, 150], [30, -110]],
+    "balls_seen": [[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]],
+    "balls_mm": [[-150, 0, 40], [150, 0, 40], [20, 160, 180]], "scale_bar_mm": 300.002},
+  "parameters": ["EC0Y", "EA0Y", "EB0Z", "EXX1", "EYY1", "EZZ1", "EAY1"]})";
+
+constexpr const char* kCompareExample = R"({
+  "a": {"name": "ball bar", "parameters": [
+    {"name": "EXX", "group": "scale", "unit": "um", "runs": [-7.76, -7.26, -6.05, 2.48]},
+    {"name": "EYY", "group": "scale", "unit": "um", "runs": [-1.67, -0.39, 1.83, 10.24]}]},
+  "b": {"name": "balls", "parameters": [
+    {"name": "EXX", "group": "scale", "unit": "um", "runs": [-4, -5.23, -4.74, -4.74]},
+    {"name": "EYY", "group": "scale", "unit": "um", "runs": [1.85, -0.14, -0.75, -0.85]}]}})";
+
+constexpr const char* kCompensateExample = R"({
+  "chain": "wCfZXt", "axes": [
+    {"name": "C"}, {"name": "Z", "sq": {"EB0Z": 2e-5}},
+    {"name": "X", "err": {"EXX": {"c": [0, 0.003, 0, 0], "b": -0.001}}}],
+  "diameter": true, "start_mm": [50, 0, 50], "decimals": 4,
+  "program": ["G0 X42 Z2", "G1 X40 F0.2", "Z-30", "G2 X50 Z-35 R5", "G0 X60", "M30"]})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -150,6 +192,31 @@ std::span<const Request> requests() {
          return document::thermal(request);
        },
        report::thermal_text},
+      {"geometry", "kinematic chain with errors, positions -> tip and direction errors",
+       kGeometryExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::geometry(request);
+       }},
+      {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
+       kBallBarExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::ball_bar(request);
+       }},
+      {"samba", "probing strategy -> identifiability; readings -> parameters",
+       kSambaExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::samba(request);
+       }},
+      {"compare", "two calibrations with repeated runs -> agreement per parameter",
+       kCompareExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::compare(request);
+       }},
+      {"compensate", "NC program and error model -> corrected program and residual",
+       kCompensateExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::compensate(request);
+       }},
   };
   return kTable;
 }

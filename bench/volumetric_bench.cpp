@@ -1,0 +1,95 @@
+// Targets: first-order tip error 50 ns, exact three-axis 200 ns, five-axis 500 ns per
+// point; ball-bar fit of 2 x 3600 points 1 ms; rank of 189 x 123 20 ms; 1e5 draws 2 s;
+// 1e6 NC blocks 1 s.
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <string>
+
+#include "turnwright/volumetric/ball_bar.hpp"
+#include "turnwright/volumetric/compensation.hpp"
+#include "turnwright/volumetric/kinematics.hpp"
+#include "turnwright/volumetric/lathe_part.hpp"
+#include "turnwright/volumetric/samba.hpp"
+
+namespace turnwright::volumetric {
+namespace {
+
+Machine machine(const std::string& chain) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<> number(-1e-3, 1e-3);
+  Machine m{chain, {5, -3, -120}, {}};
+  for (const char c : chain) {
+    if (letter_index(c) == std::string_view::npos) continue;
+    Axis axis{c, {10, 20, 30}, default_Q(c)};
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      for (double& x : axis.errors[k].c) x = number(random) * (k < 3 ? 1 : 1e-2);
+      axis.errors[k].b = number(random) * (k < 3 ? 1 : 1e-2);
+    }
+    m.axes.push_back(axis);
+  }
+  return m;
+}
+
+const Position kAt{.q = {100, -50, 80, 0.1, 0.2, 0.3}, .sign = {1, -1, 1, 1, 1, -1}};
+
+void first_order(benchmark::State& state, const char* chain) {
+  const Kinematics k(machine(chain));
+  for (auto _ : state) benchmark::DoNotOptimize(k.tip_error_first_order_mm(kAt));
+}
+void exact(benchmark::State& state, const char* chain) {
+  const Kinematics k(machine(chain));
+  for (auto _ : state) benchmark::DoNotOptimize(k.actual(kAt));
+}
+BENCHMARK_CAPTURE(first_order, three_axes, "wfXYZt");
+BENCHMARK_CAPTURE(first_order, five_axes, "wCBXfZYt");
+BENCHMARK_CAPTURE(exact, three_axes, "wfXYZt");
+BENCHMARK_CAPTURE(exact, five_axes, "wCBXfZYt");
+
+void ball_bar_fit(benchmark::State& state) {
+  const Trace t = simulate(machine("wfXYZt"), {.n = 3600});
+  for (auto _ : state) benchmark::DoNotOptimize(decompose(t));
+}
+BENCHMARK(ball_bar_fit)->Unit(benchmark::kMillisecond);
+
+void iso(benchmark::State& state) {
+  const Trace t = simulate(machine("wfXYZt"), {.n = 3600});
+  for (auto _ : state) benchmark::DoNotOptimize(iso230_4(t));
+}
+BENCHMARK(iso)->Unit(benchmark::kMillisecond);
+
+void rank(benchmark::State& state) {
+  SambaStrategy s;
+  s.balls_mm = {{-152, 0, 41},    {152, 0, 40},     {160, 160, 178},
+                {-160, 160, 178}, {-160, -160, 76}, {160, -160, 76}};
+  s.scale_bar_mm = 304;
+  for (int i = 0; i < 21; ++i)
+    s.indexations.push_back({0.1 * i - 1, 0.3 * i, {2, 3, 4}, {}});
+  for (auto _ : state) benchmark::DoNotOptimize(identifiability(s, samba_parameters()));
+}
+BENCHMARK(rank)->Unit(benchmark::kMillisecond);
+
+void monte_carlo(benchmark::State& state) {
+  const Machine lathe = machine("wCfZXt");
+  const Surface s =
+      turned(Kinematics(lathe), lathe.tool_point_mm, {30, 0, 30, 100}, 24, 9);
+  const std::vector<FormSource> sources(8, {cylinder_residual_mm(s), 0.5, 2});
+  for (auto _ : state) benchmark::DoNotOptimize(form_distribution(sources, 100000, 1));
+}
+BENCHMARK(monte_carlo)->Unit(benchmark::kMillisecond);
+
+void nc_blocks(benchmark::State& state) {
+  std::vector<std::string> text;
+  for (int i = 0; i < 1000000; ++i)
+    text.push_back("G1 X" + std::to_string(i % 200) + ".5 Y" + std::to_string(i % 90) +
+                   " Z-" + std::to_string(i % 7));
+  const std::vector<std::string_view> lines(text.begin(), text.end());
+  const Machine m = machine("wfXYZt");
+  for (auto _ : state) benchmark::DoNotOptimize(compensate(read_nc(lines, {}), m, {}));
+}
+BENCHMARK(nc_blocks)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+}  // namespace
+}  // namespace turnwright::volumetric
+
+BENCHMARK_MAIN();

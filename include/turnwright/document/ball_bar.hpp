@@ -1,0 +1,13 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace turnwright::document {
+
+/// The door `ballbar`: error model -> traces, or traces -> values of ISO 230-4 and their
+/// decomposition.  Computed by volumetric/ball_bar.hpp; the documents are described by
+/// schemas/ballbar.request.json and schemas/ballbar.result.json.
+/// @throws InputError with every problem of the request; ModelRangeError if the angles do
+///   not tell the errors apart.
+nlohmann::json ball_bar(const nlohmann::json& request);
+
+}  // namespace turnwright::document

@@ -1,0 +1,13 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace turnwright::document {
+
+/// The door `compensate`: an NC program and a machine's errors -> the corrected program
+/// and what it leaves.  Computed by volumetric/compensation.hpp; the documents are
+/// described by schemas/compensate.request.json and schemas/compensate.result.json.
+/// @throws InputError with every problem of the request; those of the program point at
+///   its lines, "/program#line 12".
+nlohmann::json compensate(const nlohmann::json& request);
+
+}  // namespace turnwright::document

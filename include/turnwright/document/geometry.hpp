@@ -1,0 +1,12 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace turnwright::document {
+
+/// The door `geometry`: a kinematic chain with its errors and positions -> tip and
+/// direction errors.  Computed by volumetric/kinematics.hpp; the documents are described
+/// by schemas/geometry.request.json and schemas/geometry.result.json.
+/// @throws InputError with every problem of the request.
+nlohmann::json geometry(const nlohmann::json& request);
+
+}  // namespace turnwright::document

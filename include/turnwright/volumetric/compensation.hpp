@@ -1,0 +1,56 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "turnwright/volumetric/machine.hpp"
+#include "turnwright/volumetric/nc_program.hpp"
+
+namespace turnwright::volumetric {
+
+enum class Method {
+  full_field,  ///< every point by the error there
+  affine,      ///< by the affine map nearest to the errors at all points
+  average      ///< by their mean: a shift of the origin
+};
+
+enum class AtRest {
+  last,  ///< an axis at rest keeps the side of its play that its last motion left
+  none   ///< s = 0
+};
+
+struct CompensationOptions {
+  Method method = Method::full_field;
+  AtRest at_rest = AtRest::last;
+  int passes = 2;    ///< of the fixed-point iteration
+  int decimals = 6;  ///< written, of a mm; inches get two more
+  /// Straight feed moves are split until the correction is straight within this.
+  double tolerance_mm = 1e-3;
+};
+
+/// Distances of the tip from where it should be, at the ends of all moves.
+struct Deviation {
+  double max_mm = 0, rms_mm = 0;
+};
+
+struct Compensated {
+  std::vector<std::string> lines;
+  Deviation before, after;            ///< after: of the coordinates as written
+  std::size_t points = 0, added = 0;  ///< moves written; those not in the source's moves
+  double largest_correction_mm = 0;
+};
+
+/// The program whose moves, made by the machine with its errors, end where the source's
+/// should.  For a tip T(q) = nominal + error and a target P,
+///
+///     q_0 = q(P),   q_{k+1} = q_k - (T(q_k) - P)                                     (1)
+///
+/// which gains the size of the errors' slopes (1e-4) with each pass.  Rotary axes stand
+/// at 0; only axes the machine has are corrected and counted (tangential errors of a
+/// lathe act by y^2/2R).  Where an axis turns back in a feed move, its play is taken up
+/// first by a move of its own.
+/// @throws std::domain_error as Kinematics.
+Compensated compensate(const NcProgram& program, const Machine& machine,
+                       const NcSetup& setup, const CompensationOptions& options = {});
+
+}  // namespace turnwright::volumetric

@@ -1,0 +1,63 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "turnwright/volumetric/machine.hpp"
+
+/// Part programs of ISO 6983 as straight moves of the tool tip.
+namespace turnwright::volumetric {
+
+struct NcSetup {
+  std::string axes = "XYZ";  ///< linear axes of the machine, in the order X Y Z
+  bool diameter = false;     ///< X words are diameters until G8 says otherwise
+  bool lathe = false;        ///< G18 at the start; T words of 3, 4 digits hold an offset
+  double tolerance_mm = 1e-3;  ///< of chords against arcs
+  Vec3 start_mm{};             ///< the tip at the start, in the first work frame
+  /// Origins by "G54" .. "G59" [mm]; the first active is G54, zero unless given.
+  std::map<std::string, Vec3> work_offsets_mm = {};
+  /// Tool vectors by offset number (G43 H1, T0101) [mm], from the machine's tool point.
+  std::map<int, Vec3> tool_offsets_mm = {};
+};
+
+/// A straight move of the tip, or a line that goes through unchanged.
+struct NcMove {
+  std::size_t line = 0;  ///< of the source, from 1
+  bool moves = false;    ///< false: `before` is the whole line
+  bool rapid = false;    ///< G0
+  bool inch = false, diameter = false;
+  Vec3 target_mm{};         ///< tip in the machine frame
+  Vec3 origin_mm{};         ///< of the program's coordinates in the machine frame
+  int tool = 0;             ///< offset number, 0 for none
+  std::string before = {};  ///< words to go before the coordinates
+  std::string after = {};   ///< and after them
+};
+
+struct NcProblem {
+  std::size_t line = 0;
+  std::string got, expected;
+};
+
+struct NcProgram {
+  Vec3 start_mm{};  ///< tip in the machine frame
+  std::vector<NcMove> moves;
+  std::vector<NcProblem> problems;  ///< if any, `moves` is not to be used
+};
+
+/// The program's moves.  Read are G0 G1 G2 G3 (centre by I J K from the start, or R), G17
+/// to G19, G20 G21, G90 G91, G54 to G59, G43 H, G49, G7 G8 (X as diameter, radius) and
+/// tool words; G4, G40, G61, G64, G80, G94 to G99, the speed limit of G50 or G92 with S
+/// alone and M codes go through.  Arcs become chords within the tolerance, cut also where
+/// an axis reverses; ends of arcs may lie 0.01 mm off the radius of their start.
+///
+/// All else is a problem of its line, nothing is passed in silence: canned cycles, thread
+/// cutting, cutter radius compensation, G53, G28, G92 with axes, other axes, variables,
+/// expressions, subprograms, block delete.
+///
+/// The written-out moves are absolute (G90); G2, G3, G90, G91 and arc words are dropped.
+NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup);
+
+}  // namespace turnwright::volumetric

@@ -1,0 +1,145 @@
+#include "turnwright/document/compensate.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fields.hpp"
+#include "machine_fields.hpp"
+#include "turnwright/volumetric/compensation.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using namespace volumetric;
+using nlohmann::json;
+
+constexpr std::size_t kLines = 2'000'000, kLineBytes = 1000, kWritten = 5'000'000;
+const Bounds kPlace = within(-1e5, 1e5, "mm"), kTolerance = within(1e-6, 1, "mm");
+
+struct Request {
+  Machine machine;
+  NcSetup setup;
+  CompensationOptions options;
+  std::vector<std::string> lines;
+};
+
+std::vector<std::string> read_program(const Reader& r) {
+  std::vector<std::string> out;
+  if (r.broken()) return out;
+  if (r.is_array()) {
+    for (const Reader& line : r.as_items(1, kLines)) {
+      const json& text = line.json();
+      if (!text.is_string() || text.get_ref<const std::string&>().size() > kLineBytes ||
+          text.get_ref<const std::string&>().find('\n') != std::string::npos)
+        line.problem("a line of at most 1000 bytes", "type");
+      else
+        out.push_back(text);
+    }
+    return out;
+  }
+  if (!r.is_text()) {
+    r.problem("the text of a program, or the list of its lines", "type");
+    return out;
+  }
+  const std::string text = r.as_text(kLines * kLineBytes);
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    out.push_back(text.substr(at, end - at));
+    if (out.back().ends_with('\r')) out.back().pop_back();
+    at = end + 1;
+  }
+  return out;
+}
+
+void read_offsets(Reader& r, NcSetup& s) {
+  if (auto work = r.optional_object("work_offsets_mm")) {
+    for (const char* name : {"G54", "G55", "G56", "G57", "G58", "G59"})
+      if (work->has(name)) s.work_offsets_mm[name] = read_vec3(*work, name, kPlace);
+    work->finish();
+  }
+  if (auto tools = r.optional_object("tool_offsets_mm")) {
+    for (int number = 1; number < 100; ++number) {
+      const std::string key = std::to_string(number);
+      if (tools->has(key)) s.tool_offsets_mm[number] = read_vec3(*tools, key, kPlace);
+    }
+    tools->finish();
+  }
+}
+
+CompensationOptions read_options(Reader& r) {
+  CompensationOptions o;
+  o.method = r.choice_or<Method>("method",
+                                 {{"full-field", Method::full_field},
+                                  {"affine", Method::affine},
+                                  {"average", Method::average}},
+                                 Method::full_field);
+  o.at_rest = r.choice_or<AtRest>(
+      "at_rest", {{"last", AtRest::last}, {"none", AtRest::none}}, AtRest::last);
+  o.passes = static_cast<int>(r.integer_or("passes", 1, 10, o.passes));
+  o.decimals = static_cast<int>(r.integer_or("decimals", 3, 9, o.decimals));
+  return o;
+}
+
+Request read_request(const json& document) {
+  Problems problems{.document = "compensate"};
+  Reader r = Reader(document, problems).as_object();
+  Request q;
+  read_format(r, "turnwright-compensate/1");
+  q.machine = read_chain(r);
+  if (r.has("tool_point_mm"))
+    q.machine.tool_point_mm = read_vec3(r, "tool_point_mm", kPlace);
+  const std::string& chain = q.machine.chain;
+  q.setup.axes.clear();
+  for (const char axis : {'X', 'Y', 'Z'})
+    if (chain.find(axis) != std::string::npos) q.setup.axes += axis;
+  q.setup.lathe = r.boolean_or("lathe", q.setup.axes == "XZ");
+  q.setup.diameter = r.boolean_or("diameter", false);
+  q.setup.tolerance_mm = r.number_or("tolerance_mm", kTolerance, 1e-3);
+  if (r.has("start_mm")) q.setup.start_mm = read_vec3(r, "start_mm", kPlace);
+  read_offsets(r, q.setup);
+  q.options = read_options(r);
+  q.options.tolerance_mm = q.setup.tolerance_mm;
+  q.lines = read_program(r.at("program", "the text of a program, or its lines"));
+  r.finish();
+  if (q.lines.empty() && problems.list.empty())
+    r.problem_at("program", "at least one line", "range");
+  problems.throw_if_any();
+  return q;
+}
+
+json deviation_json(const Deviation& d) {
+  return {{"max_mm", d.max_mm}, {"rms_mm", d.rms_mm}};
+}
+
+}  // namespace
+
+json compensate(const json& request) {
+  const Request q = read_request(request);
+  const std::vector<std::string_view> lines(q.lines.begin(), q.lines.end());
+  const NcProgram program = read_nc(lines, q.setup);
+  Problems problems{.document = "compensate"};
+  for (const NcProblem& p : program.problems)
+    problems.add(
+        {"/program#line " + std::to_string(p.line), p.got, p.expected, "unsupported"});
+  if (program.moves.size() > kWritten)
+    problems.add({"/program", std::to_string(program.moves.size()) + " moves",
+                  "at most 5000000; a wider tolerance_mm makes fewer", "range"});
+  problems.throw_if_any();
+  const Compensated c = volumetric::compensate(program, q.machine, q.setup, q.options);
+  json assumed = json::array();
+  if (!request.contains("start_mm"))
+    assumed.push_back({{"pointer", "/start_mm"},
+                       {"value", {0, 0, 0}},
+                       {"why", "where the tip stands before the first move"}});
+  return {{"program", c.lines},
+          {"residual",
+           {{"before", deviation_json(c.before)}, {"after", deviation_json(c.after)}}},
+          {"points", c.points},
+          {"added_moves", c.added},
+          {"largest_correction_mm", c.largest_correction_mm},
+          {"assumed", assumed}};
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,45 @@
+#include "turnwright/document/geometry.hpp"
+
+#include "fields.hpp"
+#include "machine_fields.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using namespace volumetric;
+using nlohmann::json;
+
+constexpr std::size_t kPoints = 100000;
+
+Vec3 difference(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+}  // namespace
+
+json geometry(const json& request) {
+  Problems problems{.document = "geometry"};
+  Reader r = Reader(request, problems).as_object();
+  read_format(r, "turnwright-geometry/1");
+  Machine machine = read_chain(r);
+  machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
+  std::vector<Position> points;
+  for (const Reader& point : r.items("points", 1, kPoints))
+    points.push_back(read_position(point, machine));
+  r.finish();
+  problems.throw_if_any();
+
+  const Kinematics kinematics(machine);
+  json out = json::array();
+  for (const Position& at : points) {
+    const ToolPose nominal = kinematics.nominal(at), actual = kinematics.actual(at);
+    out.push_back(
+        {{"tip_nominal_mm", nominal.tip_mm},
+         {"tip_error_mm", difference(actual.tip_mm, nominal.tip_mm)},
+         {"tip_error_first_order_mm", kinematics.tip_error_first_order_mm(at)},
+         {"direction_error_rad", difference(actual.direction, nominal.direction)}});
+  }
+  return {{"points", out}};
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,202 @@
+#include "machine_fields.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/volumetric/axis_table.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using namespace volumetric;
+using nlohmann::json;
+
+constexpr std::size_t kHarmonics = 64, kReadings = 10000;
+const Bounds kShift = within(-1e3, 1e3, "mm"), kTurn = within(-10, 10, "rad"),
+             kPlace = within(-1e6, 1e6, "mm"), kAngle = within(-1e6, 1e6, "rad");
+
+const Bounds& error_bounds(std::size_t direction) {
+  return direction < 3 ? kShift : kTurn;
+}
+
+/// "EYX", "EY0X".
+std::string error_name(std::size_t direction, const char* of, char axis) {
+  return std::string("E") + kLetters[direction] + of + axis;
+}
+
+/// Whether `axis` has the location key of `direction`: any of a rotary axis, of a linear
+/// one the turns across it.
+bool has_location(char axis, std::size_t direction) {
+  return is_rotary(axis) || (direction > 2 && direction != letter_index(axis) + 3);
+}
+
+/// {"q", "plus", "minus", "unit", "sign", "degree"} fitted; `side` is -1 of axes between
+/// bed and workpiece.
+ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
+                               double side) {
+  AxisTable t;
+  const std::size_t problems = r.problems().list.size();
+  t.q = r.numbers("q", travel, 1, kReadings);
+  const Choices<double> shifts = {{"mm", 1}, {"um", units::mm_from_um(1)}},
+                        angles = {{"rad", 1}, {"urad", 1e-6}};
+  const double unit = r.choice<double>("unit", turns ? angles : shifts);
+  const double sign =
+      r.choice<double>("sign", {{"physical", 1}, {"tool-minus-workpiece", side}});
+  const int degree = static_cast<int>(r.integer_or("degree", 0, 3, 3));
+  const auto column = [&](const char* key, std::vector<double>& out) {
+    if (!r.has(key)) return;
+    out = r.numbers(key, within(-1e6, 1e6), 1, kReadings);
+    if (!out.empty() && !t.q.empty() && out.size() != t.q.size())
+      r.problem_at(key, "as many readings as q has positions", "count");
+    for (double& x : out) x *= sign * unit;
+  };
+  column("plus", t.plus);
+  column("minus", t.minus);
+  r.finish();
+  if (r.problems().list.size() != problems) return {};
+  const std::set<double> places(t.q.begin(), t.q.end());
+  if (t.plus.empty() && t.minus.empty())
+    r.problem("neither", "plus, minus or both: readings by direction of approach",
+              "missing");
+  else if (places.size() < static_cast<std::size_t>(degree) + 1)
+    r.problem_at("q", std::to_string(degree + 1) + " positions or more", "count");
+  else
+    return fit_axis(t, Q, degree).error;
+  return {};
+}
+
+/// `side` as in read_error_table.
+ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction, double side) {
+  r = r.as_object();
+  const char axis = of.name;
+  const Bounds& bounds = error_bounds(direction);
+  ErrorFunction e;
+  if (auto table = r.optional_object("table")) {
+    e = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace, direction > 2, of.Q,
+                         side);
+    r.finish();
+    return e;
+  }
+  if (r.has("c")) {
+    const auto c = r.numbers("c", bounds, 4, 4);
+    std::ranges::copy(c, e.c.begin());
+  }
+  e.b = r.number_or("b", bounds, 0);
+  for (const Reader& pair : r.optional_items("f", 0, is_rotary(axis) ? kHarmonics : 0)) {
+    const auto ad = pair.as_numbers(bounds, 2, 2);
+    if (ad.size() == 2) e.f.push_back({ad[0], ad[1]});
+  }
+  r.finish();
+  return e;
+}
+
+Axis read_axis(Reader r, char name, double side) {
+  Axis axis{.name = name, .Q = default_Q(name)};
+  if (r.has("p_mm")) axis.p_mm = read_vec3(r, "p_mm", kPlace);
+  axis.Q = r.number_or("Q", above_up_to(0, 1e6, is_rotary(name) ? "rad" : "mm"), axis.Q);
+  if (auto err = r.optional_object("err")) {
+    for (std::size_t k = 0; k < kDirections; ++k)
+      if (const auto e = err->find(error_name(k, "", name)))
+        axis.errors[k] = read_error(*e, axis, k, side);
+    err->finish();
+  }
+  for (const char* group : {"loc", "sq"}) {
+    auto location = r.optional_object(group);
+    if (!location) continue;
+    if (is_rotary(name) == (group[0] == 'l'))
+      for (std::size_t k = 0; k < kDirections; ++k)
+        if (has_location(name, k))
+          axis.location[k] =
+              location->number_or(error_name(k, "0", name), error_bounds(k), 0);
+    location->finish();
+  }
+  r.finish();
+  return axis;
+}
+
+}  // namespace
+
+Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds) {
+  Vec3 out{};
+  std::ranges::copy(r.numbers(key, bounds, 3, 3), out.begin());
+  return out;
+}
+
+Machine read_chain(Reader& r) {
+  Machine m;
+  m.chain = r.text("chain", 9);
+  const std::string fault = chain_fault(m.chain);
+  const bool known = fault.empty();
+  if (!m.chain.empty() && !known)
+    r.problem_at("chain", "a chain such as wCfZXt: " + fault, "chain");
+  static const std::vector<std::string> kNames = {"X", "Y", "Z", "A", "B", "C"};
+  for (Reader item : r.items("axes", 0, kDirections)) {
+    item = item.as_object();
+    const std::size_t problems = item.problems().list.size();
+    const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
+    if (item.problems().list.size() != problems) continue;
+    if (known && m.chain.find(name) == std::string::npos)
+      item.problem_at("name", "an axis of the chain " + m.chain, "reference");
+    if (std::ranges::find(m.axes, name, &Axis::name) != m.axes.end())
+      item.problem_at("name", "each axis once", "duplicate");
+    const bool table = known && m.chain.find(name) < m.chain.find('f');
+    m.axes.push_back(read_axis(item, name, table ? -1 : 1));
+  }
+  if (known && r.json().contains("axes") && r.json()["axes"].is_array())
+    for (const char c : m.chain)
+      if (letter_index(c) != std::string_view::npos &&
+          std::ranges::find(m.axes, c, &Axis::name) == m.axes.end())
+        r.problems().add({r.pointer_of("axes"), std::string("no axis ") + c,
+                          "an entry for each axis of the chain " + m.chain, "missing"});
+  return m;
+}
+
+Position read_position(Reader r, const Machine& m) {
+  r = r.as_object();
+  Position at;
+  const auto each = [&](const char* key, auto read) {
+    auto group = r.optional_object(key);
+    if (!group) return;
+    for (const char c : m.chain) {
+      const std::size_t k = letter_index(c);
+      if (k != std::string_view::npos) read(*group, c, k);
+    }
+    group->finish();
+  };
+  each("q", [&](Reader& group, char c, std::size_t k) {
+    at.q[k] = group.number_or(std::string(1, c), is_rotary(c) ? kAngle : kPlace, 0);
+  });
+  each("sign", [&](Reader& group, char c, std::size_t k) {
+    at.sign[k] = group.number_or(std::string(1, c), within(-1, 1), 0);
+    if (at.sign[k] != -1 && at.sign[k] != 0 && at.sign[k] == at.sign[k] &&
+        at.sign[k] != 1)
+      group.problem_at(std::string(1, c), "-1, 0 or 1", "range");
+  });
+  r.finish();
+  return at;
+}
+
+json chain_json(const Machine& m) {
+  json axes = json::array();
+  for (const Axis& axis : m.axes) {
+    json one{{"name", std::string(1, axis.name)}, {"p_mm", axis.p_mm}, {"Q", axis.Q}};
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const ErrorFunction& e = axis.errors[k];
+      const char* group = is_rotary(axis.name) ? "loc" : "sq";
+      if (axis.location[k] != 0)
+        one[group][error_name(k, "0", axis.name)] = axis.location[k];
+      json f = json::array();
+      for (const Harmonic& h : e.f) f.push_back({h.a, h.d});
+      if (e.c == std::array<double, 4>{} && e.b == 0 && f.empty()) continue;
+      json& error = one["err"][error_name(k, "", axis.name)];
+      error = {{"c", e.c}, {"b", e.b}};
+      if (!f.empty()) error["f"] = f;
+    }
+    axes.push_back(std::move(one));
+  }
+  return {{"chain", m.chain}, {"axes", axes}};
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "turnwright/document/reader.hpp"
+#include "turnwright/volumetric/kinematics.hpp"
+
+/// Machines with their geometric errors, as requests and machine documents hold them:
+///
+///     "chain": "wCfZXt", "axes": [{"name": "X", "p_mm": [0, 0, 0], "Q": 100,
+///       "err": {"EXX": {"c": [c0, c1, c2, c3], "b": 0, "f": [[a1, d1]]}},
+///       "sq": {"EB0X": 0}, "loc": {"EX0C": 0}}]
+///
+/// Instead of coefficients an error may hold readings of a laser or a ball array,
+/// {"table": {"q": [..], "plus": [..], "minus": [..], "unit": "um", "sign": "physical"}}.
+namespace turnwright::document {
+
+/// Members "chain" and "axes".  A machine with problems is not fit for Kinematics.
+volumetric::Machine read_chain(Reader& r);
+
+volumetric::Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds);
+
+/// {"q": {"X": 10}, "sign": {"X": 1}}; axes left out are at 0 and at rest.
+volumetric::Position read_position(Reader r, const volumetric::Machine& machine);
+
+/// The machine as read_chain reads it; what is zero is left out.
+nlohmann::json chain_json(const volumetric::Machine& machine);
+
+}  // namespace turnwright::document

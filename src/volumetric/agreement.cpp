@@ -1,0 +1,118 @@
+#include "turnwright/volumetric/agreement.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace turnwright::volumetric {
+namespace {
+
+double mean(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+
+/// Probability of a modulus of at least |t|.
+double two_sided(double t, double dof) {
+  return 2 * boost::math::cdf(boost::math::complement(
+                 boost::math::students_t_distribution<>(dof), std::abs(t)));
+}
+
+std::optional<Correlation> correlation(const Runs& a, const Runs& b) {
+  const std::size_t n = a.value.size();
+  const Summary sa = summary(a.value), sb = summary(b.value);
+  if (b.value.size() != n || n < 3 || !(sa.sd > 0) || !(sb.sd > 0)) return std::nullopt;
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    sum += (a.value[i] - sa.mean) * (b.value[i] - sb.mean);
+  const auto count = static_cast<double>(n);
+  Correlation c;
+  c.r = std::clamp(sum / ((count - 1) * sa.sd * sb.sd), -1.0, 1.0);
+  const double rest = 1 - c.r * c.r;
+  if (!(rest > 0)) {
+    c.p = 0;
+    return c;
+  }
+  c.p = two_sided(c.r * std::sqrt((count - 2) / rest), count - 2);
+  if (n >= 4) {
+    constexpr double kNormal95 = 1.959963984540054;
+    const double half = kNormal95 / std::sqrt(count - 3);
+    c.lower = std::tanh(std::atanh(c.r) - half);
+    c.upper = std::tanh(std::atanh(c.r) + half);
+  }
+  return c;
+}
+
+/// Of a run from the others, if it is far from them.
+std::optional<double> jump(const Runs& runs, std::size_t run) {
+  const std::vector<double> others = without_run(runs, run).value;
+  if (others.size() < 2) return std::nullopt;
+  const Summary s = summary(others);
+  const double distance = runs.value[run] - s.mean;
+  if (!(std::abs(distance) > kJump * s.sd)) return std::nullopt;
+  return distance;
+}
+
+}  // namespace
+
+Summary summary(const std::vector<double>& values) {
+  if (values.size() < 2) throw std::domain_error("summary: at least two runs");
+  Summary s{.mean = mean(values), .sd = 0};
+  double square = 0;
+  for (const double v : values) square += (v - s.mean) * (v - s.mean);
+  s.sd = std::sqrt(square / static_cast<double>(values.size() - 1));
+  return s;
+}
+
+Agreement agreement(const Runs& a, const Runs& b) {
+  Agreement out{.name = a.name,
+                .a = summary(a.value),
+                .b = summary(b.value),
+                .difference = 0,
+                .overlap = false,
+                .t = {},
+                .dof = {},
+                .p = {},
+                .correlation = correlation(a, b)};
+  out.difference = out.a.mean - out.b.mean;
+  out.overlap = std::abs(out.difference) <= out.a.sd + out.b.sd;
+  const auto na = static_cast<double>(a.value.size()),
+             nb = static_cast<double>(b.value.size());
+  const double va = out.a.sd * out.a.sd / na, vb = out.b.sd * out.b.sd / nb;
+  if (va + vb > 0) {  // Welch and Satterthwaite
+    out.t = out.difference / std::sqrt(va + vb);
+    out.dof = (va + vb) * (va + vb) / (va * va / (na - 1) + vb * vb / (nb - 1));
+    out.p = two_sided(*out.t, *out.dof);
+  }
+  return out;
+}
+
+std::vector<CommonJump> common_jumps(const std::vector<Runs>& group) {
+  std::size_t runs = 0;
+  for (const Runs& r : group) runs = std::max(runs, r.value.size());
+  std::vector<CommonJump> out;
+  for (std::size_t run = 0; run < runs; ++run)
+    for (const double sense : {1.0, -1.0}) {
+      CommonJump common{.run = run, .parameters = {}, .jump = {}};
+      for (const Runs& r : group) {
+        if (run >= r.value.size()) continue;
+        const auto distance = jump(r, run);
+        if (!distance || *distance * sense <= 0) continue;
+        common.parameters.push_back(r.name);
+        common.jump.push_back(*distance);
+      }
+      if (common.jump.size() < 2 || 2 * common.jump.size() < group.size()) continue;
+      const auto [low, high] = std::ranges::minmax(common.jump);
+      if (high - low < std::abs(mean(common.jump)) / 2) out.push_back(std::move(common));
+    }
+  return out;
+}
+
+Runs without_run(const Runs& runs, std::size_t run) {
+  Runs out = runs;
+  out.value.erase(out.value.begin() + static_cast<std::ptrdiff_t>(run));
+  return out;
+}
+
+}  // namespace turnwright::volumetric

@@ -1,0 +1,204 @@
+#include "turnwright/volumetric/ball_bar.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "turnwright/base/errors.hpp"
+#include "turnwright/volumetric/kinematics.hpp"
+#include "turnwright/volumetric/minimum_zone.hpp"
+
+namespace turnwright::volumetric {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kQ = 100;  // reference travel of the straightness terms [mm]
+
+double sign(double x) { return std::abs(x) < 1e-12 ? 0 : (x > 0 ? 1 : -1); }
+
+double range(const VectorXd& v) { return v.maxCoeff() - v.minCoeff(); }
+
+void check(const Trace& t) {
+  if (t.theta_rad.empty() || t.ccw_mm.size() != t.theta_rad.size() ||
+      t.cw_mm.size() != t.theta_rad.size() || !(t.R_mm > 0))
+    throw std::domain_error("ball bar: R > 0 and as many values as angles");
+}
+
+Eigen::Map<const VectorXd> vector(const std::vector<double>& v) {
+  return {v.data(), static_cast<Index>(v.size())};
+}
+
+/// Columns cos, sin.
+MatrixXd circle(const std::vector<double>& theta) {
+  MatrixXd A(static_cast<Index>(theta.size()), 2);
+  A.col(0) = vector(theta).array().cos();
+  A.col(1) = vector(theta).array().sin();
+  return A;
+}
+
+double narrowest(const std::vector<double>& theta, const std::vector<double>& path) {
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> A = circle(theta);
+  return minimum_zone({A.data(), static_cast<std::size_t>(A.size())}, 2, path).width;
+}
+
+double own_range(const MatrixXd& A, const VectorXd& path) {
+  MatrixXd whole(A.rows(), 3);
+  whole << VectorXd::Ones(A.rows()), A;
+  return range(path - whole * whole.colPivHouseholderQr().solve(path));
+}
+
+using Row = Eigen::Matrix<double, 1, static_cast<int>(kBallBarTerms.size())>;
+
+/// Eq. (2).
+Row basis(double theta, double dir, double R) {
+  const double c = std::cos(theta), s = std::sin(theta), bow = R / kQ * (R / kQ);
+  Row row;
+  row << c, s, R * c * c, R * s * s, R * s * c, -dir * sign(s) * c, dir * sign(c) * s,
+      -dir * std::abs(s), dir * std::abs(c), bow * c * c * s, bow * s * s * c,
+      2 * dir * s * c;
+  return row;
+}
+
+MatrixXd basis(const Trace& t) {
+  const auto n = static_cast<Index>(t.theta_rad.size());
+  MatrixXd A(2 * n, Row::ColsAtCompileTime);
+  for (Index i = 0; i < n; ++i) {
+    const double theta = t.theta_rad[static_cast<std::size_t>(i)];
+    A.row(i) = basis(theta, 1, t.R_mm);
+    A.row(n + i) = basis(theta, -1, t.R_mm);
+  }
+  return A;
+}
+
+std::vector<Contribution> ranked(const MatrixXd& A, const VectorXd& x) {
+  std::vector<Contribution> out;
+  const auto add = [&](const char* name, const VectorXd& effect) {
+    out.push_back({name, range(effect)});
+  };
+  add("centre_offset", A.leftCols(2) * x.head(2));
+  const double mean = (x[2] + x[3]) / 2, mismatch = (x[2] - x[3]) / 2;
+  const VectorXd whole = A.col(2) + A.col(3);
+  out.push_back({"mean_scale", std::abs(mean) * whole.cwiseAbs().maxCoeff()});
+  add("scale_mismatch", mismatch * (A.col(2) - A.col(3)));
+  const std::array<const char*, 8> names = {"squareness",          "backlash_u",
+                                            "backlash_v",          "lateral_play_v_of_u",
+                                            "lateral_play_u_of_v", "straightness_v_of_u",
+                                            "straightness_u_of_v", "servo_mismatch"};
+  for (Index k = 0; k < 8; ++k)
+    add(names[static_cast<std::size_t>(k)], x[k + 4] * A.col(k + 4));
+  std::ranges::stable_sort(out, std::ranges::greater(), &Contribution::range_mm);
+  return out;
+}
+
+}  // namespace
+
+std::array<char, 2> axes_of(Plane plane) {
+  switch (plane) {
+    case Plane::XY:
+      return {'X', 'Y'};
+    case Plane::YZ:
+      return {'Y', 'Z'};
+    case Plane::ZX:
+      break;
+  }
+  return {'Z', 'X'};
+}
+
+Trace simulate(const Machine& machine, const BallBarTest& test) {
+  const auto [U, V] = axes_of(test.plane);
+  if (test.n == 0 || !(test.R_mm > 0) || machine.chain.find(U) == std::string::npos ||
+      machine.chain.find(V) == std::string::npos)
+    throw std::domain_error("simulate: n > 0, R > 0 and both axes in the chain");
+  Machine at_origin = machine;
+  at_origin.tool_point_mm = {};
+  const Kinematics kinematics(at_origin);
+  const double turn = 2 * units::kPi / static_cast<double>(test.n);
+  const double first = test.theta0_rad.value_or(turn / 2);
+  const auto length = [&](double theta, double dir) {
+    const double c = std::cos(theta), s = std::sin(theta);
+    Position at;
+    at.q[letter_index(U)] = test.R_mm * c;
+    at.q[letter_index(V)] = test.R_mm * s;
+    at.sign[letter_index(U)] = -dir * sign(s);
+    at.sign[letter_index(V)] = dir * sign(c);
+    const Vec3 tip = kinematics.actual(at).tip_mm, &o = test.centre_offset_mm;
+    return std::hypot(tip[0] - o[0], tip[1] - o[1], tip[2] - o[2]) - test.R_mm;
+  };
+  Trace out{test.plane, test.R_mm, {}, {}, {}};
+  for (std::size_t k = 0; k < test.n; ++k) {
+    out.theta_rad.push_back(first + turn * static_cast<double>(k));
+    out.ccw_mm.push_back(length(out.theta_rad.back(), 1));
+    out.cw_mm.push_back(length(out.theta_rad.back(), -1));
+  }
+  return out;
+}
+
+Iso230_4 iso230_4(const Trace& t) {
+  check(t);
+  const MatrixXd A = circle(t.theta_rad);
+  const Index n = A.rows();
+  MatrixXd both(2 * n, 3);
+  both << VectorXd::Ones(2 * n), A.replicate(2, 1);
+  VectorXd v(2 * n);
+  v << vector(t.ccw_mm), vector(t.cw_mm);
+  const Eigen::Vector3d common = both.colPivHouseholderQr().solve(v);
+  const VectorXd F = v - both.rightCols(2) * common.tail(2);
+  return {.G_ccw_mm = own_range(A, vector(t.ccw_mm)),
+          .G_cw_mm = own_range(A, vector(t.cw_mm)),
+          .G_ccw_mz_mm = narrowest(t.theta_rad, t.ccw_mm),
+          .G_cw_mz_mm = narrowest(t.theta_rad, t.cw_mm),
+          .G_bi_mm = range(F),
+          .H_mm = (vector(t.ccw_mm) - vector(t.cw_mm)).cwiseAbs().maxCoeff(),
+          .F_max_mm = F.maxCoeff(),
+          .F_min_mm = F.minCoeff(),
+          .D_mm = common[0]};
+}
+
+BallBarFit decompose(const Trace& t) {
+  check(t);
+  const MatrixXd A = basis(t);
+  const Index m = A.cols();
+  const VectorXd norms = A.colwise().norm();
+  if (!(A.rows() > m) || !(norms.minCoeff() > 0))
+    throw ModelRangeError(
+        "decompose: more than 12 values, at angles that tell the terms apart");
+  VectorXd v(A.rows());
+  v << vector(t.ccw_mm), vector(t.cw_mm);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A * norms.cwiseInverse().asDiagonal());
+  if (qr.rank() < m)
+    throw ModelRangeError("decompose: the angles tell only " + std::to_string(qr.rank()) +
+                          " of the 12 terms apart; more angles over the whole circle do");
+  const VectorXd x = qr.solve(v).cwiseQuotient(norms);
+  const double rss = (v - A * x).squaredNorm();
+  const auto values = static_cast<double>(A.rows());
+  const double s = std::sqrt(rss / (values - static_cast<double>(m)));
+  // (A^T A)^-1 = P R^-1 R^-T P^T: its diagonal by the rows of P R^-1.
+  const MatrixXd inverse =
+      qr.colsPermutation() * qr.matrixR().topRows(m).triangularView<Eigen::Upper>().solve(
+                                 MatrixXd::Identity(m, m));
+  BallBarFit out{.rms_mm = std::sqrt(rss / values), .ranking = ranked(A, x)};
+  for (Index j = 0; j < m; ++j) {
+    out.value[static_cast<std::size_t>(j)] = x[j];
+    out.u[static_cast<std::size_t>(j)] = s * inverse.row(j).norm() / norms[j];
+  }
+  return out;
+}
+
+std::vector<std::string> confounded(Plane plane) {
+  const auto [u, v] = axes_of(plane);
+  const std::string U(1, u), V(1, v);
+  return {"cos 3 theta carries E" + U + U + "2 - E" + U + V + "2: E" + U + V +
+              "2 is read as if E" + U + U + "2 were 0",
+          "sin 3 theta carries E" + V + V + "2 - E" + V + U + "2: E" + V + U +
+              "2 is read as if E" + V + V + "2 were 0",
+          "cos 2 theta carries the scale mismatch and the cubic E" + U + U + "3, E" + V +
+              V + "3",
+          "sin 2 theta carries the squareness and the cubic straightness E" + V + U +
+              "3, E" + U + V + "3"};
+}
+
+}  // namespace turnwright::volumetric

@@ -1,0 +1,373 @@
+#include "turnwright/volumetric/samba.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "turnwright/volumetric/kinematics.hpp"
+
+namespace turnwright::volumetric {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr const char* kChain = "wCBXfZYt";
+constexpr std::string_view kAxes = "XYZBC";
+constexpr double kLever = 100;  // of angles against shifts [mm]
+// Above it a null vector moves an unknown.  Directions that are null but for 1e-7 drag
+// all others along by up to 2e-6, what they really move by more than 1e-3.
+constexpr double kMoves = 5e-5;
+
+Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+enum class Kind { facet, location, power, reversal };
+
+struct Parameter {
+  Kind kind = Kind::facet;
+  char axis = 'X';
+  std::size_t direction = 0;
+  int power = 0;
+};
+
+std::optional<Parameter> parsed(const std::string& name) {
+  if (name == "facet") return Parameter{};
+  if (name.size() != 4 || name[0] != 'E') return std::nullopt;
+  const std::size_t direction = letter_index(name[1]);
+  const bool located = name[2] == '0';
+  const char axis = located ? name[3] : name[2];
+  if (direction == std::string_view::npos || kAxes.find(axis) == std::string_view::npos)
+    return std::nullopt;
+  Parameter p{.kind = Kind::location, .axis = axis, .direction = direction};
+  if (located) {
+    const bool across = direction > 2 && direction - 3 != letter_index(axis);
+    if (is_rotary(axis) || across) return p;
+    return std::nullopt;
+  }
+  if (name[3] == 'b') {
+    p.kind = Kind::reversal;
+    if (is_rotary(axis) || direction > 2) return std::nullopt;
+    return p;
+  }
+  p.kind = Kind::power;
+  p.power = name[3] - '0';
+  if (p.power < 1 || p.power > 3) return std::nullopt;
+  return p;
+}
+
+bool is_angle(const std::string& unknown) {
+  const auto p = parsed(unknown);
+  return p && p->kind != Kind::facet && p->direction > 2;
+}
+
+Matrix3d rotation(const Indexation& at) {
+  return (Eigen::AngleAxisd(-at.B_rad, Vector3d::UnitY()) *
+          Eigen::AngleAxisd(-at.C_rad, Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
+/// d e/d parameter [mm/mm, mm/rad], in the workpiece frame.
+Vector3d sensitivity(const Parameter& p, const std::vector<AxisEffect>& effects,
+                     const Position& at) {
+  if (p.kind == Kind::facet) return Vector3d::Zero();
+  const AxisEffect& effect = *std::ranges::find(effects, p.axis, &AxisEffect::axis);
+  const std::size_t k = letter_index(p.axis);
+  const Vector3d e = vector(effect.error[p.direction]);
+  switch (p.kind) {
+    case Kind::location:
+      return is_rotary(p.axis) ? e : vector(effect.squareness[p.direction - 3]);
+    case Kind::reversal:
+      return at.sign[k] * e;
+    default:
+      return std::pow(at.q[k] / default_Q(p.axis), p.power) * e;
+  }
+}
+
+/// Equations (1) to (3), in the order of the readings.
+struct Equations {
+  std::vector<std::string> unknowns;
+  std::size_t parameters = 0;
+  MatrixXd A;
+};
+
+class Builder {
+ public:
+  Builder(const SambaStrategy& strategy, const std::vector<std::string>& names)
+      : strategy_(strategy), names_(names) {
+    for (const std::string& name : names) {
+      const auto p = parsed(name);
+      if (!p || std::ranges::count(names, name) > 1)
+        throw std::domain_error("samba: parameter " + name);
+      parameters_.push_back(*p);
+      if (p->kind == Kind::facet) facet_ = static_cast<Index>(parameters_.size()) - 1;
+    }
+    const auto in_range = [&](std::size_t ball) {
+      return ball < strategy.balls_mm.size();
+    };
+    for (const Indexation& at : strategy.indexations)
+      if (!std::ranges::all_of(at.balls, in_range))
+        throw std::domain_error("samba: a ball that is not there");
+    if (!std::ranges::all_of(strategy.scale_bar_ends, in_range) ||
+        strategy.styli_mm.empty())
+      throw std::domain_error("samba: two ends of the scale bar and a stylus");
+    tip_ = static_cast<Index>(names.size() + 3 * strategy.balls_mm.size());
+  }
+
+  Equations build() {
+    for (const Indexation& at : strategy_.indexations)
+      for (const Vec3& stylus : strategy_.styli_mm) add(at, stylus);
+    const auto [a, b] = strategy_.scale_bar_ends;
+    const Vector3d u =
+        (vector(strategy_.balls_mm[b]) - vector(strategy_.balls_mm[a])).normalized();
+    VectorXd row = VectorXd::Zero(tip_ + 3);
+    row.segment<3>(ball(a)) = -u;
+    row.segment<3>(ball(b)) = u;
+    rows_.push_back(row);
+    Equations out{names_, names_.size(), {}};
+    for (std::size_t i = 0; i < strategy_.balls_mm.size(); ++i)
+      for (const char c : {'x', 'y', 'z'})
+        out.unknowns.push_back("ball" + std::to_string(i + 1) + '_' + c);
+    for (const char c : {'x', 'y', 'z'}) out.unknowns.push_back(std::string("tip_") + c);
+    out.A.resize(static_cast<Index>(rows_.size()), tip_ + 3);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      out.A.row(static_cast<Index>(i)) = rows_[i];
+    return out;
+  }
+
+ private:
+  Index ball(std::size_t i) const { return static_cast<Index>(names_.size() + 3 * i); }
+
+  /// The tip's error at `target`, by unknown.
+  MatrixXd tip(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
+               const Vec3& target, const std::array<double, 3>& sign) const {
+    Machine machine{kChain, stylus, {}};
+    for (const char c : kAxes) machine.axes.push_back({c, {}, default_Q(c)});
+    const Vector3d q = R * vector(target) - vector(stylus);
+    Position position{.q = {q[0], q[1], q[2], 0, at.B_rad, at.C_rad}};
+    std::ranges::copy(sign, position.sign.begin());
+    const auto effects = Kinematics(machine).effects(position);
+    MatrixXd row = MatrixXd::Zero(3, tip_ + 3);
+    for (std::size_t j = 0; j < parameters_.size(); ++j)
+      row.col(static_cast<Index>(j)) = sensitivity(parameters_[j], effects, position);
+    row.middleCols<3>(tip_) = R.transpose();
+    return row;
+  }
+
+  void add(const Indexation& at, const Vec3& stylus) {
+    const Matrix3d R = rotation(at);
+    for (const std::size_t b : at.balls) {
+      MatrixXd row = tip(R, at, stylus, strategy_.balls_mm[b], {});
+      row.middleCols<3>(ball(b)) = -Matrix3d::Identity();  // Eq. (1)
+      for (Index k = 0; k < 3; ++k) rows_.push_back(row.row(k));
+    }
+    const Vector3d n = vector(strategy_.facet_normal).normalized(), on_machine = R * n;
+    Index probing = 0;
+    on_machine.cwiseAbs().maxCoeff(&probing);
+    for (const auto& move : at.pre_moves) {
+      std::array<double, 3> sign{};
+      std::size_t next = 0;
+      for (Index k = 0; k < 3; ++k)
+        sign[static_cast<std::size_t>(k)] =
+            k == probing ? (on_machine[k] > 0 ? -1.0 : 1.0) : move[next++];
+      VectorXd row = tip(R, at, stylus, strategy_.facet_mm, sign).transpose() * n;
+      if (facet_) row[*facet_] = -1;  // Eq. (2)
+      rows_.push_back(row);
+    }
+  }
+
+  const SambaStrategy& strategy_;
+  const std::vector<std::string>& names_;
+  std::vector<Parameter> parameters_;
+  std::optional<Index> facet_;
+  Index tip_ = 0;
+  std::vector<VectorXd> rows_;
+};
+
+VectorXd scales(const std::vector<std::string>& unknowns) {
+  VectorXd s(static_cast<Index>(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    s[static_cast<Index>(j)] = is_angle(unknowns[j]) ? kLever : 1.0;
+  return s;
+}
+
+/// Rows of N span the null space; back to a basis of few components each, by
+/// elimination with complete pivoting.
+std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknowns) {
+  std::vector<NullVector> out;
+  for (Index i = 0; i < N.rows(); ++i) {
+    Index row = 0, column = 0;
+    N.bottomRows(N.rows() - i).cwiseAbs().maxCoeff(&row, &column);
+    N.row(i).swap(N.row(i + row));
+    N.row(i) /= N(i, column);
+    for (Index k = 0; k < N.rows(); ++k)
+      if (k != i) N.row(k) -= N(k, column) * N.row(i);
+  }
+  for (Index i = 0; i < N.rows(); ++i) {
+    VectorXd v = N.row(i).normalized();
+    // The first of the largest components is positive, whatever rounding made of them.
+    const double largest = v.cwiseAbs().maxCoeff() * (1 - 1e-9);
+    Index first = 0;
+    while (std::abs(v[first]) < largest) ++first;
+    if (v[first] < 0) v = -v;
+    NullVector vector;
+    for (Index j = 0; j < v.size(); ++j)
+      if (std::abs(v[j]) > kMoves) vector[unknowns[static_cast<std::size_t>(j)]] = v[j];
+    out.push_back(std::move(vector));
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+struct Decomposition {
+  Eigen::BDCSVD<MatrixXd> svd;
+  Identifiability of;
+};
+
+Decomposition decomposed(const Equations& eq, const VectorXd& scale) {
+  const MatrixXd A = eq.A * scale.cwiseInverse().asDiagonal();
+  Decomposition d{Eigen::BDCSVD<MatrixXd>(A, Eigen::ComputeThinU | Eigen::ComputeFullV),
+                  {.unknowns = eq.unknowns,
+                   .parameters = eq.parameters,
+                   .equations = static_cast<std::size_t>(A.rows()),
+                   .rank = 0,
+                   .condition = 0,
+                   .identifiable = {},
+                   .null_vectors = {}}};
+  const VectorXd& s = d.svd.singularValues();
+  const auto rank = (s.array() > kRankTolerance * s[0]).count();
+  d.of.rank = static_cast<std::size_t>(rank);
+  d.of.condition = s[0] / s[rank - 1];
+  const MatrixXd null = d.svd.matrixV().rightCols(A.cols() - rank);
+  for (Index j = 0; j < A.cols(); ++j)
+    d.of.identifiable.push_back(null.row(j).norm() < kMoves);
+  d.of.null_vectors = named(null.transpose(), eq.unknowns);
+  return d;
+}
+
+/// The golden angle: its multiples never repeat, and follow no multiple of B.
+constexpr double kGolden = 2.399963229728653;  // pi (3 - sqrt 5)
+
+}  // namespace
+
+const std::vector<std::string>& samba_parameters() {
+  static const std::vector<std::string> kAll = [] {
+    std::vector<std::string> all{"EC0Y", "EA0Y", "EB0Z", "EA0B",
+                                 "EC0B", "EX0C", "EA0C", "EB0C"};
+    const auto add = [&all](std::string_view axes, std::string_view directions,
+                            std::string_view ends) {
+      for (const char axis : axes)
+        for (const char direction : directions)
+          for (const char end : ends)
+            all.push_back(std::string("E") + direction + axis + end);
+    };
+    for (const char c : {'X', 'Y', 'Z'}) all.push_back(std::string("E") + c + c + '1');
+    add("XYZ", "XYZ", "23");
+    add("XYZ", "ABC", "123");
+    add("XYZ", "XYZ", "b");
+    add("BC", "XYZABC", "123");
+    all.emplace_back("facet");
+    return all;
+  }();
+  return kAll;
+}
+
+bool is_samba_parameter(const std::string& name) { return parsed(name).has_value(); }
+
+std::array<double, 9> table_rotation(const Indexation& at) {
+  std::array<double, 9> out;
+  Eigen::Map<Matrix3d>(out.data()) = rotation(at);
+  return out;
+}
+
+Identifiability identifiability(const SambaStrategy& strategy,
+                                const std::vector<std::string>& parameters) {
+  const Equations eq = Builder(strategy, parameters).build();
+  return decomposed(eq, scales(eq.unknowns)).of;
+}
+
+SambaFit samba_fit(const SambaStrategy& strategy,
+                   const std::vector<std::string>& parameters,
+                   const std::vector<double>& readings_mm,
+                   std::optional<double> noise_mm) {
+  const Equations eq = Builder(strategy, parameters).build();
+  if (static_cast<Index>(readings_mm.size()) + 1 != eq.A.rows())
+    throw std::domain_error("samba_fit: one reading for each equation but the scale bar");
+  const VectorXd scale = scales(eq.unknowns);
+  Decomposition d = decomposed(eq, scale);
+  VectorXd b(eq.A.rows());
+  const auto [i, j] = strategy.scale_bar_ends;
+  b << Eigen::Map<const VectorXd>(readings_mm.data(), b.size() - 1),
+      strategy.scale_bar_mm -
+          (vector(strategy.balls_mm[j]) - vector(strategy.balls_mm[i])).norm();  // (3)
+  const auto rank = static_cast<Index>(d.of.rank);
+  const MatrixXd inverse = d.svd.matrixV().leftCols(rank) *
+                           d.svd.singularValues().head(rank).cwiseInverse().asDiagonal();
+  const VectorXd y = inverse * (d.svd.matrixU().leftCols(rank).transpose() * b);
+  const double rss = (b - eq.A * y.cwiseQuotient(scale)).squaredNorm();
+  SambaFit fit{.of = std::move(d.of), .value = {}, .u = {}, .s0_mm = 0, .dof = 0};
+  fit.dof = static_cast<std::size_t>(eq.A.rows() - rank);
+  if (fit.dof > 0) fit.s0_mm = std::sqrt(rss / static_cast<double>(fit.dof));
+  const double noise = noise_mm.value_or(fit.s0_mm);
+  for (Index k = 0; k < y.size(); ++k) {
+    const bool known = fit.of.identifiable[static_cast<std::size_t>(k)];
+    fit.value.push_back(known ? y[k] / scale[k] : 0);
+    fit.u.push_back(known ? noise * inverse.row(k).norm() / scale[k] : 0);
+  }
+  return fit;
+}
+
+std::vector<double> samba_readings(const SambaStrategy& strategy,
+                                   const std::map<std::string, double>& errors) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : errors)
+    if (is_samba_parameter(name)) names.push_back(name);
+  const Equations eq = Builder(strategy, names).build();
+  VectorXd x(eq.A.cols());
+  for (std::size_t j = 0; j < eq.unknowns.size(); ++j) {
+    const auto given = errors.find(eq.unknowns[j]);
+    x[static_cast<Index>(j)] = given == errors.end() ? 0 : given->second;
+  }
+  const VectorXd b = eq.A * x;
+  return {b.begin(), b.end() - 1};
+}
+
+std::vector<Remedy> remedies(const SambaStrategy& strategy,
+                             const Identifiability& found) {
+  const std::vector<std::string> names(
+      found.unknowns.begin(),
+      found.unknowns.begin() + static_cast<std::ptrdiff_t>(found.parameters));
+  SambaStrategy changed = strategy;
+  Identifiability best = found;
+  std::vector<Remedy> out;
+  const auto try_out = [&](const char* what) {
+    Identifiability now = identifiability(changed, names);
+    if (now.rank <= best.rank) return;
+    Remedy remedy{.what = what, .rank = now.rank, .gains = {}};
+    for (std::size_t j = 0; j < now.parameters; ++j)
+      if (now.identifiable[j] && !best.identifiable[j])
+        remedy.gains.push_back(now.unknowns[j]);
+    out.push_back(std::move(remedy));
+    best = std::move(now);
+  };
+  double turn = 0;
+  for (Indexation& at : changed.indexations) {
+    if (at.balls.empty() || !at.pre_moves.empty()) continue;
+    turn += kGolden;
+    at.C_rad = std::remainder(turn, 2 * units::kPi);
+  }
+  try_out("decouple C from B: turn C on by 137.5 deg from one indexation to the next");
+  const Vec3 tip = strategy.styli_mm.front();
+  changed.styli_mm = {tip, {tip[0], tip[1], tip[2] - 60}};
+  try_out("probe with two stylus lengths, 60 mm apart");
+  changed.styli_mm.push_back({tip[0] + 60, tip[1], tip[2] - 30});
+  changed.styli_mm.push_back({tip[0], tip[1] + 60, tip[2] - 30});
+  try_out("probe with a star of tips, 60 mm off the axis in X and Y");
+  return out;
+}
+
+}  // namespace turnwright::volumetric
