@@ -25,6 +25,14 @@ tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
 tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp response.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
+tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
+                          characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
+                          limits.cpp multipliers.cpp
+          DEPENDS base PRIVATE_LIBS Boost::headers
+          TESTS limits_test.cpp)
+# Products of complex numbers without the search for infinities that C99's Annex G wants;
+# sums keep their order.
+target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -46,9 +54,9 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp
-          DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp stability.cpp
+          DEPENDS base catalogue part deflection thermal milling tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

@@ -7,6 +7,7 @@
 #include "turnwright/document/deflection.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/drawing.hpp"
@@ -74,6 +75,13 @@ constexpr const char* kThermalExample = R"({
   "shift": {"start": "cold", "time_s": [0, 7200], "rpm": [3000, 3000],
             "ambient_degC": [22, 22],
             "batch": {"first_s": 300, "cycle_s": 240, "parts": 25, "offset_every": 5}}})";
+
+constexpr const char* kStabilityExample = R"({
+  "model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200, "radial_immersion": 0.1,
+  "direction": "down", "modes": [
+    {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
+  "ap_max_mm": 6, "speeds_rpm": {"from": 17000, "to": 19000, "count": 3},
+  "points": [{"n_rpm": 5000, "ap_mm": 1}]})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -147,6 +155,11 @@ std::span<const Request> requests() {
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
+       }},
+      {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
+       kStabilityExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::stability(request);
        }},
   };
   return kTable;

@@ -5,6 +5,7 @@
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/stability.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -155,6 +156,24 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAChuckRequest) {
   auto request = text.at("examples").at(0);
   request["graph"] = text.at("examples").at(3).at("graph");
   Slips(schema, refused_chuck, request).try_all();
+}
+
+std::string refused_stability(const json& document) {
+  try {
+    stability(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
+  const SchemaCheck schema("stability.request.json");
+  auto examples = parse_file(source_path("schemas/stability.request.json")).at("examples");
+  for (json& example : examples) {
+    example.erase("points");  // the reading is tried, not the computing
+    Slips(schema, refused_stability, example).try_all();
+  }
 }
 
 }  // namespace
