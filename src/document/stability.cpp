@@ -154,17 +154,16 @@ Request read_request(const json& request, Problems& problems) {
   Request q;
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-stability/1");
+  const std::size_t problems_before = problems.list.size();
   q.model = r.choice<Model>("model", {{"milling", Model::milling},
                                       {"power-law", Model::power_law},
                                       {"turning", Model::turning}});
-  const auto word = r.json().is_object() ? r.json().find("model") : r.json().end();
-  const bool known = r.json().is_object() && word != r.json().end() && word->is_string();
-  if (q.model == Model::power_law)
-    read_power_law(r, q);
-  else if (q.model == Model::turning)
-    read_turning(r, q);
-  else if (known)
-    read_milling(r, q);
+  const bool known = problems.list.size() == problems_before && !r.broken();
+  if (known) {
+    if (q.model == Model::milling) read_milling(r, q);
+    if (q.model == Model::power_law) read_power_law(r, q);
+    if (q.model == Model::turning) read_turning(r, q);
+  }
   q.speeds_rpm = read_speeds(r);
   q.ap_max_mm = r.optional_number("ap_max_mm", kDepth);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
@@ -179,7 +178,7 @@ Request read_request(const json& request, Problems& problems) {
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
     r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
-  if (known || !r.is_object()) r.finish();
+  if (known) r.finish();
   return q;
 }
 

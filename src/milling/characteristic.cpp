@@ -11,7 +11,7 @@
 namespace turnwright::milling {
 namespace {
 
-constexpr double kProductGrowth = 9;  // ln of the digits that products may lose
+constexpr double kProductGrowth = 6;  // ln of the digits that products may lose
 
 using Matrix = std::vector<Complex>;  // row by row
 

@@ -32,6 +32,12 @@ double chatter_frequency_Hz(const System& system, double tau, double theta) {
   return nearest;
 }
 
+/// A zero z inside the unit circle at a depth.
+struct Inside {
+  double w_mm = 0;
+  Complex z;
+};
+
 /// Walks up in depth, keeping the number of unstable multipliers.
 class Climb {
  public:
@@ -42,15 +48,11 @@ class Climb {
     double w = first_strip(ap_max);
     search(0, w);
     while (w < ap_max) {
-      if (count_ > 0) {
-        const double reached = follow(w, ap_max);
-        if (reached >= ap_max) break;
-        const bool moved = reached > w * (1 + 1e-3);
-        w = reached;
-        if (moved) continue;
-      }
-      const double next = std::min(ap_max, w * (count_ > 0 ? 1.05 : 1.5));
-      search(w, next);
+      const double reached = count_ > 0 ? followed(w, ap_max) : w;
+      if (reached >= ap_max) break;
+      if (reached > w) count_ = multipliers_outside(coarse_, reached);
+      const double next = std::min(ap_max, reached * (count_ > 0 ? 1.05 : 1.5));
+      search(reached, next);
       w = next;
     }
     return std::move(crossings_);
@@ -71,10 +73,7 @@ class Climb {
       count_ += at.change;
       if (count_ < 0) throw std::domain_error("speed_limits: a zero was missed");
       if (was_stable == (count_ == 0)) continue;
-      if (was_stable) {
-        start_ = at.w_mm * (1 + 1e-6);
-        z_ = std::polar(1.0, -at.theta);
-      }
+      if (was_stable) entered_ = {at.w_mm * (1 + 1e-6), std::polar(1.0, -at.theta)};
       const double tau = coarse_.tau_s();
       crossings_.push_back(
           {.ap_mm = at.w_mm,
@@ -86,21 +85,37 @@ class Climb {
     }
   }
 
-  /// How far above w the cut is shown to be unstable; w itself if that does not work. The
-  /// count is brought up to date.
-  double follow(double w, double ap_max) {
-    Complex z = zero_near(coarse_, start_, z_);
-    if (!(std::abs(z) < 1) || start_ > w) return w;
-    const Tracked done = unstable_until(coarse_, start_, ap_max, z);
-    if (!(done.w_mm > w)) return w;
-    if (done.w_mm < ap_max) count_ = multipliers_outside(coarse_, done.w_mm);
-    return done.w_mm;
+  /// How far above w the cut is shown to be unstable; w itself if that does not work.
+  double followed(double w, double ap_max) {
+    const auto start = entered_ ? entered_ : zero_inside(w);
+    entered_.reset();
+    if (!start) return w;
+    const Complex z = zero_near(coarse_, start->w_mm, start->z);
+    if (!(std::abs(z) < 1)) return w;
+    const Tracked done = unstable_until(coarse_, start->w_mm, ap_max, z);
+    last_ = done.z;
+    return std::max(w, done.w_mm);
+  }
+
+  /// A zero well inside, as near as may be to the one last followed: two that met on the
+  /// real axis part along it.
+  std::optional<Inside> zero_inside(double w) const {
+    constexpr double kInside = 0.98;
+    std::vector<Complex> starts;
+    for (const double r : {0.7, 0.9, 1.0}) starts.push_back(r * last_);
+    for (const double r : {0.3, 0.6, 0.9})
+      for (int i = 0; i <= 4; ++i) starts.push_back(std::polar(r, -kPi * i / 4));
+    for (const Complex& start : starts) {
+      const Complex z = zero_near(coarse_, w, start);
+      if (std::abs(z) < kInside) return Inside{w, z};
+    }
+    return std::nullopt;
   }
 
   Characteristic coarse_, fine_;
   int count_ = 0;
-  double start_ = 0;  // where z_ enters the circle
-  Complex z_;
+  std::optional<Inside> entered_;  // the zero of the last loss
+  Complex last_ = 0.5;             // where a zero was followed to
   std::vector<Crossing> crossings_;
 };
 

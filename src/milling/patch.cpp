@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kSamples = 32;
 constexpr double kTail = 1e-13;      // of the series, relative to its largest term
+constexpr double kFloor = 1e-10;     // the same, where rounding ends the descent
 constexpr double kRounding = 1e-13;  // of a sample, relative to the largest
 constexpr double kPrecise = 1e-7;    // noise accepted, relative to the values
 
@@ -78,16 +79,17 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   }
   const double largest = *std::ranges::max_element(size);
   if (!(largest < 1e300)) return std::nullopt;
+  // What the last quarter holds is rounding if the series has come down before.
+  const double floor = *std::max_element(size.end() - kSamples / 4, size.end());
+  if (!(floor < kFloor * largest)) return std::nullopt;
   std::size_t terms = kSamples;
-  while (terms > 1 && !(size[terms - 1] > kTail * largest)) --terms;
-  if (terms > kSamples - kSamples / 4) return std::nullopt;
-  terms = std::max<std::size_t>(terms, 3);
   double tail = 0;
-  for (std::size_t j = terms; j < kSamples; ++j) tail += size[j];
+  while (terms > 3 && size[terms - 1] <= std::max(kTail * largest, 2 * floor))
+    tail += size[--terms];
   out.terms_ = terms;
   for (std::size_t i = 0; i < out.powers_; ++i)
     out.c_.insert(out.c_.end(), &all[i * kSamples], &all[i * kSamples] + terms);
-  out.noise_ = 2 * tail + kRounding * largest;
+  out.noise_ = 2 * tail + kSamples * floor + kRounding * largest;
   out.bound();
   if (!(out.noise_ < kPrecise * out.scale())) return std::nullopt;
   return out;

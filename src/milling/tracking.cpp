@@ -99,7 +99,7 @@ Tracked unstable_until(const Characteristic& f, double from_mm, double to_mm, Co
   double w = from_mm, half = kFirst * from_mm;
   std::optional<Patch> patch;
   Complex slope = 0;  // dz/dw
-  while (w < to_mm) {
+  while (to_mm - w > 1e-13 * to_mm) {
     half = std::min(half, (to_mm - w) / 2);
     if (half < kLeast * w && w + 2 * half < to_mm) return {w, z};
     Step step{.middle = w + half, .half = half, .z = z + slope * half};

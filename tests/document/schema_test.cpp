@@ -49,11 +49,11 @@ class Slips {
   Slips(const SchemaCheck& schema, std::string (*refused)(const json&), json good)
       : schema_(schema), refused_(refused), good_(std::move(good)) {}
 
-  void try_all() {
+  void try_all(int at_least = 100) {
     EXPECT_EQ(schema_.fault(good_), "");
     EXPECT_EQ(refused_(good_), "");
     walk(good_, json::json_pointer());
-    EXPECT_GT(tried_, 100);
+    EXPECT_GT(tried_, at_least);
   }
 
  private:
@@ -169,11 +169,10 @@ std::string refused_stability(const json& document) {
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
   const SchemaCheck schema("stability.request.json");
-  auto examples = parse_file(source_path("schemas/stability.request.json")).at("examples");
-  for (json& example : examples) {
-    example.erase("points");  // the reading is tried, not the computing
-    Slips(schema, refused_stability, example).try_all();
-  }
+  const auto examples =
+      parse_file(source_path("schemas/stability.request.json")).at("examples");
+  for (const json& example : examples)
+    Slips(schema, refused_stability, example).try_all(50);
 }
 
 }  // namespace
