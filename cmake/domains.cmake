@@ -27,9 +27,11 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
                           characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
-                          limits.cpp multipliers.cpp
-          DEPENDS base PRIVATE_LIBS Boost::headers
-          TESTS limits_test.cpp)
+                          chatter_frequency.cpp limits.cpp multipliers.cpp
+                          samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
+                          simulation.cpp scanned_limits.cpp
+          DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
+          TESTS limits_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)

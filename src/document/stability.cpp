@@ -10,6 +10,7 @@
 #include "fields.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/document/reader.hpp"
+#include "turnwright/milling/checks.hpp"
 #include "turnwright/milling/limits.hpp"
 
 namespace turnwright::document {
@@ -19,7 +20,8 @@ using namespace turnwright::milling;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000;
+constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 200;
+constexpr int kDepths = 40;  // scanned by the checks
 constexpr double kSlenderDamping = 0.03;
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
              kPointDepth = within(0, 1000, "mm"), kFrequency = within(0.1, 1e6, "Hz"),
@@ -27,6 +29,7 @@ const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm
              kStiffness = within(1e-6, 1e12, "N/mm"),
              kPressure = within(1e-3, 1e6, "MPa");
 
+enum class Method { fundamental_matrix, tfea, semi_discretisation, simulation };
 enum class Model { milling, power_law, turning };
 
 struct Point {
@@ -39,6 +42,8 @@ struct Request {
   std::optional<double> ap_max_mm;
   std::vector<double> speeds_rpm;
   std::vector<Point> points;
+  Method method = Method::fundamental_matrix;
+  int resolution = 0;  // elements or intervals
   ordered_json assumed = ordered_json::array();
 };
 
@@ -150,6 +155,20 @@ std::vector<double> read_speeds(Reader& r) {
   return {};
 }
 
+/// "method" with its own key.
+void read_method(Reader& r, Request& q) {
+  q.method = r.choice_or<Method>("method",
+                                 {{"fundamental-matrix", Method::fundamental_matrix},
+                                  {"tfea", Method::tfea},
+                                  {"semi-discretisation", Method::semi_discretisation},
+                                  {"simulation", Method::simulation}},
+                                 Method::fundamental_matrix);
+  if (q.method == Method::tfea)
+    q.resolution = static_cast<int>(r.integer("elements", 1, 60));
+  if (q.method == Method::semi_discretisation)
+    q.resolution = static_cast<int>(r.integer("intervals", 1, 200));
+}
+
 Request read_request(const json& request, Problems& problems) {
   Request q;
   Reader r = Reader(request, problems).as_object();
@@ -164,6 +183,7 @@ Request read_request(const json& request, Problems& problems) {
     if (q.model == Model::power_law) read_power_law(r, q);
     if (q.model == Model::turning) read_turning(r, q);
   }
+  read_method(r, q);
   q.speeds_rpm = read_speeds(r);
   q.ap_max_mm = r.optional_number("ap_max_mm", kDepth);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
@@ -174,12 +194,51 @@ Request read_request(const json& request, Problems& problems) {
     point.finish();
     q.points.push_back(p);
   }
+  const auto few = [&](std::string_view key, std::size_t asked) {
+    if (q.method != Method::fundamental_matrix && asked > kChecked)
+      r.problem_at(key, "at most " + std::to_string(kChecked) + " with this method",
+                   "range");
+  };
+  few("speeds_rpm", q.speeds_rpm.size());
+  few("points", q.points.size());
   if (!r.broken() && !r.has("speeds_rpm") && !r.has("points"))
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
     r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
   if (known) r.finish();
   return q;
+}
+
+Dominant checked(const Request& q, double n_rpm, double ap_mm) {
+  if (q.method == Method::tfea)
+    return time_finite_elements(q.system, n_rpm, ap_mm, q.resolution);
+  if (q.method == Method::semi_discretisation)
+    return semi_discretisation(q.system, n_rpm, ap_mm, q.resolution);
+  return simulation(q.system, n_rpm, ap_mm);
+}
+
+SpeedLimits limits_of(const Request& q, double n_rpm) {
+  if (q.method == Method::fundamental_matrix)
+    return speed_limits(q.system, n_rpm, *q.ap_max_mm);
+  return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths,
+                        [&](double ap_mm) { return checked(q, n_rpm, ap_mm); });
+}
+
+ordered_json judged(const Request& q, const Point& p) {
+  ordered_json out{{"n_rpm", p.n_rpm}, {"ap_mm", p.ap_mm}};
+  if (q.method == Method::fundamental_matrix) {
+    const Multipliers m = multipliers(q.system, p.n_rpm, p.ap_mm);
+    out["unstable_multipliers"] = m.unstable;
+    out["spectral_radius"] = m.spectral_radius;
+    out["stable"] = m.unstable == 0;
+    return out;
+  }
+  const Dominant d = checked(q, p.n_rpm, p.ap_mm);
+  const double radius = std::abs(d.multiplier);
+  out["unstable_multipliers"] = d.unstable ? ordered_json(*d.unstable) : ordered_json();
+  out["spectral_radius"] = radius;
+  out["stable"] = radius < 1;
+  return out;
 }
 
 /// What fails at one speed is told with it.
@@ -199,7 +258,9 @@ ordered_json described(const SpeedLimits& speed) {
                          {"sense", c.loss ? "loss" : "regain"},
                          {"kind", c.flip ? "flip" : "hopf"},
                          {"frequency_Hz", c.frequency_Hz},
-                         {"relative_error", c.relative_error}});
+                         {"relative_error", std::isnan(c.relative_error)
+                                                ? ordered_json()
+                                                : ordered_json(c.relative_error)}});
   ordered_json out{{"n_rpm", speed.n_rpm}};
   const auto limit = speed.limit_mm();
   out["limit_mm"] = limit ? ordered_json(*limit) : ordered_json();
@@ -252,8 +313,7 @@ ordered_json stability(const json& request) {
     std::vector<SpeedLimits> speeds;
     ordered_json told = ordered_json::array();
     for (const double n_rpm : q.speeds_rpm) {
-      speeds.push_back(
-          at_speed(n_rpm, [&] { return speed_limits(q.system, n_rpm, *q.ap_max_mm); }));
+      speeds.push_back(at_speed(n_rpm, [&] { return limits_of(q, n_rpm); }));
       told.push_back(described(speeds.back()));
     }
     out["speeds"] = std::move(told);
@@ -262,15 +322,8 @@ ordered_json stability(const json& request) {
   }
   if (!q.points.empty()) {
     ordered_json points = ordered_json::array();
-    for (const Point& p : q.points) {
-      const Multipliers m =
-          at_speed(p.n_rpm, [&] { return multipliers(q.system, p.n_rpm, p.ap_mm); });
-      points.push_back({{"n_rpm", p.n_rpm},
-                        {"ap_mm", p.ap_mm},
-                        {"unstable_multipliers", m.unstable},
-                        {"spectral_radius", m.spectral_radius},
-                        {"stable", m.unstable == 0}});
-    }
+    for (const Point& p : q.points)
+      points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p); }));
     out["points"] = std::move(points);
   }
   if (q.model == Model::turning && q.system.modes.size() == 1)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "chatter_frequency.hpp"
 #include "tracking.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
@@ -13,24 +13,6 @@ namespace turnwright::milling {
 namespace {
 
 using units::kPi;
-
-/// The chatter frequency of (1) nearest a natural frequency [Hz].
-double chatter_frequency_Hz(const System& system, double tau, double theta) {
-  double nearest = 0, least = std::numeric_limits<double>::infinity();
-  for (const Mode& mode : system.modes) {
-    const double natural = mode.wn_rad_s / (2 * kPi);
-    for (const double sign : {-1.0, 1.0}) {
-      const double part = sign * theta / (2 * kPi);
-      const double k = std::max(std::round(natural * tau - part), part < 0 ? 1.0 : 0.0);
-      const double frequency = (k + part) / tau;
-      if (std::abs(frequency - natural) < least) {
-        least = std::abs(frequency - natural);
-        nearest = frequency;
-      }
-    }
-  }
-  return nearest;
-}
 
 /// A zero z inside the unit circle at a depth.
 struct Inside {

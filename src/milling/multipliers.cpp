@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "tracking.hpp"
-#include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/milling/limits.hpp"
 #include "unit_circle.hpp"
@@ -25,22 +25,40 @@ double free_radius(const System& system, double tau) {
   return std::exp(-slowest * tau);
 }
 
-/// The zero of f(z, w (1 - z)) of least modulus, between two circles that part it from
-/// the others as far as bisection went: Newton's method from points between them.
-double least_modulus(const Characteristic& f, double w, double none, double some) {
+/// The least modulus among zeros that Newton's method finds between two circles, from
+/// points halfway; none if it finds none there.
+std::optional<double> modulus_between(const Characteristic& f, double w, double inner,
+                                      double outer) {
   constexpr int kStarts = 64;
-  double least = some;
-  bool found = false;
-  const double middle = std::sqrt(none * some);
+  std::optional<double> least;
+  const double middle = std::sqrt(inner * outer);
   for (int i = 0; i <= kStarts; ++i) {
-    const Complex z = zero_near(f, w, std::polar(middle, kPi * i / kStarts));
-    if (!(std::abs(z) > none * (1 - 1e-9) && std::abs(z) < some * (1 + 1e-9))) continue;
-    least = std::min(least, std::abs(z));
-    found = true;
+    const double r = std::abs(zero_near(f, w, std::polar(middle, kPi * i / kStarts)));
+    if (r > inner * (1 - 1e-9) && r < std::min(outer, least.value_or(outer)) * (1 + 1e-9))
+      least = r;
   }
-  if (!found)
-    throw ModelRangeError("milling: the dominant multiplier could not be isolated");
   return least;
+}
+
+/// The least modulus of a zero, of which there is none inside `none` and one inside
+/// `some`: circles are counted until they are near to each other, and so is what lies
+/// inside a zero found between them.
+double least_modulus(const Characteristic& f, double w, double none, double some) {
+  constexpr double kClose = 1e-9;
+  double apart = 1.1;
+  while (some > none * (1 + 2 * kClose)) {
+    while (some > apart * none) {
+      const double middle = std::sqrt(none * some);
+      (multipliers_outside(f, w, middle) > 0 ? some : none) = middle;
+    }
+    if (const auto r = modulus_between(f, w, none, some)) {
+      const double inside = *r * (1 - kClose);
+      if (inside <= none || multipliers_outside(f, w, inside) == 0) return *r;
+      some = inside;
+    }
+    apart = std::sqrt(apart);
+  }
+  return std::sqrt(none * some);
 }
 
 }  // namespace
@@ -51,8 +69,6 @@ Multipliers multipliers(const System& system, double n_rpm, double ap_mm) {
   if (ap_mm == 0) return {.unstable = 0, .spectral_radius = free};
   const int unstable = multipliers_outside(f, ap_mm);
 
-  // Two circles |z| near to each other, inside the one of which there is no zero.
-  constexpr double kApart = 1.1;
   double none = 1, some = 1;
   if (unstable > 0) do {
       some = none;
@@ -63,10 +79,6 @@ Multipliers multipliers(const System& system, double n_rpm, double ap_mm) {
       none = some;
       some *= 1.5;
     } while (multipliers_outside(f, ap_mm, some) == 0);
-  while (some > kApart * none) {
-    const double middle = std::sqrt(none * some);
-    (multipliers_outside(f, ap_mm, middle) > 0 ? some : none) = middle;
-  }
   return {.unstable = unstable,
           .spectral_radius = 1 / least_modulus(f, ap_mm, none, some)};
 }

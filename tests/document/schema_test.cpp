@@ -172,7 +172,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
   const auto examples =
       parse_file(source_path("schemas/stability.request.json")).at("examples");
   for (const json& example : examples)
-    Slips(schema, refused_stability, example).try_all(50);
+    Slips(schema, refused_stability, example).try_all(40);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(Stability, TellsTheIsland) {
 }
 
 TEST(Stability, ExamplesAreAnswered) {
-  for (std::size_t i = 0; i < 4; ++i) answered(example(i));
+  for (std::size_t i = 0; i < 7; ++i) answered(example(i));
 }
 
 TEST(Stability, SlotIsFullImmersionAndMassIsStiffness) {
@@ -118,6 +118,32 @@ TEST(Stability, PointsComeBackInTheOrderAsked) {
   EXPECT_GT(r["points"][0]["spectral_radius"], 1);
   EXPECT_EQ(r["points"][1]["ap_mm"], 0);
   EXPECT_EQ(r["points"][2]["stable"], true);
+}
+
+TEST(Stability, OtherMethodsAnswerInTheSameForm) {
+  const json tfea = answered(example(4));
+  EXPECT_NEAR(tfea["speeds"][0]["limit_mm"], 56.03, 0.005);
+  EXPECT_TRUE(tfea["speeds"][0]["crossings"][0]["relative_error"].is_null());
+  const double radius = answered(example(0))["points"][0]["spectral_radius"];
+  const json semi = answered(example(5))["points"][0];
+  EXPECT_EQ(semi["unstable_multipliers"], 0);
+  EXPECT_NEAR(semi["spectral_radius"], radius, 0.01);
+  const json simulated = answered(example(6))["points"][0];
+  EXPECT_TRUE(simulated["unstable_multipliers"].is_null());
+  EXPECT_NEAR(simulated["spectral_radius"], radius, 1e-3);
+
+  json q = example(5);
+  q.erase("intervals");
+  q["elements"] = 4;
+  EXPECT_EQ(refused(q),
+            "stability: /intervals: got nothing, expected a whole number from 1 to 200\n"
+            "stability: /elements: got 4, expected no such key");
+  q = example(6);
+  q["points"] = json::array();
+  for (int i = 0; i < 201; ++i) q["points"].push_back(example(6)["points"][0]);
+  EXPECT_EQ(refused(q),
+            "stability: /points: got a list of 201 entries, expected at most 200 with "
+            "this method");
 }
 
 TEST(Stability, AllProblemsAtOnce) {
