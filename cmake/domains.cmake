@@ -10,7 +10,7 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 # Floor 3
 tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
   TESTS cut_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
+tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
                              rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp
@@ -41,13 +41,13 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
   TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp
         budget_test.cpp)
 # Floor 5
-tw_domain(planning SOURCES names.cpp setup_geometry.cpp demand.cpp chain.cpp feature.cpp
+tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
           tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS recipe_model_test.cpp plan_test.cpp
+          TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
@@ -56,9 +56,9 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp stability.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp stability.cpp
           DEPENDS base catalogue part deflection thermal milling tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
@@ -82,10 +82,10 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
-tw_domain(report SOURCES text.cpp setups.cpp proof.cpp fields.cpp layout.cpp
+tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp contour.cpp svg.cpp
           DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp drawing_test.cpp)
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

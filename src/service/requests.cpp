@@ -151,11 +151,13 @@ std::span<const Request> requests() {
       {"chuck", "test cuts -> chuck compliance with uncertainties", kChuckExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::chuck(request);
-       }},
+       },
+       report::chuck_text},
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
-       }},
+       },
+       report::thermal_text},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
        [](const json& request, const Context&) -> ordered_json {

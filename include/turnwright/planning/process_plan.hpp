@@ -58,6 +58,8 @@ struct RejectedClamping {
 struct SetupPlan {
   part::End hold = part::End::left;
   Clamping clamping = Clamping::chuck;
+  double grip_force_N = 0;            ///< of all jaws at rest; 0 between centres
+  double finishing_grip_force_N = 0;  ///< from the first finishing pass on
   std::vector<RejectedClamping> rejected;
   std::vector<OperationPlan> operations;
 };
@@ -122,6 +124,12 @@ struct Relaxation {
   std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
 };
 
+/// What a plan would take that keeps its tolerances only nominally.
+struct Robustness {
+  double conformance = 0;
+  double nominal_cost_per_part = 0, nominal_time_per_part_min = 0;
+};
+
 enum class PlanStatus { ok, infeasible };
 
 struct ProcessPlan {
@@ -133,7 +141,8 @@ struct ProcessPlan {
   std::vector<ToleranceResult> tolerances;
   std::vector<Deviation> deviations;
   std::vector<Compensation> compensation;
-  std::vector<Price> prices;  ///< largest saving first
+  std::vector<Price> prices;             ///< largest saving first
+  std::optional<Robustness> robustness;  ///< of a robust plan
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
 };
