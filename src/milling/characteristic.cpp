@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kProductGrowth = 6;  // ln of the digits that products may lose
 
+constexpr std::size_t kWork = 80'000'000;  // entries of stretches evaluated: seconds
+
 using Matrix = std::vector<Complex>;  // row by row
 
 /// Phi of a stretch by Horner's rule.
@@ -184,6 +186,10 @@ const Propagator& Characteristic::propagator_for(double kappa_abs) const {
 Coefficients Characteristic::at(Complex kappa, double kappa_max) const {
   const Propagator& p = propagator_for(kappa_max);
   const std::size_t m = p.states;
+  work_ += p.stretches.size() * m * m;
+  if (work_ > kWork)
+    throw ModelRangeError(
+        "milling: the search takes too long; ask for a smaller depth or a higher speed");
   Coefficients out;
   out.c.assign(m + 1, 0);
   Product whole = product(p, kappa);

@@ -39,6 +39,7 @@ class Characteristic {
 
   /// @param kappa_max  at least |kappa|.  Values at one kappa differ by the error of the
   ///   method from one kappa_max to another; at one kappa_max they are smooth.
+  /// @throws ModelRangeError once a search has asked for so much that it takes seconds.
   Coefficients at(Complex kappa, double kappa_max) const;
 
   /// f(z, w (1 - z)) times a positive number that is 1 unless f would overflow.
@@ -52,6 +53,7 @@ class Characteristic {
   double n_rpm_, tau_s_;
   Resolution resolution_;
   mutable std::vector<std::pair<double, std::unique_ptr<Propagator>>> made_;
+  mutable std::size_t work_ = 0;
 };
 
 }  // namespace turnwright::milling

@@ -25,8 +25,8 @@ struct Row {
   bool flip;
 };
 
-// First loss of stability of the benchmark, from two independent high-order methods that
-// agree to 1e-9.
+// First loss of stability of the benchmark, computed elsewhere by two high-order methods
+// that agree to 1e-9.
 constexpr Row kBenchmark[] = {{Directions::one, 1, 5000, .4086, false},
                               {Directions::one, .1, 5000, 1.296, false},
                               {Directions::one, .05, 5000, 2.207, false},
