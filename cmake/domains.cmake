@@ -30,6 +30,16 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
   DEPENDS base PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
+tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
+                          characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
+                          chatter_frequency.cpp limits.cpp multipliers.cpp
+                          samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
+                          simulation.cpp scanned_limits.cpp
+          DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
+          TESTS limits_test.cpp checks_test.cpp)
+# Products of complex numbers without the search for infinities that C99's Annex G wants;
+# sums keep their order.
+target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -51,10 +61,10 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp stability.cpp
           machine_fields.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
-          DEPENDS base catalogue part deflection thermal volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          DEPENDS base catalogue part deflection thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

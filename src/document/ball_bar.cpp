@@ -61,10 +61,9 @@ void read_table(Reader& r, Trace& t) {
     cw = names->text_or("cw", cw);
     names->finish();
   }
-  for (const CsvRow& row :
-       csv_rows(r.at("csv", "the text of a table, or its lines"),
-                {{.name = theta}, {.name = ccw}, {.name = cw}}, OtherColumns::ignored,
-                kPoints)) {
+  for (const CsvRow& row : csv_rows(r.at("csv", "the text of a table, or its lines"),
+                                    {{.name = theta}, {.name = ccw}, {.name = cw}},
+                                    OtherColumns::ignored, kPoints)) {
     Reader cells(row.value, r.problems(), row.pointer);
     const double at = cells.number(theta, within(-1e5, 1e5));
     t.theta_rad.push_back(degrees ? units::rad_from_deg(at) : at);

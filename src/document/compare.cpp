@@ -78,7 +78,8 @@ std::vector<Row> read_table(const Reader& csv) {
     for (const char* key : {"group", "unit"})
       if (line.value.contains(key)) row[key] = line.value[key];
     for (const CsvColumn& c : columns)
-      if (!c.text && line.value.contains(c.name)) row["runs"].push_back(line.value[c.name]);
+      if (!c.text && line.value.contains(c.name))
+        row["runs"].push_back(line.value[c.name]);
     out.push_back(read_row(Reader(row, csv.problems(), line.pointer)));
   }
   return out;

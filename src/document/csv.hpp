@@ -38,8 +38,8 @@ struct CsvRow {
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows);
 
-/// The names in the header of such a table, for tables whose columns are not known before;
-/// none if there is no table, which is reported.
+/// The names in the header of such a table, for tables whose columns are not known
+/// before; none if there is no table, which is reported.
 std::vector<std::string> csv_header(const Reader& csv);
 
 }  // namespace turnwright::document

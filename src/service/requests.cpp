@@ -12,6 +12,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/samba.hpp"
+#include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/drawing.hpp"
@@ -116,6 +117,12 @@ constexpr const char* kCompensateExample = R"({
     {"name": "X", "err": {"EXX": {"c": [0, 0.003, 0, 0], "b": -0.001}}}],
   "diameter": true, "start_mm": [50, 0, 50], "decimals": 4,
   "program": ["G0 X42 Z2", "G1 X40 F0.2", "Z-30", "G2 X50 Z-35 R5", "G0 X60", "M30"]})";
+constexpr const char* kStabilityExample = R"({
+  "model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200, "radial_immersion": 0.1,
+  "direction": "down", "modes": [
+    {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
+  "ap_max_mm": 6, "speeds_rpm": {"from": 17000, "to": 19000, "count": 3},
+  "points": [{"n_rpm": 5000, "ap_mm": 1}]})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -216,6 +223,11 @@ std::span<const Request> requests() {
        kCompensateExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compensate(request);
+       }},
+      {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
+       kStabilityExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::stability(request);
        }},
   };
   return kTable;

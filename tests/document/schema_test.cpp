@@ -5,6 +5,7 @@
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/stability.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -48,11 +49,11 @@ class Slips {
   Slips(const SchemaCheck& schema, std::string (*refused)(const json&), json good)
       : schema_(schema), refused_(refused), good_(std::move(good)) {}
 
-  void try_all() {
+  void try_all(int at_least = 100) {
     EXPECT_EQ(schema_.fault(good_), "");
     EXPECT_EQ(refused_(good_), "");
     walk(good_, json::json_pointer());
-    EXPECT_GT(tried_, 100);
+    EXPECT_GT(tried_, at_least);
   }
 
  private:
@@ -155,6 +156,23 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAChuckRequest) {
   auto request = text.at("examples").at(0);
   request["graph"] = text.at("examples").at(3).at("graph");
   Slips(schema, refused_chuck, request).try_all();
+}
+
+std::string refused_stability(const json& document) {
+  try {
+    stability(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
+  const SchemaCheck schema("stability.request.json");
+  const auto examples =
+      parse_file(source_path("schemas/stability.request.json")).at("examples");
+  for (const json& example : examples)
+    Slips(schema, refused_stability, example).try_all(40);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "turnwright/milling/system.hpp"
+
+namespace turnwright::milling {
+
+/// A depth at which the cut turns from stable to unstable or back.
+struct Crossing {
+  double ap_mm = 0;
+  bool loss = true;           ///< stable below, unstable above; else the other way about
+  bool flip = false;          ///< the multiplier is -1; else a pair e^(+-i theta)
+  double theta_rad = 0;       ///< argument of the multiplier, in (0, pi]
+  double frequency_Hz = 0;    ///< of the chatter, (1)
+  double relative_error = 0;  ///< estimated, of ap_mm
+};
+
+/// Stability at one spindle speed, up to a depth.
+struct SpeedLimits {
+  double n_rpm = 0;
+  std::vector<Crossing> crossings;  ///< rising
+  /// The first loss; none if the cut is stable up to the depth asked about.
+  std::optional<double> limit_mm() const;
+};
+
+/// Every crossing in (0, ap_max], islands included.
+///
+/// On the boundary q(t - tau) = q(t)/mu with |mu| = 1, so that one fundamental matrix
+/// Phi(kappa), kappa = w (1 - 1/mu), decides: the cut is unstable if
+/// det(I - z Phi(w (1 - z))) has a zero z = 1/mu inside the unit circle.  Depths at which
+/// a zero lies on the circle are found by a search that cannot miss one, see
+/// src/milling/unit_circle.hpp; above a loss a zero is followed through the inside of the
+/// circle as far as it stays there, see src/milling/tracking.hpp.
+///
+/// Of the chatter frequencies of a multiplier e^(i theta),
+///
+///     (k +- theta / 2 pi) / tau,   k = 0, 1, ..                                     (1)
+///
+/// the one nearest a natural frequency is given.
+///
+/// Valid for any number of modes and teeth; the work grows with wn tau and with the depth
+/// over the first limit.
+/// Source: derived here; checked in limits_test against printed charts of the
+/// literature's benchmark, semi-discretisation and simulation.
+/// @throws ModelRangeError if the search becomes longer than a few seconds.
+SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm);
+
+/// Multipliers of one cut.
+struct Multipliers {
+  int unstable = 0;            ///< outside the unit circle, a pair counts as two
+  double spectral_radius = 0;  ///< largest modulus
+};
+
+/// The count is a winding number whose every chord is shown to hide no turn.
+/// @throws ModelRangeError if a multiplier lies on the unit circle to within rounding.
+Multipliers multipliers(const System& system, double n_rpm, double ap_mm);
+
+}  // namespace turnwright::milling

@@ -1,0 +1,335 @@
+#include "turnwright/document/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fields.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/document/reader.hpp"
+#include "turnwright/milling/checks.hpp"
+#include "turnwright/milling/limits.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using namespace turnwright::milling;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 200;
+constexpr int kDepths = 40;  // scanned by the checks
+constexpr double kSlenderDamping = 0.03;
+const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
+             kPointDepth = within(0, 1000, "mm"), kFrequency = within(0.1, 1e6, "Hz"),
+             kDamping = within(1e-6, 10), kMass = within(1e-9, 1e9, "kg"),
+             kStiffness = within(1e-6, 1e12, "N/mm"),
+             kPressure = within(1e-3, 1e6, "MPa");
+
+enum class Method { fundamental_matrix, tfea, semi_discretisation, simulation };
+enum class Model { milling, power_law, turning };
+
+struct Point {
+  double n_rpm = 0, ap_mm = 0;
+};
+
+struct Request {
+  Model model = Model::milling;
+  System system;
+  std::optional<double> ap_max_mm;
+  std::vector<double> speeds_rpm;
+  std::vector<Point> points;
+  Method method = Method::fundamental_matrix;
+  int resolution = 0;  // elements or intervals
+  ordered_json assumed = ordered_json::array();
+};
+
+double stiffness_N_mm(double mass_kg, double wn_rad_s) {
+  return mass_kg * wn_rad_s * wn_rad_s / 1000;  // N/m to N/mm
+}
+
+/// Stiffness as such or as a mass.
+double read_stiffness(Reader& r, double wn_rad_s) {
+  const auto mass = r.optional_number("mass_kg", kMass);
+  const auto stiffness = r.optional_number("stiffness_N_mm", kStiffness);
+  if (mass && stiffness)
+    r.problem_at("mass_kg", "either mass_kg or stiffness_N_mm", "exclusive");
+  else if (!mass && !stiffness)
+    r.problem_at("stiffness_N_mm", "stiffness_N_mm or mass_kg", "missing");
+  return mass ? stiffness_N_mm(*mass, wn_rad_s) : stiffness.value_or(1);
+}
+
+Mode read_mode(Reader r, Axis axis, std::optional<double> damping) {
+  Mode mode{.axis = axis};
+  mode.wn_rad_s = 2 * units::kPi * r.number("frequency_Hz", kFrequency);
+  mode.zeta = damping ? r.number_or("damping_ratio", kDamping, *damping)
+                      : r.number("damping_ratio", kDamping);
+  mode.k_N_mm = read_stiffness(r, mode.wn_rad_s);
+  r.finish();
+  return mode;
+}
+
+enum class Direction { down, up, slot };
+
+Engagement read_engagement(Reader& r) {
+  const auto direction = r.choice<Direction>(
+      "direction",
+      {{"down", Direction::down}, {"up", Direction::up}, {"slot", Direction::slot}});
+  const Bounds bounds = within(1e-6, 1);
+  if (direction == Direction::slot) {
+    const auto given = r.optional_number("radial_immersion", bounds);
+    if (given && *given < 1)
+      r.problem_at("radial_immersion", "1 or none, for a slot", "range");
+    return {0, units::kPi};
+  }
+  const double immersion = r.number("radial_immersion", bounds);
+  return direction == Direction::up ? up_milling(immersion) : down_milling(immersion);
+}
+
+void read_milling(Reader& r, Request& q) {
+  q.system.teeth = static_cast<int>(r.integer("teeth", 1, 100));
+  LinearForce force;
+  force.Kt_MPa = r.number("Kt_MPa", kPressure);
+  force.Kn_MPa = r.number("Kn_MPa", within(0, 1e6, "MPa"));
+  q.system.force = force;
+  const Engagement cut = read_engagement(r);
+  q.system.entry_rad = cut.entry_rad;
+  q.system.exit_rad = cut.exit_rad;
+  for (Reader& mode : r.items("modes", 1, kModes)) {
+    mode = mode.as_object();
+    const auto axis = mode.choice<Axis>("axis", {{"x", Axis::x}, {"y", Axis::y}});
+    q.system.modes.push_back(read_mode(mode, axis, {}));
+  }
+}
+
+void read_power_law(Reader& r, Request& q) {
+  q.system.teeth = static_cast<int>(r.integer("teeth", 1, 100));
+  q.system.exit_rad = units::kPi;
+  Mode mode;
+  mode.wn_rad_s = r.number("natural_frequency_rad_s", within(1, 1e7, "rad/s"));
+  mode.zeta = r.number("damping_ratio", kDamping);
+  mode.k_N_mm = stiffness_N_mm(r.number("mass_kg", kMass), mode.wn_rad_s);
+  q.system.modes = {mode};
+  PowerLawForce force;
+  force.C = r.number("C", within(1, 1e15, "N m^-(1 + gamma)"));
+  force.gamma = r.number("gamma", within(0.05, 1));
+  force.feed_speed_m_s = r.number("feed_speed_m_s", within(1e-9, 100, "m/s"));
+  force.normal_ratio = r.number("normal_ratio", within(0, 10));
+  q.system.force = force;
+}
+
+void read_turning(Reader& r, Request& q) {
+  q.system.exit_rad = 2 * units::kPi;
+  const double kappa = r.number("kappa_deg", within(1, 89.9, "deg"));
+  const double kp = r.number("kp_MPa", kPressure);
+  q.system.force = ConstantForce{kp / std::tan(units::rad_from_deg(kappa))};
+  std::size_t i = 0;
+  for (const Reader& item : r.items("modes", 1, kModes)) {
+    Reader mode = item.as_object();
+    if (mode.is_object() && !mode.has("damping_ratio"))
+      q.assumed.push_back({{"pointer", "/modes/" + std::to_string(i) + "/damping_ratio"},
+                           {"value", kSlenderDamping},
+                           {"why", "slender parts and bars in a chuck or holder"}});
+    q.system.modes.push_back(read_mode(mode, Axis::x, kSlenderDamping));
+    ++i;
+  }
+}
+
+std::vector<double> read_speeds(Reader& r) {
+  if (auto found = r.find("speeds_rpm")) {
+    if (!found->is_object()) return found->as_numbers(kSpeed, 1, kSpeeds);
+    const double from = found->number("from", kSpeed), to = found->number("to", kSpeed);
+    const long count = found->integer("count", 1, kSpeeds);
+    if (from > to) found->problem_at("to", "a speed not below from", "range");
+    found->finish();
+    std::vector<double> out;
+    for (long i = 0; i < count; ++i)
+      out.push_back(count == 1 ? from
+                               : from + (to - from) * static_cast<double>(i) /
+                                            static_cast<double>(count - 1));
+    return out;
+  }
+  return {};
+}
+
+/// "method" with its own key.
+void read_method(Reader& r, Request& q) {
+  q.method = r.choice_or<Method>("method",
+                                 {{"fundamental-matrix", Method::fundamental_matrix},
+                                  {"tfea", Method::tfea},
+                                  {"semi-discretisation", Method::semi_discretisation},
+                                  {"simulation", Method::simulation}},
+                                 Method::fundamental_matrix);
+  if (q.method == Method::tfea)
+    q.resolution = static_cast<int>(r.integer("elements", 1, 60));
+  if (q.method == Method::semi_discretisation)
+    q.resolution = static_cast<int>(r.integer("intervals", 1, 200));
+}
+
+Request read_request(const json& request, Problems& problems) {
+  Request q;
+  Reader r = Reader(request, problems).as_object();
+  read_format(r, "turnwright-stability/1");
+  const std::size_t problems_before = problems.list.size();
+  q.model = r.choice<Model>("model", {{"milling", Model::milling},
+                                      {"power-law", Model::power_law},
+                                      {"turning", Model::turning}});
+  const bool known = problems.list.size() == problems_before && !r.broken();
+  if (known) {
+    if (q.model == Model::milling) read_milling(r, q);
+    if (q.model == Model::power_law) read_power_law(r, q);
+    if (q.model == Model::turning) read_turning(r, q);
+  }
+  read_method(r, q);
+  q.speeds_rpm = read_speeds(r);
+  q.ap_max_mm = r.optional_number("ap_max_mm", kDepth);
+  for (Reader& point : r.optional_items("points", 1, kPoints)) {
+    point = point.as_object();
+    Point p;
+    p.n_rpm = point.number("n_rpm", kSpeed);
+    p.ap_mm = point.number("ap_mm", kPointDepth);
+    point.finish();
+    q.points.push_back(p);
+  }
+  const auto few = [&](std::string_view key, std::size_t asked) {
+    if (q.method != Method::fundamental_matrix && asked > kChecked)
+      r.problem_at(key, "at most " + std::to_string(kChecked) + " with this method",
+                   "range");
+  };
+  few("speeds_rpm", q.speeds_rpm.size());
+  few("points", q.points.size());
+  if (!r.broken() && !r.has("speeds_rpm") && !r.has("points"))
+    r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
+  if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
+    r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
+  if (known) r.finish();
+  return q;
+}
+
+Dominant checked(const Request& q, double n_rpm, double ap_mm) {
+  if (q.method == Method::tfea)
+    return time_finite_elements(q.system, n_rpm, ap_mm, q.resolution);
+  if (q.method == Method::semi_discretisation)
+    return semi_discretisation(q.system, n_rpm, ap_mm, q.resolution);
+  return simulation(q.system, n_rpm, ap_mm);
+}
+
+SpeedLimits limits_of(const Request& q, double n_rpm) {
+  if (q.method == Method::fundamental_matrix)
+    return speed_limits(q.system, n_rpm, *q.ap_max_mm);
+  return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths,
+                        [&](double ap_mm) { return checked(q, n_rpm, ap_mm); });
+}
+
+ordered_json judged(const Request& q, const Point& p) {
+  ordered_json out{{"n_rpm", p.n_rpm}, {"ap_mm", p.ap_mm}};
+  if (q.method == Method::fundamental_matrix) {
+    const Multipliers m = multipliers(q.system, p.n_rpm, p.ap_mm);
+    out["unstable_multipliers"] = m.unstable;
+    out["spectral_radius"] = m.spectral_radius;
+    out["stable"] = m.unstable == 0;
+    return out;
+  }
+  const Dominant d = checked(q, p.n_rpm, p.ap_mm);
+  const double radius = std::abs(d.multiplier);
+  out["unstable_multipliers"] = d.unstable ? ordered_json(*d.unstable) : ordered_json();
+  out["spectral_radius"] = radius;
+  out["stable"] = radius < 1;
+  return out;
+}
+
+/// What fails at one speed is told with it.
+template <class F>
+auto at_speed(double n_rpm, F compute) {
+  try {
+    return compute();
+  } catch (const ModelRangeError& e) {
+    throw ModelRangeError("stability: at " + number_text(n_rpm) + " 1/min: " + e.what());
+  }
+}
+
+ordered_json described(const SpeedLimits& speed) {
+  ordered_json crossings = ordered_json::array();
+  for (const Crossing& c : speed.crossings)
+    crossings.push_back({{"ap_mm", c.ap_mm},
+                         {"sense", c.loss ? "loss" : "regain"},
+                         {"kind", c.flip ? "flip" : "hopf"},
+                         {"frequency_Hz", c.frequency_Hz},
+                         {"relative_error", std::isnan(c.relative_error)
+                                                ? ordered_json()
+                                                : ordered_json(c.relative_error)}});
+  ordered_json out{{"n_rpm", speed.n_rpm}};
+  const auto limit = speed.limit_mm();
+  out["limit_mm"] = limit ? ordered_json(*limit) : ordered_json();
+  out["crossings"] = std::move(crossings);
+  return out;
+}
+
+double stable_mm(const SpeedLimits& speed, double ap_max) {
+  return speed.limit_mm().value_or(ap_max);
+}
+
+/// The speed that removes most: n times the depth up to the first loss.
+ordered_json best(const std::vector<SpeedLimits>& speeds, double ap_max) {
+  const auto volume = [&](const SpeedLimits& s) {
+    return s.n_rpm * stable_mm(s, ap_max);
+  };
+  const auto at = std::ranges::max_element(speeds, {}, volume);
+  return {{"n_rpm", at->n_rpm},
+          {"ap_mm", stable_mm(*at, ap_max)},
+          {"limited_by", at->limit_mm() ? "chatter" : "ap_max_mm"}};
+}
+
+/// Local maxima of the limit over the speeds in rising order.
+ordered_json magic(std::vector<SpeedLimits> speeds, double ap_max) {
+  std::ranges::sort(speeds, {}, &SpeedLimits::n_rpm);
+  ordered_json out = ordered_json::array();
+  for (std::size_t i = 1; i + 1 < speeds.size(); ++i) {
+    const double at = stable_mm(speeds[i], ap_max);
+    if (at > stable_mm(speeds[i - 1], ap_max) && at >= stable_mm(speeds[i + 1], ap_max))
+      out.push_back({{"n_rpm", speeds[i].n_rpm}, {"ap_mm", at}});
+  }
+  return out;
+}
+
+/// 2 k zeta (1 + zeta)/K, below which one mode is stable at every speed.
+double absolute_limit_mm(const System& system) {
+  const Mode& m = system.modes.front();
+  return 2 * m.k_N_mm * m.zeta * (1 + m.zeta) /
+         std::get<ConstantForce>(system.force).K_MPa;
+}
+
+}  // namespace
+
+ordered_json stability(const json& request) {
+  Problems problems{.document = "stability"};
+  const Request q = read_request(request, problems);
+  problems.throw_if_any();
+  ordered_json out{{"format", "turnwright-stability-result/1"}};
+  if (!q.speeds_rpm.empty()) {
+    std::vector<SpeedLimits> speeds;
+    ordered_json told = ordered_json::array();
+    for (const double n_rpm : q.speeds_rpm) {
+      speeds.push_back(at_speed(n_rpm, [&] { return limits_of(q, n_rpm); }));
+      told.push_back(described(speeds.back()));
+    }
+    out["speeds"] = std::move(told);
+    out["best"] = best(speeds, *q.ap_max_mm);
+    out["magic_speeds"] = magic(speeds, *q.ap_max_mm);
+  }
+  if (!q.points.empty()) {
+    ordered_json points = ordered_json::array();
+    for (const Point& p : q.points)
+      points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p); }));
+    out["points"] = std::move(points);
+  }
+  if (q.model == Model::turning && q.system.modes.size() == 1)
+    out["absolute_limit_mm"] = absolute_limit_mm(q.system);
+  out["assumed"] = q.assumed;
+  return out;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,115 @@
+#include "turnwright/milling/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chatter_frequency.hpp"
+#include "tracking.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
+#include "unit_circle.hpp"
+
+namespace turnwright::milling {
+namespace {
+
+using units::kPi;
+
+/// A zero z inside the unit circle at a depth.
+struct Inside {
+  double w_mm = 0;
+  Complex z;
+};
+
+/// Walks up in depth, keeping the number of unstable multipliers.
+class Climb {
+ public:
+  Climb(const System& system, double n_rpm)
+      : coarse_(system, n_rpm, kCoarse), fine_(system, n_rpm, kFine) {}
+
+  std::vector<Crossing> to(double ap_max) {
+    double w = first_strip(ap_max);
+    search(0, w);
+    while (w < ap_max) {
+      const double reached = count_ > 0 ? followed(w, ap_max) : w;
+      if (reached >= ap_max) break;
+      if (reached > w) count_ = multipliers_outside(coarse_, reached);
+      const double next = std::min(ap_max, reached * (count_ > 0 ? 1.05 : 1.5));
+      search(reached, next);
+      w = next;
+    }
+    return std::move(crossings_);
+  }
+
+ private:
+  /// Depth up to which one series is likely to do.
+  double first_strip(double ap_max) const {
+    constexpr double kGrowth = 5;
+    double w = ap_max;
+    while (coarse_.growth(2.6 * w) > kGrowth) w /= 2;
+    return w;
+  }
+
+  void search(double from, double to) {
+    for (const OnCircle& at : on_circle(coarse_, fine_, from, to)) {
+      const bool was_stable = count_ == 0;
+      count_ += at.change;
+      if (count_ < 0) throw std::domain_error("speed_limits: a zero was missed");
+      if (was_stable == (count_ == 0)) continue;
+      if (was_stable) entered_ = {at.w_mm * (1 + 1e-6), std::polar(1.0, -at.theta)};
+      const double tau = coarse_.tau_s();
+      crossings_.push_back(
+          {.ap_mm = at.w_mm,
+           .loss = was_stable,
+           .flip = at.flip(),
+           .theta_rad = at.theta,
+           .frequency_Hz = chatter_frequency_Hz(coarse_.system(), tau, at.theta),
+           .relative_error = at.relative_error});
+    }
+  }
+
+  /// How far above w the cut is shown to be unstable; w itself if that does not work.
+  double followed(double w, double ap_max) {
+    const auto start = entered_ ? entered_ : zero_inside(w);
+    entered_.reset();
+    if (!start) return w;
+    const Complex z = zero_near(coarse_, start->w_mm, start->z);
+    if (!(std::abs(z) < 1)) return w;
+    const Tracked done = unstable_until(coarse_, start->w_mm, ap_max, z);
+    last_ = done.z;
+    return std::max(w, done.w_mm);
+  }
+
+  /// A zero well inside, as near as may be to the one last followed: two that met on the
+  /// real axis part along it.
+  std::optional<Inside> zero_inside(double w) const {
+    constexpr double kInside = 0.98;
+    std::vector<Complex> starts;
+    for (const double r : {0.7, 0.9, 1.0}) starts.push_back(r * last_);
+    for (const double r : {0.3, 0.6, 0.9})
+      for (int i = 0; i <= 4; ++i) starts.push_back(std::polar(r, -kPi * i / 4));
+    for (const Complex& start : starts) {
+      const Complex z = zero_near(coarse_, w, start);
+      if (std::abs(z) < kInside) return Inside{w, z};
+    }
+    return std::nullopt;
+  }
+
+  Characteristic coarse_, fine_;
+  int count_ = 0;
+  std::optional<Inside> entered_;  // the zero of the last loss
+  Complex last_ = 0.5;             // where a zero was followed to
+  std::vector<Crossing> crossings_;
+};
+
+}  // namespace
+
+std::optional<double> SpeedLimits::limit_mm() const {
+  if (crossings.empty()) return std::nullopt;
+  return crossings.front().ap_mm;
+}
+
+SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm) {
+  return {.n_rpm = n_rpm, .crossings = Climb(system, n_rpm).to(ap_max_mm)};
+}
+
+}  // namespace turnwright::milling

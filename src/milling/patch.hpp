@@ -1,0 +1,78 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "characteristic.hpp"
+
+namespace turnwright::milling {
+
+/// What a count at the depths w and on the circle |z| = rho needs to know of
+///
+///     g(w, theta) = f(z, kappa),  z = rho e^(-i theta),  kappa = w (1 - z)           (1)
+///
+/// at one point and around it.
+struct Local {
+  Complex g;                      ///< value at the centre of the box
+  Complex g_w, g_theta;           ///< derivatives there
+  double ww = 0, wt = 0, tt = 0;  ///< bounds on the second derivatives in all of the box
+};
+
+/// w within w_half of w, theta within theta_half of theta.
+struct Box {
+  double w = 0, w_half = 0;
+  double theta = 0, theta_half = 0;
+};
+
+/// A disc that holds the kappa of every point of the box.
+struct Disc {
+  Complex centre;
+  double radius = 0;
+};
+Disc disc(const Box& box, double rho);
+
+/// Taylor series in kappa of the coefficients of f, good in a disc:
+///
+///     f(z, kappa) = sum_i (z/rho)^i sum_j c_ij ((kappa - centre)/radius)^j (2)
+///
+/// found by sampling on the rim.  Bounds on derivatives are the sums of moduli, so they
+/// hold for every point of the disc, and are the sharper the smaller it is.
+class Patch {
+ public:
+  /// f at one point, z inside the circle, and bounds on its second derivatives in the
+  /// disc for |z| <= rho.
+  struct Point {
+    Complex f, f_z, f_kappa;
+    double kk = 0, kz = 0, zz = 0;
+  };
+
+  /// None if the disc is too large for the series to be precise at its centre.
+  static std::optional<Patch> sampled(const Characteristic& f, const Disc& disc,
+                                      double rho);
+
+  /// The same function about another disc inside this one.
+  Patch shifted(const Disc& disc) const;
+
+  const Disc& disc() const { return disc_; }
+  /// Errors of g in the disc are smaller.
+  double noise() const { return noise_; }
+  /// |g| at the disc's centre and some z, for telling whether the noise matters.
+  double scale() const;
+
+  /// @param box  its disc must lie in this one.
+  Local at(const Box& box) const;
+
+  Point point(Complex z, Complex kappa) const;
+
+ private:
+  void bound();
+
+  Disc disc_;
+  double rho_ = 1;
+  std::size_t powers_ = 0;  // of z: c_i, i = 0 .. powers_ - 1
+  std::size_t terms_ = 0;   // of kappa
+  std::vector<Complex> c_;  // [i * terms_ + j]
+  double noise_ = 0;
+  double kk_ = 0, kz_ = 0, zz_ = 0;  // bounds on f_kappa,kappa, f_kappa,z, f_z,z
+};
+
+}  // namespace turnwright::milling

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+namespace turnwright::milling {
+
+/// Gauss-Legendre nodes s_i on [0, 1] with their weights, and the integrals from 0 to
+/// each node of the polynomial through all of them:
+///
+///     int_0^1 f ds = sum_j weights[j] f(s_j)
+///     int_0^s_i f ds = sum_j to_node[i * size + j] f(s_j)
+///
+/// exact for polynomials of degree 2 size - 1 and size - 1.
+struct Quadrature {
+  std::size_t size = 0;
+  std::vector<double> nodes, weights, to_node;
+};
+
+/// @param size  from 2 to 40.
+const Quadrature& quadrature(std::size_t size);
+
+}  // namespace turnwright::milling

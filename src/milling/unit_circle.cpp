@@ -1,0 +1,320 @@
+#include "unit_circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::milling {
+namespace {
+
+using units::kPi;
+
+constexpr double kInflation = 1.1;  // of boxes, so that zeros on their borders are met
+constexpr double kNoisy = 1e-4;     // noise of a patch relative to its values: renew it
+
+double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
+// Distance of 0 from the segment p + t d, |t| <= 1.
+double distance(Complex p, Complex d) {
+  const double t =
+      std::norm(d) > 0 ? std::clamp(-dot(p, d) / std::norm(d), -1.0, 1.0) : 0;
+  return std::abs(p + t * d);
+}
+
+enum class Verdict { none, one, unclear };
+
+struct Judged {
+  Verdict verdict = Verdict::unclear;
+  double s = 0, t = 0;  // of the zero, in half widths of the box
+};
+
+/// What the local bounds tell of the zeros of g in the box.
+Judged judge(const Local& g, const Box& box, double noise) {
+  const Complex D = g.g_w * box.w_half, E = g.g_theta * box.theta_half;
+  const double ww = g.ww * box.w_half * box.w_half,
+               wt = g.wt * box.w_half * box.theta_half,
+               tt = g.tt * box.theta_half * box.theta_half;
+  const double rest = (ww + 2 * wt + tt) / 2 + noise;
+  if (std::abs(g.g) > std::abs(D) + std::abs(E) + rest) return {Verdict::none};
+
+  const double det = cross(D, E);
+  if (det == 0) return {};
+  const double s = -cross(g.g, E) / det, t = -cross(D, g.g) / det;
+  const bool inside = std::abs(s) <= 1 && std::abs(t) <= 1;
+  if (!inside) {
+    const double far = std::min({distance(g.g + D, E), distance(g.g - D, E),
+                                 distance(g.g + E, D), distance(g.g - E, D)});
+    if (far > rest) return {Verdict::none};
+  }
+  // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
+  // into the Newton point +- (q + noise).
+  const double row = std::max(std::abs(D), std::abs(E)) / std::abs(det);
+  const double q = row * (ww + 2 * wt + tt), slack = q + row * noise;
+  if (!(q < 1)) return {};
+  if (std::abs(s) > 1 + slack || std::abs(t) > 1 + slack) return {Verdict::none};
+  if (std::abs(s) + slack <= 1 && std::abs(t) + slack <= 1) return {Verdict::one, s, t};
+  return {};
+}
+
+Box scaled(Box box, double factor) {
+  box.w_half *= factor;
+  box.theta_half *= factor;
+  return box;
+}
+
+bool holds(const Disc& outer, const Disc& inner) {
+  return std::abs(inner.centre - outer.centre) + inner.radius <= outer.radius;
+}
+
+/// Patches on demand: those of the boxes above are reused while they are good.
+class Patches {
+ public:
+  Patches(const Characteristic& f, double rho) : f_(f), rho_(rho) {}
+
+  /// A patch for `inner`: `above` itself, a shift of it or a new one, kept in `own`; null
+  /// if the disc is too large for any.
+  const Patch* pick(const Patch* above, const Disc& inner,
+                    std::optional<Patch>& own) const {
+    if (above && holds(above->disc(), inner)) {
+      if (inner.radius > above->disc().radius / 4) return above;
+      const double room =
+          above->disc().radius - std::abs(inner.centre - above->disc().centre);
+      own = above->shifted({inner.centre, std::min(2 * inner.radius, room)});
+      if (own->noise() < kNoisy * own->scale()) return &*own;
+    } else if (above) {
+      return nullptr;
+    }
+    own = sampled({inner.centre, inner.radius});
+    return own ? &*own : nullptr;
+  }
+
+  std::optional<Patch> sampled(const Disc& disc) const {
+    constexpr double kHopeless = 14;  // of growth across the disc
+    if (f_.growth(disc.radius) > kHopeless) return std::nullopt;
+    return Patch::sampled(f_, disc, rho_);
+  }
+
+ private:
+  const Characteristic& f_;
+  double rho_;
+};
+
+class Search {
+ public:
+  explicit Search(const Characteristic& f) : patches_(f, 1) {}
+
+  /// All zeros with w in [from, to].
+  void strip(double from, double to, const Patch* patch) {
+    const double half = (to - from) / 2;
+    constexpr double kBorder = kPi / 6;  // half height of the box about theta = pi
+    go({from + half, half, kPi, kBorder}, true, patch);
+    go({from + half, half, (kPi - kBorder) / 2, (kPi - kBorder) / 2}, false, patch);
+  }
+
+  const Patches& patches() const { return patches_; }
+  const std::vector<Box>& found() const { return found_; }
+  std::size_t boxes() const { return boxes_; }
+
+ private:
+  void go(const Box& box, bool border, const Patch* above) {
+    if (++boxes_ > kBoxes)
+      throw ModelRangeError(
+          "milling: the search for stability limits at a speed needs "
+          "more than " +
+          std::to_string(kBoxes) +
+          " boxes; ask for a smaller ap_max_mm or a higher speed");
+    const Box wide = scaled(box, kInflation);
+    std::optional<Patch> own;
+    const Patch* patch = patches_.pick(above, disc(wide, 1), own);
+    Local g;
+    if (patch) {
+      g = patch->at(wide);
+      const Judged judged = judge(g, wide, patch->noise());
+      if (judged.verdict == Verdict::none) return;
+      if (judged.verdict == Verdict::one) {
+        Box zero = wide;
+        zero.w += judged.s * wide.w_half;
+        zero.theta = border ? kPi : wide.theta + judged.t * wide.theta_half;
+        found_.push_back(zero);
+        return;
+      }
+    }
+    split(box, border, g, patch ? patch : (above && !own ? above : nullptr));
+  }
+
+  void split(const Box& box, bool border, const Local& g, const Patch* patch) {
+    const Complex step = 1.0 - std::polar(1.0, -box.theta);
+    double by_w = box.w_half * std::abs(step), by_theta = box.w * box.theta_half;
+    if (g.tt > 0) {
+      by_w = std::sqrt(g.ww) * box.w_half;
+      by_theta = std::sqrt(g.tt) * box.theta_half;
+    }
+    Box part = box;
+    if (by_w > by_theta) {
+      part.w_half = box.w_half / 2;
+      part.w = box.w - part.w_half;
+      go(part, border, patch);
+      part.w = box.w + part.w_half;
+      go(part, border, patch);
+    } else if (border) {
+      part.theta_half = box.theta_half / 3;
+      go(part, true, patch);
+      part.theta = box.theta - 2 * part.theta_half;
+      go(part, false, patch);
+    } else {
+      part.theta_half = box.theta_half / 2;
+      part.theta = box.theta - part.theta_half;
+      go(part, false, patch);
+      part.theta = box.theta + part.theta_half;
+      go(part, false, patch);
+    }
+  }
+
+  Patches patches_;
+  std::vector<Box> found_;
+  std::size_t boxes_ = 0;
+};
+
+Complex g_at(const Characteristic& f, double w, double theta) {
+  return f.value(std::polar(1.0, -theta), w);
+}
+
+struct Slopes {
+  Complex w, theta;
+};
+
+Slopes slopes(const Characteristic& f, double w, double theta) {
+  constexpr double kStep = 1e-5;
+  return {(g_at(f, w * (1 + kStep), theta) - g_at(f, w * (1 - kStep), theta)) /
+              (2 * kStep * w),
+          (g_at(f, w, theta + kStep) - g_at(f, w, theta - kStep)) / (2 * kStep)};
+}
+
+/// Newton's method with the slopes of the start, which are good to 1e-9.
+OnCircle newton(const Characteristic& f, OnCircle at, const Slopes& slope) {
+  constexpr int kSteps = 30;
+  const bool flip = at.flip();
+  for (int i = 0; i < kSteps; ++i) {
+    const Complex g = g_at(f, at.w_mm, at.theta);
+    double dw = 0, dtheta = 0;
+    if (flip) {
+      dw = -g.real() / slope.w.real();
+    } else {
+      const double det = cross(slope.w, slope.theta);
+      dw = -cross(g, slope.theta) / det;
+      dtheta = -cross(slope.w, g) / det;
+    }
+    at.w_mm += dw;
+    at.theta += dtheta;
+    at.relative_error = std::abs(dw / at.w_mm);
+    if (at.relative_error < 1e-14) break;
+  }
+  return at;
+}
+
+// As w rises past the zero, dz/z = -g_w/(z g_z) dw = i g_w/g_theta dw, and ln |mu| = -ln
+// |z| grows by Im(g_w/g_theta) dw.
+OnCircle polished(const Characteristic& coarse, const Characteristic& fine,
+                  const Box& zero) {
+  OnCircle at{.w_mm = zero.w, .theta = zero.theta};
+  at = newton(coarse, at, slopes(coarse, at.w_mm, at.theta));
+  const Slopes slope = slopes(fine, at.w_mm, at.theta);
+  const OnCircle best = newton(fine, at, slope);
+  const double outwards = cross(slope.theta, slope.w);
+  OnCircle out = best;
+  out.relative_error = std::abs(best.w_mm - at.w_mm) / best.w_mm + best.relative_error;
+  out.change = (outwards > 0 ? 1 : -1) * (out.flip() ? 1 : 2);
+  return out;
+}
+
+}  // namespace
+
+bool OnCircle::flip() const { return theta == kPi; }
+
+std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
+                                double from_mm, double to_mm) {
+  Search search(coarse);
+  // The disc about w of radius w holds kappa for every depth up to w and |z| <= 1.
+  constexpr double kReach = 1.6;
+  std::optional<Patch> first;
+  if (from_mm == 0) first = search.patches().sampled({to_mm, kReach * to_mm});
+  search.strip(from_mm, to_mm, first ? &*first : nullptr);
+
+  std::vector<OnCircle> out;
+  for (const Box& zero : search.found()) {
+    const OnCircle at = polished(coarse, fine, zero);
+    if (!(at.w_mm > from_mm && at.w_mm <= to_mm)) continue;
+    const bool again = std::ranges::any_of(out, [&](const OnCircle& other) {
+      return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
+             std::abs(other.theta - at.theta) < 1e-6;
+    });
+    if (!again) out.push_back(at);
+  }
+  std::ranges::sort(out, {}, &OnCircle::w_mm);
+  return out;
+}
+
+namespace {
+
+/// Turns of g along the half circle, chord by chord.
+class Winding {
+ public:
+  Winding(const Characteristic& f, double w, double rho)
+      : patches_(f, rho), w_(w), rho_(rho) {}
+
+  /// The angle by which g turns over [0, pi].
+  double angle() {
+    constexpr double kFew = 4;
+    double sum = 0;
+    for (double i = 0; i < kFew; ++i)
+      sum += go({w_, 0, (i + 0.5) * kPi / kFew, kPi / (2 * kFew)}, nullptr);
+    return sum;
+  }
+
+ private:
+  double go(const Box& box, const Patch* above) {
+    constexpr double kSmallest = 1e-13;
+    if (box.theta_half < kSmallest || ++boxes_ > kBoxes)
+      throw ModelRangeError("milling: a multiplier lies on the circle asked about");
+    std::optional<Patch> own;
+    const Patch* patch = patches_.pick(above, disc(box, rho_), own);
+    if (patch) {
+      const Local g = patch->at(box);
+      const Complex E = g.g_theta * box.theta_half;
+      const double rest = g.tt * box.theta_half * box.theta_half / 2 + patch->noise();
+      if (distance(g.g, E) > rest)
+        return std::arg(end(*patch, box, +1) / end(*patch, box, -1));
+    }
+    const Patch* next = patch ? patch : (above && !own ? above : nullptr);
+    const double half = box.theta_half / 2;
+    return go({w_, 0, box.theta - half, half}, next) +
+           go({w_, 0, box.theta + half, half}, next);
+  }
+
+  Complex end(const Patch& patch, const Box& box, double side) const {
+    return patch.at({w_, 0, box.theta + side * box.theta_half, 0}).g;
+  }
+
+  Patches patches_;
+  double w_, rho_;
+  std::size_t boxes_ = 0;
+};
+
+}  // namespace
+
+int multipliers_outside(const Characteristic& f, double w_mm, double rho) {
+  // z runs clockwise, and the lower half mirrors the upper.
+  const double turns = -Winding(f, w_mm, rho).angle() / kPi;
+  const double whole = std::round(turns);
+  if (!(std::abs(turns - whole) < 1e-3))
+    throw std::domain_error("multipliers_outside: half turns of " +
+                            std::to_string(turns));
+  return static_cast<int>(whole);
+}
+
+}  // namespace turnwright::milling

@@ -1,0 +1,208 @@
+#include "turnwright/document/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "schema_check.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/file.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+
+const json& example(std::size_t i) {
+  static const json kAll =
+      parse_file(source_path("schemas/stability.request.json")).at("examples");
+  return kAll.at(i);
+}
+
+json answered(const json& request) {
+  static const SchemaCheck kRequest("stability.request.json"),
+      kResult("stability.result.json");
+  EXPECT_EQ(kRequest.fault(request), "") << request;
+  json result = stability(request);
+  EXPECT_EQ(kResult.fault(result), "") << result;
+  return result;
+}
+
+std::string refused(const json& request) {
+  try {
+    stability(request);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Stability, TellsTheIsland) {
+  const json r = answered(example(0));
+  const json& crossings = r["speeds"][0]["crossings"];
+  ASSERT_EQ(crossings.size(), 3u);
+  EXPECT_EQ(crossings[0]["sense"], "loss");
+  EXPECT_EQ(crossings[0]["kind"], "flip");
+  EXPECT_EQ(crossings[1]["sense"], "regain");
+  EXPECT_EQ(crossings[2]["kind"], "hopf");
+  EXPECT_EQ(r["speeds"][0]["limit_mm"], crossings[0]["ap_mm"]);
+  // A flip's frequency is an odd multiple of half the tooth frequency, 18000 2/60/2 Hz.
+  EXPECT_NEAR(crossings[0]["frequency_Hz"], 900, 1e-9);
+  EXPECT_EQ(r["points"][0]["stable"], true);
+  EXPECT_EQ(r["points"][0]["unstable_multipliers"], 0);
+  EXPECT_LT(r["points"][0]["spectral_radius"], 1);
+}
+
+TEST(Stability, ExamplesAreAnswered) {
+  for (std::size_t i = 0; i < 7; ++i) answered(example(i));
+}
+
+TEST(Stability, SlotIsFullImmersionAndMassIsStiffness) {
+  json slot = example(1);
+  slot["ap_max_mm"] = 0.4;
+  json down = slot;
+  down["direction"] = "down";
+  down["radial_immersion"] = 1;
+  for (json* request : {&slot, &down}) request->erase("points");
+  const double wn = 922 * 2 * M_PI;
+  down["modes"][0].erase("mass_kg");
+  down["modes"][0]["stiffness_N_mm"] = 0.03993 * wn * wn / 1000;
+  const json a = answered(slot)["speeds"], b = answered(down)["speeds"];
+  ASSERT_EQ(a.size(), 3u);
+  EXPECT_EQ(a[1]["n_rpm"], 9000);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(a[i]["limit_mm"].get<double>() / b[i]["limit_mm"].get<double>(), 1, 1e-9);
+}
+
+TEST(Stability, NoLossUpToTheDepthIsNull) {
+  json q = example(0);
+  q["ap_max_mm"] = 0.5;
+  q["speeds_rpm"] = {18000, 17000};
+  const json r = answered(q);
+  EXPECT_TRUE(r["speeds"][0]["limit_mm"].is_null());
+  EXPECT_EQ(r["speeds"][0]["crossings"], json::array());
+  EXPECT_EQ(r["best"]["n_rpm"], 18000);
+  EXPECT_EQ(r["best"]["limited_by"], "ap_max_mm");
+}
+
+TEST(Stability, MagicSpeedOfTheSlotCutter) {
+  json q = example(2);
+  q["speeds_rpm"] = {{"from", 17900}, {"to", 18800}, {"count", 10}};
+  const json r = answered(q);
+  ASSERT_EQ(r["magic_speeds"].size(), 1u);
+  EXPECT_EQ(r["magic_speeds"][0]["n_rpm"], 18300);
+}
+
+TEST(Stability, TurningTellsTheAbsoluteLimitAndTheDampingAssumed) {
+  const json r = answered(example(3));
+  const double zeta = 0.03,
+               least = 2 * 4000 * zeta * (1 + zeta) * std::tan(75 * M_PI / 180) / 900;
+  EXPECT_NEAR(r["absolute_limit_mm"], least, 1e-12);
+  EXPECT_EQ(r["assumed"][0]["pointer"], "/modes/0/damping_ratio");
+  for (const json& speed : r["speeds"]) EXPECT_GE(speed["limit_mm"], least * (1 - 1e-8));
+}
+
+TEST(Stability, PointsComeBackInTheOrderAsked) {
+  json q = example(0);
+  q.erase("speeds_rpm");
+  q.erase("ap_max_mm");
+  q["points"] = {{{"n_rpm", 18000}, {"ap_mm", 2}},
+                 {{"n_rpm", 5000}, {"ap_mm", 0}},
+                 {{"n_rpm", 18000}, {"ap_mm", 3.5}}};
+  const json r = answered(q);
+  EXPECT_FALSE(r.contains("speeds"));
+  ASSERT_EQ(r["points"].size(), 3u);
+  EXPECT_EQ(r["points"][0]["stable"], false);
+  EXPECT_EQ(r["points"][0]["unstable_multipliers"], 1);
+  EXPECT_GT(r["points"][0]["spectral_radius"], 1);
+  EXPECT_EQ(r["points"][1]["ap_mm"], 0);
+  EXPECT_EQ(r["points"][2]["stable"], true);
+}
+
+TEST(Stability, OtherMethodsAnswerInTheSameForm) {
+  const json tfea = answered(example(4));
+  EXPECT_NEAR(tfea["speeds"][0]["limit_mm"], 56.03, 0.005);
+  EXPECT_TRUE(tfea["speeds"][0]["crossings"][0]["relative_error"].is_null());
+  const double radius = answered(example(0))["points"][0]["spectral_radius"];
+  json finer = example(5);
+  finer["intervals"] = 120;
+  const json semi = answered(finer)["points"][0];
+  EXPECT_EQ(semi["unstable_multipliers"], 0);
+  EXPECT_NEAR(semi["spectral_radius"], radius, 3e-3);
+  const json simulated = answered(example(6))["points"][0];
+  EXPECT_TRUE(simulated["unstable_multipliers"].is_null());
+  EXPECT_NEAR(simulated["spectral_radius"], radius, 1e-3);
+
+  json q = example(5);
+  q.erase("intervals");
+  q["elements"] = 4;
+  EXPECT_EQ(refused(q),
+            "stability: /intervals: got nothing, expected a whole number from 1 to 200\n"
+            "stability: /elements: got 4, expected no such key");
+  q = example(6);
+  q["points"] = json::array();
+  for (int i = 0; i < 201; ++i) q["points"].push_back(example(6)["points"][0]);
+  EXPECT_EQ(refused(q),
+            "stability: /points: got a list of 201 entries, expected at most 200 with "
+            "this method");
+}
+
+TEST(Stability, AllProblemsAtOnce) {
+  json q = example(0);
+  q["teeth"] = 0;
+  q["Kt_MPa"] = -1;
+  q["radial_immersion"] = 1.5;
+  q["modes"][0]["damping_ratio"] = 0;
+  q["modes"][0]["mass_kg"] = -0.1;
+  q["modes"][0]["axsi"] = "x";
+  q["speeds_rpm"] = {5000, 0};
+  q["points"][0]["ap_mm"] = "deep";
+  EXPECT_EQ(refused(q),
+            R"(stability: /teeth: got 0, expected a whole number from 1 to 100
+stability: /Kt_MPa: got -1, expected a number from 0.001 to 1000000 MPa
+stability: /radial_immersion: got 1.5, expected a number from 1e-06 to 1
+stability: /modes/0/damping_ratio: got 0, expected a number from 1e-06 to 10
+stability: /modes/0/mass_kg: got -0.1, expected a number from 1e-09 to 1000000000 kg
+stability: /modes/0/axsi: got "x", expected no such key (did you mean "axis"?)
+stability: /speeds_rpm/1: got 0, expected a number from 1 to 1000000 1/min
+stability: /points/0/ap_mm: got "deep", expected a number from 0 to 1000 mm)");
+}
+
+TEST(Stability, RefusesWhatDoesNotGoTogether) {
+  json q = example(1);
+  q["radial_immersion"] = 0.5;
+  q["modes"][0]["stiffness_N_mm"] = 1000;
+  q["modes"][1].erase("stiffness_N_mm");
+  q["speeds_rpm"] = {{"from", 9000}, {"to", 8000}, {"count", 1000000}};
+  q.erase("ap_max_mm");
+  EXPECT_EQ(refused(q),
+            R"(stability: /radial_immersion: got 0.5, expected 1 or none, for a slot
+stability: /modes/0/mass_kg: got 0.03993, expected either mass_kg or stiffness_N_mm
+stability: /modes/1/stiffness_N_mm: got nothing, expected stiffness_N_mm or mass_kg
+stability: /speeds_rpm/count: got 1000000, expected a whole number from 1 to 10000
+stability: /speeds_rpm/to: got 8000, expected a speed not below from
+stability: /ap_max_mm: got nothing, expected a number > 0 and <= 1000 mm to search up to)");
+  EXPECT_EQ(refused({{"model", "drilling"}}),
+            "stability: /model: got \"drilling\", expected \"milling\", \"power-law\" or "
+            "\"turning\"\n"
+            "stability: /speeds_rpm: got nothing, expected speeds_rpm or points");
+  EXPECT_EQ(refused(json::array()).substr(0, 58),
+            "stability: document: got an empty list, expected an object");
+}
+
+TEST(Stability, WhatTakesTooLongIsToldWithItsSpeed) {
+  json q = example(0);
+  q["speeds_rpm"] = {1};
+  q["ap_max_mm"] = 1000;
+  q.erase("points");
+  try {
+    stability(q);
+    FAIL();
+  } catch (const ModelRangeError& e) {
+    EXPECT_EQ(std::string(e.what()).substr(0, 22), "stability: at 1 1/min:");
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::document
