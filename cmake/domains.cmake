@@ -1,9 +1,10 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp TESTS log_dual_test.cpp)
 # Floor 2
-tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp DEPENDS base
-  PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
-  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp)
+tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
+          relaxation_search.cpp
+  DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
+  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp shaft_test.cpp)
@@ -25,6 +26,9 @@ tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
 tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp response.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
+tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
+          optimum.cpp DEPENDS base optimise PUBLIC_LIBS Eigen3::Eigen
+          TESTS optimum_test.cpp)
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
