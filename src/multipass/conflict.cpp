@@ -15,8 +15,9 @@ using optimise::Relaxed;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFar = 100;  // ln of any condition worth looking at
-constexpr double kMostRelief = 50;
+constexpr double kMostRelief = 50, kReliefGap = 1e-6;
 constexpr int kMostPasses = 200;  // tried where n_max is left out
+constexpr double kBlame = 1e-6;   // multipliers that carry a proof
 
 // min t over Y and t, the last variable.
 Posynomial program(const std::vector<Row>& soft, const std::vector<Row>& hard,
@@ -45,29 +46,11 @@ Posynomial program(const std::vector<Row>& soft, const std::vector<Row>& hard,
   return p;
 }
 
-// The rows' own names but for n_max, which is no row.
-class Limits {
- public:
-  explicit Limits(const Problem& problem) : problem_(problem), rows_(rows(problem)) {}
-
-  const std::vector<Row>& all() const { return rows_; }
-  int passes(bool bounded) const {
-    if (bounded) return problem_.n_max;
-    const double most = std::ceil(problem_.dt_mm / problem_.d.lower);
-    return std::max(problem_.n_max,
-                    static_cast<int>(std::min<double>(kMostPasses, most)));
-  }
-  Depths depths(int n) const { return {problem_.dt_mm, n}; }
-  bool possible(const std::vector<Row>& kept, bool bounded) const {
-    for (int n = 1; n <= passes(bounded); ++n)
-      if (feasible(kept, depths(n))) return true;
-    return false;
-  }
-
- private:
-  const Problem& problem_;
-  std::vector<Row> rows_;
-};
+bool on_depth_alone(const Row& row) {
+  Log rest = row.g.a;
+  rest[kDr] = rest[kDs] = 0;
+  return rest.isZero() && !row.g.a.isZero();
+}
 
 std::vector<Row> without(const std::vector<Row>& rows, const std::string& name) {
   std::vector<Row> rest = rows;
@@ -75,22 +58,41 @@ std::vector<Row> without(const std::vector<Row>& rows, const std::string& name) 
   return rest;
 }
 
-Relief relief(const Limits& limits, const Row& row) {
-  const auto hard = without(limits.all(), row.name);
-  double least = kInfinity;
-  for (int n = 1; n <= limits.passes(true); ++n)
-    if (const auto t =
-            least_violation({row}, hard, limits.depths(n), std::min(least, kMostRelief)))
-      least = std::min(least, *t);
-  Relief r{row.name, row.limit, std::nullopt};
-  if (std::isfinite(least)) r.needed = row.limit * std::exp(row.upper ? least : -least);
-  return r;
+Depths depths(const Problem& m, int n) { return {m.dt_mm, n}; }
+
+/// The first pass count from `first` to `last` that the rows leave something to; 0: none.
+int possible(const Problem& m, const std::vector<Row>& rows, int first, int last) {
+  for (int n = first; n <= last; ++n)
+    if (feasible(rows, depths(m, n))) return n;
+  return 0;
 }
 
-Relief more_passes(const Problem& problem, const Limits& limits) {
-  Relief r{"n_max", static_cast<double>(problem.n_max), std::nullopt};
-  for (int n = problem.n_max + 1; n <= limits.passes(false) && !r.needed; ++n)
-    if (feasible(limits.all(), limits.depths(n))) r.needed = n;
+/// The rows that the proofs of infeasibility over whole ranges of depth rest on, and
+/// those on depths: mostly few, and mostly enough.
+std::vector<Row> suspects(const Problem& m, const std::vector<Row>& rows) {
+  std::vector<double> blame(rows.size(), 0);
+  for (int n = 1; n <= m.n_max; ++n) {
+    const auto ln_dr = roughing_depths(rows, depths(m, n));
+    if (!ln_dr) continue;
+    const auto proof = optimise::minimise(program(rows, {}, depths(m, n), *ln_dr));
+    const auto k = static_cast<Eigen::Index>(rows.size());
+    for (Eigen::Index i = 0; i < k; ++i)
+      blame[static_cast<std::size_t>(i)] += proof.multipliers.tail(k)[i];
+  }
+  std::vector<Row> some;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (blame[i] > kBlame || on_depth_alone(rows[i])) some.push_back(rows[i]);
+  return some;
+}
+
+Relief relief(const Problem& m, const std::vector<Row>& all, const Row& row) {
+  const auto hard = without(all, row.name);
+  double least = kMostRelief;
+  for (int n = 1; n <= m.n_max; ++n)
+    if (const auto t = least_violation({row}, hard, depths(m, n), least, kReliefGap))
+      least = *t;
+  Relief r{row.name, row.limit, std::nullopt};
+  if (least < kMostRelief) r.needed = row.limit * std::exp(row.upper ? least : -least);
   return r;
 }
 
@@ -98,7 +100,7 @@ Relief more_passes(const Problem& problem, const Limits& limits) {
 
 std::optional<double> least_violation(const std::vector<Row>& soft,
                                       const std::vector<Row>& hard, const Depths& depths,
-                                      double most) {
+                                      double most, double gap) {
   const auto ln_dr = roughing_depths(hard, depths);
   if (!ln_dr) return std::nullopt;
   const auto relax = [&](const Box& box, double cut) {
@@ -113,34 +115,34 @@ std::optional<double> least_violation(const std::vector<Row>& soft,
     return r;
   };
   const Box box{*ln_dr, Interval(0), Interval(0)};
-  const auto result = optimise::relaxation_search(
-      box, most, relax, {.gap = kFeasibility, .max_nodes = 2000});
+  const auto result =
+      optimise::relaxation_search(box, most, relax, {.gap = gap, .max_nodes = 500});
   if (!(result.upper_bound < most)) return std::nullopt;
   return result.upper_bound <= kFeasibility ? 0 : result.upper_bound;
 }
 
 bool feasible(const std::vector<Row>& rows, const Depths& depths) {
   std::vector<Row> soft, hard;  // depths alone bound the search
-  for (const Row& row : rows) {
-    Log rest = row.g.a;
-    rest[kDr] = rest[kDs] = 0;
-    (rest.isZero() && !row.g.a.isZero() ? hard : soft).push_back(row);
-  }
-  const auto t = least_violation(soft, hard, depths, 2 * kFeasibility);
-  return t.has_value();
+  for (const Row& row : rows) (on_depth_alone(row) ? hard : soft).push_back(row);
+  return least_violation(soft, hard, depths, 2 * kFeasibility, kFeasibility).has_value();
 }
 
-std::vector<Relief> conflict(const Problem& problem) {
-  const Limits limits(problem);
-  std::vector<Row> kept = limits.all();
-  bool bounded = limits.possible(kept, false);
-  for (const Row& row : limits.all()) {
+std::vector<Relief> conflict(const Problem& m) {
+  const std::vector<Row> all = rows(m);
+  std::vector<Row> kept = suspects(m, all);
+  if (possible(m, kept, 1, m.n_max)) kept = all;
+  for (const Row& row : std::vector<Row>(kept)) {
     auto rest = without(kept, row.name);
-    if (!limits.possible(rest, bounded)) kept = std::move(rest);
+    if (!possible(m, rest, 1, m.n_max)) kept = std::move(rest);
   }
   std::vector<Relief> members;
-  for (const Row& row : kept) members.push_back(relief(limits, row));
-  if (bounded) members.push_back(more_passes(problem, limits));
+  for (const Row& row : kept) members.push_back(relief(m, all, row));
+  const int most =
+      static_cast<int>(std::min<double>(kMostPasses, std::ceil(m.dt_mm / m.d.lower)));
+  if (possible(m, kept, m.n_max + 1, most)) {
+    members.push_back({"n_max", static_cast<double>(m.n_max), std::nullopt});
+    if (const int n = possible(m, all, m.n_max + 1, most)) members.back().needed = n;
+  }
   return members;
 }
 

@@ -12,7 +12,7 @@ namespace turnwright::multipass {
 /// nothing.
 std::optional<double> least_violation(const std::vector<Row>& soft,
                                       const std::vector<Row>& hard, const Depths& depths,
-                                      double most);
+                                      double most, double gap);
 
 /// Whether some Y meets all rows.
 bool feasible(const std::vector<Row>& rows, const Depths& depths);
