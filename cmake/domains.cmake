@@ -4,7 +4,8 @@ tw_domain(base SOURCES errors.cpp TESTS log_dual_test.cpp)
 tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
           relaxation_search.cpp
   DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
-  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp)
+  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp
+        relaxation_search_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp shaft_test.cpp)
@@ -27,8 +28,12 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
-          optimum.cpp DEPENDS base optimise PUBLIC_LIBS Eigen3::Eigen
-          TESTS optimum_test.cpp)
+          optimum.cpp single_pass.cpp
+  DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
+  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+if(BUILD_TESTING)
+  target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
+endif()
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -50,9 +55,9 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp
-          DEPENDS base catalogue part deflection thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp multipass.cpp
+          DEPENDS base catalogue part deflection multipass thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp multipass_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

@@ -67,22 +67,13 @@ int possible(const Problem& m, const std::vector<Row>& rows, int first, int last
   return 0;
 }
 
-/// The rows that the proofs of infeasibility over whole ranges of depth rest on, and
-/// those on depths: mostly few, and mostly enough.
-std::vector<Row> suspects(const Problem& m, const std::vector<Row>& rows) {
-  std::vector<double> blame(rows.size(), 0);
-  for (int n = 1; n <= m.n_max; ++n) {
-    const auto ln_dr = roughing_depths(rows, depths(m, n));
-    if (!ln_dr) continue;
-    const auto proof = optimise::minimise(program(rows, {}, depths(m, n), *ln_dr));
-    const auto k = static_cast<Eigen::Index>(rows.size());
-    for (Eigen::Index i = 0; i < k; ++i)
-      blame[static_cast<std::size_t>(i)] += proof.multipliers.tail(k)[i];
+/// What is left when every row that the others can do without is dropped, first to last.
+std::vector<Row> irreducible(const Problem& m, std::vector<Row> kept) {
+  for (const Row& row : std::vector<Row>(kept)) {
+    auto rest = without(kept, row.name);
+    if (!possible(m, rest, 1, m.n_max)) kept = std::move(rest);
   }
-  std::vector<Row> some;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (blame[i] > kBlame || on_depth_alone(rows[i])) some.push_back(rows[i]);
-  return some;
+  return kept;
 }
 
 Relief relief(const Problem& m, const std::vector<Row>& all, const Row& row) {
@@ -129,12 +120,11 @@ bool feasible(const std::vector<Row>& rows, const Depths& depths) {
 
 std::vector<Relief> conflict(const Problem& m) {
   const std::vector<Row> all = rows(m);
-  std::vector<Row> kept = suspects(m, all);
-  if (possible(m, kept, 1, m.n_max)) kept = all;
-  for (const Row& row : std::vector<Row>(kept)) {
-    auto rest = without(kept, row.name);
-    if (!possible(m, rest, 1, m.n_max)) kept = std::move(rest);
-  }
+  // Each order of leaving out ends in an irreducible set; the shorter one says more.
+  std::vector<Row> kept = irreducible(m, {all.rbegin(), all.rend()});
+  std::reverse(kept.begin(), kept.end());
+  if (auto other = irreducible(m, all); other.size() < kept.size())
+    kept = std::move(other);
   std::vector<Relief> members;
   for (const Row& row : kept) members.push_back(relief(m, all, row));
   const int most =

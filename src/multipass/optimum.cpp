@@ -15,6 +15,7 @@ using optimise::Relaxed;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSearchGap = 2e-7;  // in ln UC, well inside kGap
+constexpr double kFineGap = 1e-12;
 constexpr long kMostNodes = 20000;
 constexpr int kTangents = 4;       // programs above UC, each from the last one's optimum
 constexpr double kBinding = 1e-7;  // margins below it bind
@@ -35,7 +36,11 @@ class Search {
         box, kInfinity, [this](const Box& b, double cut) { return relax(b, cut); },
         {.gap = kSearchGap, .max_nodes = kMostNodes});
   }
-  const Best& best() const { return best_; }
+  /// The best point met, and from there as far down as its depths allow.
+  Best best() {
+    if (std::isfinite(best_.ln_UC)) try_from(best_.y, kFineGap);
+    return best_;
+  }
 
  private:
   Relaxed relax(const Box& box, double cut) {
@@ -46,7 +51,7 @@ class Search {
     const Log y = bound.y;
     Relaxed r{bound.lower_bound, kInfinity, kLnDr, y[kDr]};
     if (!(bound.lower_bound < cut)) return r;
-    try_from(y);
+    try_from(y, kSearchGap / 20);
     r.upper = best_.ln_UC;
     // What the chords give away, by what each is worth in ln UC.
     const double depth = width(box[kLnDr]) > 0
@@ -63,17 +68,17 @@ class Search {
 
   // Allowed points with the depths of y: the tangent of the mean life at the last one
   // gives a cost that is nowhere too low, so each is no dearer than the one before.
-  void try_from(const Log& y) {
+  void try_from(const Log& y, double gap) {
     Best here;
     double s = programs_.life_ratio(y);
     for (int k = 0; k < kTangents; ++k) {
       const auto q = programs_.program(Interval(y[kDr]), life_ratios_, mean_.tangent(s));
-      const auto above = optimise::minimise(q, {.gap = kSearchGap / 20});
+      const auto above = optimise::minimise(q, {.gap = gap});
       if (above.violation > kFeasibility) return;
       const double f = ln_cost(m_, depths_, above.y);
       const double gained = here.ln_UC - f;
       if (gained > 0) here = {f, above.y};
-      if (!literal_ || !(gained > kSearchGap / 20)) break;
+      if (!literal_ || !(gained > gap)) break;
       s = programs_.life_ratio(above.y);
     }
     if (here.ln_UC < best_.ln_UC) best_ = here;

@@ -5,6 +5,7 @@
 #include "turnwright/document/acceptance.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/thermal.hpp"
@@ -74,6 +75,9 @@ constexpr const char* kThermalExample = R"({
   "shift": {"start": "cold", "time_s": [0, 7200], "rpm": [3000, 3000],
             "ambient_degC": [22, 22],
             "batch": {"first_s": 300, "cycle_s": 240, "parts": 25, "offset_every": 5}}})";
+
+constexpr const char* kMultipassExample = R"({
+  "dt_mm": 8, "cost": "literal", "PU": 4, "T": [25, 45], "n_max": 6})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -147,6 +151,11 @@ std::span<const Request> requests() {
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
+       }},
+      {"multipass", "the literature's multi-pass problem -> certified optimum",
+       kMultipassExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::multipass(request);
        }},
   };
   return kTable;

@@ -34,52 +34,70 @@ struct Oracle {
     return cutting + idle + m.k0 * m.te * used + m.kt * used;
   }
 
-  /// ln(value/limit) of the worst limit; infinity if no depth is left.
-  double worst(const Five& x) const {
+  /// ln(value/limit) of every limit, nowhere positive where they are kept.
+  void limits(const Five& x, std::vector<double>& out) const {
     const double Vr = std::exp(x[0]), fr = std::exp(x[1]), dr = std::exp(x[2]);
-    const double Vs = std::exp(x[3]), fs = std::exp(x[4]), d_s = ds(x);
-    if (!(d_s > 0)) return std::numeric_limits<double>::infinity();
-    double w = std::max(pass(Vr, fr, dr), pass(Vs, fs, d_s));
-    const auto at_most = [&w](double value, double limit) {
-      w = std::max(w, std::log(value / limit));
-    };
-    at_most(fs * fs / (8 * m.R_mm), m.SRu_um / 1000);
-    if (m.VrU) at_most(Vr, *m.VrU);
-    at_most(m.k3 * Vr, Vs);
-    at_most(m.k4 * fs, fr);
-    at_most(m.k5 * d_s, dr);
-    return w;
+    const double Vs = std::exp(x[3]), fs = std::exp(x[4]);
+    const double d_s = std::max(ds(x), 1e-12);  // far below any range
+    out.clear();
+    pass(Vr, fr, dr, out);
+    pass(Vs, fs, d_s, out);
+    at_most(fs * fs / (8 * m.R_mm), m.SRu_um / 1000, out);
+    at_most(Vr, m.VrU.value_or(1e9), out);
+    at_most(m.k3 * Vr, Vs, out);
+    at_most(m.k4 * fs, fr, out);
+    at_most(m.k5 * d_s, dr, out);
+  }
+
+  double worst(const Five& x) const {
+    thread_local std::vector<double> all;
+    limits(x, all);
+    return *std::max_element(all.begin(), all.end());
   }
 
  private:
+  static void at_most(double value, double limit, std::vector<double>& out) {
+    // a factor of zero asks for nothing
+    out.push_back(value > 0 ? std::log(value / limit) : -1e3);
+  }
+  static void within(double x, const Range& range, std::vector<double>& out) {
+    at_most(x, range.upper, out);
+    at_most(range.lower, x, out);
+  }
   double life(double V, double f, double d) const {
     return m.C0 * std::pow(V, -m.p) * std::pow(f, -m.q) * std::pow(d, -m.r);
   }
-  double pass(double V, double f, double d) const {
-    double w = -1e9;
-    const auto at_most = [&w](double value, double limit) {
-      w = std::max(w, std::log(value / limit));
-    };
-    const auto within = [&](double x, const Range& range) {
-      at_most(x, range.upper);
-      at_most(range.lower, x);
-    };
-    within(V, m.V);
-    within(f, m.f);
-    within(d, m.d);
-    within(life(V, f, d), m.T);
+  void pass(double V, double f, double d, std::vector<double>& out) const {
+    within(V, m.V, out);
+    within(f, m.f, out);
+    within(d, m.d, out);
+    within(life(V, f, d), m.T, out);
     const double F = m.kf * std::pow(f, m.mu) * std::pow(d, m.nu);
-    at_most(F, m.FU);
-    at_most(F * V / 6120 / m.eta, m.PU);
-    at_most(m.SC, std::pow(V, m.lambda) * f * std::pow(d, m.nu2));
-    at_most(m.kq * std::pow(V, m.tau) * std::pow(f, m.phi) * std::pow(d, m.delta), m.QU);
-    return w;
+    at_most(F, m.FU, out);
+    at_most(F * V / 6120 / m.eta, m.PU, out);
+    at_most(m.SC, std::pow(V, m.lambda) * f * std::pow(d, m.nu2), out);
+    at_most(m.kq * std::pow(V, m.tau) * std::pow(f, m.phi) * std::pow(d, m.delta), m.QU,
+            out);
   }
 };
 
 inline Five point(const PassCount& c) {
   return {std::log(c.rough.V), std::log(c.rough.f), std::log(c.rough.d),
           std::log(c.finish.V), std::log(c.finish.f)};
+}
+
+/// The corners of V, f, d for five variables.
+struct Span {
+  Five lower, upper;
+  bool empty() const { return !(lower[2] <= upper[2]); }
+};
+inline Span span(const Oracle& o) {
+  const Problem& m = o.m;
+  const double most = std::min(m.d.upper, m.dt_mm / o.n * (1 - 1e-9));
+  return {{std::log(m.V.lower), std::log(m.f.lower), std::log(m.d.lower),
+           std::log(m.V.lower), std::log(m.f.lower)},
+          {std::log(m.V.upper), std::log(m.f.upper), std::log(most), std::log(m.V.upper),
+           std::log(m.f.upper)}};
 }
 
 /// A problem with every constant drawn anew around the literature's; some are impossible.
