@@ -36,9 +36,15 @@ class Search {
         box, kInfinity, [this](const Box& b, double cut) { return relax(b, cut); },
         {.gap = kSearchGap, .max_nodes = kMostNodes});
   }
-  /// The best point met, and from there as far down as its depths allow.
-  Best best() {
-    if (std::isfinite(best_.ln_UC)) try_from(best_.y, kFineGap);
+  /// The best point met, then with its depths and with those at the ends as far down as
+  /// the other conditions go.
+  Best best(const Interval& ln_dr) {
+    Log y = best_.y;
+    if (!std::isfinite(best_.ln_UC)) return best_;
+    for (const double end : {y[kDr], ln_dr.lo, ln_dr.hi}) {
+      y[kDr] = end;
+      try_from(y, kFineGap);
+    }
     return best_;
   }
 
@@ -116,7 +122,7 @@ PassCount optimum_of(const Problem& m, const std::vector<Row>& all, int n) {
   count.nodes = result.nodes;
   count.status = PassCount::Status::unsettled;
   count.lower_bound = std::exp(result.lower_bound);
-  Best best = search.best();
+  Best best = search.best(*ln_dr);
   if (!std::isfinite(best.ln_UC)) return count;
 
   const auto local = LocalProblem(m, all, depths).from(best.y);

@@ -208,19 +208,23 @@ std::vector<Variant> variants() {
   add("finish:V_max", 6, P, [](Problem& m) { m.V.upper = 150; });
   add("rough:V_min", 6, P, [](Problem& m) { m.V.lower = 130; });
   add("rough:f_max", 8, L, [](Problem& m) { m.f.upper = 0.5; });
-  add("finish:f_min", 6, P, [](Problem& m) {
-    m.f.lower = 0.22;
-    m.k4 = 2.6;
+  add("finish:f_min", 6, L, [](Problem& m) {
+    m.k4 = 0;
+    m.SRu_um = 1000 * 0.1 * 0.1 / (8 * m.R_mm);
   });
-  add("rough:d_max", 8, P, [](Problem& m) {
+  add("rough:d_max", 4, P, [](Problem& m) {
     m.k5 = 0;
-    m.d.upper = 3.5;
-    m.FU = 400;
+    m.d = {0.5, 2.2};
+    m.FU = 250;
+    m.PU = 50;
+    m.SRu_um = 3;
   });
-  add("finish:d_min", 6, L, [](Problem& m) {
+  add("finish:d_min", 4, P, [](Problem& m) {
     m.k5 = 0;
-    m.FU = 400;
-    m.d.upper = 5;
+    m.d = {1.7, 3.5};
+    m.FU = 250;
+    m.PU = 50;
+    m.SRu_um = 3;
   });
   add("k3", 6, P, [](Problem& m) { m.k3 = 1.6; });
   add("k4", 8, L, [](Problem& m) { m.k4 = 3.5; });
