@@ -10,8 +10,9 @@ tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp shaft_test.cpp)
 # Floor 3
-tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
-  TESTS cut_test.cpp spindle_test.cpp)
+tw_domain(cutting SOURCES cut.cpp material_fit.cpp spindle.cpp
+  DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen
+  TESTS cut_test.cpp material_fit_test.cpp spindle_test.cpp)
 tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
