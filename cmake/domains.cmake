@@ -57,8 +57,9 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp multipass.cpp
-          DEPENDS base catalogue part deflection multipass thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp multipass_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          calibrate_material.cpp
+          DEPENDS base catalogue part cutting deflection multipass thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp calibrate_material_test.cpp multipass_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

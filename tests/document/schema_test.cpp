@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "schema_check.hpp"
+#include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/multipass.hpp"
@@ -167,6 +168,21 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAMultipassRequest) {
     if (value.contains("default")) every[key] = value["default"];
   Slips(schema, refused_by<multipass>, every).try_all();
   Slips(schema, refused_by<multipass>, text["examples"][2]).try_all();
+}
+
+json calibrated(const json& document) {
+  static const auto kCatalogue = load_catalogue(source_path(""));
+  return calibrate_material(document, kCatalogue);
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInACalibration) {
+  const SchemaCheck schema("calibrate-material.request.json");
+  auto request = parse_file(source_path("schemas/calibrate-material.request.json"))
+                     .at("examples")
+                     .at(1);
+  request["outlier_p"] = 0;
+  request["name"] = "a name";
+  Slips(schema, refused_by<calibrated>, request).try_all();
 }
 
 }  // namespace
