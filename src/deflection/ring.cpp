@@ -31,4 +31,16 @@ double lobing_mm(const Ring& ring, int jaws, double jaw_force_N) {
                   squeeze_mm(ring, jaws, jaw_force_N, units::kPi / jaws));
 }
 
+Ring with_shear(const Ring& ring, double wall_mm) {
+  const double thickness = wall_mm / ring.R_mm;
+  return {ring.R_mm, ring.EI_Nmm2 / (1 + 2.3 * thickness * thickness)};
+}
+
+double lobe_decay_1_mm(double R_mm, double wall_mm, int jaws) {
+  if (!(R_mm > 0 && wall_mm > 0 && jaws >= 2))
+    throw std::domain_error("lobe_decay: R and wall must be > 0, at least two jaws");
+  const double n2 = jaws * jaws;
+  return std::sqrt(n2 * (n2 - 1) * wall_mm / (std::sqrt(48.0) * R_mm)) / R_mm;  // Eq. (3)
+}
+
 }  // namespace turnwright::deflection

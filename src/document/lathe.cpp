@@ -53,14 +53,21 @@ void read_spindle(Reader group, catalogue::Lathe& m) {
   finish_group(group);
 }
 
-void read_times(Reader group, catalogue::Lathe& m, bool steady) {
+bool has(const catalogue::Lathe& m, const char* clamping) {
+  return std::find(m.clampings.begin(), m.clampings.end(), clamping) != m.clampings.end();
+}
+
+void read_times(Reader group, catalogue::Lathe& m) {
   const auto time = within(0, 1e4, "min");
   m.index_min = group.number("index_min", time);
   m.load_min = group.number("load_min", time);
   m.tailstock_min = group.number("tailstock_min", time);
   m.centres_min = group.number("centres_min", time);
   m.setup_min = group.number("setup_min", time);
-  if (steady || group.has("steady_min")) m.steady_min = group.number("steady_min", time);
+  if (has(m, "chuck-steady") || group.has("steady_min"))
+    m.steady_min = group.number("steady_min", time);
+  if (has(m, "tailstock-follow") || group.has("follow_min"))
+    m.follow_min = group.number("follow_min", time);
   finish_group(group);
 }
 
@@ -81,14 +88,18 @@ catalogue::CentreCompliance read_centre(Reader r) {
   return c;
 }
 
-void read_stiffness(Reader group, catalogue::Lathe& m, bool steady) {
+void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.chuck.radial = read_compliance(group.object("chuck_radial"));
   m.chuck.tangential = read_compliance(group.object("chuck_tangential"));
   m.chuck.axial_mm_N = group.number("chuck_axial_mm_N", kCompliance);
   m.tail_centre = read_centre(group.object("tail_centre"));
   m.head_centre = read_centre(group.object("head_centre"));
-  if (steady || group.has("steady_rest"))
+  if (has(m, "chuck-steady") || group.has("steady_rest"))
     m.steady_rest = read_centre(group.object("steady_rest"));
+  if (has(m, "tailstock-follow") || group.has("follow_rest"))
+    m.follow_rest = read_centre(group.object("follow_rest"));
+  m.tail_thrust_N =
+      group.optional_number("tail_thrust_N", within(0, 1e6, "N")).value_or(0);
   m.tool_rr_mm_N = group.number("tool_rr_mm_N", kCompliance);
   m.tool_rt_mm_N = group.number("tool_rt_mm_N", within(-0.1, 0.1, "mm/N"));
   m.stiffness_uncertainty_pct = finish_group(group);
@@ -106,15 +117,14 @@ catalogue::Lathe read_lathe(Reader r) {
                                       {{"chuck", "chuck"},
                                        {"chuck-tailstock", "chuck-tailstock"},
                                        {"between-centres", "between-centres"},
-                                       {"chuck-steady", "chuck-steady"}});
-  const bool steady = std::find(m.clampings.begin(), m.clampings.end(), "chuck-steady") !=
-                      m.clampings.end();
+                                       {"chuck-steady", "chuck-steady"},
+                                       {"tailstock-follow", "tailstock-follow"}});
   read_spindle(r.object("spindle"), m);
   Reader feed = r.object("feed");
   m.feed_force_max_N = feed.number("feed_force_max_N", kForce);
   m.rapid_mm_min = feed.number("rapid_mm_min", above_up_to(0, 1e6, "mm/min"));
   finish_group(feed);
-  read_times(r.object("times"), m, steady);
+  read_times(r.object("times"), m);
   Reader rate = r.object("rate");
   m.cost_per_min = rate.number("cost_per_min", within(1e-6, 1e4));
   finish_group(rate);
@@ -123,7 +133,7 @@ catalogue::Lathe read_lathe(Reader r) {
   m.between_centres_mm = room.number("between_centres_mm", above_up_to(0, 20000, "mm"));
   finish_group(room);
   read_chuck(r.object("chuck"), m.chuck);
-  read_stiffness(r.object("stiffness"), m, steady);
+  read_stiffness(r.object("stiffness"), m);
   r.finish();
   return m;
 }

@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -62,9 +63,52 @@ void read_economics(Draft& draft) {
       or_assumed(draft, "machine_share_um",
                  r.optional_number("machine_share_um", within(0, 1000, "um")),
                  plan.machine_share_um, plan.machine_share_um);
+  if (draft.root.has("robust"))
+    plan.robust = draft.root.boolean("robust");
+  else
+    draft.assume("/robust", false, "default");
   plan.conformance = or_assumed(draft, "conformance",
                                 r.optional_number("conformance", at_least_below(0.5, 1)),
                                 plan.conformance, plan.conformance);
+}
+
+void read_budget(Draft& draft) {
+  auto budget = draft.root.optional_object("budget");
+  if (!budget) {
+    draft.assume("/budget", nlohmann::json::object(),
+                 "nothing but the cut, the machine's share and the clamping");
+    return;
+  }
+  auto& shop = draft.plan().shop;
+  const auto read = [&](const char* key, double& value, const Bounds& bounds) {
+    if (const auto given = budget->optional_number(key, bounds)) value = *given;
+  };
+  const auto error = within(0, 1000, "um");
+  read("drift_um", shop.drift_um, error);
+  read("drift_axial_um", shop.drift_axial_um, error);
+  read("repeatability_um", shop.repeatability_um, error);
+  read("part_warm_K", shop.part_warm_K, within(0, 200, "K"));
+  read("life_between_offsets", shop.life_between_offsets, within(0, 1));
+  read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
+  read("rechucking_um", shop.rechucking_um, error);
+  read("measurement_U_um", shop.measurement_U_um, error);
+  budget->finish();
+}
+
+// A tube's jaws are eased where the request does not say how far; needs the whole part.
+void assume_grip_forces(Draft& draft) {
+  auto& plan = draft.plan();
+  for (std::size_t s = 0; s < plan.setups.size(); ++s) {
+    auto& setup = plan.setups[s];
+    if (setup.finishing_grip_force_N) continue;
+    const double most = setup.grip_force_N.value_or(plan.machine.chuck.grip_force_N);
+    const double force = planning::gentle_grip_N(plan, s);
+    if (!(force < most)) continue;
+    setup.finishing_grip_force_N = force;
+    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N", force,
+                 "the jaws are eased from " + number_text(most) +
+                     " N: their lobes may take a quarter of a roundness");
+  }
 }
 
 }  // namespace
@@ -85,11 +129,13 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_setups(draft);
     read_operations(draft);
     read_economics(draft);
+    read_budget(draft);
     root.optional_items("milling", 0, 100);
     refuse_unsupported(root);
     root.finish();
   }
   problems.throw_if_any();
+  assume_grip_forces(draft);
   return std::move(draft.loaded);
 }
 

@@ -82,6 +82,8 @@ ordered_json json_of(const RejectedClamping& r) {
 ordered_json json_of(const SetupPlan& s) {
   return {{"hold", word(s.hold)},
           {"clamping", name(s.clamping)},
+          {"grip_force_N", s.grip_force_N},
+          {"finishing_grip_force_N", s.finishing_grip_force_N},
           {"rejected",
            list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
           {"operations",

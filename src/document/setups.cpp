@@ -14,7 +14,7 @@ constexpr std::size_t kSetups = 10;
 const Choices<Clamping>& clampings() {
   static const auto kClampings =
       named({Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres,
-             Clamping::chuck_steady});
+             Clamping::chuck_steady, Clamping::tailstock_follow});
   return kClampings;
 }
 
@@ -23,11 +23,15 @@ bool machine_has(const Draft& draft, Clamping clamping) {
   return std::find(has.begin(), has.end(), name(clamping)) != has.end();
 }
 
+// A rest is set up where the request names it.
+bool has_rest(Clamping c) {
+  return c == Clamping::chuck_steady || c == Clamping::tailstock_follow;
+}
+
 std::vector<Clamping> all_clampings(const Draft& draft) {
   std::vector<Clamping> out;
   for (const auto& [word, clamping] : clampings())
-    if (machine_has(draft, clamping) && clamping != Clamping::chuck_steady)
-      out.push_back(clamping);
+    if (machine_has(draft, clamping) && !has_rest(clamping)) out.push_back(clamping);
   return out;
 }
 
@@ -91,6 +95,19 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
                    "conflict");
 }
 
+void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  const auto force = [&](const char* key, double most, const char* of) {
+    const auto given = r.optional_number(key, above_up_to(0, 1e7, "N"));
+    if (given && most > 0 && *given > most)
+      r.problem_at(key, "at most the " + number_text(most) + " N of " + of, "conflict");
+    return given;
+  };
+  const double chuck = draft.loaded.plan.machine.chuck.grip_force_N;
+  setup.grip_force_N = force("grip_force_N", chuck, "the chuck");
+  setup.finishing_grip_force_N =
+      force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), "the roughing");
+}
+
 // Where the steady rest stands: needed by its clamping and by no other.
 void read_steady(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
   const bool wanted = std::find(setup.clampings.begin(), setup.clampings.end(),
@@ -122,6 +139,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "half the held diameter, at least 15 mm");
   }
   read_clampings(draft, r, setup);
+  read_grip_forces(draft, r, setup);
   read_steady(draft, r, setup);
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};

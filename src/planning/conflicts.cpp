@@ -188,8 +188,29 @@ std::string why_none(const Feature& f) {
 }
 }  // namespace
 
+namespace {
+// A tolerance of which all but the cut leaves nothing.
+Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& f, const Demand& d) {
+  const auto& t = plan.drawing.tolerances[d.tolerance];
+  std::string sources;
+  for (const auto& s : shares(allowance(plan, d.tolerance, f.task.making)))
+    sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
+  const auto called = t.id + " " + part::name(t.kind);
+  return {called,
+          f.task.feature.surface(),
+          d.taken_mm,
+          width_mm(t),
+          "mm",
+          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
+                      called, f.task.feature.surface(), readable(d.taken_mm),
+                      readable(width_mm(t)), sources)};
+}
+}  // namespace
+
 std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
   const auto& feature = f.task.feature;
+  if (const auto* d = used_up(f.task.demands); d && !f.answer.model)
+    return used_up_conflict(plan, f, *d).sentence;
   if (!f.answer.model) return feature.surface() + why_none(feature);
   const auto& m = *f.answer.model;
   const auto w = worst_row(m, f.answer.choice, [](const Row&) { return true; });
@@ -280,6 +301,16 @@ void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature
              ProcessPlan& result) {
   const std::string where = fmt::format("setup {}, {}, {}", setup.setup,
                                         name(setup.clamping), f.task.feature.surface());
+  if (const auto* d = used_up(f.task.demands); d && !f.answer.model) {
+    auto conflict = used_up_conflict(plan, f, *d);
+    conflict.where = where;
+    result.relax.push_back(
+        {conflict.limit, conflict.allowed, conflict.value, "mm",
+         fmt::format("{} would have to open beyond {} mm, or the shares be less",
+                     conflict.limit, readable(conflict.value))});
+    result.conflicts.push_back(std::move(conflict));
+    return;
+  }
   if (!f.answer.model) {
     result.conflicts.push_back({"depth of cut", where, 0, 0, "mm", obstacle(plan, f)});
     return;

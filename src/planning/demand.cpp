@@ -3,40 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
-#include "turnwright/base/units.hpp"
-
 namespace turnwright::planning {
 namespace {
 
 using part::Tolerance;
 using part::ToleranceKind;
 
-double width_mm(const Tolerance& t) {
-  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
-}
-
 double middle_mm(const Tolerance& t) {
   return t.limits ? (t.limits->upper_mm + t.limits->lower_mm) / 2 : 0;
 }
 
-// Faces of a `length` that this plan cuts: they share what the tolerance leaves.
-double faces_cut(const PartPlan& p, const Tolerance& t) {
-  return static_cast<double>(face_is_cut(p, t.between[0])) +
-         static_cast<double>(face_is_cut(p, t.between[1]));
-}
-
 Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_angle,
-              Offset offset) {
+              Offset offset, const Making& making) {
   const Tolerance& t = p.drawing.tolerances[index];
-  const double left = std::max(0.0, width_mm(t) - units::mm_from_um(p.machine_share_um));
+  const bool free = offset == Offset::free;
+  const auto others = allowance(p, index, making);
+  const double left = left_mm(p, index, others, false);
+  const double taken = left > 0 ? width_mm(t) - left : taken_mm(others);
   const double cosine = std::cos(half_angle.value_or(0));
   using Shape = Demand::Shape;
-  const bool free = offset == Offset::free;
-  Demand d{index, Shape::none, 1, 0, left, middle_mm(t)};
+  Demand d{index, Shape::none, 1, 0, left, middle_mm(t), taken};
   const auto size = [&](double factor, double share) {
     d.factor = factor;
-    d.shape = free ? Shape::range : Shape::size;
-    d.upper = free ? left * share : left * share / 2;
+    d.shape = free && !p.robust ? Shape::range : Shape::size;
+    d.upper = d.shape == Shape::range ? left * share
+                                      : left_mm(p, index, others, free) * share / 2;
     d.lower = -d.upper;
   };
   switch (t.kind) {
@@ -91,8 +82,8 @@ bool face_is_cut(const PartPlan& p, const std::string& face) {
   return true;
 }
 
-std::vector<Demand> demands(const PartPlan& p, const std::string& surface,
-                            Offset offset) {
+std::vector<Demand> demands(const PartPlan& p, const std::string& surface, Offset offset,
+                            const Making& making) {
   std::vector<Demand> all;
   const auto half_angle = half_angle_rad(p.drawing, surface);
   const auto& tolerances = p.drawing.tolerances;
@@ -100,9 +91,15 @@ std::vector<Demand> demands(const PartPlan& p, const std::string& surface,
     const auto& t = tolerances[i];
     if (t.of == surface || (t.kind == ToleranceKind::length &&
                             (t.between[0] == surface || t.between[1] == surface)))
-      all.push_back(demand(p, i, half_angle, offset));
+      all.push_back(demand(p, i, half_angle, offset, making));
   }
   return all;
+}
+
+const Demand* used_up(const std::vector<Demand>& demands) {
+  for (const auto& d : demands)
+    if (!(d.upper > 0)) return &d;
+  return nullptr;
 }
 
 }  // namespace turnwright::planning

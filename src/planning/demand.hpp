@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "allowance.hpp"
 #include "turnwright/planning/part_plan.hpp"
 #include "turnwright/tolerance/acceptance.hpp"
 
@@ -18,22 +19,27 @@ struct Demand {
   double factor = 1;
   double lower = 0, upper = 0;
   double middle_mm = 0;  ///< programmed deviation of a size: the middle of its limits
+  double taken_mm = 0;   ///< of the width, by all but the cut
 };
 
-/// With a free offset of the tool a size asks only for its range.
+/// With a free offset of the tool a size asks only for its range, or in a robust plan for
+/// an error that is known well enough to be corrected.
 enum class Offset { none, free };
 
 /// The tolerances that bear on an outer element or on a face ("left", "right", "d1|d2"),
-/// after the machine's share is taken off their width:
+/// after m, what all else takes (allowance.hpp), is off their width:
 ///
 ///     diameter      |2 e| <= (t - m)/2 about the programmed middle of the limits
 ///     profile       |e| cos(alpha) <= (t - m)/2
 ///     length        |g| <= (t - m)/4 for each of its faces if both are cut, else half
 ///     others        as tolerance::verdict's (4) to (8)
 ///
-/// A width that the share uses up gives upper = 0, which nothing can keep.
+/// A width that is used up gives upper = 0, which nothing can keep.
 std::vector<Demand> demands(const PartPlan& plan, const std::string& surface,
-                            Offset offset);
+                            Offset offset, const Making& making);
+
+/// The first of some demands that what is no matter of the cut has used up, or nothing.
+const Demand* used_up(const std::vector<Demand>& demands);
 
 /// Half angle [rad] of an element, 0 of a cylinder; nothing for a face.
 std::optional<double> half_angle_rad(const part::Drawing& drawing,

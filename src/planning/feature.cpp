@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "turnwright/deflection/rest.hpp"
+#include "turnwright/deflection/thrust.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -50,11 +51,11 @@ double clamping_rpm(const PartPlan& p, Clamping clamping) {
 }
 
 // Where the centrifugal loss of the grip reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& p, Clamping clamping) {
+double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
   const auto& c = p.machine.chuck;
   if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
     return std::numeric_limits<double>::infinity();
-  return std::sqrt(cutting::kGripLoss * c.grip_force_N / c.jaw_mass_radius_kg_m) * 30 /
+  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
          units::kPi;
 }
 
@@ -125,6 +126,15 @@ BarTip tip_of(const catalogue::BoringBar& bar) {
   return {w, f.f_wp_rad_N * offset, w + offset * offset * beam.twist_rad_Nmm()};
 }
 
+// Of everything that bends, by the thrust on the body as the setup leaves it, its most
+// slender one.
+double amplification(const PartPlan& p, Clamping clamping, const SetupBody& body) {
+  const double P = p.machine.tail_thrust_N;
+  if (!has_tailstock(clamping) || !(P > 0)) return 1;
+  return deflection::thrust_amplification(
+      P, deflection::critical_thrust_N(body.shaft(), planes(p.machine, clamping).radial));
+}
+
 const part::Face* find_face(const PartPlan& p, const std::string& id) {
   for (const auto& f : p.drawing.faces)
     if (f.id == id) return &f;
@@ -157,6 +167,7 @@ Feature Feature::element(const PartPlan& plan, std::size_t setup, Clamping clamp
   for (const auto place : {place_of(work.elements, index), work.elements.size()})
     f.bodies_.emplace_back(plan, setup, clamping,
                            with(before, work.elements, place, &Finished::outer));
+  f.amplification_ = amplification(plan, clamping, f.bodies_.back());
   return f;
 }
 
@@ -207,6 +218,7 @@ Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clam
   f.bodies_.emplace_back(
       plan, setup, clamping,
       with(before, work.elements, work.elements.size(), &Finished::outer));
+  f.amplification_ = amplification(plan, clamping, f.bodies_.back());
   f.face_x_ = f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index));
   const auto [small, large] =
       std::minmax(outer[index - 1].right_mm, outer[index].left_mm);
@@ -238,10 +250,14 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
   o.range = cutting::speed_ranges(m)[range];
+  // End faces come first, before the jaws are eased.
+  const bool eased = finishing && kind_ != Kind::end_face;
+  const double force_N =
+      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
   if (clamping_ != Clamping::between_centres)
-    o.grip = {m.chuck.grip_force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
               grip_diameter_mm(*plan_, setup_, clamping_)};
-  const double n_grip = grip_loss_rpm(*plan_, clamping_);
+  const double n_grip = grip_loss_rpm(*plan_, clamping_, force_N);
   o.n_cap_rpm = std::min({o.range.n_max_rpm, clamping_rpm(*plan_, clamping_), n_grip});
   o.n_cap_of_grip = o.n_cap_rpm == n_grip;
   o.n_min_rpm = o.range.n_min_rpm;
@@ -343,6 +359,17 @@ bool Feature::enters(const catalogue::Tool& tool) const {
   return overhang >= depth_mm_ + kApproach_mm;
 }
 
+// A flexibility between the supports, with the tailstock's thrust and a follow rest.
+deflection::Flexibility Feature::at_the_tool(const deflection::Flexibility& f,
+                                             double rest_mm_N) const {
+  const deflection::Flexibility pressed{f.f_ww_mm_N * amplification_,
+                                        f.f_wp_rad_N * amplification_,
+                                        f.f_pp_rad_Nmm * amplification_};
+  return clamping_ == Clamping::tailstock_follow && kind_ == Kind::element
+             ? deflection::follow_rest(pressed, rest_mm_N)
+             : pressed;
+}
+
 void Feature::yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
                      const SetupBody& body, const std::vector<double>& x,
                      std::vector<deflection::Flexibility>& radial,
@@ -352,6 +379,11 @@ void Feature::yields(const part::Shaft& chuck_side, const part::Shaft& tail_side
     const deflection::Beam left(chuck_side), right(tail_side);
     flexibilities(left, right, x, supports.radial, radial);
     flexibilities(left, right, x, supports.tangential, tangential);
+    const auto& rest = plan_->machine.follow_rest;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      radial[k] = at_the_tool(radial[k], rest.radial_mm_N);
+      tangential[k] = at_the_tool(tangential[k], rest.tangential_mm_N);
+    }
     return;
   }
   const double z = body.x_mm(plan_->setups[setup_].steady_z_mm);

@@ -114,6 +114,8 @@ class Feature {
               const SetupBody& body, const std::vector<double>& x,
               std::vector<deflection::Flexibility>& radial,
               std::vector<deflection::Flexibility>& tangential) const;
+  deflection::Flexibility at_the_tool(const deflection::Flexibility& f,
+                                      double rest_mm_N) const;
   std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
   bool enters(const catalogue::Tool& tool) const;
 
@@ -130,6 +132,7 @@ class Feature {
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
+  double amplification_ = 1;       // by the tailstock's thrust
   std::vector<SetupBody> bodies_;  // while roughing, while finishing
 };
 

@@ -304,6 +304,7 @@ double worst_excess(const std::vector<Demand>& demands,
 }
 
 FeatureAnswer nearest(const FeatureTask& task) {
+  if (used_up(task.demands)) return {};
   Exchange exchange(task.feature, task.demands);
   FeatureAnswer a;
   const auto n = task.recipes.size();
@@ -335,10 +336,15 @@ FeatureAnswer nearest(const FeatureTask& task) {
 }
 
 bool can_be_made(const FeatureTask& task) {
-  return FeatureSearch(task, kAnyCost, kInfinity).run().feasible;
+  return optimise_feature(task, kAnyCost, kInfinity).feasible;
 }
 
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most) {
+  if (used_up(task.demands)) {
+    FeatureAnswer none;
+    none.lower_bound = kInfinity;
+    return none;
+  }
   return FeatureSearch(task, gap, most).run();
 }
 

@@ -16,6 +16,7 @@ struct FeatureTask {
   std::vector<Demand> demands;
   std::vector<Recipe> recipes;
   Economy economy;
+  Making making;
   bool explain = false;  ///< if nothing is feasible, compare every recipe to say why
   long boxes = 30000;    ///< past them the certificate says `local`
 };

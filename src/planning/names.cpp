@@ -12,6 +12,8 @@ const char* name(Clamping c) {
       return "between-centres";
     case Clamping::chuck_steady:
       return "chuck-steady";
+    case Clamping::tailstock_follow:
+      return "tailstock-follow";
   }
   return "";
 }

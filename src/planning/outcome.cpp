@@ -47,7 +47,7 @@ void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& resul
     result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
   const double share_mm = units::mm_from_um(p.machine_share_um);
   for (const auto& t : p.drawing.tolerances) {
-    const double width = t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+    const double width = width_mm(t);
     if (width > share_mm) continue;
     const auto called = t.id + " " + part::name(t.kind);
     const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;

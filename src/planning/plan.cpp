@@ -6,52 +6,13 @@
 #include <set>
 
 #include "setup_planner.hpp"
+#include "usable.hpp"
 
 namespace turnwright::planning {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyondRounding = 1e-6;
-
-// What stands in the way of a tailstock, a centre or a steady rest, or nothing.
-std::string in_the_way(const PartPlan& p, std::size_t setup, Clamping c,
-                       const SetupWork& work) {
-  const auto& d = p.drawing;
-  if (c != Clamping::chuck_steady)
-    return work.bores.empty() ? ""
-                              : fmt::format("the centre stands where bore {} is cut",
-                                            d.inner[work.bores.front()].id);
-  const double z = p.setups[setup].steady_z_mm;
-  for (const std::size_t i : work.elements) {
-    const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
-    if (z + kSteadyWidth_mm / 2 > z0 && z - kSteadyWidth_mm / 2 < z1)
-      return fmt::format(
-          "the steady rest at z = {:g} mm stands on {}, which this setup "
-          "cuts",
-          z, d.outer[i].id);
-  }
-  return {};
-}
-
-// Why a clamping cannot be used at all, or nothing.
-std::string unusable(const PartPlan& p, std::size_t setup, Clamping c,
-                     const SetupWork& work) {
-  const auto& m = p.machine;
-  const auto& d = p.drawing.stock;
-  if (c != Clamping::between_centres) {
-    const double grip = grip_diameter_mm(p, setup, c);
-    if (grip < m.chuck.diameter_mm.lower || grip > m.chuck.diameter_mm.upper)
-      return fmt::format("the chuck holds {:g} to {:g} mm, not {:g} mm",
-                         m.chuck.diameter_mm.lower, m.chuck.diameter_mm.upper, grip);
-  }
-  if (c != Clamping::chuck && d.length_mm > m.between_centres_mm)
-    return fmt::format("the machine takes {:g} mm between centres, not {:g} mm",
-                       m.between_centres_mm, d.length_mm);
-  if (d.outer_mm > m.swing_mm)
-    return fmt::format("the stock of {:g} mm does not swing in {:g} mm", d.outer_mm,
-                       m.swing_mm);
-  return c == Clamping::chuck ? "" : in_the_way(p, setup, c, work);
-}
 
 struct Comparison {
   SolvedSetup chosen;
@@ -110,7 +71,7 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
   std::stable_partition(clampings.begin(), clampings.end(),
                         [](Clamping c) { return c != Clamping::chuck; });
   for (const Clamping c : clampings) {
-    const auto why = unusable(p, setup, c, work);
+    const auto why = unusable(p, setup, c, work, done);
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
@@ -251,6 +212,8 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
     return s;
   }
   s.clamping = c.chosen.clamping;
+  s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
+  s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
   for (const auto& f : c.chosen.features)
     if (!f.answer.feasible) explain(p, c.chosen, f, result);
   s.operations = operations_in_order(p, c.chosen);

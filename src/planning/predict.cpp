@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "setup_planner.hpp"
+#include "usable.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -56,6 +57,22 @@ void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) 
                          c.unit, readable(c.limit), c.unit)});
 }
 
+// Whether every setup's clamping can be used; else why not is told.
+bool held(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
+  auto done = nothing_finished(p.drawing);
+  bool all = true;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    const auto clamping = p.setups[s].clampings.front();
+    const auto why = unusable(p, s, clamping, work.setups[s], done);
+    finish(done, work.setups[s]);
+    if (why.empty()) continue;
+    all = false;
+    result.conflicts.push_back({"clamping", fmt::format("setup {}", s), 0, 0, "",
+                                std::string(name(clamping)) + ": " + why});
+  }
+  return all;
+}
+
 }  // namespace
 
 ProcessPlan predict(const PartPlan& p) {
@@ -63,6 +80,11 @@ ProcessPlan predict(const PartPlan& p) {
   const auto work = assign(p);
   add_obstacles(p, work, result);
   auto done = nothing_finished(p.drawing);
+  if (!held(p, work, result)) {
+    result.status = PlanStatus::infeasible;
+    result.certificate.reason = "nothing to predict: the part cannot be held so";
+    return result;
+  }
   std::vector<SolvedSetup> setups;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     FaceMemory faces;
@@ -73,6 +95,8 @@ ProcessPlan predict(const PartPlan& p) {
     SetupPlan setup;
     setup.hold = p.setups[s].hold;
     setup.clamping = p.setups[s].clampings.front();
+    setup.grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::roughing);
+    setup.finishing_grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::finishing);
     setup.operations = operations_in_order(p, setups.back());
     for (const auto& f : setups.back().features)
       if (!f.answer.model)

@@ -11,14 +11,9 @@ namespace {
 constexpr double kWorthNaming = 1e-7;  // of the objective: below it a price is rounding
 const double kTenPercent = std::log(1.1);
 
-double width_mm(const part::Tolerance& t) {
-  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
-}
-
 // What 10 % on the drawing's own width does to what is left of it for the cut.
-double leverage(const PartPlan& p, const part::Tolerance& t) {
-  const double left = width_mm(t) - units::mm_from_um(p.machine_share_um);
-  return left > 0 ? width_mm(t) / left : 1;
+double leverage(const part::Tolerance& t, const Demand& d) {
+  return width_mm(t) / (width_mm(t) - d.taken_mm);
 }
 
 const char* unit_of_objective(const PartPlan& p) {
@@ -36,7 +31,7 @@ void add(const PartPlan& p, const SolvedFeature& f, const OperationPlan& o,
   for (const auto& d : f.task.demands) {  // of the width that the drawing gives
     const auto& t = p.drawing.tolerances[d.tolerance];
     if (c.name != t.id + " " + part::name(t.kind)) continue;
-    gain *= leverage(p, t);
+    gain *= leverage(t, d);
     price.now = width_mm(t);
   }
   price.saves_per_part_for_10_percent = gain;

@@ -192,6 +192,24 @@ double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
   return d;
 }
 
+double gripped_bore_mm(const PartPlan& p, std::size_t s) {
+  const auto& d = drawing(p);
+  double bore = d.stock.inner_mm;
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    if (holds_left(p, s) ? z0 < jaw_z(p, s) : z1 > jaw_z(p, s))
+      bore = std::max({bore, d.inner[i].left_mm, d.inner[i].right_mm});
+  }
+  return bore;
+}
+
+double jaw_force_N(const PartPlan& p, std::size_t s, Clamping clamping, Stage stage) {
+  if (clamping == Clamping::between_centres) return 0;
+  const auto& setup = p.setups[s];
+  const double force = setup.grip_force_N.value_or(p.machine.chuck.grip_force_N);
+  return stage == Stage::roughing ? force : setup.finishing_grip_force_N.value_or(force);
+}
+
 SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
                      const Finished& finished)
     : plan_(&p),
@@ -276,11 +294,16 @@ Planes planes(const catalogue::Lathe& m, Clamping clamping) {
               m.tail_centre.radial_mm_N};
   p.tangential = {deflection::Method::chuck, root(m.chuck.tangential),
                   m.head_centre.tangential_mm_N, m.tail_centre.tangential_mm_N};
-  if (clamping == Clamping::chuck_tailstock)
+  if (clamping == Clamping::chuck_tailstock || clamping == Clamping::tailstock_follow)
     p.radial.method = p.tangential.method = deflection::Method::chuck_tailstock;
   if (clamping == Clamping::between_centres)
     p.radial.method = p.tangential.method = deflection::Method::between_centres;
   return p;
+}
+
+bool has_tailstock(Clamping clamping) {
+  return clamping == Clamping::chuck_tailstock || clamping == Clamping::between_centres ||
+         clamping == Clamping::tailstock_follow;
 }
 
 }  // namespace turnwright::planning

@@ -57,6 +57,7 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
   if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
   if (clamping == Clamping::between_centres) t += m.centres_min;
   if (clamping == Clamping::chuck_steady) t += m.steady_min;
+  if (clamping == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
   return t;
 }
 
@@ -119,7 +120,7 @@ SolvedSetup SetupPlanner::best(double most) {
   return best;
 }
 
-SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) const {
+SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) {
   SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     auto t = task(j, {}, Offset::none);
@@ -179,11 +180,25 @@ SetupPlanner::ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools)
   return {w.rough ? rough : nullptr, w.finish ? finish : nullptr};
 }
 
-FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset) const {
+const std::vector<Demand>& SetupPlanner::demands_of(std::size_t j, const Tool* last,
+                                                    Offset offset) {
+  const auto [it, fresh] = demands_.try_emplace({j, last, offset});
+  if (fresh)
+    it->second =
+        demands(p_, jobs_[j].feature.surface(), offset, {setup_, clamping_, last});
+  return it->second;
+}
+
+FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset) {
   const auto& f = jobs_[j].feature;
   const auto [rough, finish] = tools_of(j, tools);
-  return {f, demands(p_, f.surface(), offset),
-          recipes(p_, f, jobs_[j].wanted, rough, finish), economy_, explain_};
+  const Making making{setup_, clamping_, finish ? finish : rough};
+  return {f,
+          demands_of(j, making.last, offset),
+          recipes(p_, f, jobs_[j].wanted, rough, finish),
+          economy_,
+          making,
+          explain_};
 }
 
 Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,7 +45,7 @@ class SetupPlanner {
   SolvedSetup best(double most);
 
   /// Every feature with the tools and conditions given, answered by `answer`.
-  SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&)) const;
+  SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&));
 
   /// Every feature with the tools of the best setup, which is not feasible.
   SolvedSetup explained();
@@ -61,7 +62,9 @@ class SetupPlanner {
   bool any(Feature::Kind kind) const;
   std::vector<Tools> choices() const;
   ToolPair tools_of(std::size_t job, const Tools& tools) const;
-  FeatureTask task(std::size_t job, const Tools& tools, Offset offset) const;
+  FeatureTask task(std::size_t job, const Tools& tools, Offset offset);
+  const std::vector<Demand>& demands_of(std::size_t job, const catalogue::Tool* last,
+                                        Offset offset);
   Entry& entry(std::size_t job, const Tools& tools);
   const SolvedFeature& solved(std::size_t job, const Tools& tools, double most);
   SolvedSetup solve(const Tools& tools, double least, double most);
@@ -78,6 +81,8 @@ class SetupPlanner {
   FaceMemory& faces_;
   std::vector<Job> jobs_;
   std::vector<std::map<ToolPair, Entry>> memory_;  // per job, by its tools
+  std::map<std::tuple<std::size_t, const catalogue::Tool*, Offset>, std::vector<Demand>>
+      demands_;
 };
 
 /// Minutes of a setup beside its operations: tools brought in, loading, preparing.

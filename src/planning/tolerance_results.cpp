@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "outcome.hpp"
@@ -48,24 +47,24 @@ tolerance::Profile as_made(const Found& f) {
                                         correction(*f.feature));
 }
 
-// The tolerance less the machine's share, as tolerance/ judges it; sizes about the middle
+// The tolerance less what is taken of it, as tolerance/ judges it; sizes about the middle
 // that the tool is programmed to.
-tolerance::Case judged(const Tolerance& t, const Found& at, double share_mm,
+tolerance::Case judged(const Tolerance& t, const Found& at, double taken_mm,
                        double half_angle) {
   tolerance::Case c;
   c.kind = t.kind;
   c.half_angle_rad = half_angle;
   const bool bare = !at.demand || at.demand->shape == Demand::Shape::none;
   if (t.limits) {
-    const double half = (t.limits->upper_mm - t.limits->lower_mm - share_mm) / 2;
+    const double half = (t.limits->upper_mm - t.limits->lower_mm - taken_mm) / 2;
     c.limits = part::Limits{-half, half};
   } else if (bare) {
     c.value_mm = t.value_mm;
-    c.machine_mm = share_mm;  // the cut has no term here
+    c.machine_mm = taken_mm;  // the cut has no term here
     if (t.kind == ToleranceKind::perpendicularity)
       c.controlled = tolerance::Controlled::axis;
   } else {
-    c.value_mm = t.value_mm - share_mm;
+    c.value_mm = t.value_mm - taken_mm;
   }
   return c;
 }
@@ -78,60 +77,66 @@ tolerance::Verdict verdict(tolerance::Case c, tolerance::Profile e,
   return tolerance::verdict(c);
 }
 
-// Relative standard deviation of the error: force and stiffness multiply it.
-double spread(const PartPlan& p) {
-  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
-         100;
-}
-
-// P(value + scatter Z <= limit), Z normal.
-double conformance(double value, double limit, double scatter) {
-  if (!(scatter > 0)) return value <= limit ? 1 : 0;
-  return boost::math::erfc(-(limit - value) / scatter / std::sqrt(2.0)) / 2;
-}
-
-// What is compared, and against what: of a size the deviation that goes furthest from the
-// middle of its limits.
-struct Compared {
-  double value_mm = 0, limit_mm = 0;
+// What all but the cut takes, of the surfaces that are made.
+struct Taken {
+  Allowance by;
+  double mm = 0;        // of the width; of a length the faces' own, each half
+  double fixed_mm = 0;  // of it what parts have, not their measurement
 };
-Compared compared(const tolerance::Case& c, const tolerance::Verdict& v) {
-  if (!c.limits) return {v.measured_mm, v.allowed_mm};
+Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
+            const Found& other) {
+  Taken all{.by = {.fixed = {{"machine", p.machine_share_um}}, .spread = {}}};
+  double made = 0;
+  for (const auto* found : {&at, &other}) {
+    if (!found->feature) continue;
+    const auto own = allowance(p, tolerance, found->feature->task.making);
+    all.by.fixed = own.fixed;
+    all.by.spread.insert(all.by.spread.end(), own.spread.begin(), own.spread.end());
+    all.mm += found->demand->taken_mm;
+    ++made;
+  }
+  all.mm = made > 0 ? all.mm / made : units::mm_from_um(p.machine_share_um);
+  if (p.drawing.tolerances[tolerance].limits) all.by.ends = 2;
+  for (const auto& f : all.by.fixed)
+    if (f.source != "measurement") all.fixed_mm += units::mm_from_um(f.um);
+  return all;
+}
+
+// What a force or stiffness that is not known scales: of a size the deviation that goes
+// furthest from the middle of its limits.
+double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
   const double factor = c.kind == ToleranceKind::diameter ? 2 : 1;
-  return {factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm),
-          c.limits->upper_mm};
+  if (c.limits) return factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm);
+  const double zone = std::max(0.0, v.measured_mm - c.machine_mm);
+  return c.kind == ToleranceKind::profile ? zone / 2 : zone;
 }
 
-double width_mm(const Tolerance& t) {
-  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
-}
-
-// The machine alone needs more than there is.
-void used_up(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
-  const double share_mm = units::mm_from_um(p.machine_share_um);
+// All but the cut needs more than there is.
+void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.verdict = Verdict::not_met;
   r.seed_verdict = false;
-  r.predicted_mm = {share_mm};
+  r.predicted_mm = {taken_mm};
   r.allowed_mm = {width_mm(t)};
-  r.margin_mm = width_mm(t) - share_mm;
+  r.margin_mm = width_mm(t) - taken_mm;
   r.P_conform = 0;
 }
 
 void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
-             ToleranceResult& r) {
-  const double share_mm = units::mm_from_um(p.machine_share_um);
-  const auto c = judged(t, at, share_mm, half_angle_rad(p.drawing, t.of).value_or(0));
+             const Taken& all, ToleranceResult& r) {
+  const double half_angle = half_angle_rad(p.drawing, t.of).value_or(0);
+  const auto c = judged(t, at, all.mm, half_angle);
   const auto cut = verdict(c, profile(at), profile(other));
   const bool corrected = (at.feature && at.feature->compensated) ||
                          (other.feature && other.feature->compensated);
-  const auto made = corrected ? verdict(c, as_made(at), as_made(other)) : cut;
+  const auto made_at = corrected ? as_made(at) : profile(at);
+  const auto made_other = corrected ? as_made(other) : profile(other);
+  const auto made = verdict(c, made_at, made_other);
   r.seed_verdict = cut.seed_verdict;
   r.margin_mm = made.margin_mm;
   const double rounding = kOver * width_mm(t);
   r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
               : cut.margin_mm < -rounding ? Verdict::met_with_offset
                                           : Verdict::met;
-  const auto before = compared(c, cut), after = compared(c, made);
   const double cut_mm = std::max(0.0, made.measured_mm - c.machine_mm);
   r.shares.insert(r.shares.begin(), {"deflection", units::um_from_mm(cut_mm)});
   if (t.limits) {
@@ -139,15 +144,16 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
     r.predicted_mm = {middle + factor * made.extremes_mm.min_mm,
                       middle + factor * made.extremes_mm.max_mm};
-    r.allowed_mm = {t.limits->lower_mm + share_mm / 2, t.limits->upper_mm - share_mm / 2};
+    r.allowed_mm = {t.limits->lower_mm + all.mm / 2, t.limits->upper_mm - all.mm / 2};
   } else {
     r.predicted_mm = {made.measured_mm};
     r.allowed_mm = {made.allowed_mm};
   }
   // What is not known of forces and stiffness is not known of a correction either.
-  r.P_conform = cut_mm > 0 || corrected ? conformance(after.value_mm, after.limit_mm,
-                                                      spread(p) * before.value_mm)
-                                        : (made.accepted ? 1 : 0);
+  const auto room = tolerance::room_um(
+      verdict(judged(t, at, all.fixed_mm, half_angle), made_at, made_other));
+  r.P_conform = tolerance::Spread(all.by.spread)
+                    .within(room, force_spread(p) * units::um_from_mm(scaled_mm(c, cut)));
 }
 
 // An element that nothing cuts has the stock's diameter, and no form.
@@ -189,7 +195,7 @@ void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
 
 std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
                                                const std::vector<SolvedSetup>& setups) {
-  std::vector<ToleranceResult> all;
+  std::vector<ToleranceResult> results;
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
     const auto& t = p.drawing.tolerances[i];
     const bool length = t.kind == ToleranceKind::length;
@@ -199,18 +205,19 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.id = t.id;
     r.kind = t.kind;
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
-    r.shares = {{"machine", p.machine_share_um}};
-    if (width_mm(t) <= units::mm_from_um(p.machine_share_um))
-      used_up(p, t, r);
+    const auto all = taken(p, i, at, other);
+    r.shares = shares(all.by);
+    if (width_mm(t) <= all.mm)
+      used_up(t, all.mm, r);
     else if (!at.feature && half_angle_rad(p.drawing, t.of))
       not_made(p, t, r);
     else if (!at.feature && !other.feature)
       left_as_stock(p, t, r);
     else
-      predict(p, t, at, other, r);
-    all.push_back(std::move(r));
+      predict(p, t, at, other, all, r);
+    results.push_back(std::move(r));
   }
-  return all;
+  return results;
 }
 
 std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups) {

@@ -21,6 +21,10 @@ std::string clamped(const std::string& clamping, const std::string& end) {
     return fmt::format("{} end in the chuck, on a steady rest", end);
   if (clamping == "chuck-tailstock")
     return fmt::format("{} end in the chuck, {} end on the tailstock centre", end, other);
+  if (clamping == "tailstock-follow")
+    return fmt::format(
+        "{} end in the chuck, {} end on the tailstock centre, a follow rest at the tool",
+        end, other);
   if (clamping == "between-centres")
     return fmt::format("between centres, {} end at the headstock", end);
   return fmt::format("{} end, {}", end, clamping);
@@ -39,6 +43,11 @@ std::string holding(const ordered_json& setup) {
                                  : word(setup, "hold") + " end, no clamping allowed can";
   if (const auto grip = number(setup, "grip_mm"))
     text += fmt::format(", {} mm gripped", shown(grip, 1));
+  if (const auto force = number(setup, "grip_force_N"); force && *force > 0)
+    text += fmt::format(", jaws with {} kN", shown(*force / 1000, 1));
+  const auto eased = number(setup, "finishing_grip_force_N");
+  if (eased && eased < number(setup, "grip_force_N"))
+    text += fmt::format(", {} kN to finish", shown(*eased / 1000, 1));
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -99,19 +100,16 @@ void add_draws(std::span<const Source> sources, std::uint64_t seed, std::size_t 
   }
 }
 
-/// Eqs. (2)-(4).
+/// Eqs. (2), (4).
 void add_closed_forms(std::span<const Source> sources, Budget& b) {
-  double up = 0, down = 0, variance = 0;
+  double variance = 0;
   for (const Source& s : sources) {
     const Moments m = moments_um(s);
     b.worst_case_um.down_um += m.low;
     b.worst_case_um.up_um += m.high;
     b.mean_um += m.mean;
-    up += (m.high - m.mean) * (m.high - m.mean);
-    down += (m.mean - m.low) * (m.mean - m.low);
     variance += m.sigma * m.sigma;
   }
-  b.rss_um = {b.mean_um - std::sqrt(down), b.mean_um + std::sqrt(up)};
   b.sigma_um = std::sqrt(variance);
   for (const Source& s : sources) {
     const Moments m = moments_um(s);
@@ -196,6 +194,52 @@ double share_within(std::span<const double> rising_um, const Span& room) {
              : static_cast<double>(last - first) / static_cast<double>(rising_um.size());
 }
 
+Span rss_um(std::span<const Source> sources) {
+  check(sources);
+  double mean = 0, up = 0, down = 0;
+  for (const Source& s : sources) {
+    const Moments m = moments_um(s);
+    mean += m.mean;
+    up += (m.high - m.mean) * (m.high - m.mean);
+    down += (m.mean - m.low) * (m.mean - m.low);
+  }
+  return {mean - std::sqrt(down), mean + std::sqrt(up)};
+}
+
+Spread::Spread(std::span<const Source> sources, const Draws& draws) {
+  check(sources);
+  std::vector<Source> rest;
+  for (const Source& s : sources) {
+    if (s.distribution != Distribution::normal && s.distribution != Distribution::fixed) {
+      rest.push_back(s);
+      continue;
+    }
+    const Moments m = moments_um(s);
+    mean_um_ += m.mean;
+    variance_um2_ += m.sigma * m.sigma;
+  }
+  drawn_um_ = rest.empty() ? std::vector{0.0} : rising_sum_um(rest, draws);
+  constexpr std::size_t kNeighbours = 20;
+  if (drawn_um_.size() % kNeighbours != 0) {
+    means_um_ = drawn_um_;
+    return;
+  }
+  for (auto at = drawn_um_.begin(); at != drawn_um_.end(); at += kNeighbours)
+    means_um_.push_back(std::accumulate(at, at + kNeighbours, 0.0) / kNeighbours);
+}
+
+double Spread::within(const Span& room, double further_sigma_um) const {
+  const Span left{room.down_um - mean_um_, room.up_um - mean_um_};
+  const double variance = variance_um2_ + further_sigma_um * further_sigma_um;
+  if (!(variance > 0)) return share_within(drawn_um_, left);
+  const double scale = std::sqrt(2 * variance);
+  double sum = 0;
+  for (const double x : means_um_)
+    sum += std::max(
+        0.0, std::erf((left.up_um - x) / scale) - std::erf((left.down_um - x) / scale));
+  return sum / 2 / static_cast<double>(means_um_.size());
+}
+
 Budget budget(const BudgetDemand& demand, const Span& room) {
   require(demand.conformance >= 0 && demand.conformance <= 1,
           "the wanted conformance must lie in [0, 1]");
@@ -206,6 +250,7 @@ Budget budget(const BudgetDemand& demand, const Span& room) {
   const std::vector<double> rising = rising_sum_um(demand.sources, demand.draws);
   Budget b{.room_um = room};
   add_closed_forms(demand.sources, b);
+  b.rss_um = rss_um(demand.sources);
   b.worst_case_fits = fits(b.worst_case_um, room);
   b.rss_fits = fits(b.rss_um, room);
   b.P_conform = share_within(rising, room);  // Eq. (6)

@@ -125,7 +125,8 @@ TEST(PartPlan, OperationsKeepWhatIsFixedAndLeaveTheRestOpen) {
 TEST(PartPlan, SizesBecomeTolerancesOnce) {
   const auto loaded = load(full());
   const auto& d = loaded.plan.drawing;
-  EXPECT_EQ(d.tolerances.size(), 5U + 4U + 1U);  // listed, one a diameter, overall length
+  // Listed, one a diameter, overall length, form by ISO 2768-K.
+  EXPECT_EQ(d.tolerances.size(), 5U + 4U + 1U + 2U);
   // ISO 286: 30 k6 = +2 .. +15 um.
   const auto* fit = find(d, "d1:diameter");
   ASSERT_NE(fit, nullptr);
@@ -145,6 +146,59 @@ TEST(PartPlan, SizesBecomeTolerancesOnce) {
   ASSERT_NE(length, nullptr);
   EXPECT_EQ(length->between, (std::array<std::string, 2>{"left", "right"}));
   EXPECT_EQ(length->limits->upper_mm, 0.5);
+}
+
+// ISO 2768-2, class K: 0.2 mm straight over 30 to 100 mm, 0.1 mm flat up to 30 mm across.
+TEST(PartPlan, GeneralFormIsAskedWhereNothingHoldsItAsClosely) {
+  const auto loaded = load(full());
+  const auto& d = loaded.plan.drawing;
+  // d3 may vary by 0.3 mm of its radius over its 42 mm; d1 and d2 by far less; c1 and the
+  // right face have closer zones.
+  ASSERT_NE(find(d, "d3:straightness"), nullptr);
+  EXPECT_EQ(find(d, "d3:straightness")->kind, ToleranceKind::straightness);
+  EXPECT_EQ(find(d, "d3:straightness")->value_mm, 0.2);
+  for (const char* id :
+       {"d1:straightness", "d2:straightness", "c1:straightness", "right:flatness"})
+    EXPECT_EQ(find(d, id), nullptr) << id;
+  EXPECT_EQ(find(d, "left:flatness")->value_mm, 0.1);
+  EXPECT_EQ(assumed(loaded, "/tolerances")->why, "ISO 2768-mK");
+  auto coarser = full();
+  coarser["general"] = "ISO 2768-K";  // form alone: no size is asked of d3
+  EXPECT_NE(find(load(coarser).plan.drawing, "d3:straightness"), nullptr);
+  EXPECT_EQ(find(load(coarser).plan.drawing, "d3:diameter"), nullptr);
+  coarser["general"] = "ISO 2768-m";
+  EXPECT_EQ(find(load(coarser).plan.drawing, "d3:straightness"), nullptr);
+}
+
+TEST(PartPlan, JawForcesAreThoseGivenOrTheChucks) {
+  auto document = full();
+  EXPECT_EQ(load(document).plan.setups[0].grip_force_N, std::nullopt);
+  document["setups"][0]["grip_force_N"] = 20000;
+  document["setups"][0]["finishing_grip_force_N"] = 8000;
+  const auto loaded = load(document);
+  EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
+  EXPECT_EQ(loaded.plan.setups[0].grip_force_N, 20000);
+  EXPECT_EQ(loaded.plan.setups[0].finishing_grip_force_N, 8000);
+}
+
+TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
+  auto document = full();
+  document["budget"] = {
+      {"drift_um", 1},      {"drift_axial_um", 2},         {"repeatability_um", 3},
+      {"part_warm_K", 4},   {"life_between_offsets", 0.5}, {"wear_land_mm", 0.2},
+      {"rechucking_um", 6}, {"measurement_U_um", 7}};
+  EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
+  const auto& shop = load(document).plan.shop;
+  EXPECT_EQ(shop.drift_um, 1);
+  EXPECT_EQ(shop.drift_axial_um, 2);
+  EXPECT_EQ(shop.repeatability_um, 3);
+  EXPECT_EQ(shop.part_warm_K, 4);
+  EXPECT_EQ(shop.life_between_offsets, 0.5);
+  EXPECT_EQ(shop.wear_land_mm, 0.2);
+  EXPECT_EQ(shop.rechucking_um, 6);
+  EXPECT_EQ(shop.measurement_U_um, 7);
+  document["budget"] = {{"drift_um", 1}};
+  EXPECT_EQ(load(document).plan.shop.wear_land_mm, 0.3);
 }
 
 TEST(PartPlan, AListedSizeTakesTheGeneralOnesPlace) {
@@ -207,6 +261,8 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/batch", 1},
                         {"/rates/machine_per_min", 1.0},
                         {"/machine_share_um", 0.0},
+                        {"/budget", json::object()},
+                        {"/robust", false},
                         {"/conformance", 0.9973}}));
   EXPECT_EQ(loaded.plan.drawing.stock.left_allowance_mm, 1.5);
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 23);

@@ -34,6 +34,8 @@ ProcessPlan every_field() {
   SetupPlan setup;
   setup.hold = part::End::right;
   setup.clamping = Clamping::chuck_tailstock;
+  setup.grip_force_N = 60000;
+  setup.finishing_grip_force_N = 15000;
   setup.rejected = {{Clamping::chuck, "dearer", 20},
                     {Clamping::between_centres, "no", {}}};
   setup.operations = {op};
@@ -70,7 +72,8 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"({"status":"ok","cost_per_part":1.5,"time_per_part_min":2.5,"profit_per_min":3.5,)"
       R"("certificate":{"kind":"global","lower_bound":1.4,"gap":0.06,"nodes":7,)"
       R"("engine":"convex"},)"
-      R"("setups":[{"hold":"right","clamping":"chuck-tailstock","rejected":[)"
+      R"("setups":[{"hold":"right","clamping":"chuck-tailstock",)"
+      R"("grip_force_N":60000.0,"finishing_grip_force_N":15000.0,"rejected":[)"
       R"({"clamping":"chuck","why":"dearer","cost":20.0},)"
       R"({"clamping":"between-centres","why":"no"}],)"
       R"("operations":[{"id":"rough d1","kind":"rough","on":["d1","c1"],"tool":"T1",)"

@@ -63,7 +63,7 @@ class SetupSearch {
   SetupSearch(const PartPlan& p, std::size_t setup, Clamping clamping,
               const planning::SetupWork& work, const planning::Finished& done,
               const planning::Economy& economy, const Effort& effort)
-      : p_(p), clamping_(clamping), economy_(economy), effort_(effort) {
+      : p_(p), setup_(setup), clamping_(clamping), economy_(economy), effort_(effort) {
     if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
     for (const std::size_t i : work.elements) {
       auto f = Feature::element(p, setup, clamping, work, done, i, {});
@@ -185,9 +185,11 @@ class SetupSearch {
   }
 
   SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
-    const auto demands = planning::demands(p_, features_[k].surface(), offset);
+    const auto demands = planning::demands(p_, features_[k].surface(), offset,
+                                           {setup_, clamping_, t.second});
     SurfaceFound best;
     best.objective = kInfinity;
+    if (planning::used_up(demands)) return best;
     for (const auto& [bound, r] : bounds(k, t).recipes) {
       if (bound >= best.objective) break;
       const SurfaceSearch s(features_[k], demands, r, economy_, effort_);
@@ -218,7 +220,6 @@ class SetupSearch {
   // In the speed ranges that suit the conditions best: a plan does not name them.
   SurfaceFound as_planned(std::size_t k, const planning::SetupPlan& plan, Offset offset) {
     const auto& f = features_[k];
-    const auto demands = planning::demands(p_, f.surface(), offset);
     Recipe r;
     Point p;
     std::size_t i = 0;
@@ -235,6 +236,8 @@ class SetupSearch {
       p.choice.a = o.passes.front().ap_mm;
       ++i;
     }
+    const auto demands = planning::demands(
+        p_, f.surface(), offset, {setup_, clamping_, r.finish ? r.finish : r.rough});
     SurfaceFound best;
     best.objective = best.excess = kInfinity;
     const auto ranges = cutting::speed_ranges(p_.machine).size();
@@ -254,6 +257,7 @@ class SetupSearch {
     if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
     if (clamping_ == Clamping::between_centres) t += m.centres_min;
     if (clamping_ == Clamping::chuck_steady) t += m.steady_min;
+    if (clamping_ == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
     return t;
   }
 
@@ -278,6 +282,7 @@ class SetupSearch {
   }
 
   const PartPlan& p_;
+  std::size_t setup_;
   Clamping clamping_;
   planning::Economy economy_;
   Effort effort_;

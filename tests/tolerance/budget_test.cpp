@@ -247,6 +247,29 @@ TEST(Conformity, OfAnEccentricityIsTheClosedForm) {
   EXPECT_NEAR(*low.index, (5 - q50) / (q99 - q50), 0.02);
 }
 
+// Uniform +-3 and normal 1: P by integrating over the uniform; without the normal the
+// share of the width.
+TEST(Conformity, ASpreadGivesEveryRoomItsShare) {
+  const Spread both(
+      std::vector{source(uniform, 3), source(normal, 1), source(fixed, 0.5)});
+  const Spread bare(std::vector{source(uniform, 3)});
+  for (const double up : {-2.0, 0.0, 1.5, 2.8, 4.0, 6.0}) {
+    double P = 0;
+    constexpr int kParts = 20000;
+    for (int k = 0; k < kParts; ++k) {
+      const double x = 3 * (2 * (k + 0.5) / kParts - 1) + 0.5;
+      P += (normal_cdf((up - x) / 2) - normal_cdf((-4 - x) / 2)) / kParts;
+    }
+    EXPECT_NEAR(both.within({-4, up}, std::sqrt(3.0)), P,
+                4 * std::sqrt(P * (1 - P) / 20000) + 1e-6)
+        << up;
+    EXPECT_NEAR(bare.within({-kInfinity, up}), std::clamp((up + 3) / 6, 0.0, 1.0),
+                4 * std::sqrt(0.25 / 20000));
+  }
+  const Spread normals(std::vector{source(normal, 0.6, 2), source(fixed, -1)});
+  EXPECT_NEAR(normals.within({-kInfinity, 1}, 1.6), normal_cdf(1), 1e-15);
+}
+
 TEST(Conformity, WithoutSpreadIsAllOrNothing) {
   const Budget in = budget({.sources = {source(fixed, 2)}}, {-1, 2});
   EXPECT_EQ(in.P_conform, 1);

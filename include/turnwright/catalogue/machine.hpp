@@ -37,13 +37,15 @@ struct Lathe {
   double tailstock_min = 0;  ///< extra with tailstock: centring and quill [min]
   double centres_min = 0;    ///< extra between centres: centring and driver [min]
   double steady_min = 0;     ///< extra with a steady rest: setting its rollers [min]
+  double follow_min = 0;     ///< extra with a follow rest: setting its jaws [min]
   double setup_min = 0;      ///< preparing the machine, per setup and batch [min]
   double cost_per_min = 0;   ///< used when the request gives no rate
   double swing_mm = 0, between_centres_mm = 0;
   Chuck chuck;
-  CentreCompliance tail_centre, head_centre, steady_rest;
-  double tool_rr_mm_N = 0;  ///< toolpost: radial yield per radial force
-  double tool_rt_mm_N = 0;  ///< and per tangential force (usually towards the work)
+  CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;
+  double tail_thrust_N = 0;  ///< of the tailstock on the part
+  double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
+  double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
 };

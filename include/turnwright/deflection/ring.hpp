@@ -23,9 +23,15 @@ namespace turnwright::deflection {
 /// Valid for thin rings: shear in the wall adds 2.3 (t/R)^2 of the lobes (nu = 0.3, three
 /// jaws), so 2 % at t = 0.1 R and 9 % at t = 0.2 R; the even squeeze (m = 0) and friction
 /// at the jaws are left out.
+/// In a tube the lobes of n jaws at its end die away beyond them as exp(-lambda s),
+///
+///     lambda = sqrt[n^2 (n^2 - 1) t/(sqrt(48) R)]/R                                (3)
+///
 /// Source: derived here, (1) from the bending energy of the modes of a ring that does not
 /// stretch, (2) from w'' + w = (F R^3/2 E I) (cos(phi)/sin(alpha) - 1/alpha); compared in
-/// ring_test.
+/// ring_test.  (3) from the energies of a mode cos(n t) of a tube that neither stretches
+/// around nor shears (v = w/n, u = R w'/n^2): a beam of stiffness E t R^2/n^4 on a
+/// foundation E t^3 (n^2 - 1)^2/(12 R^4), lambda^4 = foundation/(4 stiffness).
 struct Ring {
   double R_mm = 0;
   double EI_Nmm2 = 0;
@@ -40,5 +46,11 @@ double squeeze_mm(const Ring& ring, int jaws, double jaw_force_N, double angle_r
 
 /// Peak to valley of the radius over the ring [mm].
 double lobing_mm(const Ring& ring, int jaws, double jaw_force_N);
+
+/// A tube's wall by its shear, for walls that are not thin: E I/(1 + 2.3 (t/R)^2).
+Ring with_shear(const Ring& ring, double wall_mm);
+
+/// Eq. (3) [1/mm].  @throws std::domain_error unless R, t > 0 and jaws >= 2.
+double lobe_decay_1_mm(double R_mm, double wall_mm, int jaws);
 
 }  // namespace turnwright::deflection

@@ -12,7 +12,13 @@
 /// default filled in (document/ reports which under `assumed`).
 namespace turnwright::planning {
 
-enum class Clamping { chuck, chuck_tailstock, between_centres, chuck_steady };
+enum class Clamping {
+  chuck,
+  chuck_tailstock,
+  between_centres,
+  chuck_steady,
+  tailstock_follow  ///< chuck and tailstock, a follow rest at the tool
+};
 const char* name(Clamping clamping);
 
 struct SetupRequest {
@@ -20,6 +26,22 @@ struct SetupRequest {
   double grip_mm = 0;                ///< jaws hold the outermost grip_mm of that end
   std::vector<Clamping> clampings;   ///< candidates, at least one
   double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
+  std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's
+  std::optional<double> finishing_grip_force_N = {};  ///< once roughing is done
+};
+
+/// What else moves the edge or the part in this shop, besides the cut and the machine's
+/// geometry.  Offsets are taken to be set so that what drifts one way runs from one side
+/// of its middle to the other.
+struct ShopErrors {
+  double drift_um = 0;  ///< edge against spindle between two corrections, +-, radial
+  double drift_axial_um = 0;        ///< and along the axis
+  double repeatability_um = 0;      ///< edge's place from part to part, one sigma
+  double part_warm_K = 0;           ///< finishing finds the part up to this much too warm
+  double life_between_offsets = 0;  ///< share of an edge's life used between corrections
+  double wear_land_mm = 0.3;        ///< VB at the end of the life (ISO 3685's criterion)
+  double rechucking_um = 0;     ///< eccentricity in a later setup, each component's sigma
+  double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
 };
 
 enum class OperationKind { face, rough, finish, bore_rough, bore_finish };
@@ -58,7 +80,9 @@ struct PartPlan {
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um = 0;  ///< subtracted from every tolerance
+  ShopErrors shop;
   double conformance = 0.9973;
+  bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
 };
 
 }  // namespace turnwright::planning

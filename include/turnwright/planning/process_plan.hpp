@@ -58,6 +58,8 @@ struct RejectedClamping {
 struct SetupPlan {
   part::End hold = part::End::left;
   Clamping clamping = Clamping::chuck;
+  double grip_force_N = 0;            ///< of all jaws at rest; 0 between centres
+  double finishing_grip_force_N = 0;  ///< from the first finishing pass on
   std::vector<RejectedClamping> rejected;
   std::vector<OperationPlan> operations;
 };

@@ -61,6 +61,20 @@ double free_z_mm(const PartPlan& plan, std::size_t setup);
 /// Diameter [mm] the jaws close on, 0 between centres.
 double grip_diameter_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
 
+/// Largest bore [mm] that may stand between the jaws, 0 of a solid part.
+double gripped_bore_mm(const PartPlan& plan, std::size_t setup);
+
+/// Force of all jaws at rest [N], 0 between centres; they may be eased when the roughing
+/// of a setup is done.
+enum class Stage { roughing, finishing };
+double jaw_force_N(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                   Stage stage);
+
+/// Jaw force for finishing in a setup whose request gives none: that of roughing, or as
+/// much less as leaves the lobes a quarter of every zone that sees them; at least a
+/// twentieth [N].
+double gentle_grip_N(const PartPlan& plan, std::size_t setup);
+
 /// The body from the root to the free end; the end at the root is as the setups before
 /// left it.
 class SetupBody {
@@ -95,6 +109,9 @@ struct Planes {
   deflection::Supports radial, tangential;
 };
 Planes planes(const catalogue::Lathe& machine, Clamping clamping);
+
+/// Whether a tailstock presses on the part.
+bool has_tailstock(Clamping clamping);
 
 /// Width of a steady rest along the axis [mm]: what it stands on is not cut.
 inline constexpr double kSteadyWidth_mm = 20;

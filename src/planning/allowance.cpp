@@ -1,0 +1,252 @@
+#include "allowance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "demand.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/deflection/ring.hpp"
+#include "turnwright/deflection/shop_errors.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using part::Tolerance;
+using part::ToleranceKind;
+using tolerance::Distribution;
+
+constexpr int kJaws = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool is_size(ToleranceKind kind) {
+  return kind == ToleranceKind::diameter || kind == ToleranceKind::length ||
+         kind == ToleranceKind::profile;
+}
+
+bool sees_lobes(ToleranceKind kind) {
+  switch (kind) {
+    case ToleranceKind::circularity:
+    case ToleranceKind::cylindricity:
+    case ToleranceKind::circular_radial_runout:
+    case ToleranceKind::total_radial_runout:
+    case ToleranceKind::profile:
+    case ToleranceKind::profile_without_datum:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool sees_eccentricity(ToleranceKind kind) {
+  return kind == ToleranceKind::coaxiality ||
+         kind == ToleranceKind::circular_radial_runout ||
+         kind == ToleranceKind::total_radial_runout;
+}
+
+// How far a radius error moves a size, or a face's error a length.
+double sensitivity(const PartPlan& p, const Tolerance& t) {
+  if (t.kind == ToleranceKind::diameter) return 2;
+  if (t.kind == ToleranceKind::length) return 1;
+  return std::cos(half_angle_rad(p.drawing, t.of).value_or(0));
+}
+
+double largest_diameter_mm(const part::Drawing& d, const std::string& surface) {
+  for (const auto& e : d.outer)
+    if (e.id == surface) return std::max(e.left_mm, e.right_mm);
+  for (const auto& e : d.inner)
+    if (e.id == surface) return std::max(e.left_mm, e.right_mm);
+  return 0;
+}
+
+// From the jaws to where an element begins; 0 where it reaches between them.
+double beyond_jaws_mm(const PartPlan& p, const std::string& surface, const Making& m) {
+  const auto& d = p.drawing;
+  const double jaws = root_z_mm(p, m.setup, m.clamping);
+  const bool left = p.setups[m.setup].hold == part::End::left;
+  const auto from = [&](double z0, double z1) {
+    return std::max(0.0, left ? z0 - jaws : jaws - z1);
+  };
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const double z = part::left_z_mm(d, i);
+    if (d.outer[i].id == surface) return from(z, z + d.outer[i].length_mm);
+  }
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z = part::inner_left_z_mm(d, i);
+    if (d.inner[i].id == surface) return from(z, z + d.inner[i].length_mm);
+  }
+  return 0;
+}
+
+double face_z_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return 0;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
+  return part::length_mm(d);
+}
+
+// Half of what a warm part is too small by once it is cold, on one side of a size.
+double heat_um(const PartPlan& p, const Tolerance& t) {
+  const auto& d = p.drawing;
+  const double alpha = p.material.expansion_1_K, dT = p.shop.part_warm_K;
+  if (t.kind == ToleranceKind::length) {
+    const double L = std::abs(face_z_mm(d, t.between[0]) - face_z_mm(d, t.between[1]));
+    return units::um_from_mm(alpha * dT * L / 2 / std::max(1.0, faces_cut(p, t)));
+  }
+  const double e_mm = deflection::heat_error_mm(alpha, dT, largest_diameter_mm(d, t.of));
+  return units::um_from_mm(-e_mm / 2);
+}
+
+double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
+  const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
+                              units::rad_from_deg(tool.gamma_deg)};
+  return units::um_from_mm(deflection::wear_error_mm(p.shop.wear_land_mm, edge,
+                                                     p.shop.life_between_offsets)) /
+         2;
+}
+
+std::optional<std::size_t> setup_of(const Assignment& work, const PartPlan& p,
+                                    const std::string& surface) {
+  const auto has = [&](const auto& indices, const auto& elements) {
+    return std::any_of(indices.begin(), indices.end(),
+                       [&](std::size_t i) { return elements[i].id == surface; });
+  };
+  for (std::size_t s = 0; s < work.setups.size(); ++s)
+    if (has(work.setups[s].elements, p.drawing.outer) ||
+        has(work.setups[s].bores, p.drawing.inner))
+      return s;
+  return {};
+}
+
+bool datum_elsewhere(const PartPlan& p, const Tolerance& t, const Making& making) {
+  return !t.datum.empty() && setup_of(assign(p), p, t.datum) != making.setup;
+}
+
+// Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
+// by the tube beside it, 1/2 lambda wide at its end.
+double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
+  const double outer = grip_diameter_mm(p, m.setup, m.clamping);
+  const double inner = gripped_bore_mm(p, m.setup);
+  if (!(outer > 0 && inner > 0) || !sees_lobes(t.kind)) return 0;
+  const double R = (outer + inner) / 4, wall = (outer - inner) / 2;
+  const double decay = deflection::lobe_decay_1_mm(R, wall, kJaws);
+  const double width = std::max(p.setups[m.setup].grip_mm, 1 / (2 * decay));
+  const auto ring = deflection::with_shear(
+      {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
+  const double F = jaw_force_N(p, m.setup, m.clamping, Stage::finishing) / kJaws;
+  const double lobes = t.kind == ToleranceKind::profile
+                           ? 2 * deflection::squeeze_mm(ring, kJaws, F, 0)
+                           : deflection::lobing_mm(ring, kJaws, F);
+  return units::um_from_mm(lobes) * std::exp(-decay * beyond_jaws_mm(p, t.of, m));
+}
+
+// The largest E in [0, most] that suffices, of a condition that fails from some E on.
+template <class Suffices>
+double largest(double most, const Suffices& suffices) {
+  constexpr int kHalvings = 40;
+  double low = 0, high = most;
+  if (suffices(high)) return high;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (suffices(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& making) {
+  const Tolerance& t = p.drawing.tolerances[tolerance];
+  const auto& shop = p.shop;
+  Allowance a;
+  const bool size = is_size(t.kind);
+  if (size) a.ends = t.kind == ToleranceKind::length ? 2 * faces_cut(p, t) : 2;
+  a.fixed.push_back({"machine", p.machine_share_um});
+  const auto fixed = [&](const char* source, double um) {
+    if (um > 1e-3) a.fixed.push_back({source, um});
+  };
+  const auto spread = [&](const char* source, Distribution d, double um, double s) {
+    if (um > 0) a.spread.push_back({source, d, um, s});
+  };
+  fixed("jaw-squeeze", squeeze_um(p, t, making));
+  fixed("measurement", (size ? 2 : 1) * shop.measurement_U_um);
+  if (size) {
+    const double s = sensitivity(p, t);
+    spread("drift", Distribution::uniform,
+           t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um, s);
+    spread("repeatability", Distribution::normal, shop.repeatability_um, s);
+    if (making.last) spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
+    spread("heat", Distribution::uniform, heat_um(p, t), s);
+  }
+  if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&
+      datum_elsewhere(p, t, making))
+    spread("rechucking", Distribution::rayleigh, shop.rechucking_um, 2);
+  return a;
+}
+
+double gentle_grip_N(const PartPlan& p, std::size_t setup) {
+  constexpr double kOfZone = 0.25, kLeast = 0.05;
+  const double most = jaw_force_N(p, setup, Clamping::chuck, Stage::roughing);
+  const auto& clampings = p.setups[setup].clampings;
+  const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
+    return c != Clamping::between_centres;
+  });
+  if (jaws == clampings.end()) return most;
+  const auto work = assign(p);
+  double share = 1;
+  for (const auto& t : p.drawing.tolerances) {
+    if (setup_of(work, p, t.of) != setup) continue;
+    const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
+    share =
+        std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
+  }
+  return most * std::max(kLeast, share);
+}
+
+double taken_mm(const Allowance& a) {
+  double um = a.ends * tolerance::rss_um(a.spread).up_um;
+  for (const auto& f : a.fixed) um += f.um;
+  return units::mm_from_um(um);
+}
+
+double force_spread(const PartPlan& p) {
+  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
+         100;
+}
+
+double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
+               bool corrected) {
+  const double width = width_mm(p.drawing.tolerances[tolerance]);
+  if (!p.robust) return std::max(0.0, width - taken_mm(a));
+  double fixed_um = 0;
+  for (const auto& f : a.fixed) fixed_um += f.um;
+  const double h = (units::um_from_mm(width) - fixed_um) / a.ends;
+  if (!(h > 0)) return 0;
+  const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
+  const double r = force_spread(p), below = a.ends > 1 ? -1 : -kInfinity;
+  const tolerance::Spread spread(a.spread);
+  const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
+    const double room = corrected ? h : h - e;
+    return spread.within({below * room, room}, r * e) >= wanted;
+  });
+  return units::mm_from_um(a.ends * E);
+}
+
+std::vector<Share> shares(const Allowance& a) {
+  auto all = a.fixed;
+  for (const auto& s : a.spread)
+    all.push_back({s.name, a.ends * tolerance::rss_um({&s, 1}).up_um});
+  return all;
+}
+
+double width_mm(const Tolerance& t) {
+  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
+double faces_cut(const PartPlan& p, const Tolerance& t) {
+  return static_cast<double>(face_is_cut(p, t.between[0])) +
+         static_cast<double>(face_is_cut(p, t.between[1]));
+}
+
+}  // namespace turnwright::planning

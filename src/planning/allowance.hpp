@@ -1,0 +1,76 @@
+#pragma once
+#include <vector>
+
+#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
+#include "turnwright/tolerance/budget.hpp"
+
+/// What else than the cut takes its part of a tolerance.
+namespace turnwright::planning {
+
+/// How a surface is made, as far as its budget depends on it.
+struct Making {
+  std::size_t setup = 0;
+  Clamping clamping = Clamping::chuck;
+  const catalogue::Tool* last = nullptr;  ///< the tool of its last pass
+};
+
+/// Sizes (diameter, length, a profile located by datums) are moved up and down, zones
+/// widened:
+///
+///     source        takes                          of
+///     machine       machine_share_um, all kinds    the whole width
+///     jaw-squeeze   deflection/ring.hpp (1), a tube in jaws: its lobes of the zone of
+///                   circularity, cylindricity, run-out and profile without datum; twice
+///                   its largest displacement of a located profile
+///     measurement   U of a zone, 2 U of a size     the whole width
+///     drift         +- drift_um, uniform           sizes; axial ones of lengths
+///     repeatability normal                         sizes
+///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
+///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
+///     rechucking    rayleigh, twice: run-out and coaxiality to a datum of another setup
+///
+/// Three lobes leave two-point diameters as they are, but for their even orders (a
+/// tenth).
+struct Allowance {
+  std::vector<Share> fixed;               ///< [um] of the width
+  std::vector<tolerance::Source> spread;  ///< of one end, sensitivities included
+  double ends = 1;  ///< of the width: 1 of a zone, 2 of a size, for each face of a length
+};
+Allowance allowance(const PartPlan& plan, std::size_t tolerance, const Making& making);
+
+/// Of the width, by all of it: what is fixed, and at each end the root of the sum of
+/// squares of the spread, (3) of tolerance/budget.hpp [mm].
+double taken_mm(const Allowance& allowance);
+
+/// Relative standard deviation of what the cut leaves: of forces and of stiffness.
+double force_spread(const PartPlan& plan);
+
+/// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
+/// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
+/// the largest E of which parts whose force and stiffness spread by r keep the limits
+/// with the wanted probability,
+///
+///     P(|S + r E Z| <= h - E) = p  of a size,  P(S + r E Z <= h - E) = p  of a zone (1)
+///
+/// S the spread, Z standard normal; each face of a length may fail with (1 - p)/faces.
+/// With the path corrected E leaves nothing but what is not known of it,
+///
+///     P(|S + r E Z| <= h) = p                                                        (2)
+///
+/// Source: derived here; the left sides fall as E grows.
+/// @param corrected (2) in place of (1); without effect on a plan that is not robust.
+/// @return ends E [mm].
+double left_mm(const PartPlan& plan, std::size_t tolerance, const Allowance& allowance,
+               bool corrected);
+
+/// What each source takes of the width on its own; a spread by its reach.
+std::vector<Share> shares(const Allowance& allowance);
+
+/// Upper less lower limit, or the zone's width [mm].
+double width_mm(const part::Tolerance& tolerance);
+
+/// Faces of a `length` that this plan cuts: they share what the tolerance leaves.
+double faces_cut(const PartPlan& plan, const part::Tolerance& tolerance);
+
+}  // namespace turnwright::planning

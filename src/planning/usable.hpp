@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::planning {
+
+/// Why a clamping cannot be used at all in a setup that does `work` on a part with `done`
+/// finished: what the chuck holds, the room between centres, what stands in the way of a
+/// centre or rest, buckling under the tailstock.  Nothing: it can.
+std::string unusable(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                     const SetupWork& work, const Finished& done);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,319 @@
+#include "../../src/planning/allowance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../../src/planning/demand.hpp"
+#include "../../src/planning/feature.hpp"
+#include "parts.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/deflection/thrust.hpp"
+#include "turnwright/planning/process_plan.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// A tube of steel, 60/40, 100 long, held 20 mm deep at its left end.
+nlohmann::json tube(double grip_force_N) {
+  auto d = pin();
+  d["stock"] = {{"kind", "tube"}, {"outer_mm", 60}, {"inner_mm", 40}, {"length_mm", 104}};
+  d["outer"] = {
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 58}},
+      {{"id", "d2"},
+       {"kind", "cylinder"},
+       {"length_mm", 40},
+       {"diameter_mm", 56},
+       {"limits_mm", {-0.04, 0}}}};
+  d["tolerances"] = {
+      {{"id", "c1"}, {"kind", "circularity"}, {"of", "d1"}, {"value_mm", 0.02}},
+      {{"id", "c2"}, {"kind", "circularity"}, {"of", "d2"}, {"value_mm", 0.02}}};
+  d["setups"] = {{{"hold", "left"}, {"grip_mm", 20}, {"clampings", {"chuck"}}},
+                 {{"hold", "right"}, {"grip_mm", 20}, {"clampings", {"chuck"}}}};
+  if (grip_force_N > 0)
+    for (auto& s : d["setups"]) s["finishing_grip_force_N"] = grip_force_N;
+  return d;
+}
+
+nlohmann::json pin_with(nlohmann::json budget) {
+  auto d = pin();
+  d["outer"][1]["limits_mm"] = {-0.05, 0};
+  d["budget"] = std::move(budget);
+  return d;
+}
+
+std::size_t tolerance(const PartPlan& p, const std::string& id) {
+  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i)
+    if (p.drawing.tolerances[i].id == id) return i;
+  throw std::out_of_range(id);
+}
+
+Making in_chuck(const PartPlan& p, std::size_t setup) {
+  return {setup, Clamping::chuck, &p.tools.at(1)};
+}
+
+double share_um(const Allowance& a, const std::string& source) {
+  for (const auto& s : shares(a))
+    if (s.source == source) return s.um;
+  return 0;
+}
+
+// Sizes: each source by hand, then together.
+TEST(Allowance, OfADiameterIsTheRootOfTheSumOfSquaresAtBothLimits) {
+  const auto p = part(pin_with({{"drift_um", 2},
+                                {"repeatability_um", 0.5},
+                                {"part_warm_K", 10},
+                                {"life_between_offsets", 0.1},
+                                {"measurement_U_um", 1.5}}));
+  const auto a = allowance(p, tolerance(p, "d2:diameter"), in_chuck(p, 0));
+  const auto& tool = p.tools.at(1);
+  const double tan_a = std::tan(tool.alpha_deg * units::kPi / 180);
+  const double tan_g = std::tan(tool.gamma_deg * units::kPi / 180);
+  const double drift = 2 * 2, repeat = 2 * 3 * 0.5;
+  const double heat = 2 * p.material.expansion_1_K * 10 * 32 / 4 * 1000;
+  const double wear = 2 * 0.3 * tan_a / (1 - tan_a * tan_g) * 0.1 / 2 * 1000;
+  EXPECT_NEAR(share_um(a, "drift"), 2 * drift, 1e-12);
+  EXPECT_NEAR(share_um(a, "repeatability"), 2 * repeat, 1e-12);
+  EXPECT_NEAR(share_um(a, "heat"), 2 * heat, 1e-9);
+  EXPECT_NEAR(share_um(a, "wear"), 2 * wear, 1e-9);
+  EXPECT_NEAR(share_um(a, "measurement"), 3, 1e-12);
+  const double rss =
+      std::sqrt(drift * drift + repeat * repeat + heat * heat + wear * wear);
+  EXPECT_NEAR(taken_mm(a) * 1000, 1 + 3 + 2 * rss, 1e-9);
+}
+
+TEST(Allowance, OfALengthCountsEveryFaceThatIsCut) {
+  auto d = pin_with({{"drift_axial_um", 3}, {"part_warm_K", 8}});
+  d["tolerances"] = {{{"id", "l"},
+                      {"kind", "length"},
+                      {"between", {"left", "right"}},
+                      {"limits_mm", {-0.1, 0.1}}}};
+  const auto p = part(d);
+  const auto a = allowance(p, tolerance(p, "l"), in_chuck(p, 0));
+  const double heat =
+      p.material.expansion_1_K * 8 * 90 / 2 * 1000;  // both faces together
+  EXPECT_NEAR(taken_mm(a) * 1000, 1 + 4 * std::hypot(3, heat / 2), 1e-9);
+  const auto asked = demands(p, "right", Offset::none, in_chuck(p, 0));
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_NEAR(asked[0].upper, (0.2 - taken_mm(a)) / 4, 1e-15);
+}
+
+TEST(Allowance, FormsAreLeftAloneByWhatMovesSizes) {
+  auto d = pin_with({{"drift_um", 5}, {"repeatability_um", 2}, {"part_warm_K", 20}});
+  d["tolerances"] = {
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.01}}};
+  const auto p = part(d);
+  EXPECT_NEAR(taken_mm(allowance(p, tolerance(p, "z"), in_chuck(p, 0))), 0.001, 1e-15);
+}
+
+TEST(Allowance, RechuckingCountsTowardsADatumOfAnotherSetup) {
+  auto d = pin_with({{"rechucking_um", 2}});
+  d["tolerances"] = {{{"id", "x"},
+                      {"kind", "coaxiality"},
+                      {"of", "d2"},
+                      {"datum", "d1"},
+                      {"value_mm", 0.03}}};
+  const auto p = part(d);
+  const auto x = tolerance(p, "x");
+  // The vector that 0.135 % of rayleigh's exceed, a run-out of twice its length.
+  EXPECT_NEAR(share_um(allowance(p, x, in_chuck(p, 0)), "rechucking"),
+              2 * 2 * std::sqrt(-2 * std::log(0.00135)), 1e-9);
+  EXPECT_EQ(share_um(allowance(p, x, in_chuck(p, 1)), "rechucking"), 0);
+}
+
+TEST(Squeeze, IsTheRingsAtTheJawsAndDiesAwayBeyond) {
+  const auto p = part(tube(9000));
+  const double R = 25, t = 10, EI = 20 * t * t * t / 12 * p.material.E_MPa;
+  const double thick = 1 + 2.3 * (t / R) * (t / R);
+  const double lobes = 0.0302 * 3000 * R * R * R / EI * thick * 1000;
+  const auto c1 =
+      share_um(allowance(p, tolerance(p, "c1"), in_chuck(p, 0)), "jaw-squeeze");
+  EXPECT_NEAR(c1, lobes, 2e-3 * lobes);
+  // d2 begins 42 mm beyond the jaws: 18 mm of grip are on the part.
+  const double lambda = std::sqrt(9 * 8 * t / R / std::sqrt(48.0)) / R;
+  const auto c2 =
+      share_um(allowance(p, tolerance(p, "c2"), in_chuck(p, 0)), "jaw-squeeze");
+  EXPECT_NEAR(c2, c1 * std::exp(-lambda * 42), 1e-9);
+}
+
+TEST(Squeeze, IsNoneOfASolidPartOrBetweenCentres) {
+  auto d = pin();
+  d["tolerances"] = {
+      {{"id", "c"}, {"kind", "circularity"}, {"of", "d1"}, {"value_mm", 0.02}}};
+  const auto solid = part(d);
+  EXPECT_EQ(share_um(allowance(solid, 0, in_chuck(solid, 0)), "jaw-squeeze"), 0);
+  const auto p = part(tube(9000));
+  EXPECT_EQ(
+      share_um(allowance(p, tolerance(p, "c1"), {0, Clamping::between_centres, nullptr}),
+               "jaw-squeeze"),
+      0);
+}
+
+TEST(Squeeze, OfATubeIsEasedToAQuarterOfTheZone) {
+  const auto p = part(tube(0));
+  ASSERT_TRUE(p.setups[1].finishing_grip_force_N);
+  EXPECT_LT(*p.setups[1].finishing_grip_force_N, p.machine.chuck.grip_force_N);
+  const auto a = allowance(p, tolerance(p, "c1"), in_chuck(p, 1));
+  EXPECT_NEAR(share_um(a, "jaw-squeeze"), 20.0 / 4, 1e-9);
+}
+
+// What a plan says of each tolerance follows from its own shares.
+TEST(Budget, NarrowsWhatThePlanAllowsAndItsPartsConformAsSaid) {
+  const auto bare = plan(part(pin_with(nlohmann::json::object())));
+  const auto p = part(pin_with({{"drift_um", 4}, {"repeatability_um", 1.5}}));
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_GE(r.cost_per_part, bare.cost_per_part * (1 - 1e-4));
+  for (const auto& t : r.tolerances) {
+    if (t.id != "d2:diameter") continue;
+    const double rss = 2 * std::hypot(2 * 4, 2 * 4.5);
+    EXPECT_NEAR(t.allowed_mm[1] - t.allowed_mm[0], 0.05 - 0.001 - rss / 1000, 1e-12);
+    // P by summing the uniform drift over its range, the rest is normal.
+    const double e =
+        std::max(t.predicted_mm[1] + 0.025, -0.025 - t.predicted_mm[0]) * 1000;
+    const double kc = p.material.kc_uncertainty_pct,
+                 c = p.machine.stiffness_uncertainty_pct;
+    const double sigma = std::hypot(2 * 1.5, std::hypot(kc, c) / 100 * e);
+    const double up = (-0.0005 - t.predicted_mm[1]) * 1000,
+                 down = (-0.0495 - t.predicted_mm[0]) * 1000;
+    double P = 0;
+    const int n = 2000;
+    for (int k = 0; k < n; ++k) {
+      const double x = 8 * (2 * (k + 0.5) / n - 1);
+      P += (std::erf((up - x) / sigma / std::sqrt(2.0)) -
+            std::erf((down - x) / sigma / std::sqrt(2.0))) /
+           2 / n;
+    }
+    EXPECT_NEAR(t.P_conform, P, 1.5e-3);
+  }
+}
+
+TEST(Budget, ThatIsUsedUpWithoutTheCutIsAConflict) {
+  auto d = pin_with({{"drift_um", 30}});
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_EQ(r.conflicts.size(), 1u);
+  EXPECT_EQ(r.conflicts[0].limit, "d2:diameter diameter");
+  EXPECT_NEAR(r.conflicts[0].value, 0.001 + 0.12, 1e-12);
+  EXPECT_NE(r.conflicts[0].sentence.find("drift 120 um"), std::string::npos)
+      << r.conflicts[0].sentence;
+  ASSERT_EQ(r.relax.size(), 1u);
+  EXPECT_EQ(r.certificate.kind, CertificateKind::none);
+}
+
+nlohmann::json robust(nlohmann::json d, double p) {
+  d["robust"] = true;
+  d["conformance"] = p;
+  return d;
+}
+
+// Without other sources (1) is E (1 + r z) = h for a zone, z the normal's quantile.
+TEST(Robust, AZoneKeepsRoomForWhatIsNotKnownOfTheForce) {
+  auto d = pin_with(nlohmann::json::object());
+  d["tolerances"] = {
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.011}}};
+  const auto p = part(robust(d, 0.99865));
+  const auto left = left_mm(p, tolerance(p, "z"),
+                            allowance(p, tolerance(p, "z"), in_chuck(p, 0)), false);
+  EXPECT_NEAR(left, 0.010 / (1 + 3 * force_spread(p)), 1e-7);
+}
+
+// Where the spread is nil and both limits are equally near, both tails count: with E
+// small against h the wanted share lies within z of 0.9973 on both sides, 3 sigma.
+TEST(Robust, ACorrectedSizeIsAskedForWhatCorrectingLeavesUnknown) {
+  const auto p =
+      part(robust(pin_with(nlohmann::json::object()), std::erf(3 / std::sqrt(2.0))));
+  const auto i = tolerance(p, "d2:diameter");
+  const auto left = left_mm(p, i, allowance(p, i, in_chuck(p, 0)), true);
+  EXPECT_NEAR(left, 2 * 0.0245 / (3 * force_spread(p)), 1e-7);
+}
+
+TEST(Robust, PlansConformAsAskedAndCostNoLess) {
+  auto d =
+      pin_with({{"drift_um", 3}, {"repeatability_um", 1}, {"life_between_offsets", 0.1}});
+  d["tolerances"] = {
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.004}}};
+  double before = 0;
+  for (const double wanted : {0.6, 0.9, 0.99, 0.9973, 0.9999}) {
+    const auto r = plan(part(robust(d, wanted)));
+    ASSERT_EQ(r.status, PlanStatus::ok) << wanted;
+    EXPECT_GE(r.cost_per_part, before * (1 - 1e-4)) << wanted;
+    before = r.cost_per_part;
+    for (const auto& t : r.tolerances) EXPECT_GE(t.P_conform, wanted - 1e-6) << t.id;
+  }
+}
+
+// A thrust of half the buckling load doubles what the tailstock leaves of the deflection.
+TEST(Tailstock, ItsThrustAddsToTheDeflection) {
+  const auto slender = [](double thrust_N) {
+    auto d = pin();
+    d["machine"] = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
+                                        "/machines/lathe-medium.json");
+    d["machine"]["stiffness"]["tail_thrust_N"] = thrust_N;
+    d["stock"] = {{"kind", "bar"}, {"diameter_mm", 22}, {"length_mm", 404}};
+    d["outer"] = {
+        {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 20}},
+        {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 360}, {"diameter_mm", 20}}};
+    d["general"] = "ISO 2768-c";
+    d["setups"][0]["clampings"] = {"chuck-tailstock"};
+    return d;
+  };
+  const auto p = part(slender(1));
+  SetupWork work = assign(p).setups.at(0);
+  auto done = nothing_finished(p.drawing);
+  finish(done, work);
+  const double P_cr = deflection::critical_thrust_N(
+      SetupBody(p, 0, Clamping::chuck_tailstock, done).shaft(),
+      planes(p.machine, Clamping::chuck_tailstock).radial);
+  const auto error = [&](double thrust_N) {
+    auto d = slender(thrust_N);
+    const auto q = part(d);
+    const auto f = Feature::element(q, 0, Clamping::chuck_tailstock, work,
+                                    nothing_finished(q.drawing), 1, {});
+    Recipe recipe;
+    recipe.finish = &q.tools.at(1);
+    recipe.finish_passes = 1;
+    // Yield of the part alone: a rigid toolpost.
+    auto chain = f.chain(recipe, {1, 1}, {200}, {});
+    return chain->stations.at(0).passes.at(0).p(chain->a.lower) - q.machine.tool_rr_mm_N;
+  };
+  EXPECT_NEAR(error(P_cr / 2) / error(0), 2, 1e-9);
+  const auto r = plan(part(slender(2 * P_cr)));
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_FALSE(r.conflicts.empty());
+  EXPECT_NE(r.conflicts[0].sentence.find("buckles the part"), std::string::npos)
+      << r.conflicts[0].sentence;
+}
+
+// Held at the tool, a slender shaft may be cut as if it were short.
+TEST(FollowRest, HoldsWhatIsTooSlenderForTheTailstockAlone) {
+  const auto slender = [](const char* clamping) {
+    auto d = pin();
+    d["machine"] = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
+                                        "/machines/lathe-medium.json");
+    d["machine"]["clampings"].push_back("tailstock-follow");
+    d["machine"]["times"]["follow_min"] = 0.7;
+    d["machine"]["stiffness"]["follow_rest"] = {{"radial_mm_N", 3e-5},
+                                                {"tangential_mm_N", 3e-5}};
+    d["machine"]["stiffness"]["tail_thrust_N"] = 100;
+    d["stock"] = {{"kind", "bar"}, {"diameter_mm", 16}, {"length_mm", 404}};
+    d["outer"] = {
+        {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 15}},
+        {{"id", "d2"},
+         {"kind", "cylinder"},
+         {"length_mm", 360},
+         {"diameter_mm", 14},
+         {"limits_mm", {-0.03, 0.03}}}};
+    d["setups"][0]["clampings"] = {clamping};
+    return d;
+  };
+  EXPECT_EQ(plan(part(slender("chuck-tailstock"))).status, PlanStatus::infeasible);
+  const auto p = part(slender("tailstock-follow"));
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(r.setups[0].clamping, Clamping::tailstock_follow);
+}
+
+}  // namespace
+}  // namespace turnwright::planning
