@@ -14,7 +14,6 @@ using optimise::Posynomial;
 using optimise::Relaxed;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFar = 100;  // ln of any condition worth looking at
 constexpr double kMostRelief = 50, kReliefGap = 1e-6;
 constexpr int kMostPasses = 200;  // tried where n_max is left out
 constexpr double kBlame = 1e-6;   // multipliers that carry a proof

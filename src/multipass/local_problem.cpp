@@ -5,12 +5,6 @@
 #include <span>
 
 namespace turnwright::multipass {
-namespace {
-
-constexpr double kFar = 100;  // ln of any condition worth looking at
-
-}  // namespace
-
 Pass roughing(const Log& y) {
   return {std::exp(y[kVr]), std::exp(y[kFr]), std::exp(y[kDr])};
 }

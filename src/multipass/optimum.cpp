@@ -17,8 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSearchGap = 2e-7;  // in ln UC, well inside kGap
 constexpr double kFineGap = 1e-12;
 constexpr long kMostNodes = 20000;
-constexpr int kTangents = 4;       // programs above UC, each from the last one's optimum
-constexpr double kBinding = 1e-7;  // margins below it bind
+constexpr int kTangents = 4;  // programs above UC, each from the last one's optimum
 
 /// Search for one number of passes.
 class Search {
@@ -147,8 +146,9 @@ std::vector<Limit> limits_at(const Problem& m, const std::vector<Row>& all,
                       .value = all[i].limit * std::exp(sign * g),
                       .limit = all[i].limit,
                       .margin = -g,
-                      .binding = -g < kBinding,
-                      .price = -sign * multipliers[i]});
+                      .binding = -g<kBinding, .price = multipliers[i]> 0
+                                     ? -sign * multipliers[i]
+                                     : 0});
   }
   return limits;
 }

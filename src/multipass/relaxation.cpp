@@ -5,13 +5,6 @@
 #include <limits>
 
 namespace turnwright::multipass {
-namespace {
-
-// Conditions beyond these mean nothing in any unit; every range of a request is inside.
-constexpr double kFar = 100;
-
-}  // namespace
-
 double MeanLife::at(double s) const {
   // the larger term first, so that exp cannot overflow
   return s > 0 ? s + std::log(theta_ * std::exp(-s) + 1 - theta_)

@@ -12,6 +12,9 @@
 /// half space.
 namespace turnwright::multipass {
 
+inline constexpr double kFar = 100;       ///< ln of any condition worth looking at
+inline constexpr double kBinding = 1e-7;  ///< margins below it bind
+
 enum Variable { kVr, kFr, kDr, kVs, kFs, kDs, kVariables };
 using Log = Eigen::Matrix<double, kVariables, 1>;
 

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "rows.hpp"
 #include "turnwright/optimise/posynomial.hpp"
 
 namespace turnwright::multipass {
 namespace {
-
-constexpr double kBinding = 1e-7;  // margins below it bind
-constexpr double kFar = 100;       // ln of any condition worth looking at
 
 void check(const SinglePass& m) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
