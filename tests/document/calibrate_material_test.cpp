@@ -163,29 +163,50 @@ TEST(CalibrateMaterial, RefusesCutsThatCannotTell) {
   one[2].erase("Ff_N");
   for (json& c : one) c["vc_m_min"] = 120;
   q["cuts"] = one;
-  EXPECT_EQ(refused(q), R"(X)");
+  EXPECT_EQ(
+      refused(q),
+      R"(calibrate-material: /cuts: got 3 cuts with Fc_N that cannot tell kc11_MPa and mc, expected a cut at another chip thickness (another feed)
+calibrate-material: /cuts: got 2 cuts with Ff_N that cannot tell kf11_MPa and mf, expected a cut at another chip thickness (another feed)
+calibrate-material: /cuts: got 3 cuts with Fp_N that cannot tell kp11_MPa and mp, expected a cut at another chip thickness (another feed)
+calibrate-material: /cuts: got 3 cuts with T_min that cannot tell n and C, expected a tool life at another cutting speed)");
 }
 
 TEST(CalibrateMaterial, ListsAllThatIsWrong) {
-  EXPECT_EQ(refused({{"material", "C45x"},
-                     {"id", "no id"},
-                     {"confidence", 1},
-                     {"tool", {{"name", ""}, {"re_mm", -1}, {"kapr_deg", 0}}},
-                     {"cuts",
-                      {{{"vc_m_min", 0}, {"f_mm_rev", "x"}, {"ap_mm", 1}, {"Fc_N", -3}},
-                       {{"vc_m_min", 100}, {"f_mm_rev", 0.2}, {"ap_mm", 1}}}},
-                     {"lots", 1}}),
-            R"(X)");
-  EXPECT_EQ(refused({{"tool", tool()}, {"csv", "vc_m_min,f,ap_mm\n100,0.1,2\n"}}),
-            R"(X)");
-  EXPECT_EQ(refused({{"tool", tool()},
-                     {"csv",
-                      "vc_m_min,f_mm_rev,ap_mm,Fc_N\n100,0.1,2\n"
-                      "100,0.1,ten,500\n"}}),
-            R"(X)");
+  EXPECT_EQ(
+      refused({{"material", "C45x"},
+               {"id", "no id"},
+               {"confidence", 1},
+               {"tool", {{"name", ""}, {"re_mm", -1}, {"kapr_deg", 0}}},
+               {"cuts",
+                {{{"vc_m_min", 0}, {"f_mm_rev", "x"}, {"ap_mm", 1}, {"Fc_N", -3}},
+                 {{"vc_m_min", 100}, {"f_mm_rev", 0.2}, {"ap_mm", 1}}}},
+               {"lots", 1}}),
+      R"(calibrate-material: /material: got "C45x", expected a material of the catalogue: "test-steel"
+calibrate-material: /id: got "no id", expected an id of 1 to 64 letters, digits or _.+-, a letter or digit first
+calibrate-material: /tool/name: got "", expected a text of 1 to 200 bytes
+calibrate-material: /tool/re_mm: got -1, expected a number from 0 to 100 mm
+calibrate-material: /tool/kapr_deg: got 0, expected a number > 0 and <= 120 deg
+calibrate-material: /tool/rake_deg: got nothing, expected a number from -30 to 45 deg
+calibrate-material: /confidence: got 1, expected a number from 0.5 to 0.999
+calibrate-material: /cuts/0/vc_m_min: got 0, expected a number > 0 and <= 5000 m/min
+calibrate-material: /cuts/0/f_mm_rev: got "x", expected a number > 0 and <= 5 mm/rev
+calibrate-material: /cuts/0/Fc_N: got -3, expected a number > 0 and <= 1000000 N
+calibrate-material: /cuts/1: got an object, expected a measured Fc_N, Ff_N, Fp_N or T_min
+calibrate-material: /lots: got 1, expected no such key (did you mean "cuts"?))");
+  EXPECT_EQ(
+      refused({{"tool", tool()}, {"csv", "vc_m_min,f,ap_mm\n100,0.1,2\n"}}),
+      R"(calibrate-material: /csv: got column "f", expected a first line naming columns of vc_m_min, f_mm_rev, ap_mm, Fc_N, Ff_N, Fp_N, T_min)");
+  EXPECT_EQ(
+      refused({{"tool", tool()},
+               {"csv",
+                "vc_m_min,f_mm_rev,ap_mm,Fc_N\n100,0.1,2\n"
+                "100,0.1,ten,500\n"}}),
+      R"(calibrate-material: /csv#line 2: got 3 cells, expected 4 as in the first line
+calibrate-material: /csv#line 3/ap_mm: got "ten", expected a number > 0 and <= 50 mm)");
   EXPECT_EQ(refused({{"tool", tool()}, {"csv", "vc_m_min"}, {"cuts", json::array()}}),
-            R"(X)");
-  EXPECT_EQ(refused(nullptr), R"(X)");
+            R"(calibrate-material: /csv: got "vc_m_min", expected either cuts or csv)");
+  EXPECT_EQ(refused(nullptr),
+            R"(calibrate-material: document: got null, expected an object)");
 }
 
 }  // namespace
