@@ -13,7 +13,7 @@ tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
 tw_domain(cutting SOURCES cut.cpp material_fit.cpp spindle.cpp
   DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS cut_test.cpp material_fit_test.cpp spindle_test.cpp)
-tw_domain(deflection SOURCES beam.cpp boring_bar.cpp chuck_identification.cpp
+tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
                              rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp
@@ -56,10 +56,11 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp csv.cpp chuck.cpp drift_csv.cpp thermal.cpp multipass.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp
           calibrate_material.cpp
           DEPENDS base catalogue part cutting deflection multipass thermal tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp thermal_test.cpp deflection_test.cpp calibrate_material_test.cpp multipass_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+                calibrate_material_test.cpp multipass_test.cpp
                 malformed_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
@@ -83,10 +84,10 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
-tw_domain(report SOURCES text.cpp setups.cpp proof.cpp fields.cpp layout.cpp
+tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp contour.cpp svg.cpp
           DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp drawing_test.cpp)
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

@@ -642,17 +642,26 @@ std::string words(const NullDirection& direction) {
   return text;
 }
 
-Estimate predicted_deflection(const PlaneFit& fit, double z_mm, double F_N,
-                              double C_Nmm) {
-  const Vector3d x = row(z_mm, F_N, C_Nmm);
-  const Vector3d c(fit.root.c0_mm_N, fit.root.c1_rad_N, fit.root.c2_rad_Nmm);
+namespace {
+
+/// Of x . (c0, c1, c2).
+double standard_error(const PlaneFit& fit, const Vector3d& x) {
   double variance = 0;
   for (int j = 0; j < 3; ++j)
     for (int k = 0; k < 3; ++k)
       variance +=
           x[j] * x[k] *
           fit.covariance[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)];
-  return {x.dot(c), std::sqrt(std::max(variance, 0.0))};
+  return std::sqrt(std::max(variance, 0.0));
+}
+
+}  // namespace
+
+Estimate predicted_deflection(const PlaneFit& fit, double z_mm, double F_N,
+                              double C_Nmm) {
+  const Vector3d x = row(z_mm, F_N, C_Nmm);
+  const Vector3d c(fit.root.c0_mm_N, fit.root.c1_rad_N, fit.root.c2_rad_Nmm);
+  return {x.dot(c), standard_error(fit, x)};
 }
 
 Estimate predicted_radius_error(const PlaneFit& radial, const PlaneFit* tangential,
@@ -680,6 +689,13 @@ std::optional<Springs> springs(const Root& root, double Lc_mm) {
       .per_k1_mm_N = spring(root.c0_mm_N - Lc_mm * root.c1_rad_N, root.c0_mm_N),
       .per_k2_rad_Nmm = root.c1_rad_N / Lc_mm,
       .per_k3_rad_Nmm = spring(root.c2_rad_Nmm - root.c1_rad_N / Lc_mm, root.c2_rad_Nmm)};
+}
+
+Springs spring_errors(const PlaneFit& fit, double Lc_mm) {
+  return {.Lc_mm = Lc_mm,
+          .per_k1_mm_N = standard_error(fit, {1, -Lc_mm, 0}),
+          .per_k2_rad_Nmm = standard_error(fit, {0, 1 / Lc_mm, 0}),
+          .per_k3_rad_Nmm = standard_error(fit, {0, -1 / Lc_mm, 1})};
 }
 
 }  // namespace turnwright::deflection

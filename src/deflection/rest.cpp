@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -9,25 +10,23 @@
 namespace turnwright::deflection {
 namespace {
 
-using Side = SideOfTool;
+using Side = Body;
+constexpr double kFree = std::numeric_limits<double>::infinity();
 
 bool turns_freely(const Side& s) { return std::isinf(s.M_rad_Nmm); }
 bool is_nothing(const Side& s) { return std::isinf(s.X_mm_N); }
 
-/// A side seen from a place farther on: the parallel-axis rule over the stretch between.
-Side through(const Side& s, double length_mm, const Beam::Body& stretch) {
+/// A side seen from a place farther on, also where it is nothing or turns freely.
+Side through(const Side& s, double length_mm, const Body& stretch) {
   if (is_nothing(s)) return s;
-  const auto [M0, d, J, S] = stretch;
-  const double e = length_mm + s.d_mm, X = s.X_mm_N + J + S, M = M0 + s.M_rad_Nmm;
-  if (turns_freely(s)) return {s.M_rad_Nmm, e, X + M0 * (e - d) * (e - d)};
-  if (M == 0) return {0, 0, X};  // nothing between the section and a rigid clamp
-  return {M, (M0 * d + s.M_rad_Nmm * e) / M,
-          X + M0 * s.M_rad_Nmm / M * (e - d) * (e - d)};
+  if (!turns_freely(s)) return joined(s, length_mm, stretch);
+  const double d = length_mm + s.d_mm, apart = d - stretch.d_mm;
+  return {s.M_rad_Nmm, d, s.X_mm_N + stretch.X_mm_N + stretch.M_rad_Nmm * apart * apart};
 }
 
 /// A support of compliance c beside a side, Eq. (2).
 Side beside(const Side& s, double c) {
-  if (is_nothing(s)) return {Side::kFree, 0, c};
+  if (is_nothing(s)) return {kFree, 0, c};
   const double X = s.X_mm_N, M = s.M_rad_Nmm, d = s.d_mm;
   return {turns_freely(s) ? (c + X) / (d * d) : M * (c + X) / (c + X + M * d * d),
           d * c / (c + X), c * X / (c + X)};
@@ -52,7 +51,7 @@ struct Joined {
 
 /// Eqs. (3), (4), multiplied by q_l p_r + q_r p_l where M = p/q, so that neither an end
 /// that turns freely (q = 0) nor one that cannot turn (p = 0) divides by zero.
-Joined joined(const Side& l, const Side& r) {
+Joined sharing(const Side& l, const Side& r) {
   const double X_l = l.X_mm_N, X_r = r.X_mm_N, d_l = l.d_mm, d_r = r.d_mm;
   if (is_nothing(r))
     return {X_l + l.M_rad_Nmm * d_l * d_l,
@@ -118,15 +117,13 @@ part::Shaft mirrored(part::Shaft shaft) {
 }
 
 Side root_side(const Supports& s) {
-  if (s.method == Method::between_centres) return {Side::kFree, 0, s.head_mm_N};
-  const auto [c0, c1, c2] = s.root;
-  const double q = c2 > 0 ? c1 / c2 : 0;
-  return {c2, q, c0 - c1 * q};
+  if (s.method == Method::between_centres) return {kFree, 0, s.head_mm_N};
+  return body(s.root);
 }
 
 Side tail_side(const Supports& s) {
-  if (s.method == Method::chuck) return {0, 0, Side::kFree};
-  return {Side::kFree, 0, s.tail_mm_N};
+  if (s.method == Method::chuck) return {0, 0, kFree};
+  return {kFree, 0, s.tail_mm_N};
 }
 
 double inside(const part::Shaft& shaft, const Supports& supports,
@@ -173,8 +170,8 @@ RestedFlexibility RestedBeam::at(double a_mm) const {
   const double a = std::min(a_mm, length_mm_), b = length_mm_ - a;
   const double u = std::abs(a - z_mm_);
   if (a <= z_mm_) {
-    const Joined j = joined(through(root_, a, from_root_.body(a)),
-                            through(held_ahead_, u, to_rest_.body(u)));
+    const Joined j = sharing(through(root_, a, from_root_.body(a)),
+                             through(held_ahead_, u, to_rest_.body(u)));
     const double rest_w = share(ahead_, c_, j.R_w, j.R_w * u - j.n_w);
     const double rest_p = share(ahead_, c_, j.R_p, j.R_p * u - j.n_p);
     return {{j.f_ww, j.f_wp, j.f_pp, has_tail_ ? j.R_w - rest_w : 0,
@@ -182,8 +179,8 @@ RestedFlexibility RestedBeam::at(double a_mm) const {
             rest_w,
             rest_p};
   }
-  const Joined j = joined(through(held_behind_, u, from_rest_.body(u)),
-                          through(tail_, b, to_tail_.body(b)));
+  const Joined j = sharing(through(held_behind_, u, from_rest_.body(u)),
+                           through(tail_, b, to_tail_.body(b)));
   return {{j.f_ww, j.f_wp, j.f_pp, j.R_w, j.R_p},
           share(behind_, c_, j.V_w, j.m_w + j.V_w * u),
           share(behind_, c_, j.V_p, j.m_p + j.V_p * u)};

@@ -22,7 +22,7 @@ using cutting::Estimate;
 using cutting::Evidence;
 using nlohmann::json;
 
-constexpr std::size_t kCuts = 2000, kCsvBytes = 10000;
+constexpr std::size_t kCuts = 2000;
 // Usual for turning with carbide (handbook values), where no material gives its own.
 constexpr double kUsual_a = 0.35, kUsual_b = 0.15;
 const Bounds kForce = above_up_to(0, 1e6, "N");
@@ -95,13 +95,20 @@ void read_cuts(Reader& r, Request& q) {
     for (const Reader& item : r.items("cuts", 1, kCuts)) q.cuts.push_back(read_cut(item));
     return;
   }
-  const auto rows = csv_rows(
-      r.at("csv"), kCsvBytes,
-      {{"vc_m_min"}, {"f_mm_rev"}, {"ap_mm"}, {"Fc_N"}, {"Ff_N"}, {"Fp_N"}, {"T_min"}});
+  const auto optional = [](const char* name) {
+    return CsvColumn{.name = name, .required = false};
+  };
+  const auto rows = csv_rows(r.at("csv"),
+                             {{.name = "vc_m_min"},
+                              {.name = "f_mm_rev"},
+                              {.name = "ap_mm"},
+                              optional("Fc_N"),
+                              optional("Ff_N"),
+                              optional("Fp_N"),
+                              optional("T_min")},
+                             OtherColumns::refused, kCuts);
   for (const CsvRow& row : rows)
     q.cuts.push_back(read_cut(Reader(row.value, r.problems(), row.pointer)));
-  if (rows.empty() && r.problems().list.empty())
-    r.problem_at("csv", "a line of column names and a line for each cut", "range");
 }
 
 void read_base(Reader& r, const Catalogue& catalogue, Request& q) {

@@ -20,7 +20,7 @@ namespace {
 using namespace turnwright::deflection;
 using nlohmann::json;
 
-constexpr std::size_t kTests = 2000, kPoints = 2000, kCsvBytes = 10000;
+constexpr std::size_t kTests = 2000, kPoints = 2000;
 const Bounds kPlace = within(0, 1e6, "mm"), kDiameter = above_up_to(0, 1e5, "mm"),
              kForce = within(-1e6, 1e6, "N"), kError = within(-1000, 1000, "mm"),
              kArm = above_up_to(0, 1e6, "mm"), kTool = within(-1, 1, "mm/N");
@@ -84,19 +84,18 @@ void read_cuts(Reader& r, const Bounds& places, Request& q) {
   std::vector<CsvRow> rows;  // outlives its readers
   std::vector<Reader> items;
   if (csv) {
-    rows = csv_rows(r.at("csv"), kCsvBytes,
-                    {{"setup", true},
-                     {"z_mm"},
-                     {"D_mm"},
-                     {"Fr_N"},
-                     {"Ft_N"},
-                     {"Fa_N"},
-                     {"radius_error_mm"},
-                     {"delta_t_mm"}});
+    rows = csv_rows(r.at("csv"),
+                    {{.name = "setup", .text = true},
+                     {.name = "z_mm"},
+                     {.name = "D_mm"},
+                     {.name = "Fr_N"},
+                     {.name = "Ft_N"},
+                     {.name = "Fa_N"},
+                     {.name = "radius_error_mm", .required = false},
+                     {.name = "delta_t_mm", .required = false}},
+                    OtherColumns::refused, kTests);
     for (const CsvRow& row : rows)
       items.emplace_back(row.value, r.problems(), row.pointer);
-    if (items.empty() && r.problems().list.empty())
-      r.problem_at("csv", "a line of column names and a line for each cut", "range");
   } else {
     items = r.items("tests", 1, kTests);
   }
@@ -236,17 +235,23 @@ json described(const Identifiability& can) {
 }
 
 /// The view by three springs; a rigid one is null.
-std::optional<json> described_springs(const Root& s, std::optional<double> Lc_mm) {
+std::optional<json> described_springs(const PlaneFit& fit, std::optional<double> Lc_mm) {
+  const Root& s = fit.root;
   const auto range = arms(s);
   if (!range) return std::nullopt;
   const auto k = springs(s, Lc_mm.value_or(std::sqrt(s.c0_mm_N / s.c2_rad_Nmm)));
   if (!k) return std::nullopt;
-  const auto stiffness = [](double per) { return per > 0 ? json(1 / per) : json(); };
-  return json{{"Lc_range_mm", {range->least_mm, range->largest_mm}},
-              {"Lc_mm", k->Lc_mm},
-              {"k1_N_mm", stiffness(k->per_k1_mm_N)},
-              {"k2_Nmm_rad", stiffness(k->per_k2_rad_Nmm)},
-              {"k3_Nmm_rad", stiffness(k->per_k3_rad_Nmm)}};
+  const Springs u = spring_errors(fit, k->Lc_mm);
+  json out{{"Lc_range_mm", {range->least_mm, range->largest_mm}}, {"Lc_mm", k->Lc_mm}};
+  const auto add = [&out](const std::string& key, double per_k, double u_per_k) {
+    const bool rigid = !(per_k > 0);
+    out[key] = rigid ? json() : json(1 / per_k);
+    out["u_" + key] = rigid ? json() : json(u_per_k / (per_k * per_k));
+  };
+  add("k1_N_mm", k->per_k1_mm_N, u.per_k1_mm_N);
+  add("k2_Nmm_rad", k->per_k2_rad_Nmm, u.per_k2_rad_Nmm);
+  add("k3_Nmm_rad", k->per_k3_rad_Nmm, u.per_k3_rad_Nmm);
+  return out;
 }
 
 json described(const PlaneAnswer& a, std::optional<double> Lc_mm) {
@@ -268,7 +273,7 @@ json described(const PlaneAnswer& a, std::optional<double> Lc_mm) {
     out["unconstrained"] = root(fit.unconstrained);
     out["contradiction"] = fit.contradiction;
   }
-  if (auto view = described_springs(fit.root, Lc_mm)) out["springs"] = std::move(*view);
+  if (auto view = described_springs(fit, Lc_mm)) out["springs"] = std::move(*view);
   return out;
 }
 
@@ -305,10 +310,9 @@ json estimates(const PlaneFit& radial, const PlaneFit* tangential, const TestCut
       predicted_deflection(radial, at.z_mm, at.load.Fr_N, -at.load.Fa_N * at.D_mm / 2);
   const Estimate e =
       predicted_radius_error(radial, tangential, at.z_mm, at.D_mm, at.load);
-  json out{{"delta_r_mm", r.value},
-           {"u_delta_r_mm", r.u},
-           {"radius_error_mm", e.value},
-           {"u_radius_error_mm", e.u}};
+  json out{
+      {"z_mm", at.z_mm},     {"Fr_N", at.load.Fr_N},       {"delta_r_mm", r.value},
+      {"u_delta_r_mm", r.u}, {"radius_error_mm", e.value}, {"u_radius_error_mm", e.u}};
   if (tangential) {
     const Estimate t = predicted_deflection(*tangential, at.z_mm, at.load.Ft_N, 0);
     out["delta_t_mm"] = t.value;

@@ -7,23 +7,35 @@
 
 namespace turnwright::document {
 
-/// A column that a CSV text may have.
+/// A column wanted from a CSV table, by its name in the header.
 struct CsvColumn {
-  std::string key;
+  std::string name;
+  bool required = true;
   bool text = false;  ///< its cells stay text, also where they look like numbers
 };
 
-/// A row as an object that a Reader can take: key -> cell, empty cells left out.
+enum class OtherColumns { refused, ignored };
+
+/// A row as an object that a Reader can take: column -> cell, empty cells left out.
 struct CsvRow {
   nlohmann::json value;
-  std::string pointer;  ///< "/csv#line 3"
+  std::string pointer;  ///< "/csv#line 3", counted from 1 as an editor does
 };
 
-/// Lines of cells between commas, the first naming the columns in any order.  Blanks
-/// around cells, a carriage return and empty lines do not count; cells cannot be quoted.
-/// Wrong headers and rows of another length than the header go to the reader's problems;
-/// what is no number stays text, for the row's Reader to refuse.
-std::vector<CsvRow> csv_rows(const Reader& text, std::size_t max_bytes,
-                             const std::vector<CsvColumn>& columns);
+/// The rows of a CSV table (RFC 4180) given as one text or as the list of its lines.
+///
+/// - The header names the columns, in any order; lines before it may begin with #.
+/// - Cells end at a comma, a semicolon or a tab, whichever the header has most of.  They
+///   may be quoted, with "" for a quote, but not over several lines.
+/// - Numbers have a decimal point.  What is no number stays text, for the row's Reader to
+///   refuse under the column's name.
+/// - A byte order mark, blanks around cells, \r at the end of a line, empty lines and
+///   empty cells behind the last column do not count.
+///
+/// Reported: no table, a table of no rows or of more than `most_rows`, a wrong header,
+/// rows of another length than the header, quotes out of place, and, once, a control
+/// character (what is read is no text) or a decimal comma.
+std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
+                             OtherColumns others, std::size_t most_rows);
 
 }  // namespace turnwright::document

@@ -1,15 +1,19 @@
 #include "turnwright/document/deflection.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fields.hpp"
-#include "shaft_fields.hpp"
+#include "milled_shaft.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
 #include "turnwright/deflection/boring_bar.hpp"
+#include "turnwright/deflection/copying.hpp"
 #include "turnwright/deflection/envelope.hpp"
 #include "turnwright/deflection/face.hpp"
 #include "turnwright/deflection/feedback.hpp"
@@ -34,6 +38,12 @@ struct Steady {
   SteadyRest radial, tangential;
 };
 
+/// Passes in a row, and what the blank runs out.
+struct Passes {
+  std::vector<double> ap_mm;
+  double runout_mm = 0;
+};
+
 struct Request {
   part::Shaft shaft;
   Clamping clamping;
@@ -42,6 +52,8 @@ struct Request {
   std::vector<double> positions_mm;
   std::optional<Load> load;
   std::optional<ForceLaw> force_law;
+  std::optional<Passes> passes;
+  std::optional<MilledShaft> milled;
   std::optional<Face> face;
   Workpiece::Options options;
 };
@@ -80,6 +92,29 @@ std::optional<Steady> read_steady(Reader& clamping, const Bounds& on_shaft) {
   return steady;
 }
 
+double widest_mm(const part::Shaft& shaft) {
+  double d = 0;
+  for (const part::Segment& s : shaft.segments)
+    d = std::max({d, s.outer_left_mm, s.outer_right_mm});
+  return d;
+}
+
+/// The bar turns its tip to the wall: where it is widest it takes D/2 + f of the bore.
+BoringBar read_bar(Reader& clamping, double widest_mm) {
+  const BoringBar bar{.tip_offset_mm = clamping.number("tip_offset_mm", kInner),
+                      .bore_diameter_mm = clamping.number("bore_diameter_mm", kOuter)};
+  const double room = bar.bore_diameter_mm - widest_mm / 2;
+  if (bar.bore_diameter_mm < widest_mm)
+    clamping.problem_at(
+        "bore_diameter_mm",
+        expected_number(at_least(widest_mm, "mm")) + ", the bar's largest diameter",
+        "conflict");
+  else if (bar.tip_offset_mm > room)
+    clamping.problem_at("tip_offset_mm", expected_number(within(0, room, "mm")),
+                        "conflict");
+  return bar;
+}
+
 void read_clamping(Reader r, Request& q, const Bounds& inside) {
   enum class Hold { chuck, between_centres, chuck_tailstock, boring_bar };
   const auto hold = r.choice<Hold>("method", {{"chuck", Hold::chuck},
@@ -96,8 +131,7 @@ void read_clamping(Reader r, Request& q, const Bounds& inside) {
     chuck->finish();
   }
   if (hold == Hold::boring_bar) {
-    q.bar = {.tip_offset_mm = r.number("tip_offset_mm", within(0, 1e5, "mm")),
-             .bore_diameter_mm = r.number("bore_diameter_mm", kOuter)};
+    q.bar = read_bar(r, widest_mm(q.shaft));
   } else {
     read_centre(r, "tail_centre", &Supports::tail_mm_N, q.clamping);
     read_centre(r, "head_centre", &Supports::head_mm_N, q.clamping);
@@ -116,7 +150,24 @@ std::optional<Load> read_load(Reader& request) {
   return load;
 }
 
-std::optional<ForceLaw> read_force_law(Reader& request) {
+std::optional<Passes> read_passes(Reader& law) {
+  if (!law.has("passes_ap_mm")) {
+    if (law.has("blank_runout_mm"))
+      law.problem_at("blank_runout_mm", "nothing without passes_ap_mm", "conflict");
+    return std::nullopt;
+  }
+  Passes p;
+  p.ap_mm = law.numbers("passes_ap_mm", within(0, 1e4, "mm"), 1, 100);
+  const double first = p.ap_mm.empty() ? 0 : p.ap_mm.front();
+  if (!p.ap_mm.empty() && !(first > 0))
+    law.problem_at("passes_ap_mm", "a first pass that cuts: above 0 mm", "range");
+  // The tool must not leave the part in the first pass.
+  p.runout_mm = law.number_or("blank_runout_mm",
+                              at_least_below(0, first > 0 ? first : 1e4, "mm"), 0);
+  return p;
+}
+
+std::optional<ForceLaw> read_force_law(Reader& request, std::optional<Passes>& passes) {
   auto r = request.optional_object("force_law");
   if (!r) return std::nullopt;
   const Bounds ratio = within(-1000, 1000);
@@ -125,30 +176,57 @@ std::optional<ForceLaw> read_force_law(Reader& request) {
                      .Fa_over_Fr = r->number("Fa_over_Fr", ratio),
                      .Ft_over_Fr = r->number("Ft_over_Fr", ratio),
                      .ap_mm = r->number("ap_mm", above_up_to(0, 1e4, "mm"))};
+  passes = read_passes(*r);
   r->finish();
   return law;
 }
 
-/// A place on the shaft; beyond its end by the rounding of the caller's sum is on it.
-double read_place(const Reader& r, const Bounds& shaft) {
+/// A number that passes its bounds by no more than the rounding of the caller's own sum
+/// is the bound.
+double read_rounded(const Reader& r, const Bounds& bounds) {
+  constexpr double kRounding = 1e-12;
   const double x = r.is_number() ? r.json().get<double>() : 0;
-  if (x > shaft.upper && x <= shaft.upper * (1 + 1e-12)) return shaft.upper;
-  return r.as_number(shaft);
+  if (x > bounds.upper && x <= bounds.upper * (1 + kRounding)) return bounds.upper;
+  if (x < bounds.lower && x >= bounds.lower * (1 - kRounding)) return bounds.lower;
+  return r.as_number(bounds);
 }
 
-std::optional<Face> read_face(Reader& request, const Bounds& shaft) {
+double read_rounded(Reader& parent, std::string_view key, const Bounds& bounds) {
+  return read_rounded(parent.at(key, expected_number(bounds)), bounds);
+}
+
+/// Radii a face at z can have: at a step those of either side.
+Bounds face_radii(const part::Shaft& shaft, double z_mm) {
+  double outer = 0, bore = std::numeric_limits<double>::infinity();
+  const std::vector<double> ends = part::ends_mm(shaft.segments);
+  for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
+    if (!(ends[i] <= z_mm && z_mm <= ends[i + 1])) continue;
+    const part::Segment& s = shaft.segments[i];
+    const double u = (z_mm - ends[i]) / (ends[i + 1] - ends[i]);
+    outer = std::max(outer, std::lerp(s.outer_left_mm, s.outer_right_mm, u) / 2);
+    bore = std::min(bore, std::lerp(s.inner_left_mm, s.inner_right_mm, u) / 2);
+  }
+  return outer > 0 ? at_least_below(bore, outer, "mm") : kInner;
+}
+
+std::optional<Face> read_face(Reader& request, const part::Shaft& shaft,
+                              const Bounds& on_shaft) {
   auto r = request.optional_object("face");
   if (!r) return std::nullopt;
-  const Face face{.z_mm = read_place(r->at("z_mm", expected_number(shaft)), shaft),
-                  .facing = {.rho_min_mm = r->number("rho_min_mm", kInner),
-                             .rho_max_mm = r->number("rho_max_mm", kOuter),
+  const double z = read_rounded(*r, "z_mm", on_shaft);
+  const Bounds radii = face_radii(shaft, z);
+  const Face face{.z_mm = z,
+                  .facing = {.rho_min_mm = read_rounded(*r, "rho_min_mm", radii),
+                             .rho_max_mm = read_rounded(
+                                 *r, "rho_max_mm", above_up_to(0, radii.upper, "mm")),
                              .Ff_N = r->number("Ff_N", kForce),
                              .Fp_N = r->number("Fp_N", kForce)}};
   r->finish();
   if (face.facing.rho_min_mm >= face.facing.rho_max_mm)
-    r->problem_at("rho_min_mm",
-                  expected_number(at_least_below(0, face.facing.rho_max_mm, "mm")),
-                  "conflict");
+    r->problem_at(
+        "rho_min_mm",
+        expected_number(at_least_below(radii.lower, face.facing.rho_max_mm, "mm")),
+        "conflict");
   return face;
 }
 
@@ -168,9 +246,12 @@ Request read_request(const json& document) {
   Reader r = Reader(document, problems).as_object();
   Request q;
   read_format(r, "turnwright-deflection/1");
-  q.shaft = read_shaft(r.object("shaft"));
-  // The length of a shaft that could not be read is no measure for the rest.
+  auto read = read_milled_shaft(r.object("shaft"));
+  q.shaft = std::move(read.shaft);
+  q.milled = std::move(read.milled);
+  // A shaft that could not be read is no measure for the rest.
   const bool measured = problems.list.empty();
+  if (!measured) q.shaft.segments.clear();
   const double length = part::length_mm(q.shaft.segments);
   const Bounds on_shaft = measured ? within(0, length, "mm") : at_least(0, "mm");
   Bounds inside = measured ? at_least_below(0, length, "mm") : at_least(0, "mm");
@@ -180,18 +261,21 @@ Request read_request(const json& document) {
   // A bar has its tip and a face its place; everything else needs positions.
   if (r.has("positions_mm") || !(q.bar || r.has("face")))
     for (const Reader& place : r.items("positions_mm", 0, kPositions))
-      q.positions_mm.push_back(read_place(place, on_shaft));
+      q.positions_mm.push_back(read_rounded(place, on_shaft));
 
   if (q.bar) {
     for (const char* key : {"force_law", "face", "in_process", "shoulder_correction"})
       if (r.has(key))
         r.problem_at(key, "nothing: a boring bar is not turned", "conflict");
   } else {
-    q.force_law = read_force_law(r);
-    q.face = read_face(r, on_shaft);
+    q.force_law = read_force_law(r, q.passes);
+    q.face = read_face(r, q.shaft, on_shaft);
     q.options = {.in_process = read_in_process(r),
                  .shoulder_correction = r.boolean_or("shoulder_correction", false)};
   }
+  if (q.milled && (q.bar || q.steady))
+    r.problem_at("shaft", q.bar ? "a bar without slots" : "no slots with a steady rest",
+                 "conflict");
   q.load = read_load(r);
   if (q.load && r.has("force_law"))
     r.problem_at("force_law", "either load or force_law", "conflict");
@@ -280,6 +364,25 @@ std::pair<double, double> radial_load(const Request& q, const json& answered) {
   return {Fr, q.force_law->Fa_over_Fr * Fr};
 }
 
+/// The error each pass leaves, and of the blank's run-out what it keeps.
+void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tangential,
+                const Request& q, json& out) {
+  out["errors_of_passes_mm"] =
+      radius_errors_of_passes(D_mm, radial, tangential, *q.force_law, q.passes->ap_mm);
+  out["copied_runout_mm"] = copied_runout_of_passes(
+      D_mm, radial, tangential, *q.force_law, q.passes->runout_mm, q.passes->ap_mm);
+}
+
+/// Two lobes of a part with slots, as it turns under the load.
+json oval(const Request& q, double a_mm, double Fr_N, double Ft_N) {
+  const OvalFlexibility f =
+      oval_flexibility(*q.milled, q.shaft.E_MPa, q.clamping.radial, a_mm);
+  return {{"mean_mm_N", f.mean_mm_N},
+          {"lobe_mm_N", f.lobe_mm_N},
+          {"softest_deg", f.softest_rad * 180 / units::kPi},
+          {"amplitude_mm", oval_error(f, Fr_N, Ft_N).amplitude_mm}};
+}
+
 json positions(const Workpiece& part, const Held& held, const Request& q) {
   json list = json::array();
   const Planes f = held.at(q.positions_mm);
@@ -289,6 +392,13 @@ json positions(const Workpiece& part, const Held& held, const Request& q) {
                        ? position(a, D, f.radial[i], f.tangential[i], *q.force_law)
                        : position(response(a, D, f.radial[i], f.tangential[i],
                                            q.load.value_or(Load{}))));
+    if (q.passes) add_passes(D, f.radial[i], f.tangential[i], q, list.back());
+    if (q.milled) {
+      const double Fr = radial_load(q, list.back()).first;
+      list.back()["oval"] =
+          oval(q, a, Fr,
+               q.force_law ? q.force_law->Ft_over_Fr * Fr : q.load.value_or(Load{}).Ft_N);
+    }
     if (q.steady) {
       const auto [Fr, Fa] = radial_load(q, list.back());
       list.back()["rest_reaction_N"] =
@@ -323,12 +433,16 @@ json face(const Held& held, const Request& q) {
           {"profile", {{"rho_mm", form.rho_mm}, {"g_mm", form.g_mm}}}};
 }
 
-json warnings(const part::Shaft& shaft) {
+json warnings(const Request& q) {
   json list = json::array();
-  for (const std::size_t i : thin_walls(shaft.segments))
+  for (const std::size_t i : thin_walls(q.shaft.segments))
     list.push_back("/shaft/segments/" + std::to_string(i) +
                    ": the wall is thinner than 0.2 of the radius; rings ovalise and the "
                    "beam model is void");
+  if (q.bar && q.bar->tip_offset_mm < widest_mm(q.shaft) / 2)
+    list.push_back(
+        "/clamping/tip_offset_mm: the bar's radius is larger; where it is widest it "
+        "touches the bore before its tip does");
   return list;
 }
 
@@ -347,7 +461,7 @@ json deflection(const json& request) {
   const Held held(part, q);
   json result{{"format", "turnwright-deflection-result/1"},
               {"positions", positions(part, held, q)},
-              {"warnings", warnings(q.shaft)}};
+              {"warnings", warnings(q)}};
   if (q.bar) {
     const BarTip tip = bar_tip(Beam(q.shaft), q.clamping, *q.bar, *q.load);
     result["y_r_mm"] = tip.y_r_mm;

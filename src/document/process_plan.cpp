@@ -158,6 +158,12 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
                    {"cost_per_part", if_planned(plan.cost_per_part)},
                    {"time_per_part_min", if_planned(plan.time_per_part_min)}};
   if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
+  if (const auto& r = plan.robustness)
+    out["robustness"] = {
+        {"conformance", r->conformance},
+        {"nominal_cost_per_part", r->nominal_cost_per_part},
+        {"nominal_time_per_part_min", r->nominal_time_per_part_min},
+        {"price_per_part", plan.cost_per_part - r->nominal_cost_per_part}};
   out["certificate"] = json_of(plan.certificate);
   out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });
   out["tolerances"] =

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "turnwright/document/reader.hpp"
 #include "turnwright/part/shaft.hpp"
 
@@ -6,6 +8,8 @@ namespace turnwright::document {
 
 /// {"E_MPa", "nu", "segments": [{"length_mm", "outer_left_mm", ..}]}, as `deflection` has
 /// it: no inner diameters are a solid segment.
-part::Shaft read_shaft(Reader r);
+/// `more` reads further keys of each segment.
+part::Shaft read_shaft(
+    Reader r, const std::function<void(Reader&, const part::Segment&)>& more = {});
 
 }  // namespace turnwright::document

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "drift_csv.hpp"
+#include "csv.hpp"
 #include "fields.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/thermal/batch.hpp"
@@ -72,15 +72,22 @@ Columns read_table(Reader& r, const std::vector<std::string>& required,
 }
 
 Columns read_csv_log(Reader& r) {
-  std::map<std::string, WantedColumn> wanted;
-  for (const char* key : {"time_s", "rpm", "ambient_degC", "error_um"})
-    wanted[key] = {key, log_bounds().at(key)};
-  if (auto names = r.optional_object("columns")) {
+  std::map<std::string, std::string> names;  // of the columns
+  for (const char* key : {"time_s", "rpm", "ambient_degC", "error_um"}) names[key] = key;
+  if (auto given = r.optional_object("columns")) {
     for (const auto& [key, bounds] : log_bounds())
-      if (const auto name = names->optional_text(key)) wanted[key] = {*name, bounds};
-    names->finish();
+      if (const auto name = given->optional_text(key)) names[key] = *name;
+    given->finish();
   }
-  return csv_columns(r.at("csv"), wanted, kRows);
+  std::vector<CsvColumn> columns;
+  for (const auto& [key, name] : names) columns.push_back({.name = name});
+  Columns out;
+  for (const CsvRow& row : csv_rows(r.at("csv"), columns, OtherColumns::ignored, kRows)) {
+    Reader cells(row.value, r.problems(), row.pointer);
+    for (const auto& [key, name] : names)
+      out[key].push_back(cells.number(name, log_bounds().at(key)));
+  }
+  return out;
 }
 
 /// As many rows in every column, at rising times.

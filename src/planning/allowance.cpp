@@ -224,11 +224,14 @@ double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
   const double h = (units::um_from_mm(width) - fixed_um) / a.ends;
   if (!(h > 0)) return 0;
   const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
-  const double r = force_spread(p), below = a.ends > 1 ? -1 : -kInfinity;
+  const double r = force_spread(p);
+  const auto end = p.other_ends.find(tolerance);
+  const bool one_sided = a.ends == 1 || (!corrected && end == p.other_ends.end());
   const tolerance::Spread spread(a.spread);
   const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
-    const double room = corrected ? h : h - e;
-    return spread.within({below * room, room}, r * e) >= wanted;
+    const double up = corrected ? h : h - e;
+    const double down = one_sided ? kInfinity : corrected ? h : h + end->second * e;
+    return spread.within({-down, up}, r * e) >= wanted;
   });
   return units::mm_from_um(a.ends * E);
 }

@@ -48,18 +48,24 @@ double force_spread(const PartPlan& plan);
 
 /// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
 /// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
-/// the largest E of which parts whose force and stiffness spread by r keep the limits
-/// with the wanted probability,
+/// largest E of which parts whose force and stiffness spread by r keep the limit with the
+/// wanted probability,
 ///
-///     P(|S + r E Z| <= h - E) = p  of a size,  P(S + r E Z <= h - E) = p  of a zone (1)
+///     P(S + r E Z <= h - E) = p                                                     (1)
 ///
 /// S the spread, Z standard normal; each face of a length may fail with (1 - p)/faces.
-/// With the path corrected E leaves nothing but what is not known of it,
+/// No plan conforms without (1), and zones that keep it conform.  A size also fails at
+/// its other limit: where its error reaches from E down to b E (`other_ends`),
 ///
-///     P(|S + r E Z| <= h) = p                                                        (2)
+///     P(-h - b E <= S + r E Z <= h - E) = p                                         (2)
+///
+/// suffices, with b = -1 whatever the error is.  With the path corrected E leaves nothing
+/// but what is not known of it,
+///
+///     P(|S + r E Z| <= h) = p                                                       (3)
 ///
 /// Source: derived here; the left sides fall as E grows.
-/// @param corrected (2) in place of (1); without effect on a plan that is not robust.
+/// @param corrected (3) in place of (1); without effect on a plan that is not robust.
 /// @return ends E [mm].
 double left_mm(const PartPlan& plan, std::size_t tolerance, const Allowance& allowance,
                bool corrected);

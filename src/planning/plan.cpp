@@ -220,9 +220,7 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
   return s;
 }
 
-}  // namespace
-
-ProcessPlan plan(const PartPlan& p) {
+ProcessPlan planned(const PartPlan& p) {
   ProcessPlan result;
   const auto work = assign(p);
   add_obstacles(p, work, result);
@@ -252,5 +250,44 @@ ProcessPlan plan(const PartPlan& p) {
   result.prices = prices(p, chosen);
   return result;
 }
+
+// From the deviation of a size that goes furthest to the one at its other end, as a share
+// of it; both ends alike of what has no two ends.
+double other_end(const part::Tolerance& t, const ToleranceResult& r) {
+  if (t.kind != part::ToleranceKind::diameter) return -1;
+  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+  const double low = r.predicted_mm[0] - middle, high = r.predicted_mm[1] - middle;
+  return std::abs(low) > std::abs(high) ? high / low : low / high;
+}
+
+// Sizes that fail at their other limit too are asked for what that takes, (2) of
+// allowance.hpp, until all conform; past some rounds as if their errors had both signs.
+ProcessPlan robust_plan(PartPlan p) {
+  constexpr int kRounds = 4;
+  constexpr double kConforms = 1e-6;
+  auto result = planned(p);
+  for (int round = 0; round <= kRounds && result.status == PlanStatus::ok; ++round) {
+    bool all = true;
+    for (std::size_t i = 0; i < result.tolerances.size(); ++i) {
+      const auto& r = result.tolerances[i];
+      if (r.P_conform >= p.conformance - kConforms) continue;
+      all = false;
+      p.other_ends[i] = round < kRounds ? other_end(p.drawing.tolerances[i], r) : -1;
+    }
+    if (all) break;
+    result = planned(p);
+  }
+  if (result.status != PlanStatus::ok) return result;
+  auto nominal = p;
+  nominal.robust = false;
+  const auto n = planned(nominal);
+  if (n.status == PlanStatus::ok)
+    result.robustness = Robustness{p.conformance, n.cost_per_part, n.time_per_part_min};
+  return result;
+}
+
+}  // namespace
+
+ProcessPlan plan(const PartPlan& p) { return p.robust ? robust_plan(p) : planned(p); }
 
 }  // namespace turnwright::planning

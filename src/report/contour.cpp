@@ -80,14 +80,14 @@ double radius_mm(const Run& run, double z) {
   return run.r0 + (run.r1 - run.r0) * (z - run.z0) / (run.z1 - run.z0);
 }
 
-double largest_mm(const Runs& runs, double from_z, double to_z) {
-  double largest = 0;
+Runs between(const Runs& runs, double from_z, double to_z) {
+  Runs part;
   for (const auto& run : runs) {
     const double z0 = std::max(run.z0, from_z), z1 = std::min(run.z1, to_z);
     if (z1 - z0 > kNothing_mm)
-      largest = std::max({largest, radius_mm(run, z0), radius_mm(run, z1)});
+      part.push_back({z0, z1, radius_mm(run, z0), radius_mm(run, z1)});
   }
-  return largest;
+  return part;
 }
 
 }  // namespace turnwright::report

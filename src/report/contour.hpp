@@ -29,7 +29,7 @@ Run inner_run(const part::Drawing& drawing, std::size_t i);
 
 /// The line through the run, also beside it.
 double radius_mm(const Run& run, double z_mm);
-/// Largest radius between two places.
-double largest_mm(const Runs& runs, double from_z_mm, double to_z_mm);
+/// What lies between two places.
+Runs between(const Runs& runs, double from_z_mm, double to_z_mm);
 
 }  // namespace turnwright::report

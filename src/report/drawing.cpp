@@ -22,10 +22,13 @@ using planning::ProcessPlan;
 
 // Millimetres of paper.
 constexpr double kWidth = 190, kBeside = 16, kHighest = 70, kError = 6;
-constexpr double kTop = 17, kJaw = 9, kAround = kJaw + 2.5, kLabelGap = 3.6;
-constexpr double kCharacter = 1.55;  // of 2.8 mm type, on average
+constexpr double kTop = 17, kJaw = 9, kAround = kJaw + 2.5, kLabelGap = 3.6,
+                 kNumberGap = 3.2;
+constexpr double kCharacter = 1.7;  // of 2.8 mm type, on average of a wide face
+constexpr double kWords = 70;       // of the legend
+constexpr double kLeft = 4, kRight = kWidth - 2;  // of what is spread
 constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;
-constexpr std::size_t kNameLength = 70, kIdLength = 24;
+constexpr std::size_t kNameLength = 60, kIdLength = 24;
 
 /// The largest of 1, 2, 5, 10, .. (and 0.5, 0.2, ..) that is not above `limit`.
 double round_below(double limit) {
@@ -58,21 +61,23 @@ Scales scales(const PartPlan& p, const ProcessPlan& plan) {
   if (!(s.length > 0) || !std::isfinite(s.length))
     throw std::domain_error("setup_drawings: the stock must have a length and diameter");
   double largest = 0;
-  for (const auto& d : plan.deviations)
-    if (surface_of(p.drawing, d.on))
-      for (const auto& [z, e] : d.table_mm) {
-        if (!std::isfinite(e))
-          throw std::domain_error("setup_drawings: deviations must be finite");
-        largest = std::max(largest, std::abs(e));
-      }
+  const auto show = [&](const auto& table) {
+    if (!surface_of(p.drawing, table.on)) return;
+    for (const auto& [z, e] : table.table_mm) {
+      if (!std::isfinite(e))
+        throw std::domain_error("setup_drawings: deviations must be finite");
+      largest = std::max(largest, std::abs(e));
+    }
+  };
+  std::ranges::for_each(plan.deviations, show);
+  std::ranges::for_each(plan.compensation, show);
   if (largest > 0) s.factor = round_below(kError / (s.length * largest));
   return s;
 }
 
 struct Label {
   double x = 0, y = 0;  ///< where its leader ends
-  std::string text;
-  bool corrected = false;
+  std::string text, css_class;
 };
 
 /// One setup on its sheet.
@@ -111,30 +116,45 @@ bool corrected(const Sheet& s, const std::string& id) {
                      [&](const auto& c) { return c.setup == s.setup && c.on == id; });
 }
 
-/// Ids and sizes of the outer elements, and of the bores that are there; left to right.
+/// All, or of more than have room on the page `gap` apart evenly chosen ones.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, double gap) {
+  const auto most = static_cast<std::size_t>((kRight - kLeft) / gap);
+  if (all.size() <= most) return all;
+  std::vector<T> some;
+  for (std::size_t i = 0; i < most; ++i)
+    some.push_back(all[i * (all.size() - 1) / (most - 1)]);
+  return some;
+}
+
+/// Ids and sizes of what is cut so far, of the other outer elements the id alone; left to
+/// right.
 std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
   std::vector<Label> all;
-  const auto add = [&](const auto& e, const Run& run, double r) {
-    const Point end = s.at((run.z0 + run.z1) / 2, r);
-    const bool offset = corrected(s, e.id);
-    all.push_back({end.x, end.y,
-                   id_and_size(e.id, e.left_mm, e.right_mm, e.fit) +
-                       (offset ? ", path corrected" : ""),
-                   offset});
+  const auto add = [&](const auto& e, const Run& run) {
+    const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
+    const auto text = id_and_size(e.id, e.left_mm, e.right_mm, e.fit);
+    if (corrected(s, e.id))
+      all.push_back({end.x, end.y, text + ", path corrected", "path"});
+    else
+      all.push_back({end.x, end.y, text, ""});
   };
   const auto& d = s.part.drawing;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const Run run = outer_run(d, i);
-    const double stock = d.stock.outer_mm / 2;
-    add(d.outer[i], run, finished.outer[i] ? (run.r0 + run.r1) / 2 : stock);
+    if (finished.outer[i]) {
+      add(d.outer[i], run);
+    } else {
+      const Point end = s.at((run.z0 + run.z1) / 2, d.stock.outer_mm / 2);
+      all.push_back(
+          {end.x, end.y, clipped(d.outer[i].id, kIdLength) + " uncut", "later"});
+    }
   }
-  for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const Run run = inner_run(d, i);
-    if (finished.inner[i]) add(d.inner[i], run, (run.r0 + run.r1) / 2);
-  }
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (finished.inner[i]) add(d.inner[i], inner_run(d, i));
   std::stable_sort(all.begin(), all.end(),
                    [](const Label& a, const Label& b) { return a.x < b.x; });
-  return all;
+  return thinned(all, kLabelGap);
 }
 
 double text_width(const std::string& text) {
@@ -154,11 +174,9 @@ bool fit_side_by_side(const std::vector<Label>& all) {
 
 /// Ascending places moved as little as keeps them `gap` apart and on the page.
 std::vector<double> spread(std::vector<double> x, double gap) {
-  const double low = 4, high = kWidth - 2;
-  if (x.size() > 1) gap = std::min(gap, (high - low) / static_cast<double>(x.size() - 1));
-  double least = low;
+  double least = kLeft;
   for (auto& place : x) least = (place = std::max(place, least)) + gap;
-  double most = high;
+  double most = kRight;
   for (auto place = x.rbegin(); place != x.rend(); ++place)
     most = (*place = std::min(*place, most)) - gap;
   return x;
@@ -178,7 +196,7 @@ void draw_labels(Sheet& s, const std::vector<Label>& all) {
   const bool flat = fit_side_by_side(all);
   if (!flat) x = spread(std::move(x), kLabelGap);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::string css_class = all[i].corrected ? "accent" : "";
+    const std::string& css_class = all[i].css_class;
     if (flat)
       s.svg.text({x[i], foot}, Anchor::middle, all[i].text, css_class);
     else
@@ -275,39 +293,68 @@ void draw_cut(Sheet& s) {
   both(z, bore, z, right ? s.contour.outer.back().r1 : s.contour.outer.front().r0);
 }
 
+/// Places of a table on its surface, its values enlarged outwards by `factor`; none
+/// unless this setup cuts the surface.
+template <class Table>
+std::vector<Point> stand_off(const Sheet& s, const Table& table, double factor) {
+  const auto surface = surface_of(s.part.drawing, table.on);
+  std::vector<Point> points;
+  if (table.setup != s.setup || !surface) return points;
+  for (const auto& [z, e] : table.table_mm)
+    points.push_back(s.at(z, radius_mm(*surface, z) + factor * e));  // Eq. (1)
+  return points;
+}
+
 void draw_errors(Sheet& s) {
   if (!(s.scale.factor > 0)) return;
   for (const auto& d : s.plan.deviations) {
-    const auto surface = surface_of(s.part.drawing, d.on);
-    if (d.setup != s.setup || !surface || d.table_mm.empty()) continue;
-    std::vector<Point> made, outline;
-    for (const auto& [z, e] : d.table_mm) {
-      made.push_back(s.at(z, radius_mm(*surface, z) + s.scale.factor * e));  // Eq. (1)
-      outline.push_back(s.at(z, radius_mm(*surface, z)));
-    }
+    const auto made = stand_off(s, d, s.scale.factor);
+    if (made.empty()) continue;
+    auto outline = stand_off(s, d, 0);
     outline.insert(outline.end(), made.rbegin(), made.rend());
     s.svg.polygon("error", outline);
     s.svg.polyline("made", made);
   }
+  for (const auto& c : s.plan.compensation)
+    if (const auto path = stand_off(s, c, s.scale.factor); !path.empty())
+      s.svg.polyline("path", path);
 }
 
+bool corrects(const Sheet& s) {
+  return std::ranges::any_of(s.plan.compensation,
+                             [&](const auto& c) { return !stand_off(s, c, 0).empty(); });
+}
+
+/// Jaws bored to the part: they touch it over the whole grip.
 void draw_jaws(Sheet& s) {
   const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
   const double grip = s.part.setups[s.setup].grip_mm;
   const double outward = s.holds_left() ? end - grip : end + grip;
-  const double z0 = std::min(end, outward), z1 = std::max(end, outward);
-  const double r = largest_mm(s.contour.outer, z0, z1), top = r + kJaw / s.scale.length;
-  for (const double side : {1.0, -1.0})
-    s.svg.polygon("jaw", {s.at(z0, side * r), s.at(z1, side * r), s.at(z1, side * top),
-                          s.at(z0, side * top)});
+  const Runs held =
+      between(s.contour.outer, std::min(end, outward), std::max(end, outward));
+  double top = 0;
+  for (const Run& run : held) top = std::max({top, run.r0, run.r1});
+  top += kJaw / s.scale.length;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Point> jaw;
+    for (const Run& run : held) {
+      jaw.push_back(s.at(run.z0, side * run.r0));
+      jaw.push_back(s.at(run.z1, side * run.r1));
+    }
+    jaw.push_back(s.at(held.back().z1, side * top));
+    jaw.push_back(s.at(held.front().z0, side * top));
+    s.svg.polygon("jaw", jaw);
+  }
 }
 
 /// Where its rollers run, narrower towards the part.
 void draw_steady_rest(Sheet& s) {
   const double z = s.part.setups[s.setup].steady_z_mm;
   const double half = planning::kSteadyWidth_mm / 2;
-  const double r = largest_mm(s.contour.outer, z - half, z + half),
-               top = r + kJaw / s.scale.length;
+  double r = 0;
+  for (const Run& run : between(s.contour.outer, z - half, z + half))
+    r = std::max({r, run.r0, run.r1});
+  const double top = r + kJaw / s.scale.length;
   for (const double side : {1.0, -1.0})
     s.svg.polygon("rest", {s.at(z - half / 2, side * r), s.at(z + half / 2, side * r),
                            s.at(z + half, side * top), s.at(z - half, side * top)});
@@ -350,9 +397,10 @@ double draw_ruler(Sheet& s) {
   z.erase(std::unique(z.begin(), z.end(),
                       [](double a, double b) { return std::abs(a - b) < 1e-6; }),
           z.end());
+  z = thinned(z, kNumberGap);
   std::vector<double> x;
   for (const double place : z) x.push_back(s.x(place));
-  const auto labels_x = spread(x, 3.2);
+  const auto labels_x = spread(x, kNumberGap);
   const double ruler = s.axis + s.stock_height() + kAround + 1, foot = ruler + 4.5;
   double longest = 0;
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -381,10 +429,10 @@ double draw_legend(Sheet& s, double top) {
   const double foot = top + kError + 2, mm = round_below(30 / s.scale.length);
   draw_bar(s, {10, foot}, {10 + s.scale.length * mm, foot});
   s.svg.text({10, foot - 2}, Anchor::start, plain(mm) + " mm");
-  s.svg.text({80, foot - 3.6}, Anchor::start,
+  s.svg.text({kWords, foot - 3.6}, Anchor::start,
              "thick: cut in this setup; dashed: stock; above the axis in section");
   if (!(s.scale.factor > 0)) {
-    s.svg.text({80, foot}, Anchor::start, "no deviation of a radius is predicted");
+    s.svg.text({kWords, foot}, Anchor::start, "no deviation of a radius is predicted");
     return foot;
   }
   const double drawn = s.scale.length * s.scale.factor;  // paper mm of a mm of error
@@ -392,11 +440,14 @@ double draw_legend(Sheet& s, double top) {
   draw_bar(s, {54, foot}, {54, foot - drawn * bar_mm});
   s.svg.text({56.5, foot - drawn * bar_mm / 2 + 1}, Anchor::start,
              plain(units::um_from_mm(bar_mm)) + " \u00b5m", "accent");
-  s.svg.text({80, foot}, Anchor::start,
-             "coloured: the surface as made, its error " + plain(s.scale.factor) +
+  s.svg.text({kWords, foot}, Anchor::start,
+             "red: the surface as made, its error " + plain(s.scale.factor) +
                  ":1 to the lengths",
              "accent");
-  return foot;
+  if (!corrects(s)) return foot;
+  s.svg.text({kWords, foot + 3.6}, Anchor::start,
+             "blue: the tool path as corrected, likewise", "path");
+  return foot + 3.6;
 }
 
 std::string heading(const Sheet& s) {
@@ -418,8 +469,8 @@ std::string drawn(Sheet s, const planning::Finished& finished) {
   draw_body(s);
   draw_stock(s);
   draw_contour(s);
-  draw_clamping(s);
   draw_labels(s, labels(s, finished));
+  draw_clamping(s);  // over the leaders of what it holds
   draw_cut(s);
   draw_errors(s);
   s.svg.line("axis", {s.x(s.left_z()) - 10, s.axis}, {s.x(s.right_z()) + 10, s.axis});

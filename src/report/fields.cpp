@@ -15,6 +15,12 @@ const ordered_json& list(const ordered_json& parent, const char* key) {
   return found != parent.end() && found->is_array() ? *found : kEmpty;
 }
 
+const ordered_json& object(const ordered_json& parent, const char* key) {
+  static const ordered_json kEmpty = ordered_json::object();
+  const auto found = parent.find(key);
+  return found != parent.end() && found->is_object() ? *found : kEmpty;
+}
+
 std::string word(const ordered_json& parent, const char* key) {
   const auto found = parent.find(key);
   return found != parent.end() && found->is_string() ? found->get<std::string>() : "";
@@ -38,6 +44,10 @@ std::string shown(std::optional<double> value, int decimals) {
   if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-')
     text.erase(0, 1);  // nothing has no sign
   return text;
+}
+
+std::string significant(std::optional<double> value, int digits) {
+  return value ? fmt::format("{:.{}g}", *value, digits) : "-";
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between) {

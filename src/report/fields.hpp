@@ -10,6 +10,10 @@ namespace turnwright::report {
 /// The array under a key; an empty one if there is none.
 const nlohmann::ordered_json& list(const nlohmann::ordered_json& parent, const char* key);
 
+/// The object under a key; an empty one if there is none.
+const nlohmann::ordered_json& object(const nlohmann::ordered_json& parent,
+                                     const char* key);
+
 /// The string under a key; "" if there is none.
 std::string word(const nlohmann::ordered_json& parent, const char* key);
 
@@ -20,6 +24,9 @@ bool flag(const nlohmann::ordered_json& parent, const char* key);
 
 /// With so many decimals, beyond 1e7 with 4 digits and an exponent; "-" for no number.
 std::string shown(std::optional<double> value, int decimals);
+
+/// With so many significant digits, an exponent where that is shorter; "-" for no number.
+std::string significant(std::optional<double> value, int digits = 4);
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words, const char* between = ", ");

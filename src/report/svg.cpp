@@ -8,7 +8,8 @@
 namespace turnwright::report {
 namespace {
 
-// Black on white, one colour for what the cut adds; the sizes are mm of paper.
+// Black on white, red for what the cut adds, blue for what the path is corrected by; the
+// sizes are mm of paper.
 constexpr const char* kHead =
     R"svg(<defs><pattern id="hatch" width="1.4" height="1.4" patternUnits="userSpaceOnUse"
 patternTransform="rotate(45)"><rect width="1.4" height="1.4" fill="#fff"/>
@@ -28,7 +29,10 @@ text { font-family: Helvetica, Arial, sans-serif; font-size: 2.8px; fill: #000 }
 .centre, .rest { fill: #fff; stroke: #000; stroke-width: 0.3 }
 .error { fill: #c8102e; fill-opacity: 0.2 }
 .made { stroke: #c8102e; stroke-width: 0.35 }
+.path { stroke: #0050b4; stroke-width: 0.35; stroke-dasharray: 1 0.7 }
+text.path { fill: #0050b4; stroke: none }
 text.accent { fill: #c8102e }
+text.later { fill: #777 }
 .bar { stroke-width: 0.6 }
 </style>
 )svg";

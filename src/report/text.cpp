@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common.hpp"
 #include "fields.hpp"
 #include "layout.hpp"
 #include "proof.hpp"
@@ -33,15 +34,16 @@ std::string header(const ordered_json& result) {
                      shown(number(result, "time_per_part_min"), 3) + " min per part");
     if (const auto profit = number(result, "profit_per_min"))
       out += paragraph("profit  ", shown(profit, 4) + " per minute");
+    if (const auto robust = result.find("robustness"); robust != result.end())
+      out += paragraph("robust  ",
+                       fmt::format("every tolerance is kept with {} %, for {} per part "
+                                   "more than nominally",
+                                   shown(100 * *number(*robust, "conformance"), 2),
+                                   shown(number(*robust, "price_per_part"), 4)));
     const auto certificate = result.find("certificate");
     if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
   }
-  const auto version = word(result, "turnwright_version");
-  const auto digest = word(result, "request_digest");
-  if (!version.empty() && !digest.empty())
-    out += paragraph("made by ",
-                     "turnwright " + version + " from request " + digest.substr(0, 12));
-  return out;
+  return out + made_by(result);
 }
 
 // One sentence of each member, in the order of importance.

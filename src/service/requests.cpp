@@ -158,11 +158,13 @@ std::span<const Request> requests() {
       {"chuck", "test cuts -> chuck compliance with uncertainties", kChuckExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::chuck(request);
-       }},
+       },
+       report::chuck_text},
       {"thermal", "drift log -> model, prediction, residuals", kThermalExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::thermal(request);
-       }},
+       },
+       report::thermal_text},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

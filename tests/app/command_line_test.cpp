@@ -77,6 +77,47 @@ std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// What the manuals show behind "$ ": a command, with the lines up to END where it reads
+/// such, and what it prints.
+struct Shown {
+  std::string command, output;
+};
+
+std::vector<Shown> shown_in(const fs::path& manual) {
+  std::vector<Shown> all;
+  std::ifstream in(manual);
+  bool inside = false, command = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```console";
+    } else if (inside && line.starts_with("$ ")) {
+      all.push_back({line.substr(2), ""});
+      command = line.ends_with("<<END");
+    } else if (inside && command) {
+      all.back().command += '\n' + line;
+      command = line != "END";
+    } else if (inside && !line.starts_with("made by ")) {
+      all.back().output += line + '\n';
+    }
+  }
+  return all;
+}
+
+TEST_F(CommandLine, PrintsWhatTheManualsShow) {
+  int checked = 0;
+  for (const auto& file :
+       fs::directory_iterator(fs::path(TURNWRIGHT_SOURCE_DIR) / "docs"))
+    for (const auto& [command, output] : shown_in(file.path())) {
+      const auto run = shell(command);
+      EXPECT_EQ(run.code, 0) << command << run.err;
+      const auto made_by = run.out.find("made by ");
+      const auto rest = run.out.find('\n', made_by) + 1;
+      EXPECT_EQ(run.out.substr(0, made_by) + run.out.substr(rest), output) << command;
+      ++checked;
+    }
+  EXPECT_GE(checked, 1);
+}
+
 TEST_F(CommandLine, TellsItsVersion) {
   const auto outcome = shell("turnwright --version");
   EXPECT_EQ(outcome.code, 0);

@@ -195,13 +195,13 @@ calibrate-material: /cuts/1: got an object, expected a measured Fc_N, Ff_N, Fp_N
 calibrate-material: /lots: got 1, expected no such key (did you mean "cuts"?))");
   EXPECT_EQ(
       refused({{"tool", tool()}, {"csv", "vc_m_min,f,ap_mm\n100,0.1,2\n"}}),
-      R"(calibrate-material: /csv: got column "f", expected a first line naming columns of vc_m_min, f_mm_rev, ap_mm, Fc_N, Ff_N, Fp_N, T_min)");
-  EXPECT_EQ(
-      refused({{"tool", tool()},
-               {"csv",
-                "vc_m_min,f_mm_rev,ap_mm,Fc_N\n100,0.1,2\n"
-                "100,0.1,ten,500\n"}}),
-      R"(calibrate-material: /csv#line 2: got 3 cells, expected 4 as in the first line
+      R"(calibrate-material: /csv#line 1: got column "f", expected columns of vc_m_min, f_mm_rev, ap_mm, Fc_N, Ff_N, Fp_N, T_min
+calibrate-material: /csv#line 1: got no column "f_mm_rev", expected one)");
+  EXPECT_EQ(refused({{"tool", tool()},
+                     {"csv",
+                      "vc_m_min,f_mm_rev,ap_mm,Fc_N\n100,0.1,2\n"
+                      "100,0.1,ten,500\n"}}),
+            R"(calibrate-material: /csv#line 2: got 3 cells, expected 4 as in the header
 calibrate-material: /csv#line 3/ap_mm: got "ten", expected a number > 0 and <= 50 mm)");
   EXPECT_EQ(refused({{"tool", tool()}, {"csv", "vc_m_min"}, {"cuts", json::array()}}),
             R"(calibrate-material: /csv: got "vc_m_min", expected either cuts or csv)");

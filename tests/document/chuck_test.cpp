@@ -101,6 +101,9 @@ TEST(Chuck, TurnsTheDoorDeflectionAround) {
   EXPECT_EQ(r["warnings"], json::array());
   EXPECT_EQ(r["tests"].size(), 12u);
 
+  EXPECT_EQ(r["predictions"][0]["z_mm"], 120);
+  EXPECT_EQ(r["predictions"][0]["Fr_N"], 250);
+
   // what it found goes into `deflection` as it is; less the part, that is the prediction
   const auto through = [&](const json& with) {
     return deflection({{"shaft", shaft()},
@@ -127,10 +130,15 @@ TEST(Chuck, CsvIsTheSameAsTests) {
            t["Fr_N"].dump() + "," + t["Ft_N"].dump() + "," + t["Fa_N"].dump() + "," +
            t["z_mm"].dump() + "," + t["D_mm"].dump() + "," + t["radius_error_mm"].dump() +
            "\r\n";
-  json with_csv = q;
-  with_csv.erase("tests");
-  with_csv["csv"] = csv;
-  EXPECT_EQ(answered(with_csv), answered(q));
+  json lines = json::array();
+  for (std::size_t at = 0, end; (end = csv.find('\n', at)) != csv.npos; at = end + 1)
+    lines.push_back(csv.substr(at, end - at));
+  for (const json& table : {json(csv), lines}) {
+    json with_csv = q;
+    with_csv.erase("tests");
+    with_csv["csv"] = table;
+    EXPECT_EQ(answered(with_csv), answered(q));
+  }
 }
 
 TEST(Chuck, CsvSaysWhichLineIsWrong) {
@@ -139,21 +147,18 @@ TEST(Chuck, CsvSaysWhichLineIsWrong) {
                  "A,10,50,100,200,60\n"
                  "\n"
                  "A,ten,50,1e7,200,60,0.01\n"
-                 "A,10,50,,200,60,0.01,\n"
+                 "A,10,50,,inf,60,0.01\n"
                  ",10,50,100,200,60,0.01\n"),
-            R"(chuck: /csv#line 2: got 6 cells, expected 7 as in the first line
-chuck: /csv#line 5: got 8 cells, expected 7 as in the first line
+            R"(chuck: /csv#line 2: got 6 cells, expected 7 as in the header
 chuck: /csv#line 4/z_mm: got "ten", expected a number from 0 to 1000000 mm
 chuck: /csv#line 4/Fr_N: got 10000000.0, expected a number from -1000000 to 1000000 N
+chuck: /csv#line 5/Fr_N: got nothing, expected a number from -1000000 to 1000000 N
+chuck: /csv#line 5/Ft_N: got "inf", expected a number from -1000000 to 1000000 N
 chuck: /csv#line 6/setup: got nothing, expected a text of 1 to 64 bytes)");
   EXPECT_EQ(
-      with("setup,z,D_mm,D_mm\nA,1,2,3"),
-      R"(chuck: /csv: got column "z", expected a first line naming columns of setup, z_mm, D_mm, Fr_N, Ft_N, Fa_N, radius_error_mm, delta_t_mm
-chuck: /csv: got column "D_mm", expected each column once)");
-  EXPECT_EQ(
-      with("setup,z_mm\n"),
-      R"(chuck: /csv: got "setup,z_mm\n", expected a line of column names and a line for each cut)");
-  EXPECT_EQ(with(std::string(10001, 'x')).substr(0, 16), "chuck: /csv: got");
+      with("setup,z,D_mm,Fr_N,Ft_N,Fa_N\nA,1,2,3,4,5"),
+      R"(chuck: /csv#line 1: got column "z", expected columns of setup, z_mm, D_mm, Fr_N, Ft_N, Fa_N, radius_error_mm, delta_t_mm
+chuck: /csv#line 1: got no column "z_mm", expected one)");
 }
 
 TEST(Chuck, OutliersAndWhatIsPoorlyKnownAreTold) {
@@ -200,6 +205,16 @@ TEST(Chuck, RefusesCutsThatCannotTell) {
       refused(one_force),
       "chuck: /tests: got 5 radial cuts that cannot tell c0 with the setups' offsets, "
       "expected a cut at another force in setup A");
+  json no_couple{{"tests", json::array()}};  // at two places: c1 and c2 act as one
+  for (const double Fr : {150.0, 400.0, 700.0})
+    for (const double z : {30.0, 140.0}) {
+      no_couple["tests"].push_back(cut("A", z, Fr));
+      no_couple["tests"].back()["Fa_N"] = 0;
+      no_couple["tests"].back()["radius_error_mm"] = 0.01;
+    }
+  EXPECT_EQ(refused(no_couple),
+            "chuck: /tests: got 6 radial cuts that cannot tell c0 with c1 with c2, "
+            "expected a cut at a third z in setup A");
   json one_place{{"tests", json::array()}};
   for (const double Fr : {100.0, 300.0, 500.0, 700.0, 600.0}) {
     one_place["tests"].push_back(cut("x", 80, Fr));
@@ -250,6 +265,22 @@ TEST(Chuck, SpringsAreAViewForAnArm) {
   EXPECT_NEAR(k["k2_Nmm_rad"], 110 / kC1, 1e-6 * 110 / kC1);
   EXPECT_NEAR(k["k1_N_mm"], 1 / (kC0 - 110 * kC1), 1);
   EXPECT_NEAR(k["k3_Nmm_rad"], 1 / (kC2 - kC1 / 110), 1e5);
+  // cuts without scatter leave no error; u(k2)/k2 is u(c1)/c1, the arm being given
+  EXPECT_LT(k["u_k1_N_mm"].get<double>(), 1e-6 * k["k1_N_mm"].get<double>());
+  std::size_t i = 0;
+  for (const double scatter : {1, -1, -2, 2, 1, -1, 2, 0, -1, 1, -2, 0}) {
+    json& error = q["tests"][i++]["radius_error_mm"];
+    error = error.get<double>() + 2e-4 * scatter;
+  }
+  const json noisy = answered(q);
+  k = noisy["radial"]["springs"];
+  const double relative = noisy["radial"]["u"]["c1_rad_N"].get<double>() /
+                          noisy["chuck"]["radial"]["c1_rad_N"].get<double>();
+  EXPECT_GT(relative, 0.001);
+  EXPECT_NEAR(k["u_k2_Nmm_rad"].get<double>() / k["k2_Nmm_rad"].get<double>(), relative,
+              1e-9 * relative);
+  q = campaign();
+  k = answered(q)["radial"]["springs"];
   EXPECT_NEAR(k["Lc_range_mm"][0], kC1 / kC2, 1e-5);
   EXPECT_NEAR(k["Lc_range_mm"][1], kC0 / kC1, 1e-5);
   q["Lc_mm"] = 300;

@@ -304,6 +304,99 @@ TEST(Deflection, BoringBarTellsItsTip) {
   EXPECT_NEAR(y_t, 600 * (f_ww + 169 * r["twist_rad_Nmm"].get<double>()), 1e-16);
 }
 
+// x = 1 and no tangential force: e_n = (ap_n + e_(n-1)) mu/(1 + mu), and the run-out is
+// multiplied by mu/(1 + mu) in every pass, spring passes included.
+TEST(Deflection, PassesInARowLeaveAndCopyWhatTheLinearLawSays) {
+  json q = request();
+  q.erase("load");
+  q["force_law"] = {
+      {"c_N", 4000},           {"x", 1},     {"Fa_over_Fr", 0},
+      {"Ft_over_Fr", 0},       {"ap_mm", 1}, {"passes_ap_mm", {1, 0.3, 0, 0}},
+      {"blank_runout_mm", 0.2}};
+  for (const json& at : answered(q).at("positions")) {
+    const double mu = at.at("loop_gain"), keeps = mu / (1 + mu);
+    double e = 0, runout = 0.2;
+    for (std::size_t i = 0; i < 4; ++i) {
+      e = (q["force_law"]["passes_ap_mm"][i].get<double>() + e) * keeps;
+      runout *= keeps;
+      EXPECT_NEAR(at.at("errors_of_passes_mm")[i], e, 1e-12);
+      EXPECT_NEAR(at.at("copied_runout_mm")[i], runout, 1e-12);
+    }
+  }
+  q["force_law"]["blank_runout_mm"] = 1;
+  EXPECT_EQ(
+      refused(q),
+      "deflection: /force_law/blank_runout_mm: got 1, expected a number >= 0 and < 1 "
+      "mm");
+  q["force_law"]["passes_ap_mm"] = {0, 1};
+  q["force_law"].erase("blank_runout_mm");
+  EXPECT_EQ(refused(q),
+            "deflection: /force_law/passes_ap_mm: got [0,1], expected a first pass that "
+            "cuts: above 0 mm");
+  q["force_law"].erase("passes_ap_mm");
+  q["force_law"]["blank_runout_mm"] = 0.1;
+  EXPECT_EQ(refused(q),
+            "deflection: /force_law/blank_runout_mm: got 0.1, expected nothing without "
+            "passes_ap_mm");
+}
+
+// Two opposite flats at h: xx and yy of the middle strip by integration over x; a uniform
+// cantilever bends by a^3/(3 E I) each way.
+TEST(Deflection, AShaftWithFlatsIsSofterAcrossThem) {
+  const double R = 20, h = 14, L = 200;
+  json q = request();
+  json segment = bar_segment(L, 2 * R);
+  segment["slots"] = {{{"floor_mm", h}, {"angle_deg", 30}},
+                      {{"floor_mm", h}, {"angle_deg", -150}}};
+  q["shaft"]["segments"] = json::array({segment});
+  q["positions_mm"] = {150};
+  double across = 0, along = 0;  // int x^2 dA and int y^2 dA, x towards a flat
+  constexpr int kStrips = 200000;
+  for (int k = 0; k < kStrips; ++k) {
+    const double dx = 2 * h / kStrips, x = -h + (k + 0.5) * dx;
+    const double half = std::sqrt(R * R - x * x);
+    across += x * x * 2 * half * dx;
+    along += 2 * half * half * half / 3 * dx;
+  }
+  const double soft = std::pow(150, 3) / (3 * 210000 * across),
+               stiff = std::pow(150, 3) / (3 * 210000 * along);
+  const json oval = answered(q).at("positions")[0].at("oval");
+  EXPECT_NEAR(oval.at("mean_mm_N"), (soft + stiff) / 2, 1e-9 * soft);
+  EXPECT_NEAR(oval.at("lobe_mm_N"), (soft - stiff) / 2, 1e-9 * soft);
+  EXPECT_NEAR(oval.at("softest_deg"), 30, 1e-6);
+  EXPECT_NEAR(oval.at("amplitude_mm"), (soft - stiff) / 2 * std::hypot(250, 600),
+              1e-9 * soft * 650);
+}
+
+TEST(Deflection, SlotsLieInTheRimOfACylinder) {
+  const auto with = [](json slots) {
+    json q = request();
+    q["shaft"]["segments"][0]["slots"] = std::move(slots);
+    return q;
+  };
+  const json key{{"width_mm", 18}, {"floor_mm", 23}};
+  const json one = json::array({key});
+  EXPECT_NE(answered(with(one)).at("positions")[0].at("oval").at("lobe_mm_N"), 0);
+  EXPECT_EQ(
+      refused(with({{{"width_mm", 61}, {"floor_mm", 1}}})),
+      "deflection: /shaft/segments/0/slots/0/width_mm: got 61, expected a number > 0 "
+      "and <= 60 mm");
+  EXPECT_EQ(
+      refused(with({{{"width_mm", 36}, {"floor_mm", 24}}})),
+      "deflection: /shaft/segments/0/slots/0/floor_mm: got 24, expected a number >= 0 "
+      "and < 24 mm");
+  EXPECT_EQ(refused(with(json::array({key, key}))),
+            "deflection: /shaft/segments/0/slots/1: got an object, expected a slot that "
+            "does not meet another");
+  json cone = with(one);
+  cone["shaft"]["segments"][1]["outer_right_mm"] = 39;
+  EXPECT_NE(refused(cone).find("/shaft/segments: "), std::string::npos) << refused(cone);
+  json rest = with(one);
+  rest["clamping"]["steady"] = {{"at_mm", 100}};
+  EXPECT_NE(refused(rest).find("no slots with a steady rest"), std::string::npos)
+      << refused(rest);
+}
+
 TEST(Deflection, ThinWallsWarn) {
   json q = request();
   q["shaft"]["segments"][1]["inner_left_mm"] = 33;
@@ -348,6 +441,81 @@ deflection: /positions_mm/3: got 200.001, expected a number from 0 to 200 mm)");
   EXPECT_EQ(refused(q),
             R"(deflection: /face/z_mm: got 201, expected a number from 0 to 200 mm
 deflection: /face/rho_min_mm: got 20, expected a number >= 0 and < 20 mm)");
+}
+
+TEST(Deflection, AFaceLiesOnTheShaft) {
+  json q = request();
+  q["shaft"]["segments"][1]["outer_right_mm"] = 30;
+  q["shaft"]["segments"][1]["inner_left_mm"] = 10;
+  const auto with = [&](double z, double rho_min, double rho_max) {
+    q["face"] = {{"z_mm", z},
+                 {"rho_min_mm", rho_min},
+                 {"rho_max_mm", rho_max},
+                 {"Ff_N", 90},
+                 {"Fp_N", 0}};
+    EXPECT_EQ(request_schema().fault(q), "");
+    return refused(q);
+  };
+  // 40 to 30 mm outside, 10 to 0 mm inside: half way 35 and 5 mm
+  EXPECT_EQ(with(140, 2.5, 17.5), "accepted");
+  EXPECT_EQ(with(140, 2.5 * (1 - 1e-15), 17.5 * (1 + 1e-15)), "accepted");
+  EXPECT_EQ(
+      with(140, 2.4, 17.6),
+      R"(deflection: /face/rho_min_mm: got 2.4, expected a number >= 2.5 and < 17.5 mm
+deflection: /face/rho_max_mm: got 17.6, expected a number > 0 and <= 17.5 mm)");
+  EXPECT_EQ(
+      with(140, 9, 8),
+      R"(deflection: /face/rho_min_mm: got 9.0, expected a number >= 2.5 and < 8 mm)");
+  // at a step the face of either side: 30 mm radius left of it, no bore there
+  EXPECT_EQ(with(80, 0, 30), "accepted");
+  EXPECT_EQ(
+      with(80, 0, 31),
+      R"(deflection: /face/rho_max_mm: got 31.0, expected a number > 0 and <= 30 mm)");
+  EXPECT_EQ(with(104, 0, 30),
+            R"(deflection: /face/rho_min_mm: got 0.0, expected a number >= 4 and < 19 mm
+deflection: /face/rho_max_mm: got 30.0, expected a number > 0 and <= 19 mm)");
+  EXPECT_EQ(with(0, 0, 30), "accepted");
+  EXPECT_EQ(with(200, 0, 15), "accepted");
+  // without a place no radius is too large
+  EXPECT_EQ(with(201, 0, 1000),
+            "deflection: /face/z_mm: got 201.0, expected a number from 0 to 200 mm");
+}
+
+TEST(Deflection, ABoringBarFitsItsBore) {
+  json q = request();
+  q["shaft"]["segments"] = {bar_segment(60, 32), bar_segment(80, 25)};
+  const auto with = [&](double tip_offset, double bore) {
+    q["clamping"] = {{"method", "boring-bar"},
+                     {"tip_offset_mm", tip_offset},
+                     {"bore_diameter_mm", bore}};
+    return refused(q);
+  };
+  EXPECT_EQ(with(16, 32), "accepted");
+  EXPECT_EQ(with(44, 60), "accepted");
+  EXPECT_EQ(with(16, 31.9),
+            "deflection: /clamping/bore_diameter_mm: got 31.9, expected a number >= 32 "
+            "mm, the bar's largest diameter");
+  EXPECT_EQ(with(44.1, 60),
+            "deflection: /clamping/tip_offset_mm: got 44.1, expected a number from 0 to "
+            "44 mm");
+  // a bar that is no body is no measure
+  q["shaft"]["segments"][0]["length_mm"] = 0;
+  EXPECT_EQ(with(44.1, 60),
+            "deflection: /shaft/segments/0/length_mm: got 0, expected a number > 0 and "
+            "<= 1000000 mm");
+}
+
+TEST(Deflection, ABarWiderThanItsTipReachesIsWarnedOf) {
+  json q = request();
+  q["shaft"]["segments"] = {bar_segment(60, 32), bar_segment(80, 25)};
+  q["positions_mm"] = {140};
+  q["clamping"] = {
+      {"method", "boring-bar"}, {"tip_offset_mm", 15.9}, {"bore_diameter_mm", 60}};
+  EXPECT_EQ(answered(q)["warnings"],
+            json({"/clamping/tip_offset_mm: the bar's radius is larger; where it is "
+                  "widest it touches the bore before its tip does"}));
+  q["clamping"]["tip_offset_mm"] = 16;
+  EXPECT_TRUE(answered(q)["warnings"].empty());
 }
 
 TEST(Deflection, RoundingInASumOfLengthsIsForgiven) {

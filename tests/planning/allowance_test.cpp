@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "../../src/planning/demand.hpp"
 #include "../../src/planning/feature.hpp"
@@ -51,6 +52,13 @@ std::size_t tolerance(const PartPlan& p, const std::string& id) {
 
 Making in_chuck(const PartPlan& p, std::size_t setup) {
   return {setup, Clamping::chuck, &p.tools.at(1)};
+}
+
+const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
+  for (const auto& s : p.setups)
+    for (const auto& o : s.operations)
+      if (o.id == id) return o;
+  throw std::out_of_range(id);
 }
 
 double share_um(const Allowance& a, const std::string& source) {
@@ -208,15 +216,51 @@ nlohmann::json robust(nlohmann::json d, double p) {
   return d;
 }
 
-// Without other sources (1) is E (1 + r z) = h for a zone, z the normal's quantile.
+// Without other sources (1) is E (1 + r z) = h, z the normal's quantile.
 TEST(Robust, AZoneKeepsRoomForWhatIsNotKnownOfTheForce) {
   auto d = pin_with(nlohmann::json::object());
   d["tolerances"] = {
       {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.011}}};
   const auto p = part(robust(d, 0.99865));
-  const auto left = left_mm(p, tolerance(p, "z"),
-                            allowance(p, tolerance(p, "z"), in_chuck(p, 0)), false);
+  const auto z = tolerance(p, "z");
+  const auto left = left_mm(p, z, allowance(p, z, in_chuck(p, 0)), false);
   EXPECT_NEAR(left, 0.010 / (1 + 3 * force_spread(p)), 1e-7);
+}
+
+// Parts made by a robust plan, drawn anew: the error scales by a normal force and
+// stiffness, the edge drifts and repeats itself with errors of its own.
+TEST(Robust, PartsDrawnAnewConformAsOftenAsAsked) {
+  for (const double wanted : {0.9, 0.97, 0.9973}) {
+    auto d = pin_with({{"drift_um", 2}, {"repeatability_um", 0.7}});
+    d["outer"][1]["limits_mm"] = {-0.016, 0};
+    const auto p = part(robust(d, wanted));
+    const auto r = plan(p);
+    ASSERT_EQ(r.status, PlanStatus::ok) << wanted;
+    const auto t = std::find_if(r.tolerances.begin(), r.tolerances.end(),
+                                [](const auto& x) { return x.id == "d2:diameter"; });
+    std::mt19937_64 random(2026);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int kept = 0;
+    constexpr int kParts = 200'000;
+    for (int k = 0; k < kParts; ++k) {
+      const double scale = 1 + force_spread(p) * normal(random);
+      const double moved = 2 * (0.002 * uniform(random) + 0.0007 * normal(random));
+      const double middle = -0.008, share = 0.0005;  // of the machine, at each limit
+      const double low = middle + (t->predicted_mm[0] - middle) * scale + moved;
+      const double high = middle + (t->predicted_mm[1] - middle) * scale + moved;
+      kept += low >= -0.016 + share && high <= -share;
+    }
+    const double P = static_cast<double>(kept) / kParts;
+    EXPECT_GE(P, wanted - 0.003) << wanted;
+    // Where it binds no more is given than asked.
+    const auto& o = operation(r, "s0-finish-d2");
+    for (const auto& c : o.constraints) {
+      if (c.name == "d2:diameter diameter" && c.binding) {
+        EXPECT_LE(P, wanted + 0.01) << wanted;
+      }
+    }
+  }
 }
 
 // Where the spread is nil and both limits are equally near, both tails count: with E

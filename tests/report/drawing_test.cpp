@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -142,8 +143,40 @@ TEST(SetupDrawings, EqualPlansGiveEqualBytes) {
 TEST(SetupDrawings, NamesAreEscaped) {
   const auto all = setup_drawings(bush(), planned());
   EXPECT_NE(all[0].find(">Bush &lt;A&amp;B&gt;<"), std::string::npos);
-  EXPECT_NE(all[0].find(">d&lt;1&gt;  \u00d836<"), std::string::npos);
+  EXPECT_NE(all[1].find(">d&lt;1&gt;  \u00d836<"), std::string::npos);
   EXPECT_NE(all[0].find(">d2  \u00d830 k6, path corrected<"), std::string::npos);
+}
+
+TEST(SetupDrawings, SizesAreThoseOfWhatIsCut) {
+  const auto all = setup_drawings(bush(), planned());
+  EXPECT_NE(all[0].find(" class=\"later\""), std::string::npos);
+  EXPECT_NE(all[0].find(">d&lt;1&gt; uncut<"), std::string::npos);
+  EXPECT_EQ(all[0].find("\u00d836"), std::string::npos);
+  EXPECT_EQ(all[1].find("uncut"), std::string::npos);
+  EXPECT_NE(all[1].find(">d2  \u00d830 k6<"), std::string::npos);  // of setup 0
+}
+
+TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
+  auto part = bush();
+  auto& outer = part.drawing.outer;
+  outer[1].length_mm = 46;
+  outer.push_back(outer[1]);
+  outer[2].id = "d3";
+  outer[2].length_mm = 20;
+  outer[2].left_mm = outer[2].right_mm = 24;
+  const auto svg = setup_drawings(part, planned())[1];
+  const auto jaws = shapes(svg, "jaw");
+  ASSERT_EQ(jaws.size(), 2u);
+  const double top = 15 + 9 / kScale;  // paper mm beyond the largest
+  const Points expected{{56, 15}, {76, 15}, {76, 12}, {96, 12}, {96, top}, {56, top}};
+  for (std::size_t side = 0; side < 2; ++side) {
+    ASSERT_EQ(jaws[side].size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(jaws[side][i].first, x_of(expected[i].first), 1e-3);
+      EXPECT_NEAR((axis(svg) - jaws[side][i].second) * (side == 0 ? 1 : -1),
+                  kScale * expected[i].second, 2e-3);
+    }
+  }
 }
 
 TEST(SetupDrawings, JawsHoldTheGrip) {
@@ -153,8 +186,9 @@ TEST(SetupDrawings, JawsHoldTheGrip) {
   for (std::size_t s = 0; s < 2; ++s) {
     const auto jaws = shapes(all[s], "jaw");
     ASSERT_EQ(jaws.size(), 2u);
-    EXPECT_NEAR(jaws[0][0].first, x_of(from[s]), 1e-3);
-    EXPECT_NEAR(jaws[0][1].first, x_of(to[s]), 1e-3);
+    const auto [left, right] = std::ranges::minmax(jaws[0]);
+    EXPECT_NEAR(left.first, x_of(from[s]), 1e-3);
+    EXPECT_NEAR(right.first, x_of(to[s]), 1e-3);
     EXPECT_NEAR(axis(all[s]) - jaws[0][0].second, kScale * r[s], 2e-3);
     EXPECT_NEAR(jaws[1][0].second - axis(all[s]), kScale * r[s], 2e-3);
   }
@@ -194,6 +228,105 @@ TEST(SetupDrawings, ErrorsStandOffTheSurfaceByTheFactor) {
   EXPECT_NEAR(axis(all[1]) - shapes(all[1], "made")[0][0].second,
               kScale * (18 + kFactor * 0.001), 2e-3);
   EXPECT_NE(all[0].find(" 200:1 "), std::string::npos);
+}
+
+TEST(SetupDrawings, CorrectedPathsStandOffByTheSameFactor) {
+  auto plan = planned();
+  const auto all = setup_drawings(bush(), plan);
+  const auto paths = shapes(all[0], "path");
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_NEAR(paths[0][1].first, x_of(96), 1e-3);
+  EXPECT_NEAR(axis(all[0]) - paths[0][1].second, kScale * (15 + kFactor * 0.002), 2e-3);
+  EXPECT_NE(all[0].find("blue: the tool path"), std::string::npos);
+  EXPECT_TRUE(shapes(all[1], "path").empty());
+  EXPECT_EQ(all[1].find("blue: the tool path"), std::string::npos);
+  // 0.030 mm may take 6 paper mm: 6 / (1.58 * 0.030) = 127, so 100:1
+  plan.compensation[0].table_mm[0].second = -0.030;
+  EXPECT_NE(setup_drawings(bush(), plan)[0].find(" 100:1 "), std::string::npos);
+  plan.compensation[0].table_mm[0].second = std::nan("");
+  EXPECT_THROW(setup_drawings(bush(), plan), std::domain_error);
+  plan = planned();
+  plan.compensation[0].on = "right";  // a face, whose errors are not drawn
+  EXPECT_EQ(setup_drawings(bush(), plan)[0].find("blue"), std::string::npos);
+}
+
+/// A rectangle that a text takes, in a wide face (0.6 of the type a character).
+struct Box {
+  double x0, x1, y0, y1;
+  std::string text;
+};
+
+std::vector<Box> texts(const std::string& svg) {
+  std::vector<Box> all;
+  const std::regex text(
+      "<text(?: class=\"(\\w+)\")? (?:x=\"(\\S+)\" y=\"(\\S+)\"|transform=\"translate\\("
+      "(\\S+) (\\S+)\\) rotate\\(-90\\)\") text-anchor=\"(\\w+)\">([^<]*)<");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
+    const auto& m = *it;
+    const double type = m[1] == "title" ? 4.2 : 2.8;
+    const std::string shown = std::regex_replace(m[7].str(), std::regex("&\\w+;"), "&");
+    const auto characters = std::ranges::count_if(
+        shown, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    const double length = 0.6 * type * static_cast<double>(characters);
+    const double from = m[6] == "start" ? 0 : m[6] == "middle" ? -length / 2 : -length;
+    if (m[2].matched) {
+      const double x = std::stod(m[2]), y = std::stod(m[3]);
+      all.push_back({x + from, x + from + length, y - 0.75 * type, y, shown});
+    } else {
+      const double x = std::stod(m[4]), y = std::stod(m[5]);
+      all.push_back({x - 0.75 * type, x, y - from - length, y - from, shown});
+    }
+  }
+  return all;
+}
+
+/// Two texts on each other, or one beyond the page; "" if there are none.
+std::string crowded(const std::string& svg) {
+  std::smatch page;
+  if (!std::regex_search(svg, page, std::regex("viewBox=\"0 0 (\\S+) (\\S+)\"")))
+    return "no page";
+  const double width = std::stod(page[1]), height = std::stod(page[2]);
+  const auto all = texts(svg);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Box& a = all[i];
+    if (a.x0 < 0 || a.y0 < 0 || a.x1 > width || a.y1 > height) return a.text + " is out";
+    for (std::size_t k = 0; k < i; ++k) {
+      const Box& b = all[k];
+      if (a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1)
+        return a.text + " on " + b.text;
+    }
+  }
+  return all.size() < 5 ? "no texts" : "";
+}
+
+TEST(SetupDrawings, NoTextLiesOnAnother) {
+  auto part = bush();
+  auto plan = planned();
+  for (const auto& svg : setup_drawings(part, plan)) EXPECT_EQ(crowded(svg), "");
+  part.drawing.name = std::string(200, 'W');
+  part.drawing.outer[1].id = std::string(24, 'W');
+  part.drawing.outer[0].fit = "h11";
+  plan.status = planning::PlanStatus::infeasible;
+  plan.compensation[0].on = part.drawing.outer[1].id;
+  for (const auto& svg : setup_drawings(part, plan)) EXPECT_EQ(crowded(svg), "");
+  // steps of all lengths down to a tenth of a mm, up to the 100 that a part may have
+  for (const std::size_t steps : {3u, 12u, 51u, 52u, 100u}) {
+    part = bush();
+    part.drawing.inner.clear();
+    auto& outer = part.drawing.outer;
+    const double length = 66.0 / static_cast<double>(steps) - 0.1;
+    for (std::size_t i = 1; i < steps; ++i) {
+      outer.insert(outer.begin() + 1, outer.back());
+      outer[1].length_mm = i % 2 == 0 ? 0.1 : length;
+      outer[1].id = "step" + std::to_string(i);
+      outer[1].left_mm = outer[1].right_mm = 30 + 0.05 * static_cast<double>(i);
+    }
+    double used = 0;
+    for (std::size_t i = 0; i + 1 < outer.size(); ++i) used += outer[i].length_mm;
+    outer.back().length_mm = 96 - used;
+    for (const auto& svg : setup_drawings(part, planned()))
+      EXPECT_EQ(crowded(svg), "") << steps;
+  }
 }
 
 TEST(SetupDrawings, BarsAreAsLongAsTheySay) {
@@ -245,6 +378,7 @@ TEST(SetupDrawings, ThePartStandsAsTheSetupLeavesIt) {
 TEST(SetupDrawings, NoErrorsNoBar) {
   auto plan = planned();
   plan.deviations.clear();
+  plan.compensation.clear();
   const auto svg = setup_drawings(bush(), plan)[0];
   EXPECT_TRUE(well_formed(svg));
   EXPECT_TRUE(shapes(svg, "made").empty());

@@ -36,43 +36,63 @@ struct Flexibility {
 /// rounding (1e-12: a chuck with one rigid spring has exactly c1^2 = c0 c2).
 bool elastic(const Root& root);
 
-/// The bending and shearing part: moments of its flexibility once, then every position
-/// in O(1) after finding its segment.
+/// What holds the section under the tool on one side, as that section feels it: angular
+/// flexibility M, how far away the centroid of M lies, and the deflection per force
+/// through that centroid, X.  Of a stretch from z0 to the tool at a
 ///
-/// With EI(z) and GA(z)/chi(z) local, also in cones, the part left of the tool is its
-/// angular flexibility, how far its centroid lies behind the tool, its moment about that
-/// centroid and its shear; the part right of it is what it adds at the tail:
+///     M = int dz/EI,  d = int (a - z)/EI dz / M,
+///     X = int [(a - d - z)^2/EI + chi/GA] dz                                   (1)
 ///
-///     M0 = int_0^a dz/EI,  d = int_0^a (a - z)/EI dz / M0,
-///     J = int_0^a (a - d - z)^2/EI dz,  S = int_0^a chi/GA dz                  (1)
+/// and of the root S, seen from z = 0: M = c2, d = c1/c2, X = c0 - c1^2/c2.
+struct Body {
+  double M_rad_Nmm = 0, d_mm = 0, X_mm_N = 0;
+};
+
+Body body(const Root& root);
+
+/// A body and the stretch of `length_mm` that follows it, by the parallel-axis rule: with
+/// e = d_1 + length their distances from the section are e and d_2, and
+///
+///     M = M_1 + M_2,  d = (M_1 e + M_2 d_2)/M,
+///     X = X_1 + X_2 + (e - d_2)^2 M_1 M_2/M                                    (2)
+///
+/// Nothing is subtracted but e - d_2, which lies within the two.
+Body joined(const Body& behind, double length_mm, const Body& stretch);
+
+/// The bending and shearing part: its bodies once, then every position in O(1) after
+/// finding its segment.
+///
+/// With EI(z) and GA(z)/chi(z) local, also in cones, and (M, d, X) the root and all of
+/// the part left of the tool; seen from the ends the two sides are
+///
 ///     H = c_head + int_0^a (z^2/EI + chi/GA) dz,
-///     T = c_tail + int_a^L ((L - z)^2/EI + chi/GA) dz                          (2)
+///     T = c_tail + int_a^L ((L - z)^2/EI + chi/GA) dz                          (3)
 ///
 /// Chuck:
-///     f_ww = J + M0 d^2 + S + c0 + 2 c1 a + c2 a^2,
-///     f_wp = M0 d + c1 + c2 a,  f_pp = M0 + c2                                 (3)
+///     f_ww = X + M d^2,  f_wp = M d,  f_pp = M                                 (4)
 /// Between centres, b = L - a:
 ///     f_ww = (b^2 H + a^2 T)/L^2,  f_wp = (a T - b H)/L^2,  f_pp = (H + T)/L^2,
-///     tail reaction a/L per force, 1/L per couple                              (4)
-/// Chuck-tailstock, g_w = f_aL, g_p = int_0^a (L - z)/EI dz + c1 + c2 L:
-///     alpha_i = g_i/(f_LL + c_t) the tail's reaction,  f_ij = f_ij,chuck - g_i alpha_j
+///     tail reaction a/L per force, 1/L per couple                              (5)
+/// Chuck-tailstock:  g_w = f_aL = X + M d (d + b),  g_p = M (d + b),
+///     f_LL + c_t = g_w + g_p b + T,  alpha_i = g_i/(f_LL + c_t) the tail's reaction,
+///     f_ij = f_ij,chuck - g_i alpha_j
 /// evaluated as the energy of the two loads, which subtracts nothing that a thin neck
-/// could make large (rows w, p: shear gamma, moment B at the centroid, B0 at the root):
-///     f_ij = M0 B_i B_j + (J + S) gamma_i gamma_j + c2 B0_i B0_j
-///            + (c0 - c1^2/c2) gamma_i gamma_j + T alpha_i alpha_j              (5)
+/// could make large, with gamma = (1 - alpha_w, -alpha_p) the shear left of the tool and
+/// B = (d T - b X, X + T)/(f_LL + c_t) the moment at the centroid:
+///     f_ij = M B_i B_j + X gamma_i gamma_j + T alpha_i alpha_j                 (6)
 ///
 /// Sections: EI = pi E (re^4 - ri^4)/4, GA = pi E (re^2 - ri^2)/(2 (1 + nu)), and the
 /// shear factor, m = ri/re,
-///     chi = ((7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2)/(6 (1 + nu)(1 + m^2)^2) (6)
-/// Solid cones and all cylinders are closed forms; hollow cones take 6 Gauss points on
-/// panels so short that the rule is exact to rounding (see beam.cpp).
+///     chi = ((7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2)/(6 (1 + nu)(1 + m^2)^2) (7)
+/// Solid cones and all cylinders are closed forms; hollow cones take 5 Gauss points on
+/// panels so short that the rule is exact to rounding (see beam_piece.cpp).
 ///
 /// Valid for walls above a fifth of the radius (thin rings ovalise); sections stay plane,
 /// so a diameter step costs up to 21 % unless `shoulder_correction` is used.  Linear.
 /// Degenerate input: a = 0 on a rigid chuck gives zeros; head and tail centre both rigid
-/// leave (4) without their terms.
+/// leave (5) without their terms.
 /// Source: the seed (Valino et al.), Eqs. 6-8, corrected as docs/deflection.md derives;
-/// Eq. 6: Cowper's shear coefficient, handbook value.  Checked in beam_test.
+/// Eq. 7: Cowper's shear coefficient, handbook value.  Checked in beam_test.
 class Beam {
  public:
   /// @throws std::domain_error on lengths or diameters that are no body, E or nu not
@@ -89,13 +109,7 @@ class Beam {
   void at(std::span<const double> a_mm, const Supports& supports,
           std::span<Flexibility> out) const;
 
-  /// Eq. (1) left of a, the bare part without its supports.
-  struct Body {
-    double M0_rad_Nmm = 0;  ///< angular flexibility
-    double d_mm = 0;        ///< how far its centroid lies behind a
-    double J_mm_N = 0;      ///< its moment about the centroid
-    double S_mm_N = 0;      ///< its shear
-  };
+  /// Eq. (1) left of a, without supports.
   /// @throws std::domain_error unless 0 <= a <= L (as `at`).
   Body body(double a_mm) const;
 
@@ -110,36 +124,32 @@ class Beam {
                             std::span<Flexibility> out);
 
  private:
-  /// A stretch of one closed form or of one Gauss panel, with the sums up to its left
-  /// end (prefix_) and from its right end (tail_).
-  struct Piece {
-    double z_mm, h_mm;          // left end, length
-    double re0, re1, ri0, ri1;  // radii
-    double inv0, inv1;          // 1/re
-    double bend, shear;         // 1/EI and chi/GA per mm of a cylinder
-    double m0, d, J, S, H;      // Eqs. (1), (2) at the left end
-    double b_mm, T;             // L - right end, Eq. (2) there
-    enum class Kind { cylinder, solid_cone, hollow_cone } kind;
+  struct Bodies;
+  struct Run;
+  /// One end of a piece: re - ri and re + ri there, and Eq. (3) without the centre for
+  /// what lies between it and the part's end on that side.
+  struct End {
+    double wall_mm, sum_mm, moment_mm_N;
   };
-  enum class Side { left, right };
-  struct Stretches;
-  struct Sums;
+  /// A stretch of one closed form or of one Gauss panel.
+  struct Piece {
+    enum class Kind { cylinder, solid_cone, hollow_cone } kind;
+    double bend, shear, shear_hollow;  // constants of 1/EI and chi/GA
+    double z_mm, h_mm;                 // left end, length
+    End left, right;
+    Body whole, before;  // the piece, and all left of it
 
-  void add_pieces(const part::Segment& segment, double z_mm);
-  template <Side side>
-  void measure(const Piece& piece, std::size_t n, const double* t, Stretches& out) const;
-  void left_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
-               Sums& out) const;
-  void right_of(const Piece& piece, std::size_t first, std::size_t n, const double* t,
-                Sums& out) const;
-  bool holds(std::size_t piece, double a_mm) const;
+    void measure(Run& run) const;
+    Body measured() const;
+  };
+
+  void add_pieces(const part::Shaft& shaft, const part::Segment& segment, double z_mm);
+  double end_of(std::size_t piece) const;
   std::size_t piece_at(double a_mm, std::size_t hint) const;
-  template <class Run>
-  void each_run(std::size_t n, const double* a, std::size_t& piece, const Run& run) const;
+  static void measure(const Piece& piece, std::span<const double> a_mm, Run& run);
 
   std::vector<Piece> pieces_;
   double length_mm_ = 0;
-  double bend_ = 0, shear_ = 0, shear_hollow_ = 0;  // constants of E and nu
   double twist_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace turnwright::deflection {
 /// chuck; it is stiff against twist here.  A compliance measured at the tip (damped and
 /// carbide bars, whose EI is nowhere stated) stands for f_ww in both planes; the rotation
 /// f_wp and the twist stay those of the drawing.
-/// Source: derived here from beam.hpp (3); St. Venant torsion of round bars.
+/// Source: derived here from beam.hpp (4); St. Venant torsion of round bars.
 struct BoringBar {
   double tip_offset_mm = 0;                       ///< f
   double bore_diameter_mm = 0;                    ///< D_bore

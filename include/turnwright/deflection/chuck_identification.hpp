@@ -167,4 +167,9 @@ std::optional<ArmRange> arms(const Root& root);
 /// The springs for an arm; nothing outside arms() (but for rounding, 1e-9).
 std::optional<Springs> springs(const Root& root, double Lc_mm);
 
+/// Standard errors of the three flexibilities for an arm that is given: they are linear
+/// in (c0, c1, c2), so that of 1/k1 = c0 - Lc c1 is (v0 - 2 Lc v01 + Lc^2 v1)^(1/2), and
+/// so on, v being the fit's covariance.
+Springs spring_errors(const PlaneFit& fit, double Lc_mm);
+
 }  // namespace turnwright::deflection

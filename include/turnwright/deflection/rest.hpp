@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <span>
 
 #include "turnwright/deflection/beam.hpp"
@@ -18,20 +17,14 @@ struct RestedFlexibility {
   double rest_per_Nmm = 0;  ///< and per unit couple
 };
 
-/// The tool's side of a part as the section under the tool feels it: angular flexibility
-/// M, how far away its centroid lies, and what a force through the centroid gives, X.
-/// A force V and a couple m at the section turn and shift the section by
+/// The part with its usual supports and a steady rest at z_s: every position in O(1)
+/// after finding its segment.
+///
+/// A body (beam.hpp, Eqs. 1 and 2) turns and shifts the section it ends in by
 ///
 ///     [X + M d^2, +-M d; +-M d, M] (V, m), + for the left side, - for the right    (1)
 ///
 /// An end that turns freely has M without bound, no end at all X without bound.
-struct SideOfTool {
-  double M_rad_Nmm = 0, d_mm = 0, X_mm_N = 0;
-  static constexpr double kFree = std::numeric_limits<double>::infinity();
-};
-
-/// The part with its usual supports and a steady rest at z_s: every position in O(1)
-/// after finding its segment.
 ///
 /// The rest, of compliance c, beside what else holds the part on the side of z_s away
 /// from the tool (M, d, X as seen from z_s, one stretch and its support) is again a side:
@@ -70,11 +63,11 @@ class RestedBeam {
  private:
   double z_mm_, length_mm_, c_;
   bool has_tail_;
-  Beam from_root_, to_rest_;   // [0, z_s]: left of the tool; right of it, from z_s
-  Beam from_rest_, to_tail_;   // [z_s, L]: left of the tool; right of it, from L
-  SideOfTool root_, tail_;     // the supports alone
-  SideOfTool behind_, ahead_;  // left and right of z_s without the rest
-  SideOfTool held_behind_, held_ahead_;  // and with it, Eq. (2)
+  Beam from_root_, to_rest_;       // [0, z_s]: left of the tool; right of it, from z_s
+  Beam from_rest_, to_tail_;       // [z_s, L]: left of the tool; right of it, from L
+  Body root_, tail_;               // the supports alone
+  Body behind_, ahead_;            // left and right of z_s without the rest
+  Body held_behind_, held_ahead_;  // and with it, Eq. (2)
 };
 
 /// A follow rest at the tool itself, compliance c > 0:

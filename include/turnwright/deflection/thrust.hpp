@@ -19,7 +19,7 @@ namespace turnwright::deflection {
 /// are second order in their length.  Good to 1e-3 (uniform parts 1e-4).
 /// Degenerate input: shear makes the part softer by P_cr chi/GA (1 % at L = 8 D), left
 /// out.
-/// Source: derived here from beam.hpp (3) to (5); pi^2 EI/L^2 and 20.19 EI/L^2 in
+/// Source: derived here from beam.hpp (4) to (6); pi^2 EI/L^2 and 20.19 EI/L^2 in
 /// thrust_test.
 /// @throws std::domain_error as Beam, or if the supports have no tailstock.
 double critical_thrust_N(const part::Shaft& shaft, const Supports& supports);

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,6 +84,7 @@ struct PartPlan {
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
+  std::map<std::size_t, double> other_ends = {};  ///< of a robust plan, allowance.hpp (2)
 };
 
 }  // namespace turnwright::planning

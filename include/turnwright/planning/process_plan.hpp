@@ -124,6 +124,12 @@ struct Relaxation {
   std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
 };
 
+/// What a plan would take that keeps its tolerances only nominally.
+struct Robustness {
+  double conformance = 0;
+  double nominal_cost_per_part = 0, nominal_time_per_part_min = 0;
+};
+
 enum class PlanStatus { ok, infeasible };
 
 struct ProcessPlan {
@@ -135,7 +141,8 @@ struct ProcessPlan {
   std::vector<ToleranceResult> tolerances;
   std::vector<Deviation> deviations;
   std::vector<Compensation> compensation;
-  std::vector<Price> prices;  ///< largest saving first
+  std::vector<Price> prices;             ///< largest saving first
+  std::optional<Robustness> robustness;  ///< of a robust plan
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
 };

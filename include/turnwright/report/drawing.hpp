@@ -17,9 +17,10 @@ namespace turnwright::report {
 ///
 /// e: error of the radius [mm] of an outer element or bore that the setup cuts, outwards
 /// positive; factor: the largest of 1, 2, 5, 10, .. that keeps |y| within 6 mm in every
-/// setup of the plan, so that its pictures compare.  Errors of faces are not drawn.
-/// Jaws lie on the largest diameter they enclose.  Equal plans give equal bytes.
-/// Source: derived here.
+/// setup of the plan, so that its pictures compare.  A corrected tool path is drawn
+/// alike, its correction dr in place of e.  Errors of faces are not drawn. Jaws are drawn
+/// as bored to what they hold.  An element that no setup has cut yet has its id without
+/// its size.  Equal plans give equal bytes. Source: derived here.
 /// @throws std::domain_error if a number to be drawn is not finite, or there is no stock.
 std::vector<std::string> setup_drawings(const planning::PartPlan& part,
                                         const planning::ProcessPlan& plan);

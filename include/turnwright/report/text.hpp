@@ -16,4 +16,14 @@ namespace turnwright::report {
 /// `grip_mm` are shown where the document has them.
 std::string text(const nlohmann::ordered_json& plan_result);
 
+/// The result document of `chuck` (schemas/chuck.result.json): compliance, springs and
+/// predictions with their standard errors, what a design cannot tell and which cut is
+/// missing, the deviation graph's polynomial and steps.
+std::string chuck_text(const nlohmann::ordered_json& chuck_result);
+
+/// The result document of `thermal` (schemas/thermal.result.json): parameters with their
+/// standing, errors on the rows fitted and held out, the network's beside them, and what
+/// a shift does to a batch.
+std::string thermal_text(const nlohmann::ordered_json& thermal_result);
+
 }  // namespace turnwright::report

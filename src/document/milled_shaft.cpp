@@ -1,0 +1,94 @@
+#include "milled_shaft.hpp"
+
+#include <cmath>
+
+#include "shaft_fields.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using deflection::Slot;
+
+constexpr std::size_t kSlots = 12;
+
+// Half the angle that a slot opens at the rim.
+double half_opening_rad(const Slot& slot, double outer_mm) {
+  return std::asin(slot.width_mm / outer_mm);
+}
+
+bool meet(const Slot& a, const Slot& b, double outer_mm) {
+  const double between =
+      std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * units::kPi));
+  return between < half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm);
+}
+
+// Without a width the slot is a flat, as wide as the chord at its floor.
+Slot read_slot(Reader r, const part::Segment& s) {
+  r = r.as_object();
+  const double R = s.outer_left_mm / 2, bore = s.inner_left_mm / 2;
+  Slot slot;
+  slot.angle_rad =
+      units::rad_from_deg(r.number_or("angle_deg", within(-360, 360, "deg"), 0));
+  const auto width = r.optional_number("width_mm", above_up_to(0, 2 * R, "mm"));
+  const double rim =
+      width && *width <= 2 * R ? std::sqrt(R * R - *width * *width / 4) : R;
+  slot.floor_mm = r.number("floor_mm", at_least_below(bore, std::max(rim, bore), "mm"));
+  slot.width_mm = width.value_or(2 * std::sqrt(R * R - slot.floor_mm * slot.floor_mm));
+  r.finish();
+  return slot;
+}
+
+// The section of a segment without its slots.
+deflection::Stretch read_slots(Reader& r, const part::Segment& s) {
+  deflection::Stretch stretch{s.length_mm, {}};
+  const bool cylinder =
+      s.outer_left_mm == s.outer_right_mm && s.inner_left_mm == s.inner_right_mm;
+  if (!cylinder) {
+    r.problem_at("slots", "slots in a cylinder", "conflict");
+    return stretch;
+  }
+  if (!(s.outer_left_mm > s.inner_left_mm)) return stretch;  // told of the wall
+  stretch.section = deflection::round_section(s.outer_left_mm, s.inner_left_mm);
+  std::vector<Slot> slots;
+  for (const Reader& item : r.items("slots", 1, kSlots)) {
+    const auto before = item.problems().list.size();
+    const Slot slot = read_slot(item, s);
+    if (item.problems().list.size() > before) continue;
+    for (const Slot& other : slots)
+      if (meet(slot, other, s.outer_left_mm))
+        item.problem("a slot that does not meet another", "conflict");
+    slots.push_back(slot);
+    stretch.section = deflection::without_slot(stretch.section, s.outer_left_mm, slot);
+  }
+  return stretch;
+}
+
+}  // namespace
+
+ReadShaft read_milled_shaft(Reader r) {
+  ReadShaft out;
+  MilledShaft milled;
+  bool any = false, cylinders = true;
+  out.shaft = read_shaft(r, [&](Reader& segment, const part::Segment& s) {
+    if (segment.has("slots")) {
+      any = true;
+      milled.push_back(read_slots(segment, s));
+      return;
+    }
+    cylinders = cylinders && s.outer_left_mm == s.outer_right_mm &&
+                s.inner_left_mm == s.inner_right_mm;
+    milled.push_back(
+        {s.length_mm, s.outer_left_mm > s.inner_left_mm
+                          ? deflection::round_section(s.outer_left_mm, s.inner_left_mm)
+                          : deflection::Section{}});
+  });
+  if (!any) return out;
+  if (!cylinders)
+    r.problem_at("segments", "cylinders alone: slots are read on a shaft without cones",
+                 "conflict");
+  out.milled = std::move(milled);
+  return out;
+}
+
+}  // namespace turnwright::document
