@@ -171,8 +171,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAMultipassRequest) {
 }
 
 json calibrated(const json& document) {
-  static const auto kCatalogue = load_catalogue(source_path(""));
-  return calibrate_material(document, kCatalogue);
+  return calibrate_material(document, test_catalogue());
 }
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInACalibration) {
