@@ -1,15 +1,18 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp TESTS log_dual_test.cpp)
 # Floor 2
-tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp DEPENDS base
-  PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
-  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp)
+tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
+          relaxation_search.cpp
+  DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
+  TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp
+        relaxation_search_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp shaft_test.cpp)
 # Floor 3
-tw_domain(cutting SOURCES cut.cpp spindle.cpp DEPENDS base catalogue optimise
-  TESTS cut_test.cpp spindle_test.cpp)
+tw_domain(cutting SOURCES cut.cpp material_fit.cpp spindle.cpp
+  DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen
+  TESTS cut_test.cpp material_fit_test.cpp spindle_test.cpp)
 tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
@@ -40,6 +43,13 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagato
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
+tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
+          optimum.cpp single_pass.cpp
+  DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
+  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+if(BUILD_TESTING)
+  target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
+endif()
 # Floor 4
 tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp budget.cpp
   DEPENDS base part PRIVATE_LIBS fmt::fmt
@@ -61,10 +71,10 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp stability.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
           machine_fields.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
-          DEPENDS base catalogue part deflection thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
-          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp
+          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
                 malformed_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

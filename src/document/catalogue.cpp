@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "turnwright/document/file.hpp"
 
@@ -19,9 +20,9 @@ std::vector<fs::path> json_files(const fs::path& folder) {
   return files;
 }
 
-template <class T>
-std::vector<T> load_folder(const fs::path& folder, Problems& problems,
-                           T (*read)(Reader)) {
+template <class Read>
+auto load_folder(const fs::path& folder, Problems& problems, const Read& read) {
+  using T = std::invoke_result_t<Read, Reader>;
   std::vector<T> out;
   for (const auto& file : json_files(folder)) {
     const std::string root = (folder.filename() / file.filename()).generic_string() + '#';
@@ -49,9 +50,14 @@ std::vector<T> load_folder(const fs::path& folder, Problems& problems,
 
 Catalogue load_catalogue(const fs::path& folder) {
   Problems problems{.document = folder.string()};
-  Catalogue all{.materials = load_folder(folder / "materials", problems, read_material),
-                .tools = load_folder(folder / "tools", problems, read_tool),
-                .machines = load_folder(folder / "machines", problems, read_lathe)};
+  Catalogue all;
+  all.materials = load_folder(folder / "materials", problems, [&](const Reader& r) {
+    auto material = read_material(r);
+    all.material_documents[material.id] = r.json();
+    return material;
+  });
+  all.tools = load_folder(folder / "tools", problems, read_tool);
+  all.machines = load_folder(folder / "machines", problems, read_lathe);
   problems.throw_if_any();
   return all;
 }

@@ -4,11 +4,13 @@
 
 #include "turnwright/document/acceptance.hpp"
 #include "turnwright/document/ball_bar.hpp"
+#include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/compare.hpp"
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/document/deflection.hpp"
 #include "turnwright/document/geometry.hpp"
+#include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/samba.hpp"
@@ -123,6 +125,18 @@ constexpr const char* kStabilityExample = R"({
     {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
   "ap_max_mm": 6, "speeds_rpm": {"from": 17000, "to": 19000, "count": 3},
   "points": [{"n_rpm": 5000, "ap_mm": 1}]})";
+constexpr const char* kMultipassExample = R"({
+  "dt_mm": 8, "cost": "literal", "PU": 4, "T": [25, 45], "n_max": 6})";
+
+constexpr const char* kCalibrateExample = R"({
+  "material": "C45", "id": "C45-lot-17", "name": "C45, lot 17",
+  "tool": {"name": "CNMG 120408, VB = 0.3 mm", "re_mm": 0.8, "kapr_deg": 95, "rake_deg": 6},
+  "cuts": [
+    {"vc_m_min": 200, "f_mm_rev": 0.15, "ap_mm": 2, "Fc_N": 768, "T_min": 76},
+    {"vc_m_min": 200, "f_mm_rev": 0.3, "ap_mm": 2, "Fc_N": 1271, "T_min": 33},
+    {"vc_m_min": 260, "f_mm_rev": 0.15, "ap_mm": 2, "Fc_N": 752, "T_min": 29},
+    {"vc_m_min": 260, "f_mm_rev": 0.3, "ap_mm": 2, "Fc_N": 1263, "T_min": 11.5},
+    {"vc_m_min": 320, "f_mm_rev": 0.2, "ap_mm": 2, "Fc_N": 941, "T_min": 8.6}]})";
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
@@ -228,6 +242,16 @@ std::span<const Request> requests() {
        kStabilityExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::stability(request);
+       }},
+      {"multipass", "the literature's multi-pass problem -> certified optimum",
+       kMultipassExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::multipass(request);
+       }},
+      {"calibrate-material",
+       "measured cuts -> kc1.1, mc, Taylor constants with intervals", kCalibrateExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::calibrate_material(request, context.catalogue);
        }},
   };
   return kTable;

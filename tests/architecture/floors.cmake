@@ -3,7 +3,7 @@
 #   cmake -D ROOT=<source folder> -P floors.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(floors "base" "part,catalogue,optimise" "deflection,volumetric,cutting,milling,thermal"
+set(floors "base" "part,catalogue,optimise" "deflection,volumetric,cutting,milling,multipass,thermal"
     "tolerance" "planning" "report,document" "service" "app")
 set(floor 0)
 foreach(domains IN LISTS floors)

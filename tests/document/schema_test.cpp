@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "schema_check.hpp"
+#include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
+#include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/stability.hpp"
 
@@ -141,9 +143,10 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
       .try_all();
 }
 
-std::string refused_chuck(const json& document) {
+template <json (*Door)(const json&)>
+std::string refused_by(const json& document) {
   try {
-    chuck(document);
+    Door(document);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -155,16 +158,31 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAChuckRequest) {
   const auto text = parse_file(source_path("schemas/chuck.request.json"));
   auto request = text.at("examples").at(0);
   request["graph"] = text.at("examples").at(3).at("graph");
-  Slips(schema, refused_chuck, request).try_all();
+  Slips(schema, refused_by<chuck>, request).try_all();
 }
 
-std::string refused_stability(const json& document) {
-  try {
-    stability(document);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAMultipassRequest) {
+  const SchemaCheck schema("multipass.request.json");
+  const auto text = parse_file(source_path("schemas/multipass.request.json"));
+  json every = {{"format", "turnwright-multipass/1"}, {"VrU", 110}};
+  for (const auto& [key, value] : text["else"]["properties"].items())
+    if (value.contains("default")) every[key] = value["default"];
+  Slips(schema, refused_by<multipass>, every).try_all();
+  Slips(schema, refused_by<multipass>, text["examples"][2]).try_all(50);
+}
+
+json calibrated(const json& document) {
+  return calibrate_material(document, test_catalogue());
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInACalibration) {
+  const SchemaCheck schema("calibrate-material.request.json");
+  auto request = parse_file(source_path("schemas/calibrate-material.request.json"))
+                     .at("examples")
+                     .at(1);
+  request["outlier_p"] = 0;
+  request["name"] = "a name";
+  Slips(schema, refused_by<calibrated>, request).try_all();
 }
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
@@ -172,7 +190,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
   const auto examples =
       parse_file(source_path("schemas/stability.request.json")).at("examples");
   for (const json& example : examples)
-    Slips(schema, refused_stability, example).try_all(40);
+    Slips(schema, refused_by<stability>, example).try_all(40);
 }
 
 }  // namespace

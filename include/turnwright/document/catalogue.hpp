@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "turnwright/catalogue/machine.hpp"
@@ -17,6 +20,7 @@ struct Catalogue {
   std::vector<catalogue::Material> materials;
   std::vector<catalogue::Tool> tools;
   std::vector<catalogue::Lathe> machines;
+  std::map<std::string, nlohmann::json> material_documents;  ///< as written, by id
 };
 
 /// Read one document; what is wrong with it goes to the reader's problems.

@@ -1,0 +1,215 @@
+#include "turnwright/cutting/material_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace turnwright::cutting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLeastThickness = 0.04879;  // ln 1.05
+constexpr double kLeastSpread = 0.02;
+constexpr int kSpare = 3;  // measurements beyond the unknowns that outliers leave
+
+double quantile(double p, int degrees) {
+  return boost::math::quantile(boost::math::students_t(degrees), p);
+}
+
+/// y = X c + error.
+struct Regression {
+  VectorXd c;
+  MatrixXd inverse;  // (X'X)^-1
+  VectorXd residual, leverage;
+  double s2 = 0;
+  int degrees = 0;
+
+  Regression(const MatrixXd& X, const VectorXd& y) {
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(X);
+    c = qr.solve(y);
+    inverse = (X.transpose() * X).inverse();
+    residual = y - X * c;
+    leverage = (X * inverse).cwiseProduct(X).rowwise().sum();
+    degrees = static_cast<int>(X.rows() - X.cols());
+    s2 = residual.squaredNorm() / degrees;
+  }
+  double covariance(Index i, Index j) const { return s2 * inverse(i, j); }
+};
+
+MatrixXd rows_of(const MatrixXd& X, const std::vector<std::size_t>& rows) {
+  return X(rows, Eigen::all);
+}
+
+// The row most unlike the others if it is less likely than p over their number.
+std::optional<std::size_t> outlier(const Regression& r, double p) {
+  std::optional<std::size_t> worst;
+  double largest = 0;
+  for (Index i = 0; i < r.residual.size(); ++i) {
+    const double room = 1 - r.leverage[i];
+    if (!(room > 1e-9)) continue;
+    const double e2 = r.residual[i] * r.residual[i] / room;
+    const double rest = (r.degrees * r.s2 - e2) / (r.degrees - 1);
+    const double t = std::sqrt(e2 / std::max(rest, 1e-300));
+    if (t > largest) {
+      largest = t;
+      worst = static_cast<std::size_t>(i);
+    }
+  }
+  const auto n = static_cast<double>(r.residual.size());
+  if (r.s2 < 1e-24 || !(p > 0)) return std::nullopt;  // no scatter but rounding's
+  return largest > quantile(1 - p / (2 * n), r.degrees - 1) ? worst : std::nullopt;
+}
+
+Regression robust(const MatrixXd& X, const VectorXd& y, double p, Evidence& e) {
+  e.used.resize(static_cast<std::size_t>(X.rows()));
+  std::iota(e.used.begin(), e.used.end(), std::size_t{0});
+  const std::size_t most = e.used.size() / 5;
+  for (;;) {
+    Regression r(rows_of(X, e.used), y(e.used));
+    if (e.outliers.size() < most && r.degrees > kSpare)
+      if (const auto i = outlier(r, p)) {
+        e.outliers.push_back(e.used[*i]);
+        e.used.erase(e.used.begin() + static_cast<std::ptrdiff_t>(*i));
+        continue;
+      }
+    std::sort(e.outliers.begin(), e.outliers.end());
+    e.degrees_of_freedom = r.degrees;
+    e.s = std::sqrt(r.s2);
+    e.s_prediction =
+        e.s * std::sqrt(1 + 1 / static_cast<double>(e.used.size()));  // at the mean
+    return r;
+  }
+}
+
+/// What is left of a column after a constant and the columns before it: rms.
+double spread(const MatrixXd& before, const VectorXd& column) {
+  const VectorXd c = before.colPivHouseholderQr().solve(column);
+  return std::sqrt((column - before * c).squaredNorm() /
+                   static_cast<double>(column.size()));
+}
+
+void require(bool good) {
+  if (!good) throw std::domain_error("material_fit: a measurement is not positive");
+}
+bool positive(double x) { return x > 0 && std::isfinite(x); }
+
+Estimate ends(double value, double one, double other) {
+  return {value, std::min(one, other), std::max(one, other)};
+}
+
+/// -c_i/c_j by Fieller's theorem; c_j differs from 0 by more than its interval.
+Estimate ratio(const Regression& r, Index i, Index j, double t) {
+  const double a = r.c[i], b = r.c[j], t2 = t * t;
+  const double vaa = r.covariance(i, i), vab = r.covariance(i, j),
+               vbb = r.covariance(j, j);
+  const double A = b * b - t2 * vbb, B = a * b - t2 * vab, C = a * a - t2 * vaa;
+  const double root = std::sqrt(std::max(0.0, B * B - A * C));
+  return ends(-a / b, -(B - root) / A, -(B + root) / A);
+}
+
+Estimate exponential(const Estimate& e) {
+  return {std::exp(e.value), std::exp(e.lower), std::exp(e.upper)};
+}
+
+}  // namespace
+
+KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& options) {
+  KienzleFit fit;
+  const auto n = static_cast<Index>(cuts.size());
+  MatrixXd X(n, 2);
+  VectorXd y(n);
+  for (Index i = 0; i < n; ++i) {
+    const ForcePoint& p = cuts[static_cast<std::size_t>(i)];
+    require(positive(p.h_mm) && positive(p.b_mm) && positive(p.F_N));
+    X.row(i) << 1, std::log(p.h_mm);
+    y[i] = std::log(p.F_N / (p.b_mm * p.h_mm));  // (1)
+  }
+  if (n == 0 || X.col(1).maxCoeff() - X.col(1).minCoeff() < kLeastThickness) {
+    for (const char* name : {"k1.1", "m"})
+      fit.missing.push_back({name, "a cut at another chip thickness (another feed)"});
+    return fit;
+  }
+  if (n < 3) {
+    for (const char* name : {"k1.1", "m"})
+      fit.missing.push_back({name, "a third cut, to judge the errors by"});
+    return fit;
+  }
+  const Regression r = robust(X, y, options.outlier_p, fit.evidence);
+  const double t = quantile((1 + options.confidence) / 2, r.degrees);
+  const auto interval = [&](Index j, double sign) {
+    const double half = t * std::sqrt(r.covariance(j, j));
+    return Estimate{sign * r.c[j], sign * r.c[j] - half, sign * r.c[j] + half};
+  };
+  fit.k11_MPa = exponential(interval(0, 1));
+  fit.m = interval(1, -1);
+  return fit;
+}
+
+TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double given_b,
+                     const FitOptions& options) {
+  TaylorFit fit;
+  const auto n = static_cast<Index>(lives.size());
+  VectorXd v(n), f(n), d(n), y(n);
+  for (Index i = 0; i < n; ++i) {
+    const LifePoint& p = lives[static_cast<std::size_t>(i)];
+    require(positive(p.vc_m_min) && positive(p.f_mm_rev) && positive(p.ap_mm) &&
+            positive(p.T_min));
+    v[i] = std::log(p.vc_m_min);
+    f[i] = std::log(p.f_mm_rev);
+    d[i] = std::log(p.ap_mm);
+    y[i] = std::log(p.T_min);
+  }
+  // Columns: 1, ln vc with the given exponents' share, then ln f and ln ap if they tell.
+  const auto nothing = [&](const std::string& test) {
+    fit.missing.insert(fit.missing.begin(), {{"n", test}, {"C", test}});
+    return fit;
+  };
+  MatrixXd X = MatrixXd::Ones(n, 1);
+  if (n == 0 || spread(X, v) < kLeastSpread)
+    return nothing("a tool life at another cutting speed");
+  X.conservativeResize(n, 2);
+  X.col(1) = v;
+  const auto add = [&](const VectorXd& column, double given, const char* name,
+                       const char* test) {
+    if (spread(X, column) >= kLeastSpread) {
+      X.conservativeResize(n, X.cols() + 1);
+      X.col(X.cols() - 1) = column;
+      return true;
+    }
+    fit.missing.push_back({name, test});
+    X.col(1) += given * column;
+    return false;
+  };
+  const bool with_a =
+      add(f, given_a, "a", "a tool life at another feed, speed unchanged");
+  const bool with_b =
+      add(d, given_b, "b", "a tool life at another depth, speed and feed unchanged");
+  if (n < X.cols() + 1)
+    return nothing("as many tool lives as there are constants and one more: " +
+                   std::to_string(X.cols() + 1));
+
+  const Regression r = robust(X, y, options.outlier_p, fit.evidence);
+  const double t = quantile((1 + options.confidence) / 2, r.degrees);
+  const double half = t * std::sqrt(r.covariance(1, 1));
+  if (!(r.c[1] + half < 0))
+    return nothing(
+        "tool lives at speeds further apart, for the life does not fall with "
+        "the speed beyond doubt");
+  fit.n = ends(-1 / r.c[1], -1 / (r.c[1] - half), -1 / (r.c[1] + half));
+  fit.C = exponential(ratio(r, 0, 1, t));
+  const auto exponent = [&](Index j) {  // a = c_j/c_1
+    const Estimate e = ratio(r, j, 1, t);
+    return Estimate{-e.value, -e.upper, -e.lower};
+  };
+  if (with_a) fit.a = exponent(2);
+  if (with_b) fit.b = exponent(with_a ? 3 : 2);
+  return fit;
+}
+
+}  // namespace turnwright::cutting
