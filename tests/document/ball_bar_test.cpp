@@ -113,7 +113,7 @@ TEST(BallBarDoor, TellsEveryFaultWithItsPlace) {
   has(spoilt(1, [](json& r) { r["analyse"]["ccw_mm"][4] = "NaN"; }),
       "/analyse/ccw_mm/4: got \"NaN\"");
   has(spoilt(2, [](json& r) { r["analyse"]["csv"][3] = "75,nan,1"; }),
-      "line 4, feed_ccw: nan");
+      "/analyse/csv#line 4/feed_ccw: got \"nan\"");
   has(spoilt(2, [](json& r) { r["analyse"].erase("sign"); }),
       "/analyse/sign: got nothing");
   has(refused(json::object()), "either simulate or analyse");

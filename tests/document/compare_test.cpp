@@ -151,7 +151,7 @@ TEST(CompareDoor, TellsEveryFaultWithItsPlace) {
   csv = "a,b\n1,2\n";
   has(request, "/a/csv");
   csv = "param,test1,test2\nEXX,1\n";
-  has(request, "/a/csv#line 2: got 2 cells, expected 3 as in the first line");
+  has(request, "/a/csv#line 2: got 2 cells, expected 3 as in the header");
   csv = "param,test1,test2\nEQQ,1,2\n";
   has(request, "expected at least one parameter in both");
   csv = "param,unit,test1,test2\nEXX,mm,1,2\n";

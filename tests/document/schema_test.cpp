@@ -143,7 +143,7 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
       .try_all();
 }
 
-template <json (*Door)(const json&)>
+template <auto Door>
 std::string refused_by(const json& document) {
   try {
     Door(document);
