@@ -61,7 +61,7 @@ Section round_section(double outer_mm, double inner_mm) {
 Section without_slot(const Section& section, double outer_mm, const Slot& slot) {
   const double R = outer_mm / 2, c = slot.width_mm / 2, r = slot.floor_mm;
   const double X = std::sqrt((R - c) * (R + c));
-  if (!(R > 0 && c > 0 && c <= R && r >= 0 && r <= X * (1 + 1e-12)))
+  if (!(R > 0 && c > 0 && c <= R && r >= 0 && r * r <= X * X + 1e-14 * R * R))
     throw std::domain_error("without_slot: the slot does not lie in the rim");
   const double W = c * X + R * R * std::asin(c / R);  // Eq. (1)
   const double A = W - 2 * c * r, s = c * (R * R - r * r) - c * c * c / 3;

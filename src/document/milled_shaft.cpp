@@ -17,10 +17,25 @@ double half_opening_rad(const Slot& slot, double outer_mm) {
   return std::asin(slot.width_mm / outer_mm);
 }
 
+// Slots as rectangles from floor to rim: whether one of a's sides parts it from b.
+bool parts(const Slot& a, const Slot& b, double between_rad, double outer_mm) {
+  const auto rim = [&](const Slot& s) {
+    return std::sqrt(outer_mm * outer_mm - s.width_mm * s.width_mm) / 2;
+  };
+  const double cos = std::abs(std::cos(between_rad)), sin = std::sin(between_rad);
+  const double middle_a = (rim(a) + a.floor_mm) / 2, deep_a = rim(a) - middle_a;
+  const double middle_b = (rim(b) + b.floor_mm) / 2, deep_b = rim(b) - middle_b;
+  const double along = std::abs(middle_b * std::cos(between_rad) - middle_a);
+  return along >= deep_a + deep_b * cos + b.width_mm / 2 * sin ||
+         middle_b * sin >= a.width_mm / 2 + deep_b * sin + b.width_mm / 2 * cos;
+}
+
+// At the rim, or further in where wide slots are deep.
 bool meet(const Slot& a, const Slot& b, double outer_mm) {
   const double between =
       std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * units::kPi));
-  return between < half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm);
+  return between <= half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm) ||
+         !(parts(a, b, between, outer_mm) || parts(b, a, between, outer_mm));
 }
 
 // Without a width the slot is a flat, as wide as the chord at its floor.

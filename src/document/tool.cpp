@@ -19,13 +19,15 @@ void read_geometry(Reader group, catalogue::Tool& t) {
   t.kapr_deg = group.number("kapr_deg", edge);
   t.minor_kapr_deg = group.number("minor_kapr_deg", edge);
   t.gamma_deg = group.number("gamma_deg", within(-30, 45, "deg"));
-  t.alpha_deg = group.number("alpha_deg", within(0, 45, "deg"));
+  t.alpha_deg = group.number("alpha_deg", above_up_to(0, 45, "deg"));
   t.re_mm = group.number("re_mm", within(0, 20, "mm"));
   t.wiper = group.boolean_or("wiper", false);
   finish_group(group);
   if (t.kapr_deg + t.minor_kapr_deg >= 180)
     group.problem_at("minor_kapr_deg", "a corner: kapr_deg + minor_kapr_deg < 180 deg",
                      "conflict");
+  if (t.alpha_deg + t.gamma_deg >= 90)
+    group.problem_at("gamma_deg", "a wedge: alpha_deg + gamma_deg < 90 deg", "conflict");
 }
 
 void read_window(Reader group, catalogue::Tool& t) {

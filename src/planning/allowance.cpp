@@ -177,7 +177,7 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
            t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um, s);
     spread("repeatability", Distribution::normal, shop.repeatability_um, s);
     if (making.last) spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
-    spread("heat", Distribution::uniform, heat_um(p, t), s);
+    spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
   if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&
       datum_elsewhere(p, t, making))
@@ -215,8 +215,8 @@ double force_spread(const PartPlan& p) {
          100;
 }
 
-double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
-               bool corrected) {
+double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a, Cut cut) {
+  const bool corrected = cut == Cut::corrected;
   const double width = width_mm(p.drawing.tolerances[tolerance]);
   if (!p.robust) return std::max(0.0, width - taken_mm(a));
   double fixed_um = 0;
@@ -224,7 +224,7 @@ double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
   const double h = (units::um_from_mm(width) - fixed_um) / a.ends;
   if (!(h > 0)) return 0;
   const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
-  const double r = force_spread(p);
+  const double r = cut == Cut::none ? 0 : force_spread(p);
   const auto end = p.other_ends.find(tolerance);
   const bool one_sided = a.ends == 1 || (!corrected && end == p.other_ends.end());
   const tolerance::Spread spread(a.spread);
@@ -238,8 +238,16 @@ double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a,
 
 std::vector<Share> shares(const Allowance& a) {
   auto all = a.fixed;
-  for (const auto& s : a.spread)
-    all.push_back({s.name, a.ends * tolerance::rss_um({&s, 1}).up_um});
+  for (const auto& s : a.spread) {
+    const double um = a.ends * tolerance::rss_um({&s, 1}).up_um;
+    const auto other = std::find_if(all.begin(), all.end(), [&](const Share& share) {
+      return share.source == s.name;
+    });
+    if (other != all.end())
+      other->um += um;
+    else
+      all.push_back({s.name, um});
+  }
   return all;
 }
 

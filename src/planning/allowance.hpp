@@ -15,6 +15,8 @@ struct Making {
   const catalogue::Tool* last = nullptr;  ///< the tool of its last pass
 };
 
+inline constexpr const char* kHeat = "heat";  ///< its source, below
+
 /// Sizes (diameter, length, a profile located by datums) are moved up and down, zones
 /// widened:
 ///
@@ -46,6 +48,10 @@ double taken_mm(const Allowance& allowance);
 /// Relative standard deviation of what the cut leaves: of forces and of stiffness.
 double force_spread(const PartPlan& plan);
 
+/// What the cut has to do with a tolerance: nothing, an error, or one that its path is
+/// corrected for.
+enum class Cut { none, error, corrected };
+
 /// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
 /// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
 /// largest E of which parts whose force and stiffness spread by r keep the limit with the
@@ -64,13 +70,15 @@ double force_spread(const PartPlan& plan);
 ///
 ///     P(|S + r E Z| <= h) = p                                                       (3)
 ///
+/// Where the cut has no part E is what S leaves over, (1) with r = 0.
 /// Source: derived here; the left sides fall as E grows.
-/// @param corrected (3) in place of (1); without effect on a plan that is not robust.
+/// @param cut without effect on a plan that is not robust.
 /// @return ends E [mm].
 double left_mm(const PartPlan& plan, std::size_t tolerance, const Allowance& allowance,
-               bool corrected);
+               Cut cut);
 
-/// What each source takes of the width on its own; a spread by its reach.
+/// What each source takes of the width on its own, a spread by its reach; both faces of a
+/// length together.
 std::vector<Share> shares(const Allowance& allowance);
 
 /// Upper less lower limit, or the zone's width [mm].

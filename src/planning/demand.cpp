@@ -18,16 +18,22 @@ Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_a
   const Tolerance& t = p.drawing.tolerances[index];
   const bool free = offset == Offset::free;
   const auto others = allowance(p, index, making);
-  const double left = left_mm(p, index, others, false);
-  const double taken = left > 0 ? width_mm(t) - left : taken_mm(others);
   const double cosine = std::cos(half_angle.value_or(0));
   using Shape = Demand::Shape;
-  Demand d{index, Shape::none, 1, 0, left, middle_mm(t), taken};
+  Demand d{.tolerance = index, .middle_mm = middle_mm(t)};
+  const auto leave = [&](Cut cut) {
+    d.upper = left_mm(p, index, others, cut);
+    d.taken_mm =
+        d.upper > 0 ? width_mm(t) - d.upper : std::max(width_mm(t), taken_mm(others));
+  };
+  leave(Cut::error);
   const auto size = [&](double factor, double share) {
     d.factor = factor;
     d.shape = free && !p.robust ? Shape::range : Shape::size;
-    d.upper = d.shape == Shape::range ? left * share
-                                      : left_mm(p, index, others, free) * share / 2;
+    if (d.shape == Shape::range)
+      d.upper *= share;
+    else
+      d.upper = left_mm(p, index, others, free ? Cut::corrected : Cut::error) * share / 2;
     d.lower = -d.upper;
   };
   switch (t.kind) {
@@ -60,6 +66,7 @@ Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_a
     default:
       break;
   }
+  if (d.shape == Shape::none) leave(Cut::none);
   return d;
 }
 

@@ -194,12 +194,14 @@ double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
 
 double gripped_bore_mm(const PartPlan& p, std::size_t s) {
   const auto& d = drawing(p);
+  const auto setups = assign(p).setups;
   double bore = d.stock.inner_mm;
-  for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
-    if (holds_left(p, s) ? z0 < jaw_z(p, s) : z1 > jaw_z(p, s))
-      bore = std::max({bore, d.inner[i].left_mm, d.inner[i].right_mm});
-  }
+  for (std::size_t k = 0; k <= s; ++k)
+    for (const std::size_t i : setups[k].bores) {
+      const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+      if (holds_left(p, s) ? z0 < jaw_z(p, s) : z1 > jaw_z(p, s))
+        bore = std::max({bore, d.inner[i].left_mm, d.inner[i].right_mm});
+    }
   return bore;
 }
 

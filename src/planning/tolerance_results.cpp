@@ -83,6 +83,22 @@ struct Taken {
   double mm = 0;        // of the width; of a length the faces' own, each half
   double fixed_mm = 0;  // of it what parts have, not their measurement
 };
+
+// What spreads at one more face.  A part that is warm is too long once, however many of
+// its faces are cut.
+void add(const std::vector<tolerance::Source>& of_face,
+         std::vector<tolerance::Source>& all) {
+  for (const auto& s : of_face) {
+    const auto heat = std::find_if(all.begin(), all.end(), [&](const auto& other) {
+      return s.name == kHeat && other.name == kHeat;
+    });
+    if (heat != all.end())
+      heat->value_um += s.value_um;
+    else
+      all.push_back(s);
+  }
+}
+
 Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
             const Found& other) {
   Taken all{.by = {.fixed = {{"machine", p.machine_share_um}}, .spread = {}}};
@@ -91,12 +107,12 @@ Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
     if (!found->feature) continue;
     const auto own = allowance(p, tolerance, found->feature->task.making);
     all.by.fixed = own.fixed;
-    all.by.spread.insert(all.by.spread.end(), own.spread.begin(), own.spread.end());
+    all.by.ends = std::min(own.ends, 2.0);  // of a length, not of each face
+    add(own.spread, all.by.spread);
     all.mm += found->demand->taken_mm;
     ++made;
   }
   all.mm = made > 0 ? all.mm / made : units::mm_from_um(p.machine_share_um);
-  if (p.drawing.tolerances[tolerance].limits) all.by.ends = 2;
   for (const auto& f : all.by.fixed)
     if (f.source != "measurement") all.fixed_mm += units::mm_from_um(f.um);
   return all;
@@ -111,6 +127,17 @@ double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
   return c.kind == ToleranceKind::profile ? zone / 2 : zone;
 }
 
+// What is not known of forces and stiffness is not known of a correction either.
+double conforming(const PartPlan& p, const Tolerance& t, const Found& at,
+                  const Found& other, const Taken& all) {
+  if (!(all.fixed_mm < width_mm(t) && (at.feature || other.feature))) return 0;
+  const auto c = judged(t, at, all.fixed_mm, half_angle_rad(p.drawing, t.of).value_or(0));
+  const double scaled = scaled_mm(c, verdict(c, profile(at), profile(other)));
+  return tolerance::Spread(all.by.spread)
+      .within(tolerance::room_um(verdict(c, as_made(at), as_made(other))),
+              force_spread(p) * units::um_from_mm(scaled));
+}
+
 // All but the cut needs more than there is.
 void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.verdict = Verdict::not_met;
@@ -118,7 +145,6 @@ void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.predicted_mm = {taken_mm};
   r.allowed_mm = {width_mm(t)};
   r.margin_mm = width_mm(t) - taken_mm;
-  r.P_conform = 0;
 }
 
 void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
@@ -126,19 +152,15 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
   const double half_angle = half_angle_rad(p.drawing, t.of).value_or(0);
   const auto c = judged(t, at, all.mm, half_angle);
   const auto cut = verdict(c, profile(at), profile(other));
-  const bool corrected = (at.feature && at.feature->compensated) ||
-                         (other.feature && other.feature->compensated);
-  const auto made_at = corrected ? as_made(at) : profile(at);
-  const auto made_other = corrected ? as_made(other) : profile(other);
-  const auto made = verdict(c, made_at, made_other);
+  const auto made = verdict(c, as_made(at), as_made(other));
   r.seed_verdict = cut.seed_verdict;
   r.margin_mm = made.margin_mm;
   const double rounding = kOver * width_mm(t);
   r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
               : cut.margin_mm < -rounding ? Verdict::met_with_offset
                                           : Verdict::met;
-  const double cut_mm = std::max(0.0, made.measured_mm - c.machine_mm);
-  r.shares.insert(r.shares.begin(), {"deflection", units::um_from_mm(cut_mm)});
+  r.shares.insert(r.shares.begin(),
+                  {"deflection", all.by.ends * units::um_from_mm(scaled_mm(c, made))});
   if (t.limits) {
     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
@@ -149,11 +171,6 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
     r.predicted_mm = {made.measured_mm};
     r.allowed_mm = {made.allowed_mm};
   }
-  // What is not known of forces and stiffness is not known of a correction either.
-  const auto room = tolerance::room_um(
-      verdict(judged(t, at, all.fixed_mm, half_angle), made_at, made_other));
-  r.P_conform = tolerance::Spread(all.by.spread)
-                    .within(room, force_spread(p) * units::um_from_mm(scaled_mm(c, cut)));
 }
 
 // An element that nothing cuts has the stock's diameter, and no form.
@@ -207,7 +224,10 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
     const auto all = taken(p, i, at, other);
     r.shares = shares(all.by);
-    if (width_mm(t) <= all.mm)
+    const bool none_left = width_mm(t) <= all.mm;
+    if (none_left || at.feature || other.feature)
+      r.P_conform = conforming(p, t, at, other, all);
+    if (none_left)
       used_up(t, all.mm, r);
     else if (!at.feature && half_angle_rad(p.drawing, t.of))
       not_made(p, t, r);

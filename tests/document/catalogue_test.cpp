@@ -205,6 +205,14 @@ TEST(Catalogue, NumbersThatContradictEachOtherAreRefused) {
       problems_of(read_tool, tool),
       "/geometry/minor_kapr_deg: got 85, expected a corner: kapr_deg + minor_kapr_deg "
       "< 180 deg\n");
+  tool = example(kTool);
+  tool["geometry"]["alpha_deg"] = 0;  // would rub
+  EXPECT_NE(problems_of(read_tool, tool).find("/geometry/alpha_deg: got 0, expected"),
+            std::string::npos);
+  tool["geometry"]["alpha_deg"] = tool["geometry"]["gamma_deg"] = 45;
+  EXPECT_EQ(problems_of(read_tool, tool),
+            "/geometry/gamma_deg: got 45, expected a wedge: alpha_deg + gamma_deg < 90 "
+            "deg\n");
   auto lathe = example(kLathe);
   lathe["spindle"]["curve"][1]["P_kW"] = 16;
   lathe["spindle"]["n_max_rpm"] = 4001;

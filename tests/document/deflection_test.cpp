@@ -388,6 +388,18 @@ TEST(Deflection, SlotsLieInTheRimOfACylinder) {
   EXPECT_EQ(refused(with(json::array({key, key}))),
             "deflection: /shaft/segments/0/slots/1: got an object, expected a slot that "
             "does not meet another");
+  // Apart at the rim, by 30 degrees, but wide and deep enough to meet further in.
+  const json wide{{"width_mm", 30}, {"floor_mm", 1}};
+  json across = wide;
+  across["angle_deg"] = 90;
+  EXPECT_NE(refused(with({wide, across})).find("slots/1: "), std::string::npos);
+  across["floor_mm"] = 16;  // beside the other's side
+  EXPECT_NO_THROW(answered(with({wide, across})));
+  // Halves: one may go, down to a floor that is the middle's but for rounding.
+  EXPECT_NO_THROW(answered(with({{{"floor_mm", 1e-9}}})));
+  EXPECT_NE(refused(with({{{"floor_mm", 0}}, {{"floor_mm", 0}, {"angle_deg", 180}}}))
+                .find("slots/1: "),
+            std::string::npos);
   json cone = with(one);
   cone["shaft"]["segments"][1]["outer_right_mm"] = 39;
   EXPECT_NE(refused(cone).find("/shaft/segments: "), std::string::npos) << refused(cone);

@@ -166,6 +166,89 @@ TEST(Squeeze, OfATubeIsEasedToAQuarterOfTheZone) {
   EXPECT_NEAR(share_um(a, "jaw-squeeze"), 20.0 / 4, 1e-9);
 }
 
+// Only what has been bored: in setup 0 the jaws close on the tube as it was bought.
+TEST(Squeeze, KnowsNoBoreThatALaterSetupMakes) {
+  auto d = tube(9000);
+  const auto lobes_um = [&](std::size_t setup) {
+    const auto p = part(d);
+    return share_um(allowance(p, tolerance(p, "c1"), in_chuck(p, setup)), "jaw-squeeze");
+  };
+  const double before = lobes_um(0);
+  d["inner"] = {{{"id", "b"},
+                 {"kind", "cylinder"},
+                 {"from", "left"},
+                 {"length_mm", 30},
+                 {"diameter_mm", 46}}};
+  EXPECT_EQ(lobes_um(0), before);
+  // The same bore in the jaws of a later setup.
+  std::swap(d["setups"][0], d["setups"][1]);
+  const auto p = part(d);
+  EXPECT_EQ(gripped_bore_mm(p, 0), 40);
+  EXPECT_EQ(gripped_bore_mm(p, 1), 46);
+}
+
+// The width is what the shares take and, at each limit, the margin: of all that one
+// source at most spreads.
+TEST(Budget, SharesAndMarginsAreTheWholeWidth) {
+  auto d = pin_with({{"drift_um", 3}});
+  d["outer"][0] = {{"id", "d1"},
+                   {"kind", "cone"},
+                   {"length_mm", 40},
+                   {"left_mm", 34},
+                   {"right_mm", 40}};
+  d["tolerances"] = {
+      {{"id", "p"},
+       {"kind", "profile"},
+       {"of", "d1"},
+       {"datum", "d2"},
+       {"value_mm", 0.08}},
+      {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.02}}};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  for (const auto& t : r.tolerances) {
+    double um = 0;
+    for (const auto& s : t.shares) um += s.um;
+    const double width = t.id == "p" ? 0.08 : t.id == "z" ? 0.02 : 0.05;
+    // A profile's margin is that of its zone, both sides together.
+    const double ends = t.id == "d2:diameter" ? 2 : 1;
+    EXPECT_NEAR(um / 1000 + ends * t.margin_mm, width, 1e-9) << t.id;
+  }
+}
+
+// A warm part is too long once: its uniform error of +-H and each face's drift of +-D,
+// triangular together, by summing.
+TEST(Budget, OfALengthCountsItsHeatOnce) {
+  auto d = pin_with({{"drift_axial_um", 8}, {"part_warm_K", 30}});
+  d["tolerances"] = {{{"id", "l"},
+                      {"kind", "length"},
+                      {"between", {"left", "right"}},
+                      {"limits_mm", {-0.036, 0.036}}}};
+  const auto p = part(d);
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  const auto t = std::find_if(r.tolerances.begin(), r.tolerances.end(),
+                              [](const auto& x) { return x.id == "l"; });
+  const double H = p.material.expansion_1_K * 30 * 90 / 2 * 1000, D = 8;
+  ASSERT_EQ(t->shares.size(), 4u);  // deflection, machine, drift, heat
+  EXPECT_NEAR(t->shares[2].um, 4 * D, 1e-9);
+  EXPECT_NEAR(t->shares[3].um, 2 * H, 1e-9);
+  const double low = t->predicted_mm[0] * 1000, high = t->predicted_mm[1] * 1000;
+  const double sigma = force_spread(p) * std::max(high, -low);
+  const double up = 35.5 - high, down = -35.5 - low;
+  double P = 0;
+  const int n = 600;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double u = 2 * (k + 0.5) / n - 1;
+      const double x = H * (2 * (i + 0.5) / n - 1) + 2 * D * u;
+      P += (1 - std::abs(u)) * 2 / n / n *
+           (std::erf((up - x) / sigma / std::sqrt(2.0)) -
+            std::erf((down - x) / sigma / std::sqrt(2.0))) /
+           2;
+    }
+  EXPECT_NEAR(t->P_conform, P, 1.5e-3);
+}
+
 // What a plan says of each tolerance follows from its own shares.
 TEST(Budget, NarrowsWhatThePlanAllowsAndItsPartsConformAsSaid) {
   const auto bare = plan(part(pin_with(nlohmann::json::object())));
@@ -223,8 +306,23 @@ TEST(Robust, AZoneKeepsRoomForWhatIsNotKnownOfTheForce) {
       {{"id", "z"}, {"kind", "cylindricity"}, {"of", "d2"}, {"value_mm", 0.011}}};
   const auto p = part(robust(d, 0.99865));
   const auto z = tolerance(p, "z");
-  const auto left = left_mm(p, z, allowance(p, z, in_chuck(p, 0)), false);
+  const auto left = left_mm(p, z, allowance(p, z, in_chuck(p, 0)), Cut::error);
   EXPECT_NEAR(left, 0.010 / (1 + 3 * force_spread(p)), 1e-7);
+}
+
+// The cut has no part in coaxiality: no room is kept for what is not known of it.
+TEST(Robust, WhatTheCutLeavesAloneIsPredictedAsItIs) {
+  auto d = pin_with(nlohmann::json::object());
+  d["tolerances"] = {{{"id", "x"},
+                      {"kind", "coaxiality"},
+                      {"of", "d2"},
+                      {"datum", "d1"},
+                      {"value_mm", 0.03}}};
+  const auto r = plan(part(robust(d, 0.9973)));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  ASSERT_EQ(r.tolerances[0].id, "x");
+  EXPECT_NEAR(r.tolerances[0].predicted_mm[0], 0.001, 1e-12);  // the machine's share
+  EXPECT_EQ(r.tolerances[0].P_conform, 1);
 }
 
 // Parts made by a robust plan, drawn anew: the error scales by a normal force and
@@ -269,7 +367,7 @@ TEST(Robust, ACorrectedSizeIsAskedForWhatCorrectingLeavesUnknown) {
   const auto p =
       part(robust(pin_with(nlohmann::json::object()), std::erf(3 / std::sqrt(2.0))));
   const auto i = tolerance(p, "d2:diameter");
-  const auto left = left_mm(p, i, allowance(p, i, in_chuck(p, 0)), true);
+  const auto left = left_mm(p, i, allowance(p, i, in_chuck(p, 0)), Cut::corrected);
   EXPECT_NEAR(left, 2 * 0.0245 / (3 * force_spread(p)), 1e-7);
 }
 

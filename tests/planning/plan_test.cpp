@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../../src/planning/allowance.hpp"
 #include "parts.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/cut.hpp"
@@ -558,6 +559,28 @@ TEST(Plan, ACorrectedPathLeavesNothing) {
   EXPECT_NEAR(dr, -s, 1e-10);
   EXPECT_LT(t.predicted_mm[1] - t.predicted_mm[0], 1e-4);
   EXPECT_LT(t.P_conform, 1);  // the correction is no more certain than the forces
+}
+
+// Three sigma leave nothing for the cut, but most parts conform: a normal source alone.
+TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
+  auto d = pin();
+  d["budget"] = {{"repeatability_um", 2}};
+  d["outer"][1]["limits_mm"] = {-0.1, 0};
+  d = as_planned(d, planned(d));
+  const auto size = [&](double half_mm) {
+    d["outer"][1]["limits_mm"] = {-2 * half_mm, 0};
+    const auto r = predict(part_to_predict(d));
+    return tolerance(r, "d2:diameter");
+  };
+  const auto loose = size(0.05), tight = size(0.01);  // 2 (2 3 2 um) + 1 um of 20 um
+  EXPECT_EQ(loose.verdict, Verdict::met);
+  EXPECT_EQ(tight.verdict, Verdict::not_met);
+  const double low = (loose.predicted_mm[0] + 0.05) * 1000,
+               high = (loose.predicted_mm[1] + 0.05) * 1000;
+  const double sigma =
+      std::hypot(4, force_spread(part_to_predict(d)) * std::max(high, -low));
+  const auto below = [&](double um) { return std::erf(um / sigma / std::sqrt(2.0)) / 2; };
+  EXPECT_NEAR(tight.P_conform, below(9.5 - high) - below(-9.5 - low), 1e-9);
 }
 
 TEST(Predict, APlansConditionsGiveWhatThePlanSays) {

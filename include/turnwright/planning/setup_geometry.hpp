@@ -61,7 +61,7 @@ double free_z_mm(const PartPlan& plan, std::size_t setup);
 /// Diameter [mm] the jaws close on, 0 between centres.
 double grip_diameter_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
 
-/// Largest bore [mm] that may stand between the jaws, 0 of a solid part.
+/// Largest bore [mm] between the jaws once the setup is done, 0 of a solid part.
 double gripped_bore_mm(const PartPlan& plan, std::size_t setup);
 
 /// Force of all jaws at rest [N], 0 between centres; they may be eased when the roughing
