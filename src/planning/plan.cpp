@@ -71,6 +71,24 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
   return s;
 }
 
+// What the path's correction, judged as it is cut, does not bring within its tolerance.
+bool add_missed(ProcessPlan& result) {
+  for (const auto& t : result.tolerances) {
+    if (t.verdict != Verdict::not_met) continue;
+    result.conflicts.push_back(
+        {t.id + " " + part::name(t.kind), t.of, t.allowed_mm.back() - t.margin_mm,
+         t.allowed_mm.back(), "mm",
+         fmt::format("{} of {} is {} mm outside its limits even with the path corrected",
+                     t.id, t.of, readable(-t.margin_mm))});
+  }
+  if (result.conflicts.empty()) return false;
+  result.status = PlanStatus::infeasible;
+  result.certificate = {};
+  result.certificate.reason =
+      "no plan was found: the correction would have to be too large";
+  return true;
+}
+
 ProcessPlan planned(const PartPlan& p) {
   ProcessPlan result;
   const auto work = assign(p);
@@ -96,6 +114,7 @@ ProcessPlan planned(const PartPlan& p) {
   result.time_per_part_min = a.total.minutes;
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
+  if (add_missed(result)) return result;
   result.deviations = deviations(chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
