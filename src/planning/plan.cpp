@@ -83,6 +83,8 @@ bool add_missed(ProcessPlan& result) {
   }
   if (result.conflicts.empty()) return false;
   result.status = PlanStatus::infeasible;
+  result.cost_per_part = result.time_per_part_min = 0;
+  result.profit_per_min.reset();
   result.certificate = {};
   result.certificate.reason =
       "no plan was found: the correction would have to be too large";
