@@ -301,14 +301,17 @@ void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature
              ProcessPlan& result) {
   const std::string where = fmt::format("setup {}, {}, {}", setup.setup,
                                         name(setup.clamping), f.task.feature.surface());
-  if (const auto* d = used_up(f.task.demands); d && !f.answer.model) {
-    auto conflict = used_up_conflict(plan, f, *d);
-    conflict.where = where;
-    result.relax.push_back(
-        {conflict.limit, conflict.allowed, conflict.value, "mm",
-         fmt::format("{} would have to open beyond {} mm, or the shares be less",
-                     conflict.limit, readable(conflict.value))});
-    result.conflicts.push_back(std::move(conflict));
+  if (used_up(f.task.demands) && !f.answer.model) {
+    for (const auto& d : f.task.demands) {
+      if (d.upper > 0) continue;
+      auto conflict = used_up_conflict(plan, f, d);
+      conflict.where = where;
+      result.relax.push_back(
+          {conflict.limit, conflict.allowed, conflict.value, "mm",
+           fmt::format("{} would have to open beyond {} mm, or the shares be less",
+                       conflict.limit, readable(conflict.value))});
+      result.conflicts.push_back(std::move(conflict));
+    }
     return;
   }
   if (!f.answer.model) {

@@ -291,6 +291,16 @@ TEST(Budget, ThatIsUsedUpWithoutTheCutIsAConflict) {
       << r.conflicts[0].sentence;
   ASSERT_EQ(r.relax.size(), 1u);
   EXPECT_EQ(r.certificate.kind, CertificateKind::none);
+  d["budget"]["rechucking_um"] = 20;  // every one of a surface is told
+  d["tolerances"] = {{{"id", "x"},
+                      {"kind", "coaxiality"},
+                      {"of", "d2"},
+                      {"datum", "d1"},
+                      {"value_mm", 0.03}}};
+  const auto both = plan(part(d));
+  ASSERT_EQ(both.conflicts.size(), 2u);
+  EXPECT_EQ(both.conflicts[0].limit, "x coaxiality");
+  EXPECT_EQ(both.conflicts[1].limit, "d2:diameter diameter");
 }
 
 nlohmann::json robust(nlohmann::json d, double p) {
