@@ -354,14 +354,13 @@ json position(double a_mm, double D_mm, const Flexibility& radial,
   return out;
 }
 
-/// Fr and Fa at a position that has been answered.
-std::pair<double, double> radial_load(const Request& q, const json& answered) {
-  if (!q.force_law) {
-    const Load load = q.load.value_or(Load{});
-    return {load.Fr_N, load.Fa_N};
-  }
+/// At a position that has been answered.
+Load load_at(const Request& q, const json& answered) {
+  if (!q.force_law) return q.load.value_or(Load{});
   const double Fr = answered.at("Fr_N");
-  return {Fr, q.force_law->Fa_over_Fr * Fr};
+  return {.Fr_N = Fr,
+          .Ft_N = q.force_law->Ft_over_Fr * Fr,
+          .Fa_N = q.force_law->Fa_over_Fr * Fr};
 }
 
 /// The error each pass leaves, and of the blank's run-out what it keeps.
@@ -374,13 +373,13 @@ void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tange
 }
 
 /// Two lobes of a part with slots, as it turns under the load.
-json oval(const Request& q, double a_mm, double Fr_N, double Ft_N) {
+json oval(const Request& q, double a_mm, const Load& load) {
   const OvalFlexibility f =
       oval_flexibility(*q.milled, q.shaft.E_MPa, q.clamping.radial, a_mm);
   return {{"mean_mm_N", f.mean_mm_N},
           {"lobe_mm_N", f.lobe_mm_N},
           {"softest_deg", f.softest_rad * 180 / units::kPi},
-          {"amplitude_mm", oval_error(f, Fr_N, Ft_N).amplitude_mm}};
+          {"amplitude_mm", oval_error(f, load.Fr_N, load.Ft_N).amplitude_mm}};
 }
 
 json positions(const Workpiece& part, const Held& held, const Request& q) {
@@ -393,17 +392,11 @@ json positions(const Workpiece& part, const Held& held, const Request& q) {
                        : position(response(a, D, f.radial[i], f.tangential[i],
                                            q.load.value_or(Load{}))));
     if (q.passes) add_passes(D, f.radial[i], f.tangential[i], q, list.back());
-    if (q.milled) {
-      const double Fr = radial_load(q, list.back()).first;
-      list.back()["oval"] =
-          oval(q, a, Fr,
-               q.force_law ? q.force_law->Ft_over_Fr * Fr : q.load.value_or(Load{}).Ft_N);
-    }
-    if (q.steady) {
-      const auto [Fr, Fa] = radial_load(q, list.back());
-      list.back()["rest_reaction_N"] =
-          f.rested[i].rest_per_N * Fr - f.rested[i].rest_per_Nmm * Fa * D / 2;
-    }
+    const Load load = load_at(q, list.back());
+    if (q.milled) list.back()["oval"] = oval(q, a, load);
+    if (q.steady)
+      list.back()["rest_reaction_N"] = f.rested[i].rest_per_N * load.Fr_N -
+                                       f.rested[i].rest_per_Nmm * load.Fa_N * D / 2;
   }
   return list;
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "fields.hpp"
@@ -53,10 +52,6 @@ void read_spindle(Reader group, catalogue::Lathe& m) {
   finish_group(group);
 }
 
-bool has(const catalogue::Lathe& m, const char* clamping) {
-  return std::find(m.clampings.begin(), m.clampings.end(), clamping) != m.clampings.end();
-}
-
 void read_times(Reader group, catalogue::Lathe& m) {
   const auto time = within(0, 1e4, "min");
   m.index_min = group.number("index_min", time);
@@ -64,9 +59,9 @@ void read_times(Reader group, catalogue::Lathe& m) {
   m.tailstock_min = group.number("tailstock_min", time);
   m.centres_min = group.number("centres_min", time);
   m.setup_min = group.number("setup_min", time);
-  if (has(m, "chuck-steady") || group.has("steady_min"))
+  if (m.has("chuck-steady") || group.has("steady_min"))
     m.steady_min = group.number("steady_min", time);
-  if (has(m, "tailstock-follow") || group.has("follow_min"))
+  if (m.has("tailstock-follow") || group.has("follow_min"))
     m.follow_min = group.number("follow_min", time);
   finish_group(group);
 }
@@ -94,9 +89,9 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.chuck.axial_mm_N = group.number("chuck_axial_mm_N", kCompliance);
   m.tail_centre = read_centre(group.object("tail_centre"));
   m.head_centre = read_centre(group.object("head_centre"));
-  if (has(m, "chuck-steady") || group.has("steady_rest"))
+  if (m.has("chuck-steady") || group.has("steady_rest"))
     m.steady_rest = read_centre(group.object("steady_rest"));
-  if (has(m, "tailstock-follow") || group.has("follow_rest"))
+  if (m.has("tailstock-follow") || group.has("follow_rest"))
     m.follow_rest = read_centre(group.object("follow_rest"));
   m.tail_thrust_N =
       group.optional_number("tail_thrust_N", within(0, 1e6, "N")).value_or(0);

@@ -54,17 +54,8 @@ Slot read_slot(Reader r, const part::Segment& s) {
   return slot;
 }
 
-// The section of a segment without its slots.
-deflection::Stretch read_slots(Reader& r, const part::Segment& s) {
-  deflection::Stretch stretch{s.length_mm, {}};
-  const bool cylinder =
-      s.outer_left_mm == s.outer_right_mm && s.inner_left_mm == s.inner_right_mm;
-  if (!cylinder) {
-    r.problem_at("slots", "slots in a cylinder", "conflict");
-    return stretch;
-  }
-  if (!(s.outer_left_mm > s.inner_left_mm)) return stretch;  // told of the wall
-  stretch.section = deflection::round_section(s.outer_left_mm, s.inner_left_mm);
+// Takes the slots of a cylinder with a wall out of its section.
+void read_slots(Reader& r, const part::Segment& s, deflection::Section& section) {
   std::vector<Slot> slots;
   for (const Reader& item : r.items("slots", 1, kSlots)) {
     const auto before = item.problems().list.size();
@@ -74,9 +65,8 @@ deflection::Stretch read_slots(Reader& r, const part::Segment& s) {
       if (meet(slot, other, s.outer_left_mm))
         item.problem("a slot that does not meet another", "conflict");
     slots.push_back(slot);
-    stretch.section = deflection::without_slot(stretch.section, s.outer_left_mm, slot);
+    section = deflection::without_slot(section, s.outer_left_mm, slot);
   }
-  return stretch;
 }
 
 }  // namespace
@@ -84,22 +74,27 @@ deflection::Stretch read_slots(Reader& r, const part::Segment& s) {
 ReadShaft read_milled_shaft(Reader r) {
   ReadShaft out;
   MilledShaft milled;
-  bool any = false, cylinders = true;
+  bool any = false, cones = false;
   out.shaft = read_shaft(r, [&](Reader& segment, const part::Segment& s) {
+    const bool cylinder =
+        s.outer_left_mm == s.outer_right_mm && s.inner_left_mm == s.inner_right_mm;
+    const bool wall = s.outer_left_mm > s.inner_left_mm;  // none is told by read_shaft
+    deflection::Stretch stretch{s.length_mm, {}};
+    if (wall)
+      stretch.section = deflection::round_section(s.outer_left_mm, s.inner_left_mm);
     if (segment.has("slots")) {
       any = true;
-      milled.push_back(read_slots(segment, s));
-      return;
+      if (!cylinder)
+        segment.problem_at("slots", "slots in a cylinder", "conflict");
+      else if (wall)
+        read_slots(segment, s, stretch.section);
+    } else {
+      cones = cones || !cylinder;
     }
-    cylinders = cylinders && s.outer_left_mm == s.outer_right_mm &&
-                s.inner_left_mm == s.inner_right_mm;
-    milled.push_back(
-        {s.length_mm, s.outer_left_mm > s.inner_left_mm
-                          ? deflection::round_section(s.outer_left_mm, s.inner_left_mm)
-                          : deflection::Section{}});
+    milled.push_back(stretch);
   });
   if (!any) return out;
-  if (!cylinders)
+  if (cones)
     r.problem_at("segments", "cylinders alone: slots are read on a shaft without cones",
                  "conflict");
   out.milled = std::move(milled);

@@ -18,11 +18,6 @@ const Choices<Clamping>& clampings() {
   return kClampings;
 }
 
-bool machine_has(const Draft& draft, Clamping clamping) {
-  const auto& has = draft.loaded.plan.machine.clampings;
-  return std::find(has.begin(), has.end(), name(clamping)) != has.end();
-}
-
 // A rest is set up where the request names it.
 bool has_rest(Clamping c) {
   return c == Clamping::chuck_steady || c == Clamping::tailstock_follow;
@@ -31,7 +26,8 @@ bool has_rest(Clamping c) {
 std::vector<Clamping> all_clampings(const Draft& draft) {
   std::vector<Clamping> out;
   for (const auto& [word, clamping] : clampings())
-    if (machine_has(draft, clamping) && !has_rest(clamping)) out.push_back(clamping);
+    if (draft.loaded.plan.machine.has(name(clamping)) && !has_rest(clamping))
+      out.push_back(clamping);
   return out;
 }
 
@@ -88,7 +84,8 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
   }
   setup.clampings = read_set(r, "clampings", clampings());
   for (const auto clamping : setup.clampings)
-    if (!draft.loaded.plan.machine.clampings.empty() && !machine_has(draft, clamping))
+    if (!draft.loaded.plan.machine.clampings.empty() &&
+        !draft.loaded.plan.machine.has(name(clamping)))
       r.problem_at("clampings",
                    "what " + draft.loaded.plan.machine.id + " has: " +
                        nlohmann::json(draft.loaded.plan.machine.clampings).dump(),

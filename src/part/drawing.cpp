@@ -67,6 +67,17 @@ double inner_left_z_mm(const Drawing& drawing, std::size_t i) {
   return length_mm(drawing) - depth - drawing.inner[i].length_mm;
 }
 
+std::optional<Extent> extent(const Drawing& d, const std::string& id) {
+  const auto of = [](const auto& e, double z, bool inner) {
+    return Extent{z, z + e.length_mm, e.left_mm, e.right_mm, inner};
+  };
+  for (std::size_t i = 0; i < d.outer.size(); ++i)
+    if (d.outer[i].id == id) return of(d.outer[i], left_z_mm(d, i), false);
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (d.inner[i].id == id) return of(d.inner[i], inner_left_z_mm(d, i), true);
+  return std::nullopt;
+}
+
 double right_allowance_mm(const Drawing& drawing) {
   return drawing.stock.length_mm - drawing.stock.left_allowance_mm - length_mm(drawing);
 }

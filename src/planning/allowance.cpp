@@ -52,31 +52,13 @@ double sensitivity(const PartPlan& p, const Tolerance& t) {
   return std::cos(half_angle_rad(p.drawing, t.of).value_or(0));
 }
 
-double largest_diameter_mm(const part::Drawing& d, const std::string& surface) {
-  for (const auto& e : d.outer)
-    if (e.id == surface) return std::max(e.left_mm, e.right_mm);
-  for (const auto& e : d.inner)
-    if (e.id == surface) return std::max(e.left_mm, e.right_mm);
-  return 0;
-}
-
 // From the jaws to where an element begins; 0 where it reaches between them.
 double beyond_jaws_mm(const PartPlan& p, const std::string& surface, const Making& m) {
-  const auto& d = p.drawing;
+  const auto at = part::extent(p.drawing, surface);
+  if (!at) return 0;
   const double jaws = root_z_mm(p, m.setup, m.clamping);
   const bool left = p.setups[m.setup].hold == part::End::left;
-  const auto from = [&](double z0, double z1) {
-    return std::max(0.0, left ? z0 - jaws : jaws - z1);
-  };
-  for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    const double z = part::left_z_mm(d, i);
-    if (d.outer[i].id == surface) return from(z, z + d.outer[i].length_mm);
-  }
-  for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double z = part::inner_left_z_mm(d, i);
-    if (d.inner[i].id == surface) return from(z, z + d.inner[i].length_mm);
-  }
-  return 0;
+  return std::max(0.0, left ? at->z0_mm - jaws : jaws - at->z1_mm);
 }
 
 double face_z_mm(const part::Drawing& d, const std::string& face) {
@@ -94,8 +76,9 @@ double heat_um(const PartPlan& p, const Tolerance& t) {
     const double L = std::abs(face_z_mm(d, t.between[0]) - face_z_mm(d, t.between[1]));
     return units::um_from_mm(alpha * dT * L / 2 / std::max(1.0, faces_cut(p, t)));
   }
-  const double e_mm = deflection::heat_error_mm(alpha, dT, largest_diameter_mm(d, t.of));
-  return units::um_from_mm(-e_mm / 2);
+  const auto at = *part::extent(d, t.of);  // a size that is no length is an element's
+  const double D = std::max(at.left_mm, at.right_mm);
+  return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
 }
 
 double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
@@ -192,7 +175,7 @@ double gentle_grip_N(const PartPlan& p, std::size_t setup) {
   const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
     return c != Clamping::between_centres;
   });
-  if (jaws == clampings.end()) return most;
+  if (jaws == clampings.end() || !(gripped_bore_mm(p, setup) > 0)) return most;
   const auto work = assign(p);
   double share = 1;
   for (const auto& t : p.drawing.tolerances) {

@@ -54,8 +54,8 @@ enum class Cut { none, error, corrected };
 
 /// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
 /// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
-/// largest E of which parts whose force and stiffness spread by r keep the limit with the
-/// wanted probability,
+/// the largest E of which parts whose force and stiffness spread by r keep the limit with
+/// the wanted probability,
 ///
 ///     P(S + r E Z <= h - E) = p                                                     (1)
 ///

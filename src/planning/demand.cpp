@@ -30,10 +30,8 @@ Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_a
   const auto size = [&](double factor, double share) {
     d.factor = factor;
     d.shape = free && !p.robust ? Shape::range : Shape::size;
-    if (d.shape == Shape::range)
-      d.upper *= share;
-    else
-      d.upper = left_mm(p, index, others, free ? Cut::corrected : Cut::error) * share / 2;
+    if (free && p.robust) d.upper = left_mm(p, index, others, Cut::corrected);
+    d.upper *= d.shape == Shape::range ? share : share / 2;
     d.lower = -d.upper;
   };
   switch (t.kind) {
@@ -73,14 +71,9 @@ Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_a
 }  // namespace
 
 std::optional<double> half_angle_rad(const part::Drawing& d, const std::string& surface) {
-  const auto find = [&](const auto& elements) -> std::optional<double> {
-    for (const auto& e : elements)
-      if (e.id == surface)
-        return std::atan2(std::abs(e.right_mm - e.left_mm) / 2, e.length_mm);
-    return {};
-  };
-  const auto outer = find(d.outer);
-  return outer ? outer : find(d.inner);
+  const auto at = part::extent(d, surface);
+  if (!at) return {};
+  return std::atan2(std::abs(at->right_mm - at->left_mm) / 2, at->z1_mm - at->z0_mm);
 }
 
 bool face_is_cut(const PartPlan& p, const std::string& face) {

@@ -176,11 +176,9 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
 // An element that nothing cuts has the stock's diameter, and no form.
 void not_made(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
   const auto& d = p.drawing;
-  double off = d.stock.outer_mm;
-  for (const auto& e : d.outer)
-    if (e.id == t.of) off = d.stock.outer_mm - std::min(e.left_mm, e.right_mm);
-  for (const auto& e : d.inner)
-    if (e.id == t.of) off = d.stock.inner_mm - std::max(e.left_mm, e.right_mm);
+  const auto at = *part::extent(d, t.of);
+  const double off = at.inner ? d.stock.inner_mm - std::max(at.left_mm, at.right_mm)
+                              : d.stock.outer_mm - std::min(at.left_mm, at.right_mm);
   r.verdict = Verdict::not_met;
   r.seed_verdict = false;
   r.P_conform = 0;

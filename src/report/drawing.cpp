@@ -40,11 +40,9 @@ double round_below(double limit) {
 
 /// What a deviation is of: its surface as drawn; none for a face.
 std::optional<Run> surface_of(const part::Drawing& d, const std::string& id) {
-  for (std::size_t i = 0; i < d.outer.size(); ++i)
-    if (d.outer[i].id == id) return outer_run(d, i);
-  for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (d.inner[i].id == id) return inner_run(d, i);
-  return std::nullopt;
+  const auto at = part::extent(d, id);
+  if (!at) return std::nullopt;
+  return Run{at->z0_mm, at->z1_mm, at->left_mm / 2, at->right_mm / 2};
 }
 
 /// Common to the pictures of a plan.

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "turnwright/catalogue/tool.hpp"
@@ -48,6 +50,9 @@ struct Lathe {
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
+  bool has(std::string_view clamping) const {
+    return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();
+  }
 };
 
 }  // namespace turnwright::catalogue

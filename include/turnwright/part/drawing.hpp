@@ -104,6 +104,14 @@ double length_mm(const Drawing& drawing);
 double left_z_mm(const Drawing& drawing, std::size_t i);
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
+/// Where an element lies and the diameters at its ends.
+struct Extent {
+  double z0_mm = 0, z1_mm = 0;
+  double left_mm = 0, right_mm = 0;
+  bool inner = false;
+};
+/// Of the element of this id; nothing for a face or an id nobody has.
+std::optional<Extent> extent(const Drawing& drawing, const std::string& id);
 /// Material right of the finished right end [mm].
 double right_allowance_mm(const Drawing& drawing);
 

@@ -57,7 +57,7 @@ struct RejectedClamping {
 
 /// A tool that could serve a setup, or looks as if, and is not chosen for that use.
 struct RejectedTool {
-  std::string tool, use;  ///< "facing", "roughing", "finishing", "boring"
+  std::string tool, use;  ///< "facing", "roughing", "finishing", "boring, finish", ..
   std::string why;
   std::optional<double> at_least;  ///< proved: the setup's objective with it
 };
