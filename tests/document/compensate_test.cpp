@@ -79,9 +79,11 @@ TEST(CompensateDoor, AssumptionsAreSaid) {
 
 TEST(CompensateDoor, SchemaAndReaderAgreeOnEverySlip) {
   const auto beyond = [](const std::string& what) {
-    return what.starts_with("/axes = []") || what.starts_with("/tool_offsets_mm") ||
-           what.starts_with("/program/0") || what == "/lathe left out" ||
-           what == "/diameter left out";
+    const bool line_taken_out =
+        what.starts_with("/program/") && what.ends_with(R"(= "")");
+    return line_taken_out || what.starts_with("/axes = []") ||
+           what.starts_with("/tool_offsets_mm") || what.starts_with("/program/0") ||
+           what == "/lathe left out" || what == "/diameter left out";
   };
   EXPECT_GT(SlipsOf(request_schema(), refused, example(), beyond).try_all(), 50);
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "schema_check.hpp"
+#include "slips.hpp"
 #include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/file.hpp"
@@ -45,59 +46,10 @@ TEST(Schema, FitsEveryReferencePartAndTheReaderTakesIt) {
 }
 
 // A document that uses every key, and its neighbours by one slip each.
-class Slips {
- public:
-  /// `refused` tells what the reader says to a document, "" for nothing.
-  Slips(const SchemaCheck& schema, std::string (*refused)(const json&), json good)
-      : schema_(schema), refused_(refused), good_(std::move(good)) {}
-
-  void try_all(int at_least = 100) {
-    EXPECT_EQ(schema_.fault(good_), "");
-    EXPECT_EQ(refused_(good_), "");
-    walk(good_, json::json_pointer());
-    EXPECT_GT(tried_, at_least);
-  }
-
- private:
-  void walk(const json& value, const json::json_pointer& at) {
-    if (value.is_number())
-      for (const json& slip : {json(-1e9), json(1e12), json("x"), json(nullptr)})
-        agree(at, slip);
-    if (value.is_string()) agree(at, json(""));
-    if (value.is_object()) {
-      agree(at / "no_such_key", json(1));
-      for (const auto& [key, member] : value.items()) {
-        drop(at, key);
-        walk(member, at / key);
-      }
-    }
-    if (value.is_array()) {
-      agree(at, json::object());
-      for (std::size_t i = 0; i < value.size(); ++i) walk(value[i], at / i);
-    }
-  }
-  void agree(const json::json_pointer& at, const json& slip) {
-    auto document = good_;
-    document[at] = slip;
-    compare(document, at.to_string() + " = " + slip.dump());
-  }
-  void drop(const json::json_pointer& at, const std::string& key) {
-    auto document = good_;
-    document[at].erase(key);
-    compare(document, "without " + (at / key).to_string());
-  }
-  void compare(const json& document, const std::string& what) {
-    const auto schema = schema_.fault(document), reader = refused_(document);
-    EXPECT_EQ(schema.empty(), reader.empty())
-        << what << "\nschema: " << schema << "\nreader: " << reader;
-    ++tried_;
-  }
-
-  const SchemaCheck& schema_;
-  std::string (*refused_)(const json&);
-  json good_;
-  int tried_ = 0;
-};
+void try_all(const SchemaCheck& schema, std::string (*refused)(const json&), json good,
+             int at_least = 100) {
+  EXPECT_GT(SlipsOf(schema, refused, std::move(good)).try_all(), at_least);
+}
 
 const Catalogue& test_catalogue() {
   static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
@@ -124,7 +76,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAPart) {
   const SchemaCheck schema("part.json");
   auto part = parse_file(source_path("tests/data/every_key_of_a_part.json"));
   part["objective"] = "cost";  // that profit needs a price is beyond the schema
-  Slips(schema, refused_part, part).try_all();
+  try_all(schema, refused_part, part);
 }
 
 TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
@@ -132,15 +84,12 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
     return parse_file(source_path("tests/data/catalogue") / file);
   };
   const SchemaCheck material("material.json"), tool("tool.json"), lathe("lathe.json");
-  Slips(material, refused_entry<catalogue::Material, read_material>,
-        example("materials/test-steel.json"))
-      .try_all();
-  Slips(tool, refused_entry<catalogue::Tool, read_tool>,
-        example("tools/test-rougher.json"))
-      .try_all();
-  Slips(lathe, refused_entry<catalogue::Lathe, read_lathe>,
-        example("machines/lathe-medium.json"))
-      .try_all();
+  try_all(material, refused_entry<catalogue::Material, read_material>,
+          example("materials/test-steel.json"));
+  try_all(tool, refused_entry<catalogue::Tool, read_tool>,
+          example("tools/test-rougher.json"));
+  try_all(lathe, refused_entry<catalogue::Lathe, read_lathe>,
+          example("machines/lathe-medium.json"));
 }
 
 template <auto Door>
@@ -158,7 +107,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAChuckRequest) {
   const auto text = parse_file(source_path("schemas/chuck.request.json"));
   auto request = text.at("examples").at(0);
   request["graph"] = text.at("examples").at(3).at("graph");
-  Slips(schema, refused_by<chuck>, request).try_all();
+  try_all(schema, refused_by<chuck>, request);
 }
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInAMultipassRequest) {
@@ -167,8 +116,8 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAMultipassRequest) {
   json every = {{"format", "turnwright-multipass/1"}, {"VrU", 110}};
   for (const auto& [key, value] : text["else"]["properties"].items())
     if (value.contains("default")) every[key] = value["default"];
-  Slips(schema, refused_by<multipass>, every).try_all();
-  Slips(schema, refused_by<multipass>, text["examples"][2]).try_all(50);
+  try_all(schema, refused_by<multipass>, every);
+  try_all(schema, refused_by<multipass>, text["examples"][2], 50);
 }
 
 json calibrated(const json& document) {
@@ -182,7 +131,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInACalibration) {
                      .at(1);
   request["outlier_p"] = 0;
   request["name"] = "a name";
-  Slips(schema, refused_by<calibrated>, request).try_all();
+  try_all(schema, refused_by<calibrated>, request);
 }
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
@@ -190,7 +139,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
   const auto examples =
       parse_file(source_path("schemas/stability.request.json")).at("examples");
   for (const json& example : examples)
-    Slips(schema, refused_by<stability>, example).try_all(40);
+    try_all(schema, refused_by<stability>, example, 40);
 }
 
 }  // namespace

@@ -46,15 +46,15 @@ class SlipsOf {
   using json = nlohmann::json;
   void walk(const json& value, const json::json_pointer& at) {
     if (value.is_number())
-      for (const json& slip : {json(-1e12), json("x"), json(nullptr)}) replace(at, slip);
+      for (const json& slip :
+           {json(-1e12), json(-1e9), json(1e12), json("x"), json(nullptr)})
+        replace(at, slip);
     if (value.is_string())
       for (const json& slip : {json(""), json(3)}) replace(at, slip);
     if (value.is_array()) {
       replace(at, json::object());
-      if (!value.empty()) {
-        replace(at, json::array());
-        walk(value[0], at / 0);
-      }
+      if (!value.empty()) replace(at, json::array());
+      for (std::size_t i = 0; i < value.size(); ++i) walk(value[i], at / i);
     }
     if (value.is_object()) {
       replace(at / "no_such_key", 1);

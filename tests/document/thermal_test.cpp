@@ -13,6 +13,7 @@
 
 #include "../thermal/simulated.hpp"
 #include "schema_check.hpp"
+#include "slips.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
 
@@ -34,16 +35,7 @@ json answered(const json& request) {
   return result;
 }
 
-std::string refused(const json& request) {
-  try {
-    thermal(request);
-  } catch (const InputError& e) {
-    return e.what();
-  } catch (const ModelRangeError&) {
-    return "";  // well formed, but the log cannot tell
-  }
-  return "";
-}
+std::string refused(const json& request) { return refusal(thermal, request); }
 
 std::vector<json> examples() {
   return parse_file(source_path("schemas/thermal.request.json"))["examples"];
