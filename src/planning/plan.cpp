@@ -95,6 +95,7 @@ ProcessPlan planned(const PartPlan& p) {
   ProcessPlan result;
   const auto work = assign(p);
   add_obstacles(p, work, result);
+  add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "proved: no condition or tool changes the conflicts told";
@@ -117,7 +118,7 @@ ProcessPlan planned(const PartPlan& p) {
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
-  result.deviations = deviations(chosen);
+  result.deviations = deviations(p, chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
   return result;

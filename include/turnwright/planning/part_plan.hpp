@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
@@ -45,7 +46,7 @@ struct ShopErrors {
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
 };
 
-enum class OperationKind { face, rough, finish, bore_rough, bore_finish };
+enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed };
 const char* name(OperationKind kind);
 
 enum class Direction { to_chuck, from_chuck };
@@ -74,6 +75,7 @@ struct PartPlan {
   catalogue::Material material;
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
+  std::vector<catalogue::FixedTool> fixed_tools = {};
   std::vector<SetupRequest> setups;
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
