@@ -161,24 +161,26 @@ void check_pair(Reader r, const planning::OperationRequest& earlier,
                  "conflict");
 }
 
-// The held end is parted off, if the stock is; the free one gets a centre hole.  Drills
-// and blades that part have no depth to choose.
+// The held end is parted off, if the stock is; the free one gets a centre hole.  What is
+// drilled, centred or parted off takes one pass.
 void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
   if (op.kind != OperationKind::fixed || !(op.setup < draft.plan().setups.size())) return;
   const auto& drawing = draft.drawing();
   const bool left = draft.plan().setups[op.setup].hold == part::End::left;
+  const auto known = fixed_surfaces(drawing);
   for (const auto& id : op.on) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) continue;  // reported
     if (id == (left ? "left" : "right") && !(op.setup == 0 && drawing.stock.parted_mm))
       r.problem_at("on",
                    "the free end; the held one is parted off in setup 0 if "
                    "/stock/part_off_allowance_mm says what that leaves",
                    "conflict");
     const auto has_cut = [&](const auto& e) { return e.id == id && e.cut; };
-    if ((op.conditions.ap_mm || op.conditions.passes) &&
+    if (op.conditions.passes.value_or(1) > 1 &&
         std::none_of(drawing.outer.begin(), drawing.outer.end(), has_cut) &&
         std::none_of(drawing.inner.begin(), drawing.inner.end(), has_cut))
       r.problem_at("conditions",
-                   "neither passes nor ap_mm: one tool makes " + id + " in one go",
+                   "one pass: " + id + " is drilled, centred or parted off in one",
                    "conflict");
   }
 }

@@ -58,7 +58,16 @@ bool sized_by_diameter(FixedUse use) {
   return use == FixedUse::centring || use == FixedUse::drilling;
 }
 
-// The largest size that fits, of the first tool that has it.
+// A given depth names the tool's size: half a drill's diameter, the width of a blade
+// that parts off.
+bool of_given_depth(const Asked& a, double size) {
+  if (!a.given || !a.given->conditions.ap_mm) return true;
+  const double ap = *a.given->conditions.ap_mm;
+  if (sized_by_diameter(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
+  return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
+}
+
+// The largest size that fits, to part off the smallest, of the first tool that has it.
 Fitted fitted(const PartPlan& p, const Asked& a) {
   Fitted best;
   for (const auto& t : p.fixed_tools) {
@@ -67,7 +76,10 @@ Fitted fitted(const PartPlan& p, const Asked& a) {
     if (a.given && a.given->tool && *a.given->tool != t.id) continue;
     const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
     for (const double size : sizes)
-      if (a.fits(t, size) && (!best.tool || size > best.size_mm)) best = {&t, size, *at};
+      if (a.fits(t, size) && of_given_depth(a, size) &&
+          (!best.tool ||
+           (a.use == FixedUse::parting ? size < best.size_mm : size > best.size_mm)))
+        best = {&t, size, *at};
   }
   if (!best.tool) return best;
   if (sized_by_diameter(a.use)) best.at.f_mm_rev *= best.size_mm;

@@ -37,8 +37,9 @@ struct FixedWork {
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
 /// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest.
-/// Grooves take the widest blade that fits.  Forces: cutting/fixed.hpp; they are held
-/// against feed drive, power, torque, the jaws' grip and the tool.
+/// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
+/// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
+/// the tool.
 FixedWork fixed_work(const PartPlan& plan, std::size_t setup, Clamping clamping,
                      const SetupWork& work);
 
