@@ -21,7 +21,7 @@ const OperationPlan* find(const ProcessPlan& r, const std::string& id) {
   return nullptr;
 }
 
-const OperationPlan& operation(const ProcessPlan& r, const std::string& id) {
+OperationPlan operation(const ProcessPlan& r, const std::string& id) {
   const auto* o = find(r, id);
   if (!o) throw std::out_of_range(id);
   return *o;
@@ -52,7 +52,7 @@ TEST(Groove, TakesTheTimeOfItsRings) {
   const auto p = part(grooved());
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto& o = operation(r, "s0-groove-g1");
+  const auto o = operation(r, "s0-groove-g1");
   const auto& t = tool(p, "GROOVE-EXT");
   const auto& at = *t.conditions_in(p.material.group);
   ASSERT_EQ(o.passes.size(), 1U);  // one blade of 5 mm
@@ -82,7 +82,7 @@ TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
 
 TEST(Thread, TurnsItsLengthAndRunInPitchByPitch) {
   const auto p = part(grooved());
-  const auto& o = operation(plan(p), "s0-thread-th1");
+  const auto o = operation(plan(p), "s0-thread-th1");
   const auto& at = *tool(p, "THREAD-EXT-60").conditions_in(p.material.group);
   const double n = 1000 * at.vc_m_min / (units::kPi * 30);
   ASSERT_EQ(o.passes.size(), 6U);
@@ -102,7 +102,7 @@ TEST(Thread, CarriageLimitsTheSpindle) {
                                       "/machines/lathe-medium.json");
   machine["feed"]["rapid_mm_min"] = 1000;
   d["machine"] = machine;
-  const auto& o = operation(plan(part(d)), "s0-thread-th1");
+  const auto o = operation(plan(part(d)), "s0-thread-th1");
   EXPECT_NEAR(o.passes[0].n_rpm, 1000 / 1.5, 1e-9);
 }
 
@@ -114,7 +114,7 @@ TEST(FixedOperations, AreInEveryTotal) {
   for (auto& t : p.fixed_tools)
     if (t.id == "GROOVE-EXT") t.edge_cost += 10;
   const auto after = plan(p);
-  const auto& o = operation(before, "s0-groove-g1");
+  const auto o = operation(before, "s0-groove-g1");
   const double more = 10 * o.time_min / o.passes[0].T_min;
   EXPECT_NEAR(after.cost_per_part - before.cost_per_part, more, 1e-9);
   EXPECT_NEAR(after.certificate.lower_bound - before.certificate.lower_bound, more, 1e-3);
@@ -157,7 +157,7 @@ TEST(Centre, IsDrilledWhereATailstockStands) {
   ASSERT_EQ(r.setups[0].operations.size() > 1, true);
   EXPECT_EQ(r.setups[0].operations[1].id, "s0-centre-right");  // after the face
   EXPECT_EQ(find(r, "s1-centre-left"), nullptr);
-  const auto& o = operation(r, "s0-centre-right");
+  const auto o = operation(r, "s0-centre-right");
   const auto& t = tool(p, "DIN333-A");
   const auto& at = *t.conditions_in(p.material.group);
   const double D = 10.6;  // the largest below 0.35 of 32 mm
@@ -186,7 +186,7 @@ TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   for (const auto& e : p.drawing.inner) EXPECT_EQ(e.drilled_mm, 19) << e.id;
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto& o = operation(r, "s0-drill-b1");
+  const auto o = operation(r, "s0-drill-b1");
   EXPECT_EQ(o.tool, "DRILL-HM-5D");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double f = at.f_mm_rev * 19, n = 1000 * at.vc_m_min / (units::kPi * 19);
@@ -267,7 +267,7 @@ TEST(Parting, LeavesItsAllowanceToTheFace) {
 // To the axis at constant surface speed, the spindle held below its limit.
 TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
   const auto p = part(bush());
-  const auto& o = operation(plan(p), "s0-part-left");
+  const auto o = operation(plan(p), "s0-part-left");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double force = p.machine.chuck.grip_force_N;
   const double n_cap =
@@ -285,7 +285,7 @@ TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
 
 TEST(Arc, PassesAreTheDepthOverTheDeepest) {
   const auto p = part(reference_part("threaded-spindle"));
-  const auto& o = operation(plan(p), "s0-arc-a1");
+  const auto o = operation(plan(p), "s0-arc-a1");
   // A concave quarter circle of 6 mm below its chord: 6 - 6/sqrt 2 across, times sqrt 2.
   const double depth = (6 - 6 / std::sqrt(2)) * std::sqrt(2);
   ASSERT_EQ(o.passes.size(), static_cast<std::size_t>(std::ceil(depth / 1.5)));
@@ -334,7 +334,7 @@ TEST(Given, FixedOperationsKeepTheirIdsAndConditions) {
   d["operations"][6]["conditions"] = {{"passes", 9}};
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto& g = operation(r, "groove");
+  const auto g = operation(r, "groove");
   EXPECT_EQ(g.passes[0].f_mm_rev, 0.05);
   EXPECT_NEAR(g.passes[0].vc_m_min, 90, 1e-9);
   EXPECT_EQ(operation(r, "thread").passes.size(), 9U);
