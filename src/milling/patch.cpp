@@ -12,6 +12,7 @@ constexpr std::size_t kSamples = 32;
 constexpr double kTail = 1e-13;      // of the series, relative to its largest term
 constexpr double kFloor = 1e-10;     // the same, where rounding ends the descent
 constexpr double kRounding = 1e-13;  // of a sample, relative to the largest
+constexpr double kUnseen = 1e-2;     // of the noise: terms dropped
 constexpr double kPrecise = 1e-7;    // noise accepted, relative to the values
 
 const std::vector<Complex>& unit_roots() {
@@ -46,7 +47,7 @@ std::vector<Coefficients> samples(const Characteristic& f, const Disc& disc) {
 // kappa - kappa_c = (w - w_c)(1 - z) - w_c (z - z_c).
 Disc disc(const Box& box, double rho) {
   const Complex step = 1.0 - std::polar(rho, -box.theta);
-  const double far = std::abs(step) + rho * box.theta_half;
+  const double far = modulus(step) + rho * box.theta_half;
   return {box.w * step, box.w_half * far + std::abs(box.w) * rho * box.theta_half};
 }
 
@@ -74,7 +75,7 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
       for (std::size_t s = 0; s < kSamples; ++s)
         sum += v[s] * std::conj(roots[s * j % kSamples]);
       all[i * kSamples + j] = sum / double{kSamples};
-      size[j] += std::abs(all[i * kSamples + j]);
+      size[j] += modulus(all[i * kSamples + j]);
     }
   }
   const double largest = *std::ranges::max_element(size);
@@ -86,19 +87,68 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   double tail = 0;
   while (terms > 3 && size[terms - 1] <= std::max(kTail * largest, 2 * floor))
     tail += size[--terms];
-  out.terms_ = terms;
-  for (std::size_t i = 0; i < out.powers_; ++i)
-    out.c_.insert(out.c_.end(), &all[i * kSamples], &all[i * kSamples] + terms);
+  out.keep(all, kSamples, terms);
   out.noise_ = 2 * tail + kSamples * floor + kRounding * largest;
   out.bound();
   if (!(out.noise_ < kPrecise * out.scale())) return std::nullopt;
   return out;
 }
 
+// (kappa/R)^j about the centre: repeated synthetic division.
+Patch Patch::of(const Series& series, const Disc& disc, double rho) {
+  const Complex at = disc.centre / series.radius_mm;
+  const double ratio = disc.radius / series.radius_mm, rim = modulus(at) + ratio;
+  Patch out;
+  out.disc_ = disc;
+  out.rho_ = rho;
+  out.powers_ = series.c.size();
+  out.noise_ = series.noise(modulus(disc.centre) + disc.radius);
+  std::size_t most = 0;
+  for (const auto& c : series.c) most = std::max(most, c.size());
+  const double negligible = kUnseen * out.noise_;
+  double tail = 0;
+  for (double power = std::pow(rim, most - 1); most > 4; power /= rim) {
+    double size = 0;
+    for (const auto& c : series.c)
+      if (c.size() >= most) size += std::abs(c[most - 1]);
+    if (tail + size * power > negligible) break;
+    tail += size * power;
+    --most;
+  }
+  std::vector<Complex> all(out.powers_ * most);
+  std::vector<double> size(most, 0);
+  double to_i = 1;
+  for (std::size_t i = 0; i < out.powers_; ++i, to_i *= rho) {
+    Complex* p = &all[i * most];
+    const std::size_t terms = std::min(most, series.c[i].size());
+    std::copy_n(series.c[i].begin(), terms, p);
+    for (std::size_t k = 0; k + 1 < terms; ++k)
+      for (std::size_t j = terms - 1; j-- > k;) p[j] += at * p[j + 1];
+    double to_j = to_i;
+    for (std::size_t j = 0; j < terms; ++j, to_j *= ratio) {
+      p[j] *= to_j;
+      size[j] += modulus(p[j]);
+    }
+  }
+  std::size_t terms = most;
+  while (terms > 4 && tail + size[terms - 1] < negligible) tail += size[--terms];
+  out.keep(all, most, terms);
+  out.noise_ += tail;
+  out.bound();
+  return out;
+}
+
+void Patch::keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms) {
+  terms_ = terms;
+  c_.clear();
+  for (std::size_t i = 0; i < powers_; ++i)
+    c_.insert(c_.end(), &all[i * stride], &all[i * stride] + terms);
+}
+
 double Patch::scale() const {
   double largest = 0;
   for (std::size_t i = 0; i < powers_; ++i)
-    largest = std::max(largest, std::abs(c_[i * terms_]));
+    largest = std::max(largest, modulus(c_[i * terms_]));
   return largest;
 }
 
@@ -116,21 +166,17 @@ Patch Patch::shifted(const Disc& disc) const {
     to_j = 1;
     for (std::size_t j = 0; j < terms_; ++j, to_j *= ratio) {
       p[j] *= to_j;
-      size[j] += std::abs(p[j]);
+      size[j] += modulus(p[j]);
     }
   }
-  const double largest = *std::ranges::max_element(size);
   std::size_t terms = terms_;
   double tail = 0;
-  while (terms > 3 && tail + size[terms - 1] < 1e-2 * kTail * largest)
-    tail += size[--terms];
+  while (terms > 4 && tail + size[terms - 1] < kUnseen * noise_) tail += size[--terms];
   Patch out;
   out.disc_ = disc;
   out.rho_ = rho_;
   out.powers_ = powers_;
-  out.terms_ = terms;
-  for (std::size_t i = 0; i < powers_; ++i)
-    out.c_.insert(out.c_.end(), &c[i * terms_], &c[i * terms_] + terms);
+  out.keep(c, terms_, terms);
   out.noise_ = noise_ + tail;
   out.bound();
   return out;
@@ -139,39 +185,48 @@ Patch Patch::shifted(const Disc& disc) const {
 void Patch::bound() {
   for (std::size_t i = 0; i < powers_; ++i)
     for (std::size_t j = 0; j < terms_; ++j) {
-      const double size = std::abs(c_[i * terms_ + j]);
+      const double size = modulus(c_[i * terms_ + j]);
       const auto a = static_cast<double>(i), b = static_cast<double>(j);
-      kk_ += b * (b - 1) * size;
-      kz_ += a * b * size;
-      zz_ += a * (a - 1) * size;
+      const double t = b * size, tt = (b - 1) * t, u = a * size, uu = (a - 1) * u;
+      tt_ += tt;
+      tu_ += a * t;
+      uu_ += uu;
+      ttt_ += (b - 2) * tt;
+      ttu_ += a * tt;
+      tuu_ += b * uu;
+      uuu_ += (a - 2) * uu;
     }
-  kk_ /= disc_.radius * disc_.radius;
-  kz_ /= disc_.radius;
 }
 
-Patch::Point Patch::point(Complex z, Complex kappa) const {
+Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) const {
   const Complex u = z / rho_, t = (kappa - disc_.centre) / disc_.radius;
-  Point out{.f = 0, .f_z = 0, .f_kappa = 0};
+  Complex f, f_u, f_t, tt, tu, uu;  // tt and uu: half of the derivative
   for (std::size_t i = powers_; i-- > 0;) {
     const Complex* p = &c_[i * terms_];
-    Complex value = p[0], slope = 0;
+    Complex value = p[0], slope = 0, curve = 0;
     if (i > 0 && i + 1 < powers_) {
       value = p[terms_ - 1];
       for (std::size_t j = terms_ - 1; j-- > 0;) {
+        curve = curve * t + slope;
         slope = slope * t + value;
         value = value * t + p[j];
       }
     }
-    out.f_z = out.f_z * u + out.f;
-    out.f = out.f * u + value;
-    out.f_kappa = out.f_kappa * u + slope;
+    uu = uu * u + f_u;
+    tu = tu * u + f_t;
+    tt = tt * u + curve;
+    f_u = f_u * u + f;
+    f_t = f_t * u + slope;
+    f = f * u + value;
   }
-  out.f_z /= rho_;
-  out.f_kappa /= disc_.radius;
-  out.kk = kk_;
-  out.kz = kz_ / rho_;
-  out.zz = zz_ / (rho_ * rho_);
-  return out;
+  const double a = reach / disc_.radius, b = dz / rho_;
+  const double by_t = 1 / disc_.radius, by_u = 1 / rho_;
+  return {.f = f,
+          .f_z = f_u * by_u,
+          .f_kappa = f_t * by_t,
+          .kk = std::min(tt_, 2 * modulus(tt) + ttt_ * a + ttu_ * b) * by_t * by_t,
+          .kz = std::min(tu_, modulus(tu) + ttu_ * a + tuu_ * b) * by_t * by_u,
+          .zz = std::min(uu_, 2 * modulus(uu) + tuu_ * a + uuu_ * b) * by_u * by_u};
 }
 
 // With u = z/rho, kappa = w (1 - rho u), u_theta = -i u, and the derivatives by u:
@@ -181,20 +236,21 @@ Patch::Point Patch::point(Complex z, Complex kappa) const {
 //   g_tt = u X - u^2 (w^2 rho^2 f_kk - 2 w rho f_ku + f_uu).
 Local Patch::at(const Box& box) const {
   const Complex u = std::polar(1.0, -box.theta), step = 1.0 - rho_ * u;
-  const Point p = point(rho_ * u, box.w * step);
-  const double wr = box.w * rho_;
+  const double wr = box.w * rho_, turn = rho_ * box.theta_half;
+  const double q = modulus(step) + turn;
+  const double reach = box.w_half * q + std::abs(box.w) * turn;  // of kappa
+  const Point p = point(rho_ * u, box.w * step, reach, turn);
   const Complex X = wr * p.f_kappa - rho_ * p.f_z;
   Local out{.g = p.f, .g_w = p.f_kappa * step, .g_theta = Complex(0, 1) * u * X};
 
   const double w = (std::abs(box.w) + box.w_half) * rho_;
-  const double q = std::abs(step) + rho_ * box.theta_half;
-  const double reach = box.w_half * q + std::abs(wr) * box.theta_half;  // of kappa
-  const double most_f_k = std::abs(p.f_kappa) + kk_ * reach + kz_ * box.theta_half;
-  const double most_X = std::abs(X) + (w * kk_ + kz_) * reach +
-                        (w * kz_ + zz_) * box.theta_half + rho_ * box.w_half * most_f_k;
-  out.ww = kk_ * q * q;
-  out.wt = rho_ * most_f_k + q * (w * kk_ + kz_);
-  out.tt = most_X + w * w * kk_ + 2 * w * kz_ + zz_;
+  const double kk = p.kk, kz = p.kz * rho_, zz = p.zz * rho_ * rho_;
+  const double most_f_k = modulus(p.f_kappa) + kk * reach + kz * box.theta_half;
+  const double most_X = modulus(X) + (w * kk + kz) * reach +
+                        (w * kz + zz) * box.theta_half + rho_ * box.w_half * most_f_k;
+  out.ww = kk * q * q;
+  out.wt = rho_ * most_f_k + q * (w * kk + kz);
+  out.tt = most_X + w * w * kk + 2 * w * kz + zz;
   return out;
 }
 

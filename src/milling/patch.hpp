@@ -1,10 +1,15 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "characteristic.hpp"
+#include "series.hpp"
 
 namespace turnwright::milling {
+
+/// |x| without hypot's care for numbers that overflow when squared: there are none here.
+inline double modulus(Complex x) { return std::sqrt(std::norm(x)); }
 
 /// What a count at the depths w and on the circle |z| = rho needs to know of
 ///
@@ -29,6 +34,9 @@ struct Disc {
   double radius = 0;
 };
 Disc disc(const Box& box, double rho);
+inline bool holds(const Disc& outer, const Disc& inner) {
+  return modulus(inner.centre - outer.centre) + inner.radius <= outer.radius;
+}
 
 /// Taylor series in kappa of the coefficients of f, good in a disc:
 ///
@@ -38,12 +46,14 @@ Disc disc(const Box& box, double rho);
 /// hold for every point of the disc, and are the sharper the smaller it is.
 class Patch {
  public:
-  /// f at one point, z inside the circle, and bounds on its second derivatives in the
-  /// disc for |z| <= rho.
+  /// f at one point and bounds on the moduli of its second derivatives nearby.
   struct Point {
     Complex f, f_z, f_kappa;
     double kk = 0, kz = 0, zz = 0;
   };
+
+  /// @param disc  inside the circle of the series.
+  static Patch of(const Series& series, const Disc& disc, double rho);
 
   /// None if the disc is too large for the series to be precise at its centre.
   static std::optional<Patch> sampled(const Characteristic& f, const Disc& disc,
@@ -61,9 +71,12 @@ class Patch {
   /// @param box  its disc must lie in this one.
   Local at(const Box& box) const;
 
-  Point point(Complex z, Complex kappa) const;
+  /// Bounds hold within `reach` of kappa and `dz` of z, as far as that is inside the disc
+  /// and |z| <= rho.
+  Point point(Complex z, Complex kappa, double reach, double dz) const;
 
  private:
+  void keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms);
   void bound();
 
   Disc disc_;
@@ -72,7 +85,9 @@ class Patch {
   std::size_t terms_ = 0;   // of kappa
   std::vector<Complex> c_;  // [i * terms_ + j]
   double noise_ = 0;
-  double kk_ = 0, kz_ = 0, zz_ = 0;  // bounds on f_kappa,kappa, f_kappa,z, f_z,z
+  // Bounds on derivatives by t = (kappa - centre)/radius and u = z/rho in all of |t|, |u|
+  // <= 1, of second and third order.
+  double tt_ = 0, tu_ = 0, uu_ = 0, ttt_ = 0, ttu_ = 0, tuu_ = 0, uuu_ = 0;
 };
 
 }  // namespace turnwright::milling
