@@ -45,8 +45,8 @@ std::vector<Coefficients> samples(const Characteristic& f, const Disc& disc) {
 }  // namespace
 
 // kappa - kappa_c = (w - w_c)(1 - z) - w_c (z - z_c).
-Disc disc(const Box& box, double rho) {
-  const Complex step = 1.0 - std::polar(rho, -box.theta);
+Disc disc(const Box& box, Complex u, double rho) {
+  const Complex step = 1.0 - rho * u;
   const double far = modulus(step) + rho * box.theta_half;
   return {box.w * step, box.w_half * far + std::abs(box.w) * rho * box.theta_half};
 }
@@ -183,19 +183,30 @@ Patch Patch::shifted(const Disc& disc) const {
 }
 
 void Patch::bound() {
-  for (std::size_t i = 0; i < powers_; ++i)
+  const double middle = static_cast<double>(powers_ / 2);
+  for (std::size_t i = 0; i < powers_; ++i) {
+    double size = 0, T = 0, TT = 0, TTT = 0;
     for (std::size_t j = 0; j < terms_; ++j) {
-      const double size = modulus(c_[i * terms_ + j]);
-      const auto a = static_cast<double>(i), b = static_cast<double>(j);
-      const double t = b * size, tt = (b - 1) * t, u = a * size, uu = (a - 1) * u;
-      tt_ += tt;
-      tu_ += a * t;
-      uu_ += uu;
-      ttt_ += (b - 2) * tt;
-      ttu_ += a * tt;
-      tuu_ += b * uu;
-      uuu_ += (a - 2) * uu;
+      const auto b = static_cast<double>(j);
+      const double c = modulus(c_[i * terms_ + j]);
+      size += c;
+      T += b * c;
+      TT += b * (b - 1) * c;
+      TTT += b * (b - 1) * (b - 2) * c;
     }
+    const auto a = static_cast<double>(i), e = std::abs(a - middle);
+    const auto add = [&](Bounds& to, double U, double UU, double UUU) {
+      to.TT += TT;
+      to.TU += U * T;
+      to.UU += UU * size;
+      to.TTT += TTT;
+      to.TTU += U * TT;
+      to.TUU += UU * T;
+      to.UUU += UUU * size;
+    };
+    add(inside_, a, a * (a - 1), a * (a - 1) * (a - 2));
+    add(on_rim_, e, e * e, e * e * e);
+  }
 }
 
 Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) const {
@@ -221,36 +232,68 @@ Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) con
   }
   const double a = reach / disc_.radius, b = dz / rho_;
   const double by_t = 1 / disc_.radius, by_u = 1 / rho_;
-  return {.f = f,
-          .f_z = f_u * by_u,
-          .f_kappa = f_t * by_t,
-          .kk = std::min(tt_, 2 * modulus(tt) + ttt_ * a + ttu_ * b) * by_t * by_t,
-          .kz = std::min(tu_, modulus(tu) + ttu_ * a + tuu_ * b) * by_t * by_u,
-          .zz = std::min(uu_, 2 * modulus(uu) + tuu_ * a + uuu_ * b) * by_u * by_u};
+  return {
+      .f = f,
+      .f_z = f_u * by_u,
+      .f_kappa = f_t * by_t,
+      .kk = std::min(inside_.TT, 2 * modulus(tt) + inside_.TTT * a + inside_.TTU * b) *
+            by_t * by_t,
+      .kz = std::min(inside_.TU, modulus(tu) + inside_.TTU * a + inside_.TUU * b) * by_t *
+            by_u,
+      .zz = std::min(inside_.UU, 2 * modulus(uu) + inside_.TUU * a + inside_.UUU * b) *
+            by_u * by_u};
 }
 
-// With u = z/rho, kappa = w (1 - rho u), u_theta = -i u, and the derivatives by u:
-//   g_w = f_k (1 - rho u),  g_theta = i u X,  X = w rho f_k - f_u,
-//   g_ww = f_kk (1 - rho u)^2,
-//   g_wt = i u (rho f_k + (1 - rho u)(w rho f_kk - f_ku)),
-//   g_tt = u X - u^2 (w^2 rho^2 f_kk - 2 w rho f_ku + f_uu).
-Local Patch::at(const Box& box) const {
-  const Complex u = std::polar(1.0, -box.theta), step = 1.0 - rho_ * u;
-  const double wr = box.w * rho_, turn = rho_ * box.theta_half;
-  const double q = modulus(step) + turn;
-  const double reach = box.w_half * q + std::abs(box.w) * turn;  // of kappa
-  const Point p = point(rho_ * u, box.w * step, reach, turn);
-  const Complex X = wr * p.f_kappa - rho_ * p.f_z;
-  Local out{.g = p.f, .g_w = p.f_kappa * step, .g_theta = Complex(0, 1) * u * X};
+// F = u^(-m/2) f, E and E2 are what u d/du makes of it once and twice at one kappa, _k is
+// the derivative by kappa.  With u_theta = -i u, kappa_theta = i w rho u:
+//   g_w = F_k (1 - rho u),  g_theta = i (w rho u F_k - E),
+//   g_ww = F_kk (1 - rho u)^2,
+//   g_wt = i (rho u F_k + (1 - rho u)(w rho u F_kk - E_k)),
+//   g_tt = -E2 + 2 w rho u E_k + w rho u F_k - (w rho u)^2 F_kk.
+Local Patch::at(const Box& box, Complex u) const {
+  const Complex step = 1.0 - rho_ * u, kappa = box.w * step;
+  const Complex t = (kappa - disc_.centre) / disc_.radius;
+  const double middle = static_cast<double>(powers_ / 2);
+  Complex F, F_t, F_tt, E, E_t, E2;
+  for (std::size_t i = powers_; i-- > 0;) {
+    const Complex* p = &c_[i * terms_];
+    Complex value = p[0], slope = 0, curve = 0;
+    if (i > 0 && i + 1 < powers_) {
+      value = p[terms_ - 1];
+      for (std::size_t j = terms_ - 1; j-- > 0;) {
+        curve = curve * t + slope;
+        slope = slope * t + value;
+        value = value * t + p[j];
+      }
+    }
+    const double e = static_cast<double>(i) - middle;
+    F = F * u + value;
+    F_t = F_t * u + slope;
+    F_tt = F_tt * u + 2.0 * curve;
+    E = E * u + e * value;
+    E_t = E_t * u + e * slope;
+    E2 = E2 * u + e * e * value;
+  }
+  Complex back = 1;
+  for (std::size_t i = 0; i < powers_ / 2; ++i) back *= std::conj(u);
 
-  const double w = (std::abs(box.w) + box.w_half) * rho_;
-  const double kk = p.kk, kz = p.kz * rho_, zz = p.zz * rho_ * rho_;
-  const double most_f_k = modulus(p.f_kappa) + kk * reach + kz * box.theta_half;
-  const double most_X = modulus(X) + (w * kk + kz) * reach +
-                        (w * kz + zz) * box.theta_half + rho_ * box.w_half * most_f_k;
+  const double wr = box.w * rho_, b = box.theta_half, by_t = 1 / disc_.radius;
+  const Complex F_k = F_t * by_t;
+  Local out{.g = back * F,
+            .g_w = back * F_k * step,
+            .g_theta = Complex(0, 1) * back * (wr * u * F_k - E)};
+
+  const Bounds& most = on_rim_;
+  const double q = modulus(step) + rho_ * b;
+  const double reach = box.w_half * q + wr * b, a = reach * by_t;
+  const double TT = std::min(most.TT, modulus(F_tt) + most.TTT * a + most.TTU * b);
+  const double TU = std::min(most.TU, modulus(E_t) + most.TTU * a + most.TUU * b);
+  const double UU = std::min(most.UU, modulus(E2) + most.TUU * a + most.UUU * b);
+  const double w = (box.w + box.w_half) * rho_;
+  const double kk = TT * by_t * by_t, k = modulus(F_k) + (TT * a + TU * b) * by_t;
   out.ww = kk * q * q;
-  out.wt = rho_ * most_f_k + q * (w * kk + kz);
-  out.tt = most_X + w * w * kk + 2 * w * kz + zz;
+  out.wt = rho_ * k + q * (w * kk + TU * by_t);
+  out.tt = UU + 2 * w * TU * by_t + w * k + w * w * kk;
   return out;
 }
 

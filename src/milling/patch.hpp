@@ -13,9 +13,11 @@ inline double modulus(Complex x) { return std::sqrt(std::norm(x)); }
 
 /// What a count at the depths w and on the circle |z| = rho needs to know of
 ///
-///     g(w, theta) = f(z, kappa),  z = rho e^(-i theta),  kappa = w (1 - z)           (1)
+///     g(w, theta) = u^(-m/2) f(z, kappa),  u = e^(-i theta),  z = rho u,            (1)
+///     kappa = w (1 - z)
 ///
-/// at one point and around it.
+/// at one point and around it; m is the degree of f in z, an even number, and the factor
+/// makes g turn slowly.
 struct Local {
   Complex g;                      ///< value at the centre of the box
   Complex g_w, g_theta;           ///< derivatives there
@@ -26,14 +28,15 @@ struct Local {
 struct Box {
   double w = 0, w_half = 0;
   double theta = 0, theta_half = 0;
+  Complex u() const { return std::polar(1.0, -theta); }
 };
 
-/// A disc that holds the kappa of every point of the box.
+/// A disc that holds the kappa of every point of the box; u is that of the box.
 struct Disc {
   Complex centre;
   double radius = 0;
 };
-Disc disc(const Box& box, double rho);
+Disc disc(const Box& box, Complex u, double rho);
 inline bool holds(const Disc& outer, const Disc& inner) {
   return modulus(inner.centre - outer.centre) + inner.radius <= outer.radius;
 }
@@ -68,8 +71,8 @@ class Patch {
   /// |g| at the disc's centre and some z, for telling whether the noise matters.
   double scale() const;
 
-  /// @param box  its disc must lie in this one.
-  Local at(const Box& box) const;
+  /// @param box  its disc must lie in this one; u is that of the box.
+  Local at(const Box& box, Complex u) const;
 
   /// Bounds hold within `reach` of kappa and `dz` of z, as far as that is inside the disc
   /// and |z| <= rho.
@@ -85,9 +88,13 @@ class Patch {
   std::size_t terms_ = 0;   // of kappa
   std::vector<Complex> c_;  // [i * terms_ + j]
   double noise_ = 0;
-  // Bounds on derivatives by t = (kappa - centre)/radius and u = z/rho in all of |t|, |u|
-  // <= 1, of second and third order.
-  double tt_ = 0, tu_ = 0, uu_ = 0, ttt_ = 0, ttu_ = 0, tuu_ = 0, uuu_ = 0;
+  /// Bounds on derivatives of f in all of |t| <= 1, t = (kappa - centre)/radius, by their
+  /// order in t (T) and u = z/rho (U).
+  struct Bounds {
+    double TT = 0, TU = 0, UU = 0, TTT = 0, TTU = 0, TUU = 0, UUU = 0;
+  };
+  Bounds inside_;  // in |u| <= 1
+  Bounds on_rim_;  // on |u| = 1: of u^(-m/2) f, U standing for the operator u d/du
 };
 
 }  // namespace turnwright::milling

@@ -89,6 +89,24 @@ std::size_t nodes_for(double phase, double error) {
   return kMost;
 }
 
+/// q = kernel f, row by row with `columns` columns; kColumns the same if not 0.
+template <std::size_t kColumns = 0>
+void apply(const std::vector<double>& kernel, std::size_t columns,
+           const std::vector<double>& f, std::vector<double>& q) {
+  if constexpr (kColumns == 0) {
+    if (columns == 2) return apply<2>(kernel, columns, f, q);
+    if (columns == 4) return apply<4>(kernel, columns, f, q);
+  }
+  const std::size_t m = kColumns ? kColumns : columns, p = f.size() / m;
+  std::fill(q.begin(), q.end(), 0.0);
+  for (std::size_t i = 0; i < p; ++i) {
+    const double* row = &kernel[i * p];
+    double* sum = &q[i * m];
+    for (std::size_t j = 0; j < p; ++j)
+      for (std::size_t c = 0; c < m; ++c) sum[c] += row[j] * f[j * m + c];
+  }
+}
+
 class Stretcher {
  public:
   Stretcher(const System& system, double n_rpm, double kappa_max,
@@ -216,7 +234,7 @@ class Stretcher {
       scale *= kappa_max_;
       if (largest * scale < kDropped) break;
       for (std::size_t a = 0; a < 2; ++a)
-        if (used_[a]) apply(kernels_[a], force[a], q[a]);
+        if (used_[a]) apply(kernels_[a], m, force[a], q[a]);
     }
     return out;
   }
@@ -244,17 +262,6 @@ class Stretcher {
     for (std::size_t e = at; e < out.coefficients.size(); ++e)
       largest = std::max(largest, std::abs(out.coefficients[e]));
     return largest;
-  }
-
-  void apply(const std::vector<double>& kernel, const std::vector<double>& f,
-             std::vector<double>& q) const {
-    const std::size_t p = rule_->size, m = states_;
-    std::fill(q.begin(), q.end(), 0.0);
-    for (std::size_t i = 0; i < p; ++i)
-      for (std::size_t j = 0; j < p; ++j) {
-        const double k = kernel[i * p + j];
-        for (std::size_t c = 0; c < m; ++c) q[i * m + c] += k * f[j * m + c];
-      }
   }
 
   // A free flight in closed form, into the stretch before it.

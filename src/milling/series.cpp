@@ -172,7 +172,7 @@ std::optional<DeepSeries> series_up_to(const System& system,
                                        const std::vector<ArcLoad>& arcs, double n_rpm,
                                        double ap_max_mm) {
   constexpr double kReach = 2.2;     // kappa over depth, with room for boxes at the edge
-  constexpr double kGrowth = 40;     // as `growth` has it: beyond no series will do
+  constexpr double kGrowth = 100;    // as `growth` has it: beyond no series will do
   constexpr double kPrecise = 1e-7;  // noise accepted
   if (system.modes.size() > 2) return std::nullopt;
   for (double w = ap_max_mm; w > 1e-6 * ap_max_mm; w /= 2) {

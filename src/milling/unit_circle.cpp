@@ -143,10 +143,11 @@ class Search {
           " boxes; ask for a smaller ap_max_mm or a higher speed");
     const Box wide = scaled(box, kInflation);
     std::optional<Patch> own;
-    const Patch* patch = patches_.pick(above, disc(wide, 1), own);
+    const Complex u = box.u();
+    const Patch* patch = patches_.pick(above, disc(wide, u, 1), own);
     Local g;
     if (patch) {
-      g = patch->at(wide);
+      g = patch->at(wide, u);
       const Judged judged = judge(g, wide, patch->noise());
       if (judged.verdict == Verdict::none) return;
       if (judged.verdict == Verdict::one) {
@@ -157,12 +158,11 @@ class Search {
         return;
       }
     }
-    split(box, border, g, patch ? patch : (above && !own ? above : nullptr));
+    split(box, u, border, g, patch ? patch : (above && !own ? above : nullptr));
   }
 
-  void split(const Box& box, bool border, const Local& g, const Patch* patch) {
-    const Complex step = 1.0 - std::polar(1.0, -box.theta);
-    double by_w = box.w_half * modulus(step), by_theta = box.w * box.theta_half;
+  void split(const Box& box, Complex u, bool border, const Local& g, const Patch* patch) {
+    double by_w = box.w_half * modulus(1.0 - u), by_theta = box.w * box.theta_half;
     if (g.tt > 0) {
       by_w = std::sqrt(g.ww) * box.w_half;
       by_theta = std::sqrt(g.tt) * box.theta_half;
@@ -338,9 +338,10 @@ class Winding {
     if (box.theta_half < kSmallest || ++boxes_ > kBoxes)
       throw ModelRangeError("milling: a multiplier lies on the circle asked about");
     std::optional<Patch> own;
-    const Patch* patch = patches_.pick(above, disc(box, rho_), own);
+    const Complex u = box.u();
+    const Patch* patch = patches_.pick(above, disc(box, u, rho_), own);
     if (patch) {
-      const Local g = patch->at(box);
+      const Local g = patch->at(box, u);
       const Complex E = g.g_theta * box.theta_half;
       const double rest = g.tt * box.theta_half * box.theta_half / 2 + patch->noise();
       if (distance(g.g, E) > rest)
@@ -353,7 +354,8 @@ class Winding {
   }
 
   Complex end(const Patch& patch, const Box& box, double side) const {
-    return patch.at({w_, 0, box.theta + side * box.theta_half, 0}).g;
+    const Box point{w_, 0, box.theta + side * box.theta_half, 0};
+    return patch.at(point, point.u()).g;
   }
 
   Patches patches_;
@@ -361,9 +363,11 @@ class Winding {
   std::size_t boxes_ = 0;
 };
 
-// z runs clockwise, and the lower half mirrors the upper.
-int whole_turns(double angle) {
-  const double turns = -angle / kPi, whole = std::round(turns);
+// z runs clockwise, and the lower half mirrors the upper; u^(-m/2) has turned g by m/2
+// half turns.
+int whole_turns(double angle, std::size_t m) {
+  const double turns = static_cast<double>(m / 2) - angle / kPi,
+               whole = std::round(turns);
   if (!(std::abs(turns - whole) < 1e-3))
     throw std::domain_error("multipliers_outside: half turns of " +
                             std::to_string(turns));
@@ -373,11 +377,11 @@ int whole_turns(double angle) {
 }  // namespace
 
 int multipliers_outside(const Characteristic& f, double w_mm, double rho) {
-  return whole_turns(Winding(Patches(f, rho), w_mm, rho).angle());
+  return whole_turns(Winding(Patches(f, rho), w_mm, rho).angle(), f.states());
 }
 
 int multipliers_outside(const Series& series, double w_mm) {
-  return whole_turns(Winding(Patches(series), w_mm, 1).angle());
+  return whole_turns(Winding(Patches(series), w_mm, 1).angle(), series.states());
 }
 
 }  // namespace turnwright::milling
