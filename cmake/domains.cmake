@@ -39,7 +39,7 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagato
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)

@@ -58,7 +58,7 @@ inline constexpr Resolution kFine{5, 1e-19};
 /// the nodes are s^q apart from it, which makes the integrand smooth.
 ///
 /// Only q enters B, so (2) is iterated for q alone.  Good for |kappa| <= kappa_max_mm.
-/// Source: derived here; checked in propagator_test against Runge-Kutta.
+/// Source: derived here; checked in accuracy_test against Bulirsch and Stoer's method.
 Propagator propagator(const System& system, const std::vector<ArcLoad>& arcs,
                       double n_rpm, double kappa_max_mm, const Resolution& resolution);
 
