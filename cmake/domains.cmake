@@ -46,7 +46,7 @@ target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+  TESTS optimum_test.cpp certificate_test.cpp conflict_test.cpp single_pass_test.cpp)
 if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
 endif()
