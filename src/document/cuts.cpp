@@ -88,8 +88,13 @@ Size read_thread_size(Draft& draft, Reader& r) {
   Size s;
   s.d_mm = r.number("diameter_mm", kSize);
   const auto coarse = coarse_pitch_mm(s.d_mm);
-  if (r.has("pitch_mm") || !coarse) {
+  if (r.has("pitch_mm")) {
     s.P_mm = r.number("pitch_mm", above_up_to(0, 50, "mm"));
+  } else if (!coarse) {
+    if (std::isfinite(s.d_mm))
+      r.problem_at("pitch_mm",
+                   "a pitch: " + number_text(s.d_mm) + " mm has no coarse one",
+                   "conflict");
   } else {
     s.P_mm = *coarse;
     draft.assume(r.pointer_of("pitch_mm"), s.P_mm, "the coarse pitch of ISO 261");

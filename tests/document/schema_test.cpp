@@ -102,7 +102,7 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInWhatIsCutAtFixedConditions) {
       {{"id", "th2"},
        {"kind", "thread"},
        {"length_mm", 60},
-       {"diameter_mm", 40.5},  // has no coarse pitch
+       {"diameter_mm", 42},
        {"pitch_mm", 2},
        {"fit", "6g"}}};
   part["tolerances"] = part["faces"] = json::array();
