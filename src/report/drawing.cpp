@@ -404,10 +404,25 @@ void draw_clamping(Sheet& s) {
     draw_centre(s, free);
 }
 
+/// Between the ends of an arc, where its chords meet.
+bool within_an_arc(const part::Drawing& d, double z) {
+  constexpr double kRounding_mm = 1e-6;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
+    const auto& cut = d.outer[i].cut;
+    if (cut && cut->kind == part::CutKind::arc && z > z0 + kRounding_mm &&
+        z < z1 - kRounding_mm)
+      return true;
+  }
+  return false;
+}
+
 /// z of every end of an element, with lines down from the part; y of the foot.
 double draw_ruler(Sheet& s) {
   std::vector<double> z;
-  for (const auto& run : s.contour.outer) z.insert(z.end(), {run.z0, run.z1});
+  for (const auto& run : s.contour.outer)
+    for (const double end : {run.z0, run.z1})
+      if (!within_an_arc(s.part.drawing, end)) z.push_back(end);
   for (const auto& run : s.contour.inner) z.insert(z.end(), {run.z0, run.z1});
   std::sort(z.begin(), z.end());
   z.erase(std::unique(z.begin(), z.end(),

@@ -149,8 +149,7 @@ class SetupSearch {
         for (const auto* f : list(true, ToolUse::finishing, false))
           for (const auto* br : list(bores, ToolUse::boring, true))
             for (const auto* bf : list(bores, ToolUse::boring, false)) {
-              ToolChoice c{
-                  x, r, f, br, bf, economy_.minute * minutes(0) + fixed_edges()};
+              ToolChoice c{x, r, f, br, bf, economy_.minute * minutes(0) + fixed_edges()};
               for (std::size_t k = 0; k < features_.size(); ++k)
                 c.bound += bounds(k, tools(k, c)).least;
               if (std::isfinite(c.bound)) all.push_back(c);

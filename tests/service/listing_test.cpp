@@ -34,10 +34,11 @@ TEST(Listing, HoldsTheShippedCatalogue) {
 
 TEST(Listing, HoldsTheReferenceParts) {
   EXPECT_EQ(ids(list_parts(TURNWRIGHT_SOURCE_DIR)),
-            (std::set<std::string>{"aluminium-tube", "bearing-seat", "drilled-bush", "flanged-bush",
-                                   "gearbox-input-shaft", "infeasible-as-drawn",
-                                   "iron-hub", "motor-shaft", "piston-rod", "pump-shaft",
-                                   "roller-tube", "spindle-nose", "threaded-spindle", "titanium-pin"}));
+            (std::set<std::string>{"aluminium-tube", "bearing-seat", "drilled-bush",
+                                   "flanged-bush", "gearbox-input-shaft",
+                                   "infeasible-as-drawn", "iron-hub", "motor-shaft",
+                                   "piston-rod", "pump-shaft", "roller-tube",
+                                   "spindle-nose", "threaded-spindle", "titanium-pin"}));
 }
 
 TEST(Listing, AFolderWithoutPartsHasNone) {
