@@ -164,8 +164,9 @@ void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
   if (kind == CutKind::arc) s = read_arc(draft, r, e.length_mm);
   s.cut.kind = kind;
   r.finish();
-  e.left_mm = s.blank.left_mm;
-  e.right_mm = s.blank.right_mm;
+  const bool readable = s.blank.left_mm > 0;
+  e.left_mm = readable ? s.blank.left_mm : std::numeric_limits<double>::quiet_NaN();
+  e.right_mm = readable ? s.blank.right_mm : e.left_mm;
   e.kind =
       e.left_mm == e.right_mm ? part::ElementKind::cylinder : part::ElementKind::cone;
   e.cut = s.cut;

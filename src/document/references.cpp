@@ -17,7 +17,7 @@ std::vector<std::string> ids(const std::vector<T>& entries) {
 // An id of the catalogue, or the document itself in place of the id.
 template <class T>
 T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
-          const std::string& what) {
+          const std::string& what, const std::vector<std::string>& others = {}) {
   if (value.is_object()) return read(value);
   if (value.broken()) return {};
   if (!value.is_text()) {
@@ -27,7 +27,9 @@ T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
   const auto id = value.json().get<std::string>();
   for (const auto& entry : entries)
     if (entry.id == id) return entry;
-  value.problem(expected_reference(id, ids(entries), "a " + what + " of the catalogue"),
+  auto known = ids(entries);
+  known.insert(known.end(), others.begin(), others.end());
+  value.problem(expected_reference(id, known, "a " + what + " of the catalogue"),
                 "unknown-id");
   return {};
 }
@@ -74,7 +76,9 @@ void read_tools(Draft& draft) {
       add_once(item, plan.fixed_tools,
                resolve(item, draft.catalogue.fixed_tools, read_fixed_tool, "tool"));
     else
-      add_once(item, plan.tools, resolve(item, draft.catalogue.tools, read_tool, "tool"));
+      add_once(item, plan.tools,
+               resolve(item, draft.catalogue.tools, read_tool, "tool",
+                       ids(draft.catalogue.fixed_tools)));
   add_fixed_tools_of_the_catalogue(draft);
 }
 

@@ -395,8 +395,8 @@ TEST(PartPlan, FixedToolsAreThoseListedAndElseTheCatalogues) {
   EXPECT_EQ(tools[0].id, "my-profiler");
   document["tools"].push_back("my-profiler");
   EXPECT_EQ(refusal(document),
-            "t: /tools/2: got \"my-profiler\", expected a tool of the catalogue (did you "
-            "mean \"test-profiler\"?)");
+            "t: /tools/2: got \"my-profiler\", expected a tool of the catalogue: "
+            "\"test-rougher\", \"test-profiler\"");
 }
 
 TEST(PartPlan, DocumentsMayStandInsteadOfIds) {
