@@ -59,11 +59,11 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp
-          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
+          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp conflicts.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp
+          TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp prices_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
@@ -71,7 +71,7 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
-          setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
+          setups.cpp operations.cpp unsupported.cpp what_if.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
           machine_fields.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
           DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
@@ -89,7 +89,8 @@ if(BUILD_TESTING)
     PRIVATE tw_dev NLopt::nlopt_cxx)
   add_executable(reference_search EXCLUDE_FROM_ALL tests/reference_parts/reference_search.cpp)
   target_link_libraries(reference_search PRIVATE reference_search_lib tw_dev)
-  add_executable(reference_parts_test tests/reference_parts/reference_parts_test.cpp)
+  add_executable(reference_parts_test tests/reference_parts/reference_parts_test.cpp
+    tests/reference_parts/certificate_test.cpp)
   target_link_libraries(reference_parts_test PRIVATE reference_search_lib tw_dev
     GTest::gtest_main)
   foreach(program IN ITEMS reference_search reference_parts_test)
@@ -99,10 +100,10 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
-tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
+tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp contour.cpp svg.cpp
           DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp drawing_test.cpp)
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

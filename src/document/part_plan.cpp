@@ -132,12 +132,14 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_operations(draft);
     read_economics(draft);
     read_budget(draft);
+    read_what_if(draft);
     root.optional_items("milling", 0, 100);
     refuse_unsupported(root);
     root.finish();
   }
   problems.throw_if_any();
   assume_grip_forces(draft);
+  draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);
   return std::move(draft.loaded);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "demand.hpp"
+#include "recipes.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/deflection/ring.hpp"
 #include "turnwright/deflection/shop_errors.hpp"
@@ -79,6 +80,30 @@ double heat_um(const PartPlan& p, const Tolerance& t) {
   const auto at = *part::extent(d, t.of);  // a size that is no length is an element's
   const double D = std::max(at.left_mm, at.right_mm);
   return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
+}
+
+bool cuts_face(const PartPlan& p, std::size_t setup, const SetupWork& work,
+               const std::string& face) {
+  if (work.end_face && face == free_face(p, setup)) return true;
+  return std::any_of(work.shoulders.begin(), work.shoulders.end(),
+                     [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
+}
+
+// What the faces of a length that are cut in one setup, minutes apart, have in common
+// shifts both alike and leaves the length between them; both look at the free end.
+struct Together {
+  bool setup = false;  ///< both: the same drift
+  bool tool = false;   ///< the same wear too
+};
+Together together(const PartPlan& p, const Tolerance& t, std::size_t setup) {
+  if (t.kind != ToleranceKind::length) return {};
+  const auto work = assign(p).setups[setup];
+  Together both;
+  both.setup =
+      cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
+  both.tool = both.setup && wanted(p, setup, t.between[0]).finish_tool ==
+                                wanted(p, setup, t.between[1]).finish_tool;
+  return both;
 }
 
 double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
@@ -156,10 +181,13 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
   fixed("measurement", (size ? 2 : 1) * shop.measurement_U_um);
   if (size) {
     const double s = sensitivity(p, t);
-    spread("drift", Distribution::uniform,
-           t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um, s);
+    const auto both = together(p, t, making.setup);
+    const double drift =
+        t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um;
+    if (!both.setup) spread("drift", Distribution::uniform, drift, s);
     spread("repeatability", Distribution::normal, shop.repeatability_um, s);
-    if (making.last) spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
+    if (making.last && !both.tool)
+      spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
   if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&

@@ -32,6 +32,15 @@ inline constexpr const char* kHeat = "heat";  ///< its source, below
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, twice: run-out and coaxiality to a datum of another setup
 ///
+/// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
+/// cut by one tool, with the same edge; both look at the free end, so that their errors
+/// d + w_1 and d + w_2 are of one sign and the length between them has w_2 - w_1,
+///
+///     one tool: neither drift nor wear;  two tools: each one's wear                  (0)
+///
+/// Source: derived here; drawn anew in allowance_test.  Each face is indexed on its own,
+/// so that the repeatability counts for both.
+///
 /// Three lobes leave two-point diameters as they are, but for their even orders (a
 /// tenth).
 struct Allowance {

@@ -202,6 +202,14 @@ std::string prices(const ordered_json& result) {
   return out;
 }
 
+std::string what_if(const ordered_json& result) {
+  const auto& all = list(result, "what_if");
+  if (all.empty()) return "";
+  std::vector<std::string> sentences;
+  for (const auto& answer : all) sentences.push_back(sentence_of(answer));
+  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences);
+}
+
 // A string bare, anything else as JSON.
 std::string plain(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -228,7 +236,7 @@ std::string assumptions(const ordered_json& result) {
 std::string text(const ordered_json& plan_result) {
   return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
          setups(plan_result) + tolerances(plan_result) + compensation(plan_result) +
-         prices(plan_result) + assumptions(plan_result);
+         prices(plan_result) + what_if(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

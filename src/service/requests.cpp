@@ -140,7 +140,7 @@ constexpr const char* kCalibrateExample = R"({
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
-  return document::to_json(planning::plan(part.plan), part.assumed);
+  return document::to_json(planning::plan(part.plan, part.what_if), part.assumed);
 }
 
 ordered_json predict(const json& request, const Context& context) {
@@ -155,7 +155,7 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
 
 Drawn drawn_plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
-  return drawn(part, planning::plan(part.plan));
+  return drawn(part, planning::plan(part.plan, part.what_if));
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
@@ -247,12 +247,14 @@ std::span<const Request> requests() {
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::multipass(request);
-       }},
+       },
+       report::multipass_text},
       {"calibrate-material",
        "measured cuts -> kc1.1, mc, Taylor constants with intervals", kCalibrateExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::calibrate_material(request, context.catalogue);
-       }},
+       },
+       report::material_text},
   };
   return kTable;
 }
