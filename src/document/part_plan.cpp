@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/machine_share.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
@@ -94,6 +95,8 @@ void read_budget(Draft& draft) {
   read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
   read("rechucking_um", shop.rechucking_um, error);
   read("measurement_U_um", shop.measurement_U_um, error);
+  if (budget->has("first_part_gauged"))
+    shop.first_part_gauged = budget->boolean("first_part_gauged");
   budget->finish();
 }
 
@@ -138,6 +141,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
   }
   problems.throw_if_any();
   assume_grip_forces(draft);
+  draft.plan().machine_takes = planning::machine_takes(draft.plan());
   return std::move(draft.loaded);
 }
 
