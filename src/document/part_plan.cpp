@@ -95,8 +95,7 @@ void read_budget(Draft& draft) {
   read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
   read("rechucking_um", shop.rechucking_um, error);
   read("measurement_U_um", shop.measurement_U_um, error);
-  if (budget->has("first_part_gauged"))
-    shop.first_part_gauged = budget->boolean("first_part_gauged");
+  shop.first_part_gauged = budget->boolean_or("first_part_gauged", false);
   budget->finish();
 }
 

@@ -77,16 +77,19 @@ Generator face(const PartPlan& p, const std::string& id, const Place& at) {
   return {d.outer.back().right_mm / 2, z, hole, z};
 }
 
-// Enough to see every lobe of the spindle; six places round a harmonic's wave.
+// Enough to see every lobe of the spindle, six places round the shortest wave.
 std::size_t places_around(const Machine& m) {
-  std::size_t harmonics = 0;
-  for (const Axis& axis : m.axes)
-    if (axis.name == 'C')
-      for (const auto& e : axis.errors) {
-        const bool turns = e.c[1] != 0 || e.c[2] != 0 || e.c[3] != 0;
-        harmonics = std::max({harmonics, e.f.size(), turns ? std::size_t{8} : 0});
-      }
-  return std::max<std::size_t>(8, 6 * harmonics);
+  constexpr std::size_t kLeast = 8, kOfWave = 6, kOfTurn = 48;
+  std::size_t around = kLeast;
+  for (const Axis& axis : m.axes) {
+    if (axis.name != 'C') continue;
+    for (const auto& e : axis.errors) {
+      if (e.c[1] != 0 || e.c[2] != 0 || e.c[3] != 0) around = std::max(around, kOfTurn);
+      for (std::size_t h = 0; h < e.f.size(); ++h)
+        if (e.f[h].a != 0 || e.f[h].d != 0) around = std::max(around, kOfWave * (h + 1));
+    }
+  }
+  return around;
 }
 
 /// A machine at work on the part.
@@ -307,7 +310,7 @@ Axis widened(const Axis& axis, const Axis& like) {
 std::vector<Machine> uncertain(const catalogue::GeometricErrors& g) {
   std::vector<Machine> all;
   Machine none = g.chain;
-  for (Axis& axis : none.axes) axis = blank(axis, {});
+  for (Axis& axis : none.axes) axis = {.name = axis.name, .p_mm = axis.p_mm, .Q = axis.Q};
   for (std::size_t i = 0; i < g.chain.axes.size(); ++i) {
     const Axis& axis = g.chain.axes[i];
     const auto given = std::find_if(g.u.begin(), g.u.end(),

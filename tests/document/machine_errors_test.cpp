@@ -112,6 +112,22 @@ TEST(MachineErrors, AreRefusedWithTheirPlace) {
     EXPECT_NE(all.find(told), std::string::npos) << told << "\n" << all;
 }
 
+// A part with its machine inline tells the place in the part's document.
+TEST(MachineErrors, OfAnInlineMachineAreToldInThePart) {
+  json part = parse_file(source_path("parts/bearing-seat.json"));
+  part["machine"] = worn();
+  part["machine"]["errors"]["axes"][1]["sq"]["EB0Z"] = "steep";
+  part["machine"]["errors"]["u"][1]["err"]["EXX"]["table"] = json::object();
+  const auto load = [](const json& p) {
+    load_part_plan(p, load_catalogue(source_path("")), "part");
+  };
+  const std::string all = refusal(load, part);
+  for (const char* told :
+       {"part: /machine/errors/axes/1/sq/EB0Z: got \"steep\", expected ",
+        "part: /machine/errors/u/1/err/EXX/table: "})
+    EXPECT_NE(all.find(told), std::string::npos) << told << "\n" << all;
+}
+
 TEST(MachineErrors, SlipsAreSeenBySchemaAndReader) {
   json m = worn();
   const SchemaCheck schema("lathe.json");

@@ -46,9 +46,9 @@ namespace turnwright::planning {
 ///
 ///     u^2 = sum_k width(u(x_k))^2 (3)
 ///
-/// is the standard uncertainty of what is taken; exact for one parameter or sizes, never
-/// too small beside a systematic part that touches where they do.
-/// Source: derived here, checked by Monte Carlo in machine_share_test.
+/// is taken for the standard uncertainty of what the machine takes: exact for one
+/// parameter, and of several as often kept as a normal (by drawing machines, in the
+/// test). Source: derived here, checked by Monte Carlo in machine_share_test.
 std::map<MachinePlace, MachineTake> machine_takes(const PartPlan& plan);
 
 /// Of a tolerance whose surface is cut in this setup and clamping; none without an error
