@@ -19,6 +19,7 @@ constexpr int kNearestRounds = 5;
 constexpr std::size_t kNearest = 40;  // recipes asked for the nearest conditions
 constexpr double kAnyCost = 1e3;      // a gap in ln(objective) that the first find leaves
 constexpr long kScouting = 150;       // boxes for a first bound of a task
+constexpr double kScoutingGap = 5e-3;  // and what they may leave open
 
 struct Candidate {
   Recipe recipe;
@@ -34,6 +35,11 @@ struct Best {
   std::vector<double> y;
   bool found() const { return !y.empty(); }
 };
+
+// Conditions in the middle of a box; the speeds are set by what evaluates them.
+Choice<double> middle(const optimise::Box& b) {
+  return {{1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
+}
 
 std::shared_ptr<RecipeModel> without_tolerances(const FeatureTask& task,
                                                 const Recipe& recipe) {
@@ -59,7 +65,9 @@ optimise::Solution least_violation(const RecipeModel& m) {
   return best;
 }
 
-// One task's search over recipes; the places of its tolerances grow from round to round.
+// One task's search over recipes.  It starts without tolerances: what they ask is asked
+// only where an optimum breaks it, so a surface whose tolerances do not bind never pays
+// for its deflection in boxes.  Their places grow from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
@@ -85,7 +93,11 @@ class FeatureSearch {
         c.local.reset();
       }
       // The optimum before the new places is the best start, of its recipe first.
-      if (before_places.found()) local_search(before_places.candidate, {before_places.y});
+      if (before_places.found())
+        local_search(before_places.candidate, {before_places.y});
+      else if (!all_.empty() && all_[0].bound < cut())
+        local_search(0, {model(0)->start(0.85, 0.15)});
+      if (best_.found() && violated()) continue;
       search_recipes();
       if (best_.found() && violated()) continue;
       const double before = best_.f;
@@ -114,8 +126,7 @@ class FeatureSearch {
 
   optimise::Piece with_points(std::size_t k, optimise::Piece p) {
     p.try_point = [this, k](const optimise::Box& b) {
-      Choice<double> choice{
-          {1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
+      auto choice = middle(b);
       const double f = all_[k].model->feasible_value(choice);
       if (f < best_.f) best_ = {f, k, all_[k].model->point(choice)};
       return f;
@@ -282,10 +293,14 @@ double least_objective(const FeatureTask& task) {
   for (const auto& recipe : task.recipes)
     if (auto m = without_tolerances(task, recipe)) {
       pieces.push_back(m->piece());
+      pieces.back().try_point = [m = m.get()](const optimise::Box& b) {
+        auto c = middle(b);
+        return m->feasible_value(c);
+      };
       models.push_back(std::move(m));
     }
-  return std::exp(optimise::branch_and_bound(pieces, kInfinity, {.max_nodes = kScouting})
-                      .lower_bound);
+  const optimise::SearchOptions brief{.gap = kScoutingGap, .max_nodes = kScouting};
+  return std::exp(optimise::branch_and_bound(pieces, kInfinity, brief).lower_bound);
 }
 
 double worst_excess(const std::vector<Demand>& demands,
@@ -306,6 +321,7 @@ double worst_excess(const std::vector<Demand>& demands,
 FeatureAnswer nearest(const FeatureTask& task) {
   if (used_up(task.demands)) return {};
   Exchange exchange(task.feature, task.demands);
+  exchange.add_all();
   FeatureAnswer a;
   const auto n = task.recipes.size();
   const std::size_t stride = task.explain ? 1 : (n + kNearest - 1) / kNearest;
