@@ -46,7 +46,7 @@ target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+  TESTS optimum_test.cpp certificate_test.cpp conflict_test.cpp single_pass_test.cpp)
 if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
 endif()
@@ -59,7 +59,8 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
+          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp
