@@ -125,7 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                                          "spindle-nose", "flanged-bush", "motor-shaft",
                                          "pump-shaft", "iron-hub", "titanium-pin",
                                          "aluminium-tube", "bearing-seat", "roller-tube",
-                                         "threaded-spindle", "drilled-bush"),
+                                         "coupling-shaft", "threaded-spindle",
+                                         "drilled-bush"),
                          [](const auto& at) {
                            std::string name = at.param;
                            std::replace(name.begin(), name.end(), '-', '_');
