@@ -27,6 +27,14 @@ void check_bores(Draft& draft);             // after the stock
 void read_tolerances(Draft& draft);         // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups
+void read_what_if(Draft& draft);     // the form alone
+
+/// The changed requests of a document without problems, each read as a whole.
+/// @throws InputError with what is wrong in them.
+std::vector<planning::WhatIf> load_what_if(const nlohmann::json& json,
+                                           const LoadedPart& loaded,
+                                           const Catalogue& catalogue,
+                                           const std::string& document);
 
 // What cross-references are held against.
 

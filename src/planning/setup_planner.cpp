@@ -103,6 +103,12 @@ SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clampi
   memory_.resize(jobs_.size());
 }
 
+std::vector<const Feature*> SetupPlanner::features() const {
+  std::vector<const Feature*> all;
+  for (const auto& job : jobs_) all.push_back(&job.feature);
+  return all;
+}
+
 SolvedSetup SetupPlanner::best(double most) {
   std::vector<std::pair<double, Tools>> all;
   for (const auto& tools : choices()) {

@@ -62,6 +62,9 @@ class SetupPlanner {
   /// Every feature with the tools of the best setup, which is not feasible.
   SolvedSetup explained();
 
+  /// What it makes, in the order of a SolvedSetup's features.
+  std::vector<const Feature*> features() const;
+
  private:
   // One surface to be made and what the request says of it.
   struct Job {

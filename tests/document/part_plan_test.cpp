@@ -186,7 +186,7 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   document["budget"] = {
       {"drift_um", 1},      {"drift_axial_um", 2},         {"repeatability_um", 3},
       {"part_warm_K", 4},   {"life_between_offsets", 0.5}, {"wear_land_mm", 0.2},
-      {"rechucking_um", 6}, {"measurement_U_um", 7}};
+      {"rechucking_um", 6}, {"measurement_U_um", 7},       {"first_part_gauged", true}};
   EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
   const auto& shop = load(document).plan.shop;
   EXPECT_EQ(shop.drift_um, 1);
@@ -197,7 +197,9 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   EXPECT_EQ(shop.wear_land_mm, 0.2);
   EXPECT_EQ(shop.rechucking_um, 6);
   EXPECT_EQ(shop.measurement_U_um, 7);
+  EXPECT_TRUE(shop.first_part_gauged);
   document["budget"] = {{"drift_um", 1}};
+  EXPECT_FALSE(load(document).plan.shop.first_part_gauged);
   EXPECT_EQ(load(document).plan.shop.wear_land_mm, 0.3);
 }
 
@@ -402,6 +404,69 @@ TEST(PartPlan, EveryToleranceKindTakesItsFeatureAndDatum) {
     else
       EXPECT_EQ(text, "accepted") << row.kind;
   }
+}
+
+// ---- what_if --------------------------------------------------------------------------
+
+json asked(const json& what_if) {
+  auto document = smallest();
+  document["what_if"] = what_if;
+  return document;
+}
+
+TEST(WhatIf, EachChangeIsReadAsTheDocumentItMakes) {
+  const auto loaded =
+      load(asked({{{"name", "wider"}, {"set", {{"/outer/d1/fit", "k7"}, {"/batch", 20}}}},
+                  {{"name", "shorter"}, {"set", {{"/outer/3/length_mm", 41}}}},
+                  {{"limit", "roughness Ra of d1"}, {"change_percent", -25}}}));
+  ASSERT_EQ(loaded.what_if.size(), 3u);
+  EXPECT_EQ(loaded.plan.drawing.outer[0].fit, "k6");
+  EXPECT_EQ(loaded.what_if[0].name, "wider");
+  EXPECT_EQ(loaded.what_if[0].plan.drawing.outer[0].fit, "k7");
+  EXPECT_EQ(loaded.what_if[0].plan.batch, 20);
+  EXPECT_EQ(loaded.what_if[1].plan.drawing.outer[3].length_mm, 41);
+  EXPECT_EQ(loaded.what_if[2].name, "roughness Ra of d1 -25 %");
+  EXPECT_NEAR(*loaded.what_if[2].plan.drawing.outer[0].Ra_um, 0.6, 1e-12);
+}
+
+TEST(WhatIf, RefusalsNameTheChange) {
+  const auto one = [](json entry) {
+    return refusal(asked(json::array({std::move(entry)})));
+  };
+  EXPECT_EQ(refusal(asked("wider")),
+            "t: /what_if: got \"wider\", expected a list of 0 to 20 entries");
+  EXPECT_EQ(one(3), "t: /what_if/0: got 3, expected an object");
+  EXPECT_EQ(one({{"name", "x"}}), "t: /what_if/0/set: got nothing, expected an object");
+  EXPECT_EQ(one({{"name", "x"}, {"set", json::object()}}),
+            "t: /what_if/0/set: got an object, expected 1 to 50 changes, as "
+            "{\"/outer/d1/fit\": \"h7\"}");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"/outer/d9/fit", "h7"}}}}),
+            "t: /what_if/0/set: got \"/outer/d9/fit\", expected the place of a value in "
+            "this document, as /outer/d1/fit or /setups/0/clampings");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"batch", 2}}}}),
+            "t: /what_if/0/set: got \"batch\", expected the place of a value in this "
+            "document, as /outer/d1/fit or /setups/0/clampings");
+  EXPECT_EQ(
+      one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
+      "t: /what_if/0/set/batch: got 0, expected a whole number >= 1 and <= 1000000");
+  EXPECT_NE(one({{"name", "x"}, {"set", {{"/what_if", json::array()}}}})
+                .find("expected no change of what_if itself"),
+            std::string::npos);
+  EXPECT_EQ(one({{"limit", "roughness Ra of d"}, {"change_percent", 10}}),
+            "t: /what_if/0/limit: got \"roughness Ra of d\", expected a limit of this "
+            "request (did you mean \"roughness Ra of d1\"?)");
+  EXPECT_EQ(one({{"limit", "roughness Ra of d1"}, {"change_percent", 0}}),
+            "t: /what_if/0/change_percent: got 0, expected a change other than 0");
+  EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", -95}})
+                .find("/what_if/0/change_percent: got -95"),
+            std::string::npos);
+  EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", 5}, {"set", 1}})
+                .find("/what_if/0/set"),
+            std::string::npos);
+  EXPECT_NE(refusal(asked(json::array()), Purpose::predict)
+                .find("t: /what_if: got a list of 0 entries, expected nothing: only plan "
+                      "answers what_if"),
+            std::string::npos);
 }
 
 }  // namespace

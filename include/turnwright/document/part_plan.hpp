@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 /// The part document (schemas/part.json): request of `plan` and `predict`.
 namespace turnwright::document {
@@ -19,6 +19,7 @@ struct Assumption {
 struct LoadedPart {
   planning::PartPlan plan;
   std::vector<Assumption> assumed;
+  std::vector<planning::WhatIf> what_if = {};
 };
 
 /// `predict` needs every operation with its tool and all its conditions.
