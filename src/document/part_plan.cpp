@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/machine_share.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
@@ -94,6 +95,7 @@ void read_budget(Draft& draft) {
   read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
   read("rechucking_um", shop.rechucking_um, error);
   read("measurement_U_um", shop.measurement_U_um, error);
+  shop.first_part_gauged = budget->boolean_or("first_part_gauged", false);
   budget->finish();
 }
 
@@ -139,6 +141,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
   }
   problems.throw_if_any();
   assume_grip_forces(draft);
+  draft.plan().machine_takes = planning::machine_takes(draft.plan());
   draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);
   return std::move(draft.loaded);
 }

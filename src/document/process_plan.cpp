@@ -111,6 +111,7 @@ ordered_json json_of(const ToleranceResult& t) {
           {"predicted_mm", value_or_pair(t.predicted_mm)},
           {"allowed_mm", value_or_pair(t.allowed_mm)},
           {"margin_mm", t.margin_mm},
+          {"width_mm", t.width_mm},
           {"verdict", name(t.verdict)},
           {"seed_verdict", t.seed_verdict},
           {"shares", list(t.shares,

@@ -15,13 +15,16 @@ struct Making {
   const catalogue::Tool* last = nullptr;  ///< the tool of its last pass
 };
 
-inline constexpr const char* kHeat = "heat";  ///< its source, below
+inline constexpr const char* kMachine = "machine";  ///< sources, below
+inline constexpr const char* kHeat = "heat";
 
 /// Sizes (diameter, length, a profile located by datums) are moved up and down, zones
 /// widened:
 ///
 ///     source        takes                          of
-///     machine       machine_share_um, all kinds    the whole width
+///     machine       machine_share_um, all kinds, and what machine_share.hpp says of
+///                   an error model; its uncertainty is normal
+///                                                  the whole width
 ///     jaw-squeeze   deflection/ring.hpp (1), a tube in jaws: its lobes of the zone of
 ///                   circularity, cylindricity, run-out and profile without datum; twice
 ///                   its largest displacement of a located profile

@@ -92,8 +92,8 @@ std::optional<double> first_order(const PartPlan& plan,
   double sum = 0;
   for (std::size_t s = 0; s < solved.size(); ++s) {
     const auto& own = solved[s];
-    FaceMemory faces;
-    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {}, faces);
+    SharedMemory shared;
+    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {}, shared);
     const auto features = planner.features();
     if (features.size() != own.features.size()) return {};
     for (std::size_t j = 0; j < features.size(); ++j) {

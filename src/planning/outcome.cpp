@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "setup_planner.hpp"
-#include "turnwright/base/units.hpp"
+#include "turnwright/planning/machine_share.hpp"
 
 namespace turnwright::planning {
 
@@ -45,9 +45,9 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
 void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
   for (const auto& sentence : work.unreachable)
     result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
-  const double share_mm = units::mm_from_um(p.machine_share_um);
-  for (const auto& t : p.drawing.tolerances) {
-    const double width = width_mm(t);
+  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
+    const auto& t = p.drawing.tolerances[i];
+    const double width = width_mm(t), share_mm = least_machine_mm(p, i);
     if (width > share_mm) continue;
     const auto called = t.id + " " + part::name(t.kind);
     const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;

@@ -164,6 +164,31 @@ Assignment assign(const PartPlan& p) {
   return a;
 }
 
+double face_z_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return 0;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
+  return part::length_mm(d);
+}
+
+std::optional<std::size_t> setup_of(const PartPlan& p, const Assignment& work,
+                                    const std::string& surface) {
+  const auto& d = p.drawing;
+  for (std::size_t s = 0; s < work.setups.size(); ++s) {
+    const SetupWork& w = work.setups[s];
+    const auto any = [&](const std::vector<std::size_t>& indices, const auto& id) {
+      return std::any_of(indices.begin(), indices.end(),
+                         [&](std::size_t i) { return id(i) == surface; });
+    };
+    if (any(w.elements, [&](std::size_t i) { return d.outer[i].id; }) ||
+        any(w.bores, [&](std::size_t i) { return d.inner[i].id; }) ||
+        any(w.shoulders, [&](std::size_t k) { return shoulder_id(d, k); }) ||
+        (w.end_face && surface == free_face(p, s)))
+      return s;
+  }
+  return {};
+}
+
 double root_z_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
   if (clamping != Clamping::between_centres) return jaw_z(p, s);
   const auto& d = drawing(p);

@@ -17,6 +17,7 @@
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
 
@@ -150,7 +151,13 @@ ordered_json predict(const json& request, const Context& context) {
 }
 
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
-  return {document::to_json(plan, part.assumed), report::setup_drawings(part.plan, plan)};
+  Drawn all{document::to_json(plan, part.assumed), {}};
+  for (auto& svg : report::setup_drawings(part.plan, plan))
+    all.drawings.push_back(
+        {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
+  if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
+    all.drawings.push_back({"budget.svg", std::move(svg)});
+  return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {

@@ -186,7 +186,7 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   document["budget"] = {
       {"drift_um", 1},      {"drift_axial_um", 2},         {"repeatability_um", 3},
       {"part_warm_K", 4},   {"life_between_offsets", 0.5}, {"wear_land_mm", 0.2},
-      {"rechucking_um", 6}, {"measurement_U_um", 7}};
+      {"rechucking_um", 6}, {"measurement_U_um", 7},       {"first_part_gauged", true}};
   EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
   const auto& shop = load(document).plan.shop;
   EXPECT_EQ(shop.drift_um, 1);
@@ -197,7 +197,9 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   EXPECT_EQ(shop.wear_land_mm, 0.2);
   EXPECT_EQ(shop.rechucking_um, 6);
   EXPECT_EQ(shop.measurement_U_um, 7);
+  EXPECT_TRUE(shop.first_part_gauged);
   document["budget"] = {{"drift_um", 1}};
+  EXPECT_FALSE(load(document).plan.shop.first_part_gauged);
   EXPECT_EQ(load(document).plan.shop.wear_land_mm, 0.3);
 }
 

@@ -123,7 +123,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                          testing::Values("gearbox-input-shaft", "piston-rod",
                                          "spindle-nose", "flanged-bush", "motor-shaft",
                                          "pump-shaft", "iron-hub", "titanium-pin",
-                                         "aluminium-tube", "bearing-seat", "roller-tube"),
+                                         "aluminium-tube", "bearing-seat", "roller-tube",
+                                         "coupling-shaft"),
                          [](const auto& at) {
                            std::string name = at.param;
                            std::replace(name.begin(), name.end(), '-', '_');

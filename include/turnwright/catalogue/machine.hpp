@@ -1,9 +1,11 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "turnwright/catalogue/geometric_errors.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
 namespace turnwright::catalogue {
@@ -49,6 +51,7 @@ struct Lathe {
   double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
+  std::optional<GeometricErrors> errors = {};
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {
     return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();

@@ -88,6 +88,7 @@ struct ToleranceResult {
       predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
   std::vector<double> allowed_mm;  ///< same layout
   double margin_mm = 0;
+  double width_mm = 0;  ///< of the tolerance, which the shares are of
   Verdict verdict = Verdict::met;
   bool seed_verdict = true;
   std::vector<Share> shares;

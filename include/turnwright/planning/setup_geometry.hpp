@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,11 @@ Assignment assign(const PartPlan& plan);
 
 /// "d1|d2": the face between outer elements k-1 and k.
 std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
+/// The setup that makes an element or face; none of one that stays as the stock has it.
+std::optional<std::size_t> setup_of(const PartPlan& plan, const Assignment& work,
+                                    const std::string& surface);
+/// z [mm] of "left", "right" or a shoulder.
+double face_z_mm(const part::Drawing& drawing, const std::string& face);
 /// "left" or "right": the end that a setup leaves free.
 const char* free_face(const PartPlan& plan, std::size_t setup);
 
