@@ -52,9 +52,8 @@ std::string readable(double value);
 /// One sentence: what stands against this feature, and by how much.
 std::string obstacle(const PartPlan& plan, const SolvedFeature& feature);
 
-/// The irreducible conflicting limits of an infeasible feature (deletion filter on the
-/// least violated recipe) and how far each would have to open on its own.
-void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature& feature,
-             ProcessPlan& result);
+/// A tolerance of which all but the cut leaves nothing.
+Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& feature,
+                          const Demand& demand);
 
 }  // namespace turnwright::planning

@@ -65,8 +65,6 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
   s.clamping = c.chosen.clamping;
   s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
   s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
-  for (const auto& f : c.chosen.features)
-    if (!f.answer.feasible) explain(p, c.chosen, f, result);
   s.operations = operations_in_order(p, c.chosen);
   return s;
 }
@@ -109,6 +107,7 @@ ProcessPlan planned(const PartPlan& p) {
   if (!a.feasible) {
     result.status = PlanStatus::infeasible;
     result.certificate = no_certificate(a);
+    explain(p, a, result);
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);
