@@ -59,8 +59,9 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp prices.cpp limits.cpp feasibility.cpp
-          conflict_sets.cpp openings.cpp conflicts.cpp obstacle.cpp outcome.cpp plan.cpp predict.cpp
+          tolerance_results.cpp prices.cpp limits.cpp feasibility.cpp conflict_sets.cpp
+          openings.cpp conflicts.cpp obstacle.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp conflicts_test.cpp

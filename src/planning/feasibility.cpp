@@ -8,8 +8,6 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr long kBoxes = 2000;  // of one surface with two tools
-
 // What it costs plays no part.
 constexpr Economy kAnyEconomy{1, 1};
 
@@ -46,10 +44,8 @@ bool Feasibility::made(const FeatureTask& task, const Openings& times,
                 state(times, surface)};
   if (const auto it = known_.find(key); it != known_.end() && !(it->second && found))
     return it->second;
-  auto t = task;
-  t.boxes = kBoxes;
-  const auto answer = any_answer(t);
-  if (answer.feasible && found) found(t, answer);
+  const auto answer = any_answer(task);
+  if (answer.feasible && found) found(task, answer);
   return known_[key] = answer.feasible;
 }
 

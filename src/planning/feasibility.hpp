@@ -24,9 +24,9 @@ class Feasibility {
   const PartPlan& plan() const { return plan_; }
   const std::vector<Limit>& limits() const { return limits_; }
 
-  /// With the limits opened: true if some conditions keep all of them, the tool's path
-  /// corrected where need be; false is proved but for surfaces that use up their boxes,
-  /// which count as not made.
+  /// With the limits opened: true if conditions were found that keep all of them, the
+  /// tool's path corrected where need be; false if local searches of every recipe, from
+  /// two starts each, found none.
   bool with(const Openings& times, const Found& found = {});
 
   /// Surfaces that cannot be made by any clamping that was tried in the last call.
