@@ -47,6 +47,10 @@ void read_tools(Draft& draft) {
     if (twice) item.problem("each tool once", "duplicate");
     tools.push_back(std::move(tool));
   }
+  for (const auto& spare : draft.catalogue.tools)
+    if (std::none_of(tools.begin(), tools.end(),
+                     [&](const auto& tool) { return tool.id == spare.id; }))
+      draft.plan().spare_tools.push_back(spare);
 }
 
 }  // namespace

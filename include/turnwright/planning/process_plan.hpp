@@ -139,6 +139,24 @@ struct Relaxation {
   std::size_t set = 0;   ///< as of the conflict; 0: of an obstacle
 };
 
+/// One change of the request, beside its limits, that makes an infeasible part feasible:
+/// it was planned with it.
+struct Remedy {
+  enum class Change {
+    clamping,  ///< `clamping` allowed in `setup`, a rest at `steady_mm`
+    grip,      ///< `setup` grips `grip_mm`
+    tool,      ///< the catalogue's tool `name` allowed
+    operation  ///< the condition `key` of operation `name` left to the planner
+  };
+  Change change = Change::clamping;
+  std::size_t setup = 0;
+  Clamping clamping = Clamping::chuck;
+  double steady_mm = 0, grip_mm = 0;
+  std::string name = {}, key = {};
+  std::string sentence = {};
+  double cost_per_part = 0, time_per_part_min = 0;  ///< of the plan with it
+};
+
 /// A certified plan on the convex hull of cost against time: no plan has less of
 /// cost + minute time.
 struct ParetoPoint {
@@ -168,6 +186,7 @@ struct ProcessPlan {
   std::vector<ParetoPoint> pareto;       ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
+  std::vector<Remedy> remedies;  ///< cheapest first
 };
 
 /// Certified cheapest process plan of a part.
