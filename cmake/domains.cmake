@@ -60,7 +60,7 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
           tolerance_results.cpp prices.cpp limits.cpp feasibility.cpp conflict_sets.cpp
-          openings.cpp conflicts.cpp obstacle.cpp outcome.cpp
+          openings.cpp conflicts.cpp obstacle.cpp remedies.cpp outcome.cpp
           planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt

@@ -117,8 +117,11 @@ class Explanation {
         times[sets_[k][chosen[k]]] = *t;
       }
       if (part_.with(times)) return;
-      for (std::size_t k = 0; k < sets_.size(); ++k)
-        *needs_[k][chosen[k]].times *= kOpening;
+      for (std::size_t k = 0; k < sets_.size(); ++k) {
+        auto& t = *needs_[k][chosen[k]].times;
+        const auto& l = part_.limits()[sets_[k][chosen[k]]];
+        if (t < kWithout) t = as_told(name_of(p_, l), t * kOpening);
+      }
     }
     for (std::size_t k = 0; k < sets_.size(); ++k) needs_[k][chosen[k]].times.reset();
   }

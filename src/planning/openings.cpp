@@ -83,14 +83,12 @@ double rounded_up(double x) {
   return std::ceil(x / digit * (1 - 1e-12)) * digit;
 }
 
-// As much as its value has to be rounded to be told.
-double told(const LimitName& limit, double times) {
-  const double value = limit.now * times;
-  if (limit.at_most) return rounded_up(value) / limit.now;
+}  // namespace
+
+double as_told(const LimitName& limit, double times) {
+  if (limit.at_most) return rounded_up(limit.now * times) / limit.now;
   return rounded_up(times);
 }
-
-}  // namespace
 
 double opened_value(const LimitName& limit, double times) {
   return limit.at_most ? limit.now * times : limit.now / times;
@@ -121,7 +119,7 @@ std::optional<double> least_opening(Feasibility& part, std::size_t limit,
   }
   const auto name = name_of(part.plan(), l);
   for (double more = 1; more < kOpening; more += 1e-3) {
-    times[limit] = told(name, enough * more);
+    times[limit] = as_told(name, enough * more);
     if (part.with(times)) return times[limit];
   }
   return {};

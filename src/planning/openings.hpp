@@ -14,6 +14,9 @@ inline constexpr double kOpening = 1.006;
 /// Nothing if it does not help.
 std::optional<double> least_opening(Feasibility& part, std::size_t limit, Openings times);
 
+/// An opening as it is told: the value of the limit rounded up to four digits.
+double as_told(const LimitName& limit, double times);
+
 /// A limit's value once opened.
 double opened_value(const LimitName& limit, double times);
 

@@ -29,9 +29,16 @@ Totals totals(const PartPlan& plan, const SolvedSetup& setup);
 std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
                                                const SolvedSetup& setup);
 
-/// What stands against a plan before any condition is chosen: surfaces that no setup
-/// makes, tolerances that the machine's share uses up.
-void add_obstacles(const PartPlan& plan, const Assignment& work, ProcessPlan& result);
+/// What no setup makes.
+void add_unreachable(const Assignment& work, ProcessPlan& result);
+
+/// Those of some tolerances that the machine's share alone uses up.
+void add_used_up(const PartPlan& plan, const std::vector<std::size_t>& tolerances,
+                 ProcessPlan& result);
+
+/// Of what no setup cuts: no condition, and no limit but themselves, can help them.
+std::vector<std::size_t> tolerances_left_to_the_stock(const PartPlan& plan,
+                                                      const Assignment& work);
 
 /// Predicted against allowed for every tolerance of the drawing, at the answers.
 std::vector<ToleranceResult> tolerance_results(const PartPlan& plan,

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "attempt.hpp"
+#include "remedies.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -96,7 +97,8 @@ bool add_missed(ProcessPlan& result) {
 ProcessPlan planned(const PartPlan& p, Why why) {
   ProcessPlan result;
   const auto work = assign(p);
-  add_obstacles(p, work, result);
+  add_unreachable(work, result);
+  add_used_up(p, tolerances_left_to_the_stock(p, work), result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "proved: no condition or tool changes the conflicts told";
@@ -111,7 +113,10 @@ ProcessPlan planned(const PartPlan& p, Why why) {
   if (!a.feasible) {
     result.status = PlanStatus::infeasible;
     result.certificate = no_certificate(a);
-    if (why == Why::told) explain(p, a, result);
+    if (why == Why::told) {
+      explain(p, a, result);
+      result.remedies = remedies(p, work, a);
+    }
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);

@@ -15,6 +15,6 @@ ProcessPlan planned(const PartPlan& plan, Why why = Why::told);
 /// Sizes that fail at their other limit too are asked for what that takes, (2) of
 /// allowance.hpp, with the share b they have; past some rounds as if their errors had
 /// both signs, which suffices whatever they are.
-ProcessPlan conforming(PartPlan plan);
+ProcessPlan conforming(PartPlan plan, Why why = Why::told);
 
 }  // namespace turnwright::planning

@@ -43,8 +43,9 @@ void add_clampings(const PartPlan& p, std::size_t s, const SetupWork& work,
                    std::vector<Variant>& all) {
   const auto& allowed = p.setups[s].clampings;
   const auto add = [&](Clamping c, double steady_mm) {
-    Variant v{p, {.change = Change::clamping, .setup = s, .clamping = c,
-                  .steady_mm = steady_mm}};
+    Variant v{
+        p,
+        {.change = Change::clamping, .setup = s, .clamping = c, .steady_mm = steady_mm}};
     v.plan.setups[s].clampings.push_back(c);
     if (c == Clamping::chuck_steady) v.plan.setups[s].steady_z_mm = steady_mm;
     v.remedy.sentence = fmt::format("allowing {} in setup {}", name(c), s);
@@ -52,9 +53,9 @@ void add_clampings(const PartPlan& p, std::size_t s, const SetupWork& work,
       v.remedy.sentence += fmt::format(", the rest at z = {} mm", readable(steady_mm));
     all.push_back(std::move(v));
   };
-  for (const Clamping c : {Clamping::chuck, Clamping::chuck_tailstock,
-                           Clamping::between_centres, Clamping::chuck_steady,
-                           Clamping::tailstock_follow}) {
+  for (const Clamping c :
+       {Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres,
+        Clamping::chuck_steady, Clamping::tailstock_follow}) {
     if (!p.machine.has(name(c)) ||
         std::find(allowed.begin(), allowed.end(), c) != allowed.end())
       continue;
@@ -80,9 +81,8 @@ void add_grip(const PartPlan& p, std::size_t s, const SetupWork& work,
   if (work.elements.empty() || !(grip >= p.setups[s].grip_mm + kWorth_mm)) return;
   Variant v{p, {.change = Change::grip, .setup = s, .grip_mm = grip}};
   v.plan.setups[s].grip_mm = grip;
-  v.remedy.sentence =
-      fmt::format("gripping {} instead of {} mm in setup {}", readable(grip),
-                  readable(p.setups[s].grip_mm), s);
+  v.remedy.sentence = fmt::format("gripping {} instead of {} mm in setup {}",
+                                  readable(grip), readable(p.setups[s].grip_mm), s);
   all.push_back(std::move(v));
 }
 
@@ -108,11 +108,12 @@ void add_operations(const PartPlan& p, std::vector<Variant>& all) {
                       : l.kind == Limit::Kind::f    ? "f_mm_rev"
                                                     : "vc_m_min";
     const auto& id = (*p.operations)[l.index].id;
-    all.push_back({opened(p, {l}, {kWithout}),
-                   {.change = Change::operation,
-                    .name = id,
-                    .key = key,
-                    .sentence = fmt::format("leaving {} of {} to the planner", key, id)}});
+    all.push_back(
+        {opened(p, {l}, {kWithout}),
+         {.change = Change::operation,
+          .name = id,
+          .key = key,
+          .sentence = fmt::format("leaving {} of {} to the planner", key, id)}});
   }
 }
 
@@ -133,12 +134,12 @@ std::vector<Remedy> remedies(const PartPlan& p, const Assignment& work,
   for (auto& [plan, remedy] : variants) {
     Feasibility part(plan);
     if (!part.with(Openings(part.limits().size(), 1))) continue;
-    const auto planned_with = planned(plan, Why::untold);
+    const auto planned_with = conforming(plan, Why::untold);
     if (planned_with.status != PlanStatus::ok) continue;
     remedy.cost_per_part = planned_with.cost_per_part;
     remedy.time_per_part_min = planned_with.time_per_part_min;
-    remedy.sentence += fmt::format(" makes it possible, at {} per part",
-                                   readable(remedy.cost_per_part));
+    remedy.sentence +=
+        fmt::format(" makes it possible, at {} per part", readable(remedy.cost_per_part));
     all.push_back(std::move(remedy));
   }
   std::stable_sort(all.begin(), all.end(), [](const Remedy& a, const Remedy& b) {
