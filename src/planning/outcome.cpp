@@ -54,6 +54,7 @@ void add_unreachable(const Assignment& work, ProcessPlan& result) {
 
 void add_used_up(const PartPlan& p, const std::vector<std::size_t>& tolerances,
                  ProcessPlan& result) {
+  constexpr double kBeyond = 1.001;
   for (const std::size_t i : tolerances) {
     const auto& t = p.drawing.tolerances[i];
     const double width = width_mm(t), share_mm = least_machine_mm(p, i);

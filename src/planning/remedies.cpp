@@ -106,7 +106,7 @@ void add_operations(const PartPlan& p, std::vector<Variant>& all) {
     const char* key = l.kind == Openable::Kind::passes ? "passes"
                       : l.kind == Openable::Kind::ap   ? "ap_mm"
                       : l.kind == Openable::Kind::f    ? "f_mm_rev"
-                                                    : "vc_m_min";
+                                                       : "vc_m_min";
     const auto& id = (*p.operations)[l.index].id;
     all.push_back(
         {opened(p, {l}, {kWithout}),
