@@ -59,10 +59,9 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
 }
 
 void write_drawings(const std::filesystem::path& folder,
-                    const std::vector<std::string>& drawings) {
+                    const std::vector<service::Drawing>& drawings) {
   make_folder(folder);
-  for (std::size_t i = 0; i < drawings.size(); ++i)
-    write_file(folder / ("setup-" + std::to_string(i) + ".svg"), drawings[i]);
+  for (const auto& [file, svg] : drawings) write_file(folder / file, svg);
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {

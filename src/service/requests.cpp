@@ -1,5 +1,6 @@
 #include "turnwright/service/requests.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
@@ -19,6 +20,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
+#include "turnwright/report/window_drawing.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -150,11 +152,20 @@ ordered_json predict(const json& request, const Context& context) {
 }
 
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
-  return {document::to_json(plan, part.assumed), report::setup_drawings(part.plan, plan)};
+  Drawn all{document::to_json(plan, part.assumed), {}};
+  for (auto& svg : report::setup_drawings(part.plan, plan))
+    all.drawings.push_back(
+        {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
+  for (const auto& setup : plan.setups)
+    for (const auto& o : setup.operations)
+      if (o.window)
+        all.drawings.push_back({"window-" + o.id + ".svg", report::window_drawing(o)});
+  return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "plan");
+  auto part = document::load_part_plan(request, context.catalogue, "plan");
+  part.plan.window_curves = true;
   return drawn(part, planning::plan(part.plan));
 }
 

@@ -352,32 +352,6 @@ TEST(Plan, AFinishingCutAloneYieldsAsItsDirectionSays) {
   }
 }
 
-// A plan's own conditions, given back whole.
-nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
-  d["operations"] = nlohmann::json::array();
-  for (std::size_t s = 0; s < r.setups.size(); ++s) {
-    d["setups"][s]["clampings"] = {name(r.setups[s].clamping)};
-    for (const auto& o : r.setups[s].operations)
-      d["operations"].push_back({{"id", o.id},
-                                 {"setup", s},
-                                 {"kind", name(o.kind)},
-                                 {"on", o.on},
-                                 {"tool", o.tool},
-                                 {"direction", name(o.direction)},
-                                 {"conditions",
-                                  {{"passes", o.passes.size()},
-                                   {"ap_mm", o.passes[0].ap_mm},
-                                   {"f_mm_rev", o.passes[0].f_mm_rev},
-                                   {"vc_m_min", o.passes[0].vc_m_min}}}});
-  }
-  return d;
-}
-
-PartPlan part_to_predict(const nlohmann::json& document) {
-  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
-      .plan;
-}
-
 nlohmann::json bush() {
   auto d = pin();
   d["stock"] = {{"kind", "tube"}, {"outer_mm", 64}, {"inner_mm", 36}, {"length_mm", 74}};

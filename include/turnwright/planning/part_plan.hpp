@@ -81,6 +81,9 @@ struct PartPlan {
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um = 0;  ///< subtracted from every tolerance
+  double window_percent = 5;    ///< how far above its optimum an operation's window goes
+  bool window_curves = false;   ///< with limits and lines of equal cost, to be drawn
+  double damping_ratio = 0.03;  ///< of what the part stands in, for chatter
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
