@@ -60,7 +60,8 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp chebyshev.cpp bar_tip.cpp feature.cpp chatter.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp window.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
+          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp chatter_test.cpp chip_breaker_test.cpp recipe_model_test.cpp window_test.cpp plan_test.cpp
