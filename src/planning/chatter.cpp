@@ -22,7 +22,7 @@ double largest(const std::vector<double>& c) {
 // An upper bound of K over the operation's depths and feeds.
 double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
   using L = LogDual<2>;
-  const auto [low, high] = std::minmax(o.depth_mm(a.lower), o.depth_mm(a.upper));
+  const auto [low, high] = std::minmax({o.depth_mm(a.lower), o.depth_mm(a.upper)});
   const Interval depth(std::log(low), std::log(high));
   const Interval feed(std::log(o.f.lower), std::log(o.f.upper));
   const auto part = [](const Interval& x, int k) {

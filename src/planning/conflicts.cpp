@@ -291,6 +291,9 @@ std::optional<Relaxation> opening(const PartPlan& plan, const SolvedFeature& f,
                 at.name, readable(at.limit), readable(needed), at.unit, needed / at.limit)
           : fmt::format("{} would have to go from {} to {} {}", at.name,
                         readable(at.limit), readable(needed), at.unit);
+  if (w.row.row.check == Check::chatter)
+    r.sentence += fmt::format(", the part be held or damped {:.2f} times as stiffly",
+                              needed / at.limit);
   return r;
 }
 

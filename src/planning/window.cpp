@@ -153,18 +153,25 @@ struct Slice {
 struct Vertex {
   double f = 0;
   End end;
+  double other = 0;  // the speed at the other end
   double inset = 0;  // ln
+  // Moved inwards, to the middle of its speeds at most.
+  double speed() const {
+    const double half = std::log(other / end.v) / 2;
+    return end.v * std::exp(std::clamp(std::copysign(inset, half), -std::abs(half),
+                                       std::abs(half)));
+  }
+};
+
+struct Feeds {
+  double low = 0, high = 0;
 };
 
 // One of the two curves over the feeds.
 class Side {
  public:
-  Side(const Slice& slice, double most, double low, double high, bool upper)
-      : slice_(slice),
-        most_(most),
-        upper_(upper),
-        low_(std::log(low)),
-        high_(std::log(high)) {}
+  Side(const Slice& slice, double most, const Feeds& feeds, bool upper)
+      : slice_(slice), most_(most), feeds_(feeds), upper_(upper) {}
 
   std::vector<Vertex> vertices() {
     Vertex before = at(0);
@@ -181,13 +188,14 @@ class Side {
  private:
   // Feeds close in on both ends, where the curve may be as steep as a root.
   Vertex at(double t) const {
-    const double middle = (low_ + high_) / 2, half = (high_ - low_) / 2;
-    const double f = std::exp(t == 0   ? low_
-                              : t == 1 ? high_
-                                       : middle - half * std::cos(units::kPi * t));
+    const double f = t == 0   ? feeds_.low
+                     : t == 1 ? feeds_.high
+                              : feeds_.low * std::pow(feeds_.high / feeds_.low,
+                                                      (1 - std::cos(units::kPi * t)) / 2);
     const auto s = slice_.speeds(f, most_);
-    if (!s) return {f, {slice_.at.v[slice_.i], kCost}};
-    return {f, upper_ ? s->upper : s->lower};
+    if (!s) return {f, {slice_.at.v[slice_.i], kCost}, slice_.at.v[slice_.i]};
+    if (upper_) return {f, s->upper, s->lower.v};
+    return {f, s->lower, s->upper.v};
   }
 
   // Between two places of the curve, the first already there.
@@ -227,13 +235,9 @@ class Side {
 
   const Slice& slice_;
   double most_;
+  Feeds feeds_;
   bool upper_;
-  double low_, high_;
   std::vector<Vertex> all_;
-};
-
-struct Feeds {
-  double low = 0, high = 0;
 };
 
 // What ends the feeds at f, on the way to the end of the range.
@@ -251,19 +255,19 @@ OperatingWindow polygon(const Slice& s, const Feeds& feeds, double percent, doub
   const auto name = [&](std::size_t by) {
     return by == kCost ? cost_name(percent) : s.limit_name(by);
   };
-  auto up = Side(s, most, feeds.low, feeds.high, true).vertices();
-  auto down = Side(s, most, feeds.low, feeds.high, false).vertices();
+  auto up = Side(s, most, feeds, true).vertices();
+  auto down = Side(s, most, feeds, false).vertices();
   const auto add = [&](double v, double f, const std::string& limit) {
     w.vc_m_min.push_back(v);
     w.f_mm_rev.push_back(f);
     w.limits.push_back(limit);
   };
   for (std::size_t k = 0; k < up.size(); ++k)
-    add(up[k].end.v * std::exp(-up[k].inset), up[k].f,
+    add(up[k].speed(), up[k].f,
         k + 1 < up.size() ? name(up[k + 1].end.by)
                           : end_name(s, feeds.high, s.o().f.upper));
   for (std::size_t k = down.size(); k-- > 0;)
-    add(down[k].end.v * std::exp(down[k].inset), down[k].f,
+    add(down[k].speed(), down[k].f,
         k > 0 ? name(down[k - 1].end.by) : end_name(s, feeds.low, s.o().f.lower));
   return w;
 }
@@ -356,7 +360,7 @@ std::optional<OperatingWindow> operating_window(const PartPlan& plan,
     most =
         s.cost(answer.choice.v[i], answer.choice.f[i]) * (1 + plan.window_percent / 100);
     if (!s.holds(answer.choice.f[i], most)) return {};
-    feeds = {s.furthest(s.o().f.lower), s.furthest(s.o().f.upper)};
+    feeds = {s.furthest(s.o().f.lower, most), s.furthest(s.o().f.upper, most)};
     bool more = false;
     for (const double f : {feeds.low, feeds.high})
       more = exchange.add_violated(recipe, task.economy, s.with(f)) || more;

@@ -274,6 +274,12 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetup) {
       EXPECT_NE(svg.find("Setup " + setup + ": chuck"), std::string::npos);
     }
     EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
+    const auto window = folder_ / "new" / name / "window-s0-face-right.svg";
+    EXPECT_EQ(fs::exists(window), name == "plan");
+    if (name == "plan") {
+      EXPECT_NE(contents(window).find("window of speed and feed"), std::string::npos);
+      EXPECT_NE(contents(window).find("cost +5 %"), std::string::npos);
+    }
   }
 }
 
