@@ -35,19 +35,19 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
-                          characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
+                          series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
                           chatter_frequency.cpp limits.cpp multipliers.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+  TESTS optimum_test.cpp certificate_test.cpp conflict_test.cpp single_pass_test.cpp)
 if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
 endif()
@@ -108,9 +108,15 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp set
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
-          DEPENDS base catalogue planning document report PRIVATE_LIBS OpenSSL::Crypto
-          TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
-add_executable(turnwright src/app/main.cpp src/app/output.cpp)
+            batch/line.cpp batch/job_store.cpp batch/batches.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/connection.cpp http/server.cpp
+          DEPENDS base catalogue planning document report
+          PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
+            SQLite::SQLite3 prometheus-cpp::core Boost::headers Threads::Threads
+          TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
+                job_store_test.cpp server_test.cpp)
+add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
   add_executable(app_test tests/app/command_line_test.cpp tests/app/readme_test.cpp)

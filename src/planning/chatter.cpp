@@ -114,13 +114,21 @@ std::vector<double> Feature::chatter_limits_N_mm(const Chain& chain, double a_mm
   return limits;
 }
 
+double Feature::chatter_share(const Chain& chain, const Choice<double>& c) const {
+  const auto F = forces(chain, c);
+  const auto limits = chatter_limits_N_mm(chain, c.a);
+  double most = 0;
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    most =
+        std::max(most, chatter_N_mm(chain.operations[i], c.f[i], c.a, F[i]) / limits[i]);
+  return most;
+}
+
 // Material never makes a body yield more, so the finished one bounds every pass, and of
 // the passes of an operation the last one is the worst.
-void Feature::add_chatter(Chain& chain, std::optional<double> a_mm) const {
+void Feature::limit_chatter(Chain& chain, std::optional<double> a_mm) const {
   const catalogue::Range a{a_mm.value_or(chain.a.lower), a_mm.value_or(chain.a.upper)};
-  const double zeta = plan_->damping_ratio;
   for (auto& o : chain.operations) {
-    o.chatter_inwards = (1 + zeta) / (1 - zeta);
     auto places = chatter_places();
     if (most_N_mm(o, a) * largest(chatter_yields(o, 0, 0, places)) < 1) continue;
     if (!(a.lower < a.upper) || is_face()) {

@@ -198,6 +198,19 @@ void Feature::take(const OuterOrInner& e, std::size_t index, double left_z_mm) {
   Rz_um_ = e.Rz_um.value_or(0);
 }
 
+Holding Feature::holding() const {
+  Holding h;
+  h.n_max_rpm = clamping_rpm(*plan_, clamping_);
+  if (clamping_ == Clamping::between_centres) return h;
+  // End faces come first, before the jaws are eased.
+  const bool eased = kind_ != Kind::end_face;
+  h.roughing_N = jaw_force_N(*plan_, setup_, clamping_, Stage::roughing);
+  h.finishing_N =
+      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
+  h.d_grip_mm = grip_diameter_mm(*plan_, setup_, clamping_);
+  return h;
+}
+
 OperationModel Feature::operation(const Recipe& recipe, bool finishing,
                                   const Economy& economy) const {
   const auto& tool = finishing ? *recipe.finish : *recipe.rough;
@@ -208,15 +221,12 @@ OperationModel Feature::operation(const Recipe& recipe, bool finishing,
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
   o.range = cutting::speed_ranges(m)[range];
-  // End faces come first, before the jaws are eased.
-  const bool eased = finishing && kind_ != Kind::end_face;
-  const double force_N =
-      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
+  const Holding held = holding();
+  const double force_N = finishing ? held.finishing_N : held.roughing_N;
   if (clamping_ != Clamping::between_centres)
-    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
-              grip_diameter_mm(*plan_, setup_, clamping_)};
+    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction, held.d_grip_mm};
   const double n_grip = grip_loss_rpm(*plan_, clamping_, force_N);
-  o.n_cap_rpm = std::min({o.range.n_max_rpm, clamping_rpm(*plan_, clamping_), n_grip});
+  o.n_cap_rpm = std::min({o.range.n_max_rpm, held.n_max_rpm, n_grip});
   o.n_cap_of_grip = o.n_cap_rpm == n_grip;
   o.n_min_rpm = o.range.n_min_rpm;
   o.feed_force_max_N = m.feed_force_max_N;
@@ -244,6 +254,7 @@ OperationModel Feature::operation(const Recipe& recipe, bool finishing,
   o.face = is_face();
   o.inner = kind_ == Kind::bore;
   o.least_D_mm = plan_->drawing.stock.inner_mm;
+  o.chatter_inwards = (1 + plan_->damping_ratio) / (1 - plan_->damping_ratio);
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -310,7 +321,6 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
   c.stations.resize(stations.size());
   for (std::size_t i = 0; i < stations.size(); ++i) c.stations[i].at_mm = stations[i];
   add_laws(c, a_mm);
-  add_chatter(c, a_mm);
   return c;
 }
 

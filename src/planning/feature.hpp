@@ -33,6 +33,14 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
+/// What a clamping is to the cut where nothing yields: two clampings that hold alike
+/// differ in no chain without stations.
+struct Holding {
+  double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
+  double d_grip_mm = 0, n_max_rpm = 0;
+  auto operator<=>(const Holding&) const = default;
+};
+
 class Feature {
  public:
   enum class Kind { element, bore, end_face, shoulder };
@@ -62,6 +70,8 @@ class Feature {
   /// the chain's errors to those of the surface.
   double sign() const { return kind_ == Kind::bore ? -1 : 1; }
 
+  Holding holding() const;
+
   /// The chain of a recipe without functionals; stations at the given places.  Over an
   /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points
   /// (the body changes by a few per cent over the range: the last coefficients are
@@ -81,6 +91,13 @@ class Feature {
   /// whatever the frequencies, 2 zeta (1 + zeta) of the sum of modes' is at most the
   /// limit of the modes together, at any spindle speed (docs/planning.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
+
+  /// The largest of the operations' chatter stiffness over its limit.
+  double chatter_share(const Chain& chain, const Choice<double>& choice) const;
+
+  /// Asks a chain for (1), of the operations of which some condition comes near it.  Over
+  /// an open depth at places that are the worst, or near it, somewhere.
+  void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
 
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
   /// through exact values: 8 pieces of degree 8 along an element (interpolation error
@@ -124,7 +141,6 @@ class Feature {
   };
   std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
   // In chatter.cpp.
-  void add_chatter(Chain& chain, std::optional<double> a_mm) const;
   std::vector<double> chatter_yields(const OperationModel& o, double left_mm,
                                      double uncut_mm,
                                      const std::vector<double>& places) const;

@@ -71,8 +71,16 @@ TEST(ChipBreaker, TheBestPieceIsThePlanOfTheWhole) {
                         {"on", {"d2"}},
                         {"tool", "heavy-rougher"}},
                        {{"id", "e"}, {"setup", 0}, {"kind", "finish"}, {"on", {"d2"}}},
-                       {{"id", "f"}, {"setup", 0}, {"kind", "face"}, {"on", {"right"}}, {"tool", "PCLNL-CNMG120408-PM"}},
-                       {{"id", "g"}, {"setup", 1}, {"kind", "face"}, {"on", {"left"}}, {"tool", "PCLNL-CNMG120408-PM"}},
+                       {{"id", "f"},
+                        {"setup", 0},
+                        {"kind", "face"},
+                        {"on", {"right"}},
+                        {"tool", "PCLNL-CNMG120408-PM"}},
+                       {{"id", "g"},
+                        {"setup", 1},
+                        {"kind", "face"},
+                        {"on", {"left"}},
+                        {"tool", "PCLNL-CNMG120408-PM"}},
                        {{"id", "h"}, {"setup", 1}, {"kind", "finish"}, {"on", {"d1"}}}};
     d["tools"].push_back("PCLNL-CNMG120408-PM");
     const auto r = plan(part(d));
