@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cstdint>
 #include <string>

@@ -54,13 +54,10 @@ ConstraintValue priced(ConstraintValue c, double multiplier) {
 // Chatter at conditions, against the largest stiffness that part and tool bear.
 ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
   const auto n = check_name(Check::chatter);
-  const auto& o = x.chain.operations[i];
-  const double K =
-      cutting::chatter_stiffness_N_mm(o.cut, x.F[i], o.depth_mm(x.c.a), x.c.f[i]);
   ConstraintValue c;
   c.name = n.name;
   c.unit = n.unit;
-  c.value = std::max(K, -o.chatter_inwards * K);
+  c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a, x.F[i]);
   c.limit = limit_N_mm;
   c.margin = -std::log(std::max(c.value / c.limit, 1e-300));
   c.binding = c.margin < kBinding;

@@ -20,6 +20,7 @@ constexpr std::size_t kNearest = 40;  // recipes asked for the nearest condition
 constexpr double kAnyCost = 1e3;      // a gap in ln(objective) that the first find leaves
 constexpr long kScouting = 150;       // boxes for a first bound of a task
 constexpr double kScoutingGap = 5e-3;  // and what they may leave open
+constexpr double kChatters = 5e-10;    // of the limit, as of a tolerance's
 constexpr const char* kNone = "proved: no conditions keep every limit";
 
 struct Candidate {
@@ -74,14 +75,19 @@ FeatureAnswer not_below(const FeatureAnswer& known) {
   return a;
 }
 
+bool chatters(const FeatureTask& task, const RecipeModel& m, const Choice<double>& c) {
+  return !(task.feature.chatter_share(m.chain(), c) <= 1 + kChatters);
+}
+
 bool keeps_demands(const FeatureTask& task, const FeatureAnswer& a) {
-  return !Exchange(task.feature, task.demands)
+  return !chatters(task, *a.model, a.choice) &&
+         !Exchange(task.feature, task.demands)
               .add_violated(a.model->recipe(), task.economy, a.choice);
 }
 
-// One task's search over recipes.  It starts without tolerances: what they ask is asked
-// only where an optimum breaks it, so a surface whose tolerances do not bind never pays
-// for its deflection in boxes.  Their places grow from round to round.
+// One task's search over recipes.  It starts without tolerances and chatter: what they
+// ask is asked only where an optimum breaks it, so a surface whose tolerances do not bind
+// never pays for its deflection in boxes.  Their places grow from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
@@ -133,6 +139,7 @@ class FeatureSearch {
     if (!c.model) {
       auto chain = task_.feature.chain(c.recipe, task_.economy, exchange_.stations());
       chain->functionals = exchange_.functionals();
+      if (chatter_) task_.feature.limit_chatter(*chain);
       c.model = std::make_shared<RecipeModel>(c.recipe, std::move(*chain));
     }
     return c.model;
@@ -241,7 +248,10 @@ class FeatureSearch {
 
   bool violated() {
     const auto& m = *model(best_.candidate);
-    return exchange_.add_violated(m.recipe(), task_.economy, m.choice(best_.y));
+    const auto choice = m.choice(best_.y);
+    const bool chatter = !chatter_ && chatters(task_, m, choice);
+    chatter_ = chatter_ || chatter;
+    return exchange_.add_violated(m.recipe(), task_.economy, choice) || chatter;
   }
 
   optimise::Solution polished() {
@@ -283,7 +293,7 @@ class FeatureSearch {
       a.certificate.kind = CertificateKind::global;
       a.certificate.reason.clear();
     }
-    if (exchange_.functionals().empty() && a.certificate.gap <= kCertified)
+    if (!chatter_ && exchange_.functionals().empty() && a.certificate.gap <= kCertified)
       task_.unasked->best = std::make_shared<FeatureAnswer>(a);
     return a;
   }
@@ -302,6 +312,7 @@ class FeatureSearch {
   const FeatureTask& task_;
   double gap_, most_;
   Exchange exchange_;
+  bool chatter_ = false;  // asked
   std::vector<Candidate> all_;
   Best best_;
   double bound_ = kInfinity;
@@ -363,6 +374,7 @@ FeatureAnswer nearest(const FeatureTask& task) {
       auto chain = task.feature.chain(task.recipes[k], task.economy, exchange.stations());
       if (!chain) continue;
       chain->functionals = exchange.functionals();
+      task.feature.limit_chatter(*chain);
       auto m = std::make_shared<RecipeModel>(task.recipes[k], std::move(*chain));
       const auto s = least_violation(*m);
       if (!(s.f < a.least_violation)) continue;

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kKept = 8e-10;      // beyond a limit: what the optimum's places leave
 constexpr int kLooks = 24;           // feeds looked at to each side of the optimum
 constexpr int kBisections = 44;      // of a feed
-constexpr int kRounds = 8;           // of places that tolerances are asked at
+constexpr int kRounds = 20;          // of places that tolerances are asked at
 constexpr int kStretches = 8;        // of a curve to begin with
 constexpr int kHalvings = 8;         // of one of them
 constexpr double kChord = 1e-4;      // ln: how far a chord may be from its curve
@@ -355,6 +355,7 @@ std::optional<OperatingWindow> operating_window(const PartPlan& plan,
         task.feature.chain(recipe, task.economy, exchange.stations(), answer.choice.a);
     if (!chain) return {};
     chain->functionals = exchange.functionals();
+    task.feature.limit_chatter(*chain, answer.choice.a);
     const Slice s{plan, *chain, answer.choice, i};
     if (!(s.o().vc.lower < s.o().vc.upper && s.o().f.lower < s.o().f.upper)) return {};
     most =
