@@ -24,7 +24,8 @@ struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
+/// A result with its pictures: setup-0.svg, .., budget.svg if tolerances are judged, and
+/// of plans window-ID.svg for each operation.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
