@@ -404,6 +404,7 @@ FeatureAnswer any_answer(const FeatureTask& task) {
       auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
       if (!chain) break;
       chain->functionals = exchange.functionals();
+      task.feature.limit_chatter(*chain);
       a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
       const auto s = least_violation(*a.model);
       if (!(s.f <= kKept)) break;
