@@ -7,12 +7,12 @@ tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cp
   TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp
         relaxation_search_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
-tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
-          TESTS drawing_test.cpp shaft_test.cpp)
+tw_domain(part SOURCES drawing.cpp cut.cpp shaft.cpp DEPENDS base
+          TESTS drawing_test.cpp cut_test.cpp shaft_test.cpp)
 # Floor 3
-tw_domain(cutting SOURCES cut.cpp material_fit.cpp spindle.cpp
+tw_domain(cutting SOURCES cut.cpp fixed.cpp material_fit.cpp spindle.cpp
   DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS cut_test.cpp material_fit_test.cpp spindle_test.cpp)
+  TESTS cut_test.cpp fixed_test.cpp material_fit_test.cpp spindle_test.cpp)
 tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
@@ -57,21 +57,21 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
         budget_test.cpp)
 # Floor 5
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp chain.cpp feature.cpp
-          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
+          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp setup_planner.cpp
           describe.cpp
           tolerance_results.cpp limits.cpp first_order.cpp prices.cpp conflicts.cpp outcome.cpp
           planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting volumetric tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp machine_share_test.cpp recipe_model_test.cpp plan_test.cpp
-                prices_test.cpp
+                prices_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
-tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
-          catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
+tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp fixed_tool.cpp lathe.cpp
+          catalogue.cpp data_folder.cpp references.cpp elements.cpp cuts.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp what_if.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
           machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp

@@ -99,6 +99,22 @@ void read_budget(Draft& draft) {
   budget->finish();
 }
 
+// Bores of a bar are bored from what is drilled; needs tools and operations.
+void assume_drilled_holes(Draft& draft) {
+  auto& plan = draft.plan();
+  for (const auto end : {part::End::left, part::End::right}) {
+    const double drilled = planning::drilled_mm(plan, end);
+    if (!(drilled > 0)) continue;
+    for (std::size_t i = 0; i < plan.drawing.inner.size(); ++i) {
+      auto& e = plan.drawing.inner[i];
+      if (e.from != end) continue;
+      e.drilled_mm = drilled;
+      draft.assume("/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
+                   "the largest drill that leaves 0.5 mm on the radius");
+    }
+  }
+}
+
 // A tube's jaws are eased where the request does not say how far; needs the whole part.
 void assume_grip_forces(Draft& draft) {
   auto& plan = draft.plan();
@@ -140,6 +156,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     root.finish();
   }
   problems.throw_if_any();
+  assume_drilled_holes(draft);
   assume_grip_forces(draft);
   draft.plan().machine_takes = planning::machine_takes(draft.plan());
   draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);

@@ -80,6 +80,14 @@ std::optional<double> change(const PartPlan& plan, const SolvedFeature& f,
   return a.objective * (*after - *before);
 }
 
+// Of the objective of a setup, all but its surfaces.
+double besides(const PartPlan& p, const SolvedSetup& s, const FixedWork& fixed,
+               const Economy& e) {
+  return e.minute *
+             (minutes_besides_cutting(p, s.clamping, s.indexings) + fixed.minutes()) +
+         e.edge * fixed.edges_cost();
+}
+
 }  // namespace
 
 std::optional<double> first_order(const PartPlan& plan,
@@ -93,7 +101,8 @@ std::optional<double> first_order(const PartPlan& plan,
   for (std::size_t s = 0; s < solved.size(); ++s) {
     const auto& own = solved[s];
     SharedMemory shared;
-    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {}, shared);
+    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {},
+                               shared);
     const auto features = planner.features();
     if (features.size() != own.features.size()) return {};
     for (std::size_t j = 0; j < features.size(); ++j) {
@@ -103,10 +112,11 @@ std::optional<double> first_order(const PartPlan& plan,
     }
     finish(done, work.setups[s]);
     if (own.features.empty()) continue;
+    const auto fixed = fixed_work(changed, s, own.clamping, work.setups[s]);
+    if (!fixed.conflicts.empty()) return {};
     const auto e = own.features[0].task.economy;
-    sum += economy(plan, changed, e).minute *
-               minutes_besides_cutting(changed, own.clamping, own.indexings) -
-           e.minute * minutes_besides_cutting(plan, own.clamping, own.indexings);
+    sum += besides(changed, own, fixed, economy(plan, changed, e)) -
+           besides(plan, own, own.fixed, e);
   }
   return sum;
 }

@@ -110,6 +110,7 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if) {
   for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   const auto work = assign(p);
   add_obstacles(p, work, result);
+  add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "proved: no condition or tool changes the conflicts told";
@@ -132,7 +133,7 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if) {
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
-  result.deviations = deviations(chosen);
+  result.deviations = deviations(p, chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
   for (std::size_t k = 0; k < what_if.size(); ++k)

@@ -69,7 +69,8 @@ bool face_named(const part::Drawing& d, const std::string& id) {
 bool wanted_in(const PartPlan& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
-    return o.setup == s && std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+    return o.setup == s && o.kind != OperationKind::fixed &&
+           std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
   });
 }
 
@@ -95,9 +96,7 @@ std::optional<std::size_t> place(const PartPlan& p, const std::string& surface,
 void assign_faces(const PartPlan& p, Assignment& a) {
   const auto& d = drawing(p);
   for (const End end : {End::left, End::right}) {
-    const double allowance =
-        end == End::left ? d.stock.left_allowance_mm : part::right_allowance_mm(d);
-    if (!(allowance > 1e-9)) continue;
+    if (!(face_stock_mm(p, end) > 1e-9)) continue;
     const std::string id = end == End::left ? "left" : "right";
     const auto free = [&](std::size_t s) { return p.setups[s].hold != end; };
     bool open = face_named(d, id);  // nobody asks for it: it may stay
@@ -136,6 +135,13 @@ void finish(Finished& finished, const SetupWork& work) {
 
 std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
+}
+
+double face_stock_mm(const PartPlan& p, part::End end) {
+  const auto& stock = drawing(p).stock;
+  if (stock.parted_mm && p.setups.front().hold == end) return *stock.parted_mm;
+  return end == End::left ? stock.left_allowance_mm
+                          : part::right_allowance_mm(drawing(p));
 }
 
 const char* free_face(const PartPlan& p, std::size_t s) {
@@ -248,8 +254,8 @@ SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const double z0 = part::left_z_mm(d, i);
     const auto& e = d.outer[i];
-    outer_.push_back({z0, z0 + e.length_mm, finished.outer[i] ? e.left_mm : stock,
-                      finished.outer[i] ? e.right_mm : stock});
+    const auto made = finished.outer[i] ? part::core(e) : part::Ends{stock, stock};
+    outer_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
   outer_.push_back({-far, 0, stock, stock});
   outer_.push_back({part::length_mm(d), far, stock, stock});
@@ -257,8 +263,9 @@ SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const double z0 = part::inner_left_z_mm(d, i);
     const auto& e = d.inner[i];
-    inner_.push_back({z0, z0 + e.length_mm, finished.inner[i] ? e.left_mm : hole,
-                      finished.inner[i] ? e.right_mm : hole});
+    const double drilled = part::hole_mm(d, i);  // and from the start: no stiffer
+    const auto made = finished.inner[i] ? part::core(e) : part::Ends{drilled, drilled};
+    inner_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
   inner_.push_back({-far, far, hole, hole});  // where no element is
 }

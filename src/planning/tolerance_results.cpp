@@ -239,13 +239,15 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
   return results;
 }
 
-std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups) {
+std::vector<Deviation> deviations(const PartPlan& p,
+                                  const std::vector<SolvedSetup>& setups) {
   constexpr int kPlaces = 21;
   std::vector<Deviation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features) {
       if (!f.answer.model) continue;
       const auto& feature = f.task.feature;
+      if (part::has_cut(p.drawing, feature.surface())) continue;
       const auto& recipe = f.answer.model->recipe();
       std::vector<double> places;
       for (int k = 0; k < kPlaces; ++k)

@@ -20,18 +20,14 @@ using nlohmann::json;
 json worn() { return parse_file(source_path("machines/lathe-worn.json")); }
 json medium() { return parse_file(source_path("machines/lathe-medium.json")); }
 
-std::string refused(const json& machine) {
-  Problems problems{.document = "lathe"};
-  read_lathe(Reader(machine, problems));
-  return refusal([](const Problems& p) { p.throw_if_any(); }, problems);
-}
-
 catalogue::Lathe read(const json& machine) {
   Problems problems{.document = "lathe"};
   auto lathe = read_lathe(Reader(machine, problems));
   problems.throw_if_any();
   return lathe;
 }
+
+std::string refused(const json& machine) { return refusal(read, machine); }
 
 const catalogue::Axis& axis(const std::vector<catalogue::Axis>& axes, char name) {
   for (const auto& a : axes)

@@ -61,7 +61,7 @@ ProcessPlan every_field() {
   p.tolerances = {size, form};
   p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
   p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
-  p.prices = {{"d1: diameter", 26, "mm", 27, "saves"}};
+  p.prices = {{"d1: diameter", 26, "mm", 27, 270, {"op1"}, "saves"}};
   p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash"}};
   p.relax = {{"t1", 30, 31, "mm", "open"}};
   return p;
@@ -100,7 +100,8 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
       R"("compensation":[{"on":"d1","setup":1,"table_mm":[[22.0,23.0],[24.0,25.0]]}],)"
       R"("prices":[{"limit":"d1: diameter","now":26.0,"unit":"mm",)"
-      R"("saves_per_part_for_10_percent":27.0,"sentence":"saves"}],)"
+      R"("saves_per_part_for_10_percent":27.0,"saves_per_batch_for_10_percent":270.0,)"
+      R"("binds_in":["op1"],"sentence":"saves"}],)"
       R"("conflicts":[{"limit":"t1","where":"op1","value":28.0,"allowed":29.0,)"
       R"("unit":"mm","sentence":"clash"}],)"
       R"("relax":[{"limit":"t1","now":30.0,"needed":31.0,"unit":"mm",)"

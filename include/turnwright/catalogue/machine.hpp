@@ -38,8 +38,8 @@ struct Lathe {
   double rapid_mm_min = 0;
   double index_min = 0;      ///< time to bring in another tool [min]
   double load_min = 0;       ///< part in and out, per setup [min]
-  double tailstock_min = 0;  ///< extra with tailstock: centring and quill [min]
-  double centres_min = 0;    ///< extra between centres: centring and driver [min]
+  double tailstock_min = 0;  ///< extra with tailstock: its quill [min]
+  double centres_min = 0;    ///< extra between centres: held end centred, driver [min]
   double steady_min = 0;     ///< extra with a steady rest: setting its rollers [min]
   double follow_min = 0;     ///< extra with a follow rest: setting its jaws [min]
   double setup_min = 0;      ///< preparing the machine, per setup and batch [min]

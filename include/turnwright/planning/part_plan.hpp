@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
@@ -61,7 +62,7 @@ struct MachinePlace {
   auto operator<=>(const MachinePlace&) const = default;
 };
 
-enum class OperationKind { face, rough, finish, bore_rough, bore_finish };
+enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed };
 const char* name(OperationKind kind);
 
 enum class Direction { to_chuck, from_chuck };
@@ -90,6 +91,7 @@ struct PartPlan {
   catalogue::Material material;
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
+  std::vector<catalogue::FixedTool> fixed_tools = {};
   std::vector<SetupRequest> setups;
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
