@@ -246,10 +246,11 @@ Fit fit(const Problem& problem, std::span<const double> y, const Values& at,
 }  // namespace
 
 std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
-                                   const Values& at) {
-  constexpr double kNear = 1e-6, kFarthest = 1e-3, kStationary = 1e-6;
+                                   const Values& at, double near) {
+  constexpr int kWider = 3;
+  constexpr double kStationary = 1e-6;
   Fit best;
-  for (double near = kNear; near <= kFarthest * 1.01; near *= 10) {
+  for (int k = 0; k <= kWider; ++k, near *= 10) {
     auto f = fit(problem, y, at, near);
     if (f.residual < best.residual) best = std::move(f);
     if (best.residual <= kStationary) break;
