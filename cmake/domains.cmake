@@ -59,12 +59,13 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp conflicts.cpp outcome.cpp
+          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp openable.cpp feasibility.cpp
+          conflict_sets.cpp openings.cpp conflicts.cpp obstacle.cpp remedies.cpp outcome.cpp
           planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting volumetric tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp machine_share_test.cpp recipe_model_test.cpp plan_test.cpp
-                prices_test.cpp fixed_test.cpp
+                prices_test.cpp conflicts_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
