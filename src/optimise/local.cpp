@@ -86,8 +86,11 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_lower_bounds(p.lower);
   solver.set_upper_bounds(p.upper);
   solver.set_min_objective(objective, &e);
+  // Without a tolerance NLopt drops every point that rounding leaves outside, and with it
+  // the optimum for the start.
   if (p.constraints > 0)
-    solver.add_inequality_mconstraint(constraints, &e, Vec(p.constraints, 0.0));
+    solver.add_inequality_mconstraint(constraints, &e,
+                                      Vec(p.constraints, options.feasibility));
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
