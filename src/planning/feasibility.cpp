@@ -56,8 +56,8 @@ bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& 
   for (const Clamping c : p.setups[s].clampings) {
     if (!unusable(p, s, c, work, done).empty()) continue;
     any_clamping = true;
-    FaceMemory faces;
-    SetupPlanner planner(p, s, c, work, done, kAnyEconomy, faces);
+    SharedMemory shared;
+    SetupPlanner planner(p, s, c, work, done, kAnyEconomy, shared);
     planner.allow_compensation();
     std::set<std::string> tried, succeeded;
     const bool all = planner.can_be_made([&](const FeatureTask& t) {
