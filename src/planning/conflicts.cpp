@@ -27,7 +27,7 @@ std::string where(const PartPlan& p, const Attempt& a, const std::string& surfac
 }
 
 // Of a limit: its own surface, or the first that is in trouble and has to keep it.
-std::string surface_of(const PartPlan& p, const Limit& l,
+std::string surface_of(const PartPlan& p, const Openable& l,
                        const std::set<std::string>& troubled) {
   if (!l.surface.empty()) return l.surface;
   for (const auto& surface : troubled)
@@ -145,14 +145,14 @@ class Explanation {
     result.conflicts.push_back(std::move(c));
   }
 
-  double value_at(const Limit& l, const LimitName& n, double times) const {
+  double value_at(const Openable& l, const LimitName& n, double times) const {
     if (is_given(l)) return n.now;
     if (times == kWithout) return name_of(opened(p_, {l}, {kWithout}), l).now;
     return opened_value(n, times);
   }
 
-  std::optional<Conflict> used_up_by_all_else(const Limit& l) const {
-    if (l.kind != Limit::Kind::tolerance) return {};
+  std::optional<Conflict> used_up_by_all_else(const Openable& l) const {
+    if (l.kind != Openable::Kind::tolerance) return {};
     for (const auto& s : a_.setups)
       for (const auto& f : s.chosen.features)
         for (const auto& d : f.task.demands)
@@ -173,19 +173,19 @@ class Explanation {
         others.empty() ? "" : " that keep " + others, readable(c.allowed), c.unit);
   }
 
-  Relaxation relaxation(const Limit& l, const LimitName& n, const std::string& surface,
+  Relaxation relaxation(const Openable& l, const LimitName& n, const std::string& surface,
                         double needed, std::size_t k) const {
     Relaxation r{n.name, n.now, needed, n.unit, {}, k + 1};
-    if (l.kind == Limit::Kind::tolerance || !l.surface.empty())
+    if (l.kind == Openable::Kind::tolerance || !l.surface.empty())
       r.limit += " of " + surface;
     if (is_given(l)) {
       r.sentence = r.limit + " would have to be left to the planner";
       return r;
     }
     r.sentence = fmt::format("{} would have to {} from {} to {} {}", r.limit,
-                             l.kind == Limit::Kind::tolerance ? "open" : "go",
+                             l.kind == Openable::Kind::tolerance ? "open" : "go",
                              readable(r.now), readable(needed), n.unit);
-    if (l.kind == Limit::Kind::tolerance && p_.drawing.tolerances[l.index].limits)
+    if (l.kind == Openable::Kind::tolerance && p_.drawing.tolerances[l.index].limits)
       r.sentence += " about the middle of its limits";
     return r;
   }

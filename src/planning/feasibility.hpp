@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "attempt.hpp"
-#include "limits.hpp"
+#include "openable.hpp"
 
 /// Whether a part can be made at all, over every clamping, tool, pass count and speed
 /// range, and which limits decide.
@@ -22,7 +22,7 @@ class Feasibility {
   explicit Feasibility(const PartPlan& plan);
 
   const PartPlan& plan() const { return plan_; }
-  const std::vector<Limit>& limits() const { return limits_; }
+  const std::vector<Openable>& limits() const { return limits_; }
 
   /// With the limits opened: true if conditions were found that keep all of them, the
   /// tool's path corrected where need be; false if local searches of every recipe, from
@@ -47,7 +47,7 @@ class Feasibility {
                          std::vector<double>>;
 
   const PartPlan& plan_;
-  std::vector<Limit> limits_;
+  std::vector<Openable> limits_;
   std::map<Key, bool> known_;
   std::set<std::string> failed_, left_out_;
 };

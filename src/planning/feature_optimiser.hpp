@@ -61,7 +61,7 @@ FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most)
 
 /// The conditions that break the limits least, as an infeasible answer without
 /// certificate: a local search, which says how far off the request is and by which limit.
-/// Looks at some forty recipes, or at all if `task.explain`.
+/// Looks at some forty recipes, or at all if `task.explain`, until one keeps every limit.
 FeatureAnswer nearest(const FeatureTask& task);
 
 /// Conditions that keep every limit, as an answer without costs; feasible == false where

@@ -2,298 +2,225 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include "allowance.hpp"
-#include "describe.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-using Kind = Limit::Kind;
+using catalogue::CurvePoint;
+using catalogue::Range;
+using catalogue::Tool;
 
-// A limit so far off counts as none.
-constexpr double kFar = 1e4;
+std::string of(const char* what, const std::string& whom) {
+  return std::string(what) + " of " + whom;
+}
+std::string grip_name(const char* what, std::size_t setup) {
+  return std::string(what) + " in setup " + std::to_string(setup);
+}
+constexpr const char* kPower = "power";  // and torque, of one motor
+constexpr const char* kGrip = "grip force";
+constexpr const char* kEasedGrip = "finishing grip force";
 
-template <class Plan, class F>
-void for_every_roughness(Plan& p, const F& f) {
-  for (auto& e : p.drawing.outer) f(e);
-  for (auto& e : p.drawing.inner) f(e);
-  for (auto& e : p.drawing.faces) f(e);
+// "t1, the cylindricity of d1," and for what the drawing gives no id "the diameter k6 of
+// d1".
+std::string called(const PartPlan& p, const part::Tolerance& t) {
+  const auto surface = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
+  const auto kind = std::string("the ") + part::name(t.kind);
+  if (t.id.find(':') == std::string::npos)
+    return t.id + ", " + of(kind.c_str(), surface) + ",";
+  const auto fit = [&](const auto& elements) {
+    for (const auto& e : elements)
+      if (e.id == t.of && e.fit) return " " + *e.fit;
+    return std::string();
+  };
+  return of((kind + fit(p.drawing.outer) + fit(p.drawing.inner)).c_str(), surface);
 }
 
-template <class Conditions>
-auto& condition(Conditions& c, Kind kind) {
-  return kind == Kind::ap ? c.ap_mm : kind == Kind::f ? c.f_mm_rev : c.vc_m_min;
+// A limit that has no other words than its name.
+Limit limit(const std::string& name, const char* unit, bool at_most, double now,
+            std::function<void(PartPlan&, double)> scale) {
+  return {name, (at_most ? "raising " : "lowering ") + name,
+          unit, at_most,
+          now,  std::move(scale)};
 }
 
-// Least and largest of a condition that the request has given, if any.
-std::optional<catalogue::Range> given(const PartPlan& p, Kind kind) {
-  std::optional<catalogue::Range> r;
-  if (!p.operations) return r;
-  for (const auto& o : *p.operations)
-    if (const auto& x = condition(o.conditions, kind))
-      r = r ? catalogue::Range{std::min(r->lower, *x), std::max(r->upper, *x)}
-            : catalogue::Range{*x, *x};
-  return r;
+void add_tolerances(const PartPlan& p, std::vector<Limit>& all) {
+  const auto& tolerances = p.drawing.tolerances;
+  for (std::size_t i = 0; i < tolerances.size(); ++i)
+    all.push_back({tolerances[i].id, "opening " + called(p, tolerances[i]), "mm", true,
+                   width_mm(tolerances[i]), [i](PartPlan& plan, double k) {
+                     auto& t = plan.drawing.tolerances[i];
+                     t.value_mm *= k;
+                     if (!t.limits) return;
+                     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+                     t.limits = {middle + k * (t.limits->lower_mm - middle),
+                                 middle + k * (t.limits->upper_mm - middle)};
+                   }});
 }
 
-// What a window's end is for.
-Kind given_of(Kind end) {
-  if (end == Kind::depth_min || end == Kind::depth_max) return Kind::ap;
-  return end == Kind::feed_min || end == Kind::feed_max ? Kind::f : Kind::vc;
+template <class Surface>
+void add_roughness(const std::vector<Surface>& surfaces,
+                   std::vector<Surface> part::Drawing::*list, std::vector<Limit>& all) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (const auto& [what, value] :
+         {std::pair{"roughness Ra", &Surface::Ra_um}, {"roughness Rz", &Surface::Rz_um}})
+      if (surfaces[i].*value)
+        all.push_back(limit(of(what, surfaces[i].id), "um", true, *(surfaces[i].*value),
+                            [i, list, member = value](PartPlan& plan, double k) {
+                              *((plan.drawing.*list)[i].*member) *= k;
+                            }));
 }
 
-// Far enough for what is given, the corner with the largest feed (0.8 of it) and the
-// least depth (2/3 of it).
-void open_window(PartPlan& p, Kind end) {
-  const auto g = given(p, given_of(end));
-  for (auto& t : p.tools) {
-    auto& window = given_of(end) == Kind::ap  ? t.ap_mm
-                   : given_of(end) == Kind::f ? t.f_mm_rev
-                                              : t.vc_m_min;
-    const bool upper =
-        end == Kind::depth_max || end == Kind::feed_max || end == Kind::vc_max;
-    if (upper)
-      window.upper = std::max(window.upper, g->upper);
-    else
-      window.lower = std::min(window.lower, g->lower);
-    if (end == Kind::feed_max) t.re_mm = std::max(t.re_mm, g->upper / 0.8);
-    if (end == Kind::depth_min) t.re_mm = std::min(t.re_mm, 1.5 * g->lower);
+// The line through the last two points, log-log, goes on.
+void stretch(std::vector<CurvePoint>& curve, double k) {
+  auto& last = curve.back();
+  if (curve.size() > 1) {
+    const auto& before = curve[curve.size() - 2];
+    const double per_n = std::log(k) / std::log(last.n_rpm / before.n_rpm);
+    last.P_kW *= std::pow(last.P_kW / before.P_kW, per_n);
+    last.M_Nm *= std::pow(last.M_Nm / before.M_Nm, per_n);
+  }
+  last.n_rpm *= k;
+}
+
+// What ends at the same speed - curve, spindle, chuck - moves along.
+void raise_speed(double end_rpm, double k, PartPlan& plan) {
+  auto& m = plan.machine;
+  const auto ends_there = [&](double n) { return std::abs(n / end_rpm - 1) < 1e-9; };
+  if (ends_there(m.curve.back().n_rpm)) stretch(m.curve, k);
+  for (double* n : {&m.n_max_rpm, &m.chuck.n_max_rpm})
+    if (ends_there(*n)) *n *= k;
+}
+
+double most_power_kW(const std::vector<CurvePoint>& curve) {
+  double most = 0;
+  for (const auto& point : curve) most = std::max(most, point.P_kW);
+  return most;
+}
+
+void add_machine(const PartPlan& p, std::vector<Limit>& all) {
+  const auto& m = p.machine;
+  const auto number = [](double catalogue::Lathe::*value) {
+    return [value](PartPlan& plan, double k) { plan.machine.*value *= k; };
+  };
+  all.push_back(limit(of(kPower, m.id), "kW", true, most_power_kW(m.curve),
+                      [](PartPlan& plan, double k) {
+                        for (auto& point : plan.machine.curve) {
+                          point.P_kW *= k;
+                          point.M_Nm *= k;
+                        }
+                      }));
+  all.push_back(limit(of("feed force", m.id), "N", true, m.feed_force_max_N,
+                      number(&catalogue::Lathe::feed_force_max_N)));
+  const double end = std::min(m.n_max_rpm, m.curve.back().n_rpm);
+  all.push_back(limit(of("largest spindle speed", m.id), "1/min", true, end,
+                      [end](PartPlan& plan, double k) { raise_speed(end, k, plan); }));
+  all.push_back(limit(of("least spindle speed", m.id), "1/min", false, m.n_min_rpm,
+                      number(&catalogue::Lathe::n_min_rpm)));
+  if (m.chuck.n_max_rpm < end)
+    all.push_back(
+        limit("largest speed of the chuck", "1/min", true, m.chuck.n_max_rpm,
+              [](PartPlan& plan, double k) { plan.machine.chuck.n_max_rpm *= k; }));
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    const double full = p.setups[s].grip_force_N.value_or(m.chuck.grip_force_N);
+    all.push_back(limit(
+        grip_name(kGrip, s), "N", true, full,
+        [s, full](PartPlan& plan, double k) { plan.setups[s].grip_force_N = k * full; }));
+    if (const auto eased = p.setups[s].finishing_grip_force_N)
+      all.push_back(limit(grip_name(kEasedGrip, s), "N", true, *eased,
+                          [s](PartPlan& plan, double k) {
+                            *plan.setups[s].finishing_grip_force_N *= k;
+                          }));
   }
 }
 
-void open_spindle(catalogue::Lathe& m, double times) {
-  m.n_max_rpm *= times;
-  m.chuck.n_max_rpm *= times;
-  auto last = m.curve.back();
-  last.n_rpm *= times;
-  last.M_Nm /= times;
-  m.curve.push_back(last);
-}
+// What a tool's numbers are called, and which check holds them.
+struct ToolLimit {
+  Check check;
+  const char* what;
+  Range Tool::*range;  ///< or the force
+  double Range::*end;
+};
+constexpr ToolLimit kToolLimits[] = {
+    {Check::depth_min, "least depth of cut", &Tool::ap_mm, &Range::lower},
+    {Check::depth_max, "largest depth of cut", &Tool::ap_mm, &Range::upper},
+    {Check::feed_min, "least feed", &Tool::f_mm_rev, &Range::lower},
+    {Check::feed_max, "largest feed", &Tool::f_mm_rev, &Range::upper},
+    {Check::vc_min, "least cutting speed", &Tool::vc_m_min, &Range::lower},
+    {Check::vc_max, "largest cutting speed", &Tool::vc_m_min, &Range::upper},
+    {Check::life_min, "least tool life", &Tool::T_min, &Range::lower},
+    {Check::life_max, "longest tool life", &Tool::T_min, &Range::upper}};
 
-void open(part::Tolerance& t, double times) {
-  t.value_mm *= times;
-  if (!t.limits) return;
-  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
-  const double half = (t.limits->upper_mm - t.limits->lower_mm) / 2 * times;
-  t.limits = part::Limits{middle - half, middle + half};
-}
-
-void open_given(PartPlan& p, const Limit& l) {
-  auto& c = (*p.operations)[l.index].conditions;
-  if (l.kind == Kind::passes)
-    c.passes.reset();
-  else
-    condition(c, l.kind).reset();
-}
-
-void open_roughness(PartPlan& p, const Limit& l, double times) {
-  for_every_roughness(p, [&](auto& e) {
-    if (e.id != l.surface) return;
-    auto& value = l.kind == Kind::Ra ? e.Ra_um : e.Rz_um;
-    if (times == kWithout)
-      value.reset();
-    else if (value)
-      *value *= times;
-  });
-}
-
-// Everything but tolerances that are left out.
-void open(PartPlan& p, const Limit& l, double times) {
-  const double far = std::min(times, kFar);
-  auto& m = p.machine;
-  switch (l.kind) {
-    case Kind::tolerance:
-      if (times != kWithout) open(p.drawing.tolerances[l.index], times);
-      return;
-    case Kind::Ra:
-    case Kind::Rz:
-      return open_roughness(p, l, times);
-    case Kind::power:
-      for (auto& c : m.curve) {
-        c.P_kW *= far;
-        c.M_Nm *= far;
-      }
-      return;
-    case Kind::feed_force:
-      m.feed_force_max_N *= far;
-      return;
-    case Kind::grip:
-      m.chuck.friction *= far;
-      m.chuck.jaw_mass_radius_kg_m /= far;
-      return;
-    case Kind::spindle_max:
-      return open_spindle(m, far);
-    case Kind::spindle_min:
-      m.n_min_rpm /= far;
-      return;
-    case Kind::tool_force:
-      for (auto& t : p.tools) t.Fc_max_N *= far;
-      return;
-    case Kind::life_min:
-      for (auto& t : p.tools) t.T_min.lower /= far;
-      return;
-    case Kind::life_max:
-      for (auto& t : p.tools) t.T_min.upper *= far;
-      return;
-    case Kind::passes:
-    case Kind::ap:
-    case Kind::f:
-    case Kind::vc:
-      return open_given(p, l);
-    default:
-      return open_window(p, l.kind);
+void add_tools(const PartPlan& p, std::vector<Limit>& all) {
+  for (std::size_t i = 0; i < p.tools.size(); ++i) {
+    const auto& tool = p.tools[i];
+    for (const auto& l : kToolLimits)
+      all.push_back(limit(
+          of(l.what, tool.id), check_name(l.check).unit, check_name(l.check).at_most,
+          tool.*l.range.*l.end,
+          [i, l](PartPlan& plan, double k) { plan.tools[i].*l.range.*l.end *= k; }));
+    all.push_back(limit(of("cutting force", tool.id), "N", true, tool.Fc_max_N,
+                        [i](PartPlan& plan, double k) { plan.tools[i].Fc_max_N *= k; }));
   }
 }
 
-void leave_out(PartPlan& p, std::size_t tolerance) {
-  auto& all = p.drawing.tolerances;
-  all.erase(all.begin() + static_cast<long>(tolerance));
-  std::map<std::size_t, double> ends;
-  for (const auto& [i, end] : p.other_ends)
-    if (i != tolerance) ends[i < tolerance ? i : i - 1] = end;
-  p.other_ends = std::move(ends);
-}
-
-LimitName of_tools(const PartPlan& p, Check check, double catalogue::Tool::*value) {
-  const auto n = check_name(check);
-  double largest = 0;
-  for (const auto& t : p.tools) largest = std::max(largest, t.*value);
-  return {n.name, n.unit, largest, n.at_most};
-}
-
-LimitName of_windows(const PartPlan& p, Check check,
-                     catalogue::Range catalogue::Tool::*range) {
-  const auto n = check_name(check);
-  double value = n.at_most ? 0 : std::numeric_limits<double>::infinity();
-  for (const auto& t : p.tools)
-    value =
-        n.at_most ? std::max(value, (t.*range).upper) : std::min(value, (t.*range).lower);
-  return {n.name, n.unit, value, n.at_most};
-}
-
-LimitName named(Check check, double now) {
-  const auto n = check_name(check);
-  return {n.name, n.unit, now, n.at_most};
-}
-
-LimitName name_of_given(const PartPlan& p, const Limit& l) {
-  const auto& o = (*p.operations)[l.index];
-  if (l.kind == Kind::passes)
-    return {"passes of " + o.id, "", static_cast<double>(*o.conditions.passes), true};
-  const auto [key, unit] = l.kind == Kind::ap  ? std::pair{"ap_mm", "mm"}
-                           : l.kind == Kind::f ? std::pair{"f_mm_rev", "mm/rev"}
-                                               : std::pair{"vc_m_min", "m/min"};
-  return {key + (" of " + o.id), unit, *condition(o.conditions, l.kind), true};
-}
-
-double roughness(const PartPlan& p, const Limit& l) {
-  double value = 0;
-  for_every_roughness(p, [&](const auto& e) {
-    if (e.id == l.surface) value = (l.kind == Kind::Ra ? e.Ra_um : e.Rz_um).value_or(0);
-  });
-  return value;
+// The jaws' force that an operation has.
+std::string grip_of(const PartPlan& p, const SolvedFeature& f, const OperationModel& o) {
+  const std::size_t s = f.task.making.setup;
+  const bool eased = o.finishing && f.task.feature.kind() != Feature::Kind::end_face &&
+                     p.setups[s].finishing_grip_force_N;
+  return grip_name(eased ? kEasedGrip : kGrip, s);
 }
 
 }  // namespace
 
-bool is_given(const Limit& l) { return l.kind >= Kind::passes && l.kind <= Kind::vc; }
-
-std::vector<Limit> limits_of(const PartPlan& p) {
+std::vector<Limit> limits(const PartPlan& p) {
   std::vector<Limit> all;
-  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i)
-    all.push_back({Kind::tolerance, i, p.drawing.tolerances[i].of});
-  for_every_roughness(p, [&](const auto& e) {
-    if (e.Ra_um) all.push_back({Kind::Ra, 0, e.id});
-    if (e.Rz_um) all.push_back({Kind::Rz, 0, e.id});
-  });
-  for (const Kind k :
-       {Kind::power, Kind::feed_force, Kind::grip, Kind::spindle_max, Kind::spindle_min,
-        Kind::tool_force, Kind::life_min, Kind::life_max})
-    all.push_back({k});
-  if (!p.operations) return all;
-  for (std::size_t i = 0; i < p.operations->size(); ++i) {
-    const auto& c = (*p.operations)[i].conditions;
-    if (c.passes) all.push_back({Kind::passes, i});
-    for (const Kind k : {Kind::ap, Kind::f, Kind::vc})
-      if (condition(c, k)) all.push_back({k, i});
-  }
-  for (const Kind k : {Kind::depth_min, Kind::depth_max, Kind::feed_min, Kind::feed_max,
-                       Kind::vc_min, Kind::vc_max})
-    if (given(p, given_of(k))) all.push_back({k});
+  add_tolerances(p, all);
+  const auto& d = p.drawing;
+  add_roughness(d.outer, &part::Drawing::outer, all);
+  add_roughness(d.inner, &part::Drawing::inner, all);
+  add_roughness(d.faces, &part::Drawing::faces, all);
+  add_machine(p, all);
+  add_tools(p, all);
   return all;
 }
 
-PartPlan opened(const PartPlan& plan, const std::vector<Limit>& limits,
-                const Openings& times) {
-  PartPlan p = plan;
-  // Windows first: they open to what is given.
-  for (std::size_t i = limits.size(); i-- > 0;)
-    if (times[i] != 1) open(p, limits[i], times[i]);
-  for (std::size_t i = limits.size(); i-- > 0;)
-    if (limits[i].kind == Kind::tolerance && times[i] == kWithout)
-      leave_out(p, limits[i].index);
-  return p;
+std::vector<std::string> spindle_limit_names(const PartPlan& p, const SolvedFeature& f,
+                                             std::size_t operation) {
+  const auto& o = f.answer.model->chain().operations[operation];
+  return {of("largest spindle speed", p.machine.id), "largest speed of the chuck",
+          grip_of(p, f, o)};
 }
 
-bool bears_on(const PartPlan& p, const Limit& l, const std::string& surface) {
-  if (l.kind == Kind::Ra || l.kind == Kind::Rz) return l.surface == surface;
-  if (is_given(l)) {
-    const auto& on = (*p.operations)[l.index].on;
-    return std::find(on.begin(), on.end(), surface) != on.end();
-  }
-  if (l.kind != Kind::tolerance) return true;
-  const auto& t = p.drawing.tolerances[l.index];
-  return t.of == surface || t.between[0] == surface || t.between[1] == surface;
-}
-
-LimitName name_of(const PartPlan& p, const Limit& l) {
-  const auto& m = p.machine;
-  const auto most_kW = [&] {
-    double most = 0;
-    for (const auto& c : m.curve) most = std::max(most, c.P_kW);
-    return most;
-  };
-  switch (l.kind) {
-    case Kind::tolerance: {
-      const auto& t = p.drawing.tolerances[l.index];
-      return {t.id + " " + part::name(t.kind), "mm", width_mm(t)};
-    }
-    case Kind::Ra:
-      return named(Check::Ra, roughness(p, l));
-    case Kind::Rz:
-      return named(Check::Rz, roughness(p, l));
-    case Kind::power:
-      return named(Check::power, most_kW());
-    case Kind::feed_force:
-      return named(Check::feed_force, m.feed_force_max_N);
-    case Kind::grip:
-      return named(Check::grip, m.chuck.grip_force_N);
-    case Kind::spindle_max:
-      return named(Check::spindle_max, m.n_max_rpm);
-    case Kind::spindle_min:
-      return named(Check::spindle_min, m.n_min_rpm);
-    case Kind::tool_force:
-      return of_tools(p, Check::force, &catalogue::Tool::Fc_max_N);
-    case Kind::life_min:
-      return of_windows(p, Check::life_min, &catalogue::Tool::T_min);
-    case Kind::life_max:
-      return of_windows(p, Check::life_max, &catalogue::Tool::T_min);
-    case Kind::depth_min:
-      return of_windows(p, Check::depth_min, &catalogue::Tool::ap_mm);
-    case Kind::depth_max:
-      return of_windows(p, Check::depth_max, &catalogue::Tool::ap_mm);
-    case Kind::feed_min:
-      return of_windows(p, Check::feed_min, &catalogue::Tool::f_mm_rev);
-    case Kind::feed_max:
-      return of_windows(p, Check::feed_max, &catalogue::Tool::f_mm_rev);
-    case Kind::vc_min:
-      return of_windows(p, Check::vc_min, &catalogue::Tool::vc_m_min);
-    case Kind::vc_max:
-      return of_windows(p, Check::vc_max, &catalogue::Tool::vc_m_min);
+std::vector<std::string> limit_names(const PartPlan& p, const SolvedFeature& f,
+                                     const Row& row) {
+  const auto& chain = f.answer.model->chain();
+  if (row.check == Check::tolerance)
+    return {p.drawing.tolerances[chain.functionals[row.operation].tolerance].id};
+  const auto& o = chain.operations[row.operation];
+  for (const auto& l : kToolLimits)
+    if (row.check == l.check) return {of(l.what, o.tool->id)};
+  const auto& surface = f.task.feature.surface();
+  switch (row.check) {
+    case Check::force:
+      return {of("cutting force", o.tool->id)};
+    case Check::feed_force:
+      return {of("feed force", p.machine.id)};
+    case Check::power:
+    case Check::torque:
+      return {of(kPower, p.machine.id)};
+    case Check::spindle_min:
+      return {of("least spindle speed", p.machine.id)};
+    case Check::spindle_max:
+      return spindle_limit_names(p, f, row.operation);
+    case Check::grip:
+      return {grip_of(p, f, o)};
+    case Check::Ra:
+      return {of("roughness Ra", surface)};
+    case Check::Rz:
+      return {of("roughness Rz", surface)};
     default:
-      return name_of_given(p, l);
+      return {};
   }
 }
 

@@ -55,14 +55,14 @@ double least_share(const FeatureTask& task, const FeatureAnswer& a,
 std::size_t place_of(const Feasibility& part, std::size_t limit, const Openings& times) {
   std::size_t place = 0;
   for (std::size_t i = 0; i < limit; ++i)
-    place += part.limits()[i].kind == Limit::Kind::tolerance && times[i] != kWithout;
+    place += part.limits()[i].kind == Openable::Kind::tolerance && times[i] != kWithout;
   return place;
 }
 
 // Tries an opening; if it suffices, how far it might have been less by what was found.
 double reached(Feasibility& part, std::size_t limit, Openings times, double opening) {
   times[limit] = opening;
-  if (part.limits()[limit].kind != Limit::Kind::tolerance)
+  if (part.limits()[limit].kind != Openable::Kind::tolerance)
     return part.with(times) ? opening : kInfinity;
   const auto place = place_of(part, limit, times);
   const double now = name_of(part.plan(), part.limits()[limit]).now;
@@ -99,14 +99,14 @@ std::optional<double> least_opening(Feasibility& part, std::size_t limit,
   const auto& l = part.limits()[limit];
   times[limit] = kWithout;
   if (!part.with(times)) return {};
-  if (is_given(l) || l.kind >= Limit::Kind::depth_min) return kWithout;
+  if (is_given(l) || l.kind >= Openable::Kind::depth_min) return kWithout;
   double low = 1, enough = reached(part, limit, times, kFarOpen);
   if (enough == kInfinity) return {};
   // Down in growing steps from what a local search reached to one that is refuted, and
   // by halving where none has searched.
   double step = kOpening;
   while (enough > low * kOpening) {
-    const bool halve = l.kind != Limit::Kind::tolerance || !(enough / step > low);
+    const bool halve = l.kind != Openable::Kind::tolerance || !(enough / step > low);
     const double next = halve ? std::sqrt(enough * low) : enough / step;
     const double at = reached(part, limit, times, next);
     if (at < kInfinity) {

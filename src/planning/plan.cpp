@@ -1,5 +1,6 @@
 #include "pareto.hpp"
 #include "planned.hpp"
+#include "what_if.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -7,15 +8,16 @@ namespace {
 // What a plan would take that keeps its tolerances only nominally.
 std::optional<Robustness> robustness(PartPlan p) {
   p.robust = false;
-  const auto nominal = planned(p, Why::untold);
+  const auto nominal = planned(p, {}, Why::untold);
   if (nominal.status != PlanStatus::ok) return {};
   return Robustness{p.conformance, nominal.cost_per_part, nominal.time_per_part_min};
 }
 
 }  // namespace
 
-ProcessPlan plan(const PartPlan& p) {
-  auto result = conforming(p);
+ProcessPlan plan(const PartPlan& p, const std::vector<WhatIf>& what_if) {
+  auto result = conforming(p, what_if);
+  answer(p, what_if, result);
   if (result.status != PlanStatus::ok) return result;
   if (p.robust) result.robustness = robustness(p);
   if (p.pareto > 0) result.pareto = pareto(p, result);

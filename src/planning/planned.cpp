@@ -8,6 +8,7 @@
 #include <set>
 
 #include "attempt.hpp"
+#include "first_order.hpp"
 #include "remedies.hpp"
 
 namespace turnwright::planning {
@@ -92,13 +93,24 @@ bool add_missed(ProcessPlan& result) {
   return true;
 }
 
+std::optional<double> first_order_saving(const PartPlan& p,
+                                         const std::vector<SolvedSetup>& solved,
+                                         PartPlan changed) {
+  changed.other_ends = p.other_ends;
+  const auto costs = first_order(p, solved, changed);
+  if (!costs) return {};
+  return -*costs;
+}
+
 }  // namespace
 
-ProcessPlan planned(const PartPlan& p, Why why) {
+ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why why) {
   ProcessPlan result;
+  for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   const auto work = assign(p);
   add_unreachable(work, result);
   add_used_up(p, tolerances_left_to_the_stock(p, work), result);
+  add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "proved: no condition or tool changes the conflicts told";
@@ -125,9 +137,12 @@ ProcessPlan planned(const PartPlan& p, Why why) {
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
-  result.deviations = deviations(chosen);
+  result.deviations = deviations(p, chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
+  for (std::size_t k = 0; k < what_if.size(); ++k)
+    result.what_if[k].first_order_saves_per_part =
+        first_order_saving(p, chosen, what_if[k].plan);
   return result;
 }
 

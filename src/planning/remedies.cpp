@@ -103,10 +103,10 @@ void add_operations(const PartPlan& p, std::vector<Variant>& all) {
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const auto& l = limits[i];
     if (!is_given(l)) continue;
-    const char* key = l.kind == Limit::Kind::passes ? "passes"
-                      : l.kind == Limit::Kind::ap   ? "ap_mm"
-                      : l.kind == Limit::Kind::f    ? "f_mm_rev"
-                                                    : "vc_m_min";
+    const char* key = l.kind == Openable::Kind::passes ? "passes"
+                      : l.kind == Openable::Kind::ap   ? "ap_mm"
+                      : l.kind == Openable::Kind::f    ? "f_mm_rev"
+                                                       : "vc_m_min";
     const auto& id = (*p.operations)[l.index].id;
     all.push_back(
         {opened(p, {l}, {kWithout}),
@@ -134,7 +134,7 @@ std::vector<Remedy> remedies(const PartPlan& p, const Assignment& work,
   for (auto& [plan, remedy] : variants) {
     Feasibility part(plan);
     if (!part.with(Openings(part.limits().size(), 1))) continue;
-    const auto planned_with = conforming(plan, Why::untold);
+    const auto planned_with = conforming(plan, {}, Why::untold);
     if (planned_with.status != PlanStatus::ok) continue;
     remedy.cost_per_part = planned_with.cost_per_part;
     remedy.time_per_part_min = planned_with.time_per_part_min;

@@ -19,10 +19,15 @@ struct Context {
   std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
 };
 
-/// A result with its pictures, as SVG.
+/// A picture as SVG and the name of its file.
+struct Picture {
+  std::string file, svg;
+};
+
+/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
 struct Drawn {
   nlohmann::ordered_json result;
-  std::vector<std::string> drawings;  ///< one a setup
+  std::vector<Picture> drawings;
 };
 
 struct Request {
