@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output.hpp"
+#include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/parse.hpp"
@@ -59,10 +60,9 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
 }
 
 void write_drawings(const std::filesystem::path& folder,
-                    const std::vector<std::string>& drawings) {
+                    const std::vector<service::Picture>& drawings) {
   make_folder(folder);
-  for (std::size_t i = 0; i < drawings.size(); ++i)
-    write_file(folder / ("setup-" + std::to_string(i) + ".svg"), drawings[i]);
+  for (const auto& picture : drawings) write_file(folder / picture.file, picture.svg);
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {
@@ -111,9 +111,8 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                         "write the result (JSON) here");
     command->add_flag("--json", arguments.json, "print the result as JSON");
     if (row.drawn)
-      command->add_option(
-          "--drawings", arguments.drawings,
-          "write a picture of each setup (setup-0.svg, ..) to this folder");
+      command->add_option("--drawings", arguments.drawings,
+                          "write pictures to this folder: setup-0.svg, .., budget.svg");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {
@@ -139,7 +138,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   app.add_option("--data", arguments.data,
                  "folder with materials/, tools/ and machines/");
-  std::string examples = "Examples:\n  turnwright list parts\n";
+  std::string examples =
+      "Examples:\n  turnwright list parts\n  turnwright serve --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
@@ -149,6 +149,12 @@ int run(int argc, char** argv) {
       examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
+  add_serve(app, arguments.data, [&chosen](std::function<void()> serve) {
+    chosen = [serve = std::move(serve)] {
+      serve();
+      return kOk;
+    };
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

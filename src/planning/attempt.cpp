@@ -60,17 +60,19 @@ std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
 Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
                              const Finished& done, Economy economy) {
   Comparison result;
-  FaceMemory faces;
+  SharedMemory shared;
   std::vector<SetupPlanner> planners;
   auto clampings = p.setups[setup].clampings;
   std::stable_partition(clampings.begin(), clampings.end(),
                         [](Clamping c) { return c != Clamping::chuck; });
   for (const Clamping c : clampings) {
-    const auto why = unusable(p, setup, c, work, done);
+    auto why = unusable(p, setup, c, work, done);
+    if (why.empty())
+      for (const auto& fixed : fixed_conflicts(p, setup, c, work)) why = fixed.sentence;
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      planners.emplace_back(p, setup, c, work, done, economy, faces);
+      planners.emplace_back(p, setup, c, work, done, economy, shared);
   }
   if (planners.empty()) return result;
   auto all = best_of_each(planners);

@@ -31,6 +31,19 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
+/// Fastest spindle speed [1/min] of machine and clamping.
+double clamping_rpm(const PartPlan& plan, Clamping clamping);
+/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
+double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
+
+/// What a clamping is to the cut where nothing yields: two clampings that hold alike
+/// differ in no chain without stations.
+struct Holding {
+  double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
+  double d_grip_mm = 0, n_max_rpm = 0;
+  auto operator<=>(const Holding&) const = default;
+};
+
 class Feature {
  public:
   enum class Kind { element, bore, end_face, shoulder };
@@ -59,6 +72,8 @@ class Feature {
   /// Material left is more radius outside (+1) and less in a bore (-1): the factor from
   /// the chain's errors to those of the surface.
   double sign() const { return kind_ == Kind::bore ? -1 : 1; }
+
+  Holding holding() const;
 
   /// The chain of a recipe without functionals; stations at the given places.  Over an
   /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points
@@ -130,6 +145,7 @@ class Feature {
   double D_small_ = 0, D_large_ = 0;
   double face_x_ = 0;                  // of a face, from the root
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
+  double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
   double amplification_ = 1;       // by the tailstock's thrust

@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +16,18 @@ namespace turnwright::service {
 /// What a request may refer to besides itself.
 struct Context {
   const document::Catalogue& catalogue;
+  std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
 };
 
-/// A result with its pictures, as SVG.
+/// A picture as SVG and the name of its file.
+struct Picture {
+  std::string file, svg;
+};
+
+/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
 struct Drawn {
   nlohmann::ordered_json result;
-  std::vector<std::string> drawings;  ///< one a setup
+  std::vector<Picture> drawings;
 };
 
 struct Request {
@@ -35,6 +42,10 @@ struct Request {
 };
 
 std::span<const Request> requests();
+
+/// File names under schemas/ of what the row takes and gives.
+std::string request_schema(const Request& row);
+std::string result_schema(const Request& row);
 
 /// The program's version, "0.1.0".
 std::string_view version();
