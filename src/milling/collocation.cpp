@@ -138,7 +138,6 @@ std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
 
 /// Arnoldi's method from a fixed vector.
 Spectrum by_arnoldi(const Map& map) {
-  constexpr Index kEvery = 20;
   constexpr double kSettled = 1e-11, kAccepted = 1e-6, kMemory = 2e7;
   const Index most = std::min<Index>(
       {map.size(), 500, static_cast<Index>(kMemory / static_cast<double>(map.size()))});
@@ -146,6 +145,7 @@ Spectrum by_arnoldi(const Map& map) {
   for (Index i = 0; i < map.size(); ++i)
     basis(i, 0) = 1 + 0.5 * std::cos(7 * std::pow(static_cast<double>(i), 2));
   basis.col(0).normalize();
+  Index look = 30;  // at which size of the basis
   for (Index k = 0; k < most; ++k) {
     VectorXd next = map(basis.col(k));
     for (int twice = 0; twice < 2; ++twice) {
@@ -156,7 +156,8 @@ Spectrum by_arnoldi(const Map& map) {
     h(k + 1, k) = next.norm();
     const bool last = k + 1 == most || !(h(k + 1, k) > 1e-14 * h.col(k).norm());
     if (!last) basis.col(k + 1) = next / h(k + 1, k);
-    if (!last && (k + 1) % kEvery != 0) continue;
+    if (!last && k + 1 < look) continue;
+    look += look / 2;
     const auto [found, moves] = of_ritz(h.topLeftCorner(k + 1, k + 1), h(k + 1, k));
     if (moves < kSettled || (last && moves < kAccepted)) return found;
     if (last) break;
