@@ -34,13 +34,13 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
   DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
-tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
+tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches.cpp propagator.cpp
                           series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
-                          chatter_frequency.cpp limits.cpp multipliers.cpp
+                          chatter_frequency.cpp limits.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp accuracy_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)

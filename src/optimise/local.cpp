@@ -86,8 +86,11 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_lower_bounds(p.lower);
   solver.set_upper_bounds(p.upper);
   solver.set_min_objective(objective, &e);
+  // Without a tolerance NLopt drops every point that rounding leaves outside, and with it
+  // the optimum for the start.
   if (p.constraints > 0)
-    solver.add_inequality_mconstraint(constraints, &e, Vec(p.constraints, 0.0));
+    solver.add_inequality_mconstraint(constraints, &e,
+                                      Vec(p.constraints, options.feasibility));
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
@@ -246,10 +249,11 @@ Fit fit(const Problem& problem, std::span<const double> y, const Values& at,
 }  // namespace
 
 std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
-                                   const Values& at) {
-  constexpr double kNear = 1e-6, kFarthest = 1e-3, kStationary = 1e-6;
+                                   const Values& at, double near) {
+  constexpr int kWider = 3;
+  constexpr double kStationary = 1e-6;
   Fit best;
-  for (double near = kNear; near <= kFarthest * 1.01; near *= 10) {
+  for (int k = 0; k <= kWider; ++k, near *= 10) {
     auto f = fit(problem, y, at, near);
     if (f.residual < best.residual) best = std::move(f);
     if (best.residual <= kStationary) break;

@@ -44,7 +44,7 @@ void answer(const PartPlan& p, const std::vector<WhatIf>& what_if, ProcessPlan& 
   const bool both = result.status == PlanStatus::ok;
   for (std::size_t k = 0; k < what_if.size(); ++k) {
     auto& a = result.what_if[k];
-    const auto changed = conforming(what_if[k].plan, {}, Why::untold);
+    const auto changed = conforming(what_if[k].plan);
     a.feasible = changed.status == PlanStatus::ok;
     a.cost_per_part = changed.cost_per_part;
     a.time_per_part_min = changed.time_per_part_min;

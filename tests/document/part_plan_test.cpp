@@ -571,9 +571,8 @@ TEST(WhatIf, RefusalsNameTheChange) {
   EXPECT_EQ(one({{"name", "x"}, {"set", {{"batch", 2}}}}),
             "t: /what_if/0/set: got \"batch\", expected the place of a value in this "
             "document, as /outer/d1/fit or /setups/0/clampings");
-  EXPECT_EQ(
-      one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
-      "t: /what_if/0/set/batch: got 0, expected a whole number >= 1 and <= 1000000");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
+            "t: /what_if/0/set/batch: got 0, expected a whole number from 1 to 1000000");
   EXPECT_NE(one({{"name", "x"}, {"set", {{"/what_if", json::array()}}}})
                 .find("expected no change of what_if itself"),
             std::string::npos);
@@ -588,10 +587,11 @@ TEST(WhatIf, RefusalsNameTheChange) {
   EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", 5}, {"set", 1}})
                 .find("/what_if/0/set"),
             std::string::npos);
-  EXPECT_NE(refusal(asked(json::array()), Purpose::predict)
-                .find("t: /what_if: got a list of 0 entries, expected nothing: only plan "
-                      "answers what_if"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(asked(json::array()), Purpose::predict)
+          .find("t: /what_if: got an empty list, expected nothing: only plan answers "
+                "what_if"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -144,6 +144,7 @@ TEST(ProcessPlan, TheSchemaTakesWhatIsWritten) {
   EXPECT_FALSE(json.contains("profit_per_min"));
   EXPECT_EQ(schema.fault(json), "");
   for (const auto& [key, value] : json.items()) {
+    if (key == "remedies") continue;  // there where something would help
     auto without = json;
     without.erase(key);
     EXPECT_NE(schema.fault(without), "") << key;

@@ -229,7 +229,9 @@ json random_part(unsigned seed) {
                  {{"hold", "right"},
                   {"grip_mm", rounded(std::min(length - held, d_mm) * 0.9, 1)},
                   {"clampings", {"chuck"}}}};
-  return inlined(d);
+  d = inlined(d);
+  d["machine"]["chuck"]["diameter_mm"] = {3, 400};  // jaws that hold every part
+  return d;
 }
 
 struct OverConstrainedPart {

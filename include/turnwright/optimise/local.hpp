@@ -57,16 +57,14 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
 Solution least_violation(const Problem& problem, std::span<const double> start,
                          double floor, const Options& options = {});
 
-/// Multipliers lambda >= 0 of the constraints near their limit, from stationarity by
-/// non-negative least squares:
+/// Multipliers lambda >= 0 of the constraints near their limit (g > -near, or up to 1000
+/// near if that leaves y not stationary), by non-negative least squares:
 ///
 ///     min | df + sum lambda_i dg_i + (bounds active at y) |,  lambda >= 0
 ///
-/// Near is g > -1e-6; where that leaves y not stationary, for a solver may stop short of
-/// a limit that matters, up to -1e-3.  Rows whose variable sits at a bound may keep a
-/// residual of the sign the bound carries.
+/// Rows whose variable sits at a bound may keep a residual of the sign the bound carries.
 std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
-                                   const Values& at);
+                                   const Values& at, double near = 1e-6);
 
 /// Lower bound of f over every feasible y of the box, for convex f and g:
 ///
