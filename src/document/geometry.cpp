@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "machine_fields.hpp"
+#include "turned.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -24,8 +25,10 @@ json geometry(const json& request) {
   Machine machine = read_chain(r);
   machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
   std::vector<Position> points;
-  for (const Reader& point : r.items("points", 1, kPoints))
-    points.push_back(read_position(point, machine));
+  const auto surfaces = read_turned(r, machine.chain);
+  const auto items = r.has("turned") ? r.optional_items("points", 1, kPoints)
+                                     : r.items("points", 1, kPoints);
+  for (const Reader& point : items) points.push_back(read_position(point, machine));
   r.finish();
   problems.throw_if_any();
 
@@ -39,7 +42,10 @@ json geometry(const json& request) {
          {"tip_error_first_order_mm", kinematics.tip_error_first_order_mm(at)},
          {"direction_error_rad", difference(actual.direction, nominal.direction)}});
   }
-  return {{"points", out}};
+  json result{{"points", out}};
+  if (!surfaces.empty())
+    result["turned"] = turned_json(surfaces, kinematics, machine.tool_point_mm);
+  return result;
 }
 
 }  // namespace turnwright::document

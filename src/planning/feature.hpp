@@ -33,6 +33,11 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
+/// Fastest spindle speed [1/min] of machine and clamping.
+double clamping_rpm(const PartPlan& plan, Clamping clamping);
+/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
+double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
+
 /// What a clamping is to the cut where nothing yields: two clampings that hold alike
 /// differ in no chain without stations.
 struct Holding {
@@ -98,6 +103,8 @@ class Feature {
   /// Asks a chain for (1), of the operations of which some condition comes near it.  Over
   /// an open depth at places that are the worst, or near it, somewhere.
   void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
+  /// At one depth, at the places where another chain is asked.
+  void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;
 
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
   /// through exact values: 8 pieces of degree 8 along an element (interpolation error
@@ -174,6 +181,7 @@ class Feature {
   double D_small_ = 0, D_large_ = 0;
   double face_x_ = 0;                  // of a face, from the root
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
+  double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
   double amplification_ = 1;       // by the tailstock's thrust

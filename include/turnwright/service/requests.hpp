@@ -19,15 +19,16 @@ struct Context {
   std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
 };
 
-/// A picture, as SVG, with the name of its file.
-struct Drawing {
+/// A picture as SVG and the name of its file.
+struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures.
+/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged,
+/// window-ID.svg of each operation that has a window.
 struct Drawn {
   nlohmann::ordered_json result;
-  std::vector<Drawing> drawings;  ///< one a setup, then one a window
+  std::vector<Picture> drawings;
 };
 
 struct Request {
