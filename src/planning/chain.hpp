@@ -116,11 +116,12 @@ struct OperationModel {
   double feed_force_max_N = 0;
   double economic_life_min = 0;
   double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
-  /// 1/limit of the chatter stiffness (chatter.hpp) at the places that may be its worst,
-  /// over the finishing depth; none if no condition comes near it.
+  /// 1/limit of the chatter stiffness at the places where it is asked, over the finishing
+  /// depth (Feature::limit_chatter).
   std::vector<Polynomial> chatter_mm_N;
-  double chatter_inwards = 1;  ///< limit where K > 0 over that where K < 0
-  catalogue::Range vc, f;      ///< to choose from: the tool's, or what the request fixes
+  std::vector<double> chatter_at_mm;  ///< these places
+  double chatter_inwards = 1;         ///< limit where K > 0 over that where K < 0
+  catalogue::Range vc, f;  ///< to choose from: the tool's, or what the request fixes
   catalogue::Range vc_window, f_window, ap;  ///< what the tool allows
   std::vector<catalogue::ChipEdge> chip;     ///< and these of its chip breaker
   catalogue::Range T_min;

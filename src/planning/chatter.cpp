@@ -44,24 +44,27 @@ double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
   return most;
 }
 
-// Without those that another is nowhere below.
-std::vector<Polynomial> largest_somewhere(std::vector<Polynomial> all) {
-  const auto covers = [](const Polynomial& p, const Polynomial& q) {
-    double least = 0;
-    for (std::size_t k = 0; k < std::max(p.c.size(), q.c.size()); ++k) {
-      const double d = (k < p.c.size() ? p.c[k] : 0) - (k < q.c.size() ? q.c[k] : 0);
-      least += k == 0 ? d : -std::abs(d);
-    }
-    return least >= 0;
-  };
-  std::vector<Polynomial> kept;
-  for (auto& p : all) {
-    if (std::any_of(kept.begin(), kept.end(), [&](auto& k) { return covers(k, p); }))
-      continue;
-    std::erase_if(kept, [&](auto& k) { return covers(p, k); });
-    kept.push_back(std::move(p));
+// Whether p is nowhere below q.
+bool covers(const Polynomial& p, const Polynomial& q) {
+  double least = 0;
+  for (std::size_t k = 0; k < std::max(p.c.size(), q.c.size()); ++k) {
+    const double d = (k < p.c.size() ? p.c[k] : 0) - (k < q.c.size() ? q.c[k] : 0);
+    least += k == 0 ? d : -std::abs(d);
   }
-  return kept;
+  return least >= 0;
+}
+
+// Adds a place unless another is nowhere below it, in place of those it is nowhere below.
+void add_place(double at_mm, Polynomial c, OperationModel& o) {
+  auto& all = o.chatter_mm_N;
+  if (std::any_of(all.begin(), all.end(), [&](auto& k) { return covers(k, c); })) return;
+  for (std::size_t k = all.size(); k-- > 0;)
+    if (covers(c, all[k])) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+      o.chatter_at_mm.erase(o.chatter_at_mm.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  all.push_back(std::move(c));
+  o.chatter_at_mm.push_back(at_mm);
 }
 
 }  // namespace
@@ -126,25 +129,37 @@ double Feature::chatter_share(const Chain& chain, const Choice<double>& c) const
   return most;
 }
 
+void Feature::limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const {
+  for (std::size_t i = 0; i < chain.operations.size(); ++i) {
+    auto& o = chain.operations[i];
+    o.chatter_at_mm = other.operations[i].chatter_at_mm;
+    o.chatter_mm_N.clear();
+    if (o.chatter_at_mm.empty()) continue;
+    for (const double c : last_yields(o, a_mm, o.chatter_at_mm))
+      o.chatter_mm_N.push_back({0, 1, {c}});
+  }
+}
+
 // Material never makes a body yield more, so the finished one bounds every pass, and of
 // the passes of an operation the last one is the worst.
 void Feature::limit_chatter(Chain& chain, std::optional<double> a_mm) const {
   const catalogue::Range a{a_mm.value_or(chain.a.lower), a_mm.value_or(chain.a.upper)};
+  const double centre = (a.lower + a.upper) / 2, half = (a.upper - a.lower) / 2;
+  const auto places = chatter_places();
   for (auto& o : chain.operations) {
-    auto places = chatter_places();
     if (most_N_mm(o, a) * largest(chatter_yields(o, 0, 0, places)) < 1) continue;
-    if (!(a.lower < a.upper) || is_face()) {
-      o.chatter_mm_N = {{0, 1, {largest(last_yields(o, a.lower, places))}}};
+    if (!(half > 0) || is_face()) {
+      const auto c = last_yields(o, centre, places);
+      for (std::size_t k = 0; k < c.size(); ++k) add_place(places[k], {0, 1, {c[k]}}, o);
       continue;
     }
-    const double centre = (a.lower + a.upper) / 2, half = (a.upper - a.lower) / 2;
+    std::vector<double> some;
     std::vector<bool> near(places.size(), false);
     for (const double depth : {a.lower, centre, a.upper}) {
       const auto c = last_yields(o, depth, places);
       for (std::size_t k = 0; k < c.size(); ++k)
         if (c[k] >= kNearWorst * largest(c)) near[k] = true;
     }
-    std::vector<double> some;
     for (std::size_t k = 0; k < places.size(); ++k)
       if (near[k]) some.push_back(places[k]);
     const auto u = chebyshev(kNodes);
@@ -156,10 +171,9 @@ void Feature::limit_chatter(Chain& chain, std::optional<double> a_mm) const {
         values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = c[k];
     }
     const Eigen::MatrixXd c = through(u, values);
-    std::vector<Polynomial> all;
-    for (Eigen::Index k = 0; k < c.cols(); ++k)
-      all.push_back(polynomial(c.col(k), centre, half));
-    o.chatter_mm_N = largest_somewhere(std::move(all));
+    for (std::size_t k = 0; k < some.size(); ++k)
+      add_place(some[k], polynomial(c.col(static_cast<Eigen::Index>(k)), centre, half),
+                o);
   }
 }
 

@@ -103,6 +103,8 @@ class Feature {
   /// Asks a chain for (1), of the operations of which some condition comes near it.  Over
   /// an open depth at places that are the worst, or near it, somewhere.
   void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
+  /// At one depth, at the places where another chain is asked.
+  void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;
 
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
   /// through exact values: 8 pieces of degree 8 along an element (interpolation error
