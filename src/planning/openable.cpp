@@ -276,7 +276,7 @@ LimitName name_of(const PartPlan& p, const Openable& l) {
     case Kind::life_max:
       return of_windows(p, Check::life_max, &catalogue::Tool::T_min);
     case Kind::chatter:
-      return {"stiffness against chatter", "times", p.chatter_times, true};
+      return {"chatter stiffness", "times", p.chatter_times, true};
     case Kind::depth_min:
       return of_windows(p, Check::depth_min, &catalogue::Tool::ap_mm);
     case Kind::depth_max:

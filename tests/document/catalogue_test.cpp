@@ -74,9 +74,8 @@ TEST(Catalogue, ChipWindowIsAPolygonOrRanges) {
   };
   EXPECT_EQ(with([](auto& w) { w["ap_mm"] = {1, 4}; }), "");
   EXPECT_EQ(with([](auto& w) { w.erase("chip_window"); }),
-            "/window/f_mm_rev: got nothing, expected a list of 2 numbers > 0 and <= 5 "
-            "mm/rev\n/window/ap_mm: got nothing, expected a list of 2 numbers > 0 and <= "
-            "50 mm\n");
+            "/window/f_mm_rev: got nothing, expected a list of 2 entries\n"
+            "/window/ap_mm: got nothing, expected a list of 2 entries\n");
   EXPECT_EQ(with([](auto& w) {
               w["chip_window"] = {{1, 0.1}, {2, 0.2}};
             }),
@@ -110,7 +109,7 @@ TEST(Catalogue, DampingRatiosArePositiveAndAtMostOneHalf) {
   for (const double zeta : {0.0, -0.1, 0.6}) {
     lathe["stiffness"]["damping_ratio"] = zeta;
     EXPECT_NE(problems_of(read_lathe, lathe)
-                  .find("/stiffness/damping_ratio: got " + number_text(zeta) +
+                  .find("/stiffness/damping_ratio: got " + nlohmann::json(zeta).dump() +
                         ", expected a number > 0 and <= 0.5"),
               std::string::npos);
   }

@@ -106,8 +106,9 @@ TEST(Chatter, IsAConstraintWithItsValueAndLimitInClosedForm) {
       c.value,
       F.Fp_N / pass.f_mm_rev * cutting::flow_cotangent(cut, pass.ap_mm, pass.f_mm_rev),
       1e-9 * c.value);
+  // Worst where the cut begins, at the free end: the blank is still whole.
   const deflection::Beam beam(
-      part::Shaft{p.material.E_MPa, p.material.nu, {{150, 30, 30, 0, 0}}});
+      part::Shaft{p.material.E_MPa, p.material.nu, {{150, 32, 32, 0, 0}}});
   const auto& m = p.machine;
   const auto& chuck = m.chuck.radial;
   const double f_ww = beam.at(150, {deflection::Method::chuck,
@@ -159,7 +160,7 @@ TEST(Chatter, WhatNothingKeepsIsAConflict) {
   EXPECT_TRUE(std::any_of(r.conflicts.begin(), r.conflicts.end(),
                           [](const Conflict& x) { return x.limit == kName; }));
   EXPECT_TRUE(std::any_of(r.relax.begin(), r.relax.end(), [](const Relaxation& x) {
-    return x.limit == "chatter stiffness of d2" && x.needed > x.now;
+    return x.limit == kName && x.needed > x.now;
   }));
 }
 
@@ -179,7 +180,10 @@ TEST(Chatter, EveryOperationOfAReferencePartKeepsIt) {
     const auto r = plan(part(reference_part(name)));
     ASSERT_EQ(r.status, PlanStatus::ok) << name;
     for (const auto& s : r.setups)
-      for (const auto& o : s.operations) EXPECT_GE(chatter_of(o).margin, -1e-9) << o.id;
+      for (const auto& o : s.operations)
+        if (o.kind != OperationKind::fixed) {
+          EXPECT_GE(chatter_of(o).margin, -1e-9) << o.id;
+        }
   }
 }
 

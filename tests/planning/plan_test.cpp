@@ -663,12 +663,10 @@ TEST(Plan, ToleranceOnlyTheMachineUsesUpIsToldAsSuch) {
 TEST(Plan, InfeasibleAsDrawnTellsWhatFailsAndWhatWouldHaveToGive) {
   const auto r = planned(reference_part("infeasible-as-drawn"));
   EXPECT_EQ(r.status, PlanStatus::infeasible);
-  std::multiset<std::string> of_d2;
-  for (const auto& c : r.conflicts)
-    if (c.where == "setup 0, chuck, d2") of_d2.insert(c.limit);
-  EXPECT_EQ(of_d2,
-            (std::multiset<std::string>{"chatter stiffness", "chatter stiffness",
-                                        "d2:diameter diameter", "t1 cylindricity"}));
+  std::set<std::string> limits;
+  for (const auto& c : r.conflicts) limits.insert(c.limit);
+  EXPECT_EQ(limits, (std::set<std::string>{"chatter stiffness", "d2:diameter diameter",
+                                           "t1 cylindricity"}));
   EXPECT_EQ(r.relax.size(), r.conflicts.size());
   for (const auto& c : r.conflicts) EXPECT_GT(c.value, c.allowed);
   for (const auto& x : r.relax) EXPECT_GT(x.needed, x.now);

@@ -138,7 +138,7 @@ class PartInfeasibleAsDrawn : public testing::Test {
   // Its tolerances alone: it chatters too.
   static document::LoadedPart damped() {
     auto all = loaded("infeasible-as-drawn");
-    all.plan.damping_ratio = 0.5;
+    all.plan.chatter_times = 1e4;
     return all;
   }
   const document::LoadedPart part = damped();

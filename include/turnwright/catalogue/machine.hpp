@@ -53,7 +53,7 @@ struct Lathe {
   double stiffness_uncertainty_pct = 0;
   std::optional<GeometricErrors> errors = {};
   std::optional<double> damping_ratio = {};  ///< of slender work and bars in it
-  std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
+  std::vector<std::string> clampings;        ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {
     return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();
   }
