@@ -84,7 +84,8 @@ TEST_P(Windows, HoldWhatIsKeptAndNothingElse) {
   int in = 0, out = 0, refused = 0;
   for (const auto& s : p.plan().setups)
     for (const auto& o : s.operations) {
-      ASSERT_TRUE(o.window) << o.id;
+      EXPECT_EQ(o.window.has_value(), o.kind != OperationKind::fixed) << o.id;
+      if (!o.window) continue;
       const auto& w = *o.window;
       const std::size_t n = w.vc_m_min.size();
       ASSERT_EQ(w.f_mm_rev.size(), n);
