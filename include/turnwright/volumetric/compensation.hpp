@@ -49,7 +49,8 @@ struct Compensated {
 /// at 0; only axes the machine has are corrected and counted (tangential errors of a
 /// lathe act by y^2/2R).  Where an axis turns back in a feed move, its play is taken up
 /// first by a move of its own.
-/// @throws std::domain_error as Kinematics.
+/// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves a point farther
+///   off than it was, errors changing by as much as the way.
 Compensated compensate(const NcProgram& program, const Machine& machine,
                        const NcSetup& setup, const CompensationOptions& options = {});
 
