@@ -163,7 +163,7 @@ json analysis_json(const Trace& t) {
 
 }  // namespace
 
-json ball_bar(const json& request) {
+volumetric::Trace ball_bar_trace(const json& request) {
   Problems problems{.document = "ballbar"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-ballbar/1");
@@ -176,8 +176,12 @@ json ball_bar(const json& request) {
   if (r.is_object() && simulated == analysed)
     r.problem(simulated ? "both" : "neither", "either simulate or analyse", "conflict");
   problems.throw_if_any();
-  if (trace) return analysis_json(*trace);
-  const Trace t = simulate(simulation->machine, simulation->test);
+  return trace ? *trace : simulate(simulation->machine, simulation->test);
+}
+
+json ball_bar(const json& request) {
+  const Trace t = ball_bar_trace(request);
+  if (request.contains("analyse")) return analysis_json(t);
   return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
 }
 

@@ -214,6 +214,16 @@ BallBarFit decompose(const Trace& t) {
   return out;
 }
 
+double fitted_mm(const BallBarFit& fit, double R_mm, double theta_rad, double dir) {
+  const Basis b = basis({Plane::XY, R_mm, {theta_rad}, {}, {}});
+  double sum = 0;
+  for (std::size_t k = 0; k < kAlike.size(); ++k)
+    sum += fit.value[kAlike[k]] * b.alike(0, static_cast<Index>(k));
+  for (std::size_t k = 0; k < kOpposed.size(); ++k)
+    sum += dir * fit.value[kOpposed[k]] * b.opposed(0, static_cast<Index>(k));
+  return sum;
+}
+
 std::vector<std::string> confounded(Plane plane) {
   const auto [u, v] = axes_of(plane);
   const std::string U(1, u), V(1, v);

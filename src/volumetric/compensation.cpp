@@ -306,6 +306,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
         std::max(out.largest_correction_mm, norm(s.command - s.target));
     before.add(is);
     after.add(left);
+    out.distances_mm.push_back({static_cast<float>(is), static_cast<float>(left)});
     if (!s.last) ++out.added;
   };
   std::vector<Stop> stops;  // of the methods that look at all at once
