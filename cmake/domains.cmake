@@ -34,19 +34,19 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
-                          characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
+                          series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
                           chatter_frequency.cpp limits.cpp multipliers.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS optimum_test.cpp conflict_test.cpp single_pass_test.cpp)
+  TESTS optimum_test.cpp certificate_test.cpp conflict_test.cpp single_pass_test.cpp)
 if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
 endif()
@@ -59,7 +59,8 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp plan.cpp predict.cpp
+          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp

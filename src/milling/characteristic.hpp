@@ -45,6 +45,9 @@ class Characteristic {
   /// f(z, w (1 - z)) times a positive number that is 1 unless f would overflow.
   Complex value(Complex z, double w_mm) const;
 
+  const std::vector<ArcLoad>& arcs() const { return arcs_; }
+  double n_rpm() const { return n_rpm_; }
+
  private:
   const Propagator& propagator_for(double kappa_abs) const;
 

@@ -27,8 +27,11 @@ class Climb {
       : coarse_(system, n_rpm, kCoarse), fine_(system, n_rpm, kFine) {}
 
   std::vector<Crossing> to(double ap_max) {
-    double w = first_strip(ap_max);
-    search(0, w);
+    double w = by_series(ap_max);
+    if (w == 0) {
+      w = first_strip(ap_max);
+      search(0, w);
+    }
     while (w < ap_max) {
       const double reached = count_ > 0 ? followed(w, ap_max) : w;
       if (reached >= ap_max) break;
@@ -49,8 +52,20 @@ class Climb {
     return w;
   }
 
-  void search(double from, double to) {
-    for (const OnCircle& at : on_circle(coarse_, fine_, from, to)) {
+  /// Searches as far as one series tells, and returns how far that is.
+  double by_series(double ap_max) {
+    const auto whole =
+        series_up_to(coarse_.system(), coarse_.arcs(), coarse_.n_rpm(), ap_max);
+    if (!whole) return 0;
+    const double w = whole->depth_mm;
+    enter(on_circle(whole->series, coarse_, fine_, w));
+    return w;
+  }
+
+  void search(double from, double to) { enter(on_circle(coarse_, fine_, from, to)); }
+
+  void enter(const std::vector<OnCircle>& zeros) {
+    for (const OnCircle& at : zeros) {
       const bool was_stable = count_ == 0;
       count_ += at.change;
       if (count_ < 0) throw std::domain_error("speed_limits: a zero was missed");

@@ -12,6 +12,7 @@ constexpr std::size_t kSamples = 32;
 constexpr double kTail = 1e-13;      // of the series, relative to its largest term
 constexpr double kFloor = 1e-10;     // the same, where rounding ends the descent
 constexpr double kRounding = 1e-13;  // of a sample, relative to the largest
+constexpr double kUnseen = 1e-2;     // of the noise: terms dropped
 constexpr double kPrecise = 1e-7;    // noise accepted, relative to the values
 
 const std::vector<Complex>& unit_roots() {
@@ -44,9 +45,9 @@ std::vector<Coefficients> samples(const Characteristic& f, const Disc& disc) {
 }  // namespace
 
 // kappa - kappa_c = (w - w_c)(1 - z) - w_c (z - z_c).
-Disc disc(const Box& box, double rho) {
-  const Complex step = 1.0 - std::polar(rho, -box.theta);
-  const double far = std::abs(step) + rho * box.theta_half;
+Disc disc(const Box& box, Complex u, double rho) {
+  const Complex step = 1.0 - rho * u;
+  const double far = modulus(step) + rho * box.theta_half;
   return {box.w * step, box.w_half * far + std::abs(box.w) * rho * box.theta_half};
 }
 
@@ -74,7 +75,7 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
       for (std::size_t s = 0; s < kSamples; ++s)
         sum += v[s] * std::conj(roots[s * j % kSamples]);
       all[i * kSamples + j] = sum / double{kSamples};
-      size[j] += std::abs(all[i * kSamples + j]);
+      size[j] += modulus(all[i * kSamples + j]);
     }
   }
   const double largest = *std::ranges::max_element(size);
@@ -86,19 +87,68 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   double tail = 0;
   while (terms > 3 && size[terms - 1] <= std::max(kTail * largest, 2 * floor))
     tail += size[--terms];
-  out.terms_ = terms;
-  for (std::size_t i = 0; i < out.powers_; ++i)
-    out.c_.insert(out.c_.end(), &all[i * kSamples], &all[i * kSamples] + terms);
+  out.keep(all, kSamples, terms);
   out.noise_ = 2 * tail + kSamples * floor + kRounding * largest;
   out.bound();
   if (!(out.noise_ < kPrecise * out.scale())) return std::nullopt;
   return out;
 }
 
+// (kappa/R)^j about the centre: repeated synthetic division.
+Patch Patch::of(const Series& series, const Disc& disc, double rho) {
+  const Complex at = disc.centre / series.radius_mm;
+  const double ratio = disc.radius / series.radius_mm, rim = modulus(at) + ratio;
+  Patch out;
+  out.disc_ = disc;
+  out.rho_ = rho;
+  out.powers_ = series.c.size();
+  out.noise_ = series.noise(modulus(disc.centre) + disc.radius);
+  std::size_t most = 0;
+  for (const auto& c : series.c) most = std::max(most, c.size());
+  const double negligible = kUnseen * out.noise_;
+  double tail = 0;
+  for (double power = std::pow(rim, most - 1); most > 4; power /= rim) {
+    double size = 0;
+    for (const auto& c : series.c)
+      if (c.size() >= most) size += std::abs(c[most - 1]);
+    if (tail + size * power > negligible) break;
+    tail += size * power;
+    --most;
+  }
+  std::vector<Complex> all(out.powers_ * most);
+  std::vector<double> size(most, 0);
+  double to_i = 1;
+  for (std::size_t i = 0; i < out.powers_; ++i, to_i *= rho) {
+    Complex* p = &all[i * most];
+    const std::size_t terms = std::min(most, series.c[i].size());
+    std::copy_n(series.c[i].begin(), terms, p);
+    for (std::size_t k = 0; k + 1 < terms; ++k)
+      for (std::size_t j = terms - 1; j-- > k;) p[j] += at * p[j + 1];
+    double to_j = to_i;
+    for (std::size_t j = 0; j < terms; ++j, to_j *= ratio) {
+      p[j] *= to_j;
+      size[j] += modulus(p[j]);
+    }
+  }
+  std::size_t terms = most;
+  while (terms > 4 && tail + size[terms - 1] < negligible) tail += size[--terms];
+  out.keep(all, most, terms);
+  out.noise_ += tail;
+  out.bound();
+  return out;
+}
+
+void Patch::keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms) {
+  terms_ = terms;
+  c_.clear();
+  for (std::size_t i = 0; i < powers_; ++i)
+    c_.insert(c_.end(), &all[i * stride], &all[i * stride] + terms);
+}
+
 double Patch::scale() const {
   double largest = 0;
   for (std::size_t i = 0; i < powers_; ++i)
-    largest = std::max(largest, std::abs(c_[i * terms_]));
+    largest = std::max(largest, modulus(c_[i * terms_]));
   return largest;
 }
 
@@ -116,85 +166,134 @@ Patch Patch::shifted(const Disc& disc) const {
     to_j = 1;
     for (std::size_t j = 0; j < terms_; ++j, to_j *= ratio) {
       p[j] *= to_j;
-      size[j] += std::abs(p[j]);
+      size[j] += modulus(p[j]);
     }
   }
-  const double largest = *std::ranges::max_element(size);
   std::size_t terms = terms_;
   double tail = 0;
-  while (terms > 3 && tail + size[terms - 1] < 1e-2 * kTail * largest)
-    tail += size[--terms];
+  while (terms > 4 && tail + size[terms - 1] < kUnseen * noise_) tail += size[--terms];
   Patch out;
   out.disc_ = disc;
   out.rho_ = rho_;
   out.powers_ = powers_;
-  out.terms_ = terms;
-  for (std::size_t i = 0; i < powers_; ++i)
-    out.c_.insert(out.c_.end(), &c[i * terms_], &c[i * terms_] + terms);
+  out.keep(c, terms_, terms);
   out.noise_ = noise_ + tail;
   out.bound();
   return out;
 }
 
 void Patch::bound() {
-  for (std::size_t i = 0; i < powers_; ++i)
+  const double middle = static_cast<double>(powers_ / 2);
+  for (std::size_t i = 0; i < powers_; ++i) {
+    double size = 0, T = 0, TT = 0, TTT = 0;
     for (std::size_t j = 0; j < terms_; ++j) {
-      const double size = std::abs(c_[i * terms_ + j]);
-      const auto a = static_cast<double>(i), b = static_cast<double>(j);
-      kk_ += b * (b - 1) * size;
-      kz_ += a * b * size;
-      zz_ += a * (a - 1) * size;
+      const auto b = static_cast<double>(j);
+      const double c = modulus(c_[i * terms_ + j]);
+      size += c;
+      T += b * c;
+      TT += b * (b - 1) * c;
+      TTT += b * (b - 1) * (b - 2) * c;
     }
-  kk_ /= disc_.radius * disc_.radius;
-  kz_ /= disc_.radius;
+    const auto a = static_cast<double>(i), e = std::abs(a - middle);
+    const auto add = [&](Bounds& to, double U, double UU, double UUU) {
+      to.TT += TT;
+      to.TU += U * T;
+      to.UU += UU * size;
+      to.TTT += TTT;
+      to.TTU += U * TT;
+      to.TUU += UU * T;
+      to.UUU += UUU * size;
+    };
+    add(inside_, a, a * (a - 1), a * (a - 1) * (a - 2));
+    add(on_rim_, e, e * e, e * e * e);
+  }
 }
 
-Patch::Point Patch::point(Complex z, Complex kappa) const {
+Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) const {
   const Complex u = z / rho_, t = (kappa - disc_.centre) / disc_.radius;
-  Point out{.f = 0, .f_z = 0, .f_kappa = 0};
+  Complex f, f_u, f_t, tt, tu, uu;  // tt and uu: half of the derivative
   for (std::size_t i = powers_; i-- > 0;) {
     const Complex* p = &c_[i * terms_];
-    Complex value = p[0], slope = 0;
+    Complex value = p[0], slope = 0, curve = 0;
     if (i > 0 && i + 1 < powers_) {
       value = p[terms_ - 1];
       for (std::size_t j = terms_ - 1; j-- > 0;) {
+        curve = curve * t + slope;
         slope = slope * t + value;
         value = value * t + p[j];
       }
     }
-    out.f_z = out.f_z * u + out.f;
-    out.f = out.f * u + value;
-    out.f_kappa = out.f_kappa * u + slope;
+    uu = uu * u + f_u;
+    tu = tu * u + f_t;
+    tt = tt * u + curve;
+    f_u = f_u * u + f;
+    f_t = f_t * u + slope;
+    f = f * u + value;
   }
-  out.f_z /= rho_;
-  out.f_kappa /= disc_.radius;
-  out.kk = kk_;
-  out.kz = kz_ / rho_;
-  out.zz = zz_ / (rho_ * rho_);
-  return out;
+  const double a = reach / disc_.radius, b = dz / rho_;
+  const double by_t = 1 / disc_.radius, by_u = 1 / rho_;
+  return {
+      .f = f,
+      .f_z = f_u * by_u,
+      .f_kappa = f_t * by_t,
+      .kk = std::min(inside_.TT, 2 * modulus(tt) + inside_.TTT * a + inside_.TTU * b) *
+            by_t * by_t,
+      .kz = std::min(inside_.TU, modulus(tu) + inside_.TTU * a + inside_.TUU * b) * by_t *
+            by_u,
+      .zz = std::min(inside_.UU, 2 * modulus(uu) + inside_.TUU * a + inside_.UUU * b) *
+            by_u * by_u};
 }
 
-// With u = z/rho, kappa = w (1 - rho u), u_theta = -i u, and the derivatives by u:
-//   g_w = f_k (1 - rho u),  g_theta = i u X,  X = w rho f_k - f_u,
-//   g_ww = f_kk (1 - rho u)^2,
-//   g_wt = i u (rho f_k + (1 - rho u)(w rho f_kk - f_ku)),
-//   g_tt = u X - u^2 (w^2 rho^2 f_kk - 2 w rho f_ku + f_uu).
-Local Patch::at(const Box& box) const {
-  const Complex u = std::polar(1.0, -box.theta), step = 1.0 - rho_ * u;
-  const Point p = point(rho_ * u, box.w * step);
-  const double wr = box.w * rho_;
-  const Complex X = wr * p.f_kappa - rho_ * p.f_z;
-  Local out{.g = p.f, .g_w = p.f_kappa * step, .g_theta = Complex(0, 1) * u * X};
+// F = u^(-m/2) f, E and E2 are what u d/du makes of it once and twice at one kappa, _k is
+// the derivative by kappa.  With u_theta = -i u, kappa_theta = i w rho u:
+//   g_w = F_k (1 - rho u),  g_theta = i (w rho u F_k - E),
+//   g_ww = F_kk (1 - rho u)^2,
+//   g_wt = i (rho u F_k + (1 - rho u)(w rho u F_kk - E_k)),
+//   g_tt = -E2 + 2 w rho u E_k + w rho u F_k - (w rho u)^2 F_kk.
+Local Patch::at(const Box& box, Complex u) const {
+  const Complex step = 1.0 - rho_ * u, kappa = box.w * step;
+  const Complex t = (kappa - disc_.centre) / disc_.radius;
+  const double middle = static_cast<double>(powers_ / 2);
+  Complex F, F_t, F_tt, E, E_t, E2;
+  for (std::size_t i = powers_; i-- > 0;) {
+    const Complex* p = &c_[i * terms_];
+    Complex value = p[0], slope = 0, curve = 0;
+    if (i > 0 && i + 1 < powers_) {
+      value = p[terms_ - 1];
+      for (std::size_t j = terms_ - 1; j-- > 0;) {
+        curve = curve * t + slope;
+        slope = slope * t + value;
+        value = value * t + p[j];
+      }
+    }
+    const double e = static_cast<double>(i) - middle;
+    F = F * u + value;
+    F_t = F_t * u + slope;
+    F_tt = F_tt * u + 2.0 * curve;
+    E = E * u + e * value;
+    E_t = E_t * u + e * slope;
+    E2 = E2 * u + e * e * value;
+  }
+  Complex back = 1;
+  for (std::size_t i = 0; i < powers_ / 2; ++i) back *= std::conj(u);
 
-  const double w = (std::abs(box.w) + box.w_half) * rho_;
-  const double q = std::abs(step) + rho_ * box.theta_half;
-  const double reach = box.w_half * q + std::abs(wr) * box.theta_half;  // of kappa
-  const double most_f_k = std::abs(p.f_kappa) + kk_ * reach + kz_ * box.theta_half;
-  const double most_X = std::abs(X) + (w * kk_ + kz_) * reach +
-                        (w * kz_ + zz_) * box.theta_half + rho_ * box.w_half * most_f_k;
-  out.ww = kk_ * q * q;
-  out.wt = rho_ * most_f_k + q * (w * kk_ + kz_);
-  out.tt = most_X + w * w * kk_ + 2 * w * kz_ + zz_;
+  const double wr = box.w * rho_, b = box.theta_half, by_t = 1 / disc_.radius;
+  const Complex F_k = F_t * by_t;
+  Local out{.g = back * F,
+            .g_w = back * F_k * step,
+            .g_theta = Complex(0, 1) * back * (wr * u * F_k - E)};
+
+  const Bounds& most = on_rim_;
+  const double q = modulus(step) + rho_ * b;
+  const double reach = box.w_half * q + wr * b, a = reach * by_t;
+  const double TT = std::min(most.TT, modulus(F_tt) + most.TTT * a + most.TTU * b);
+  const double TU = std::min(most.TU, modulus(E_t) + most.TTU * a + most.TUU * b);
+  const double UU = std::min(most.UU, modulus(E2) + most.TUU * a + most.UUU * b);
+  const double w = (box.w + box.w_half) * rho_;
+  const double kk = TT * by_t * by_t, k = modulus(F_k) + (TT * a + TU * b) * by_t;
+  out.ww = kk * q * q;
+  out.wt = rho_ * k + q * (w * kk + TU * by_t);
+  out.tt = UU + 2 * w * TU * by_t + w * k + w * w * kk;
   return out;
 }
 

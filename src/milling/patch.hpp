@@ -1,16 +1,23 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "characteristic.hpp"
+#include "series.hpp"
 
 namespace turnwright::milling {
 
+/// |x| without hypot's care for numbers that overflow when squared: there are none here.
+inline double modulus(Complex x) { return std::sqrt(std::norm(x)); }
+
 /// What a count at the depths w and on the circle |z| = rho needs to know of
 ///
-///     g(w, theta) = f(z, kappa),  z = rho e^(-i theta),  kappa = w (1 - z)           (1)
+///     g(w, theta) = u^(-m/2) f(z, kappa),  u = e^(-i theta),  z = rho u,            (1)
+///     kappa = w (1 - z)
 ///
-/// at one point and around it.
+/// at one point and around it; m is the degree of f in z, an even number, and the factor
+/// makes g turn slowly.
 struct Local {
   Complex g;                      ///< value at the centre of the box
   Complex g_w, g_theta;           ///< derivatives there
@@ -21,14 +28,18 @@ struct Local {
 struct Box {
   double w = 0, w_half = 0;
   double theta = 0, theta_half = 0;
+  Complex u() const { return std::polar(1.0, -theta); }
 };
 
-/// A disc that holds the kappa of every point of the box.
+/// A disc that holds the kappa of every point of the box; u is that of the box.
 struct Disc {
   Complex centre;
   double radius = 0;
 };
-Disc disc(const Box& box, double rho);
+Disc disc(const Box& box, Complex u, double rho);
+inline bool holds(const Disc& outer, const Disc& inner) {
+  return modulus(inner.centre - outer.centre) + inner.radius <= outer.radius;
+}
 
 /// Taylor series in kappa of the coefficients of f, good in a disc:
 ///
@@ -38,12 +49,14 @@ Disc disc(const Box& box, double rho);
 /// hold for every point of the disc, and are the sharper the smaller it is.
 class Patch {
  public:
-  /// f at one point, z inside the circle, and bounds on its second derivatives in the
-  /// disc for |z| <= rho.
+  /// f at one point and bounds on the moduli of its second derivatives nearby.
   struct Point {
     Complex f, f_z, f_kappa;
     double kk = 0, kz = 0, zz = 0;
   };
+
+  /// @param disc  inside the circle of the series.
+  static Patch of(const Series& series, const Disc& disc, double rho);
 
   /// None if the disc is too large for the series to be precise at its centre.
   static std::optional<Patch> sampled(const Characteristic& f, const Disc& disc,
@@ -58,12 +71,15 @@ class Patch {
   /// |g| at the disc's centre and some z, for telling whether the noise matters.
   double scale() const;
 
-  /// @param box  its disc must lie in this one.
-  Local at(const Box& box) const;
+  /// @param box  its disc must lie in this one; u is that of the box.
+  Local at(const Box& box, Complex u) const;
 
-  Point point(Complex z, Complex kappa) const;
+  /// Bounds hold within `reach` of kappa and `dz` of z, as far as that is inside the disc
+  /// and |z| <= rho.
+  Point point(Complex z, Complex kappa, double reach, double dz) const;
 
  private:
+  void keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms);
   void bound();
 
   Disc disc_;
@@ -72,7 +88,13 @@ class Patch {
   std::size_t terms_ = 0;   // of kappa
   std::vector<Complex> c_;  // [i * terms_ + j]
   double noise_ = 0;
-  double kk_ = 0, kz_ = 0, zz_ = 0;  // bounds on f_kappa,kappa, f_kappa,z, f_z,z
+  /// Bounds on derivatives of f in all of |t| <= 1, t = (kappa - centre)/radius, by their
+  /// order in t (T) and u = z/rho (U).
+  struct Bounds {
+    double TT = 0, TU = 0, UU = 0, TTT = 0, TTU = 0, TUU = 0, UUU = 0;
+  };
+  Bounds inside_;  // in |u| <= 1
+  Bounds on_rim_;  // on |u| = 1: of u^(-m/2) f, U standing for the operator u d/du
 };
 
 }  // namespace turnwright::milling

@@ -13,10 +13,11 @@
 namespace turnwright::milling {
 namespace {
 
-constexpr double kGrowth = 2.5;     // most of ln |Phi| that one stretch may add
+constexpr double kGrowth = 4;       // most of ln |Phi| that one stretch may add
 constexpr double kDropped = 1e-17;  // terms of the series relative to Phi
 constexpr std::size_t kDegree = 60;
-constexpr double kStretches = 20000;  // of a period: a bound on time and memory
+constexpr std::size_t kFewest = 6, kMost = 20;  // nodes of a stretch without roots
+constexpr double kStretches = 20000;            // of a period: a bound on time and memory
 
 /// Response of the modes to the cut: |q| after unit force for a time t is at most
 /// min(impulse t, push t^2 / 2).
@@ -77,6 +78,35 @@ Nodes graded_nodes(const Quadrature& rule, double length, Grading grading, doubl
   return nodes;
 }
 
+/// Nodes of (3).
+std::size_t nodes_for(double phase, double error) {
+  double left = 1;
+  for (std::size_t p = 1; p < kMost; ++p) {
+    const auto n = 2 * static_cast<double>(p);
+    left *= phase * phase / 4 / ((n - 1) * n);
+    if (left <= error && p >= kFewest) return p;
+  }
+  return kMost;
+}
+
+/// q = kernel f, row by row with `columns` columns; kColumns the same if not 0.
+template <std::size_t kColumns = 0>
+void apply(const std::vector<double>& kernel, std::size_t columns,
+           const std::vector<double>& f, std::vector<double>& q) {
+  if constexpr (kColumns == 0) {
+    if (columns == 2) return apply<2>(kernel, columns, f, q);
+    if (columns == 4) return apply<4>(kernel, columns, f, q);
+  }
+  const std::size_t m = kColumns ? kColumns : columns, p = f.size() / m;
+  std::fill(q.begin(), q.end(), 0.0);
+  for (std::size_t i = 0; i < p; ++i) {
+    const double* row = &kernel[i * p];
+    double* sum = &q[i * m];
+    for (std::size_t j = 0; j < p; ++j)
+      for (std::size_t c = 0; c < m; ++c) sum[c] += row[j] * f[j * m + c];
+  }
+}
+
 class Stretcher {
  public:
   Stretcher(const System& system, double n_rpm, double kappa_max,
@@ -84,12 +114,12 @@ class Stretcher {
       : system_(system),
         n_rpm_(n_rpm),
         kappa_max_(kappa_max),
-        angle_(resolution.angle_rad),
-        nodes_each_(resolution.nodes),
+        resolution_(resolution),
         states_(2 * system.modes.size()),
         seconds_per_rad_(seconds_per_rad(n_rpm)) {
     for (const Mode& m : system.modes) {
       axis_of_.push_back(axis_index(m.axis));
+      used_[axis_of_.back()] = true;
       fastest_ = std::max(fastest_, rate(m));
     }
   }
@@ -103,9 +133,16 @@ class Stretcher {
     }
     const Receptance r = receptance(system_);
     const double force = kappa_max_ * load.largest_MPa;
-    const double by_force = std::max(kGrowth / (force * r.impulse),
-                                     std::sqrt(2 * kGrowth / (force * r.push)));
-    const double longest = std::min(angle_ / fastest_, by_force);
+    const double by_force =
+        kGrowth / std::min(force * r.impulse, std::sqrt(force * r.push));
+    // Green's function turns with the free modes, the motion faster by the force, the
+    // directional factors twice with the spindle.
+    const double turns =
+        fastest_ + std::sqrt(fastest_ * fastest_ + force * r.push) + 2 / seconds_per_rad_;
+    // s^q makes the motion of higher degree; and a root slows convergence beside it too.
+    const bool rooted = arc.root_at_begin || arc.root_at_end;
+    const double phase = resolution_.phase_rad / (rooted ? 2 : 1);
+    const double longest = std::min(2 * phase / turns, by_force);
     const auto least = arc.root_at_begin && arc.root_at_end ? 2.0 : 1.0;
     const double pieces = std::max(least, std::ceil(length / longest));
     if (!(static_cast<double>(out.size()) + pieces < kStretches))
@@ -113,9 +150,9 @@ class Stretcher {
           "milling: a tooth period holds too many vibrations to follow; ask for a higher "
           "speed or a smaller depth");
     const double piece = length / pieces;
-    // s^q makes the motion of higher degree; and a root slows convergence beside it too.
-    const bool rooted = arc.root_at_begin || arc.root_at_end;
-    rule_ = &quadrature(rooted ? 2 * nodes_each_ : nodes_each_);
+    const std::size_t nodes =
+        nodes_for((rooted ? 2 : 1) * piece * turns / 2, resolution_.error);
+    rule_ = &quadrature(rooted ? 2 * nodes : nodes);
     for (double i = 0; i < pieces; ++i) {
       const Grading grading = arc.root_at_begin && i == 0          ? Grading::at_begin
                               : arc.root_at_end && i + 1 == pieces ? Grading::at_end
@@ -140,20 +177,23 @@ class Stretcher {
                           grading == Grading::none ? 1 : grading_power(system_));
     from_begin_.clear();
     to_end_.clear();
-    for (const Mode& m : system_.modes)
+    for (auto& kernel : kernels_) kernel.assign(p * p, 0);
+    std::vector<Transition> back(p);
+    for (std::size_t k = 0; k < system_.modes.size(); ++k) {
+      const Mode& m = system_.modes[k];
       for (std::size_t i = 0; i < p; ++i) {
         from_begin_.push_back(transition(m, nodes_.t[i]));
         to_end_.push_back(transition(m, length - nodes_.t[i]));
+        back[i] = transition(m, -nodes_.t[i]);
       }
-    for (auto& kernel : kernels_) kernel.assign(p * p, 0);
-    for (std::size_t k = 0; k < system_.modes.size(); ++k) {
-      const Mode& m = system_.modes[k];
       auto& kernel = kernels_[axis_of_[k]];
       const double strength = m.wn_rad_s / m.k_N_mm;
-      for (std::size_t i = 0; i < p; ++i)
+      for (std::size_t i = 0; i < p; ++i) {
+        const Transition& there = from_begin_[k * p + i];
         for (std::size_t j = 0; j < p; ++j)
           kernel[i * p + j] += strength * rule_->to_node[i * p + j] * nodes_.jacobian[j] *
-                               transition(m, nodes_.t[i] - nodes_.t[j]).xv;
+                               (there.xx * back[j].xv + there.xv * back[j].vv);
+      }
     }
   }
 
@@ -193,7 +233,8 @@ class Stretcher {
       out.degree = degree;
       scale *= kappa_max_;
       if (largest * scale < kDropped) break;
-      for (std::size_t a = 0; a < 2; ++a) apply(kernels_[a], force[a], q[a]);
+      for (std::size_t a = 0; a < 2; ++a)
+        if (used_[a]) apply(kernels_[a], m, force[a], q[a]);
     }
     return out;
   }
@@ -223,17 +264,6 @@ class Stretcher {
     return largest;
   }
 
-  void apply(const std::vector<double>& kernel, const std::vector<double>& f,
-             std::vector<double>& q) const {
-    const std::size_t p = rule_->size, m = states_;
-    std::fill(q.begin(), q.end(), 0.0);
-    for (std::size_t i = 0; i < p; ++i)
-      for (std::size_t j = 0; j < p; ++j) {
-        const double k = kernel[i * p + j];
-        for (std::size_t c = 0; c < m; ++c) q[i * m + c] += k * f[j * m + c];
-      }
-  }
-
   // A free flight in closed form, into the stretch before it.
   void add_free_flight(double length, std::vector<SubArc>& out) const {
     const std::size_t m = states_;
@@ -252,12 +282,13 @@ class Stretcher {
   }
 
   const System& system_;
-  double n_rpm_, kappa_max_, angle_;
-  std::size_t nodes_each_;
+  double n_rpm_, kappa_max_;
+  Resolution resolution_;
   const Quadrature* rule_ = nullptr;
   std::size_t states_;
   double seconds_per_rad_;
   std::vector<std::size_t> axis_of_;
+  std::array<bool, 2> used_{};
   double fastest_ = 0;
   double length_ = 0;
   Grading kernel_grading_ = Grading::none;

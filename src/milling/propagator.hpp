@@ -32,13 +32,18 @@ struct ArcLoad {
 /// The arcs of a system at one spindle speed.
 std::vector<ArcLoad> arc_loads(const System& system, double n_rpm);
 
-/// How finely a propagator is made.
+/// How finely a propagator is made.  The integrand of (2) turns by 2 `phase_rad` at most
+/// in a stretch, and there are so many nodes p that
+///
+///     (phase_rad/2)^2p / (2p)! <= error                                            (3)
+///
+/// which is what Gauss's rule leaves of a wave of that phase at the end of a stretch.
 struct Resolution {
-  std::size_t nodes = 12;  ///< of the quadrature in each stretch
-  double angle_rad = 1.5;  ///< most that a mode may turn in a stretch
+  double phase_rad = 6;
+  double error = 1e-17;
 };
-inline constexpr Resolution kCoarse{12, 1.5};
-inline constexpr Resolution kFine{16, 1.5};
+inline constexpr Resolution kCoarse{6, 1e-14};
+inline constexpr Resolution kFine{5, 1e-19};
 
 /// On the stability boundary q(t - tau) = q(t)/mu, so that (2) of system.hpp becomes
 ///
@@ -53,7 +58,7 @@ inline constexpr Resolution kFine{16, 1.5};
 /// the nodes are s^q apart from it, which makes the integrand smooth.
 ///
 /// Only q enters B, so (2) is iterated for q alone.  Good for |kappa| <= kappa_max_mm.
-/// Source: derived here; checked in propagator_test against Runge-Kutta.
+/// Source: derived here; checked in accuracy_test against Bulirsch and Stoer's method.
 Propagator propagator(const System& system, const std::vector<ArcLoad>& arcs,
                       double n_rpm, double kappa_max_mm, const Resolution& resolution);
 

@@ -31,7 +31,8 @@ struct Step {
 /// Whether the disc holds one zero for every depth of the step; F_zz = f_zz - 2 w f_kz +
 /// w^2 f_kk, F_zw = (1 - z)(f_kz - w f_kk) - f_k, F_ww = (1 - z)^2 f_kk.
 bool shown(const Patch& patch, const Step& step) {
-  const Patch::Point p = patch.point(step.z, step.middle * (1.0 - step.z));
+  const Patch::Point p =
+      patch.point(step.z, step.middle * (1.0 - step.z), step.disc().radius, step.radius);
   const Slope F = slope_of(p, step.middle, step.z);
   const double w = step.middle + step.half, q = std::abs(1.0 - step.z) + step.radius;
   const double reach = step.disc().radius;
@@ -43,10 +44,6 @@ bool shown(const Patch& patch, const Step& step) {
                            ww * step.half * step.half / 2 + patch.noise();
   return at_centre + (zz * step.radius + zw * step.half) * step.radius <
          std::abs(F.z) * step.radius;
-}
-
-bool holds(const Disc& outer, const Disc& inner) {
-  return std::abs(inner.centre - outer.centre) + inner.radius <= outer.radius;
 }
 
 }  // namespace
@@ -73,7 +70,7 @@ Complex zero_in(const Patch& patch, double w, Complex z) {
   for (int i = 0; i < kSteps; ++i) {
     const Complex kappa = w * (1.0 - z);
     if (!holds(patch.disc(), {kappa, 0})) break;
-    const Slope F = slope_of(patch.point(z, kappa), w, z);
+    const Slope F = slope_of(patch.point(z, kappa, 0, 0), w, z);
     const Complex step = F.f / F.z;
     z -= step;
     if (std::abs(step) < 1e-11) return z;
@@ -109,7 +106,7 @@ Tracked unstable_until(const Characteristic& f, double from_mm, double to_mm, Co
     if (!patch || !holds(patch->disc(), likely)) patch = patch_around(f, likely);
     if (patch) step.z = zero_in(*patch, step.middle, step.z);
     if (patch && std::abs(step.z) < 1) {
-      const Slope F = slope_of(patch->point(step.z, step.middle * (1.0 - step.z)),
+      const Slope F = slope_of(patch->point(step.z, step.middle * (1.0 - step.z), 0, 0),
                                step.middle, step.z);
       slope = -F.w / F.z;
       step.radius = std::min(2 * half * std::abs(slope) + 1e-9, 1 - std::abs(step.z));

@@ -23,7 +23,7 @@ double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.ima
 double distance(Complex p, Complex d) {
   const double t =
       std::norm(d) > 0 ? std::clamp(-dot(p, d) / std::norm(d), -1.0, 1.0) : 0;
-  return std::abs(p + t * d);
+  return modulus(p + t * d);
 }
 
 enum class Verdict { none, one, unclear };
@@ -40,7 +40,8 @@ Judged judge(const Local& g, const Box& box, double noise) {
                wt = g.wt * box.w_half * box.theta_half,
                tt = g.tt * box.theta_half * box.theta_half;
   const double rest = (ww + 2 * wt + tt) / 2 + noise;
-  if (std::abs(g.g) > std::abs(D) + std::abs(E) + rest) return {Verdict::none};
+  const double size_D = modulus(D), size_E = modulus(E);
+  if (modulus(g.g) > size_D + size_E + rest) return {Verdict::none};
 
   const double det = cross(D, E);
   if (det == 0) return {};
@@ -53,7 +54,7 @@ Judged judge(const Local& g, const Box& box, double noise) {
   }
   // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
   // into the Newton point +- (q + noise).
-  const double row = std::max(std::abs(D), std::abs(E)) / std::abs(det);
+  const double row = std::max(size_D, size_E) / std::abs(det);
   const double q = row * (ww + 2 * wt + tt), slack = q + row * noise;
   if (!(q < 1)) return {};
   if (std::abs(s) > 1 + slack || std::abs(t) > 1 + slack) return {Verdict::none};
@@ -67,46 +68,58 @@ Box scaled(Box box, double factor) {
   return box;
 }
 
-bool holds(const Disc& outer, const Disc& inner) {
-  return std::abs(inner.centre - outer.centre) + inner.radius <= outer.radius;
-}
-
 /// Patches on demand: those of the boxes above are reused while they are good.
 class Patches {
  public:
-  Patches(const Characteristic& f, double rho) : f_(f), rho_(rho) {}
+  Patches(const Characteristic& f, double rho) : f_(&f), rho_(rho) {}
+  explicit Patches(const Series& series) : series_(&series), rho_(1) {}
 
   /// A patch for `inner`: `above` itself, a shift of it or a new one, kept in `own`; null
   /// if the disc is too large for any.
   const Patch* pick(const Patch* above, const Disc& inner,
                     std::optional<Patch>& own) const {
+    constexpr double kFar = 6;  // from here on bounds of third order are too wide
     if (above && holds(above->disc(), inner)) {
-      if (inner.radius > above->disc().radius / 4) return above;
+      if (kFar * inner.radius > above->disc().radius) return above;
       const double room =
-          above->disc().radius - std::abs(inner.centre - above->disc().centre);
+          above->disc().radius - modulus(inner.centre - above->disc().centre);
       own = above->shifted({inner.centre, std::min(2 * inner.radius, room)});
       if (own->noise() < kNoisy * own->scale()) return &*own;
     } else if (above) {
       return nullptr;
     }
-    own = sampled({inner.centre, inner.radius});
+    own = sampled(inner);
     return own ? &*own : nullptr;
   }
 
   std::optional<Patch> sampled(const Disc& disc) const {
-    constexpr double kHopeless = 14;  // of growth across the disc
-    if (f_.growth(disc.radius) > kHopeless) return std::nullopt;
-    return Patch::sampled(f_, disc, rho_);
+    return series_ ? shifted(disc) : measured(disc);
   }
 
  private:
-  const Characteristic& f_;
+  std::optional<Patch> measured(const Disc& disc) const {
+    constexpr double kHopeless = 14;  // of growth across the disc
+    if (f_->growth(disc.radius) > kHopeless) return std::nullopt;
+    return Patch::sampled(*f_, disc, rho_);
+  }
+
+  std::optional<Patch> shifted(const Disc& disc) const {
+    constexpr double kWide = 6;  // terms that matter across the disc
+    const double share = disc.radius / series_->radius_mm;
+    if (modulus(disc.centre) + disc.radius > series_->radius_mm ||
+        share * static_cast<double>(series_->size.size()) > kWide)
+      return std::nullopt;
+    return Patch::of(*series_, disc, rho_);
+  }
+
+  const Characteristic* f_ = nullptr;
+  const Series* series_ = nullptr;
   double rho_;
 };
 
 class Search {
  public:
-  explicit Search(const Characteristic& f) : patches_(f, 1) {}
+  explicit Search(Patches patches) : patches_(patches) {}
 
   /// All zeros with w in [from, to].
   void strip(double from, double to, const Patch* patch) {
@@ -130,10 +143,11 @@ class Search {
           " boxes; ask for a smaller ap_max_mm or a higher speed");
     const Box wide = scaled(box, kInflation);
     std::optional<Patch> own;
-    const Patch* patch = patches_.pick(above, disc(wide, 1), own);
+    const Complex u = box.u();
+    const Patch* patch = patches_.pick(above, disc(wide, u, 1), own);
     Local g;
     if (patch) {
-      g = patch->at(wide);
+      g = patch->at(wide, u);
       const Judged judged = judge(g, wide, patch->noise());
       if (judged.verdict == Verdict::none) return;
       if (judged.verdict == Verdict::one) {
@@ -144,12 +158,11 @@ class Search {
         return;
       }
     }
-    split(box, border, g, patch ? patch : (above && !own ? above : nullptr));
+    split(box, u, border, g, patch ? patch : (above && !own ? above : nullptr));
   }
 
-  void split(const Box& box, bool border, const Local& g, const Patch* patch) {
-    const Complex step = 1.0 - std::polar(1.0, -box.theta);
-    double by_w = box.w_half * std::abs(step), by_theta = box.w * box.theta_half;
+  void split(const Box& box, Complex u, bool border, const Local& g, const Patch* patch) {
+    double by_w = box.w_half * modulus(1.0 - u), by_theta = box.w * box.theta_half;
     if (g.tt > 0) {
       by_w = std::sqrt(g.ww) * box.w_half;
       by_theta = std::sqrt(g.tt) * box.theta_half;
@@ -232,22 +245,34 @@ OnCircle polished(const Characteristic& coarse, const Characteristic& fine,
   return out;
 }
 
-}  // namespace
+/// As above on the series.
+OnCircle polished(const Series& series, const Box& zero) {
+  constexpr int kSteps = 30;
+  constexpr Complex kI(0, 1);
+  OnCircle at{.w_mm = zero.w, .theta = zero.theta};
+  double uncertain = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Complex z = std::polar(1.0, -at.theta), kappa = at.w_mm * (1.0 - z);
+    const SeriesValue p = value(series, z, kappa);
+    const Complex g_w = (1.0 - z) * p.f_kappa,
+                  g_theta = kI * z * (at.w_mm * p.f_kappa - p.f_z);
+    const double det = cross(g_w, g_theta);
+    const double dw = at.flip() ? -p.f.real() / g_w.real() : -cross(p.f, g_theta) / det;
+    if (!at.flip()) at.theta -= cross(g_w, p.f) / det;
+    at.w_mm += dw;
+    at.change = (det < 0 ? 1 : -1) * (at.flip() ? 1 : 2);
+    uncertain = series.noise(std::abs(kappa)) *
+                (at.flip() ? 1 / std::abs(g_w.real()) : std::abs(g_theta / det));
+    at.relative_error = (std::abs(dw) + uncertain) / at.w_mm;
+    if (std::abs(dw) <= std::max(uncertain / 8, 1e-15 * at.w_mm)) break;
+  }
+  return at;
+}
 
-bool OnCircle::flip() const { return theta == kPi; }
-
-std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
-                                double from_mm, double to_mm) {
-  Search search(coarse);
-  // The disc about w of radius w holds kappa for every depth up to w and |z| <= 1.
-  constexpr double kReach = 1.6;
-  std::optional<Patch> first;
-  if (from_mm == 0) first = search.patches().sampled({to_mm, kReach * to_mm});
-  search.strip(from_mm, to_mm, first ? &*first : nullptr);
-
+std::vector<OnCircle> sorted(const std::vector<OnCircle>& zeros, double from_mm,
+                             double to_mm) {
   std::vector<OnCircle> out;
-  for (const Box& zero : search.found()) {
-    const OnCircle at = polished(coarse, fine, zero);
+  for (const OnCircle& at : zeros) {
     if (!(at.w_mm > from_mm && at.w_mm <= to_mm)) continue;
     const bool again = std::ranges::any_of(out, [&](const OnCircle& other) {
       return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
@@ -259,13 +284,44 @@ std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characterist
   return out;
 }
 
+}  // namespace
+
+bool OnCircle::flip() const { return theta == kPi; }
+
+std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
+                                double from_mm, double to_mm) {
+  Search search(Patches(coarse, 1));
+  // The disc about w of radius w holds kappa for every depth up to w and |z| <= 1.
+  constexpr double kReach = 1.6;
+  std::optional<Patch> first;
+  if (from_mm == 0) first = search.patches().sampled({to_mm, kReach * to_mm});
+  search.strip(from_mm, to_mm, first ? &*first : nullptr);
+
+  std::vector<OnCircle> zeros;
+  for (const Box& zero : search.found()) zeros.push_back(polished(coarse, fine, zero));
+  return sorted(zeros, from_mm, to_mm);
+}
+
+std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coarse,
+                                const Characteristic& fine, double to_mm) {
+  constexpr double kLarge = 1e-9;  // error: polish without the series
+  Search search{Patches(series)};
+  search.strip(0, to_mm, nullptr);
+  std::vector<OnCircle> zeros;
+  for (const Box& zero : search.found()) {
+    const OnCircle at = polished(series, zero);
+    zeros.push_back(at.relative_error < kLarge ? at : polished(coarse, fine, zero));
+  }
+  return sorted(zeros, 0, to_mm);
+}
+
 namespace {
 
 /// Turns of g along the half circle, chord by chord.
 class Winding {
  public:
-  Winding(const Characteristic& f, double w, double rho)
-      : patches_(f, rho), w_(w), rho_(rho) {}
+  Winding(const Patches& patches, double w, double rho)
+      : patches_(patches), w_(w), rho_(rho) {}
 
   /// The angle by which g turns over [0, pi].
   double angle() {
@@ -282,9 +338,10 @@ class Winding {
     if (box.theta_half < kSmallest || ++boxes_ > kBoxes)
       throw ModelRangeError("milling: a multiplier lies on the circle asked about");
     std::optional<Patch> own;
-    const Patch* patch = patches_.pick(above, disc(box, rho_), own);
+    const Complex u = box.u();
+    const Patch* patch = patches_.pick(above, disc(box, u, rho_), own);
     if (patch) {
-      const Local g = patch->at(box);
+      const Local g = patch->at(box, u);
       const Complex E = g.g_theta * box.theta_half;
       const double rest = g.tt * box.theta_half * box.theta_half / 2 + patch->noise();
       if (distance(g.g, E) > rest)
@@ -297,7 +354,8 @@ class Winding {
   }
 
   Complex end(const Patch& patch, const Box& box, double side) const {
-    return patch.at({w_, 0, box.theta + side * box.theta_half, 0}).g;
+    const Box point{w_, 0, box.theta + side * box.theta_half, 0};
+    return patch.at(point, point.u()).g;
   }
 
   Patches patches_;
@@ -305,16 +363,25 @@ class Winding {
   std::size_t boxes_ = 0;
 };
 
-}  // namespace
-
-int multipliers_outside(const Characteristic& f, double w_mm, double rho) {
-  // z runs clockwise, and the lower half mirrors the upper.
-  const double turns = -Winding(f, w_mm, rho).angle() / kPi;
-  const double whole = std::round(turns);
+// z runs clockwise, and the lower half mirrors the upper; u^(-m/2) has turned g by m/2
+// half turns.
+int whole_turns(double angle, std::size_t m) {
+  const double turns = static_cast<double>(m / 2) - angle / kPi,
+               whole = std::round(turns);
   if (!(std::abs(turns - whole) < 1e-3))
     throw std::domain_error("multipliers_outside: half turns of " +
                             std::to_string(turns));
   return static_cast<int>(whole);
+}
+
+}  // namespace
+
+int multipliers_outside(const Characteristic& f, double w_mm, double rho) {
+  return whole_turns(Winding(Patches(f, rho), w_mm, rho).angle(), f.states());
+}
+
+int multipliers_outside(const Series& series, double w_mm) {
+  return whole_turns(Winding(Patches(series), w_mm, 1).angle(), series.states());
 }
 
 }  // namespace turnwright::milling

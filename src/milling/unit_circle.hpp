@@ -33,10 +33,17 @@ std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characterist
                                 double from_mm, double to_mm);
 inline constexpr std::size_t kBoxes = 400000;
 
+/// The same in (0, to] by a series that holds kappa up to 2.2 `to`.  The zeros' errors
+/// are what the noise of the series may make; where that is large they are polished as
+/// above.
+std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coarse,
+                                const Characteristic& fine, double to_mm);
+
 /// Number of zeros z of f(z, w (1 - z)) inside |z| = rho, that is of multipliers outside
 /// |mu| = 1/rho: the winding number of g, whose chords stand for arcs that are shown to
 /// stay on one side of 0.
 /// @throws ModelRangeError if a zero lies on the circle to within rounding.
 int multipliers_outside(const Characteristic& f, double w_mm, double rho = 1);
+int multipliers_outside(const Series& series, double w_mm);
 
 }  // namespace turnwright::milling

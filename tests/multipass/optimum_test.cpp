@@ -7,17 +7,10 @@
 #include <stdexcept>
 
 #include "oracle.hpp"
-#include "turnwright/optimise/local.hpp"
+#include "variants.hpp"
 
 namespace turnwright::multipass {
 namespace {
-
-Problem literature(double dt_mm, Cost cost) {
-  Problem m;
-  m.dt_mm = dt_mm;
-  m.cost = cost;
-  return m;
-}
 
 // ---- The published problem -----------------------------------------------------------
 
@@ -150,99 +143,6 @@ TEST(Multipass, CostOfAWorkedExample) {
 }
 
 // ---- Variants in which each limit binds -----------------------------------------------
-
-struct Variant {
-  std::string binds;
-  Problem m;
-};
-
-std::vector<Variant> variants() {
-  std::vector<Variant> all;
-  const auto add = [&](const std::string& binds, double dt, Cost cost, auto change) {
-    Problem m = literature(dt, cost);
-    change(m);
-    all.push_back({binds, m});
-  };
-  const auto L = Cost::literal, P = Cost::physical;
-  add("rough:PU", 6, L, [](Problem& m) { m.PU = 3; });
-  add("finish:PU", 6, P, [](Problem& m) {
-    m.PU = 2.6;
-    m.k4 = 0.5;
-    m.SRu_um = 100;
-  });
-  add("rough:FU", 8, L, [](Problem& m) { m.FU = 150; });
-  add("finish:FU", 6, L, [](Problem& m) {
-    m.k4 = 0;
-    m.SRu_um = 200;
-    m.FU = 120;
-  });
-  add("rough:QU", 8, L, [](Problem& m) { m.QU = 860; });
-  add("finish:QU", 6, L, [](Problem& m) {
-    m.QU = 900;
-    m.theta = 0.3;
-    m.T = {10, 200};
-  });
-  add("rough:SC", 7, P, [](Problem& m) { m.SC = 6000; });
-  add("finish:SC", 8, L, [](Problem& m) {
-    m.lambda = -1;
-    m.nu2 = 0.5;
-    m.SC = 0.003;
-  });
-  add("finish:SC", 6, L, [](Problem& m) {
-    m.lambda = -0.5;
-    m.nu2 = 1;
-    m.SC = 0.054;
-  });
-  add("finish:SC", 6, P, [](Problem& m) {
-    m.lambda = 2;
-    m.nu2 = 1;
-    m.SC = 19500;
-  });
-  add("finish:SRu_um", 6, L, [](Problem& m) { m.SRu_um = 2; });
-  add("rough:T_max", 6, L, [](Problem& m) { m.T = {25, 32}; });
-  add("finish:T_min", 6, L, [](Problem& m) { m.T = {30, 60}; });
-  add("rough:T_min", 6, P, [](Problem& m) { m.T = {40, 60}; });
-  add("finish:T_max", 6, P, [](Problem& m) { m.T = {10, 20}; });
-  add("rough:T_min", 8, L, [](Problem& m) { m.T = {30, 30}; });
-  add("rough:VrU", 6, P, [](Problem& m) { m.VrU = 100; });
-  add("finish:V_max", 6, P, [](Problem& m) { m.V.upper = 150; });
-  add("rough:V_min", 6, P, [](Problem& m) { m.V.lower = 130; });
-  add("rough:f_max", 8, L, [](Problem& m) { m.f.upper = 0.5; });
-  add("finish:f_min", 6, L, [](Problem& m) {
-    m.k4 = 0;
-    m.SRu_um = 1000 * 0.1 * 0.1 / (8 * m.R_mm);
-  });
-  add("rough:d_max", 4, P, [](Problem& m) {
-    m.k5 = 0;
-    m.d = {0.5, 2.2};
-    m.FU = 250;
-    m.PU = 50;
-    m.SRu_um = 3;
-  });
-  add("finish:d_min", 4, P, [](Problem& m) {
-    m.k5 = 0;
-    m.d = {1.7, 3.5};
-    m.FU = 250;
-    m.PU = 50;
-    m.SRu_um = 3;
-  });
-  add("k3", 6, P, [](Problem& m) { m.k3 = 1.6; });
-  add("k4", 8, L, [](Problem& m) { m.k4 = 3.5; });
-  add("k5", 7, P, [](Problem& m) { m.k5 = 1.3; });
-  add("rough:FU", 9, L, [](Problem& m) {
-    m.theta = 0;
-    m.T = {10, 90};
-  });
-  add("rough:FU", 9, L, [](Problem& m) {
-    m.theta = 1;
-    m.T = {10, 90};
-  });
-  add("rough:FU", 6, L, [](Problem& m) {
-    m.theta = 0.3;
-    m.T = {10, 200};
-  });
-  return all;
-}
 
 bool binds(const Answer& a, const std::string& name) {
   return std::ranges::any_of(a.limits,
@@ -379,88 +279,6 @@ TEST(Multipass, AStationaryPointProvesNothing) {
   const Answer a = optimum(m);
   EXPECT_NEAR(*a.best->UC, 2.002711, 1e-6);
   EXPECT_LE(a.gap, 1e-6);
-}
-
-struct Feasible {
-  const Oracle& o;
-  optimise::Problem problem;
-  explicit Feasible(const Oracle& oracle) : o(oracle) {
-    const Span s = span(o);
-    problem.lower.assign(s.lower.begin(), s.lower.end());
-    problem.upper.assign(s.upper.begin(), s.upper.end());
-    std::vector<double> g;
-    o.limits(s.lower, g);
-    problem.constraints = g.size();
-    problem.evaluate = [this](std::span<const double> x, optimise::Values& out) {
-      Five y;
-      std::copy(x.begin(), x.end(), y.begin());
-      out.f = std::log(o.cost(y));
-      o.limits(y, out.g);
-      std::vector<double> up, down;
-      for (std::size_t j = 0; j < 5; ++j) {  // central differences
-        Five a = y, b = y;
-        a[j] -= 1e-6, b[j] += 1e-6;
-        out.df[j] = (std::log(o.cost(b)) - std::log(o.cost(a))) / 2e-6;
-        o.limits(a, down);
-        o.limits(b, up);
-        for (std::size_t i = 0; i < up.size(); ++i)
-          out.dg[i * 5 + j] = (up[i] - down[i]) / 2e-6;
-      }
-    };
-  }
-};
-
-constexpr double kRounding = 1e-13;  // ln(6 - 3) and ln 3 differ by that
-
-TEST(Multipass, NoSampleAndNoLocalSolveIsBelowTheBound) {
-  std::vector<Problem> problems{literature(6, Cost::literal),
-                                literature(8, Cost::physical)};
-  problems.push_back(literature(6, Cost::literal));
-  problems.back().theta = 0.3;
-  problems.back().T = {10, 200};
-  problems.push_back(literature(10, Cost::literal));
-  problems.back().PU = 3.5;
-  problems.back().k5 = 0.5;
-  for (const Problem& m : problems) {
-    const Answer a = optimum(m);
-    std::mt19937 seed(9);
-    std::uniform_real_distribution<double> unit(0, 1);
-    for (int n = a.best->n; n <= a.best->n + 1; ++n) {
-      const PassCount& c = a.per_count[static_cast<std::size_t>(n - 1)];
-      ASSERT_TRUE(c.UC);
-      const Oracle o{m, n};
-      const Span s = span(o);
-      // A walk through the allowed points, with steps of every size.
-      Five at = point(c);
-      int allowed = 0;
-      double least = 1e9, over = o.worst(at);  // the optimum may be 1e-9 outside
-      for (int k = 0; allowed < 50000 && k < 2000000; ++k) {
-        Five y = at;
-        const double step = std::pow(10, -4 * unit(seed));
-        for (std::size_t j = 0; j < 5; ++j)
-          if (unit(seed) < 0.5)
-            y[j] = std::clamp(y[j] + step * (2 * unit(seed) - 1), s.lower[j], s.upper[j]);
-        const double w = o.worst(y);
-        if (w > std::max(over, kRounding)) continue;
-        at = y;
-        over = w;
-        if (w > kRounding) continue;
-        ++allowed;
-        least = std::min(least, o.cost(y));
-      }
-      EXPECT_GE(least, c.lower_bound * (1 - 100 * kRounding));
-      EXPECT_GE(allowed, 5000);
-      const Feasible local(o);
-      for (int k = 0; k < 100; ++k) {
-        std::vector<double> start(5);
-        for (std::size_t j = 0; j < 5; ++j)
-          start[j] = s.lower[j] + unit(seed) * (s.upper[j] - s.lower[j]);
-        const auto r = optimise::local_minimum(local.problem, start);
-        if (r.status == optimise::Status::no_feasible_point_met) continue;
-        EXPECT_GE(std::exp(r.f), c.lower_bound * (1 - 1e-9));
-      }
-    }
-  }
 }
 
 TEST(Multipass, PricesAreWhatReSolvingCosts) {

@@ -200,6 +200,34 @@ TEST(Plan, CostAgainstTimeIsAConvexCurveOfPlans) {
   }
 }
 
+// Sizes that could fail at both limits: what conforms at one end alone would be cheaper.
+TEST(Plan, CostAgainstTimeOfARobustPlanIsOfRobustPlans) {
+  auto d = pin();
+  d["rates"]["machine_per_min"] = 0.15;
+  d["outer"][1]["limits_mm"] = {-0.015, 0.015};
+  d["budget"] = {{"repeatability_um", 2.2}};
+  d["robust"] = true;
+  d["pareto"] = 4;
+  const auto p = part(d);
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  ASSERT_GE(r.pareto.size(), 3u);
+  EXPECT_EQ(r.pareto.front().cost_per_part, r.cost_per_part);
+  EXPECT_EQ(r.pareto.front().time_per_part_min, r.time_per_part_min);
+  for (const auto& x : r.pareto) {
+    auto worth = p;
+    worth.pareto = 0;
+    worth.machine_per_min += x.minute_worth.value_or(0);
+    if (!x.minute_worth) worth.objective = Objective::time;
+    const auto same = plan(worth);
+    for (const auto& t : same.tolerances)
+      EXPECT_GE(t.P_conform, p.conformance - 1e-6) << t.id;
+    EXPECT_NEAR(x.time_per_part_min, same.time_per_part_min, 1e-9);
+    EXPECT_NEAR(x.cost_per_part + x.minute_worth.value_or(0) * same.time_per_part_min,
+                same.cost_per_part, 1e-9);
+  }
+}
+
 TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   auto d = pin();
   d["operations"] = {

@@ -30,8 +30,9 @@ struct SpeedLimits {
 /// Phi(kappa), kappa = w (1 - 1/mu), decides: the cut is unstable if
 /// det(I - z Phi(w (1 - z))) has a zero z = 1/mu inside the unit circle.  Depths at which
 /// a zero lies on the circle are found by a search that cannot miss one, see
-/// src/milling/unit_circle.hpp; above a loss a zero is followed through the inside of the
-/// circle as far as it stays there, see src/milling/tracking.hpp.
+/// src/milling/unit_circle.hpp, on one series in kappa as far as that is precise, see
+/// src/milling/series.hpp; beyond, above a loss, a zero is followed through the inside of
+/// the circle as far as it stays there, see src/milling/tracking.hpp.
 ///
 /// Of the chatter frequencies of a multiplier e^(i theta),
 ///
@@ -41,7 +42,8 @@ struct SpeedLimits {
 ///
 /// Valid for any number of modes and teeth; the work grows with wn tau and with the depth
 /// over the first limit.
-/// Source: derived here; checked in limits_test against printed charts of the
+/// Source: derived here; checked in accuracy_test against
+/// direct integration and in limits_test against printed charts of the
 /// literature's benchmark, semi-discretisation and simulation.
 /// @throws ModelRangeError if the search becomes longer than a few seconds.
 SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm);

@@ -1,0 +1,130 @@
+#include "planned.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "attempt.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Certificate total_certificate(const Attempt& a) {
+  Certificate c;
+  c.kind = CertificateKind::global;
+  std::set<std::string> engines;
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) {
+      const auto& k = f.answer.certificate;
+      c.nodes += k.nodes;
+      engines.insert(k.engine);
+      if (k.kind != CertificateKind::global) {
+        c.kind = k.kind;
+        c.reason = f.task.feature.surface() + ": " + k.reason;
+      }
+    }
+  for (const auto& e : engines) c.engine += (c.engine.empty() ? "" : " and ") + e;
+  c.lower_bound = std::min(a.lower_bound, a.objective);
+  c.gap = a.objective > 0 ? 1 - c.lower_bound / a.objective : 0;
+  if (c.kind == CertificateKind::global && c.gap > kCertified) {
+    c.kind = CertificateKind::local;
+    c.reason =
+        "with other tools or another clamping the budget of boxes ended before "
+        "every box was settled";
+  }
+  return c;
+}
+
+Certificate no_certificate(const Attempt& a) {
+  Certificate c;
+  c.reason =
+      a.lower_bound < kInfinity
+          ? "no plan was found, but the budget of boxes ended before every box was "
+            "settled"
+          : "proved: no plan keeps every limit";
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) c.nodes += f.answer.certificate.nodes;
+  return c;
+}
+
+SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
+                     ProcessPlan& result) {
+  SetupPlan s;
+  s.hold = p.setups[index].hold;
+  s.rejected = c.rejected;
+  s.rejected_tools = c.chosen.rejected_tools;
+  if (!c.solved) {
+    for (const auto& r : c.rejected)
+      result.conflicts.push_back({"clamping", fmt::format("setup {}", index), 0, 0, "",
+                                  std::string(name(r.clamping)) + ": " + r.why});
+    return s;
+  }
+  s.clamping = c.chosen.clamping;
+  s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
+  s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
+  for (const auto& f : c.chosen.features)
+    if (!f.answer.feasible) explain(p, c.chosen, f, result);
+  s.operations = operations_in_order(p, c.chosen);
+  return s;
+}
+
+// What the path's correction, judged as it is cut, does not bring within its tolerance.
+bool add_missed(ProcessPlan& result) {
+  for (const auto& t : result.tolerances) {
+    if (t.verdict != Verdict::not_met) continue;
+    result.conflicts.push_back(
+        {t.id + " " + part::name(t.kind), t.of, t.allowed_mm.back() - t.margin_mm,
+         t.allowed_mm.back(), "mm",
+         fmt::format("{} of {} is {} mm outside its limits even with the path corrected",
+                     t.id, t.of, readable(-t.margin_mm))});
+  }
+  if (result.conflicts.empty()) return false;
+  result.status = PlanStatus::infeasible;
+  result.cost_per_part = result.time_per_part_min = 0;
+  result.profit_per_min.reset();
+  result.certificate = {};
+  result.certificate.reason =
+      "no plan was found: the correction would have to be too large";
+  return true;
+}
+
+}  // namespace
+
+ProcessPlan planned(const PartPlan& p) {
+  ProcessPlan result;
+  const auto work = assign(p);
+  add_obstacles(p, work, result);
+  if (!result.conflicts.empty()) {
+    result.status = PlanStatus::infeasible;
+    result.certificate.reason = "proved: no condition or tool changes the conflicts told";
+    return result;
+  }
+  const auto a = best_attempt(p, work);
+  std::vector<SolvedSetup> chosen;
+  for (std::size_t s = 0; s < a.setups.size(); ++s) {
+    result.setups.push_back(setup_plan(p, s, a.setups[s], result));
+    chosen.push_back(a.setups[s].chosen);
+  }
+  if (!a.feasible) {
+    result.status = PlanStatus::infeasible;
+    result.certificate = no_certificate(a);
+    return result;
+  }
+  result.tolerances = tolerance_results(p, chosen);
+  result.cost_per_part = a.total.cost;
+  result.time_per_part_min = a.total.minutes;
+  if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
+  result.certificate = total_certificate(a);
+  if (add_missed(result)) return result;
+  result.deviations = deviations(chosen);
+  result.compensation = compensations(chosen);
+  result.prices = prices(p, chosen);
+  return result;
+}
+
+}  // namespace turnwright::planning
