@@ -59,10 +59,9 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
 }
 
 void write_drawings(const std::filesystem::path& folder,
-                    const std::vector<std::string>& drawings) {
+                    const std::vector<service::Picture>& drawings) {
   make_folder(folder);
-  for (std::size_t i = 0; i < drawings.size(); ++i)
-    write_file(folder / ("setup-" + std::to_string(i) + ".svg"), drawings[i]);
+  for (const auto& picture : drawings) write_file(folder / picture.file, picture.svg);
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {
@@ -111,9 +110,8 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                         "write the result (JSON) here");
     command->add_flag("--json", arguments.json, "print the result as JSON");
     if (row.drawn)
-      command->add_option(
-          "--drawings", arguments.drawings,
-          "write a picture of each setup (setup-0.svg, ..) to this folder");
+      command->add_option("--drawings", arguments.drawings,
+                          "write the result's pictures (SVG) to this folder");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

@@ -55,22 +55,18 @@ std::vector<Point> ring(double radius) {
   return out;
 }
 
-/// Rings of round deviations with their values, axes with their names.
-void dial(Svg& svg, const Circle& c, Plane plane) {
-  const double step = round_below(kRoom / c.factor * 1.0001) / 2;  // mm
-  for (int k = -2; k <= 2; ++k) {
+/// Rings of round deviations, axes with their names; returns the rings' distance [mm].
+double dial(Svg& svg, const Circle& c, Plane plane) {
+  const double step = round_below(kRoom / c.factor * 1.0001) / 2;
+  for (int k = -2; k <= 2; ++k)
     svg.polyline(k == 0 ? "stock" : "leader", ring(kRadius + k * step * c.factor));
-    const double r = (kRadius + k * step * c.factor) * std::sqrt(0.5);
-    if (k != -1 && k != 1)
-      svg.text({kCentreX + r + 0.5, kCentreY + r + 2.6}, Anchor::start,
-               (k > 0 ? "+" : "") + um(k * step, 4) + (k == 0 ? "" : " um"));
-  }
   const double reach = kRadius + kRoom + 3;
   svg.line("axis", {kCentreX - reach, kCentreY}, {kCentreX + reach, kCentreY});
   svg.line("axis", {kCentreX, kCentreY + reach}, {kCentreX, kCentreY - reach});
   const auto [u, v] = axes_of(plane);
   svg.text({kCentreX + reach + 1, kCentreY + 1}, Anchor::start, std::string("+") + u);
   svg.text({kCentreX, kCentreY - reach - 1.5}, Anchor::middle, std::string("+") + v);
+  return step;
 }
 
 /// Amplitude of the n-th undulation of a path [mm], by quadrature over its angles.
@@ -134,7 +130,7 @@ std::string ball_bar_drawing(const Trace& t) {
   const auto [u, v] = axes_of(t.plane);
   const std::string name = fmt::format("Ball bar {}{}, R = {} mm", u, v, plain(t.R_mm));
   svg.text({kMargin, 11}, Anchor::start, name, "title");
-  dial(svg, c, t.plane);
+  const double ring_mm = dial(svg, c, t.plane);
   for (const double dir : {1.0, -1.0}) {
     std::vector<Point> trace, fitted;
     const auto& path = dir > 0 ? t.ccw_mm : t.cw_mm;
@@ -152,9 +148,10 @@ std::string ball_bar_drawing(const Trace& t) {
   polar_key(svg, below);
   svg.text(
       {kMargin, below + 5}, Anchor::start,
-      fmt::format("deviations {} : 1 about the common centre ({} {}, {} {} um); 1 mm "
-                  "of paper is {} um",
-                  plain(c.factor), u, um(c.e_u), v, um(c.e_v), um(1 / c.factor, 4)));
+      fmt::format("deviations {} : 1 about the common centre ({} {}, {} {} um); rings {} "
+                  "um apart, dashed: 0; 1 mm of paper is {} um",
+                  plain(c.factor), u, um(c.e_u), v, um(c.e_v), um(ring_mm, 4),
+                  um(1 / c.factor, 4)));
   lobes(svg, t, 22);
   double y = 74;
   const auto row = [&](const std::string& what, const std::string& value) {
@@ -162,8 +159,7 @@ std::string ball_bar_drawing(const Trace& t) {
     svg.text({184, y}, Anchor::end, value);
     y += 4;
   };
-  svg.text({141, y - 1}, Anchor::start, "range of each effect, um", "title");
-  y += 5;
+  row("RANGE OF EACH EFFECT", "um");
   for (const Contribution& of : fit.ranking) row(in_words(of.name), um(of.range_mm));
   y += 2;
   row("G ccw, G cw", um(iso.G_ccw_mm) + ", " + um(iso.G_cw_mm));
@@ -287,11 +283,9 @@ bool errors_of(Svg& svg, const Axis& axis, std::size_t first, double left, doubl
     svg.polyline(kLine[c.k], line);
     if (i > 0 && curves[i - 1].k == c.k) continue;
     const std::string name{'E', kLetters[first + c.k], axis.name};
-    const bool both = i + 1 < curves.size() && curves[i + 1].k == c.k;
     svg.line(kLine[c.k], {at, top - 2.6}, {at + 6, top - 2.6});
-    svg.text({at + 7, top - 1.6}, Anchor::start, name + (both ? " both ways" : ""),
-             kWord[c.k]);
-    at += both ? 28 : 16;
+    svg.text({at + 7, top - 1.6}, Anchor::start, name, kWord[c.k]);
+    at += 18;
   }
   return true;
 }
@@ -302,14 +296,15 @@ std::string error_map(const Machine& machine) {
   Svg svg;
   svg.text({kMargin, 11}, Anchor::start, "Errors along the axes of " + machine.chain,
            "title");
-  double top = 24;
+  svg.text({kMargin, 17}, Anchor::start, "pairs of lines: moving in + and in -");
+  double top = 27;
   for (const Axis& axis : machine.axes) {
     const bool shifts = errors_of(svg, axis, 0, 24, top),
                turns = errors_of(svg, axis, 3, 116, top);
     if (shifts || turns) top += 56;
   }
-  if (top == 24) svg.text({kMargin, 20}, Anchor::start, "none along any axis");
-  return svg.page(kWidth, std::max(28.0, top - 6),
+  if (top == 27) svg.text({kMargin, 23}, Anchor::start, "none along any axis");
+  return svg.page(kWidth, std::max(30.0, top - 6),
                   "Errors along the axes of " + machine.chain);
 }
 

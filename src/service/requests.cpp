@@ -1,5 +1,6 @@
 #include "turnwright/service/requests.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
@@ -19,6 +20,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
+#include "turnwright/report/volumetric_drawing.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -150,7 +152,11 @@ ordered_json predict(const json& request, const Context& context) {
 }
 
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
-  return {document::to_json(plan, part.assumed), report::setup_drawings(part.plan, plan)};
+  Drawn all{document::to_json(plan, part.assumed), {}};
+  for (auto& svg : report::setup_drawings(part.plan, plan))
+    all.drawings.push_back(
+        {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
+  return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
@@ -162,6 +168,21 @@ Drawn drawn_predict(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "predict",
                                              document::Purpose::predict);
   return drawn(part, planning::predict(part.plan));
+}
+
+Drawn drawn_geometry(const json& request, const Context&) {
+  return {document::geometry(request),
+          {{"errors.svg", report::error_map(document::geometry_machine(request))}}};
+}
+
+Drawn drawn_ball_bar(const json& request, const Context&) {
+  return {document::ball_bar(request),
+          {{"ballbar.svg", report::ball_bar_drawing(document::ball_bar_trace(request))}}};
+}
+
+Drawn drawn_compensate(const json& request, const Context&) {
+  const auto [result, compensated] = document::compensated(request);
+  return {result, {{"residual.svg", report::compensation_drawing(compensated)}}};
 }
 
 constexpr const char* kPredictExample = R"({
@@ -217,12 +238,14 @@ std::span<const Request> requests() {
        kGeometryExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::geometry(request);
-       }},
+       },
+       nullptr, drawn_geometry},
       {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
        kBallBarExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::ball_bar(request);
-       }},
+       },
+       nullptr, drawn_ball_bar},
       {"samba", "probing strategy -> identifiability; readings -> parameters",
        kSambaExample,
        [](const json& request, const Context&) -> ordered_json {
@@ -237,7 +260,8 @@ std::span<const Request> requests() {
        kCompensateExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compensate(request);
-       }},
+       },
+       nullptr, drawn_compensate},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
        [](const json& request, const Context&) -> ordered_json {

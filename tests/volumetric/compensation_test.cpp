@@ -303,6 +303,41 @@ TEST(Compensation, MethodsOnTheSeedsVolume) {
   EXPECT_LT(stretch(two), 2e-6);
 }
 
+// The part of that field which the paper gives, scales and squareness, over the travel of
+// its machine, 630 x 600 x 600 mm: on n equal steps an axis has the mean L/2 and the
+// variance L^2 (n + 1)/(12 (n - 1)), so that every RMS has a closed form.
+TEST(Compensation, LinearFieldsHaveClosedForms) {
+  Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
+  const double a = 90e-6, b = 112.5e-6, c = 230e-6 / 3, k1 = 35e-6, i2 = 20e-6;
+  m.axes[0].errors[0].c[1] = 100 * a;
+  m.axes[1].errors[1].c[1] = 100 * b;
+  m.axes[2].errors[2].c[1] = 100 * c;
+  m.axes[0].location[4] = -k1;  // X runs towards +Z
+  m.axes[2].location[4] = i2;   // Z runs towards +X
+  constexpr int n = 8;
+  const Vec3 L{630, 600, 600};
+  std::vector<std::string> lines;
+  for (int i = 0; i < n * n * n; ++i)
+    lines.push_back("G0 X" + std::to_string(L[0] * (i % n) / (n - 1)) + " Y" +
+                    std::to_string(L[1] * (i / n % n) / (n - 1)) + " Z" +
+                    std::to_string(L[2] * (i / n / n) / (n - 1)));
+  const auto left = [&](Method method) {
+    return compensate(read_nc(views(lines), {}), m, {}, {.method = method});
+  };
+  const auto variance = [&](std::size_t k) {
+    return L[k] * L[k] * (n + 1) / (12.0 * (n - 1));
+  };
+  const double spread = (a * a + k1 * k1) * variance(0) + b * b * variance(1) +
+                        (c * c + i2 * i2) * variance(2);
+  const Vec3 mean{(a * L[0] + i2 * L[2]) / 2, b * L[1] / 2, (k1 * L[0] + c * L[2]) / 2};
+  const Compensated average = left(Method::average);
+  // Unit vectors and six decimals cost up to 1 nm.
+  EXPECT_NEAR(average.before.rms_mm, std::sqrt(spread + norm(mean) * norm(mean)), 2e-6);
+  EXPECT_NEAR(average.after.rms_mm, std::sqrt(spread), 2e-6);
+  EXPECT_LT(left(Method::affine).after.max_mm, 3e-6);
+  EXPECT_LT(left(Method::full_field).after.max_mm, 1e-6);
+}
+
 // The corrected program, read again and run on the machine, goes where the source should.
 TEST(Compensation, CorrectedProgramReachesItsTargets) {
   Machine m = seed_machine();

@@ -27,7 +27,8 @@ std::string ball_bar_drawing(const volumetric::Trace& trace);
 std::string compensation_drawing(const volumetric::Compensated& compensated);
 
 /// The errors of each axis over -Q to Q (machine.hpp (1)), shifts and turns apart, by
-/// direction of motion where they differ.  Errors that are zero are left out.
+/// direction of motion where they differ (no band: coefficients carry no uncertainty).
+/// Errors that are zero are left out.
 std::string error_map(const volumetric::Machine& machine);
 
 }  // namespace turnwright::report

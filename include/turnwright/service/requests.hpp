@@ -17,10 +17,15 @@ struct Context {
   const document::Catalogue& catalogue;
 };
 
-/// A result with its pictures, as SVG.
+/// A picture as SVG and the name of its file.
+struct Picture {
+  std::string file, svg;
+};
+
+/// A result with its pictures.
 struct Drawn {
   nlohmann::ordered_json result;
-  std::vector<std::string> drawings;  ///< one a setup
+  std::vector<Picture> drawings;
 };
 
 struct Request {
