@@ -108,9 +108,15 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp set
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
-          DEPENDS base catalogue planning document report PRIVATE_LIBS OpenSSL::Crypto
-          TESTS answer_test.cpp digest_test.cpp listing_test.cpp)
-add_executable(turnwright src/app/main.cpp src/app/output.cpp)
+            batch/line.cpp batch/job_store.cpp batch/batches.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/connection.cpp http/server.cpp
+          DEPENDS base catalogue planning document report
+          PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
+            SQLite::SQLite3 prometheus-cpp::core Boost::headers Threads::Threads
+          TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
+                job_store_test.cpp server_test.cpp)
+add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
   add_executable(app_test tests/app/command_line_test.cpp tests/app/readme_test.cpp)

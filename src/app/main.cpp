@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output.hpp"
+#include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/parse.hpp"
@@ -137,7 +138,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   app.add_option("--data", arguments.data,
                  "folder with materials/, tools/ and machines/");
-  std::string examples = "Examples:\n  turnwright list parts\n";
+  std::string examples =
+      "Examples:\n  turnwright list parts\n  turnwright serve --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
@@ -147,6 +149,12 @@ int run(int argc, char** argv) {
       examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
+  add_serve(app, arguments.data, [&chosen](std::function<void()> serve) {
+    chosen = [serve = std::move(serve)] {
+      serve();
+      return kOk;
+    };
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -148,7 +148,7 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
     e.shift += std::max(0.0, s.worst) + options.feasibility;
     kept = keep(y, run(nlopt::LD_SLSQP, e, y, options));
   }
-  if (!kept) {
+  if (!kept && options.insist) {
     e.shift = 0;
     y = first;
     auto brief = options;  // far slower a step, and only to find a foothold

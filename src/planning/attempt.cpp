@@ -60,7 +60,7 @@ std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
 Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
                              const Finished& done, Economy economy) {
   Comparison result;
-  FaceMemory faces;
+  SharedMemory shared;
   std::vector<SetupPlanner> planners;
   auto clampings = p.setups[setup].clampings;
   std::stable_partition(clampings.begin(), clampings.end(),
@@ -70,7 +70,7 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else
-      planners.emplace_back(p, setup, c, work, done, economy, faces);
+      planners.emplace_back(p, setup, c, work, done, economy, shared);
   }
   if (planners.empty()) return result;
   auto all = best_of_each(planners);

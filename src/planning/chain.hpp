@@ -120,6 +120,15 @@ struct OperationModel {
   bool inner = false;     ///< a bore: what is left makes it narrower
   double least_D_mm = 0;  ///< of a bore: the hole it starts from
 
+  /// Of all passes together.
+  Affine left_sum_mm() const {
+    Affine sum;
+    for (const auto& p : passes) {
+      sum.c0 += p.left_mm.c0;
+      sum.c1 += p.left_mm.c1;
+    }
+    return sum;
+  }
   /// The pass at the largest and at the smallest diameter.
   const PassModel& widest() const { return inner ? passes.back() : passes.front(); }
   const PassModel& narrowest() const { return inner ? passes.front() : passes.back(); }
@@ -298,6 +307,12 @@ template <class T>
 cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& a,
                       const T& n_cap, const T& life) {
   cutting::Duty<T> sum;
+  if (!o.tapered && !o.inner) {  // cylinders add up to one
+    auto whole = sweep(o, PassModel{o.left_sum_mm(), o.passes[0].path_mm}, a);
+    whole.D_large_mm =
+        whole.D_large_mm + static_cast<double>(o.passes.size() - 1) * o.D_large_mm;
+    return cutting::duty(whole, v, f, life, n_cap, o.cut.taylor.n);
+  }
   for (std::size_t k = 0; k < o.passes.size(); ++k) {
     const auto d =
         cutting::duty(sweep(o, o.passes[k], a), v, f, life, n_cap, o.cut.taylor.n);

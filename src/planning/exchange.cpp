@@ -48,8 +48,10 @@ double evaluate(const tolerance::PiecewisePolynomial& e, double z) {
 }  // namespace
 
 Exchange::Exchange(const Feature& feature, std::vector<Demand> demands)
-    : feature_(&feature), demands_(std::move(demands)) {
-  for (const auto& d : demands_) add_initial(d);
+    : feature_(&feature), demands_(std::move(demands)), asked_(demands_.size(), false) {}
+
+void Exchange::add_all() {
+  for (std::size_t i = 0; i < demands_.size(); ++i) add_first(i);
 }
 
 std::size_t Exchange::station(double at_mm) {
@@ -69,7 +71,10 @@ void Exchange::add(const Terms& terms, double limit, const Demand& d) {
   functionals_.push_back(std::move(g));
 }
 
-void Exchange::add_initial(const Demand& d) {
+void Exchange::add_first(std::size_t demand) {
+  if (asked_[demand]) return;
+  asked_[demand] = true;
+  const Demand& d = demands_[demand];
   const double low = feature_->low_mm(), high = feature_->high_mm();
   const double middle = (low + high) / 2, w = d.factor;
   using enum Demand::Shape;
@@ -98,23 +103,27 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
   const Place top = largest(e, low, high, 1), bottom = largest(e, low, high, -1);
   const auto before = functionals_.size();
   // The profile finds the places; what counts is the error itself there.
-  const auto add_if_broken = [&](const Terms& terms, double limit, const Demand& d) {
+  const auto add_if_broken = [&](const Terms& terms, double limit, std::size_t demand) {
+    const Demand& d = demands_[demand];
     std::vector<double> places;
     for (const auto& t : terms) places.push_back(t.first);
     const auto exact = feature_->errors(recipe, economy, choice, places);
     double value = 0;
     for (std::size_t k = 0; k < terms.size(); ++k) value += terms[k].second * exact[k];
-    if (value > limit * (1 + kAllowed)) add(terms, limit, d);
+    if (!(value > limit * (1 + kAllowed))) return;
+    add_first(demand);
+    add(terms, limit, d);
   };
   using enum Demand::Shape;
-  for (const auto& d : demands_) {
+  for (std::size_t i = 0; i < demands_.size(); ++i) {
+    const Demand& d = demands_[i];
     const double w = d.factor;
     if (d.shape == size) {
-      if (w * top.value > d.upper) add_if_broken({{top.at, w}}, d.upper, d);
-      if (w * bottom.value > -d.lower) add_if_broken({{bottom.at, -w}}, -d.lower, d);
+      if (w * top.value > d.upper) add_if_broken({{top.at, w}}, d.upper, i);
+      if (w * bottom.value > -d.lower) add_if_broken({{bottom.at, -w}}, -d.lower, i);
     } else if (d.shape == range) {
       if (w * (top.value + bottom.value) > d.upper)
-        add_if_broken({{top.at, w}, {bottom.at, -w}}, d.upper, d);
+        add_if_broken({{top.at, w}, {bottom.at, -w}}, d.upper, i);
     } else if (d.shape == straightness) {
       const auto zone = tolerance::minimum_zone(profile);
       if (!(zone.width_mm > d.upper)) continue;
@@ -129,7 +138,7 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
         const double share = (r.at - peak.at) / (r.at - l.at);
         add_if_broken(
             {{peak.at, sign}, {l.at, -sign * share}, {r.at, -sign * (1 - share)}},
-            d.upper, d);
+            d.upper, i);
       }
     }
   }

@@ -242,6 +242,19 @@ void Feature::take(const OuterOrInner& e, std::size_t index, double left_z_mm) {
   Rz_um_ = e.Rz_um.value_or(0);
 }
 
+Holding Feature::holding() const {
+  Holding h;
+  h.n_max_rpm = clamping_rpm(*plan_, clamping_);
+  if (clamping_ == Clamping::between_centres) return h;
+  // End faces come first, before the jaws are eased.
+  const bool eased = kind_ != Kind::end_face;
+  h.roughing_N = jaw_force_N(*plan_, setup_, clamping_, Stage::roughing);
+  h.finishing_N =
+      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
+  h.d_grip_mm = grip_diameter_mm(*plan_, setup_, clamping_);
+  return h;
+}
+
 OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
                                   std::size_t range, const Economy& economy) const {
   const auto& m = plan_->machine;
@@ -250,15 +263,12 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
   o.range = cutting::speed_ranges(m)[range];
-  // End faces come first, before the jaws are eased.
-  const bool eased = finishing && kind_ != Kind::end_face;
-  const double force_N =
-      jaw_force_N(*plan_, setup_, clamping_, eased ? Stage::finishing : Stage::roughing);
+  const Holding held = holding();
+  const double force_N = finishing ? held.finishing_N : held.roughing_N;
   if (clamping_ != Clamping::between_centres)
-    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
-              grip_diameter_mm(*plan_, setup_, clamping_)};
+    o.grip = {force_N, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction, held.d_grip_mm};
   const double n_grip = grip_loss_rpm(*plan_, clamping_, force_N);
-  o.n_cap_rpm = std::min({o.range.n_max_rpm, clamping_rpm(*plan_, clamping_), n_grip});
+  o.n_cap_rpm = std::min({o.range.n_max_rpm, held.n_max_rpm, n_grip});
   o.n_cap_of_grip = o.n_cap_rpm == n_grip;
   o.n_min_rpm = o.range.n_min_rpm;
   o.feed_force_max_N = m.feed_force_max_N;

@@ -31,6 +31,14 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
+/// What a clamping is to the cut where nothing yields: two clampings that hold alike
+/// differ in no chain without stations.
+struct Holding {
+  double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
+  double d_grip_mm = 0, n_max_rpm = 0;
+  auto operator<=>(const Holding&) const = default;
+};
+
 class Feature {
  public:
   enum class Kind { element, bore, end_face, shoulder };
@@ -59,6 +67,8 @@ class Feature {
   /// Material left is more radius outside (+1) and less in a bore (-1): the factor from
   /// the chain's errors to those of the surface.
   double sign() const { return kind_ == Kind::bore ? -1 : 1; }
+
+  Holding holding() const;
 
   /// The chain of a recipe without functionals; stations at the given places.  Over an
   /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points

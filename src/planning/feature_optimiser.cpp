@@ -19,6 +19,8 @@ constexpr int kNearestRounds = 5;
 constexpr std::size_t kNearest = 40;  // recipes asked for the nearest conditions
 constexpr double kAnyCost = 1e3;      // a gap in ln(objective) that the first find leaves
 constexpr long kScouting = 150;       // boxes for a first bound of a task
+constexpr double kScoutingGap = 5e-3;  // and what they may leave open
+constexpr const char* kNone = "proved: no conditions keep every limit";
 
 struct Candidate {
   Recipe recipe;
@@ -34,6 +36,11 @@ struct Best {
   std::vector<double> y;
   bool found() const { return !y.empty(); }
 };
+
+// Conditions in the middle of a box; the speeds are set by what evaluates them.
+Choice<double> middle(const optimise::Box& b) {
+  return {{1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
+}
 
 std::shared_ptr<RecipeModel> without_tolerances(const FeatureTask& task,
                                                 const Recipe& recipe) {
@@ -59,7 +66,22 @@ optimise::Solution least_violation(const RecipeModel& m) {
   return best;
 }
 
-// One task's search over recipes; the places of its tolerances grow from round to round.
+// No answer cheaper than what is known to be the best.
+FeatureAnswer not_below(const FeatureAnswer& known) {
+  FeatureAnswer a;
+  a.lower_bound = known.lower_bound;
+  a.certificate.reason = kNone;
+  return a;
+}
+
+bool keeps_demands(const FeatureTask& task, const FeatureAnswer& a) {
+  return !Exchange(task.feature, task.demands)
+              .add_violated(a.model->recipe(), task.economy, a.choice);
+}
+
+// One task's search over recipes.  It starts without tolerances: what they ask is asked
+// only where an optimum breaks it, so a surface whose tolerances do not bind never pays
+// for its deflection in boxes.  Their places grow from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
@@ -85,7 +107,11 @@ class FeatureSearch {
         c.local.reset();
       }
       // The optimum before the new places is the best start, of its recipe first.
-      if (before_places.found()) local_search(before_places.candidate, {before_places.y});
+      if (before_places.found())
+        local_search(before_places.candidate, {before_places.y});
+      else if (!all_.empty() && all_[0].bound < cut())
+        local_search(0, {model(0)->start(0.85, 0.15)});
+      if (best_.found() && violated()) continue;
       search_recipes();
       if (best_.found() && violated()) continue;
       const double before = best_.f;
@@ -114,8 +140,7 @@ class FeatureSearch {
 
   optimise::Piece with_points(std::size_t k, optimise::Piece p) {
     p.try_point = [this, k](const optimise::Box& b) {
-      Choice<double> choice{
-          {1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
+      auto choice = middle(b);
       const double f = all_[k].model->feasible_value(choice);
       if (f < best_.f) best_ = {f, k, all_[k].model->point(choice)};
       return f;
@@ -144,10 +169,11 @@ class FeatureSearch {
 
   // A local minimum from the first start that leads to one; what it misses the search
   // over boxes finds.
-  void local_search(std::size_t k, const std::vector<std::vector<double>>& starts) {
+  void local_search(std::size_t k, const std::vector<std::vector<double>>& starts,
+                    const optimise::Options& options = {.insist = false}) {
     auto& c = all_[k];
     for (const auto& start : starts) {
-      const auto s = optimise::local_minimum(model(k)->problem(), start);
+      const auto s = optimise::local_minimum(model(k)->problem(), start, options);
       if (s.status == optimise::Status::no_feasible_point_met) continue;
       c.local = s;
       if (s.f < best_.f) best_ = {s.f, k, s.y};
@@ -174,9 +200,7 @@ class FeatureSearch {
           continue;
         }
       }
-      auto p = c.local ? model(k)->piece(1, c.local->multipliers)
-                       : model(k)->piece(0, least_violation(*model(k)).multipliers);
-      pieces.push_back(with_points(k, std::move(p)));
+      pieces.push_back(with_points(k, with_multipliers(k)));
     }
     if (!pieces.empty()) {
       engines_.insert("branch-and-bound");
@@ -188,6 +212,17 @@ class FeatureSearch {
         unfinished_ = "the budget of " + std::to_string(r.nodes) +
                       " boxes ended before every box was settled";
     }
+  }
+
+  // With the Lagrangian of a local minimum, or what refutes that there is one.
+  optimise::Piece with_multipliers(std::size_t k) {
+    auto& c = all_[k];
+    const auto& m = model(k);
+    if (c.local) return m->piece(1, c.local->multipliers);
+    const auto nearest = least_violation(*m);
+    if (nearest.f > 0) return m->piece(0, nearest.multipliers);
+    local_search(k, {nearest.y}, {.insist = true});
+    return c.local ? m->piece(1, c.local->multipliers) : m->piece();
   }
 
   static double convex_bound(const RecipeModel& m, const optimise::Solution& s) {
@@ -248,6 +283,8 @@ class FeatureSearch {
       a.certificate.kind = CertificateKind::global;
       a.certificate.reason.clear();
     }
+    if (exchange_.functionals().empty() && a.certificate.gap <= kCertified)
+      task_.unasked->best = std::make_shared<FeatureAnswer>(a);
     return a;
   }
 
@@ -257,8 +294,7 @@ class FeatureSearch {
     a.lower_bound = std::exp(bound_);
     a.certificate = certificate();
     a.certificate.kind = CertificateKind::none;
-    if (unfinished_.empty())
-      a.certificate.reason = "proved: no conditions keep every limit";
+    if (unfinished_.empty()) a.certificate.reason = kNone;
     return a;
   }
 
@@ -277,15 +313,23 @@ class FeatureSearch {
 }  // namespace
 
 double least_objective(const FeatureTask& task) {
+  if (task.unasked->least) return *task.unasked->least;
   std::vector<std::shared_ptr<RecipeModel>> models;
   std::vector<optimise::Piece> pieces;
   for (const auto& recipe : task.recipes)
     if (auto m = without_tolerances(task, recipe)) {
       pieces.push_back(m->piece());
+      pieces.back().try_point = [m = m.get()](const optimise::Box& b) {
+        auto c = middle(b);
+        return m->feasible_value(c);
+      };
       models.push_back(std::move(m));
     }
-  return std::exp(optimise::branch_and_bound(pieces, kInfinity, {.max_nodes = kScouting})
-                      .lower_bound);
+  const optimise::SearchOptions brief{.gap = kScoutingGap, .max_nodes = kScouting};
+  const double bound =
+      std::exp(optimise::branch_and_bound(pieces, kInfinity, brief).lower_bound);
+  task.unasked->least = bound;
+  return bound;
 }
 
 double worst_excess(const std::vector<Demand>& demands,
@@ -306,6 +350,7 @@ double worst_excess(const std::vector<Demand>& demands,
 FeatureAnswer nearest(const FeatureTask& task) {
   if (used_up(task.demands)) return {};
   Exchange exchange(task.feature, task.demands);
+  exchange.add_all();
   FeatureAnswer a;
   const auto n = task.recipes.size();
   const std::size_t stride = task.explain ? 1 : (n + kNearest - 1) / kNearest;
@@ -344,6 +389,14 @@ FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most)
     FeatureAnswer none;
     none.lower_bound = kInfinity;
     return none;
+  }
+  if (const auto& known = task.unasked->best) {
+    if (known->objective >= most) return not_below(*known);
+    if (keeps_demands(task, *known)) {
+      FeatureAnswer a = *known;
+      a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
+      return a;
+    }
   }
   return FeatureSearch(task, gap, most).run();
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "recipe_model.hpp"
@@ -11,6 +12,15 @@ namespace turnwright::planning {
 /// What a global certificate may leave open, of the objective.
 inline constexpr double kCertified = 1e-4;
 
+struct FeatureAnswer;
+
+/// What is known of a task while no tolerance is asked; tasks that differ only there, or
+/// in a clamping that holds alike, share it.
+struct Unasked {
+  std::optional<double> least;                ///< see least_objective
+  std::shared_ptr<const FeatureAnswer> best;  ///< certified
+};
+
 struct FeatureTask {
   Feature feature;
   std::vector<Demand> demands;
@@ -19,6 +29,7 @@ struct FeatureTask {
   Making making;
   bool explain = false;  ///< if nothing is feasible, compare every recipe to say why
   long boxes = 30000;    ///< past them the certificate says `local`
+  std::shared_ptr<Unasked> unasked = std::make_shared<Unasked>();
 };
 
 struct FeatureAnswer {
@@ -34,7 +45,8 @@ struct FeatureAnswer {
 };
 
 /// A lower bound of the objective over all recipes, tolerances left out; +infinity if no
-/// recipe keeps its limits.  A brief search, cheap beside optimise_feature.
+/// recipe keeps its limits.  A brief search, cheap beside optimise_feature, and done once
+/// for all tasks that share `unasked`.
 double least_objective(const FeatureTask& task);
 
 /// Minimises over recipes and conditions.  Tolerances enter as functionals at places of

@@ -87,9 +87,9 @@ ProcessPlan predict(const PartPlan& p) {
   }
   std::vector<SolvedSetup> setups;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    FaceMemory faces;
+    SharedMemory shared;
     SetupPlanner planner(p, s, p.setups[s].clampings.front(), work.setups[s], done,
-                         {p.machine_per_min, 1}, faces);
+                         {p.machine_per_min, 1}, shared);
     setups.push_back(planner.as_given(as_given));
     finish(done, work.setups[s]);
     SetupPlan setup;

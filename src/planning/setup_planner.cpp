@@ -78,8 +78,8 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
 
 SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
                            const SetupWork& work, const Finished& before,
-                           const Economy& economy, FaceMemory& faces)
-    : p_(p), setup_(setup), clamping_(clamping), economy_(economy), faces_(faces) {
+                           const Economy& economy, SharedMemory& shared)
+    : p_(p), setup_(setup), clamping_(clamping), economy_(economy), shared_(shared) {
   const auto& d = p.drawing;
   const auto add = [&](const std::string& surface, const auto& make) {
     auto w = wanted(p, setup, surface);
@@ -221,7 +221,7 @@ std::vector<Tools> SetupPlanner::choices() const {
 }
 
 // The tools of a job: roughing and finishing (or facing).
-SetupPlanner::ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools) const {
+ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools) const {
   const auto& w = jobs_[j].wanted;
   if (jobs_[j].feature.is_face())
     return {nullptr, w.finish_tool ? w.finish_tool : tools.face};
@@ -246,19 +246,23 @@ FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset)
   const auto& f = jobs_[j].feature;
   const auto [rough, finish] = tools_of(j, tools);
   const Making making{setup_, clamping_, finish ? finish : rough};
-  return {f,
-          demands_of(j, making.last, offset),
-          recipes(p_, f, jobs_[j].wanted, rough, finish),
-          economy_,
-          making,
-          explain_};
+  auto& unasked = shared_.unasked[{j, {rough, finish}, f.holding()}];
+  if (!unasked) unasked = std::make_shared<Unasked>();
+  FeatureTask t{f,
+                demands_of(j, making.last, offset),
+                recipes(p_, f, jobs_[j].wanted, rough, finish),
+                economy_,
+                making,
+                explain_};
+  t.unasked = unasked;
+  return t;
 }
 
 Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {
   const auto key = tools_of(j, tools);
   auto& memory = memory_[j];
   if (jobs_[j].feature.kind() == Feature::Kind::end_face) {
-    const auto [it, fresh] = faces_.try_emplace(key.second);
+    const auto [it, fresh] = shared_.faces.try_emplace(key.second);
     if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
     return it->second;
   }

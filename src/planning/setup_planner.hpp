@@ -32,9 +32,14 @@ struct Entry {
   bool compensated = false;  ///< asked for with compensation too
   std::optional<SolvedFeature> solved;
 };
-/// End faces are cut in the chuck alone: their entries hold for every clamping of a
-/// setup.
-using FaceMemory = std::map<const catalogue::Tool*, Entry>;
+using ToolPair = std::pair<const catalogue::Tool*, const catalogue::Tool*>;
+
+/// What holds for several clampings of a setup: end faces are cut in the chuck alone, and
+/// where no tolerance is asked clampings that hold alike are one.
+struct SharedMemory {
+  std::map<const catalogue::Tool*, Entry> faces;
+  std::map<std::tuple<std::size_t, ToolPair, Holding>, std::shared_ptr<Unasked>> unasked;
+};
 
 /// Solves the features of one setup in one clamping, remembering what depends only on
 /// part of the tools.  The plan must outlive it.
@@ -42,7 +47,7 @@ class SetupPlanner {
  public:
   SetupPlanner(const PartPlan& plan, std::size_t setup, Clamping clamping,
                const SetupWork& work, const Finished& before, const Economy& economy,
-               FaceMemory& faces);
+               SharedMemory& shared);
 
   /// From now on the tool path may follow the error of what cannot be made otherwise.
   void allow_compensation() { compensate_ = true; }
@@ -63,7 +68,6 @@ class SetupPlanner {
     Feature feature;
     Wanted wanted;
   };
-  using ToolPair = std::pair<const catalogue::Tool*, const catalogue::Tool*>;
   using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
 
   bool any(Feature::Kind kind) const;
@@ -87,7 +91,7 @@ class SetupPlanner {
   bool compensate_ = false, explain_ = false;
   long boxes_ = 0;  // bounded so far
   Tools nearest_;
-  FaceMemory& faces_;
+  SharedMemory& shared_;
   std::vector<Job> jobs_;
   std::vector<std::map<ToolPair, Entry>> memory_;  // per job, by its tools
   std::map<std::tuple<std::size_t, const catalogue::Tool*, Offset>, std::vector<Demand>>

@@ -8,6 +8,16 @@ namespace turnwright::service {
 
 std::string_view version() { return TURNWRIGHT_VERSION; }
 
+// plan and predict speak the same two documents.
+std::string request_schema(const Request& row) {
+  return row.name == "plan" || row.name == "predict" ? "part.json"
+                                                     : row.name + ".request.json";
+}
+
+std::string result_schema(const Request& row) {
+  return row.name == "predict" ? "plan.result.json" : row.name + ".result.json";
+}
+
 namespace {
 
 void sign(nlohmann::ordered_json& result, const Request& row,

@@ -47,6 +47,12 @@ struct LogDual {
     x.half = &half;
     return x;
   }
+  bool constant() const {
+    if (half || ln.lo != ln.hi) return false;
+    for (const Interval& e : d)
+      if (e.lo != 0 || e.hi != 0) return false;
+    return true;
+  }
   bool zero() const { return ln.hi == -std::numeric_limits<double>::infinity(); }
 };
 
@@ -82,6 +88,13 @@ LogDual<N> centred(LogDual<N> x) {
   if (x.centre + r < x.ln.hi) x.ln.hi = x.centre + r;
   return x;
 }
+// x exp(c): what holds of x holds shifted.
+template <int N>
+LogDual<N> scaled(LogDual<N> x, double c) {
+  x.ln = {x.ln.lo + c, x.ln.hi + c};
+  x.centre += c;
+  return x;
+}
 template <int N>
 const std::array<double, N>* box_of(const LogDual<N>& a, const LogDual<N>& b) {
   return a.half ? a.half : b.half;
@@ -90,6 +103,7 @@ const std::array<double, N>* box_of(const LogDual<N>& a, const LogDual<N>& b) {
 
 template <int N>
 LogDual<N> operator*(const LogDual<N>& a, const LogDual<N>& b) {
+  if (b.constant()) return detail::scaled(a, b.ln.lo);
   LogDual<N> r;
   r.ln = a.ln + b.ln;
   r.centre = a.centre + b.centre;
@@ -99,6 +113,7 @@ LogDual<N> operator*(const LogDual<N>& a, const LogDual<N>& b) {
 }
 template <int N>
 LogDual<N> operator/(const LogDual<N>& a, const LogDual<N>& b) {
+  if (b.constant()) return detail::scaled(a, -b.ln.lo);
   LogDual<N> r;
   r.ln = a.ln - b.ln;
   r.centre = a.centre - b.centre;
@@ -193,16 +208,20 @@ LogDual<N> max(const LogDual<N>& a, const LogDual<N>& b) {
 }
 template <int N>
 LogDual<N> min(const LogDual<N>& a, const LogDual<N>& b) {
-  return 1.0 / max(1.0 / a, 1.0 / b);
+  const LogDual<N> q = b / a;
+  if (q.ln.hi <= 0) return b;
+  if (q.ln.lo >= 0) return a;
+  LogDual<N> r;
+  r.half = q.half;
+  for (std::size_t j = 0; j < N; ++j) r.d[j] = hull(a.d[j], b.d[j]);
+  r.ln = min(a.ln, b.ln);
+  r.centre = a.centre + std::min(q.centre, 0.0);
+  return detail::centred(r);
 }
 
 template <int N>
 LogDual<N> operator*(double a, const LogDual<N>& b) {
-  const double c = std::log(a);
-  LogDual<N> r = b;
-  r.ln = {b.ln.lo + c, b.ln.hi + c};
-  r.centre = b.centre + c;
-  return r;
+  return detail::scaled(b, std::log(a));
 }
 template <int N>
 LogDual<N> operator*(const LogDual<N>& a, double b) {

@@ -27,6 +27,7 @@ struct Options {
   double feasibility = 1e-10;  ///< largest g counted as kept; smaller = more solver steps
   double f_tolerance = 1e-13;  ///< stop when f moves less; larger = looser certificates
   int max_evaluations = 150;   ///< of one solve
+  bool insist = true;  ///< CCSAQ behind SLSQP: slow where there is no feasible point
 };
 
 /// A local solver cannot prove that no allowed point exists, only that it met none.

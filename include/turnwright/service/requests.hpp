@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ namespace turnwright::service {
 /// What a request may refer to besides itself.
 struct Context {
   const document::Catalogue& catalogue;
+  std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
 };
 
 /// A picture as SVG and the name of its file.
@@ -40,6 +42,10 @@ struct Request {
 };
 
 std::span<const Request> requests();
+
+/// File names under schemas/ of what the row takes and gives.
+std::string request_schema(const Request& row);
+std::string result_schema(const Request& row);
 
 /// The program's version, "0.1.0".
 std::string_view version();

@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <stop_token>
+#include <string>
+
+#include "turnwright/service/batches.hpp"
+#include "turnwright/service/http_message.hpp"
+
+namespace turnwright::service {
+
+/// The HTTP API without sockets:
+///
+///     POST   /v1/{name}                     every row of the request table
+///     GET    /v1/materials|tools|machines|parts[/{id}]
+///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, a
+///     job GET    /v1/batches[/{id}[/results?from=n]] POST   /v1/batches/{id}/cancel
+///     DELETE /v1/batches/{id}
+///     GET    /healthz, /readyz, /openapi.json, /
+///
+/// HEAD is GET without the body; OPTIONS tells the methods of a path.  Everything wrong
+/// is a problem document.  Safe from several threads.
+class HttpApi {
+ public:
+  /// @param batches  nullptr: this server takes no batches (404).
+  /// @throws InputError if the folder's documents cannot be read.
+  HttpApi(const std::filesystem::path& data_folder, const document::Catalogue& catalogue,
+          Batches* batches);
+
+  /// The answer; `stop` cuts long computations short.
+  /// @throws Cancelled if `stop` was asked for.
+  Reply reply(const Call& call, std::stop_token stop) const;
+
+  /// Largest body this call may bring [bytes].
+  static std::size_t body_limit(const Call& call);
+
+  /// The path with ids replaced by their names, "/v1/parts/{id}"; "other" for paths that
+  /// are not of this API.  For metrics: the number of different values is small.
+  std::string route(const Call& call) const;
+
+ private:
+  struct Route;
+  struct Listing {
+    std::string index;                             ///< all ids and names, JSON
+    std::map<std::string, std::string> documents;  ///< as written, by id
+  };
+  const Route* find(const Call& call) const;
+  static const std::vector<Route>& routes();
+
+  const document::Catalogue& catalogue_;
+  Batches* batches_;
+  std::map<std::string, Listing> listings_;  ///< by "materials", ..
+  std::string openapi_;
+};
+
+}  // namespace turnwright::service

@@ -1,0 +1,76 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace SQLite {
+class Database;
+}
+
+namespace turnwright::service {
+
+/// A batch as its owner sees it.
+struct Job {
+  std::int64_t id = 0;
+  std::string state;  ///< "running", "cancelled" or "done"
+  std::int64_t lines = 0, done = 0, errors = 0;
+};
+
+/// Batches that outlive the process: requests and records in one SQLite file (WAL,
+/// synchronous = FULL).  What submit() or finish() returned from is on disk; a killed
+/// process loses at most the lines it had taken and not finished, and these are taken
+/// again.  Safe from several threads of one process; a second process is refused.
+class JobStore {
+ public:
+  struct Line {
+    std::int64_t job = 0, number = 0;  ///< number from 1
+    std::string text;
+  };
+  struct Record {
+    std::int64_t job = 0, number = 0;
+    std::string digest;  ///< of the request; "" where the record is an error
+    std::string text;
+    bool error = false;
+  };
+  struct Results {
+    std::string jsonl;
+    std::int64_t next = 0;  ///< number of the first line not in `jsonl`
+  };
+
+  /// @throws std::runtime_error if the file cannot be opened, is no job store of this
+  ///   version or is in use.
+  explicit JobStore(const std::filesystem::path& file);
+  ~JobStore();
+
+  /// Empty lines are skipped but counted, so that numbers are those of the sender's file.
+  std::int64_t submit(const std::vector<std::string>& lines);
+  std::optional<Job> job(std::int64_t id) const;
+  std::vector<Job> jobs() const;
+  /// Lines not yet taken are left; false if there is no such job.
+  bool cancel(std::int64_t id);
+  /// Removes the job and its results; false if there is none.
+  bool remove(std::int64_t id);
+
+  /// Up to `count` lines that nobody has taken, oldest job first.
+  std::vector<Line> take(std::size_t count);
+  /// The record of an equal request, if one is stored.
+  std::optional<std::string> known(const std::string& digest) const;
+  void finish(std::span<const Record> records);
+
+  /// Records in the order of lines from number `from` up to the first one missing, at
+  /// most about `bytes`.
+  Results results(std::int64_t id, std::int64_t from, std::size_t bytes) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::unique_ptr<SQLite::Database> database_;
+  std::map<std::int64_t, std::int64_t> taken_;  ///< last line taken, by job
+};
+
+}  // namespace turnwright::service

@@ -1,0 +1,114 @@
+#include "serve.hpp"
+
+#include <cstdlib>
+#include <memory>
+
+#include "output.hpp"
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/service/log.hpp"
+#include "turnwright/service/server.hpp"
+
+namespace turnwright::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ServeArguments {
+  service::ServerOptions options;
+  std::optional<fs::path> keys, jobs;
+  double deadline_s = 60;
+  unsigned batch_threads = 1;
+};
+
+/// Where jobs are kept unless the caller says: the user's state folder.
+fs::path usual_job_file() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path base = state && *state ? fs::path(state)
+                        : home && *home ? fs::path(home) / ".local/state"
+                                        : fs::temp_directory_path();
+  return base / "turnwright" / "jobs.sqlite";
+}
+
+/// The job store; none if nobody asked for one and the usual place cannot be used.
+std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& asked) {
+  if (asked) return std::make_unique<service::JobStore>(*asked);
+  const auto file = usual_job_file();
+  try {
+    fs::create_directories(file.parent_path());
+    return std::make_unique<service::JobStore>(file);
+  } catch (const std::exception& error) {
+    service::log_event("no batches",
+                       std::string(error.what()) + "; --jobs FILE names another place");
+    return nullptr;
+  }
+}
+
+void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
+  if (arguments.keys) arguments.options.keys = service::read_keys(*arguments.keys);
+  arguments.options.deadline =
+      std::chrono::milliseconds(static_cast<long>(1e3 * arguments.deadline_s));
+  service::start_log();
+  const auto folder = document::data_folder(data);
+  const auto catalogue = document::load_catalogue(folder);
+  const auto jobs = open_jobs(arguments.jobs);
+  std::optional<service::Batches> batches;
+  if (jobs) batches.emplace(*jobs, catalogue, arguments.batch_threads);
+  const service::HttpApi api(folder, catalogue, batches ? &*batches : nullptr);
+  service::Server server(arguments.options, api);
+  const bool v6 = arguments.options.address.find(':') != std::string::npos;
+  print("turnwright serves http://" +
+        (v6 ? '[' + arguments.options.address + ']' : arguments.options.address) + ':' +
+        std::to_string(server.port()) + "/\n");
+  server.run();
+  service::log_event("stopped", "every call that had arrived is answered");
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, const std::optional<fs::path>& data,
+               const std::function<void(std::function<void()>)>& chosen) {
+  auto* command = app.add_subcommand("serve", "answer requests over HTTP");
+  auto arguments = std::make_shared<ServeArguments>();
+  auto& options = arguments->options;
+  command->add_option("--address", options.address, "numeric address to listen on")
+      ->capture_default_str();
+  command->add_option("--port", options.port, "port to listen on; 0: any free one")
+      ->capture_default_str();
+  command->add_option("--keys", arguments->keys,
+                      "file of bearer keys, one a line; needed for addresses that other "
+                      "machines reach");
+  command->add_option("--jobs", arguments->jobs,
+                      "file that keeps the batches (default: turnwright/jobs.sqlite in "
+                      "$XDG_STATE_HOME)");
+  command->add_option("--threads", options.threads, "threads that compute; 0: one a core")
+      ->capture_default_str();
+  command
+      ->add_option("--batch-threads", arguments->batch_threads,
+                   "threads that work on batches")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  command
+      ->add_option("--queue", options.queue,
+                   "calls that may wait for a thread; more are answered 503")
+      ->capture_default_str();
+  command->add_option("--connections", options.connections, "connections open at once")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command
+      ->add_option("--deadline", arguments->deadline_s,
+                   "seconds a call may be computed; then it is answered 504")
+      ->check(CLI::Range(0.001, 86'400.0))
+      ->capture_default_str();
+  command->footer(
+      "Stops on SIGTERM or SIGINT, when every call that has arrived is answered.\n"
+      "Examples:\n  turnwright serve --port 8080\n"
+      "  curl http://127.0.0.1:8080/v1/parts\n"
+      "  curl -H 'Content-Type: application/json' --data @part.json "
+      "http://127.0.0.1:8080/v1/plan");
+  command->callback([arguments, &data, chosen] {
+    chosen([arguments, &data] { serve(*arguments, data); });
+  });
+}
+
+}  // namespace turnwright::app

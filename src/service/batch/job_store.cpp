@@ -1,0 +1,203 @@
+#include "turnwright/service/job_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <stdexcept>
+
+#include "turnwright/service/batch_line.hpp"
+
+namespace turnwright::service {
+namespace {
+
+constexpr int kSchemaVersion = 1;
+
+constexpr const char* kTables = R"(
+CREATE TABLE job (id INTEGER PRIMARY KEY AUTOINCREMENT, state TEXT NOT NULL,
+                  lines INTEGER NOT NULL, open INTEGER NOT NULL,
+                  errors INTEGER NOT NULL DEFAULT 0);
+CREATE TABLE line (job INTEGER NOT NULL REFERENCES job(id) ON DELETE CASCADE,
+                   number INTEGER NOT NULL, request TEXT NOT NULL, digest TEXT,
+                   record TEXT, PRIMARY KEY (job, number)) WITHOUT ROWID;
+CREATE INDEX line_digest ON line(digest) WHERE digest IS NOT NULL;
+)";
+
+void open_or_make(SQLite::Database& database) {
+  database.setBusyTimeout(1000);
+  database.exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON");
+  database.exec("PRAGMA journal_mode = WAL");
+  database.exec("PRAGMA synchronous = FULL");
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  const int found = database.execAndGet("PRAGMA user_version").getInt();
+  if (found == 0) {
+    database.exec(kTables);
+    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  } else if (found != kSchemaVersion) {
+    throw std::runtime_error("job store of version " + std::to_string(found) +
+                             ", this program reads version " +
+                             std::to_string(kSchemaVersion));
+  }
+  transaction.commit();
+}
+
+Job job_of(SQLite::Statement& row) {
+  const std::int64_t lines = row.getColumn(2), open = row.getColumn(3);
+  return {row.getColumn(0), row.getColumn(1).getString(), lines, lines - open,
+          row.getColumn(4)};
+}
+
+constexpr const char* kJobColumns = "SELECT id, state, lines, open, errors FROM job ";
+
+bool blank(const std::string& line) {
+  return line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+}  // namespace
+
+JobStore::JobStore(const std::filesystem::path& file) try
+    : database_(std::make_unique<SQLite::Database>(
+          file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)) {
+  open_or_make(*database_);
+} catch (const SQLite::Exception& error) {
+  throw std::runtime_error(file.string() + ": " + error.what());
+}
+
+JobStore::~JobStore() = default;
+
+std::int64_t JobStore::submit(const std::vector<std::string>& lines) {
+  const std::lock_guard lock(mutex_);
+  SQLite::Transaction transaction(*database_);
+  database_->exec("INSERT INTO job (state, lines, open) VALUES ('running', 0, 0)");
+  const std::int64_t id = database_->getLastInsertRowid();
+  SQLite::Statement insert(*database_,
+                           "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (blank(lines[i])) continue;
+    insert.bind(1, id);
+    insert.bind(2, static_cast<std::int64_t>(i) + 1);
+    insert.bindNoCopy(3, lines[i]);
+    insert.exec();
+    insert.reset();
+    ++count;
+  }
+  SQLite::Statement update(
+      *database_,
+      "UPDATE job SET lines = ?1, open = ?1, "
+      "state = CASE WHEN ?1 = 0 THEN 'done' ELSE state END WHERE id = ?2");
+  update.bind(1, count);
+  update.bind(2, id);
+  update.exec();
+  transaction.commit();
+  return id;
+}
+
+std::optional<Job> JobStore::job(std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement query(*database_, std::string(kJobColumns) + "WHERE id = ?");
+  query.bind(1, id);
+  if (!query.executeStep()) return std::nullopt;
+  return job_of(query);
+}
+
+std::vector<Job> JobStore::jobs() const {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement query(*database_, std::string(kJobColumns) + "ORDER BY id");
+  std::vector<Job> all;
+  while (query.executeStep()) all.push_back(job_of(query));
+  return all;
+}
+
+bool JobStore::cancel(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement update(
+      *database_,
+      "UPDATE job SET state = CASE state WHEN 'running' THEN 'cancelled' ELSE state END "
+      "WHERE id = ?");
+  update.bind(1, id);
+  return update.exec() > 0;
+}
+
+bool JobStore::remove(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement erase(*database_, "DELETE FROM job WHERE id = ?");
+  erase.bind(1, id);
+  return erase.exec() > 0;
+}
+
+std::vector<JobStore::Line> JobStore::take(std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  std::vector<Line> lines;
+  SQLite::Statement running(*database_,
+                            "SELECT id FROM job WHERE state = 'running' ORDER BY id");
+  while (lines.size() < count && running.executeStep()) {
+    const std::int64_t id = running.getColumn(0);
+    SQLite::Statement query(*database_,
+                            "SELECT number, request FROM line WHERE job = ? AND "
+                            "number > ? AND record IS NULL ORDER BY number LIMIT ?");
+    query.bind(1, id);
+    query.bind(2, taken_[id]);
+    query.bind(3, static_cast<std::int64_t>(count - lines.size()));
+    while (query.executeStep()) {
+      taken_[id] = query.getColumn(0);
+      lines.push_back({id, taken_[id], query.getColumn(1).getString()});
+    }
+  }
+  return lines;
+}
+
+std::optional<std::string> JobStore::known(const std::string& digest) const {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement query(*database_, "SELECT record FROM line WHERE digest = ? LIMIT 1");
+  query.bind(1, digest);
+  if (!query.executeStep()) return std::nullopt;
+  return query.getColumn(0).getString();
+}
+
+void JobStore::finish(std::span<const Record> records) {
+  const std::lock_guard lock(mutex_);
+  SQLite::Transaction transaction(*database_);
+  SQLite::Statement store(*database_,
+                          "UPDATE line SET record = ?, digest = ? WHERE job = ? AND "
+                          "number = ? AND record IS NULL");
+  SQLite::Statement count(
+      *database_,
+      "UPDATE job SET open = open - 1, errors = errors + ?1, state = CASE WHEN open = 1 "
+      "AND state = 'running' THEN 'done' ELSE state END WHERE id = ?2");
+  for (const auto& record : records) {
+    store.bindNoCopy(1, record.text);
+    if (record.digest.empty())
+      store.bind(2);
+    else
+      store.bindNoCopy(2, record.digest);
+    store.bind(3, record.job);
+    store.bind(4, record.number);
+    const int stored = store.exec();
+    store.reset();
+    if (stored == 0) continue;  // the job was removed meanwhile
+    count.bind(1, record.error ? 1 : 0);
+    count.bind(2, record.job);
+    count.exec();
+    count.reset();
+  }
+  transaction.commit();
+}
+
+JobStore::Results JobStore::results(std::int64_t id, std::int64_t from,
+                                    std::size_t bytes) const {
+  const std::lock_guard lock(mutex_);
+  SQLite::Statement query(*database_,
+                          "SELECT number, record FROM line WHERE job = ? AND "
+                          "number >= ? ORDER BY number");
+  query.bind(1, id);
+  query.bind(2, from);
+  Results results{{}, from};
+  while (results.jsonl.size() < bytes && query.executeStep()) {
+    if (query.getColumn(1).isNull()) break;
+    const std::int64_t number = query.getColumn(0);
+    results.jsonl += numbered(number, query.getColumn(1).getString()) + '\n';
+    results.next = number + 1;
+  }
+  return results;
+}
+
+}  // namespace turnwright::service

@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include "turnwright/document/parse.hpp"
+#include "turnwright/document/reader.hpp"
+#include "turnwright/service/batch_line.hpp"
+#include "turnwright/service/digest.hpp"
+
+namespace turnwright::service {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::vector<std::string> row_names() {
+  std::vector<std::string> names;
+  for (const auto& row : requests()) names.push_back(row.name);
+  return names;
+}
+
+ordered_json problem_list(const InputError& error) {
+  auto list = ordered_json::array();
+  for (const auto& problem : error.problems())
+    list.push_back({{"pointer", problem.pointer},
+                    {"got", problem.got},
+                    {"expected", problem.expected},
+                    {"code", problem.code}});
+  return list;
+}
+
+// What came may hold bytes that are no UTF-8; they are shown as U+FFFD.
+std::string one_line(const ordered_json& record) {
+  return record.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+BatchRecord failed(const std::string& name, const std::string& title,
+                   const std::string& detail) {
+  return {
+      one_line(
+          {{"name", name}, {"status", "error"}, {"title", title}, {"detail", detail}}),
+      true};
+}
+
+}  // namespace
+
+BatchRequest read_batch_line(const std::string& line) {
+  const auto json = document::parse(line, "line");
+  document::Problems problems{.document = "line"};
+  document::Reader r = document::Reader(json, problems).as_object();
+  const auto names = row_names();
+  const auto row = r.at("name", "the name of a request").as_choice(names);
+  BatchRequest request{&requests()[row], r.object("document").json(), {}};
+  r.finish();
+  problems.throw_if_any();
+  request.digest = sha256_hex(std::string(version()) + '\n' + request.row->name + '\n' +
+                              request.document.dump());
+  return request;
+}
+
+BatchRecord batch_record(const BatchRequest& request, const Context& context) {
+  const auto& name = request.row->name;
+  try {
+    const auto result = answer(*request.row, request.document, context);
+    return {one_line({{"name", name},
+                      {"status", infeasible(result) ? "infeasible" : "ok"},
+                      {"result", result}})};
+  } catch (const InputError& error) {
+    return {one_line({{"name", name},
+                      {"status", "error"},
+                      {"title", "wrong input"},
+                      {"errors", problem_list(error)}}),
+            true};
+  } catch (const ModelRangeError& error) {
+    return failed(name, "outside a model's range", error.what());
+  } catch (const std::domain_error& error) {
+    return failed(name, "internal error", error.what());
+  }
+}
+
+BatchRecord batch_record(const InputError& error) {
+  return {one_line({{"status", "error"},
+                    {"title", "wrong line"},
+                    {"errors", problem_list(error)}}),
+          true};
+}
+
+std::string numbered(std::int64_t number, const std::string& text) {
+  return "{\"line\":" + std::to_string(number) + ',' + text.substr(1);
+}
+
+}  // namespace turnwright::service

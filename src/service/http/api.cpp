@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+
+#include "openapi.hpp"
+#include "turnwright/base/cancelled.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/parse.hpp"
+#include "turnwright/service/http_api.hpp"
+
+namespace turnwright::service {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kDocumentBytes = document::ParseLimits{}.bytes;
+constexpr std::size_t kBatchBytes = 256'000'000;
+constexpr std::size_t kResultBytes = 8'000'000;  // of one page of a batch's results
+
+std::string text_of(const ordered_json& document) { return document.dump(2) + '\n'; }
+
+std::vector<std::string_view> segments(std::string_view path) {
+  std::vector<std::string_view> out;
+  while (!path.empty()) {
+    path.remove_prefix(1);  // the slash
+    const auto end = std::min(path.find('/'), path.size());
+    out.push_back(path.substr(0, end));
+    path.remove_prefix(end);
+  }
+  return out;
+}
+
+std::optional<std::int64_t> number(std::string_view text) {
+  std::int64_t value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1)
+    return std::nullopt;
+  return value;
+}
+
+bool has_type(const Call& call, std::string_view type) {
+  std::string given(call.content_type, 0, call.content_type.find(';'));
+  while (!given.empty() && given.back() == ' ') given.pop_back();
+  std::transform(given.begin(), given.end(), given.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return given == type;
+}
+
+Reply wrong_type(const Call& call, const std::string& wanted) {
+  return problem(415, "media-type",
+                 "got Content-Type '" + call.content_type + "', expected " + wanted,
+                 call);
+}
+
+ordered_json to_json(const Job& job) {
+  return {{"id", job.id},
+          {"state", job.state},
+          {"lines", job.lines},
+          {"done", job.done},
+          {"errors", job.errors}};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+Reply answer_request(const Request& row, const Call& call, const Context& context) {
+  if (!has_type(call, "application/json")) return wrong_type(call, "application/json");
+  nlohmann::json request;
+  try {
+    request = document::parse(call.body, row.name);
+  } catch (const InputError& error) {
+    return problem(400, "no-json", "the body is not a JSON document", call,
+                   error.problems());
+  }
+  try {
+    return {200, "application/json", text_of(answer(row, request, context)), {}};
+  } catch (const InputError& error) {
+    const auto count = error.problems().size();
+    return problem(422, "wrong-input",
+                   count == 1 ? "the document has a problem"
+                              : fmt::format("the document has {} problems", count),
+                   call, error.problems());
+  } catch (const ModelRangeError& error) {
+    return problem(422, "model-range", error.what(), call);
+  }
+}
+
+}  // namespace
+
+/// What the path gave for each {..} of the route.
+using Arguments = std::vector<std::string_view>;
+
+struct HttpApi::Route {
+  std::string path;
+  std::string method;
+  std::function<Reply(const HttpApi&, const Call&, const Arguments&, std::stop_token)>
+      reply;
+
+  /// The arguments, if the path is of this route.
+  std::optional<Arguments> match(const std::vector<std::string_view>& given) const {
+    const auto own = segments(path);
+    if (own.size() != given.size()) return std::nullopt;
+    Arguments arguments;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (own[i].starts_with('{'))
+        arguments.push_back(given[i]);
+      else if (own[i] != given[i])
+        return std::nullopt;
+    }
+    return arguments;
+  }
+};
+
+namespace {
+
+Reply plain(std::string text) { return {200, "text/plain; charset=utf-8", text, {}}; }
+
+Reply missing(const Call& call) {
+  return problem(404, "not-found", "nothing is at " + std::string(call.path()), call);
+}
+
+Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
+  const auto job = batches.store().job(id);
+  if (!job) return missing(call);
+  return {200, "application/json", text_of(to_json(*job)), {}};
+}
+
+Reply submit(Batches& batches, const Call& call) {
+  if (!has_type(call, "application/jsonl")) return wrong_type(call, "application/jsonl");
+  const auto id = batches.store().submit(lines_of(call.body));
+  batches.wake();
+  Reply reply = job_reply(batches, id, call);
+  reply.status = 202;
+  reply.headers.emplace_back("Location", fmt::format("/v1/batches/{}", id));
+  return reply;
+}
+
+Reply list_jobs(Batches& batches) {
+  auto list = ordered_json::array();
+  for (const auto& job : batches.store().jobs()) list.push_back(to_json(job));
+  return {200, "application/json", text_of(list), {}};
+}
+
+Reply results(Batches& batches, std::int64_t id, const Call& call) {
+  if (!batches.store().job(id)) return missing(call);
+  const auto asked = call.query("from");
+  const auto from = asked.empty() ? 1 : number(asked);
+  if (!from)
+    return problem(422, "wrong-input", "a query parameter is wrong", call,
+                   {{"from", std::string(asked), "an integer >= 1", "range"}});
+  auto page = batches.store().results(id, *from, kResultBytes);
+  Reply reply{200, "application/jsonl", std::move(page.jsonl), {}};
+  reply.headers.emplace_back(
+      "Link",
+      fmt::format("</v1/batches/{}/results?from={}>; rel=\"next\"", id, page.next));
+  return reply;
+}
+
+}  // namespace
+
+const std::vector<HttpApi::Route>& HttpApi::routes() {
+  using Stop = std::stop_token;
+  // A route of batches: with the job's number, where the path has one.
+  const auto of_batches = [](auto reply) {
+    return
+        [reply](const HttpApi& api, const Call& call, const Arguments& arguments, Stop) {
+          const auto id = arguments.empty() ? 0 : number(arguments[0]);
+          return api.batches_ && id ? reply(*api.batches_, *id, call) : missing(call);
+        };
+  };
+  static const std::vector<Route> kRoutes = [&] {
+    std::vector<Route> all;
+    for (const auto& row : requests())
+      all.push_back(
+          {"/v1/" + row.name, "POST",
+           [&row](const HttpApi& api, const Call& call, const Arguments&, Stop stop) {
+             return answer_request(row, call, {api.catalogue_, std::move(stop)});
+           }});
+    for (const char* what : {"materials", "tools", "machines", "parts"}) {
+      const std::string path = std::string("/v1/") + what;
+      all.push_back(
+          {path, "GET",
+           [what](const HttpApi& api, const Call&, const Arguments&, Stop) -> Reply {
+             return {200, "application/json", api.listings_.at(what).index, {}};
+           }});
+      all.push_back({path + "/{id}", "GET",
+                     [what](const HttpApi& api, const Call& call, const Arguments& id,
+                            Stop) -> Reply {
+                       const auto& documents = api.listings_.at(what).documents;
+                       const auto found = documents.find(std::string(id[0]));
+                       if (found == documents.end()) return missing(call);
+                       return {200, "application/json", found->second, {}};
+                     }});
+    }
+    all.push_back({"/v1/batches", "POST",
+                   of_batches([](Batches& b, std::int64_t, const Call& call) {
+                     return submit(b, call);
+                   })});
+    all.push_back(
+        {"/v1/batches", "GET",
+         of_batches([](Batches& b, std::int64_t, const Call&) { return list_jobs(b); })});
+    all.push_back({"/v1/batches/{id}", "GET", of_batches(job_reply)});
+    all.push_back({"/v1/batches/{id}", "DELETE",
+                   of_batches([](Batches& b, std::int64_t id, const Call& call) -> Reply {
+                     if (!b.store().remove(id)) return missing(call);
+                     return {204, "", "", {}};
+                   })});
+    all.push_back({"/v1/batches/{id}/cancel", "POST",
+                   of_batches([](Batches& b, std::int64_t id, const Call& call) {
+                     b.store().cancel(id);
+                     return job_reply(b, id, call);
+                   })});
+    all.push_back({"/v1/batches/{id}/results", "GET", of_batches(results)});
+    all.push_back(
+        {"/healthz", "GET", [](const HttpApi&, const Call&, const Arguments&, Stop) {
+           return plain("ok\n");
+         }});
+    all.push_back({"/openapi.json", "GET",
+                   [](const HttpApi& api, const Call&, const Arguments&, Stop) -> Reply {
+                     return {200, "application/json", api.openapi_, {}};
+                   }});
+    return all;
+  }();
+  return kRoutes;
+}
+
+HttpApi::HttpApi(const std::filesystem::path& folder,
+                 const document::Catalogue& catalogue, Batches* batches)
+    : catalogue_(catalogue), batches_(batches), openapi_(text_of(openapi(folder))) {
+  for (const char* what : {"materials", "tools", "machines", "parts"}) {
+    auto& listing = listings_[what];
+    auto index = ordered_json::array();
+    std::map<std::string, std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / what)) {
+      if (entry.path().extension() != ".json") continue;
+      const auto document = document::parse_file(entry.path());
+      const auto id = document.value("id", entry.path().stem().string());
+      names[id] = document.value("name", id);
+      listing.documents[id] = text_of(document);
+    }
+    for (const auto& [id, name] : names) index.push_back({{"id", id}, {"name", name}});
+    listing.index = text_of(index);
+  }
+}
+
+std::size_t HttpApi::body_limit(const Call& call) {
+  return call.path() == "/v1/batches" ? kBatchBytes : kDocumentBytes;
+}
+
+std::string HttpApi::route(const Call& call) const {
+  const auto given = segments(call.path());
+  for (const auto& route : routes())
+    if (route.match(given)) return route.path;
+  return "other";
+}
+
+Reply HttpApi::reply(const Call& call, std::stop_token stop) const {
+  const auto given = segments(call.path());
+  const std::string method = call.method == "HEAD" ? "GET" : call.method;
+  std::string allowed;
+  for (const auto& route : routes()) {
+    const auto arguments = route.match(given);
+    if (!arguments) continue;
+    if (route.method == method) return route.reply(*this, call, *arguments, stop);
+    allowed += (allowed.empty() ? "" : ", ") + route.method;
+    if (route.method == "GET") allowed += ", HEAD";
+  }
+  if (allowed.empty()) return missing(call);
+  allowed += ", OPTIONS";
+  Reply reply =
+      method == "OPTIONS"
+          ? Reply{204, "", "", {}}
+          : problem(405, "method", call.method + " is not for this path, only " + allowed,
+                    call);
+  reply.headers.emplace_back("Allow", allowed);
+  return reply;
+}
+
+}  // namespace turnwright::service

@@ -1,0 +1,319 @@
+#include <sys/socket.h>
+
+#include <ctime>
+#include <optional>
+
+#include "keys.hpp"
+#include "state.hpp"
+#include "turnwright/base/cancelled.hpp"
+#include "turnwright/service/log.hpp"
+
+namespace turnwright::service {
+namespace {
+
+using Parser = http::request_parser<http::string_body>;
+using beast::error_code;
+using Clock = std::chrono::steady_clock;
+
+/// Cancels what the socket is doing after a time.  (Beast's own timeouts close the
+/// socket, and then nothing can be said to the client.)
+class Alarm {
+ public:
+  Alarm(tcp::socket& socket, std::chrono::milliseconds after)
+      : timer_(socket.get_executor(), after) {
+    timer_.async_wait([state = state_, &socket](error_code) {
+      if (*state != State::set) return;
+      *state = State::rang;
+      socket.cancel();
+    });
+  }
+  Alarm(const Alarm&) = delete;
+  Alarm& operator=(const Alarm&) = delete;
+  ~Alarm() {
+    if (!rang()) *state_ = State::off;
+  }
+  bool rang() const { return *state_ == State::rang; }
+
+ private:
+  enum class State { set, rang, off };
+  std::shared_ptr<State> state_ = std::make_shared<State>(State::set);
+  asio::steady_timer timer_;
+};
+
+auto into(error_code& ec) { return asio::redirect_error(asio::use_awaitable, ec); }
+
+std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+
+/// Date header's form (RFC 9110, 5.6.7).
+std::string date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char out[40];
+  return {out, std::strftime(out, sizeof out, "%a, %d %b %Y %H:%M:%S GMT", &utc)};
+}
+
+bool is_request_id(beast::string_view id) {
+  if (id.empty() || id.size() > 64) return false;
+  return std::all_of(id.begin(), id.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_' || c == '.';
+  });
+}
+
+/// The call as far as its header tells; the caller's own id is kept where it has one.
+Call call_of(const Parser& parser, ServerState& state) {
+  const auto& message = parser.get();
+  const auto id = message["X-Request-Id"];
+  return {text(message.method_string()),
+          text(message.target()),
+          text(message[http::field::content_type]),
+          text(message[http::field::accept_encoding]),
+          text(message[http::field::authorization]),
+          is_request_id(id) ? text(id) : "call-" + std::to_string(++state.calls),
+          {}};
+}
+
+asio::awaitable<bool> write(ServerState& state, Connection& connection, const Call& call,
+                            Reply reply, bool keep_alive) {
+  http::response<http::string_body> message;
+  message.version(11);
+  message.result(static_cast<unsigned>(reply.status));
+  message.reason(
+      beast::string_view(reason(reply.status).data(), reason(reply.status).size()));
+  message.set(http::field::date, date());
+  message.set("X-Request-Id", call.request_id);
+  message.set("X-Content-Type-Options", "nosniff");
+  if (!reply.content_type.empty())
+    message.set(http::field::content_type, reply.content_type);
+  for (const auto& [name, value] : reply.headers) message.set(name, value);
+  message.keep_alive(keep_alive);
+  if (reply.status != 204) message.content_length(reply.body.size());
+  if (call.method != "HEAD") message.body() = std::move(reply.body);
+  http::response_serializer<http::string_body> serializer(message);
+  const Alarm alarm(connection.socket, state.options.writing);
+  error_code ec;
+  co_await http::async_write(connection.socket, serializer, into(ec));
+  co_return !ec;
+}
+
+/// Lets the client read the last answer before the connection is reset: what it still
+/// sends is read and dropped, for a while.
+asio::awaitable<void> close(Connection& connection) {
+  constexpr auto kPatience = std::chrono::seconds(2);
+  constexpr std::size_t kDropped = 4'000'000;
+  error_code ec;
+  connection.socket.shutdown(tcp::socket::shutdown_send, ec);
+  const Alarm alarm(connection.socket, kPatience);
+  std::vector<char> sink(65'536);
+  for (std::size_t dropped = 0; !ec && dropped < kDropped;)
+    dropped += co_await connection.socket.async_read_some(asio::buffer(sink), into(ec));
+  connection.socket.close(ec);
+}
+
+/// A call on its way through the pool.
+struct Pending {
+  explicit Pending(asio::io_context& io) : done(io) {}
+  asio::steady_timer done;  ///< cancelled when there is news
+  std::optional<Reply> reply;
+  std::stop_source stop;
+  bool gone = false;  ///< the client left
+};
+
+Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
+  Reply reply;
+  try {
+    reply = api.reply(call, stop);
+  } catch (const Cancelled&) {
+    return {};  // nobody reads it
+  } catch (const std::exception& error) {
+    log_fault(call, error.what());
+    reply = problem(500, "fault", "a fault of this program; the log has more", call);
+  }
+  compress_for(call, reply);
+  return reply;
+}
+
+void watch(tcp::socket& socket, const std::shared_ptr<Pending>& pending) {
+  socket.async_wait(tcp::socket::wait_read,
+                    [pending, fd = socket.native_handle()](error_code ec) {
+                      char byte = 0;
+                      if (ec || ::recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0) return;
+                      pending->gone = true;
+                      pending->stop.request_stop();
+                      pending->done.cancel();
+                    });
+}
+
+/// The answer from the pool; none if the client left.
+asio::awaitable<std::optional<Reply>> computed(ServerState& state, Connection& connection,
+                                               Call call) {
+  auto pending = std::make_shared<Pending>(state.io);
+  ++state.waiting;
+  state.metrics.waiting.Increment();
+  asio::post(state.pool, [&state, pending, call] {
+    auto reply = answer(state.api, call, pending->stop.get_token());
+    asio::post(state.io, [&state, pending, reply = std::move(reply)]() mutable {
+      --state.waiting;
+      state.metrics.waiting.Decrement();
+      pending->reply = std::move(reply);
+      pending->done.cancel();
+    });
+  });
+  watch(connection.socket, pending);
+  pending->done.expires_after(state.options.deadline);
+  error_code ec;
+  co_await pending->done.async_wait(into(ec));
+  connection.socket.cancel(ec);
+  if (pending->gone) co_return std::nullopt;
+  if (pending->reply) co_return std::move(*pending->reply);
+  pending->stop.request_stop();
+  co_return problem(504, "deadline",
+                    "not done within " + std::to_string(state.options.deadline.count()) +
+                        " ms; send it as a batch",
+                    call);
+}
+
+/// What needs no computing and must be answered when the pool is busy.
+std::optional<Reply> at_once(const ServerState& state, const Call& call) {
+  const auto path = call.path();
+  const bool get = call.method == "GET" || call.method == "HEAD";
+  if (get && path == "/readyz")
+    return state.full() || state.draining
+               ? problem(503, "busy", "not ready for calls", call)
+               : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
+  if (get && path == "/healthz") return state.api.reply(call, {});
+  if (!state.options.keys.empty() && path.starts_with("/") &&
+      !authorized(state.options.keys, call.authorization)) {
+    Reply reply = problem(401, "key", "expected Authorization: Bearer and a key", call);
+    reply.headers.emplace_back("WWW-Authenticate", "Bearer");
+    return reply;
+  }
+  if (get && path == "/metrics")
+    return Reply{200, "text/plain; version=0.0.4", state.metrics.text(), {}};
+  if (!state.full()) return std::nullopt;
+  Reply reply = problem(503, "busy", "too many calls wait already", call);
+  reply.headers.emplace_back("Retry-After", "1");
+  return reply;
+}
+
+/// The answer to what could not be read; none where the client just left.
+std::optional<Reply> refusal(const error_code& ec, const Call& call) {
+  const auto megabytes = HttpApi::body_limit(call) / 1'000'000;
+  if (ec == beast::error::timeout)
+    return problem(408, "timeout", "the request did not arrive in time", call);
+  if (ec == http::error::header_limit || ec == http::error::buffer_overflow)
+    return call.target.empty()
+               ? problem(414, "target", "the request line is too long", call)
+               : problem(431, "header", "the header is too long", call);
+  if (ec == http::error::body_limit)
+    return problem(413, "body", "expected at most " + std::to_string(megabytes) + " MB",
+                   call);
+  if (ec.category() == http::make_error_code(http::error::bad_version).category() &&
+      ec != http::error::end_of_stream && ec != http::error::partial_message)
+    return problem(400, "no-http", ec.message(), call);
+  return std::nullopt;
+}
+
+/// Reads the rest of a call whose header is there.
+asio::awaitable<error_code> read_call_body(const ServerState& state,
+                                           Connection& connection, Parser& parser,
+                                           Call& call) {
+  error_code ec;
+  const auto limit = HttpApi::body_limit(call);
+  if (parser.content_length() && *parser.content_length() > limit)
+    co_return http::make_error_code(http::error::body_limit);
+  parser.body_limit(limit);
+  const Alarm alarm(connection.socket, state.options.body);
+  if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
+    constexpr char kGo[] = "HTTP/1.1 100 Continue\r\n\r\n";
+    co_await asio::async_write(connection.socket, asio::buffer(kGo, sizeof kGo - 1),
+                               into(ec));
+    if (ec) co_return ec;
+  }
+  co_await http::async_read(connection.socket, connection.buffer, parser, into(ec));
+  call.body = std::move(parser.get().body());
+  co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
+}
+
+asio::awaitable<error_code> read_call_header(const ServerState& state,
+                                             Connection& connection, Parser& parser) {
+  parser.header_limit(static_cast<std::uint32_t>(state.options.header_bytes));
+  parser.body_limit(HttpApi::body_limit({"POST", "/v1/batches", {}, {}, {}, {}, {}}));
+  const Alarm alarm(connection.socket, state.options.header);
+  error_code ec;
+  co_await http::async_read_header(connection.socket, connection.buffer, parser,
+                                   into(ec));
+  co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
+}
+
+/// One call.  @return whether the connection may carry another.
+asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
+  Parser parser;
+  error_code ec = co_await read_call_header(state, connection, parser);
+  Call call = call_of(parser, state);
+  if (!ec) ec = co_await read_call_body(state, connection, parser, call);
+  const auto arrived = Clock::now();
+  std::optional<Reply> reply;
+  if (ec)
+    reply = refusal(ec, call);
+  else if (!(reply = at_once(state, call)))
+    reply = co_await computed(state, connection, call);
+  const bool keep_alive = !ec && parser.get().keep_alive() && !state.draining;
+  const int status = reply ? reply->status : 499;
+  const std::size_t bytes = reply ? reply->body.size() : 0;
+  if (ec && !reply) co_return false;
+  bool written = false;
+  if (reply)
+    written = co_await write(state, connection, call, std::move(*reply), keep_alive);
+  const std::chrono::duration<double> took = Clock::now() - arrived;
+  state.metrics.answered(state.api.route(call), status, took.count());
+  log_call(call, status, bytes, took.count());
+  const bool again = written && keep_alive;
+  if (written && !again) co_await close(connection);
+  co_return again;
+}
+
+asio::awaitable<bool> next_call(const ServerState& state, Connection& connection) {
+  if (connection.buffer.size() > 0) co_return true;
+  error_code ec;
+  connection.idle = true;
+  const Alarm alarm(connection.socket, state.options.idle);
+  const auto bytes = co_await connection.socket.async_read_some(
+      connection.buffer.prepare(4096), into(ec));
+  connection.buffer.commit(bytes);
+  connection.idle = false;
+  co_return !ec && !alarm.rang();
+}
+
+}  // namespace
+
+asio::awaitable<void> serve(ServerState& state, tcp::socket socket) {
+  Connection connection(std::move(socket));
+  error_code ec;
+  connection.socket.set_option(tcp::no_delay(true), ec);
+  state.connections.insert(&connection);
+  state.metrics.connections.Increment();
+  try {
+    bool more = true;
+    while (more) {
+      more = co_await next_call(state, connection);
+      if (more) more = co_await serve_call(state, connection);
+    }
+  } catch (const std::exception& error) {
+    log_event("connection lost", error.what());
+  }
+  state.metrics.connections.Decrement();
+  state.connections.erase(&connection);
+  if (state.draining && state.connections.empty()) state.drain.cancel();
+}
+
+asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket) {
+  Connection connection(std::move(socket));
+  const Call nobody;
+  Reply reply = problem(503, "busy", "too many connections", nobody);
+  reply.headers.emplace_back("Retry-After", "1");
+  if (co_await write(state, connection, nobody, std::move(reply), false))
+    co_await close(connection);
+}
+
+}  // namespace turnwright::service

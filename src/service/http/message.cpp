@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "turnwright/service/http_message.hpp"
+
+namespace turnwright::service {
+namespace {
+
+constexpr std::size_t kWorthCompressing = 1024;  // bytes; below, one packet carries it
+
+std::string gzip(const std::string& text) {
+  constexpr int kGzipWrapper = 15 + 16;
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kGzipWrapper, 8,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::runtime_error("gzip: zlib has no memory");
+  std::string out(deflateBound(&stream, static_cast<uLong>(text.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  const int end = deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (end != Z_STREAM_END) throw std::runtime_error("gzip: zlib did not finish");
+  return out;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// RFC 9110, 12.5.3: a list of codings, each with an optional weight; weight 0 refuses.
+bool takes_gzip(std::string_view codings) {
+  while (!codings.empty()) {
+    const auto comma = std::min(codings.find(','), codings.size());
+    const auto item = codings.substr(0, comma);
+    codings.remove_prefix(std::min(comma + 1, codings.size()));
+    const auto semicolon = std::min(item.find(';'), item.size());
+    if (trimmed(item.substr(0, semicolon)) != "gzip") continue;
+    const auto weight = item.substr(semicolon);
+    return weight.find_first_of("123456789") != std::string_view::npos || weight.empty();
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view Call::path() const {
+  const std::string_view all = target;
+  return all.starts_with('/') ? all.substr(0, all.find('?')) : std::string_view();
+}
+
+std::string_view Call::query(std::string_view key) const {
+  std::string_view rest = target;
+  const auto mark = rest.find('?');
+  if (mark == std::string_view::npos) return {};
+  rest.remove_prefix(mark + 1);
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find('&'), rest.size());
+    const auto pair = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const auto equals = std::min(pair.find('='), pair.size());
+    if (pair.substr(0, equals) == key)
+      return pair.substr(std::min(equals + 1, pair.size()));
+  }
+  return {};
+}
+
+std::string_view reason(int status) {
+  switch (status) {
+    case 200:
+      return "OK";
+    case 202:
+      return "Accepted";
+    case 204:
+      return "No Content";
+    case 400:
+      return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 408:
+      return "Request Timeout";
+    case 409:
+      return "Conflict";
+    case 413:
+      return "Content Too Large";
+    case 414:
+      return "URI Too Long";
+    case 415:
+      return "Unsupported Media Type";
+    case 422:
+      return "Unprocessable Content";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 503:
+      return "Service Unavailable";
+    case 504:
+      return "Gateway Timeout";
+    default:
+      return "Internal Server Error";
+  }
+}
+
+Reply problem(int status, const std::string& kind, const std::string& detail,
+              const Call& call, const std::vector<Problem>& errors) {
+  nlohmann::ordered_json document{{"type", "urn:turnwright:problem:" + kind},
+                                  {"title", reason(status)},
+                                  {"status", status},
+                                  {"detail", detail},
+                                  {"instance", "urn:turnwright:call:" + call.request_id}};
+  for (const auto& error : errors)
+    document["errors"].push_back({{"pointer", error.pointer},
+                                  {"got", error.got},
+                                  {"expected", error.expected},
+                                  {"code", error.code}});
+  // What came may hold bytes that are no UTF-8; they are shown as U+FFFD.
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  return {status,
+          "application/problem+json",
+          document.dump(2, ' ', false, kReplace) + '\n',
+          {}};
+}
+
+void compress_for(const Call& call, Reply& reply) {
+  if (reply.body.size() < kWorthCompressing) return;
+  reply.headers.emplace_back("Vary", "Accept-Encoding");
+  if (!takes_gzip(call.accept_encoding)) return;
+  reply.body = gzip(reply.body);
+  reply.headers.emplace_back("Content-Encoding", "gzip");
+}
+
+}  // namespace turnwright::service

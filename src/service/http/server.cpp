@@ -1,0 +1,99 @@
+#include "turnwright/service/server.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "state.hpp"
+#include "turnwright/service/log.hpp"
+
+namespace turnwright::service {
+namespace {
+
+ServerOptions complete(ServerOptions options) {
+  if (options.threads == 0)
+    options.threads = std::max(1U, std::thread::hardware_concurrency());
+  return options;
+}
+
+asio::ip::address address_of(const ServerOptions& options) {
+  boost::system::error_code ec;
+  const auto address = asio::ip::make_address(options.address, ec);
+  if (ec)
+    throw InputError("--address",
+                     {{"", options.address, "a numeric IP address", "address"}});
+  if (!address.is_loopback() && options.keys.empty())
+    throw InputError("--address",
+                     {{"", options.address,
+                       "a loopback address, or keys for the callers (--keys)", "keys"}});
+  return address;
+}
+
+asio::awaitable<void> accept(ServerState& state) {
+  for (;;) {
+    boost::system::error_code ec;
+    auto socket = co_await state.acceptor.async_accept(
+        asio::redirect_error(asio::use_awaitable, ec));
+    if (!state.acceptor.is_open()) co_return;
+    if (ec) {  // out of file descriptors, or the client left: others may fare better
+      asio::steady_timer pause(state.io, std::chrono::milliseconds(20));
+      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ec));
+    } else if (state.connections.size() < state.options.connections) {
+      asio::co_spawn(state.io, serve(state, std::move(socket)), asio::detached);
+    } else {
+      asio::co_spawn(state.io, turn_away(state, std::move(socket)), asio::detached);
+    }
+  }
+}
+
+void begin_drain(ServerState& state) {
+  if (state.draining) return;
+  state.draining = true;
+  boost::system::error_code ec;
+  state.acceptor.close(ec);
+  state.signals.cancel(ec);
+  for (auto* connection : state.connections)
+    if (connection->idle) connection->socket.close(ec);
+  if (state.connections.empty()) return;
+  state.drain.expires_after(state.options.drain);
+  state.drain.async_wait([&state](boost::system::error_code cancelled) {
+    boost::system::error_code ignored;
+    if (!cancelled)
+      for (auto* connection : state.connections) connection->socket.close(ignored);
+  });
+}
+
+}  // namespace
+
+Server::Server(const ServerOptions& options, const HttpApi& api)
+    : state_(std::make_unique<ServerState>(complete(options), api)) {
+  const tcp::endpoint endpoint(address_of(options), options.port);
+  auto& acceptor = state_->acceptor;
+  try {
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error(options.address + ":" + std::to_string(options.port) + ": " +
+                             error.code().message());
+  }
+}
+
+Server::~Server() { state_->pool.join(); }
+
+std::uint16_t Server::port() const { return state_->acceptor.local_endpoint().port(); }
+
+void Server::run() {
+  auto& state = *state_;
+  state.signals.async_wait([&state](boost::system::error_code ec, int) {
+    if (!ec) begin_drain(state);
+  });
+  asio::co_spawn(state.io, accept(state), asio::detached);
+  state.io.run();
+}
+
+void Server::stop() {
+  asio::post(state_->io, [this] { begin_drain(*state_); });
+}
+
+}  // namespace turnwright::service

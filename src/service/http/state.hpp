@@ -1,0 +1,53 @@
+#pragma once
+#include <utility>  // Boost 1.74's awaitable.hpp uses std::exchange without it
+//
+#include <atomic>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <set>
+
+#include "metrics.hpp"
+#include "turnwright/service/server.hpp"
+
+namespace turnwright::service {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+
+struct Connection {
+  explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
+  tcp::socket socket;
+  beast::flat_buffer buffer;
+  bool idle = false;  ///< between two calls: may be closed without losing one
+};
+
+/// Everything but `pool`'s work is touched by the one thread that runs `io`.
+struct ServerState {
+  ServerState(const ServerOptions& given, const HttpApi& api_)
+      : options(given), api(api_), pool(given.threads) {}
+
+  ServerOptions options;
+  const HttpApi& api;
+  Metrics metrics;
+  asio::io_context io{1};
+  asio::thread_pool pool;
+  tcp::acceptor acceptor{io};
+  asio::signal_set signals{io, SIGINT, SIGTERM};
+  asio::steady_timer drain{io};
+  std::set<Connection*> connections;
+  std::size_t waiting = 0;  ///< calls in `pool`
+  std::uint64_t calls = 0;
+  bool draining = false;
+
+  bool full() const { return waiting >= options.queue + options.threads; }
+};
+
+/// Answers the calls of one connection until it ends.
+asio::awaitable<void> serve(ServerState& state, tcp::socket socket);
+
+/// Tells a client that there are too many, and closes.
+asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket);
+
+}  // namespace turnwright::service

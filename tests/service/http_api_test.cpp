@@ -1,0 +1,163 @@
+#include "turnwright/service/http_api.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "turnwright/document/parse.hpp"
+
+namespace turnwright::service {
+namespace {
+
+using nlohmann::json;
+
+const document::Catalogue& catalogue() {
+  static const auto kAll = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  return kAll;
+}
+
+const HttpApi& api() {
+  static const HttpApi kApi(TURNWRIGHT_SOURCE_DIR, catalogue(), nullptr);
+  return kApi;
+}
+
+Call call(const std::string& method, const std::string& target, std::string body = "") {
+  return {method, target, "application/json", "", "", "id-1", std::move(body)};
+}
+
+Reply reply(const Call& call) { return api().reply(call, {}); }
+
+json problem_of(const Reply& reply) {
+  EXPECT_EQ(reply.content_type, "application/problem+json");
+  const auto document = json::parse(reply.body);
+  EXPECT_EQ(document.at("status"), reply.status);
+  EXPECT_EQ(document.at("instance"), "urn:turnwright:call:id-1");
+  return document;
+}
+
+TEST(HttpApi, EveryRowAnswersItsExampleAsTheCommandLineDoes) {
+  for (const auto& row : requests()) {
+    const auto given = reply(call("POST", "/v1/" + row.name, row.example));
+    EXPECT_EQ(given.status, 200) << row.name << given.body;
+    const auto result = answer(row, json::parse(row.example), {catalogue()});
+    EXPECT_EQ(given.body, result.dump(2) + '\n') << row.name;
+  }
+}
+
+TEST(HttpApi, EveryDocumentOfTheCatalogueIsThere) {
+  for (const char* what : {"materials", "tools", "machines", "parts"}) {
+    const auto list = json::parse(reply(call("GET", std::string("/v1/") + what)).body);
+    ASSERT_FALSE(list.empty()) << what;
+    for (const auto& entry : list) {
+      const auto one = reply(call(
+          "GET", std::string("/v1/") + what + '/' + entry.at("id").get<std::string>()));
+      ASSERT_EQ(one.status, 200);
+      EXPECT_EQ(json::parse(one.body).at("name"), entry.at("name"));
+    }
+  }
+}
+
+TEST(HttpApi, NoPathLeadsToTheFileSystem) {
+  for (const char* target :
+       {"/v1/parts/../machines/lathe-small", "/v1/parts/..%2f..%2fREADME.md",
+        "/v1/parts//etc/passwd", "/v1/parts/pump-shaft.json", "/../README.md", "//",
+        "xhealthz", "*", "http://127.0.0.1/healthz", "/v1/parts/pump-shaft/"}) {
+    const auto given = reply(call("GET", target));
+    EXPECT_EQ(given.status, 404) << target;
+    problem_of(given);
+  }
+}
+
+TEST(HttpApi, TellsWhatIsWrongWithABody) {
+  const auto broken = problem_of(reply(call("POST", "/v1/deflection", "{\"a\": [1,")));
+  EXPECT_EQ(broken.at("status"), 400);
+  EXPECT_EQ(broken.at("errors").at(0).at("code"), "syntax");
+
+  const auto wrong = problem_of(
+      reply(call("POST", "/v1/multipass", R"({"dt_mm": -1, "costs": "literal"})")));
+  EXPECT_EQ(wrong.at("status"), 422);
+  std::set<std::string> pointers;
+  for (const auto& error : wrong.at("errors")) pointers.insert(error.at("pointer"));
+  EXPECT_EQ(pointers, (std::set<std::string>{"/costs", "/dt_mm"}));
+
+  auto typed = call("POST", "/v1/multipass", "{}");
+  typed.content_type = "text/plain";
+  EXPECT_EQ(problem_of(reply(typed)).at("status"), 415);
+  typed.content_type = "Application/JSON; charset=utf-8";
+  EXPECT_EQ(reply(typed).status, 200);
+}
+
+TEST(HttpApi, AnInfeasiblePlanIsAnAnswer) {
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/infeasible-as-drawn.json");
+  const std::string part{std::istreambuf_iterator<char>(file), {}};
+  const auto given = reply(call("POST", "/v1/plan", part));
+  EXPECT_EQ(given.status, 200);
+  EXPECT_EQ(json::parse(given.body).at("status"), "infeasible");
+}
+
+TEST(HttpApi, TellsTheMethodsOfAPath) {
+  const auto wrong = reply(call("PUT", "/v1/plan"));
+  EXPECT_EQ(problem_of(wrong).at("status"), 405);
+  using Headers = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(wrong.headers, (Headers{{"Allow", "POST, OPTIONS"}}));
+  const auto options = reply(call("OPTIONS", "/v1/parts"));
+  EXPECT_EQ(options.status, 204);
+  EXPECT_EQ(options.headers, (Headers{{"Allow", "GET, HEAD, OPTIONS"}}));
+  EXPECT_EQ(reply(call("HEAD", "/v1/parts")).body, reply(call("GET", "/v1/parts")).body);
+}
+
+TEST(HttpApi, RoutesHaveFewNames) {
+  EXPECT_EQ(api().route(call("GET", "/v1/parts/pump-shaft?x=1")), "/v1/parts/{id}");
+  EXPECT_EQ(api().route(call("GET", "/v1/batches/7/results")),
+            "/v1/batches/{id}/results");
+  EXPECT_EQ(api().route(call("GET", "/some/where")), "other");
+}
+
+TEST(HttpApi, CompressesForThoseWhoAsk) {
+  const auto compressed = [](const std::string& codings) {
+    Reply long_reply{200, "text/plain", std::string(5000, 'a'), {}};
+    auto asked = call("GET", "/");
+    asked.accept_encoding = codings;
+    compress_for(asked, long_reply);
+    return long_reply.body.size() < 100;
+  };
+  for (const char* yes : {"gzip", "br, gzip", "gzip;q=0.5", "identity;q=0.1,gzip"})
+    EXPECT_TRUE(compressed(yes)) << yes;
+  for (const char* no : {"", "br", "gzip;q=0", "gzip;q=0.000", "xgzip"})
+    EXPECT_FALSE(compressed(no)) << no;
+}
+
+// Members of the document one by one: left out, of a wrong type, far out of range.
+std::vector<json> spoiled(const json& good) {
+  std::vector<json> all;
+  const json flat = good.flatten();
+  for (const auto& [pointer, value] : flat.items())
+    for (const json& slip : {json(nullptr), json(-1e300), json("?"), json::array({1})}) {
+      json bad = good;
+      bad[json::json_pointer(pointer)] = slip;
+      all.push_back(std::move(bad));
+    }
+  return all;
+}
+
+TEST(HttpApi, SpoiledRequestsAreNeverAFaultOfTheServer) {
+  for (const auto& row : requests()) {
+    int refused = 0;
+    const auto all = spoiled(json::parse(row.example));
+    const auto step = std::max<std::size_t>(1, all.size() / 200);
+    for (std::size_t i = 0; i < all.size(); i += step) {
+      const auto given = reply(call("POST", "/v1/" + row.name, all[i].dump()));
+      ASSERT_TRUE(given.status == 200 || given.status == 422) << all[i] << given.body;
+      if (given.status == 422) {
+        ++refused;
+        for (const auto& error : problem_of(given).value("errors", json::array()))
+          EXPECT_NO_THROW(json::json_pointer(error.at("pointer"))) << error;
+      }
+    }
+    EXPECT_GT(refused, 10) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::service

@@ -1,0 +1,246 @@
+#include "turnwright/service/server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "http_client.hpp"
+#include "turnwright/document/catalogue.hpp"
+
+namespace turnwright::service {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A server on a free port for the time of one test.
+class Running {
+ public:
+  explicit Running(ServerOptions options = {})
+      : catalogue_(document::load_catalogue(TURNWRIGHT_SOURCE_DIR)),
+        api_(TURNWRIGHT_SOURCE_DIR, catalogue_, nullptr) {
+    options.port = 0;
+    server_.emplace(options, api_);
+    thread_ = std::thread([this] { server_->run(); });
+  }
+  ~Running() {
+    stop();
+    if (thread_.joinable()) thread_.join();
+  }
+  void stop() { server_->stop(); }
+  void wait() { thread_.join(); }
+  RawClient client() const { return RawClient(server_->port()); }
+
+ private:
+  document::Catalogue catalogue_;
+  HttpApi api_;
+  std::optional<Server> server_;
+  std::thread thread_;
+};
+
+std::string get(const std::string& target, const std::string& more = "") {
+  return "GET " + target + " HTTP/1.1\r\nHost: x\r\n" + more + "\r\n";
+}
+
+std::string post(const std::string& target, const std::string& body,
+                 const std::string& more = "") {
+  return "POST " + target + " HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n" +
+         more + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+TEST(Server, KeepsAConnectionForManyCalls) {
+  const Running server;
+  auto client = server.client();
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
+  // All at once on one connection: answered in order.
+  client.send(get("/healthz") + get("/nowhere") + post("/v1/multipass", "{}") +
+              get("/readyz"));
+  EXPECT_EQ(status_of(client.answer()), 200);
+  EXPECT_EQ(status_of(client.answer()), 404);
+  EXPECT_NE(body_of(client.answer()).find("\"UC\""), std::string::npos);
+  EXPECT_EQ(body_of(client.answer()), "ready\n");
+}
+
+TEST(Server, ClosesWhenAsked) {
+  const Running server;
+  auto client = server.client();
+  client.send(get("/healthz", "Connection: close\r\n"));
+  EXPECT_EQ(status_of(client.rest()), 200);
+  auto old = server.client();
+  old.send("GET /healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(status_of(old.rest()), 200);
+}
+
+TEST(Server, HeadHasNoBody) {
+  const Running server;
+  auto client = server.client();
+  client.send("HEAD /healthz HTTP/1.1\r\nConnection: close\r\n\r\n");
+  const auto all = client.rest();
+  EXPECT_NE(all.find("Content-Length: 3\r\n"), std::string::npos);
+  EXPECT_EQ(body_of(all), "");
+}
+
+TEST(Server, RefusesWhatIsTooLargeOrNoHttp) {
+  const Running server;
+  const auto status = [&](const std::string& bytes) {
+    const auto client = server.client();
+    client.send(bytes);
+    return status_of(client.rest());
+  };
+  EXPECT_EQ(status(get('/' + std::string(100'000, 'a'))), 414);
+  EXPECT_EQ(status(get("/healthz", "X: " + std::string(100'000, 'a') + "\r\n")), 431);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 1000000000000\r\n\r\n"),
+            413);
+  EXPECT_EQ(status(post("/v1/plan", std::string(2'000'001, ' '))), 413);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"),
+            400);
+  std::string chunks = "POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n";
+  for (int i = 0; i < 3; ++i)
+    chunks += "f4240\r\n" + std::string(1'000'000, ' ') + "\r\n";
+  EXPECT_EQ(status(chunks + "0\r\n\r\n"), 413);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 5\r\n"
+                   "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
+            400);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: -5\r\n\r\n"), 400);
+  EXPECT_EQ(status("\x16\x03\x01\x02 no http at all\r\n\r\n"), 400);
+  EXPECT_EQ(status("GET /healthz HTTP/9.9\r\n\r\n"), 400);
+}
+
+TEST(Server, TakesChunksAndExpectations) {
+  const Running server;
+  auto client = server.client();
+  const std::string head =
+      "POST /v1/multipass HTTP/1.1\r\nContent-Type: application/json\r\n";
+  EXPECT_EQ(status_of(client.ask(head + "Transfer-Encoding: chunked\r\n\r\n"
+                                        "1\r\n{\r\n1\r\n}\r\n0\r\n\r\n")),
+            200);
+  client.send(head + "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+  EXPECT_EQ(status_of(client.answer()), 100);
+  EXPECT_EQ(status_of(client.ask("{}")), 200);
+}
+
+TEST(Server, SlowCallersAreCutAndDoNotHoldOthersUp) {
+  ServerOptions options;
+  options.header = 200ms;
+  options.body = 200ms;
+  const Running server(options);
+  std::vector<std::unique_ptr<RawClient>> slow;
+  for (int i = 0; i < 50; ++i) {
+    slow.emplace_back(new RawClient(server.client()));
+    slow.back()->send(i % 2 ? "GET /heal"
+                            : "POST /v1/plan HTTP/1.1\r\nContent-Length: 9\r\n\r\n{");
+  }
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
+  for (const auto& one : slow) EXPECT_EQ(status_of(one->rest()), 408);
+}
+
+TEST(Server, IdleConnectionsEndQuietly) {
+  ServerOptions options;
+  options.idle = 50ms;
+  const Running server(options);
+  EXPECT_EQ(server.client().rest(), "");
+}
+
+TEST(Server, AFullQueueSaysSo) {
+  ServerOptions options;
+  options.threads = 1;
+  options.queue = 0;
+  const Running server(options);
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
+  const std::string part{std::istreambuf_iterator<char>(file), {}};
+  auto first = server.client(), second = server.client();
+  first.send(post("/v1/plan", part));
+  std::string answer;
+  do {  // until the first call has reached the pool
+    answer = second.ask(get("/readyz"));
+  } while (status_of(answer) == 200);
+  answer = second.ask(post("/v1/plan", part));
+  EXPECT_EQ(status_of(answer), 503);
+  EXPECT_NE(answer.find("Retry-After: 1\r\n"), std::string::npos);
+  EXPECT_EQ(status_of(second.ask(get("/healthz"))), 200);
+  EXPECT_EQ(status_of(first.answer()), 200);
+}
+
+TEST(Server, ADeadlineIsKept) {
+  ServerOptions options;
+  options.deadline = 1ms;
+  const Running server(options);
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
+  const std::string part{std::istreambuf_iterator<char>(file), {}};
+  auto client = server.client();
+  const auto answer = client.ask(post("/v1/plan", part));
+  EXPECT_EQ(status_of(answer), 504);
+  EXPECT_NE(body_of(answer).find("urn:turnwright:problem:deadline"), std::string::npos);
+}
+
+TEST(Server, AnswersWhatHasArrivedBeforeItStops) {
+  Running server;
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/pump-shaft.json");
+  const std::string part{std::istreambuf_iterator<char>(file), {}};
+  auto busy = server.client();
+  const auto idle = server.client();
+  busy.send(post("/v1/plan", part));
+  auto other = server.client();
+  while (body_of(other.ask(get("/metrics"))).find("turnwright_calls_waiting 1") ==
+         std::string::npos) {
+  }
+  server.stop();
+  EXPECT_EQ(status_of(busy.rest()), 200);
+  EXPECT_EQ(idle.rest(), "");
+  server.wait();
+}
+
+TEST(Server, TooManyConnectionsAreTurnedAway) {
+  ServerOptions options;
+  options.connections = 2;
+  const Running server(options);
+  auto first = server.client(), second = server.client();
+  EXPECT_EQ(status_of(first.ask(get("/healthz"))), 200);
+  EXPECT_EQ(status_of(second.ask(get("/healthz"))), 200);
+  EXPECT_EQ(status_of(server.client().rest()), 503);
+  EXPECT_EQ(status_of(first.ask(get("/healthz"))), 200);
+}
+
+TEST(Server, WantsAKeyWhereThereAreKeys) {
+  ServerOptions options;
+  options.keys = {"one-key-of-16-characters", "another-key-of-16-characters"};
+  const Running server(options);
+  auto client = server.client();
+  const auto status = [&](const std::string& header) {
+    return status_of(client.ask(get("/v1/parts", header)));
+  };
+  EXPECT_EQ(status(""), 401);
+  EXPECT_EQ(status("Authorization: Bearer one-key-of-16-character\r\n"), 401);
+  EXPECT_EQ(status("Authorization: Basic one-key-of-16-characters\r\n"), 401);
+  EXPECT_EQ(status("Authorization: Bearer another-key-of-16-characters\r\n"), 200);
+  EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
+  EXPECT_EQ(status_of(client.ask(get("/metrics"))), 401);
+}
+
+TEST(Server, IsNotOpenToOthersWithoutKeys) {
+  const document::Catalogue none;
+  const HttpApi api(TURNWRIGHT_SOURCE_DIR, none, nullptr);
+  ServerOptions options;
+  options.port = 0;
+  options.address = "0.0.0.0";
+  EXPECT_THROW(Server(options, api), InputError);
+  options.address = "localhost";
+  EXPECT_THROW(Server(options, api), InputError);
+  options.address = "::1";
+  EXPECT_NO_THROW(Server(options, api));
+}
+
+TEST(Server, CarriesTheCallersIdBack) {
+  const Running server;
+  auto client = server.client();
+  EXPECT_NE(client.ask(get("/healthz", "X-Request-Id: plan-7.a\r\n"))
+                .find("X-Request-Id: plan-7.a\r\n"),
+            std::string::npos);
+  EXPECT_EQ(client.ask(get("/healthz", "X-Request-Id: a b\r\n")).find("a b"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace turnwright::service
