@@ -7,12 +7,12 @@ tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cp
   TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp
         relaxation_search_test.cpp)
 tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
-tw_domain(part SOURCES drawing.cpp shaft.cpp DEPENDS base
-          TESTS drawing_test.cpp shaft_test.cpp)
+tw_domain(part SOURCES drawing.cpp cut.cpp shaft.cpp DEPENDS base
+          TESTS drawing_test.cpp cut_test.cpp shaft_test.cpp)
 # Floor 3
-tw_domain(cutting SOURCES cut.cpp material_fit.cpp spindle.cpp
+tw_domain(cutting SOURCES cut.cpp fixed.cpp material_fit.cpp spindle.cpp
   DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen
-  TESTS cut_test.cpp material_fit_test.cpp spindle_test.cpp)
+  TESTS cut_test.cpp fixed_test.cpp material_fit_test.cpp spindle_test.cpp)
 tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identification.cpp
                              deviation_graph.cpp envelope.cpp
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
@@ -30,7 +30,7 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensation.cpp
           kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp samba.cpp
-  DEPENDS base PRIVATE_LIBS Eigen3::Eigen Boost::headers
+  DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
@@ -56,27 +56,28 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
   TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp
         budget_test.cpp)
 # Floor 5
-tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp demand.cpp chain.cpp feature.cpp
-          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp setup_planner.cpp
+tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp chain.cpp feature.cpp
+          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp prices.cpp conflicts.cpp outcome.cpp
-          planned.cpp robust.cpp pareto.cpp plan.cpp predict.cpp
-          DEPENDS base part catalogue optimise deflection cutting tolerance
+          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp conflicts.cpp outcome.cpp
+          planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
+          DEPENDS base part catalogue optimise deflection cutting volumetric tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS allowance_test.cpp recipe_model_test.cpp plan_test.cpp
+          TESTS allowance_test.cpp machine_share_test.cpp recipe_model_test.cpp plan_test.cpp
+                prices_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
-tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp lathe.cpp
-          catalogue.cpp data_folder.cpp references.cpp elements.cpp stock.cpp bores.cpp tolerances.cpp
-          setups.cpp operations.cpp unsupported.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
+tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp fixed_tool.cpp lathe.cpp
+          catalogue.cpp data_folder.cpp references.cpp elements.cpp cuts.cpp stock.cpp bores.cpp tolerances.cpp
+          setups.cpp operations.cpp unsupported.cpp what_if.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
-          machine_fields.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
+          machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
           DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
-                malformed_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
+                malformed_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
@@ -89,7 +90,8 @@ if(BUILD_TESTING)
     PRIVATE tw_dev NLopt::nlopt_cxx)
   add_executable(reference_search EXCLUDE_FROM_ALL tests/reference_parts/reference_search.cpp)
   target_link_libraries(reference_search PRIVATE reference_search_lib tw_dev)
-  add_executable(reference_parts_test tests/reference_parts/reference_parts_test.cpp)
+  add_executable(reference_parts_test tests/reference_parts/reference_parts_test.cpp
+    tests/reference_parts/certificate_test.cpp)
   target_link_libraries(reference_parts_test PRIVATE reference_search_lib tw_dev
     GTest::gtest_main)
   foreach(program IN ITEMS reference_search reference_parts_test)
@@ -99,10 +101,11 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
-tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
-                           drawing.cpp contour.cpp svg.cpp chart.cpp volumetric_drawing.cpp
+tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
+                           drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp
+                           chart.cpp volumetric_drawing.cpp
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp drawing_test.cpp
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
                 volumetric_drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS

@@ -1,8 +1,7 @@
 #include "turnwright/cutting/cut.hpp"
 
-#include <algorithm>
-
 #include "turnwright/base/units.hpp"
+#include "turnwright/cutting/fixed.hpp"
 
 namespace turnwright::cutting {
 
@@ -16,10 +15,8 @@ Corner corner_of(double re_mm, double kapr_rad) {
 }
 
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
-  const double K_gamma =
-      std::clamp(1 - (tool.gamma_deg - material.gamma0_deg) / 100, 0.7, 1.3);
   Cut c;
-  c.kc = {material.kc.k11_MPa * K_gamma, material.kc.m};
+  c.kc = kienzle_at(material, tool.gamma_deg);
   c.kf = material.kf;
   c.kp = material.kp;
   c.taylor = material.taylor;

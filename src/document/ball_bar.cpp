@@ -1,8 +1,11 @@
 #include "turnwright/document/ball_bar.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "calibrated_machine.hpp"
 #include "csv.hpp"
 #include "fields.hpp"
 #include "machine_fields.hpp"
@@ -148,8 +151,7 @@ json derived_json(const Trace& t, const json& fit) {
           {"straightness_u_of_v_mm", of("EUV2_mm") * bow}};
 }
 
-json analysis_json(const Trace& t) {
-  const BallBarFit fit = decompose(t);
+json analysis_json(const Trace& t, const BallBarFit& fit) {
   const json terms = fit_json(fit);
   json ranking = json::array();
   for (const Contribution& c : fit.ranking)
@@ -163,26 +165,91 @@ json analysis_json(const Trace& t) {
 
 }  // namespace
 
-volumetric::Trace ball_bar_trace(const json& request) {
+namespace {
+
+/// What a trace says of the machine's errors, physical: relative values change their sign
+/// on the workpiece's side.  The squareness is put to the plane's first axis, on top of
+/// what the model has of the other.
+std::vector<Calibrated> calibrated(const Trace& t, const BallBarFit& fit,
+                                   const Machine& machine) {
+  const auto axes = axes_of(t.plane);
+  const char U = axes[0], V = axes[1];
+  const auto E = [](char direction, char axis, char number) {
+    return std::string{'E', direction, axis, number};
+  };
+  const auto side = [&](char axis) {
+    return machine.chain.find(axis) < machine.chain.find('f') ? -1.0 : 1.0;
+  };
+  const char turn = t.plane == Plane::XY ? 'C' : t.plane == Plane::YZ ? 'A' : 'B';
+  double square_V = 0;
+  for (const Axis& axis : machine.axes)
+    if (axis.name == V) square_V = axis.location[letter_index(turn)];
+  std::vector<Calibrated> all;
+  const auto add = [&](std::string_view term, const std::string& name, double factor,
+                       double more = 0) {
+    const auto k = static_cast<std::size_t>(
+        std::find(kBallBarTerms.begin(), kBallBarTerms.end(), term) -
+        kBallBarTerms.begin());
+    all.push_back({name, factor * fit.value[k] + more, std::abs(factor) * fit.u[k]});
+  };
+  const double Q = default_Q(U);
+  add("scale_u", E(U, U, '1'), side(U) * Q);
+  add("scale_v", E(V, V, '1'), side(V) * Q);
+  add("square", {'E', turn, '0', U}, 1, square_V);
+  add("EUUb", E(U, U, 'b'), side(U));
+  add("EVVb", E(V, V, 'b'), side(V));
+  add("EVUb", E(V, U, 'b'), side(U));
+  add("EUVb", E(U, V, 'b'), side(V));
+  add("EVU2", E(V, U, '2'), side(U));
+  add("EUV2", E(U, V, '2'), side(V));
+  return all;
+}
+
+struct Request {
+  Trace trace;
+  bool analysed = false;
+  std::optional<MachineDocument> machine;  ///< to be calibrated by the trace
+};
+
+Request read_request(const json& request) {
   Problems problems{.document = "ballbar"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-ballbar/1");
   const bool simulated = r.has("simulate"), analysed = r.has("analyse");
   std::optional<Simulation> simulation;
-  std::optional<Trace> trace;
+  Request q{.trace = {}, .analysed = analysed, .machine = {}};
   if (simulated) simulation = read_simulation(r.object("simulate"));
-  if (analysed) trace = read_trace(r.object("analyse"));
+  if (analysed) {
+    q.trace = read_trace(r.object("analyse"));
+    const auto axes = axes_of(q.trace.plane);
+    q.machine = read_machine_document(r, "wCfZXt", {axes.begin(), axes.end()});
+  }
   r.finish();
   if (r.is_object() && simulated == analysed)
     r.problem(simulated ? "both" : "neither", "either simulate or analyse", "conflict");
   problems.throw_if_any();
-  return trace ? *trace : simulate(simulation->machine, simulation->test);
+  if (simulation) q.trace = simulate(simulation->machine, simulation->test);
+  return q;
 }
 
+}  // namespace
+
+Trace ball_bar_trace(const json& request) { return read_request(request).trace; }
+
 json ball_bar(const json& request) {
-  const Trace t = ball_bar_trace(request);
-  if (request.contains("analyse")) return analysis_json(t);
-  return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
+  auto [t, analysed, machine] = read_request(request);
+  if (!analysed)
+    return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
+  const BallBarFit fit = decompose(t);
+  json out = analysis_json(t, fit);
+  if (machine) {
+    const auto found = calibrated(t, fit, machine->errors.chain);
+    const auto axes = axes_of(t.plane);
+    out["machine"] = with_errors(std::move(*machine), found,
+                                 std::string("ball bar in ") + axes[0] + axes[1] +
+                                     ", R " + number_text(t.R_mm) + " mm");
+  }
+  return out;
 }
 
 }  // namespace turnwright::document

@@ -17,7 +17,9 @@ double diameter_mm(const std::vector<Element>& elements, const LeftEnd& left_end
     const auto& e = elements[i];
     const double u = (z - left_end(i)) / e.length_mm;
     const double inwards = u + towards * 1e-9;
-    if (inwards > 0 && inwards < 1) return e.left_mm + (e.right_mm - e.left_mm) * u;
+    const auto made = part::core(e);
+    if (inwards > 0 && inwards < 1)
+      return made.left_mm + (made.right_mm - made.left_mm) * u;
   }
   return beyond;
 }
@@ -55,11 +57,6 @@ bool readable(const part::Drawing& d) {
 }
 
 void check_hole(const Reader& list, const part::Drawing& d) {
-  if (d.stock.kind == part::StockKind::bar) {
-    list.problem("bores in a bar", "stock of kind \"tube\": this version drills no hole",
-                 "unsupported");
-    return;
-  }
   const auto items = list.as_items(0, d.inner.size());
   for (std::size_t i = 0; i < d.inner.size(); ++i)
     if (std::min(d.inner[i].left_mm, d.inner[i].right_mm) < d.stock.inner_mm)

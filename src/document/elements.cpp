@@ -9,18 +9,23 @@
 namespace turnwright::document {
 namespace {
 
+using part::CutKind;
 using part::ElementKind;
 
 const Bounds kSize = above_up_to(0, 20000, "mm");
 
 enum class Side { outer, inner };
 
-// Kinds the schema knows; refuse_unsupported() tells which cannot be planned.
-const Choices<std::optional<ElementKind>> kKinds{{"cylinder", ElementKind::cylinder},
-                                                 {"cone", ElementKind::cone},
-                                                 {"arc", std::nullopt},
-                                                 {"groove", std::nullopt},
-                                                 {"thread", std::nullopt}};
+// How an element is read: what is turned, or what is cut into it besides.
+struct Shape {
+  ElementKind turned = ElementKind::cylinder;
+  std::optional<CutKind> cut = {};
+};
+const Choices<std::optional<Shape>> kShapes{{"cylinder", Shape{}},
+                                            {"cone", Shape{ElementKind::cone}},
+                                            {"arc", Shape{{}, CutKind::arc}},
+                                            {"groove", Shape{{}, CutKind::groove}},
+                                            {"thread", Shape{{}, CutKind::thread}}};
 
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 
@@ -86,8 +91,8 @@ void read_shape(Reader& r, Element& e, Side side) {
 }
 
 template <class Element>
-void read_list(std::vector<Element>& list, const std::vector<Reader>& items, Side side,
-               std::vector<std::string>& ids) {
+void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reader>& items,
+               Side side, std::vector<std::string>& ids) {
   for (Reader r : items) {
     r = r.as_object();
     Element e;
@@ -98,11 +103,13 @@ void read_list(std::vector<Element>& list, const std::vector<Reader>& items, Sid
     if (!e.id.empty() && std::find(ids.begin(), ids.end(), e.id) != ids.end())
       r.problem_at("id", "an id no other element has", "duplicate");
     ids.push_back(e.id);
-    const auto kind = r.choice<std::optional<ElementKind>>("kind", kKinds);
+    const auto shape = r.choice<std::optional<Shape>>("kind", kShapes);
     if constexpr (std::is_same_v<Element, part::InnerElement>)
       e.from = r.choice<part::End>("from", ends());
-    if (kind) {
-      e.kind = *kind;
+    if (shape && shape->cut) {
+      read_cut(draft, r, e, *shape->cut);
+    } else if (shape) {
+      e.kind = shape->turned;
       read_shape(r, e, side);
     }
     list.push_back(std::move(e));
@@ -133,16 +140,20 @@ void read_faces(Draft& draft) {
 void read_elements(Draft& draft) {
   std::vector<std::string> ids;
   auto& drawing = draft.drawing();
-  read_list(drawing.outer, draft.root.items("outer", 1, 100), Side::outer, ids);
-  read_list(drawing.inner, draft.root.optional_items("inner", 0, 100), Side::inner, ids);
+  const auto outer = draft.root.items("outer", 1, 100);
+  const auto inner = draft.root.optional_items("inner", 0, 100);
+  read_list(draft, drawing.outer, outer, Side::outer, ids);
+  read_list(draft, drawing.inner, inner, Side::inner, ids);
+  give_grooves_their_blanks(draft, outer, inner);
   read_faces(draft);
 }
 
 std::vector<NamedFeature> features(const part::Drawing& drawing) {
   std::vector<NamedFeature> out;
   const auto add = [&](const auto& e) {
-    out.push_back(
-        {e.id, e.kind == ElementKind::cylinder ? Feature::cylinder : Feature::cone});
+    out.push_back({e.id, e.cut                             ? Feature::fixed
+                         : e.kind == ElementKind::cylinder ? Feature::cylinder
+                                                           : Feature::cone});
   };
   for (const auto& e : drawing.outer) add(e);
   for (const auto& e : drawing.inner) add(e);

@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "machine_fields.hpp"
+#include "turned.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -18,16 +19,19 @@ Vec3 difference(const Vec3& a, const Vec3& b) {
 struct Request {
   Machine machine;
   std::vector<Position> points;
+  std::vector<TurnedSurface> surfaces;
 };
 
 Request read_request(const json& request) {
   Problems problems{.document = "geometry"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-geometry/1");
-  Request q{read_chain(r), {}};
+  Request q{.machine = read_chain(r), .points = {}, .surfaces = {}};
   q.machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
-  for (const Reader& point : r.items("points", 1, kPoints))
-    q.points.push_back(read_position(point, q.machine));
+  q.surfaces = read_turned(r, q.machine.chain);
+  const auto items = r.has("turned") ? r.optional_items("points", 1, kPoints)
+                                     : r.items("points", 1, kPoints);
+  for (const Reader& point : items) q.points.push_back(read_position(point, q.machine));
   r.finish();
   problems.throw_if_any();
   return q;
@@ -38,7 +42,7 @@ Request read_request(const json& request) {
 Machine geometry_machine(const json& request) { return read_request(request).machine; }
 
 json geometry(const json& request) {
-  const auto [machine, points] = read_request(request);
+  const auto [machine, points, surfaces] = read_request(request);
   const Kinematics kinematics(machine);
   json out = json::array();
   for (const Position& at : points) {
@@ -49,7 +53,10 @@ json geometry(const json& request) {
          {"tip_error_first_order_mm", kinematics.tip_error_first_order_mm(at)},
          {"direction_error_rad", difference(actual.direction, nominal.direction)}});
   }
-  return {{"points", out}};
+  json result{{"points", out}};
+  if (!surfaces.empty())
+    result["turned"] = turned_json(surfaces, kinematics, machine.tool_point_mm);
+  return result;
 }
 
 }  // namespace turnwright::document

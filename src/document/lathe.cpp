@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "fields.hpp"
+#include "machine_fields.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/document/catalogue.hpp"
 
@@ -100,6 +101,30 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.stiffness_uncertainty_pct = finish_group(group);
 }
 
+// The machine's own geometry, with the keys of `geometry`; a chain with problems is left
+// out.
+void read_geometry(Reader group, catalogue::Lathe& m) {
+  const auto problems = group.problems().list.size();
+  catalogue::GeometricErrors g{.chain = read_chain(group)};
+  const Bounds place = within(-1e6, 1e6, "mm");
+  if (group.has("tool_point_mm"))
+    g.chain.tool_point_mm = read_vec3(group, "tool_point_mm", place);
+  g.jaws_z_mm = group.number_or("jaws_z_mm", place, 0);
+  g.u = read_uncertainties(group, g.chain);
+  g.relative_u = group.number_or("uncertainty_pct", within(0, 100, "%"), 0) / 100;
+  group.optional_text("source", 1000);
+  group.optional_text("note", 2000);
+  const auto has = [&](char axis) {
+    return g.chain.chain.find(axis) != std::string::npos;
+  };
+  if (volumetric::chain_fault(g.chain.chain).empty() &&
+      !(has('X') && has('Z') && has('C')))
+    group.problem_at("chain", "a lathe's chain, with X, Z and C, such as wCfZXt",
+                     "conflict");
+  group.finish();
+  if (group.problems().list.size() == problems) m.errors = std::move(g);
+}
+
 }  // namespace
 
 catalogue::Lathe read_lathe(Reader r) {
@@ -129,6 +154,7 @@ catalogue::Lathe read_lathe(Reader r) {
   finish_group(room);
   read_chuck(r.object("chuck"), m.chuck);
   read_stiffness(r.object("stiffness"), m);
+  if (auto errors = r.optional_object("errors")) read_geometry(*errors, m);
   r.finish();
   return m;
 }

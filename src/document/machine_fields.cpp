@@ -1,6 +1,7 @@
 #include "machine_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -15,11 +16,19 @@ using nlohmann::json;
 
 constexpr std::size_t kHarmonics = 64, kReadings = 10000;
 const Bounds kShift = within(-1e3, 1e3, "mm"), kTurn = within(-10, 10, "rad"),
+             kShiftU = within(0, 1e3, "mm"), kTurnU = within(0, 10, "rad"),
              kPlace = within(-1e6, 1e6, "mm"), kAngle = within(-1e6, 1e6, "rad");
 
-const Bounds& error_bounds(std::size_t direction) {
-  return direction < 3 ? kShift : kTurn;
-}
+/// What the numbers of an axis' errors are; `side` is -1 of axes between bed and
+/// workpiece.
+struct Meaning {
+  bool uncertainty = false;
+  double side = 1;
+  const Bounds& bounds(std::size_t direction) const {
+    if (uncertainty) return direction < 3 ? kShiftU : kTurnU;
+    return direction < 3 ? kShift : kTurn;
+  }
+};
 
 /// "EYX", "EY0X".
 std::string error_name(std::size_t direction, const char* of, char axis) {
@@ -32,8 +41,7 @@ bool has_location(char axis, std::size_t direction) {
   return is_rotary(axis) || (direction > 2 && direction != letter_index(axis) + 3);
 }
 
-/// {"q", "plus", "minus", "unit", "sign", "degree"} fitted; `side` is -1 of axes between
-/// bed and workpiece.
+/// {"q", "plus", "minus", "unit", "sign", "degree"} fitted.
 ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
                                double side) {
   AxisTable t;
@@ -67,18 +75,19 @@ ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, doubl
   return {};
 }
 
-/// `side` as in read_error_table.
-ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction, double side) {
+ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction,
+                         const Meaning& meaning) {
   r = r.as_object();
   const char axis = of.name;
-  const Bounds& bounds = error_bounds(direction);
+  const Bounds& bounds = meaning.bounds(direction);
   ErrorFunction e;
-  if (auto table = r.optional_object("table")) {
-    e = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace, direction > 2, of.Q,
-                         side);
-    r.finish();
-    return e;
-  }
+  if (!meaning.uncertainty)
+    if (auto table = r.optional_object("table")) {
+      e = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace, direction > 2, of.Q,
+                           meaning.side);
+      r.finish();
+      return e;
+    }
   if (r.has("c")) {
     const auto c = r.numbers("c", bounds, 4, 4);
     std::ranges::copy(c, e.c.begin());
@@ -92,14 +101,17 @@ ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction, double
   return e;
 }
 
-Axis read_axis(Reader r, char name, double side) {
+Axis read_axis(Reader r, char name, const Meaning& meaning) {
   Axis axis{.name = name, .Q = default_Q(name)};
-  if (r.has("p_mm")) axis.p_mm = read_vec3(r, "p_mm", kPlace);
-  axis.Q = r.number_or("Q", above_up_to(0, 1e6, is_rotary(name) ? "rad" : "mm"), axis.Q);
+  if (!meaning.uncertainty) {
+    if (r.has("p_mm")) axis.p_mm = read_vec3(r, "p_mm", kPlace);
+    axis.Q =
+        r.number_or("Q", above_up_to(0, 1e6, is_rotary(name) ? "rad" : "mm"), axis.Q);
+  }
   if (auto err = r.optional_object("err")) {
     for (std::size_t k = 0; k < kDirections; ++k)
       if (const auto e = err->find(error_name(k, "", name)))
-        axis.errors[k] = read_error(*e, axis, k, side);
+        axis.errors[k] = read_error(*e, axis, k, meaning);
     err->finish();
   }
   for (const char* group : {"loc", "sq"}) {
@@ -109,11 +121,32 @@ Axis read_axis(Reader r, char name, double side) {
       for (std::size_t k = 0; k < kDirections; ++k)
         if (has_location(name, k))
           axis.location[k] =
-              location->number_or(error_name(k, "0", name), error_bounds(k), 0);
+              location->number_or(error_name(k, "0", name), meaning.bounds(k), 0);
     location->finish();
   }
   r.finish();
   return axis;
+}
+
+/// Axes of a chain, each at most once; of an unknown chain "" any.
+std::vector<Axis> read_axes(const std::vector<Reader>& items, const std::string& chain,
+                            Meaning meaning) {
+  static const std::vector<std::string> kNames = {"X", "Y", "Z", "A", "B", "C"};
+  std::vector<Axis> axes;
+  for (Reader item : items) {
+    item = item.as_object();
+    const std::size_t problems = item.problems().list.size();
+    const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
+    if (item.problems().list.size() != problems) continue;
+    if (!chain.empty() && chain.find(name) == std::string::npos)
+      item.problem_at("name", "an axis of the chain " + chain, "reference");
+    if (std::ranges::find(axes, name, &Axis::name) != axes.end())
+      item.problem_at("name", "each axis once", "duplicate");
+    const bool table = !chain.empty() && chain.find(name) < chain.find('f');
+    meaning.side = table ? -1 : 1;
+    axes.push_back(read_axis(item, name, meaning));
+  }
+  return axes;
 }
 
 }  // namespace
@@ -131,19 +164,7 @@ Machine read_chain(Reader& r) {
   const bool known = fault.empty();
   if (!m.chain.empty() && !known)
     r.problem_at("chain", "a chain such as wCfZXt: " + fault, "chain");
-  static const std::vector<std::string> kNames = {"X", "Y", "Z", "A", "B", "C"};
-  for (Reader item : r.items("axes", 0, kDirections)) {
-    item = item.as_object();
-    const std::size_t problems = item.problems().list.size();
-    const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
-    if (item.problems().list.size() != problems) continue;
-    if (known && m.chain.find(name) == std::string::npos)
-      item.problem_at("name", "an axis of the chain " + m.chain, "reference");
-    if (std::ranges::find(m.axes, name, &Axis::name) != m.axes.end())
-      item.problem_at("name", "each axis once", "duplicate");
-    const bool table = known && m.chain.find(name) < m.chain.find('f');
-    m.axes.push_back(read_axis(item, name, table ? -1 : 1));
-  }
+  m.axes = read_axes(r.items("axes", 0, kDirections), known ? m.chain : "", {});
   if (known && r.json().contains("axes") && r.json()["axes"].is_array())
     for (const char c : m.chain)
       if (letter_index(c) != std::string_view::npos &&
@@ -151,6 +172,12 @@ Machine read_chain(Reader& r) {
         r.problems().add({r.pointer_of("axes"), std::string("no axis ") + c,
                           "an entry for each axis of the chain " + m.chain, "missing"});
   return m;
+}
+
+std::vector<Axis> read_uncertainties(Reader& r, const Machine& m) {
+  const bool known = chain_fault(m.chain).empty();
+  return read_axes(r.optional_items("u", 0, kDirections), known ? m.chain : "",
+                   {.uncertainty = true});
 }
 
 Position read_position(Reader r, const Machine& m) {
@@ -178,25 +205,80 @@ Position read_position(Reader r, const Machine& m) {
   return at;
 }
 
+namespace {
+
+json axis_json(const Axis& axis) {
+  json one{{"name", std::string(1, axis.name)}};
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const ErrorFunction& e = axis.errors[k];
+    const char* group = is_rotary(axis.name) ? "loc" : "sq";
+    if (axis.location[k] != 0)
+      one[group][error_name(k, "0", axis.name)] = axis.location[k];
+    json f = json::array();
+    for (const Harmonic& h : e.f) f.push_back({h.a, h.d});
+    if (e.c == std::array<double, 4>{} && e.b == 0 && f.empty()) continue;
+    json& error = one["err"][error_name(k, "", axis.name)];
+    error = {{"c", e.c}, {"b", e.b}};
+    if (!f.empty()) error["f"] = f;
+  }
+  return one;
+}
+
+Axis& axis_named(std::vector<Axis>& axes, char name) {
+  const auto found = std::ranges::find(axes, name, &Axis::name);
+  if (found != axes.end()) return *found;
+  axes.push_back({.name = name, .Q = default_Q(name)});
+  return axes.back();
+}
+
+/// The number of an error's name: "EXX1" its c1 at Q = 100 mm or pi, "EXXb" its b, "EB0Z"
+/// a place.
+double& number_of(Axis& axis, const std::string& name) {
+  const std::size_t k = letter_index(name[1]);
+  if (name[2] == '0') return axis.location[k];
+  ErrorFunction& e = axis.errors[k];
+  return name[3] == 'b' ? e.b : e.c[static_cast<std::size_t>(name[3] - '0')];
+}
+
+}  // namespace
+
 json chain_json(const Machine& m) {
   json axes = json::array();
   for (const Axis& axis : m.axes) {
-    json one{{"name", std::string(1, axis.name)}, {"p_mm", axis.p_mm}, {"Q", axis.Q}};
-    for (std::size_t k = 0; k < kDirections; ++k) {
-      const ErrorFunction& e = axis.errors[k];
-      const char* group = is_rotary(axis.name) ? "loc" : "sq";
-      if (axis.location[k] != 0)
-        one[group][error_name(k, "0", axis.name)] = axis.location[k];
-      json f = json::array();
-      for (const Harmonic& h : e.f) f.push_back({h.a, h.d});
-      if (e.c == std::array<double, 4>{} && e.b == 0 && f.empty()) continue;
-      json& error = one["err"][error_name(k, "", axis.name)];
-      error = {{"c", e.c}, {"b", e.b}};
-      if (!f.empty()) error["f"] = f;
-    }
-    axes.push_back(std::move(one));
+    axes.push_back(axis_json(axis));
+    axes.back()["p_mm"] = axis.p_mm;
+    axes.back()["Q"] = axis.Q;
   }
   return {{"chain", m.chain}, {"axes", axes}};
+}
+
+catalogue::GeometricErrors blank_errors(const std::string& chain) {
+  catalogue::GeometricErrors g;
+  g.chain.chain = chain;
+  for (const char c : chain)
+    if (letter_index(c) != std::string_view::npos) axis_named(g.chain.axes, c);
+  return g;
+}
+
+void put(const Calibrated& found, catalogue::GeometricErrors& g) {
+  const char name = found.name[found.name[2] == '0' ? 3 : 2];
+  Axis& axis = axis_named(g.chain.axes, name);
+  const bool power = found.name[2] != '0' && found.name[3] != 'b';
+  const double travel =
+      power ? std::pow(axis.Q / default_Q(name), found.name[3] - '0') : 1;
+  number_of(axis, found.name) = travel * found.value;
+  number_of(axis_named(g.u, name), found.name) = travel * found.u;
+}
+
+json errors_json(const catalogue::GeometricErrors& g) {
+  json out = chain_json(g.chain);
+  out["tool_point_mm"] = g.chain.tool_point_mm;
+  out["jaws_z_mm"] = g.jaws_z_mm;
+  json u = json::array();
+  for (const Axis& axis : g.u) u.push_back(axis_json(axis));
+  out["u"] = u;
+  out["uncertainty_pct"] = 100 * g.relative_u;
+  return out;
 }
 
 }  // namespace turnwright::document

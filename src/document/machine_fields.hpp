@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "turnwright/document/reader.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
@@ -17,6 +18,11 @@ namespace turnwright::document {
 /// Members "chain" and "axes".  A machine with problems is not fit for Kinematics.
 volumetric::Machine read_chain(Reader& r);
 
+/// Member "u", absent or axes of the chain with the standard uncertainties of their
+/// errors: "name", "err", "sq" and "loc" as above, without tables, nothing negative.
+std::vector<volumetric::Axis> read_uncertainties(Reader& r,
+                                                 const volumetric::Machine& machine);
+
 volumetric::Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds);
 
 /// {"q": {"X": 10}, "sign": {"X": 1}}; axes left out are at 0 and at rest.
@@ -24,5 +30,22 @@ volumetric::Position read_position(Reader r, const volumetric::Machine& machine)
 
 /// The machine as read_chain reads it; what is zero is left out.
 nlohmann::json chain_json(const volumetric::Machine& machine);
+
+/// One number of a calibration: "EXX1" to "EXX3" (c1 to c3 with Q = 100 mm or pi), "EXXb"
+/// (half the reversal), "EB0Z" (squareness, place), physical, with its standard
+/// uncertainty.
+struct Calibrated {
+  std::string name;
+  double value = 0, u = 0;
+};
+
+/// A chain without errors.
+catalogue::GeometricErrors blank_errors(const std::string& chain);
+
+/// Takes the place of what the model had; its axis is one of the chain.
+void put(const Calibrated& found, catalogue::GeometricErrors& errors);
+
+/// The member "errors" of a machine document, which read_lathe reads.
+nlohmann::json errors_json(const catalogue::GeometricErrors& errors);
 
 }  // namespace turnwright::document

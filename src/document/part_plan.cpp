@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/machine_share.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
@@ -94,7 +95,24 @@ void read_budget(Draft& draft) {
   read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
   read("rechucking_um", shop.rechucking_um, error);
   read("measurement_U_um", shop.measurement_U_um, error);
+  shop.first_part_gauged = budget->boolean_or("first_part_gauged", false);
   budget->finish();
+}
+
+// Bores of a bar are bored from what is drilled; needs tools and operations.
+void assume_drilled_holes(Draft& draft) {
+  auto& plan = draft.plan();
+  for (const auto end : {part::End::left, part::End::right}) {
+    const double drilled = planning::drilled_mm(plan, end);
+    if (!(drilled > 0)) continue;
+    for (std::size_t i = 0; i < plan.drawing.inner.size(); ++i) {
+      auto& e = plan.drawing.inner[i];
+      if (e.from != end) continue;
+      e.drilled_mm = drilled;
+      draft.assume("/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
+                   "the largest drill that leaves 0.5 mm on the radius");
+    }
+  }
 }
 
 // A tube's jaws are eased where the request does not say how far; needs the whole part.
@@ -132,12 +150,16 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_operations(draft);
     read_economics(draft);
     read_budget(draft);
+    read_what_if(draft);
     root.optional_items("milling", 0, 100);
     refuse_unsupported(root);
     root.finish();
   }
   problems.throw_if_any();
+  assume_drilled_holes(draft);
   assume_grip_forces(draft);
+  draft.plan().machine_takes = planning::machine_takes(draft.plan());
+  draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);
   return std::move(draft.loaded);
 }
 

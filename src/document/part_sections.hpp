@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,33 @@ struct Draft {
 
 void read_catalogue_choices(Draft& draft);  // material, machine, tools
 void read_elements(Draft& draft);           // outer, inner, faces
-void read_stock(Draft& draft);              // after the elements
-void check_bores(Draft& draft);             // after the stock
-void read_tolerances(Draft& draft);         // sizes, general, tolerances
+/// A groove, thread or arc; a groove's blank waits for the elements beside it.
+void read_cut(Draft& draft, Reader& r, part::OuterElement& e, part::CutKind kind);
+void read_cut(Draft& draft, Reader& r, part::InnerElement& e, part::CutKind kind);
+void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,
+                               const std::vector<Reader>& inner);
+/// The index of the element whose diameter a groove's blank has, in either list.
+std::optional<std::size_t> beside(const std::vector<part::OuterElement>& list,
+                                  std::size_t groove);
+std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
+                                  std::size_t groove);
+void read_stock(Draft& draft);       // after the elements
+void check_bores(Draft& draft);      // after the stock
+void read_tolerances(Draft& draft);  // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups
+void read_what_if(Draft& draft);     // the form alone
+
+/// The changed requests of a document without problems, each read as a whole.
+/// @throws InputError with what is wrong in them.
+std::vector<planning::WhatIf> load_what_if(const nlohmann::json& json,
+                                           const LoadedPart& loaded,
+                                           const Catalogue& catalogue,
+                                           const std::string& document);
 
 // What cross-references are held against.
 
-enum class Feature { cylinder, cone, face };
+enum class Feature { cylinder, cone, face, fixed };  // fixed: a groove, thread or arc
 struct NamedFeature {
   std::string id;
   Feature feature;

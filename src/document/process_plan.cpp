@@ -111,6 +111,7 @@ ordered_json json_of(const ToleranceResult& t) {
           {"predicted_mm", value_or_pair(t.predicted_mm)},
           {"allowed_mm", value_or_pair(t.allowed_mm)},
           {"margin_mm", t.margin_mm},
+          {"width_mm", t.width_mm},
           {"verdict", name(t.verdict)},
           {"seed_verdict", t.seed_verdict},
           {"shares", list(t.shares,
@@ -142,7 +143,28 @@ ordered_json json_of(const Price& p) {
           {"now", p.now},
           {"unit", p.unit},
           {"saves_per_part_for_10_percent", p.saves_per_part_for_10_percent},
+          {"saves_per_batch_for_10_percent", p.saves_per_batch_for_10_percent},
+          {"binds_in", p.binds_in},
           {"sentence", p.sentence}};
+}
+
+ordered_json json_of(const WhatIfAnswer& a) {
+  const auto if_known = [](const std::optional<double>& x) -> ordered_json {
+    if (!x) return nullptr;
+    return *x;
+  };
+  const auto if_planned = [&](double x) {
+    return if_known(a.feasible ? std::optional(x) : std::nullopt);
+  };
+  return {{"name", a.name},
+          {"status", word(a.feasible ? PlanStatus::ok : PlanStatus::infeasible)},
+          {"cost_per_part", if_planned(a.cost_per_part)},
+          {"time_per_part_min", if_planned(a.time_per_part_min)},
+          {"saves_per_part", if_known(a.saves_per_part)},
+          {"saves_per_batch", if_known(a.saves_per_batch)},
+          {"saves_min_per_part", if_known(a.saves_min_per_part)},
+          {"first_order_saves_per_part", if_known(a.first_order_saves_per_part)},
+          {"sentence", a.sentence}};
 }
 
 ordered_json json_of(const Conflict& c) {
@@ -190,6 +212,8 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   if (!plan.pareto.empty())
     out["pareto"] = list(plan.pareto, [](const ParetoPoint& x) { return json_of(x); });
   out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
+  if (!plan.what_if.empty())
+    out["what_if"] = list(plan.what_if, [](const WhatIfAnswer& a) { return json_of(a); });
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
   out["assumed"] = list(assumed, [](const Assumption& a) { return json_of(a); });

@@ -17,7 +17,7 @@ std::vector<std::string> ids(const std::vector<T>& entries) {
 // An id of the catalogue, or the document itself in place of the id.
 template <class T>
 T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
-          const std::string& what) {
+          const std::string& what, const std::vector<std::string>& others = {}) {
   if (value.is_object()) return read(value);
   if (value.broken()) return {};
   if (!value.is_text()) {
@@ -27,26 +27,59 @@ T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
   const auto id = value.json().get<std::string>();
   for (const auto& entry : entries)
     if (entry.id == id) return entry;
-  value.problem(expected_reference(id, ids(entries), "a " + what + " of the catalogue"),
+  auto known = ids(entries);
+  known.insert(known.end(), others.begin(), others.end());
+  value.problem(expected_reference(id, known, "a " + what + " of the catalogue"),
                 "unknown-id");
   return {};
 }
 
+template <class T>
+void add_once(const Reader& item, std::vector<T>& list, T entry) {
+  const bool twice = std::any_of(list.begin(), list.end(), [&](const auto& earlier) {
+    return !entry.id.empty() && earlier.id == entry.id;
+  });
+  if (twice) item.problem("each tool once", "duplicate");
+  list.push_back(std::move(entry));
+}
+
+// An id of tools/fixed, or a document of that format.
+bool is_fixed_tool(const Draft& draft, const Reader& item) {
+  if (item.is_object())
+    return item.json().value("format", nlohmann::json()) == "turnwright-fixed-tool/1";
+  const auto& fixed = draft.catalogue.fixed_tools;
+  return item.is_text() && std::any_of(fixed.begin(), fixed.end(), [&](const auto& t) {
+           return item.json() == t.id;
+         });
+}
+
+// What fixed operations need and the request lists no tool for, the catalogue has.
+void add_fixed_tools_of_the_catalogue(Draft& draft) {
+  auto& tools = draft.plan().fixed_tools;
+  const auto listed = tools;
+  for (const auto& t : draft.catalogue.fixed_tools)
+    if (std::none_of(listed.begin(), listed.end(),
+                     [&](const auto& l) { return l.use == t.use && l.inner == t.inner; }))
+      tools.push_back(t);
+}
+
 void read_tools(Draft& draft) {
-  auto& tools = draft.plan().tools;
+  auto& plan = draft.plan();
   if (!draft.root.has("tools")) {
-    tools = draft.catalogue.tools;
-    draft.assume("/tools", ids(tools), "the whole catalogue");
+    plan.tools = draft.catalogue.tools;
+    plan.fixed_tools = draft.catalogue.fixed_tools;
+    draft.assume("/tools", ids(plan.tools), "the whole catalogue");
     return;
   }
-  for (const auto& item : draft.root.items("tools", 1, 200)) {
-    auto tool = resolve(item, draft.catalogue.tools, read_tool, "tool");
-    const bool twice = std::any_of(tools.begin(), tools.end(), [&](const auto& earlier) {
-      return !tool.id.empty() && earlier.id == tool.id;
-    });
-    if (twice) item.problem("each tool once", "duplicate");
-    tools.push_back(std::move(tool));
-  }
+  for (const auto& item : draft.root.items("tools", 1, 200))
+    if (is_fixed_tool(draft, item))
+      add_once(item, plan.fixed_tools,
+               resolve(item, draft.catalogue.fixed_tools, read_fixed_tool, "tool"));
+    else
+      add_once(item, plan.tools,
+               resolve(item, draft.catalogue.tools, read_tool, "tool",
+                       ids(draft.catalogue.fixed_tools)));
+  add_fixed_tools_of_the_catalogue(draft);
 }
 
 }  // namespace

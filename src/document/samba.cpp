@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrated_machine.hpp"
 #include "fields.hpp"
-#include "machine_fields.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/volumetric/samba.hpp"
 
@@ -26,6 +26,7 @@ struct Request {
   bool given = false;  // readings
   std::vector<double> readings_mm;
   std::optional<double> noise_mm;
+  std::optional<MachineDocument> machine;
 };
 
 Vec3 vec3(const Reader& r, const Bounds& bounds) {
@@ -161,6 +162,10 @@ Request read_request(const json& document) {
   } else {
     for (const char* key : {"sign", "frame", "readings_mm"}) r.has(key);
   }
+  q.machine = read_machine_document(r, "wCBXfZYt", "XYZBC");
+  if (q.machine && !q.given)
+    r.problem_at("machine", "readings_mm as well: without them nothing is found",
+                 "conflict");
   r.finish();
   problems.throw_if_any();
   return q;
@@ -207,6 +212,13 @@ json samba(const json& request) {
            {"dof", of.equations - of.rank},
            {"remedies", suggested}};
   if (fit) out["s0"] = fit->s0_mm;
+  if (fit && q.machine) {
+    std::vector<Calibrated> calibrated;
+    for (std::size_t j = 0; j < of.parameters; ++j)
+      if (of.identifiable[j] && of.unknowns[j] != "facet")
+        calibrated.push_back({of.unknowns[j], fit->value[j], fit->u[j]});
+    out["machine"] = with_errors(*q.machine, calibrated, "probed balls (SAMBA)");
+  }
   return out;
 }
 

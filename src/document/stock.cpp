@@ -72,6 +72,7 @@ void read_stock(Draft& draft) {
     draft.assume("/stock/left_allowance_mm", stock.left_allowance_mm,
                  "half of what the stock is longer than the part");
   }
+  stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));
   r.finish();
   check_diameters(r, draft, drawing);
   check_length(r, draft, drawing);

@@ -152,7 +152,12 @@ class ToleranceReader {
                                      [&](const Rule& x) { return x.kind == t.kind; });
     const auto of = find_feature(r.at("of", wanted(rule.of)), features_);
     t.of = of.id;
-    if (of.feature && !fits(rule.of, *of.feature))
+    if (of.feature == Feature::fixed)
+      r.problem_at("of",
+                   "a surface that is turned, faced or bored: no tolerance is predicted "
+                   "of what catalogue conditions make",
+                   "unsupported");
+    else if (of.feature && !fits(rule.of, *of.feature))
       r.problem_at("of", wanted(rule.of) + std::string(" for ") + part::name(t.kind),
                    "kind");
     read_datum(r, t, rule, of);
@@ -234,7 +239,7 @@ void assume_sizes(Draft& draft, std::vector<Element>& elements, const std::strin
   for (std::size_t i = 0; i < elements.size(); ++i) {
     auto& e = elements[i];
     const double size_mm = std::min(e.left_mm, e.right_mm);
-    if (e.limits || !(size_mm > 0)) continue;
+    if (e.limits || e.cut || !(size_mm > 0)) continue;
     try {
       e.limits = tolerance::general_limits_mm(size_mm, linear);
     } catch (const std::domain_error&) {
@@ -310,7 +315,7 @@ void assume_straightness(Draft& draft, const std::vector<Element>& elements,
                          tolerance::GeometricalClass form, const std::string& why) {
   using enum ToleranceKind;
   for (const auto& e : elements) {
-    if (!(e.length_mm > 0 && e.length_mm <= 3000)) continue;
+    if (e.cut || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
     const double value = tolerance::general_straightness_mm(e.length_mm, form);
     const bool held =
         (e.limits && (e.limits->upper_mm - e.limits->lower_mm) / 2 <= value) ||

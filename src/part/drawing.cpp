@@ -67,6 +67,16 @@ double inner_left_z_mm(const Drawing& drawing, std::size_t i) {
   return length_mm(drawing) - depth - drawing.inner[i].length_mm;
 }
 
+double hole_mm(const Drawing& d, std::size_t i) {
+  return std::max(d.stock.inner_mm, d.inner.at(i).drilled_mm);
+}
+
+bool has_cut(const Drawing& d, const std::string& id) {
+  const auto cut = [&](const auto& e) { return e.id == id && e.cut; };
+  return std::any_of(d.outer.begin(), d.outer.end(), cut) ||
+         std::any_of(d.inner.begin(), d.inner.end(), cut);
+}
+
 std::optional<Extent> extent(const Drawing& d, const std::string& id) {
   const auto of = [](const auto& e, double z, bool inner) {
     return Extent{z, z + e.length_mm, e.left_mm, e.right_mm, inner};

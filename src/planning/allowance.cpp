@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "demand.hpp"
+#include "recipes.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/deflection/ring.hpp"
 #include "turnwright/deflection/shop_errors.hpp"
+#include "turnwright/planning/machine_share.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::planning {
@@ -61,13 +63,6 @@ double beyond_jaws_mm(const PartPlan& p, const std::string& surface, const Makin
   return std::max(0.0, left ? at->z0_mm - jaws : jaws - at->z1_mm);
 }
 
-double face_z_mm(const part::Drawing& d, const std::string& face) {
-  if (face == "left") return 0;
-  for (std::size_t k = 1; k < d.outer.size(); ++k)
-    if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
-  return part::length_mm(d);
-}
-
 // Half of what a warm part is too small by once it is cold, on one side of a size.
 double heat_um(const PartPlan& p, const Tolerance& t) {
   const auto& d = p.drawing;
@@ -81,6 +76,30 @@ double heat_um(const PartPlan& p, const Tolerance& t) {
   return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
 }
 
+bool cuts_face(const PartPlan& p, std::size_t setup, const SetupWork& work,
+               const std::string& face) {
+  if (work.end_face && face == free_face(p, setup)) return true;
+  return std::any_of(work.shoulders.begin(), work.shoulders.end(),
+                     [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
+}
+
+// What the faces of a length that are cut in one setup, minutes apart, have in common
+// shifts both alike and leaves the length between them; both look at the free end.
+struct Together {
+  bool setup = false;  ///< both: the same drift
+  bool tool = false;   ///< the same wear too
+};
+Together together(const PartPlan& p, const Tolerance& t, std::size_t setup) {
+  if (t.kind != ToleranceKind::length) return {};
+  const auto work = assign(p).setups[setup];
+  Together both;
+  both.setup =
+      cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
+  both.tool = both.setup && wanted(p, setup, t.between[0]).finish_tool ==
+                                wanted(p, setup, t.between[1]).finish_tool;
+  return both;
+}
+
 double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
   const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
                               units::rad_from_deg(tool.gamma_deg)};
@@ -89,21 +108,8 @@ double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
          2;
 }
 
-std::optional<std::size_t> setup_of(const Assignment& work, const PartPlan& p,
-                                    const std::string& surface) {
-  const auto has = [&](const auto& indices, const auto& elements) {
-    return std::any_of(indices.begin(), indices.end(),
-                       [&](std::size_t i) { return elements[i].id == surface; });
-  };
-  for (std::size_t s = 0; s < work.setups.size(); ++s)
-    if (has(work.setups[s].elements, p.drawing.outer) ||
-        has(work.setups[s].bores, p.drawing.inner))
-      return s;
-  return {};
-}
-
 bool datum_elsewhere(const PartPlan& p, const Tolerance& t, const Making& making) {
-  return !t.datum.empty() && setup_of(assign(p), p, t.datum) != making.setup;
+  return !t.datum.empty() && setup_of(p, assign(p), t.datum) != making.setup;
 }
 
 // Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
@@ -145,21 +151,26 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
   Allowance a;
   const bool size = is_size(t.kind);
   if (size) a.ends = t.kind == ToleranceKind::length ? 2 * faces_cut(p, t) : 2;
-  a.fixed.push_back({"machine", p.machine_share_um});
+  const MachineTake machine = machine_take(p, tolerance, making.setup, making.clamping);
+  a.fixed.push_back({kMachine, p.machine_share_um + machine.fixed_um});
   const auto fixed = [&](const char* source, double um) {
     if (um > 1e-3) a.fixed.push_back({source, um});
   };
   const auto spread = [&](const char* source, Distribution d, double um, double s) {
     if (um > 0) a.spread.push_back({source, d, um, s});
   };
+  spread(kMachine, Distribution::normal, machine.u_um / a.ends, 1);
   fixed("jaw-squeeze", squeeze_um(p, t, making));
   fixed("measurement", (size ? 2 : 1) * shop.measurement_U_um);
   if (size) {
     const double s = sensitivity(p, t);
-    spread("drift", Distribution::uniform,
-           t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um, s);
+    const auto both = together(p, t, making.setup);
+    const double drift =
+        t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um;
+    if (!both.setup) spread("drift", Distribution::uniform, drift, s);
     spread("repeatability", Distribution::normal, shop.repeatability_um, s);
-    if (making.last) spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
+    if (making.last && !both.tool)
+      spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
   if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&
@@ -179,7 +190,7 @@ double gentle_grip_N(const PartPlan& p, std::size_t setup) {
   const auto work = assign(p);
   double share = 1;
   for (const auto& t : p.drawing.tolerances) {
-    if (setup_of(work, p, t.of) != setup) continue;
+    if (setup_of(p, work, t.of) != setup) continue;
     const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
     share =
         std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));

@@ -15,13 +15,16 @@ struct Making {
   const catalogue::Tool* last = nullptr;  ///< the tool of its last pass
 };
 
-inline constexpr const char* kHeat = "heat";  ///< its source, below
+inline constexpr const char* kMachine = "machine";  ///< sources, below
+inline constexpr const char* kHeat = "heat";
 
 /// Sizes (diameter, length, a profile located by datums) are moved up and down, zones
 /// widened:
 ///
 ///     source        takes                          of
-///     machine       machine_share_um, all kinds    the whole width
+///     machine       machine_share_um, all kinds, and what machine_share.hpp says of
+///                   an error model; its uncertainty is normal
+///                                                  the whole width
 ///     jaw-squeeze   deflection/ring.hpp (1), a tube in jaws: its lobes of the zone of
 ///                   circularity, cylindricity, run-out and profile without datum; twice
 ///                   its largest displacement of a located profile
@@ -31,6 +34,15 @@ inline constexpr const char* kHeat = "heat";  ///< its source, below
 ///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, twice: run-out and coaxiality to a datum of another setup
+///
+/// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
+/// cut by one tool, with the same edge; both look at the free end, so that their errors
+/// d + w_1 and d + w_2 are of one sign and the length between them has w_2 - w_1,
+///
+///     one tool: neither drift nor wear;  two tools: each one's wear                  (0)
+///
+/// Source: derived here; drawn anew in allowance_test.  Each face is indexed on its own,
+/// so that the repeatability counts for both.
 ///
 /// Three lobes leave two-point diameters as they are, but for their even orders (a
 /// tenth).

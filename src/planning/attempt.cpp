@@ -66,7 +66,9 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
   std::stable_partition(clampings.begin(), clampings.end(),
                         [](Clamping c) { return c != Clamping::chuck; });
   for (const Clamping c : clampings) {
-    const auto why = unusable(p, setup, c, work, done);
+    auto why = unusable(p, setup, c, work, done);
+    if (why.empty())
+      for (const auto& fixed : fixed_conflicts(p, setup, c, work)) why = fixed.sentence;
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else

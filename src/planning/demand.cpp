@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "turnwright/planning/setup_geometry.hpp"
+
 namespace turnwright::planning {
 namespace {
 
@@ -77,8 +79,8 @@ std::optional<double> half_angle_rad(const part::Drawing& d, const std::string& 
 }
 
 bool face_is_cut(const PartPlan& p, const std::string& face) {
-  if (face == "left") return p.drawing.stock.left_allowance_mm > 1e-9;
-  if (face == "right") return part::right_allowance_mm(p.drawing) > 1e-9;
+  if (face == "left") return face_stock_mm(p, part::End::left) > 1e-9;
+  if (face == "right") return face_stock_mm(p, part::End::right) > 1e-9;
   return true;
 }
 

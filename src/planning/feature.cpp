@@ -44,21 +44,6 @@ Polynomial polynomial(const Eigen::VectorXd& c, double centre, double half) {
   return p;
 }
 
-double clamping_rpm(const PartPlan& p, Clamping clamping) {
-  const auto& m = p.machine;
-  if (clamping == Clamping::between_centres) return m.n_max_rpm;
-  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
-}
-
-// Where the centrifugal loss of the grip reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
-  const auto& c = p.machine.chuck;
-  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
-    return std::numeric_limits<double>::infinity();
-  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
-         units::kPi;
-}
-
 constexpr int kTable = 11;  // places of a correction
 
 double interpolated(const Feature::Table& table, double at) {
@@ -143,6 +128,20 @@ const part::Face* find_face(const PartPlan& p, const std::string& id) {
 
 }  // namespace
 
+double clamping_rpm(const PartPlan& p, Clamping clamping) {
+  const auto& m = p.machine;
+  if (clamping == Clamping::between_centres) return m.n_max_rpm;
+  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
+}
+
+double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
+  const auto& c = p.machine.chuck;
+  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
+         units::kPi;
+}
+
 Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
                  std::string surface, const Fixed& fixed)
     : plan_(&plan),
@@ -177,7 +176,8 @@ Feature Feature::bore(const PartPlan& plan, std::size_t setup, Clamping clamping
   const auto& e = plan.drawing.inner[index];
   Feature f(plan, setup, clamping, Kind::bore, e.id, fixed);
   f.take(e, index, part::inner_left_z_mm(plan.drawing, index));
-  f.stock_ = (f.D_large_ - plan.drawing.stock.inner_mm) / 2;
+  f.hole_mm_ = part::hole_mm(plan.drawing, index);
+  f.stock_ = (f.D_large_ - f.hole_mm_) / 2;
   f.depth_mm_ =
       e.from == part::End::left ? f.high_ : part::length_mm(plan.drawing) - f.low_;
   // Bores come after everything outside.
@@ -195,8 +195,7 @@ Feature Feature::end_face(const PartPlan& plan, std::size_t setup, const Finishe
   Feature f(plan, setup, Clamping::chuck, Kind::end_face, left ? "left" : "right", fixed);
   f.bodies_.emplace_back(plan, setup, Clamping::chuck, before);
   f.face_x_ = f.bodies_[0].length_mm();
-  f.stock_ = left ? plan.drawing.stock.left_allowance_mm
-                  : part::right_allowance_mm(plan.drawing);
+  f.stock_ = face_stock_mm(plan, left ? part::End::left : part::End::right);
   f.D_small_ = plan.drawing.stock.inner_mm;
   f.D_large_ = plan.drawing.stock.outer_mm;
   // The face of the finished part ends at its outermost element.
@@ -289,7 +288,7 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   o.D_large_mm = D_large_;
   o.face = is_face();
   o.inner = kind_ == Kind::bore;
-  o.least_D_mm = plan_->drawing.stock.inner_mm;
+  o.least_D_mm = hole_mm_;
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -363,7 +362,7 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
 
 bool Feature::enters(const catalogue::Tool& tool) const {
   if (kind_ != Kind::bore) return true;
-  if (!tool.bar || tool.bar->min_bore_mm > plan_->drawing.stock.inner_mm) return false;
+  if (!tool.bar || tool.bar->min_bore_mm > hole_mm_) return false;
   double overhang = 0;
   for (const auto& s : tool.bar->segments) overhang += s.length_mm;
   return overhang >= depth_mm_ + kApproach_mm;

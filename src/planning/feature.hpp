@@ -31,6 +31,11 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
+/// Fastest spindle speed [1/min] of machine and clamping.
+double clamping_rpm(const PartPlan& plan, Clamping clamping);
+/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
+double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
+
 /// What a clamping is to the cut where nothing yields: two clampings that hold alike
 /// differ in no chain without stations.
 struct Holding {
@@ -140,6 +145,7 @@ class Feature {
   double D_small_ = 0, D_large_ = 0;
   double face_x_ = 0;                  // of a face, from the root
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
+  double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
   double amplification_ = 1;       // by the tailstock's thrust

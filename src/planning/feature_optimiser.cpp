@@ -79,6 +79,11 @@ bool keeps_demands(const FeatureTask& task, const FeatureAnswer& a) {
               .add_violated(a.model->recipe(), task.economy, a.choice);
 }
 
+FeatureAnswer with_profile(const FeatureTask& task, FeatureAnswer a) {
+  a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
+  return a;
+}
+
 // One task's search over recipes.  It starts without tolerances: what they ask is asked
 // only where an optimum breaks it, so a surface whose tolerances do not bind never pays
 // for its deflection in boxes.  Their places grow from round to round.
@@ -274,7 +279,6 @@ class FeatureSearch {
     a.choice = a.model->choice(best_.y);
     a.objective = std::exp(best_.f);
     a.multipliers = std::move(s.multipliers);
-    a.profile = task_.feature.profile(a.model->recipe(), task_.economy, a.choice);
     a.certificate = certificate();
     a.lower_bound = std::exp(bound_);
     a.certificate.lower_bound = std::min(a.lower_bound, a.objective);
@@ -285,7 +289,7 @@ class FeatureSearch {
     }
     if (exchange_.functionals().empty() && a.certificate.gap <= kCertified)
       task_.unasked->best = std::make_shared<FeatureAnswer>(a);
-    return a;
+    return with_profile(task_, std::move(a));
   }
 
   FeatureAnswer none() {
@@ -371,13 +375,12 @@ FeatureAnswer nearest(const FeatureTask& task) {
       a.multipliers = s.multipliers;
       a.model = std::move(m);
       asked.assign(1, k);
+      if (s.f <= 0 && keeps_demands(task, a)) return with_profile(task, std::move(a));
     }
     if (!a.model || !exchange.add_violated(a.model->recipe(), task.economy, a.choice))
       break;
   }
-  if (a.model)
-    a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
-  return a;
+  return a.model ? with_profile(task, std::move(a)) : a;
 }
 
 bool can_be_made(const FeatureTask& task) {
@@ -392,11 +395,7 @@ FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most)
   }
   if (const auto& known = task.unasked->best) {
     if (known->objective >= most) return not_below(*known);
-    if (keeps_demands(task, *known)) {
-      FeatureAnswer a = *known;
-      a.profile = task.feature.profile(a.model->recipe(), task.economy, a.choice);
-      return a;
-    }
+    if (keeps_demands(task, *known)) return with_profile(task, *known);
   }
   return FeatureSearch(task, gap, most).run();
 }

@@ -65,7 +65,7 @@ bool can_be_made(const FeatureTask& task);
 
 /// The conditions that break the limits least, as an infeasible answer without
 /// certificate: a local search, which says how far off the request is and by which limit.
-/// Looks at some forty recipes, or at all if `task.explain`.
+/// Looks at some forty recipes, or at all if `task.explain`, until one keeps every limit.
 FeatureAnswer nearest(const FeatureTask& task);
 
 /// Worst value over limit - 1 of the demands on a surface with this error.

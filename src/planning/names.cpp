@@ -30,6 +30,8 @@ const char* name(OperationKind k) {
       return "bore-rough";
     case OperationKind::bore_finish:
       return "bore-finish";
+    case OperationKind::fixed:
+      return "fixed";
   }
   return "";
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "setup_planner.hpp"
-#include "turnwright/base/units.hpp"
+#include "turnwright/planning/machine_share.hpp"
 
 namespace turnwright::planning {
 
@@ -21,7 +21,8 @@ Totals totals(const PartPlan& p, const SolvedSetup& s) {
     t.minutes += u.minutes + u.change_min;
     t.cost += u.edges_cost;
   }
-  t.cost += p.machine_per_min * t.minutes;
+  t.minutes += s.fixed.minutes();
+  t.cost += s.fixed.edges_cost() + p.machine_per_min * t.minutes;
   return t;
 }
 
@@ -35,19 +36,21 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
       places[place_in_setup(f.task.feature.kind(), rough)].push_back(std::move(o));
     }
   }
-  std::vector<OperationPlan> all;
-  for (auto& place : places)
-    all.insert(all.end(), std::make_move_iterator(place.begin()),
-               std::make_move_iterator(place.end()));
+  std::vector<OperationPlan> all = std::move(places[0]);
+  for (const auto& o : s.fixed.before) all.push_back(o.plan);
+  for (std::size_t i = 1; i < places.size(); ++i)
+    all.insert(all.end(), std::make_move_iterator(places[i].begin()),
+               std::make_move_iterator(places[i].end()));
+  for (const auto& o : s.fixed.after) all.push_back(o.plan);
   return all;
 }
 
 void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
   for (const auto& sentence : work.unreachable)
     result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
-  const double share_mm = units::mm_from_um(p.machine_share_um);
-  for (const auto& t : p.drawing.tolerances) {
-    const double width = width_mm(t);
+  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
+    const auto& t = p.drawing.tolerances[i];
+    const double width = width_mm(t), share_mm = least_machine_mm(p, i);
     if (width > share_mm) continue;
     const auto called = t.id + " " + part::name(t.kind);
     const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
@@ -60,6 +63,21 @@ void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& resul
          fmt::format("{} would have to open beyond the machine's share, {} mm, or the "
                      "machine's share be less",
                      called, readable(share_mm))});
+  }
+}
+
+void add_fixed_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    std::vector<Conflict> first;
+    for (const Clamping c : p.setups[s].clampings) {
+      auto conflicts = fixed_conflicts(p, s, c, work.setups[s]);
+      if (conflicts.empty()) {
+        first.clear();
+        break;
+      }
+      if (first.empty()) first = std::move(conflicts);
+    }
+    result.conflicts.insert(result.conflicts.end(), first.begin(), first.end());
   }
 }
 

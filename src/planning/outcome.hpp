@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "describe.hpp"
+#include "fixed.hpp"
 
 /// What follows from solved features: verdicts on tolerances, prices, conflicts.
 namespace turnwright::planning {
@@ -15,6 +16,7 @@ struct SolvedSetup {
   double objective = 0;  ///< of the whole setup
   double lower_bound = 0;
   std::vector<RejectedTool> rejected_tools = {};
+  FixedWork fixed = {};
   bool feasible() const;
 };
 
@@ -24,8 +26,8 @@ struct Totals {
 /// Time and cost of a setup, per part.
 Totals totals(const PartPlan& plan, const SolvedSetup& setup);
 
-/// Its operations in the order they are cut: faces, roughing, finishing, shoulders,
-/// bores.
+/// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
+/// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
 std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
                                                const SolvedSetup& setup);
 
@@ -33,12 +35,18 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
 /// makes, tolerances that the machine's share uses up.
 void add_obstacles(const PartPlan& plan, const Assignment& work, ProcessPlan& result);
 
+/// And what stands against the operations at fixed conditions of a setup in all its
+/// clampings.
+void add_fixed_obstacles(const PartPlan& plan, const Assignment& work,
+                         ProcessPlan& result);
+
 /// Predicted against allowed for every tolerance of the drawing, at the answers.
 std::vector<ToleranceResult> tolerance_results(const PartPlan& plan,
                                                const std::vector<SolvedSetup>& setups);
 
-/// The error of every surface at 21 places, as it is made.
-std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups);
+/// The error of every surface at 21 places, as it is made; not of blanks.
+std::vector<Deviation> deviations(const PartPlan& plan,
+                                  const std::vector<SolvedSetup>& setups);
 
 /// Correction of the tool path where a tolerance needs it.
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);

@@ -1,5 +1,6 @@
 #include "pareto.hpp"
 #include "planned.hpp"
+#include "what_if.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -14,8 +15,9 @@ std::optional<Robustness> robustness(PartPlan p) {
 
 }  // namespace
 
-ProcessPlan plan(const PartPlan& p) {
-  auto result = conforming(p);
+ProcessPlan plan(const PartPlan& p, const std::vector<WhatIf>& what_if) {
+  auto result = conforming(p, what_if);
+  answer(p, what_if, result);
   if (result.status != PlanStatus::ok) return result;
   if (p.robust) result.robustness = robustness(p);
   if (p.pareto > 0) result.pareto = pareto(p, result);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "attempt.hpp"
+#include "first_order.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -93,12 +94,23 @@ bool add_missed(ProcessPlan& result) {
   return true;
 }
 
+std::optional<double> first_order_saving(const PartPlan& p,
+                                         const std::vector<SolvedSetup>& solved,
+                                         PartPlan changed) {
+  changed.other_ends = p.other_ends;
+  const auto costs = first_order(p, solved, changed);
+  if (!costs) return {};
+  return -*costs;
+}
+
 }  // namespace
 
-ProcessPlan planned(const PartPlan& p) {
+ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if) {
   ProcessPlan result;
+  for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   const auto work = assign(p);
   add_obstacles(p, work, result);
+  add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "proved: no condition or tool changes the conflicts told";
@@ -121,9 +133,12 @@ ProcessPlan planned(const PartPlan& p) {
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
-  result.deviations = deviations(chosen);
+  result.deviations = deviations(p, chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
+  for (std::size_t k = 0; k < what_if.size(); ++k)
+    result.what_if[k].first_order_saves_per_part =
+        first_order_saving(p, chosen, what_if[k].plan);
   return result;
 }
 

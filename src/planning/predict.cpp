@@ -102,13 +102,15 @@ ProcessPlan predict(const PartPlan& p) {
       if (!f.answer.model)
         result.conflicts.push_back(
             {"depth of cut", fmt::format("setup {}", s), 0, 0, "mm", obstacle(p, f)});
+    const auto& missing = setups.back().fixed.conflicts;
+    result.conflicts.insert(result.conflicts.end(), missing.begin(), missing.end());
     add_broken(setup, s, result);
     result.setups.push_back(std::move(setup));
   }
   result.certificate.reason = "conditions as given";
   if (std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); })) {
     result.tolerances = tolerance_results(p, setups);
-    result.deviations = deviations(setups);
+    result.deviations = deviations(p, setups);
     for (const auto& s : setups) {
       const auto t = totals(p, s);
       result.cost_per_part += t.cost;

@@ -59,7 +59,8 @@ Wanted wanted(const PartPlan& p, std::size_t setup, const std::string& surface) 
   w.given = true;
   w.rough = w.finish = false;
   for (const auto& o : *p.operations) {
-    if (o.setup != setup || std::find(o.on.begin(), o.on.end(), surface) == o.on.end())
+    if (o.setup != setup || o.kind == OperationKind::fixed ||
+        std::find(o.on.begin(), o.on.end(), surface) == o.on.end())
       continue;
     const bool rough =
         o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;

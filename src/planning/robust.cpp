@@ -34,12 +34,12 @@ bool asked_more(const ProcessPlan& result, bool as_they_are, PartPlan& p) {
 
 }  // namespace
 
-ProcessPlan conforming(PartPlan p) {
-  auto result = planned(p);
+ProcessPlan conforming(PartPlan p, const std::vector<WhatIf>& what_if) {
+  auto result = planned(p, what_if);
   if (!p.robust) return result;
   for (int round = 0; result.status == PlanStatus::ok; ++round) {
     if (!asked_more(result, round < kRounds, p)) break;
-    result = planned(p);
+    result = planned(p, what_if);
   }
   return result;
 }

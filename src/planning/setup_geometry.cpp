@@ -69,7 +69,8 @@ bool face_named(const part::Drawing& d, const std::string& id) {
 bool wanted_in(const PartPlan& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
-    return o.setup == s && std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+    return o.setup == s && o.kind != OperationKind::fixed &&
+           std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
   });
 }
 
@@ -95,9 +96,7 @@ std::optional<std::size_t> place(const PartPlan& p, const std::string& surface,
 void assign_faces(const PartPlan& p, Assignment& a) {
   const auto& d = drawing(p);
   for (const End end : {End::left, End::right}) {
-    const double allowance =
-        end == End::left ? d.stock.left_allowance_mm : part::right_allowance_mm(d);
-    if (!(allowance > 1e-9)) continue;
+    if (!(face_stock_mm(p, end) > 1e-9)) continue;
     const std::string id = end == End::left ? "left" : "right";
     const auto free = [&](std::size_t s) { return p.setups[s].hold != end; };
     bool open = face_named(d, id);  // nobody asks for it: it may stay
@@ -138,6 +137,13 @@ std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
 }
 
+double face_stock_mm(const PartPlan& p, part::End end) {
+  const auto& stock = drawing(p).stock;
+  if (stock.parted_mm && p.setups.front().hold == end) return *stock.parted_mm;
+  return end == End::left ? stock.left_allowance_mm
+                          : part::right_allowance_mm(drawing(p));
+}
+
 const char* free_face(const PartPlan& p, std::size_t s) {
   return holds_left(p, s) ? "right" : "left";
 }
@@ -162,6 +168,31 @@ Assignment assign(const PartPlan& p) {
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
   assign_faces(p, a);
   return a;
+}
+
+double face_z_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return 0;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
+  return part::length_mm(d);
+}
+
+std::optional<std::size_t> setup_of(const PartPlan& p, const Assignment& work,
+                                    const std::string& surface) {
+  const auto& d = p.drawing;
+  for (std::size_t s = 0; s < work.setups.size(); ++s) {
+    const SetupWork& w = work.setups[s];
+    const auto any = [&](const std::vector<std::size_t>& indices, const auto& id) {
+      return std::any_of(indices.begin(), indices.end(),
+                         [&](std::size_t i) { return id(i) == surface; });
+    };
+    if (any(w.elements, [&](std::size_t i) { return d.outer[i].id; }) ||
+        any(w.bores, [&](std::size_t i) { return d.inner[i].id; }) ||
+        any(w.shoulders, [&](std::size_t k) { return shoulder_id(d, k); }) ||
+        (w.end_face && surface == free_face(p, s)))
+      return s;
+  }
+  return {};
 }
 
 double root_z_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
@@ -223,8 +254,8 @@ SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const double z0 = part::left_z_mm(d, i);
     const auto& e = d.outer[i];
-    outer_.push_back({z0, z0 + e.length_mm, finished.outer[i] ? e.left_mm : stock,
-                      finished.outer[i] ? e.right_mm : stock});
+    const auto made = finished.outer[i] ? part::core(e) : part::Ends{stock, stock};
+    outer_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
   outer_.push_back({-far, 0, stock, stock});
   outer_.push_back({part::length_mm(d), far, stock, stock});
@@ -232,8 +263,9 @@ SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const double z0 = part::inner_left_z_mm(d, i);
     const auto& e = d.inner[i];
-    inner_.push_back({z0, z0 + e.length_mm, finished.inner[i] ? e.left_mm : hole,
-                      finished.inner[i] ? e.right_mm : hole});
+    const double drilled = part::hole_mm(d, i);  // and from the start: no stiffer
+    const auto made = finished.inner[i] ? part::core(e) : part::Ends{drilled, drilled};
+    inner_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
   inner_.push_back({-far, far, hole, hole});  // where no element is
 }

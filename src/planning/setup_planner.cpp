@@ -19,31 +19,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr long kBoxes = 20000, kLeastBoxes = 300;
 constexpr double kGap = 9e-5;  // what engine 2 may leave open, in ln(objective)
 
-// Tools brought in over a sequence of operations.
-int changes(const std::vector<std::vector<const Tool*>>& groups) {
-  int count = 0;
-  const Tool* in = nullptr;
-  for (const auto& group : groups)
-    for (const Tool* t : group)
-      if (t && t != in) {
-        in = t;
-        ++count;
-      }
-  return count;
-}
-
-int indexings(const SolvedSetup& s) {
-  std::vector<std::vector<const Tool*>> order(kPlaces);
-  for (const auto& f : s.features) {
-    if (!f.answer.feasible) continue;
-    const auto& r = f.answer.model->recipe();
-    const auto kind = f.task.feature.kind();
-    order[place_in_setup(kind, true)].push_back(r.rough);
-    order[place_in_setup(kind, false)].push_back(r.finish);
-  }
-  return changes(order);
-}
-
 RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
                        const Considered& best) {
   if (!least) return {t.id, use, "its grades are not for this material", {}};
@@ -79,7 +54,12 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
 SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
                            const SetupWork& work, const Finished& before,
                            const Economy& economy, SharedMemory& shared)
-    : p_(p), setup_(setup), clamping_(clamping), economy_(economy), shared_(shared) {
+    : p_(p),
+      setup_(setup),
+      clamping_(clamping),
+      economy_(economy),
+      fixed_(fixed_work(p, setup, clamping, work)),
+      shared_(shared) {
   const auto& d = p.drawing;
   const auto add = [&](const std::string& surface, const auto& make) {
     auto w = wanted(p, setup, surface);
@@ -101,6 +81,12 @@ SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clampi
       return Feature::bore(p, setup, clamping, work, before, i, fixed);
     });
   memory_.resize(jobs_.size());
+}
+
+std::vector<const Feature*> SetupPlanner::features() const {
+  std::vector<const Feature*> all;
+  for (const auto& job : jobs_) all.push_back(&job.feature);
+  return all;
 }
 
 SolvedSetup SetupPlanner::best(double most) {
@@ -180,6 +166,7 @@ SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) 
     auto a = answer(t);
     s.features.push_back({std::move(t), std::move(a), false, jobs_[j].wanted.ids});
   }
+  s.fixed = fixed_;
   s.indexings = indexings(s);
   return s;
 }
@@ -319,8 +306,9 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
     if (std::isfinite(alone)) s.lower_bound += f.answer.lower_bound - alone;
     if (f.answer.feasible) s.objective += f.answer.objective;
   }
+  s.fixed = fixed_;
   s.indexings = indexings(s);
-  const double besides = economy_.minute * minutes_besides_cutting(s.indexings);
+  const double besides = besides_cutting(s.indexings);
   s.objective += besides;
   if (s.feasible()) {
     s.lower_bound += besides - least_besides_cutting(tools);
@@ -337,18 +325,48 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
 // Where the request leaves it open, a roughing tool is brought in: plans that do not
 // use it are those of the choice without one.
 double SetupPlanner::least_besides_cutting(const Tools& tools) const {
-  std::vector<std::vector<const Tool*>> order(kPlaces);
+  ToolOrder order(kPlaces);
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     const auto [r, f] = tools_of(j, tools);
     const auto kind = jobs_[j].feature.kind();
     order[place_in_setup(kind, false)].push_back(f);
     if (!p_.operations) order[place_in_setup(kind, true)].push_back(r);
   }
-  return economy_.minute * minutes_besides_cutting(changes(order));
+  return besides_cutting(changes(order));
 }
 
-double SetupPlanner::minutes_besides_cutting(int indexings) const {
-  return planning::minutes_besides_cutting(p_, clamping_, indexings);
+// Tools brought in; centre hole and drilling stand between the faces and the rest.
+int SetupPlanner::changes(const ToolOrder& order) const {
+  int count = fixed_.indexings();
+  const Tool* in = nullptr;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    if (place == 1 && !fixed_.before.empty()) in = nullptr;
+    for (const Tool* t : order[place])
+      if (t && t != in) {
+        in = t;
+        ++count;
+      }
+  }
+  return count;
+}
+
+int SetupPlanner::indexings(const SolvedSetup& s) const {
+  ToolOrder order(kPlaces);
+  for (const auto& f : s.features) {
+    if (!f.answer.feasible) continue;
+    const auto& r = f.answer.model->recipe();
+    const auto kind = f.task.feature.kind();
+    order[place_in_setup(kind, true)].push_back(r.rough);
+    order[place_in_setup(kind, false)].push_back(r.finish);
+  }
+  return changes(order);
+}
+
+// In the terms of the objective, operations at fixed conditions included.
+double SetupPlanner::besides_cutting(int indexings) const {
+  return economy_.minute *
+             (minutes_besides_cutting(p_, clamping_, indexings) + fixed_.minutes()) +
+         economy_.edge * fixed_.edges_cost();
 }
 
 }  // namespace turnwright::planning

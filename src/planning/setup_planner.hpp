@@ -62,6 +62,9 @@ class SetupPlanner {
   /// Every feature with the tools of the best setup, which is not feasible.
   SolvedSetup explained();
 
+  /// What it makes, in the order of a SolvedSetup's features.
+  std::vector<const Feature*> features() const;
+
  private:
   // One surface to be made and what the request says of it.
   struct Job {
@@ -82,12 +85,15 @@ class SetupPlanner {
   std::vector<RejectedTool> rejected(const std::vector<Considered>& all,
                                      const Considered& best) const;
   double least_besides_cutting(const Tools& tools) const;
-  double minutes_besides_cutting(int indexings) const;
+  int changes(const ToolOrder& order) const;
+  int indexings(const SolvedSetup& s) const;
+  double besides_cutting(int indexings) const;
 
   const PartPlan& p_;
   std::size_t setup_;
   Clamping clamping_;
   Economy economy_;
+  FixedWork fixed_;
   bool compensate_ = false, explain_ = false;
   long boxes_ = 0;  // bounded so far
   Tools nearest_;

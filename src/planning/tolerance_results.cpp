@@ -84,16 +84,16 @@ struct Taken {
   double fixed_mm = 0;  // of it what parts have, not their measurement
 };
 
-// What spreads at one more face.  A part that is warm is too long once, however many of
-// its faces are cut.
+// What spreads at one more face.  A part that is warm, or cut by a machine that is not
+// well known, is too long once, however many of its faces are cut.
 void add(const std::vector<tolerance::Source>& of_face,
          std::vector<tolerance::Source>& all) {
   for (const auto& s : of_face) {
-    const auto heat = std::find_if(all.begin(), all.end(), [&](const auto& other) {
-      return s.name == kHeat && other.name == kHeat;
+    const auto once = std::find_if(all.begin(), all.end(), [&](const auto& other) {
+      return s.name == other.name && (s.name == kHeat || s.name == kMachine);
     });
-    if (heat != all.end())
-      heat->value_um += s.value_um;
+    if (once != all.end())
+      once->value_um += s.value_um;
     else
       all.push_back(s);
   }
@@ -101,7 +101,7 @@ void add(const std::vector<tolerance::Source>& of_face,
 
 Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
             const Found& other) {
-  Taken all{.by = {.fixed = {{"machine", p.machine_share_um}}, .spread = {}}};
+  Taken all{.by = {.fixed = {{kMachine, p.machine_share_um}}, .spread = {}}};
   double made = 0;
   for (const auto* found : {&at, &other}) {
     if (!found->feature) continue;
@@ -220,6 +220,7 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
     r.id = t.id;
     r.kind = t.kind;
     r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
+    r.width_mm = width_mm(t);
     const auto all = taken(p, i, at, other);
     r.shares = shares(all.by);
     const bool none_left = width_mm(t) <= all.mm;
@@ -238,13 +239,15 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
   return results;
 }
 
-std::vector<Deviation> deviations(const std::vector<SolvedSetup>& setups) {
+std::vector<Deviation> deviations(const PartPlan& p,
+                                  const std::vector<SolvedSetup>& setups) {
   constexpr int kPlaces = 21;
   std::vector<Deviation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features) {
       if (!f.answer.model) continue;
       const auto& feature = f.task.feature;
+      if (part::has_cut(p.drawing, feature.surface())) continue;
       const auto& recipe = f.answer.model->recipe();
       std::vector<double> places;
       for (int k = 0; k < kPlaces; ++k)

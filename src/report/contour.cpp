@@ -1,6 +1,7 @@
 #include "contour.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace turnwright::report {
 namespace {
@@ -10,6 +11,36 @@ using planning::Assignment;
 using planning::PartPlan;
 
 constexpr double kNothing_mm = 1e-9;  // shorter runs are rounding of sums of lengths
+
+constexpr int kChords = 12;  // of an arc
+
+// Points of an arc are M + t e +- n (sqrt(R^2 - t^2) - d), M the middle of its chord, t
+// along it, d = sqrt(R^2 - c^2/4) the centre's distance from it.
+Runs chords(const part::Cut& arc, double z, double length) {
+  const double r0 = arc.drawn.left_mm / 2, r1 = arc.drawn.right_mm / 2;
+  const double c = std::hypot(length, r1 - r0), R = arc.radius_mm;
+  const double e_z = length / c, e_r = (r1 - r0) / c, side = arc.convex ? 1 : -1;
+  const double d = std::sqrt(std::max(0.0, R * R - c * c / 4));
+  Runs all;
+  Run run{z, z, r0, r0};
+  for (int k = 1; k <= kChords; ++k) {
+    const double t = c * (static_cast<double>(k) / kChords - 0.5);
+    const double off = side * (std::sqrt(std::max(0.0, R * R - t * t)) - d);
+    run.z1 = z + length / 2 + t * e_z - off * e_r;
+    run.r1 = (r0 + r1) / 2 + t * e_r + off * e_z;
+    all.push_back(run);
+    run = {run.z1, run.z1, run.r1, run.r1};
+  }
+  return all;
+}
+
+template <class Element>
+Runs runs(const Element& e, double z) {
+  if (e.cut && e.cut->kind == part::CutKind::arc) return chords(*e.cut, z, e.length_mm);
+  const bool groove = e.cut && e.cut->kind == part::CutKind::groove;
+  const auto ends = groove ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
+  return {{z, z + e.length_mm, ends.left_mm / 2, ends.right_mm / 2}};
+}
 
 bool faced(const PartPlan& p, const Assignment& work, std::size_t setup, End end) {
   for (std::size_t s = 0; s <= setup; ++s)
@@ -29,7 +60,8 @@ Runs bores(const part::Drawing& d, const std::vector<bool>& finished, double lef
   const double hole = d.stock.inner_mm / 2;
   Runs cut;
   for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (finished[i]) cut.push_back(inner_run(d, i));
+    if (finished[i])
+      for (const auto& run : inner_runs(d, i)) cut.push_back(run);
   std::sort(cut.begin(), cut.end(),
             [](const Run& a, const Run& b) { return a.z0 < b.z0; });
   Runs all;
@@ -45,16 +77,12 @@ Runs bores(const part::Drawing& d, const std::vector<bool>& finished, double lef
 
 }  // namespace
 
-Run outer_run(const part::Drawing& d, std::size_t i) {
-  const double z0 = part::left_z_mm(d, i);
-  const auto& e = d.outer[i];
-  return {z0, z0 + e.length_mm, e.left_mm / 2, e.right_mm / 2};
+Runs outer_runs(const part::Drawing& d, std::size_t i) {
+  return runs(d.outer[i], part::left_z_mm(d, i));
 }
 
-Run inner_run(const part::Drawing& d, std::size_t i) {
-  const double z0 = part::inner_left_z_mm(d, i);
-  const auto& e = d.inner[i];
-  return {z0, z0 + e.length_mm, e.left_mm / 2, e.right_mm / 2};
+Runs inner_runs(const part::Drawing& d, std::size_t i) {
+  return runs(d.inner[i], part::inner_left_z_mm(d, i));
 }
 
 Contour contour_after(const PartPlan& p, const Assignment& work, std::size_t setup) {
@@ -62,14 +90,17 @@ Contour contour_after(const PartPlan& p, const Assignment& work, std::size_t set
   auto finished = planning::nothing_finished(d);
   for (std::size_t s = 0; s <= setup; ++s) planning::finish(finished, work.setups[s]);
   const double L = part::length_mm(d), stock = d.stock.outer_mm / 2;
-  const double left_z = faced(p, work, setup, End::left) ? 0 : -d.stock.left_allowance_mm;
+  const double left_z =
+      faced(p, work, setup, End::left) ? 0 : -planning::face_stock_mm(p, End::left);
   const double right_z =
-      L + (faced(p, work, setup, End::right) ? 0 : part::right_allowance_mm(d));
+      L +
+      (faced(p, work, setup, End::right) ? 0 : planning::face_stock_mm(p, End::right));
   Contour c;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    auto run = outer_run(d, i);
-    if (!finished.outer[i]) run.r0 = run.r1 = stock;
-    c.outer.push_back(run);
+    for (auto run : outer_runs(d, i)) {
+      if (!finished.outer[i]) run.r0 = run.r1 = stock;
+      c.outer.push_back(run);
+    }
   }
   add_stubs(c.outer, left_z, right_z, L);
   c.inner = bores(d, finished.inner, left_z, right_z);

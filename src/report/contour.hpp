@@ -23,9 +23,9 @@ struct Contour {
 Contour contour_after(const planning::PartPlan& part, const planning::Assignment& work,
                       std::size_t setup);
 
-/// Run of an element as drawn.
-Run outer_run(const part::Drawing& drawing, std::size_t i);
-Run inner_run(const part::Drawing& drawing, std::size_t i);
+/// An element as drawn: one run, of an arc a dozen chords of it.
+Runs outer_runs(const part::Drawing& drawing, std::size_t i);
+Runs inner_runs(const part::Drawing& drawing, std::size_t i);
 
 /// The line through the run, also beside it.
 double radius_mm(const Run& run, double z_mm);

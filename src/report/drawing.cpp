@@ -102,11 +102,16 @@ struct Sheet {
   double right_z() const { return contour.outer.back().z1; }
 };
 
-std::string id_and_size(const std::string& id, double left_mm, double right_mm,
-                        const std::optional<std::string>& fit) {
-  std::string text = clipped(id, kIdLength) + "  \u00d8" + plain(left_mm);
-  if (left_mm != right_mm) text += "\u2013" + plain(right_mm);
-  return fit ? text + ' ' + clipped(*fit, kIdLength) : text;
+template <class Element>
+std::string id_and_size(const Element& e) {
+  const auto id = clipped(e.id, kIdLength);
+  const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
+  if (e.cut && e.cut->kind == part::CutKind::thread)
+    return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm);
+  std::string text = id + "  \u00d8" + plain(size.left_mm);
+  if (size.left_mm != size.right_mm) text += "\u2013" + plain(size.right_mm);
+  if (e.cut && e.cut->kind == part::CutKind::arc) text += " R" + plain(e.cut->radius_mm);
+  return e.fit ? text + ' ' + clipped(*e.fit, kIdLength) : text;
 }
 
 bool corrected(const Sheet& s, const std::string& id) {
@@ -131,7 +136,7 @@ std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
   std::vector<Label> all;
   const auto add = [&](const auto& e, const Run& run) {
     const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
-    const auto text = id_and_size(e.id, e.left_mm, e.right_mm, e.fit);
+    const auto text = id_and_size(e);
     if (corrected(s, e.id))
       all.push_back({end.x, end.y, text + ", path corrected", "path"});
     else
@@ -139,7 +144,8 @@ std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
   };
   const auto& d = s.part.drawing;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    const Run run = outer_run(d, i);
+    const auto runs = outer_runs(d, i);
+    const Run& run = runs[runs.size() / 2];
     if (finished.outer[i]) {
       add(d.outer[i], run);
     } else {
@@ -149,7 +155,7 @@ std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
     }
   }
   for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (finished.inner[i]) add(d.inner[i], inner_run(d, i));
+    if (finished.inner[i]) add(d.inner[i], inner_runs(d, i).front());
   std::stable_sort(all.begin(), all.end(),
                    [](const Label& a, const Label& b) { return a.x < b.x; });
   return thinned(all, kLabelGap);
@@ -272,14 +278,11 @@ void draw_cut(Sheet& s) {
     s.svg.line("cut", s.at(z0, r0), s.at(z1, r1));
     s.svg.line("cut", s.at(z0, -r0), s.at(z1, -r1));
   };
-  for (const std::size_t i : s.work.elements) {
-    const Run run = outer_run(d, i);
-    both(run.z0, run.r0, run.z1, run.r1);
-  }
-  for (const std::size_t i : s.work.bores) {
-    const Run run = inner_run(d, i);
-    s.svg.line("cut", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
-  }
+  for (const std::size_t i : s.work.elements)
+    for (const Run& run : outer_runs(d, i)) both(run.z0, run.r0, run.z1, run.r1);
+  for (const std::size_t i : s.work.bores)
+    for (const Run& run : inner_runs(d, i))
+      s.svg.line("cut", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
   for (const std::size_t k : s.work.shoulders) {
     const double z = part::left_z_mm(d, k);
     both(z, d.outer[k - 1].right_mm / 2, z, d.outer[k].left_mm / 2);
@@ -289,6 +292,21 @@ void draw_cut(Sheet& s) {
   const double bore = right ? s.contour.inner.back().r1 : s.contour.inner.front().r0;
   const double z = right ? s.right_z() : s.left_z();
   both(z, bore, z, right ? s.contour.outer.back().r1 : s.contour.outer.front().r0);
+}
+
+/// The roots of threads that are cut so far, thin as on a drawing.
+void draw_threads(Sheet& s, const planning::Finished& finished) {
+  const auto root = [&](const auto& e, double z, bool inner) {
+    if (!e.cut || e.cut->kind != part::CutKind::thread) return;
+    const double r = e.cut->core.left_mm / 2;
+    s.svg.line("thin", s.at(z, r), s.at(z + e.length_mm, r));
+    if (!inner) s.svg.line("thin", s.at(z, -r), s.at(z + e.length_mm, -r));
+  };
+  const auto& d = s.part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i)
+    if (finished.outer[i]) root(d.outer[i], part::left_z_mm(d, i), false);
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (finished.inner[i]) root(d.inner[i], part::inner_left_z_mm(d, i), true);
 }
 
 /// Places of a table on its surface, its values enlarged outwards by `factor`; none
@@ -386,10 +404,25 @@ void draw_clamping(Sheet& s) {
     draw_centre(s, free);
 }
 
+/// Between the ends of an arc, where its chords meet.
+bool within_an_arc(const part::Drawing& d, double z) {
+  constexpr double kRounding_mm = 1e-6;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
+    const auto& cut = d.outer[i].cut;
+    if (cut && cut->kind == part::CutKind::arc && z > z0 + kRounding_mm &&
+        z < z1 - kRounding_mm)
+      return true;
+  }
+  return false;
+}
+
 /// z of every end of an element, with lines down from the part; y of the foot.
 double draw_ruler(Sheet& s) {
   std::vector<double> z;
-  for (const auto& run : s.contour.outer) z.insert(z.end(), {run.z0, run.z1});
+  for (const auto& run : s.contour.outer)
+    for (const double end : {run.z0, run.z1})
+      if (!within_an_arc(s.part.drawing, end)) z.push_back(end);
   for (const auto& run : s.contour.inner) z.insert(z.end(), {run.z0, run.z1});
   std::sort(z.begin(), z.end());
   z.erase(std::unique(z.begin(), z.end(),
@@ -470,6 +503,7 @@ std::string drawn(Sheet s, const planning::Finished& finished) {
   draw_labels(s, labels(s, finished));
   draw_clamping(s);  // over the leaders of what it holds
   draw_cut(s);
+  draw_threads(s, finished);
   draw_errors(s);
   s.svg.line("axis", {s.x(s.left_z()) - 10, s.axis}, {s.x(s.right_z()) + 10, s.axis});
   const double foot = draw_legend(s, draw_ruler(s) + 2);

@@ -34,6 +34,11 @@ text.path { fill: #0050b4; stroke: none }
 text.accent { fill: #c8102e }
 text.later { fill: #777 }
 .bar { stroke-width: 0.6 }
+.share { fill: #999; stroke: #fff; stroke-width: 0.1 }
+.deflection { fill: #c8102e } .machine { fill: #0050b4 } .jaw-squeeze { fill: #7a3e9d }
+.drift { fill: #e58a00 } .repeatability { fill: #4a9b57 } .wear { fill: #8c6d46 }
+.heat { fill: #e86f9b } .rechucking { fill: #2ba4b5 } .measurement { fill: #666 }
+.frame { fill: none; stroke: #000; stroke-width: 0.3 }
 </style>
 )svg";
 

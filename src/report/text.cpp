@@ -13,6 +13,7 @@
 #include "layout.hpp"
 #include "proof.hpp"
 #include "setups.hpp"
+#include "stack.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -158,6 +159,49 @@ std::string tolerances(const ordered_json& result) {
                rows);
 }
 
+Stack stack_of(const ordered_json& tolerance) {
+  Shares shares;
+  for (const auto& s : list(tolerance, "shares"))
+    shares.emplace_back(word(s, "source"), number(s, "um").value_or(0));
+  const bool size = list(tolerance, "predicted_mm").size() == 2;
+  return stack(units::um_from_mm(number(tolerance, "width_mm").value_or(0)),
+               units::um_from_mm(number(tolerance, "margin_mm").value_or(0)),
+               size ? 2 : 1, shares);
+}
+
+// A column a source, and what is left.
+std::string budget(const ordered_json& result) {
+  std::vector<const ordered_json*> tolerances;
+  std::vector<Stack> stacks;
+  for (const auto& t : list(result, "tolerances"))
+    if (t.contains("width_mm")) {
+      tolerances.push_back(&t);
+      stacks.push_back(stack_of(t));
+    }
+  if (stacks.empty()) return "";
+  const auto all = sources(stacks);
+  std::vector<Column> columns{{"id", Align::left}, {"width"}};
+  for (const auto& source : all) columns.push_back({clipped(source, 11)});
+  columns.push_back({"left"});
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < stacks.size(); ++i) {
+    Row row{{word(*tolerances[i], "id"), micrometres(*tolerances[i], "width_mm")}, ""};
+    for (const auto& source : all) {
+      double um = 0;
+      for (const auto& [name, taken] : stacks[i].slices)
+        if (name == source) um += taken;
+      row.cells.push_back(um > 0 ? shown(um, 1) : "");
+    }
+    row.cells.push_back(shown(stacks[i].left_um, 1));
+    rows.push_back(std::move(row));
+  }
+  return "\nBUDGET\n" +
+         paragraph("  ",
+                   "what takes each tolerance's width, um; independent sources add by "
+                   "squares and are reduced in proportion") +
+         table(columns, rows);
+}
+
 // The rows [z, dr] laid across the page, so many at a time.
 std::string across(const ordered_json& rows) {
   constexpr std::size_t kAbreast = 9;
@@ -202,6 +246,14 @@ std::string prices(const ordered_json& result) {
   return out;
 }
 
+std::string what_if(const ordered_json& result) {
+  const auto& all = list(result, "what_if");
+  if (all.empty()) return "";
+  std::vector<std::string> sentences;
+  for (const auto& answer : all) sentences.push_back(sentence_of(answer));
+  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences);
+}
+
 // A string bare, anything else as JSON.
 std::string plain(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -227,8 +279,9 @@ std::string assumptions(const ordered_json& result) {
 
 std::string text(const ordered_json& plan_result) {
   return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
-         setups(plan_result) + tolerances(plan_result) + compensation(plan_result) +
-         prices(plan_result) + assumptions(plan_result);
+         setups(plan_result) + tolerances(plan_result) + budget(plan_result) +
+         compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
+         assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

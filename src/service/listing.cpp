@@ -21,7 +21,12 @@ std::vector<Entry> list_materials(const document::Catalogue& catalogue) {
 }
 
 std::vector<Entry> list_tools(const document::Catalogue& catalogue) {
-  return entries(catalogue.tools);
+  auto list = entries(catalogue.tools);
+  const auto fixed = entries(catalogue.fixed_tools);
+  list.insert(list.end(), fixed.begin(), fixed.end());
+  std::sort(list.begin(), list.end(),
+            [](const Entry& a, const Entry& b) { return a.id < b.id; });
+  return list;
 }
 
 std::vector<Entry> list_machines(const document::Catalogue& catalogue) {

@@ -18,6 +18,7 @@
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
 #include "turnwright/report/volumetric_drawing.hpp"
@@ -142,7 +143,7 @@ constexpr const char* kCalibrateExample = R"({
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
-  return document::to_json(planning::plan(part.plan), part.assumed);
+  return document::to_json(planning::plan(part.plan, part.what_if), part.assumed);
 }
 
 ordered_json predict(const json& request, const Context& context) {
@@ -156,12 +157,14 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
   for (auto& svg : report::setup_drawings(part.plan, plan))
     all.drawings.push_back(
         {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
+  if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
+    all.drawings.push_back({"budget.svg", std::move(svg)});
   return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "plan");
-  return drawn(part, planning::plan(part.plan));
+  return drawn(part, planning::plan(part.plan, part.what_if));
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
@@ -271,12 +274,14 @@ std::span<const Request> requests() {
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::multipass(request);
-       }},
+       },
+       report::multipass_text},
       {"calibrate-material",
        "measured cuts -> kc1.1, mc, Taylor constants with intervals", kCalibrateExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::calibrate_material(request, context.catalogue);
-       }},
+       },
+       report::material_text},
   };
   return kTable;
 }

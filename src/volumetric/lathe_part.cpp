@@ -142,6 +142,11 @@ DatumAxis axis_of(const Surface& cylinder) {
   return {.x0_mm = x[1], .y0_mm = x[2], .ax = x[3], .ay = x[4]};
 }
 
+DatumAxis normal_of(const Surface& face) {
+  const auto x = least_squares_zone(plane_basis(face), 2, face.e_mm).parameters;
+  return {.x0_mm = 0, .y0_mm = 0, .ax = -x[1], .ay = -x[2]};
+}
+
 double diameter_error_mm(const Surface& cylinder) {
   return 2 * least_squares_zone(cylinder_basis(cylinder), 4, cylinder.e_mm).parameters[0];
 }
@@ -214,10 +219,7 @@ double perpendicularity_mm(const Surface& face, const DatumAxis& datum) {
 }
 
 double parallelism_mm(const Surface& face, const Surface& datum) {
-  const auto x = least_squares_zone(plane_basis(datum), 2, datum.e_mm).parameters;
-  return range(less(face, [&x](double t, double r, double) {
-    return r * (x[1] * std::cos(t) + x[2] * std::sin(t));
-  }));
+  return perpendicularity_mm(face, normal_of(datum));
 }
 
 double length_error_mm(const Surface& left, const Surface& right) {

@@ -261,7 +261,7 @@ TEST_F(CommandLine, FilesThatAreNoDocumentsAreNamed) {
             0u);
 }
 
-TEST_F(CommandLine, DrawingsAreWrittenOneASetup) {
+TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
   for (const std::string name : {"plan", "predict"}) {
     SCOPED_TRACE(name);
     put(folder_ / "request.json", row(name).example);
@@ -275,6 +275,8 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetup) {
       EXPECT_NE(svg.find("Setup " + setup + ": chuck"), std::string::npos);
     }
     EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
+    EXPECT_NE(contents(folder_ / "new" / name / "budget.svg").find("d2:diameter"),
+              std::string::npos);
   }
 }
 

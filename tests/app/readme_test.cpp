@@ -60,7 +60,7 @@ TEST(Readme, CostsAndClampingsAreThoseOfThePlans) {
       clampings += (clampings.empty() ? "" : ", ") + std::string(name(s.clamping));
     EXPECT_EQ(row[2], clampings);
   }
-  EXPECT_EQ(checked, 12);
+  EXPECT_EQ(checked, 14);
 }
 
 TEST(Readme, FilesItNamesExist) {

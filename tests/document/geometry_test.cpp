@@ -180,5 +180,99 @@ TEST(Geometry, SchemaAndReaderAgreeOnEverySlip) {
   EXPECT_GT(SlipsOf(request_schema(), refused, example(), beyond).try_all(), 60);
 }
 
+json lathe(const json& axis, const json& surfaces) {
+  json axes = {{{"name", "X"}}, {{"name", "Z"}}, {{"name", "C"}}};
+  for (json& one : axes)
+    if (one["name"] == axis["name"]) one = axis;
+  return {{"chain", "wCfZXt"},
+          {"tool_point_mm", {0, 0, 0}},
+          {"axes", axes},
+          {"turned", surfaces}};
+}
+
+json surface(const char* id, json from, json to) {
+  return {{"id", id}, {"from_mm", std::move(from)}, {"to_mm", std::move(to)}};
+}
+
+// The map from a lathe's errors to the parts it turns, each by hand.
+TEST(GeometryTurned, ReproducesTheTurningMap) {
+  constexpr double kUm = 1e-6;
+  const json shaft = {surface("d", {30, 0}, {30, 100})};
+  const auto first = [](const json& request) { return answered(request)["turned"][0]; };
+  json s =
+      first(lathe({{"name", "X"}, {"err", {{"EXX", {{"c", {0, 3e-3, 0, 0}}}}}}}, shaft));
+  EXPECT_NEAR(s["diameter_mm"], 1.80e-3, kUm);
+  EXPECT_NEAR(s["profile_mm"], 1.80e-3, kUm);
+  s = first(lathe({{"name", "Z"}, {"sq", {{"EB0Z", 20e-6}}}}, shaft));
+  EXPECT_NEAR(s["taper_mm"], 4.0e-3, kUm);
+  EXPECT_NEAR(s["cylindricity"]["minimum_zone_mm"], 2.0e-3, kUm);
+  s = first(lathe({{"name", "Z"}, {"err", {{"EXZ", {{"c", {0, 0, 5e-3, 0}}}}}}},
+                  {surface("d", {30, 20}, {30, 120})}));
+  EXPECT_NEAR(s["cylindricity"]["minimum_zone_mm"], 7.0e-3, kUm);
+  s = first(
+      lathe({{"name", "C"}, {"err", {{"EXC", {{"f", {{0, 0}, {1e-3, 0}}}}}}}}, shaft));
+  EXPECT_NEAR(s["roundness"]["minimum_zone_mm"], 2.0e-3, kUm);
+  s = first(lathe({{"name", "X"}, {"sq", {{"EB0X", 20e-6}}}},
+                  {surface("f", {30, 50}, {5, 50})}));
+  EXPECT_NEAR(s["flatness"]["minimum_zone_mm"], 0.50e-3, kUm);
+  EXPECT_NEAR(s["total_axial_runout_mm"], 0.50e-3, kUm);
+}
+
+TEST(GeometryTurned, MeasuresAgainstItsDatum) {
+  json surfaces = {surface("left", {30, 10}, {5, 10}),
+                   surface("right", {30, 90}, {5, 90})};
+  surfaces[1]["datum"] = "left";
+  const json scale = {{"name", "Z"}, {"err", {{"EZZ", {{"c", {0, 2e-3, 0, 0}}}}}}};
+  const json faces = answered(lathe(scale, surfaces))["turned"];
+  EXPECT_NEAR(faces[1]["length_mm"], 1.6e-3, 1e-7);
+  EXPECT_NEAR(faces[1]["parallelism_mm"], 0, 1e-9);
+  EXPECT_FALSE(faces[0].contains("length_mm"));
+  const json once = {{"name", "C"}, {"err", {{"EXC", {{"f", {{1e-3, 0}}}}}}}};
+  surfaces = {surface("d1", {30, 0}, {30, 40}), surface("d2", {20, 40}, {20, 80}),
+              surface("d3", {20, 40}, {20, 80})};
+  surfaces[2]["datum"] = "d1";
+  const json shafts = answered(lathe(once, surfaces))["turned"];
+  EXPECT_NEAR(shafts[1]["total_radial_runout_mm"], 2e-3, 1e-6);
+  EXPECT_NEAR(shafts[2]["total_radial_runout_mm"], 0, 1e-6);
+  // A bore's last approach is from inside: play has the other sign there.
+  const json play = {{"name", "X"},
+                     {"err", {{"EXX", {{"c", {0, 0, 0, 0}}, {"b", -1e-3}}}}}};
+  surfaces = {surface("shaft", {30, 0}, {30, 40}), surface("bore", {20, 40}, {20, 0})};
+  surfaces[1]["approach"] = {{"X", 1}};
+  const json both = answered(lathe(play, surfaces))["turned"];
+  EXPECT_NEAR(both[0]["diameter_mm"], 2e-3, 1e-8);
+  EXPECT_NEAR(both[1]["diameter_mm"], -2e-3, 1e-8);
+}
+
+TEST(GeometryTurned, IsRefusedWithItsPlace) {
+  json request = lathe({{"name", "X"}},
+                       {surface("a", {30, 0}, {30, 0}), surface("a", {-1, 0}, {30, 9})});
+  request["turned"][1]["datum"] = "b";
+  request["turned"][1]["approach"] = {{"X", 0}};
+  EXPECT_EQ(
+      refused(request),
+      "geometry: /turned/0/to_mm: got [30,0], expected another place than from_mm\n"
+      "geometry: /turned/1/from_mm: got [-1,0], expected [r, z] with a radius of 0 mm or "
+      "more\n"
+      "geometry: /turned/1/approach/X: got 0, expected -1 or 1\n"
+      "geometry: /turned/1/id: got \"a\", expected an id no other has\n"
+      "geometry: /turned/1/datum: got \"b\", expected the id of a surface before");
+  request = lathe({{"name", "X"}}, {surface("a", {30, 0}, {30, 9})});
+  request["chain"] = "wfZXt";
+  request["axes"].erase(2);
+  EXPECT_EQ(refused(request),
+            "geometry: /chain: got \"wfZXt\", expected a chain with X, Z and C for what "
+            "is turned");
+}
+
+TEST(GeometryTurned, SlipsAreSeenBySchemaAndReader) {
+  const json good = lathe(
+      {{"name", "X"}}, {surface("a", {30, 0}, {30, 9}), surface("b", {30, 9}, {5, 9})});
+  const auto names = [](const std::string& at) {
+    return at.find("/name") != std::string::npos || at.rfind("/chain", 0) == 0;
+  };
+  EXPECT_GT(SlipsOf(request_schema(), refused, good, names).try_all(), 20);
+}
+
 }  // namespace
 }  // namespace turnwright::document

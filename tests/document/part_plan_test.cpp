@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "schema_check.hpp"
 #include "turnwright/document/file.hpp"
 
@@ -186,7 +188,7 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   document["budget"] = {
       {"drift_um", 1},      {"drift_axial_um", 2},         {"repeatability_um", 3},
       {"part_warm_K", 4},   {"life_between_offsets", 0.5}, {"wear_land_mm", 0.2},
-      {"rechucking_um", 6}, {"measurement_U_um", 7}};
+      {"rechucking_um", 6}, {"measurement_U_um", 7},       {"first_part_gauged", true}};
   EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
   const auto& shop = load(document).plan.shop;
   EXPECT_EQ(shop.drift_um, 1);
@@ -197,7 +199,9 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   EXPECT_EQ(shop.wear_land_mm, 0.2);
   EXPECT_EQ(shop.rechucking_um, 6);
   EXPECT_EQ(shop.measurement_U_um, 7);
+  EXPECT_TRUE(shop.first_part_gauged);
   document["budget"] = {{"drift_um", 1}};
+  EXPECT_FALSE(load(document).plan.shop.first_part_gauged);
   EXPECT_EQ(load(document).plan.shop.wear_land_mm, 0.3);
 }
 
@@ -290,6 +294,111 @@ TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
   const auto loaded = load(document);
   EXPECT_EQ(loaded.plan.setups[0].grip_mm, 15);
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 15);
+}
+
+// A shaft of 50 mm stock with what is cut at fixed conditions, tools of the catalogue.
+json with_cuts() {
+  json document = {
+      {"material", full()["material"]},
+      {"stock", {{"kind", "bar"}, {"diameter_mm", 50}, {"length_mm", 130}}},
+      {"outer",
+       {{{"id", "th1"}, {"kind", "thread"}, {"length_mm", 20}, {"diameter_mm", 20}},
+        {{"id", "g1"}, {"kind", "groove"}, {"length_mm", 3}, {"diameter_mm", 16}},
+        {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 50}, {"diameter_mm", 30}},
+        {{"id", "a1"},
+         {"kind", "arc"},
+         {"length_mm", 20},
+         {"left_mm", 30},
+         {"right_mm", 30},
+         {"radius_mm", 40}},
+        {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 30}, {"diameter_mm", 30}}}}};
+  return document;
+}
+
+TEST(PartPlan, BlanksAreTurnedAndWhatIsCutIntoThemKept) {
+  auto document = with_cuts();
+  document["general"] = "ISO 2768-mK";
+  document["outer"][0]["fit"] = "6g";
+  document["outer"][1]["limits_mm"] = {-0.1, 0};
+  const auto loaded = load(document);
+  const auto& outer = loaded.plan.drawing.outer;
+  EXPECT_EQ(outer[0].left_mm, 20);
+  EXPECT_EQ(outer[0].cut->pitch_mm, 2.5);  // coarse
+  EXPECT_EQ(outer[1].left_mm, 20);         // the smaller neighbour's
+  EXPECT_EQ(outer[1].cut->drawn.left_mm, 16);
+  EXPECT_NEAR(outer[3].left_mm, 30 + 2 * (40 - std::sqrt(1500)), 1e-9);
+  EXPECT_FALSE(outer[2].cut);
+  for (const auto& t : loaded.plan.drawing.tolerances)
+    EXPECT_TRUE(t.of == "d1" || t.of == "d2" || t.of == "right" || t.of == "left" ||
+                t.of.empty())
+        << t.id;
+  ASSERT_TRUE(assumed(loaded, "/outer/0/pitch_mm"));
+  EXPECT_EQ(assumed(loaded, "/outer/0/pitch_mm")->value, 2.5);
+  ASSERT_TRUE(assumed(loaded, "/outer/0/fit"));
+  EXPECT_EQ(assumed(loaded, "/outer/0/fit")->value, "6g");
+  ASSERT_TRUE(assumed(loaded, "/outer/1/limits_mm"));
+  EXPECT_EQ(assumed(loaded, "/outer/3/bulge")->value, "convex");
+}
+
+TEST(PartPlan, ADesignationIsDiameterAndPitch) {
+  auto document = with_cuts();
+  document["outer"][0].erase("diameter_mm");
+  for (const auto& [text, pitch] : {std::pair{"M20x1.5", 1.5}, {"M20", 2.5}}) {
+    document["outer"][0]["designation"] = text;
+    const auto part = load(document).plan.drawing;
+    EXPECT_EQ(part.outer[0].left_mm, 20) << text;
+    EXPECT_EQ(part.outer[0].cut->pitch_mm, pitch) << text;
+  }
+  document["outer"][0]["designation"] = "M0x1";
+  EXPECT_EQ(refusal(document),
+            "t: /outer/0/designation: got \"M0x1\", expected a diameter > 0 and <= 20000 "
+            "mm and a pitch > 0 mm");
+}
+
+TEST(PartPlan, AGrooveInABoreHasTheLargerNeighboursBlank) {
+  auto document = with_cuts();
+  document["stock"] = {
+      {"kind", "tube"}, {"outer_mm", 80}, {"inner_mm", 10}, {"length_mm", 110}};
+  document["outer"] = {
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 100}, {"diameter_mm", 70}}};
+  for (const char* from : {"right", "left"}) {
+    const auto bore = [&](const char* id, const char* kind, double length, double d) {
+      return json{{"id", id},
+                  {"kind", kind},
+                  {"from", from},
+                  {"length_mm", length},
+                  {"diameter_mm", d}};
+    };
+    document["inner"] = {bore("b1", "cylinder", 20, 30), bore("g1", "groove", 3, 34),
+                         bore("t1", "thread", 20, 24)};
+    document["inner"][2]["pitch_mm"] = 2;
+    const auto inner = load(document).plan.drawing.inner;
+    EXPECT_EQ(inner[1].left_mm, 30) << from;
+    EXPECT_NEAR(inner[2].left_mm, 24 - 1.0825318 * 2, 1e-6) << from;
+    EXPECT_EQ(inner[2].cut->core.left_mm, 24) << from;
+    document["inner"][1]["diameter_mm"] = 30;
+    EXPECT_EQ(
+        refusal(document),
+        "t: /inner/1/diameter_mm: got 30, expected more than the 30 mm of b1 beside "
+        "the groove");
+  }
+}
+
+TEST(PartPlan, FixedToolsAreThoseListedAndElseTheCatalogues) {
+  auto document = with_cuts();
+  document["tools"] = {"test-rougher"};
+  EXPECT_EQ(load(document).plan.fixed_tools.size(), 1U);
+  auto inline_tool =
+      parse_file(source_path("tests/data/catalogue/tools/fixed/test-profiler.json"));
+  inline_tool["id"] = "my-profiler";
+  document["tools"].push_back(inline_tool);
+  const auto tools = load(document).plan.fixed_tools;
+  ASSERT_EQ(tools.size(), 1U);  // in place of the catalogue's of this use
+  EXPECT_EQ(tools[0].id, "my-profiler");
+  document["tools"].push_back("my-profiler");
+  EXPECT_EQ(refusal(document),
+            "t: /tools/2: got \"my-profiler\", expected a tool of the catalogue: "
+            "\"test-rougher\", \"test-profiler\"");
 }
 
 TEST(PartPlan, DocumentsMayStandInsteadOfIds) {
@@ -402,6 +511,69 @@ TEST(PartPlan, EveryToleranceKindTakesItsFeatureAndDatum) {
     else
       EXPECT_EQ(text, "accepted") << row.kind;
   }
+}
+
+// ---- what_if --------------------------------------------------------------------------
+
+json asked(const json& what_if) {
+  auto document = smallest();
+  document["what_if"] = what_if;
+  return document;
+}
+
+TEST(WhatIf, EachChangeIsReadAsTheDocumentItMakes) {
+  const auto loaded =
+      load(asked({{{"name", "wider"}, {"set", {{"/outer/d1/fit", "k7"}, {"/batch", 20}}}},
+                  {{"name", "shorter"}, {"set", {{"/outer/3/length_mm", 41}}}},
+                  {{"limit", "roughness Ra of d1"}, {"change_percent", -25}}}));
+  ASSERT_EQ(loaded.what_if.size(), 3u);
+  EXPECT_EQ(loaded.plan.drawing.outer[0].fit, "k6");
+  EXPECT_EQ(loaded.what_if[0].name, "wider");
+  EXPECT_EQ(loaded.what_if[0].plan.drawing.outer[0].fit, "k7");
+  EXPECT_EQ(loaded.what_if[0].plan.batch, 20);
+  EXPECT_EQ(loaded.what_if[1].plan.drawing.outer[3].length_mm, 41);
+  EXPECT_EQ(loaded.what_if[2].name, "roughness Ra of d1 -25 %");
+  EXPECT_NEAR(*loaded.what_if[2].plan.drawing.outer[0].Ra_um, 0.6, 1e-12);
+}
+
+TEST(WhatIf, RefusalsNameTheChange) {
+  const auto one = [](json entry) {
+    return refusal(asked(json::array({std::move(entry)})));
+  };
+  EXPECT_EQ(refusal(asked("wider")),
+            "t: /what_if: got \"wider\", expected a list of 0 to 20 entries");
+  EXPECT_EQ(one(3), "t: /what_if/0: got 3, expected an object");
+  EXPECT_EQ(one({{"name", "x"}}), "t: /what_if/0/set: got nothing, expected an object");
+  EXPECT_EQ(one({{"name", "x"}, {"set", json::object()}}),
+            "t: /what_if/0/set: got an object, expected 1 to 50 changes, as "
+            "{\"/outer/d1/fit\": \"h7\"}");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"/outer/d9/fit", "h7"}}}}),
+            "t: /what_if/0/set: got \"/outer/d9/fit\", expected the place of a value in "
+            "this document, as /outer/d1/fit or /setups/0/clampings");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"batch", 2}}}}),
+            "t: /what_if/0/set: got \"batch\", expected the place of a value in this "
+            "document, as /outer/d1/fit or /setups/0/clampings");
+  EXPECT_EQ(
+      one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
+      "t: /what_if/0/set/batch: got 0, expected a whole number >= 1 and <= 1000000");
+  EXPECT_NE(one({{"name", "x"}, {"set", {{"/what_if", json::array()}}}})
+                .find("expected no change of what_if itself"),
+            std::string::npos);
+  EXPECT_EQ(one({{"limit", "roughness Ra of d"}, {"change_percent", 10}}),
+            "t: /what_if/0/limit: got \"roughness Ra of d\", expected a limit of this "
+            "request (did you mean \"roughness Ra of d1\"?)");
+  EXPECT_EQ(one({{"limit", "roughness Ra of d1"}, {"change_percent", 0}}),
+            "t: /what_if/0/change_percent: got 0, expected a change other than 0");
+  EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", -95}})
+                .find("/what_if/0/change_percent: got -95"),
+            std::string::npos);
+  EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", 5}, {"set", 1}})
+                .find("/what_if/0/set"),
+            std::string::npos);
+  EXPECT_NE(refusal(asked(json::array()), Purpose::predict)
+                .find("t: /what_if: got a list of 0 entries, expected nothing: only plan "
+                      "answers what_if"),
+            std::string::npos);
 }
 
 }  // namespace

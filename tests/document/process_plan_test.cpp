@@ -48,6 +48,7 @@ ProcessPlan every_field() {
   size.predicted_mm = {-0.01, 0.01};
   size.allowed_mm = {-0.02, 0.02};
   size.margin_mm = 0.01;
+  size.width_mm = 0.05;
   size.verdict = Verdict::met_with_offset;
   size.seed_verdict = false;
   size.shares = {{"deflection", 21}};
@@ -60,7 +61,7 @@ ProcessPlan every_field() {
   p.tolerances = {size, form};
   p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
   p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
-  p.prices = {{"d1: diameter", 26, "mm", 27, "saves"}};
+  p.prices = {{"d1: diameter", 26, "mm", 27, 270, {"op1"}, "saves"}};
   p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash"}};
   p.relax = {{"t1", 30, 31, "mm", "open"}};
   return p;
@@ -90,16 +91,17 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("reason":"budget"}}]}],)"
       R"("tolerances":[{"id":"d1:diameter","kind":"diameter","of":"d1",)"
       R"("predicted_mm":[-0.01,0.01],"allowed_mm":[-0.02,0.02],"margin_mm":0.01,)"
-      R"("verdict":"met-with-offset","seed_verdict":false,"shares":[)"
+      R"("width_mm":0.05,"verdict":"met-with-offset","seed_verdict":false,"shares":[)"
       R"({"source":"deflection","um":21.0}],"P_conform":0.99},)"
       R"({"id":"d1:diameter","kind":"total-radial-runout","of":"d1",)"
-      R"("predicted_mm":0.004,"allowed_mm":0.01,"margin_mm":0.01,"verdict":"not-met",)"
-      R"("seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
+      R"("predicted_mm":0.004,"allowed_mm":0.01,"margin_mm":0.01,"width_mm":0.05,)"
+      R"("verdict":"not-met","seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
       R"("P_conform":0.99}],)"
       R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
       R"("compensation":[{"on":"d1","setup":1,"table_mm":[[22.0,23.0],[24.0,25.0]]}],)"
       R"("prices":[{"limit":"d1: diameter","now":26.0,"unit":"mm",)"
-      R"("saves_per_part_for_10_percent":27.0,"sentence":"saves"}],)"
+      R"("saves_per_part_for_10_percent":27.0,"saves_per_batch_for_10_percent":270.0,)"
+      R"("binds_in":["op1"],"sentence":"saves"}],)"
       R"("conflicts":[{"limit":"t1","where":"op1","value":28.0,"allowed":29.0,)"
       R"("unit":"mm","sentence":"clash"}],)"
       R"("relax":[{"limit":"t1","now":30.0,"needed":31.0,"unit":"mm",)"

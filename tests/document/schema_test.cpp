@@ -31,6 +31,7 @@ TEST(Schema, FitsEveryFileOfTheCatalogue) {
   for (const auto& root : {source_path(""), source_path("tests/data/catalogue")}) {
     every_file_fits(root / "materials", "material.json");
     every_file_fits(root / "tools", "tool.json");
+    every_file_fits(root / "tools" / "fixed", "fixed-tool.json");
     every_file_fits(root / "machines", "lathe.json");
   }
 }
@@ -79,6 +80,36 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAPart) {
   try_all(schema, refused_part, part);
 }
 
+TEST(Schema, AgreesWithTheReaderOnEverySlipInWhatIsCutAtFixedConditions) {
+  auto part = parse_file(source_path("tests/data/every_key_of_a_part.json"));
+  part["objective"] = "cost";
+  part["stock"] = {{"kind", "bar"},
+                   {"diameter_mm", 50},
+                   {"length_mm", 300},
+                   {"left_allowance_mm", 60},
+                   {"part_off_allowance_mm", 1}};
+  part["outer"] = {
+      {{"id", "th1"}, {"kind", "thread"}, {"length_mm", 9}, {"designation", "M30x1.5"}},
+      {{"id", "g1"}, {"kind", "groove"}, {"length_mm", 3}, {"diameter_mm", 25}},
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 30}, {"diameter_mm", 30}},
+      {{"id", "a1"},
+       {"kind", "arc"},
+       {"length_mm", 9},
+       {"left_mm", 30},
+       {"right_mm", 40},
+       {"radius_mm", 30},
+       {"bulge", "concave"}},
+      {{"id", "th2"},
+       {"kind", "thread"},
+       {"length_mm", 60},
+       {"diameter_mm", 42},
+       {"pitch_mm", 2},
+       {"fit", "6g"}}};
+  part["tolerances"] = part["faces"] = json::array();
+  part["operations"] = "auto";
+  try_all(SchemaCheck("part.json"), refused_part, part);
+}
+
 TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
   const auto example = [](const std::string& file) {
     return parse_file(source_path("tests/data/catalogue") / file);
@@ -88,6 +119,14 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
           example("materials/test-steel.json"));
   try_all(tool, refused_entry<catalogue::Tool, read_tool>,
           example("tools/test-rougher.json"));
+  const SchemaCheck fixed("fixed-tool.json");
+  for (const auto& entry : fs::directory_iterator(source_path("tools/fixed"))) {
+    auto tool_of_one_kind = parse_file(entry.path());
+    if (tool_of_one_kind.contains("sizes_mm")) tool_of_one_kind["sizes_mm"] = {3};
+    tool_of_one_kind["Fc_max_N"] = 3000;
+    try_all(fixed, refused_entry<catalogue::FixedTool, read_fixed_tool>, tool_of_one_kind,
+            50);
+  }
   try_all(lathe, refused_entry<catalogue::Lathe, read_lathe>,
           example("machines/lathe-medium.json"));
 }

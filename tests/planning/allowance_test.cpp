@@ -107,6 +107,68 @@ TEST(Allowance, OfALengthCountsEveryFaceThatIsCut) {
   EXPECT_NEAR(asked[0].upper, (0.2 - taken_mm(a)) / 4, 1e-15);
 }
 
+// From a shoulder to the end, both cut in the first setup.
+nlohmann::json stepped(nlohmann::json budget) {
+  auto d = pin_with(std::move(budget));
+  d["tolerances"] = {{{"id", "l"},
+                      {"kind", "length"},
+                      {"between", {"d1|d2", "right"}},
+                      {"limits_mm", {-0.1, 0.1}}}};
+  return d;
+}
+
+TEST(Allowance, WhatShiftsBothFacesOfALengthLeavesItAsItIs) {
+  const auto p = part(stepped({{"drift_axial_um", 8}, {"life_between_offsets", 0.5}}));
+  const auto a = allowance(p, tolerance(p, "l"), in_chuck(p, 0));
+  EXPECT_TRUE(a.spread.empty());
+  EXPECT_NEAR(taken_mm(a) * 1000, 1, 1e-12);  // the machine's share
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  for (const auto& t : r.tolerances)
+    if (t.id == "l") {
+      for (const auto& share : t.shares)
+        EXPECT_TRUE(share.source == "deflection" || share.source == "machine");
+    }
+}
+
+// Parts drawn one by one: the edges' wear is each tool's own, the drift that of both.
+TEST(Allowance, WithTwoToolsTheWearOfEachCounts) {
+  auto d = stepped({{"drift_axial_um", 8}, {"life_between_offsets", 0.5}});
+  d["tools"].push_back("PCLNL-CNMG120404-PF");
+  const auto face = [](const char* id, int setup, const char* on, const char* tool) {
+    return nlohmann::json{
+        {"id", id}, {"setup", setup}, {"kind", "face"}, {"on", {on}}, {"tool", tool}};
+  };
+  d["operations"] = {face("a", 0, "right", "PCLNL-CNMG120408-PM"),
+                     face("b", 0, "d1|d2", "PCLNL-CNMG120404-PF"),
+                     face("c", 1, "left", "PCLNL-CNMG120408-PM"),
+                     {{"id", "e"}, {"setup", 0}, {"kind", "finish"}, {"on", {"d2"}}},
+                     {{"id", "f"}, {"setup", 1}, {"kind", "finish"}, {"on", {"d1"}}}};
+  const auto p = part(d);
+  const auto at = [&](const std::string& tool) {
+    const auto it = std::find_if(p.tools.begin(), p.tools.end(),
+                                 [&](const auto& t) { return t.id == tool; });
+    return allowance(p, tolerance(p, "l"), {0, Clamping::chuck, &*it});
+  };
+  const auto end = at("PCLNL-CNMG120408-PM"), shoulder = at("PCLNL-CNMG120404-PF");
+  ASSERT_EQ(end.spread.size(), 1u);
+  ASSERT_EQ(shoulder.spread.size(), 1u);
+  const double w1 = end.spread[0].value_um, w2 = shoulder.spread[0].value_um;
+  EXPECT_GT(w1, 0);
+  std::mt19937 seed(5);
+  const auto uniform = [&](double half) {
+    return std::uniform_real_distribution<double>(-half, half)(seed);
+  };
+  double squares = 0;
+  constexpr int kParts = 200000;
+  for (int k = 0; k < kParts; ++k) {
+    const double drift = uniform(8);
+    const double length = (drift + uniform(w1)) - (drift + uniform(w2));
+    squares += length * length;
+  }
+  EXPECT_NEAR(std::sqrt(squares / kParts), std::sqrt((w1 * w1 + w2 * w2) / 3), 0.01 * w1);
+}
+
 TEST(Allowance, FormsAreLeftAloneByWhatMovesSizes) {
   auto d = pin_with({{"drift_um", 5}, {"repeatability_um", 2}, {"part_warm_K", 20}});
   d["tolerances"] = {

@@ -118,26 +118,6 @@ TEST(Plan, ToolsNotChosenCostWhatIsSaidAtLeast) {
   EXPECT_GT(judged, 0);
 }
 
-// d cost/d ln(limit) of the certificate against two plans with the limit moved.
-TEST(Plan, PricesAreSlopesOfTheCost) {
-  const auto with_Ra = [](double Ra) {
-    auto d = pin();
-    d["outer"][1]["Ra_um"] = Ra;
-    return planned(d);
-  };
-  const double h = 0.01, Ra = 1.0;
-  const auto at = with_Ra(Ra);
-  const double slope =
-      (with_Ra(Ra * (1 - h)).cost_per_part - with_Ra(Ra * (1 + h)).cost_per_part) /
-      (std::log(1 + h) - std::log(1 - h));
-  double told = 0;
-  for (const auto& price : at.prices)
-    if (price.limit == "s0-finish-d2: roughness Ra")
-      told = price.saves_per_part_for_10_percent / std::log(1.1);
-  EXPECT_GT(told, 0);
-  EXPECT_NEAR(told, slope, 0.01 * slope);
-}
-
 TEST(Plan, TighterToleranceNeverCostsLess) {
   double before = 0;
   for (const double half : {0.02, 0.006, 0.004, 0.003}) {

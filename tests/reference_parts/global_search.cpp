@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "../../src/planning/fixed.hpp"
 #include "surface_search.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
@@ -63,7 +64,12 @@ class SetupSearch {
   SetupSearch(const PartPlan& p, std::size_t setup, Clamping clamping,
               const planning::SetupWork& work, const planning::Finished& done,
               const planning::Economy& economy, const Effort& effort)
-      : p_(p), setup_(setup), clamping_(clamping), economy_(economy), effort_(effort) {
+      : p_(p),
+        setup_(setup),
+        clamping_(clamping),
+        economy_(economy),
+        effort_(effort),
+        fixed_(planning::fixed_work(p, setup, clamping, work)) {
     if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
     for (const std::size_t i : work.elements) {
       auto f = Feature::element(p, setup, clamping, work, done, i, {});
@@ -109,7 +115,7 @@ class SetupSearch {
       s.objective += s.surfaces.back().objective;
     }
     s.indexings = indexings(s);
-    s.objective += economy_.minute * minutes(s.indexings);
+    s.objective += economy_.minute * minutes(s.indexings) + fixed_edges();
     return s;
   }
 
@@ -143,7 +149,7 @@ class SetupSearch {
         for (const auto* f : list(true, ToolUse::finishing, false))
           for (const auto* br : list(bores, ToolUse::boring, true))
             for (const auto* bf : list(bores, ToolUse::boring, false)) {
-              ToolChoice c{x, r, f, br, bf, economy_.minute * minutes(0)};
+              ToolChoice c{x, r, f, br, bf, economy_.minute * minutes(0) + fixed_edges()};
               for (std::size_t k = 0; k < features_.size(); ++k)
                 c.bound += bounds(k, tools(k, c)).least;
               if (std::isfinite(c.bound)) all.push_back(c);
@@ -224,7 +230,8 @@ class SetupSearch {
     Point p;
     std::size_t i = 0;
     for (const auto& o : plan.operations) {
-      if (o.on != std::vector{f.surface()}) continue;
+      if (o.on != std::vector{f.surface()} || o.kind == planning::OperationKind::fixed)
+        continue;
       const auto tool = std::find_if(p_.tools.begin(), p_.tools.end(),
                                      [&](const Tool& t) { return t.id == o.tool; });
       const bool rough = o.kind == planning::OperationKind::rough ||
@@ -258,11 +265,19 @@ class SetupSearch {
     if (clamping_ == Clamping::between_centres) t += m.centres_min;
     if (clamping_ == Clamping::chuck_steady) t += m.steady_min;
     if (clamping_ == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
+    for (const auto& o : fixed_.all()) t += o.minutes;
     return t;
   }
 
-  // The end face, all roughing, all finishing, the shoulders, the bores: a tool that
-  // differs from the one before is brought in.
+  double fixed_edges() const {
+    double cost = 0;
+    for (const auto& o : fixed_.all()) cost += economy_.edge * o.edges_cost;
+    return cost;
+  }
+
+  // The end face, centre hole and drilling, all roughing, all finishing, the shoulders,
+  // the bores, the rest at fixed conditions: a tool that differs from the one before is
+  // brought in.
   int indexings(const SetupFound& s) const {
     std::string before;
     int count = 0;
@@ -273,11 +288,15 @@ class SetupSearch {
       }
     };
     for (const auto kind : {Feature::Kind::end_face, Feature::Kind::element,
-                            Feature::Kind::shoulder, Feature::Kind::bore})
+                            Feature::Kind::shoulder, Feature::Kind::bore}) {
       for (const bool rough : {true, false})
         for (std::size_t k = 0; k < features_.size(); ++k)
           if (features_[k].kind() == kind)
             bring(rough ? s.surfaces[k].rough : s.surfaces[k].finish);
+      if (kind == Feature::Kind::end_face)
+        for (const auto& o : fixed_.before) bring(o.plan.tool);
+    }
+    for (const auto& o : fixed_.after) bring(o.plan.tool);
     return count;
   }
 
@@ -286,6 +305,7 @@ class SetupSearch {
   Clamping clamping_;
   planning::Economy economy_;
   Effort effort_;
+  planning::FixedWork fixed_;
   std::vector<Feature> features_;
   std::map<std::tuple<std::size_t, const Tool*, const Tool*>, Bounds> bounds_;
   std::map<Key, SurfaceFound> solved_;

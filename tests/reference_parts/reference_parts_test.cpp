@@ -45,7 +45,8 @@ double operations_cost(const ProcessPlan& plan, const std::string& surface) {
   double sum = 0;
   for (const auto& s : plan.setups)
     for (const auto& o : s.operations)
-      if (o.on == std::vector{surface}) sum += o.cost;
+      if (o.on == std::vector{surface} && o.kind != planning::OperationKind::fixed)
+        sum += o.cost;
   return sum;
 }
 
@@ -123,7 +124,9 @@ INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                          testing::Values("gearbox-input-shaft", "piston-rod",
                                          "spindle-nose", "flanged-bush", "motor-shaft",
                                          "pump-shaft", "iron-hub", "titanium-pin",
-                                         "aluminium-tube", "bearing-seat", "roller-tube"),
+                                         "aluminium-tube", "bearing-seat", "roller-tube",
+                                         "coupling-shaft", "threaded-spindle",
+                                         "drilled-bush"),
                          [](const auto& at) {
                            std::string name = at.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -375,6 +375,36 @@ TEST(SetupDrawings, ThePartStandsAsTheSetupLeavesIt) {
   }
 }
 
+// d2 gets a groove's floor, a thread's root or an arc's chords in place of its cylinder.
+TEST(SetupDrawings, ShowWhatIsCutIntoABlank) {
+  const auto drawn = [](const part::Shaped& s) {
+    auto p = bush();
+    auto& d2 = p.drawing.outer[1];
+    d2.left_mm = s.blank.left_mm;
+    d2.right_mm = s.blank.right_mm;
+    d2.cut = s.cut;
+    return setup_drawings(p, planned()).at(0);
+  };
+  const auto has = [](const std::string& svg, const std::string& text) {
+    return svg.find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(has(drawn(part::groove(30, 26)), "\u00d826 k6"));
+  const auto thread = drawn(part::thread(30, 2, part::Where::outside));
+  EXPECT_TRUE(has(thread, "M30\u00d72"));
+  const auto arc = drawn(part::arc(66, {30, 30}, 200, false));
+  EXPECT_TRUE(has(arc, "\u00d830 R200"));
+  const auto count = [](const std::string& svg, const std::string& text) {
+    std::size_t n = 0;
+    for (auto at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1))
+      ++n;
+    return n;
+  };
+  const auto plain = setup_drawings(bush(), planned()).at(0);
+  EXPECT_EQ(count(thread, "class=\"thin\"") - count(plain, "class=\"thin\""), 2U);
+  EXPECT_EQ(count(arc, "class=\"cut\"") - count(plain, "class=\"cut\""), 22U);
+  for (const auto& svg : {thread, arc}) EXPECT_TRUE(well_formed(svg));
+}
+
 TEST(SetupDrawings, NoErrorsNoBar) {
   auto plan = planned();
   plan.deviations.clear();

@@ -77,7 +77,7 @@ TEST(BallBarDrawing, DrawsEachPathWhereItLies) {
   }
   for (const Dot& d : cw)
     flat = std::max(flat, std::abs(std::hypot(d.x - 72, d.y - 80) - 42));
-  EXPECT_NEAR(most - least, 1000 * 0.02 * std::cos(std::numbers::pi / 9), 0.02);
+  EXPECT_NEAR(most - least, 10 * (1 + std::cos(std::numbers::pi / 9)), 0.02);
   EXPECT_LT(flat, 2e-3);
   EXPECT_GT(ccw.front().x, 72);
   EXPECT_LT(ccw.front().y, 80);

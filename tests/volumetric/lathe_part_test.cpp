@@ -105,6 +105,8 @@ TEST(LathePart, LengthsAndParallelFaces) {
       tilted.e_mm[i * tilted.r_mm.size() + j] +=
           1e-5 * tilted.r_mm[j] * std::cos(tilted.theta_rad[i]);
   EXPECT_NEAR(parallelism_mm(tilted, left), 0.6 * kUm, 1e-9);
+  EXPECT_NEAR(normal_of(tilted).ax, -1e-5, 1e-15);
+  EXPECT_NEAR(normal_of(tilted).ay, 0, 1e-15);
   EXPECT_NEAR(flatness(tilted).minimum_zone_mm, 0, 1e-9);
 }
 
@@ -135,6 +137,31 @@ TEST(LathePart, ZonesNeverExceedLeastSquares) {
     for (const Form& form :
          {straightness(s), roundness(s), cylindricity(s), flatness(f), straightness(f)})
       EXPECT_LE(form.minimum_zone_mm, form.least_squares_mm);
+  }
+}
+
+TEST(LathePart, ZonesOfAnySurfaceAreNarrowerAndAddUpToNoMore) {
+  testing::RandomMachines random(9);
+  const auto rough = [&](const Generator& g) {
+    Surface s = cut(g, [](Axis&, Axis&, Axis&) {});
+    for (double& e : s.e_mm) e = random.number(1e-2);
+    return s;
+  };
+  for (int i = 0; i < 5; ++i) {
+    const Surface a = rough(kShaft), b = rough(kShaft), f = rough(kFace),
+                  g = rough(kFace);
+    const auto sum = [](Surface x, const Surface& y) {
+      for (std::size_t k = 0; k < x.e_mm.size(); ++k) x.e_mm[k] += y.e_mm[k];
+      return x;
+    };
+    for (const auto measure : {straightness, roundness, cylindricity, flatness}) {
+      const bool face = measure == flatness;
+      const Form one = measure(face ? f : a), two = measure(face ? g : b),
+                 both = measure(face ? sum(f, g) : sum(a, b));
+      EXPECT_LE(one.minimum_zone_mm, one.least_squares_mm * (1 + 1e-12));
+      EXPECT_LE(both.minimum_zone_mm,
+                (one.minimum_zone_mm + two.minimum_zone_mm) * (1 + 1e-9));
+    }
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "turnwright/catalogue/geometric_errors.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
 namespace turnwright::catalogue {
@@ -36,8 +38,8 @@ struct Lathe {
   double rapid_mm_min = 0;
   double index_min = 0;      ///< time to bring in another tool [min]
   double load_min = 0;       ///< part in and out, per setup [min]
-  double tailstock_min = 0;  ///< extra with tailstock: centring and quill [min]
-  double centres_min = 0;    ///< extra between centres: centring and driver [min]
+  double tailstock_min = 0;  ///< extra with tailstock: its quill [min]
+  double centres_min = 0;    ///< extra between centres: held end centred, driver [min]
   double steady_min = 0;     ///< extra with a steady rest: setting its rollers [min]
   double follow_min = 0;     ///< extra with a follow rest: setting its jaws [min]
   double setup_min = 0;      ///< preparing the machine, per setup and batch [min]
@@ -49,6 +51,7 @@ struct Lathe {
   double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
+  std::optional<GeometricErrors> errors = {};
   std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {
     return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();

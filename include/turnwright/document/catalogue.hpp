@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/document/reader.hpp"
 
-/// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json
-/// and schemas/lathe.json say which keys there are.
+/// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json,
+/// schemas/fixed-tool.json and schemas/lathe.json say which keys there are.
 namespace turnwright::document {
 
 /// All that a request may refer to by id; each list in the order of ids.
 struct Catalogue {
   std::vector<catalogue::Material> materials;
   std::vector<catalogue::Tool> tools;
+  std::vector<catalogue::FixedTool> fixed_tools;
   std::vector<catalogue::Lathe> machines;
   std::map<std::string, nlohmann::json> material_documents;  ///< as written, by id
 };
@@ -26,9 +28,10 @@ struct Catalogue {
 /// Read one document; what is wrong with it goes to the reader's problems.
 catalogue::Material read_material(Reader document);
 catalogue::Tool read_tool(Reader document);
+catalogue::FixedTool read_fixed_tool(Reader document);
 catalogue::Lathe read_lathe(Reader document);
 
-/// The *.json files in materials/, tools/ and machines/ of `folder`.
+/// The *.json files in materials/, tools/, tools/fixed/ and machines/ of `folder`.
 /// @throws InputError with all problems over all files; their pointers start with the
 /// file,
 ///   "materials/C45.json#/kienzle/mc".

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 /// The part document (schemas/part.json): request of `plan` and `predict`.
 namespace turnwright::document {
@@ -19,6 +19,7 @@ struct Assumption {
 struct LoadedPart {
   planning::PartPlan plan;
   std::vector<Assumption> assumed;
+  std::vector<planning::WhatIf> what_if = {};
 };
 
 /// `predict` needs every operation with its tool and all its conditions.
@@ -32,8 +33,8 @@ enum class Purpose { plan, predict };
 LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
                           const std::string& document, Purpose purpose = Purpose::plan);
 
-/// What the schema allows but this version cannot plan (bores, arcs, grooves, threads,
-/// milling, fixed operations): one problem with code "unsupported" for each.
+/// What the schema allows but this version cannot plan (milling): one problem with code
+/// "unsupported" for each.
 void refuse_unsupported(const Reader& root);
 
 }  // namespace turnwright::document

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/part/cut.hpp"
+
 /// What the drawing says, left to right along the axis, z = 0 at the left end of the
 /// finished part.  Plain values; document/ fills and checks them.
 namespace turnwright::part {
@@ -15,7 +17,8 @@ struct Limits {
   double lower_mm = 0, upper_mm = 0;
 };
 
-/// One outer element; a cylinder has left_mm == right_mm (diameters).
+/// One outer element; a cylinder has left_mm == right_mm (diameters).  With a cut these
+/// are the blank's.
 struct OuterElement {
   std::string id;
   ElementKind kind = ElementKind::cylinder;
@@ -24,6 +27,7 @@ struct OuterElement {
   std::optional<std::string> fit = {};  ///< ISO 286 tolerance class as drawn, "k6"
   std::optional<Limits> limits = {};    ///< from `fit`, `limits_mm` or general
   std::optional<double> Ra_um = {}, Rz_um = {};
+  std::optional<Cut> cut = {};
 };
 
 enum class End { left, right };
@@ -38,6 +42,8 @@ struct InnerElement {
   std::optional<std::string> fit = {};
   std::optional<Limits> limits = {};
   std::optional<double> Ra_um = {}, Rz_um = {};
+  std::optional<Cut> cut = {};
+  double drilled_mm = 0;  ///< hole that is drilled here before it is bored, of a bar
 };
 
 /// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
@@ -87,6 +93,8 @@ struct Stock {
   double outer_mm = 0, inner_mm = 0;  ///< inner 0 for a bar
   double length_mm = 0;
   double left_allowance_mm = 0;  ///< material left of z = 0
+  /// The first setup ends with parting off at the held end, which leaves this there.
+  std::optional<double> parted_mm = {};
 };
 
 struct Drawing {
@@ -104,6 +112,16 @@ double length_mm(const Drawing& drawing);
 double left_z_mm(const Drawing& drawing, std::size_t i);
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
+/// Diameter [mm] of the hole that boring finds at inner element i: the tube's or a
+/// drill's.
+double hole_mm(const Drawing& drawing, std::size_t i);
+/// Diameters that the finished element has at its ends, where it has a cut its core.
+template <class Element>
+Ends core(const Element& e) {
+  return e.cut ? e.cut->core : Ends{e.left_mm, e.right_mm};
+}
+/// Whether a fixed operation cuts into the element of this id.
+bool has_cut(const Drawing& drawing, const std::string& id);
 /// Where an element lies and the diameters at its ends.
 struct Extent {
   double z0_mm = 0, z1_mm = 0;

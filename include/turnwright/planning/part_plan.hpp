@@ -1,9 +1,11 @@
 #pragma once
+#include <compare>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
@@ -43,9 +45,24 @@ struct ShopErrors {
   double wear_land_mm = 0.3;        ///< VB at the end of the life (ISO 3685's criterion)
   double rechucking_um = 0;     ///< eccentricity in a later setup, each component's sigma
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
+  bool first_part_gauged =
+      false;  ///< offsets take out the machine's mean error of a size
 };
 
-enum class OperationKind { face, rough, finish, bore_rough, bore_finish };
+/// What the machine's geometric errors take of a tolerance's width.
+struct MachineTake {
+  double fixed_um = 0;  ///< as calibrated
+  double u_um = 0;      ///< standard uncertainty of it
+};
+
+/// Where the surface of a tolerance is cut.
+struct MachinePlace {
+  std::size_t tolerance = 0, setup = 0;
+  bool centres = false;
+  auto operator<=>(const MachinePlace&) const = default;
+};
+
+enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed };
 const char* name(OperationKind kind);
 
 enum class Direction { to_chuck, from_chuck };
@@ -74,13 +91,16 @@ struct PartPlan {
   catalogue::Material material;
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
+  std::vector<catalogue::FixedTool> fixed_tools = {};
   std::vector<SetupRequest> setups;
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
   double batch = 1;
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
-  double machine_share_um = 0;  ///< subtracted from every tolerance
+  double machine_share_um =
+      0;  ///< of every tolerance, besides what `machine.errors` take
+  std::map<MachinePlace, MachineTake> machine_takes = {};  ///< of machine.errors
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally

@@ -88,6 +88,7 @@ struct ToleranceResult {
       predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
   std::vector<double> allowed_mm;  ///< same layout
   double margin_mm = 0;
+  double width_mm = 0;  ///< of the tolerance, which the shares are of
   Verdict verdict = Verdict::met;
   bool seed_verdict = true;
   std::vector<Share> shares;
@@ -109,11 +110,13 @@ struct Deviation {
       table_mm;  ///< (z, or rho of a face; error of the radius, or along the axis)
 };
 
+/// What opening a number of the request saves, to first order, wherever it binds.
 struct Price {
-  std::string limit;  ///< "d1: diameter", "rough d2: power", ...
+  std::string limit;  ///< "d1:diameter", "roughness Ra of d2", "power of lathe-medium"
   double now = 0;
   std::string unit;
-  double saves_per_part_for_10_percent = 0;
+  double saves_per_part_for_10_percent = 0, saves_per_batch_for_10_percent = 0;
+  std::vector<std::string> binds_in;  ///< operations
   std::string sentence;
 };
 
@@ -139,6 +142,24 @@ struct ParetoPoint {
   std::optional<double> minute_worth;  ///< above the machine's rate; none: time alone
 };
 
+/// The request with something changed, and what that is called.
+struct WhatIf {
+  std::string name;
+  PartPlan plan;
+};
+
+/// A changed request, planned anew, against the one that was asked.
+struct WhatIfAnswer {
+  std::string name;
+  bool feasible = false;
+  double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
+  std::optional<double> saves_per_part, saves_per_batch,
+      saves_min_per_part;  ///< if both have a plan
+  std::optional<double>
+      first_order_saves_per_part;  ///< first_order.hpp, of the objective
+  std::string sentence;
+};
+
 /// What a plan would take that keeps its tolerances only nominally.
 struct Robustness {
   double conformance = 0;
@@ -157,14 +178,15 @@ struct ProcessPlan {
   std::vector<Deviation> deviations;
   std::vector<Compensation> compensation;
   std::vector<Price> prices;             ///< largest saving first
+  std::vector<WhatIfAnswer> what_if;     ///< as asked
   std::optional<Robustness> robustness;  ///< of a robust plan
   std::vector<ParetoPoint> pareto;       ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
 };
 
-/// Certified cheapest process plan of a part.
-ProcessPlan plan(const PartPlan& request);
+/// Certified cheapest process plan of a part, and of changed requests what they save.
+ProcessPlan plan(const PartPlan& request, const std::vector<WhatIf>& what_if = {});
 
 /// Deviations, margins, time and cost of a part whose operations are given whole, in the
 /// first clamping of each setup.  Nothing is optimised; limits that are not kept are

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,22 @@ Assignment assign(const PartPlan& plan);
 
 /// "d1|d2": the face between outer elements k-1 and k.
 std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
+/// The setup that makes an element or face; none of one that stays as the stock has it.
+std::optional<std::size_t> setup_of(const PartPlan& plan, const Assignment& work,
+                                    const std::string& surface);
+/// z [mm] of "left", "right" or a shoulder.
+double face_z_mm(const part::Drawing& drawing, const std::string& face);
 /// "left" or "right": the end that a setup leaves free.
 const char* free_face(const PartPlan& plan, std::size_t setup);
+
+/// Material [mm] before the finished face of an end once it is free: what parting off
+/// leaves at the first setup's held end, else the stock's allowance.
+double face_stock_mm(const PartPlan& plan, part::End end);
+
+/// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
+/// the plan's drills that leaves 0.5 mm on the radius of the narrowest and reaches their
+/// end; 0: nothing is, or none does.
+double drilled_mm(const PartPlan& plan, part::End end);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
 double root_z_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
@@ -89,7 +104,8 @@ class SetupBody {
   /// The body with material of this thickness [mm] on all of one element: what a pass
   /// leaves.  A hole is never narrower than the stock's.
   part::Shaft shaft(const Element& element, double left_mm) const;
-  /// The body as `finished` says.
+  /// The body as `finished` says; what has a cut counts as its core, what will be drilled
+  /// as drilled.
   part::Shaft shaft() const;
 
  private:

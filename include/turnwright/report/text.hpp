@@ -26,4 +26,13 @@ std::string chuck_text(const nlohmann::ordered_json& chuck_result);
 /// a shift does to a batch.
 std::string thermal_text(const nlohmann::ordered_json& thermal_result);
 
+/// The result document of `multipass` (schemas/multipass.result.json), of a single pass
+/// too: cost with its bound, conditions, the limits that bind with their prices, every
+/// number of passes; or the limits in conflict and how far each would have to open.
+std::string multipass_text(const nlohmann::ordered_json& multipass_result);
+
+/// The result document of `calibrate-material` (schemas/calibrate-material.result.json):
+/// constants with their intervals, what was left out, warnings.
+std::string material_text(const nlohmann::ordered_json& calibration_result);
+
 }  // namespace turnwright::report

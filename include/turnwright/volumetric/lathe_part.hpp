@@ -50,6 +50,8 @@ struct DatumAxis {
 };
 
 DatumAxis axis_of(const Surface& cylinder);
+/// Normal of a face's plane of least squares, through the spindle's axis.
+DatumAxis normal_of(const Surface& face);
 double diameter_error_mm(const Surface& cylinder);  ///< of least squares
 /// Diameter at the end of greater z less that at the other, of least squares.
 double taper_mm(const Surface& cylinder);

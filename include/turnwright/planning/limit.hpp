@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "turnwright/planning/part_plan.hpp"
+
+namespace turnwright::planning {
+
+/// A number of a request that bounds what a cut may do, as one would change it.
+struct Limit {
+  std::string name;    ///< "t1", "roughness Ra of d1", "power of lathe-medium"
+  std::string called;  ///< in a sentence: "opening t1, the cylindricity of d1,"
+  std::string unit;
+  bool at_most = true;  ///< more is more room
+  double now = 0;
+  std::function<void(PartPlan&, double factor)> scale;
+};
+
+/// Every limit of a plan, each name once: tolerances by their ids; roughness per surface;
+/// power, torque, feed force and spindle speeds of the machine, the chuck's speed and the
+/// grip of each setup; depth, feed, speed, force and life of each tool.
+///
+/// A curve of power or torque is scaled at all its points; the largest spindle speed with
+/// the curve's last point along its own line.  A size is opened about its middle.
+std::vector<Limit> limits(const PartPlan& plan);
+
+}  // namespace turnwright::planning

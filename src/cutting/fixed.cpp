@@ -1,0 +1,57 @@
+#include "turnwright/cutting/fixed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::cutting {
+
+catalogue::Kienzle kienzle_at(const catalogue::Material& material, double gamma_deg) {
+  const double K_gamma =
+      std::clamp(1 - (gamma_deg - material.gamma0_deg) / 100, 0.7, 1.3);
+  return {material.kc.k11_MPa * K_gamma, material.kc.m};
+}
+
+Load drill(const catalogue::Kienzle& k, double D, double f, double point_deg) {
+  const double sine = std::sin(units::rad_from_deg(point_deg / 2));
+  const double kc = k.k11_MPa * std::pow(f / 2 * sine, -k.m);  // Eq. (1)
+  const double Fc = kc * f * D / 2;                            // Eq. (2)
+  return {Fc, 0.5 * kc * f * D / 2 * sine, units::torque_Nm(Fc, D / 2)};
+}
+
+Load plunge(const catalogue::Kienzle& k, double b, double f, double D) {
+  const double Fc = k.k11_MPa * b * std::pow(f, 1 - k.m);  // Eq. (3)
+  return {Fc, 0.5 * Fc, units::torque_Nm(Fc, D)};
+}
+
+std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& k, double h, int n,
+                                   double D) {
+  const double half = units::rad_from_deg(30);
+  const double A = std::tan(half) * h * h / n;  // Eq. (4)
+  std::vector<Infeed> all;
+  double before = 0;
+  for (int i = 1; i <= n; ++i) {
+    const double a = h * std::sqrt(static_cast<double>(i) / n);
+    const double L = 2 * a / std::cos(half);
+    const double Fc = k.k11_MPa * std::pow(L, k.m) * std::pow(A, 1 - k.m);  // Eq. (5)
+    all.push_back({a - before, {Fc, 0.5 * Fc, units::torque_Nm(Fc, D)}});
+    before = a;
+  }
+  return all;
+}
+
+double available_kW(const std::vector<SpeedRange>& ranges, double n, bool torque) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const auto& r : ranges) {
+    if (!(n >= r.n_min_rpm * (1 - 1e-12) && n <= r.n_max_rpm * (1 + 1e-12))) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& line : r.lines)
+      if (line.torque == torque) least = std::min(least, line.c * std::pow(n, line.s));
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+}  // namespace turnwright::cutting

@@ -1,0 +1,70 @@
+#include "turnwright/part/cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace turnwright::part {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upright
+
+}  // namespace
+
+Shaped groove(double blank_mm, double floor_mm) {
+  const Ends floor{floor_mm, floor_mm};
+  return {{blank_mm, blank_mm},
+          {.kind = CutKind::groove,
+           .drawn = floor,
+           .core = floor,
+           .depth_mm = std::abs(blank_mm - floor_mm) / 2}};
+}
+
+Shaped thread(double d_mm, double pitch_mm, Where where) {
+  const double H = std::numbers::sqrt3 / 2 * pitch_mm;
+  const bool outside = where == Where::outside;
+  const double depth = (outside ? 17.0 / 24 : 5.0 / 8) * H;  // Eq. (1), (2)
+  const double minor = d_mm - 2 * depth, blank = outside ? d_mm : minor;
+  const double core = outside ? minor : d_mm;
+  return {{blank, blank},
+          {.kind = CutKind::thread,
+           .drawn = {d_mm, d_mm},
+           .core = {core, core},
+           .depth_mm = depth,
+           .pitch_mm = pitch_mm}};
+}
+
+Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {
+  const double R = radius_mm, l = length_mm;
+  const double rl = ends.left_mm / 2, rr = ends.right_mm / 2;
+  const double c = std::hypot(l, rr - rl);
+  if (!(R >= c / 2 * (1 - kRounding)))
+    throw std::domain_error("a radius of at least half the chord between the ends");
+  const double d = std::sqrt(std::max(0.0, R * R - c * c / 4));
+  const double inwards = convex ? -1 : 1;  // from the chord's middle to the centre
+  const double zc = l / 2 - inwards * d * (rr - rl) / c;
+  const double rc = (rl + rr) / 2 + inwards * d * l / c;
+  const double slack = kRounding * R;
+  if (convex ? std::min(rl, rr) < rc - slack : std::max(rl, rr) > rc + slack)
+    throw std::domain_error("an arc that stays between its ends along the axis");
+  const bool turns = zc > 0 && zc < l;  // it has a point parallel to the axis
+  const double most = convex && turns ? rc + R : std::max(rl, rr);
+  const double least = !convex && turns ? rc - R : std::min(rl, rr);
+  if (!(least > 0)) throw std::domain_error("an arc that does not meet the axis");
+  Shaped s{{2 * most, 2 * most},
+           {.kind = CutKind::arc,
+            .drawn = ends,
+            .core = ends,
+            .depth_mm = most - std::min(rl, rr),  // Eq. (3)
+            .radius_mm = R,
+            .convex = convex,
+            .path_mm = 2 * R * std::asin(std::min(1.0, c / (2 * R)))}};  // Eq. (5)
+  if (convex) return s;
+  s.blank = ends;
+  s.cut.core = {2 * least, 2 * least};
+  s.cut.depth_mm = (R - d) * c / l;  // Eq. (4)
+  return s;
+}
+
+}  // namespace turnwright::part

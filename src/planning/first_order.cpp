@@ -1,0 +1,124 @@
+#include "first_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "setup_planner.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// The tool of the same name, or nothing.
+const catalogue::Tool* same(const PartPlan& p, const catalogue::Tool* tool, bool& found) {
+  if (!tool) return nullptr;
+  const auto it = std::find_if(p.tools.begin(), p.tools.end(),
+                               [&](const auto& t) { return t.id == tool->id; });
+  found = found && it != p.tools.end();
+  return it == p.tools.end() ? nullptr : &*it;
+}
+
+// A minute costs as much more as it does in the changed request.
+Economy economy(const PartPlan& plan, const PartPlan& changed, Economy e) {
+  if (plan.objective != Objective::time)
+    e.minute += changed.machine_per_min - plan.machine_per_min;
+  return e;
+}
+
+// Limits of the tolerances as the changed request leaves them; false if nothing is left.
+bool take_limits(const std::vector<Demand>& before, const std::vector<Demand>& after,
+                 std::vector<Functional>& functionals) {
+  for (auto& g : functionals) {
+    const auto in = [&](const std::vector<Demand>& all) {
+      return std::find_if(all.begin(), all.end(),
+                          [&](const Demand& d) { return d.tolerance == g.tolerance; });
+    };
+    const auto old = in(before), now = in(after);
+    if (now == after.end() || now->shape != old->shape || !(now->upper > 0)) return false;
+    g.limit *= now->upper / old->upper;
+    for (auto& [station, weight] : g.terms) weight *= now->factor / old->factor;
+  }
+  return true;
+}
+
+// ln f + sum m g at the answer's conditions, of its own chain or a changed one.
+std::optional<double> lagrangian(const FeatureAnswer& a, const Chain& chain) {
+  double sum = 0;
+  std::size_t row = 0;
+  const double f = evaluate(
+      chain, a.choice, [&](std::size_t i, Check check, bool speed, double v, double l) {
+        if (row < a.multipliers.size() && a.multipliers[row] > 0)
+          sum += a.multipliers[row] * violation({{i, check, speed}, v, l});
+        ++row;
+      });
+  if (row != a.multipliers.size() || !(f > 0)) return {};
+  return std::log(f) + sum;
+}
+
+// Of the objective of one surface.
+std::optional<double> change(const PartPlan& plan, const SolvedFeature& f,
+                             const PartPlan& changed, const Feature& feature) {
+  const auto& a = f.answer;
+  bool found = true;
+  auto recipe = a.model->recipe();
+  recipe.rough = same(changed, recipe.rough, found);
+  recipe.finish = same(changed, recipe.finish, found);
+  auto making = f.task.making;
+  making.last = same(changed, making.last, found);
+  if (!found || feature.surface() != f.task.feature.surface()) return {};
+  std::vector<double> places;
+  for (const auto& s : a.model->chain().stations) places.push_back(s.at_mm);
+  auto chain =
+      feature.chain(recipe, economy(plan, changed, f.task.economy), places, a.choice.a);
+  if (!chain) return {};
+  chain->functionals = a.model->chain().functionals;
+  const auto offset = f.compensated ? Offset::free : Offset::none;
+  if (!take_limits(f.task.demands, demands(changed, feature.surface(), offset, making),
+                   chain->functionals))
+    return {};
+  const auto before = lagrangian(a, a.model->chain()), after = lagrangian(a, *chain);
+  if (!before || !after) return {};
+  return a.objective * (*after - *before);
+}
+
+// Of the objective of a setup, all but its surfaces.
+double besides(const PartPlan& p, const SolvedSetup& s, const FixedWork& fixed,
+               const Economy& e) {
+  return e.minute *
+             (minutes_besides_cutting(p, s.clamping, s.indexings) + fixed.minutes()) +
+         e.edge * fixed.edges_cost();
+}
+
+}  // namespace
+
+std::optional<double> first_order(const PartPlan& plan,
+                                  const std::vector<SolvedSetup>& solved,
+                                  const PartPlan& changed) {
+  if (changed.setups.size() != solved.size() || changed.objective != plan.objective)
+    return {};
+  const auto work = assign(changed);
+  auto done = nothing_finished(changed.drawing);
+  double sum = 0;
+  for (std::size_t s = 0; s < solved.size(); ++s) {
+    const auto& own = solved[s];
+    SharedMemory shared;
+    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {},
+                               shared);
+    const auto features = planner.features();
+    if (features.size() != own.features.size()) return {};
+    for (std::size_t j = 0; j < features.size(); ++j) {
+      const auto d = change(plan, own.features[j], changed, *features[j]);
+      if (!d) return {};
+      sum += *d;
+    }
+    finish(done, work.setups[s]);
+    if (own.features.empty()) continue;
+    const auto fixed = fixed_work(changed, s, own.clamping, work.setups[s]);
+    if (!fixed.conflicts.empty()) return {};
+    const auto e = own.features[0].task.economy;
+    sum += besides(changed, own, fixed, economy(plan, changed, e)) -
+           besides(plan, own, own.fixed, e);
+  }
+  return sum;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,50 @@
+#pragma once
+#include <vector>
+
+#include "turnwright/planning/process_plan.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+/// The operations of a setup at the catalogue's conditions: centre holes, drilling,
+/// arcs, grooves, threads, parting off.  Nothing of them is chosen.
+namespace turnwright::planning {
+
+/// One of them with what it takes beside its entry in the result.
+struct FixedOperation {
+  OperationPlan plan;
+  double minutes = 0;     ///< cut, approach, return and worn edges changed
+  double edges_cost = 0;  ///< of worn edges
+};
+
+struct FixedWork {
+  std::vector<FixedOperation> before, after;  ///< turning and boring
+  std::vector<Conflict> conflicts;            ///< no tool, no room, no operation given
+  std::vector<FixedOperation> all() const;
+  double minutes() const;
+  double edges_cost() const;
+  int indexings() const;  ///< tools brought in
+};
+
+/// What a setup does at fixed conditions, in order.
+///
+///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P (1) centre,
+///     drill:  t = (depth + D/2/tan(sigma/2) + 2)/(f n),  f = k D               (2)
+///     groove, part:  plunges = ceil(width/blade), each pi (r0^2 - r1^2)/(1000 vc f),
+///                    with the spindle's limit as spindle.hpp (3) (3)
+///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each (l + 3 P)/(P n) (4) arc:
+///     passes = ceil(depth/ap) along its path at the blank's largest diameter     (5)
+///     minutes = sum t + 2 passes (way + 2)/rapid + change t/T,  edges = edge t/T (6)
+///
+/// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
+/// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
+/// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest.
+/// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
+/// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
+/// the tool.
+FixedWork fixed_work(const PartPlan& plan, std::size_t setup, Clamping clamping,
+                     const SetupWork& work);
+
+/// The conflicts of a setup at fixed conditions, limits that are not kept among them.
+std::vector<Conflict> fixed_conflicts(const PartPlan& plan, std::size_t setup,
+                                      Clamping clamping, const SetupWork& work);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "describe.hpp"
+#include "turnwright/planning/limit.hpp"
+
+/// Which limits of a request stand behind the rows of a solved surface.
+namespace turnwright::planning {
+
+/// The limits that a row may stand for, by name.
+std::vector<std::string> limit_names(const PartPlan& plan, const SolvedFeature& feature,
+                                     const Row& row);
+
+/// Those that hold the spindle while an operation that is clamped by it is cut.
+std::vector<std::string> spindle_limit_names(const PartPlan& plan,
+                                             const SolvedFeature& feature,
+                                             std::size_t operation);
+
+}  // namespace turnwright::planning

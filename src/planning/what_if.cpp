@@ -1,0 +1,60 @@
+#include "what_if.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "outcome.hpp"
+#include "planned.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+constexpr double kCertificates = 2e-4;  // what two gaps may hide of a saving
+
+std::string saves(double amount, const std::string& unit) {
+  return fmt::format("{} {}{}", amount < 0 ? "costs" : "saves",
+                     readable(std::abs(amount)), unit);
+}
+
+std::string sentence(const PartPlan& p, const ProcessPlan& own, const WhatIfAnswer& a,
+                     const ProcessPlan& changed) {
+  if (!a.feasible) {
+    const auto why =
+        changed.conflicts.empty() ? "" : ": " + changed.conflicts[0].sentence;
+    return fmt::format("{}: no feasible plan{}", a.name, why);
+  }
+  if (!a.saves_per_part)
+    return fmt::format("{}: makes the part feasible, at {:.4f} in {:.3f} min", a.name,
+                       a.cost_per_part, a.time_per_part_min);
+  const double seconds = *a.saves_min_per_part * kSecondsPerMinute;
+  const bool same =
+      std::abs(*a.saves_per_part) <= kCertificates * own.cost_per_part &&
+      std::abs(*a.saves_min_per_part) <= kCertificates * own.time_per_part_min;
+  if (same) return fmt::format("{}: changes nothing", a.name);
+  return fmt::format("{}: {} per part, {} per batch of {}; {} per part", a.name,
+                     saves(*a.saves_per_part, ""), readable(std::abs(*a.saves_per_batch)),
+                     readable(p.batch), saves(seconds, " s"));
+}
+
+}  // namespace
+
+void answer(const PartPlan& p, const std::vector<WhatIf>& what_if, ProcessPlan& result) {
+  const bool both = result.status == PlanStatus::ok;
+  for (std::size_t k = 0; k < what_if.size(); ++k) {
+    auto& a = result.what_if[k];
+    const auto changed = conforming(what_if[k].plan);
+    a.feasible = changed.status == PlanStatus::ok;
+    a.cost_per_part = changed.cost_per_part;
+    a.time_per_part_min = changed.time_per_part_min;
+    if (a.feasible && both) {
+      a.saves_per_part = result.cost_per_part - changed.cost_per_part;
+      a.saves_per_batch = *a.saves_per_part * p.batch;
+      a.saves_min_per_part = result.time_per_part_min - changed.time_per_part_min;
+    }
+    a.sentence = sentence(p, result, a, changed);
+  }
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,110 @@
+#include "turnwright/part/cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace turnwright::part {
+namespace {
+
+// ISO 724 and the handbook's tables of metric threads, three decimals printed.
+TEST(Thread, HasTheTabulatedDiameters) {
+  struct Printed {
+    double d, P, d3, D1;
+  };
+  for (const auto& t :
+       {Printed{10, 1.5, 8.160, 8.376}, Printed{20, 2.5, 16.933, 17.294},
+        Printed{30, 3.5, 25.706, 26.211}, Printed{30, 1.5, 28.160, 28.376}}) {
+    const auto outside = thread(t.d, t.P, Where::outside);
+    EXPECT_NEAR(outside.cut.core.left_mm, t.d3, 5e-4) << t.d;
+    EXPECT_EQ(outside.blank.left_mm, t.d);
+    EXPECT_NEAR(outside.cut.depth_mm, 0.61343 * t.P, 1e-5 * t.P);
+    const auto inside = thread(t.d, t.P, Where::inside);
+    EXPECT_NEAR(inside.blank.left_mm, t.D1, 5e-4) << t.d;
+    EXPECT_EQ(inside.cut.core.left_mm, t.d);
+    EXPECT_NEAR(inside.cut.depth_mm, 0.54127 * t.P, 1e-5 * t.P);
+  }
+}
+
+TEST(Groove, IsAsDeepAsItsFloorIsAway) {
+  EXPECT_EQ(groove(30, 26).cut.depth_mm, 2);
+  EXPECT_EQ(groove(30, 36).cut.depth_mm, 3);  // in a bore
+  EXPECT_EQ(groove(30, 26).blank.left_mm, 30);
+  EXPECT_EQ(groove(30, 26).cut.core.right_mm, 26);
+}
+
+// The circle through both ends by its own equation, at many places.
+struct Measured {
+  double most = -INFINITY, least = INFINITY, path = 0, below_blank = 0;
+};
+Measured measured(double l, const Ends& ends, double R, bool convex, const Ends& blank) {
+  const double r0 = ends.left_mm / 2, r1 = ends.right_mm / 2;
+  // Centre by intersecting the circles of radius R about both ends.
+  const double c2 = l * l + (r1 - r0) * (r1 - r0), k = std::sqrt(R * R / c2 - 0.25);
+  const double side = convex ? 1 : -1;
+  const double zc = l / 2 + side * k * (r1 - r0), rc = (r0 + r1) / 2 - side * k * l;
+  Measured m;
+  double z_before = 0, r_before = r0;
+  constexpr int kSteps = 200000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double z = l * i / kSteps;
+    const double r = rc + side * std::sqrt(std::max(0.0, R * R - (z - zc) * (z - zc)));
+    m.most = std::max(m.most, r);
+    m.least = std::min(m.least, r);
+    m.path += std::hypot(z - z_before, r - r_before);
+    const double of_blank =
+        (blank.left_mm + (blank.right_mm - blank.left_mm) * z / l) / 2;
+    m.below_blank = std::max(m.below_blank, of_blank - r);
+    z_before = z;
+    r_before = r;
+  }
+  return m;
+}
+
+TEST(Arc, IsWhatItsCircleMeasures) {
+  struct Case {
+    double l;
+    Ends ends;
+    double R;
+    bool convex;
+  };
+  for (const auto& c : {Case{20, {30, 40}, 40, true}, Case{20, {40, 30}, 40, false},
+                        Case{30, {40, 40}, 25, true}, Case{30, {40, 40}, 25, false},
+                        Case{8, {20, 30}, 8.5, false}, Case{50, {30, 31}, 200, true}}) {
+    const auto s = arc(c.l, c.ends, c.R, c.convex);
+    const auto m = measured(c.l, c.ends, c.R, c.convex, s.blank);
+    EXPECT_NEAR(s.cut.path_mm, m.path, 1e-6 * m.path);
+    EXPECT_NEAR(s.cut.depth_mm, m.below_blank, 1e-6);
+    if (c.convex) {
+      EXPECT_NEAR(s.blank.left_mm, 2 * m.most, 1e-6);
+      EXPECT_EQ(s.blank.left_mm, s.blank.right_mm);
+      EXPECT_EQ(s.cut.core.left_mm, c.ends.left_mm);
+    } else {
+      EXPECT_EQ(s.blank.left_mm, c.ends.left_mm);
+      EXPECT_NEAR(s.cut.core.left_mm, 2 * m.least, 1e-6);
+      EXPECT_EQ(s.cut.core.left_mm, s.cut.core.right_mm);
+    }
+  }
+}
+
+// A corner rounded by a quarter circle: nothing but the square that is left of it.
+TEST(Arc, QuarterCircleIsTakenWhole) {
+  const auto s = arc(5, {20, 30}, 5, true);
+  EXPECT_NEAR(s.cut.path_mm, std::numbers::pi / 2 * 5, 1e-9);
+  EXPECT_NEAR(s.cut.depth_mm, 5, 1e-9);
+  EXPECT_NEAR(s.blank.left_mm, 30, 1e-9);
+  EXPECT_NO_THROW(arc(5, {20, 30}, 5, false));
+}
+
+TEST(Arc, ThatCannotBeIsRefused) {
+  EXPECT_THROW(arc(20, {30, 30}, 9.9, true), std::domain_error);
+  EXPECT_THROW(arc(5, {20, 40}, 5.8, true), std::domain_error);  // turns back
+  EXPECT_THROW(arc(5, {20, 40}, 5.8, false), std::domain_error);
+  EXPECT_THROW(arc(20, {4, 4}, 11, false), std::domain_error);  // through the axis
+  EXPECT_THROW(arc(20, {4, 4}, NAN, false), std::domain_error);
+}
+
+}  // namespace
+}  // namespace turnwright::part
