@@ -33,13 +33,13 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
   DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
-tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp propagator.cpp
+tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches.cpp propagator.cpp
                           series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
-                          chatter_frequency.cpp limits.cpp multipliers.cpp
+                          chatter_frequency.cpp limits.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp accuracy_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
@@ -59,12 +59,13 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp chain.cpp feature.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp setup_planner.cpp
           describe.cpp
-          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp conflicts.cpp outcome.cpp
+          tolerance_results.cpp limits.cpp first_order.cpp prices.cpp openable.cpp feasibility.cpp
+          conflict_sets.cpp openings.cpp conflicts.cpp obstacle.cpp remedies.cpp outcome.cpp
           planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting volumetric tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS allowance_test.cpp machine_share_test.cpp recipe_model_test.cpp plan_test.cpp
-                prices_test.cpp fixed_test.cpp
+                prices_test.cpp conflicts_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)

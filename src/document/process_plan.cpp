@@ -168,16 +168,43 @@ ordered_json json_of(const WhatIfAnswer& a) {
 }
 
 ordered_json json_of(const Conflict& c) {
-  return {{"limit", c.limit},     {"where", c.where}, {"value", c.value},
-          {"allowed", c.allowed}, {"unit", c.unit},   {"sentence", c.sentence}};
+  ordered_json out{{"limit", c.limit},     {"where", c.where}, {"value", c.value},
+                   {"allowed", c.allowed}, {"unit", c.unit},   {"sentence", c.sentence}};
+  if (c.set > 0) out["set"] = c.set;
+  return out;
 }
 
 ordered_json json_of(const Relaxation& r) {
-  return {{"limit", r.limit},
-          {"now", r.now},
-          {"needed", r.needed},
-          {"unit", r.unit},
-          {"sentence", r.sentence}};
+  ordered_json out{{"limit", r.limit},
+                   {"now", r.now},
+                   {"needed", r.needed},
+                   {"unit", r.unit},
+                   {"sentence", r.sentence}};
+  if (r.set > 0) out["set"] = r.set;
+  return out;
+}
+
+ordered_json json_of(const Remedy& r) {
+  ordered_json out;
+  switch (r.change) {
+    case Remedy::Change::clamping:
+      out = {{"change", "clamping"}, {"setup", r.setup}, {"clamping", name(r.clamping)}};
+      if (r.clamping == Clamping::chuck_steady) out["steady_mm"] = r.steady_mm;
+      break;
+    case Remedy::Change::grip:
+      out = {{"change", "grip"}, {"setup", r.setup}, {"grip_mm", r.grip_mm}};
+      break;
+    case Remedy::Change::tool:
+      out = {{"change", "tool"}, {"tool", r.name}};
+      break;
+    case Remedy::Change::operation:
+      out = {{"change", "operation"}, {"operation", r.name}, {"leave", r.key}};
+      break;
+  }
+  out["sentence"] = r.sentence;
+  out["cost_per_part"] = r.cost_per_part;
+  out["time_per_part_min"] = r.time_per_part_min;
+  return out;
 }
 
 ordered_json json_of(const Assumption& a) {
@@ -216,6 +243,8 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
     out["what_if"] = list(plan.what_if, [](const WhatIfAnswer& a) { return json_of(a); });
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
+  if (!plan.remedies.empty())
+    out["remedies"] = list(plan.remedies, [](const Remedy& r) { return json_of(r); });
   out["assumed"] = list(assumed, [](const Assumption& a) { return json_of(a); });
   require_finite(out, "process plan");
   return out;

@@ -80,6 +80,10 @@ void read_tools(Draft& draft) {
                resolve(item, draft.catalogue.tools, read_tool, "tool",
                        ids(draft.catalogue.fixed_tools)));
   add_fixed_tools_of_the_catalogue(draft);
+  for (const auto& spare : draft.catalogue.tools)
+    if (std::none_of(plan.tools.begin(), plan.tools.end(),
+                     [&](const auto& tool) { return tool.id == spare.id; }))
+      plan.spare_tools.push_back(spare);
 }
 
 }  // namespace

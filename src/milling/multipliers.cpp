@@ -1,17 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "tracking.hpp"
-#include "turnwright/base/units.hpp"
+#include "collocation.hpp"
+#include "series.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/milling/limits.hpp"
 #include "unit_circle.hpp"
 
 namespace turnwright::milling {
 namespace {
 
-using units::kPi;
+constexpr double kUnsure = 1e-6;  // of a spectral radius about 1
 
 /// The largest modulus of a multiplier of the free vibration, which is that of a depth 0.
 double free_radius(const System& system, double tau) {
@@ -25,62 +25,25 @@ double free_radius(const System& system, double tau) {
   return std::exp(-slowest * tau);
 }
 
-/// The least modulus among zeros that Newton's method finds between two circles, from
-/// points halfway; none if it finds none there.
-std::optional<double> modulus_between(const Characteristic& f, double w, double inner,
-                                      double outer) {
-  constexpr int kStarts = 64;
-  std::optional<double> least;
-  const double middle = std::sqrt(inner * outer);
-  for (int i = 0; i <= kStarts; ++i) {
-    const double r = std::abs(zero_near(f, w, std::polar(middle, kPi * i / kStarts)));
-    if (r > inner * (1 - 1e-9) && r < std::min(outer, least.value_or(outer)) * (1 + 1e-9))
-      least = r;
-  }
-  return least;
-}
-
-/// The least modulus of a zero, of which there is none inside `none` and one inside
-/// `some`: circles are counted until they are near to each other, and so is what lies
-/// inside a zero found between them.
-double least_modulus(const Characteristic& f, double w, double none, double some) {
-  constexpr double kClose = 1e-9;
-  double apart = 1.1;
-  while (some > none * (1 + 2 * kClose)) {
-    while (some > apart * none) {
-      const double middle = std::sqrt(none * some);
-      (multipliers_outside(f, w, middle) > 0 ? some : none) = middle;
-    }
-    if (const auto r = modulus_between(f, w, none, some)) {
-      const double inside = *r * (1 - kClose);
-      if (inside <= none || multipliers_outside(f, w, inside) == 0) return *r;
-      some = inside;
-    }
-    apart = std::sqrt(apart);
-  }
-  return std::sqrt(none * some);
-}
-
 }  // namespace
 
 Multipliers multipliers(const System& system, double n_rpm, double ap_mm) {
   const Characteristic f(system, n_rpm, kFine);
-  const double free = free_radius(system, f.tau_s());
-  if (ap_mm == 0) return {.unstable = 0, .spectral_radius = free};
-  const int unstable = multipliers_outside(f, ap_mm);
-
-  double none = 1, some = 1;
-  if (unstable > 0) do {
-      some = none;
-      none /= 2;
-    } while (multipliers_outside(f, ap_mm, none) > 0);
-  else
-    do {
-      none = some;
-      some *= 1.5;
-    } while (multipliers_outside(f, ap_mm, some) == 0);
-  return {.unstable = unstable,
-          .spectral_radius = 1 / least_modulus(f, ap_mm, none, some)};
+  if (ap_mm == 0)
+    return {.unstable = 0, .spectral_radius = free_radius(system, f.tau_s())};
+  const Spectrum collocated = spectrum(system, n_rpm, ap_mm);
+  Multipliers out{.unstable = 0, .spectral_radius = collocated.radius};
+  try {
+    const auto whole = series_up_to(system, f.arcs(), n_rpm, ap_mm);
+    const bool deep = whole && whole->depth_mm == ap_mm;
+    out.unstable =
+        deep ? multipliers_outside(whole->series, ap_mm) : multipliers_outside(f, ap_mm);
+  } catch (const ModelRangeError&) {
+    if (!(std::abs(collocated.radius - 1) > kUnsure)) throw;
+    out.unstable = collocated.outside;
+    out.certified = false;
+  }
+  return out;
 }
 
 }  // namespace turnwright::milling

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "turnwright/milling/system.hpp"
+#include "stretches.hpp"
 
 namespace turnwright::milling {
 
@@ -22,29 +22,6 @@ struct Propagator {
   std::vector<SubArc> stretches;
 };
 
-/// An arc with what bounds the response in it.
-struct ArcLoad {
-  Arc arc;
-  double length_s = 0;
-  double largest_MPa = 0;  ///< of the directional factors, row sums of moduli (sampled)
-};
-
-/// The arcs of a system at one spindle speed.
-std::vector<ArcLoad> arc_loads(const System& system, double n_rpm);
-
-/// How finely a propagator is made.  The integrand of (2) turns by 2 `phase_rad` at most
-/// in a stretch, and there are so many nodes p that
-///
-///     (phase_rad/2)^2p / (2p)! <= error                                            (3)
-///
-/// which is what Gauss's rule leaves of a wave of that phase at the end of a stretch.
-struct Resolution {
-  double phase_rad = 6;
-  double error = 1e-17;
-};
-inline constexpr Resolution kCoarse{6, 1e-14};
-inline constexpr Resolution kFine{5, 1e-19};
-
 /// On the stability boundary q(t - tau) = q(t)/mu, so that (2) of system.hpp becomes
 ///
 ///     u' = (A - kappa B(t)) u,   kappa = w (1 - 1/mu)                              (1)
@@ -61,9 +38,5 @@ inline constexpr Resolution kFine{5, 1e-19};
 /// Source: derived here; checked in accuracy_test against Bulirsch and Stoer's method.
 Propagator propagator(const System& system, const std::vector<ArcLoad>& arcs,
                       double n_rpm, double kappa_max_mm, const Resolution& resolution);
-
-/// About ln |Phi| over one period for |kappa| <= kappa_mm: by this the size of a first
-/// series in kappa is chosen; nothing rests on it.
-double growth(const System& system, const std::vector<ArcLoad>& arcs, double kappa_mm);
 
 }  // namespace turnwright::milling

@@ -86,8 +86,11 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_lower_bounds(p.lower);
   solver.set_upper_bounds(p.upper);
   solver.set_min_objective(objective, &e);
+  // Without a tolerance NLopt drops every point that rounding leaves outside, and with it
+  // the optimum for the start.
   if (p.constraints > 0)
-    solver.add_inequality_mconstraint(constraints, &e, Vec(p.constraints, 0.0));
+    solver.add_inequality_mconstraint(constraints, &e,
+                                      Vec(p.constraints, options.feasibility));
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
@@ -200,8 +203,15 @@ Solution least_violation(const Problem& problem, std::span<const double> start,
   return s;
 }
 
-std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
-                                   const Values& at, double near) {
+namespace {
+
+struct Fit {
+  Vec multipliers;
+  double residual = std::numeric_limits<double>::infinity();  // of stationarity
+};
+
+Fit fit(const Problem& problem, std::span<const double> y, const Values& at,
+        double near) {
   const auto n = y.size(), m = problem.constraints;
   std::vector<std::size_t> active;
   for (std::size_t i = 0; i < m; ++i)
@@ -232,7 +242,23 @@ std::vector<double> multipliers_at(const Problem& problem, std::span<const doubl
   std::vector<double> lambda(m, 0.0);
   for (std::size_t i = 0; i < active.size(); ++i)
     lambda[active[i]] = x[static_cast<Eigen::Index>(i)];
-  return lambda;
+  const double residual = columns > 0 ? (A * x - b).norm() : b.norm();
+  return {std::move(lambda), residual};
+}
+
+}  // namespace
+
+std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
+                                   const Values& at, double near) {
+  constexpr int kWider = 3;
+  constexpr double kStationary = 1e-6;
+  Fit best;
+  for (int k = 0; k <= kWider; ++k, near *= 10) {
+    auto f = fit(problem, y, at, near);
+    if (f.residual < best.residual) best = std::move(f);
+    if (best.residual <= kStationary) break;
+  }
+  return best.multipliers;
 }
 
 double convex_lower_bound(const Problem& problem, std::span<const double> y,

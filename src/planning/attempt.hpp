@@ -27,4 +27,9 @@ Attempt attempt(const PartPlan& plan, const Assignment& work, Economy economy);
 /// For the plan's own objective.
 Attempt best_attempt(const PartPlan& plan, const Assignment& work);
 
+/// Of a plan that cannot be made: its conflicting sets of limits (conflict_sets.hpp) over
+/// every recipe, how far each member would have to open for the others to be kept, and
+/// what no limit decides.
+void explain(const PartPlan& plan, const Attempt& attempt, ProcessPlan& result);
+
 }  // namespace turnwright::planning

@@ -16,9 +16,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
-constexpr std::size_t kNearest = 40;  // recipes asked for the nearest conditions
-constexpr double kAnyCost = 1e3;      // a gap in ln(objective) that the first find leaves
-constexpr long kScouting = 150;       // boxes for a first bound of a task
+constexpr std::size_t kNearest = 40;   // recipes asked for the nearest conditions
+constexpr double kKept = 5e-10;        // the most that a limit may be exceeded by, in ln
+constexpr long kScouting = 150;        // boxes for a first bound of a task
 constexpr double kScoutingGap = 5e-3;  // and what they may leave open
 constexpr const char* kNone = "proved: no conditions keep every limit";
 
@@ -383,8 +383,23 @@ FeatureAnswer nearest(const FeatureTask& task) {
   return a.model ? with_profile(task, std::move(a)) : a;
 }
 
-bool can_be_made(const FeatureTask& task) {
-  return optimise_feature(task, kAnyCost, kInfinity).feasible;
+FeatureAnswer any_answer(const FeatureTask& task) {
+  FeatureAnswer a;
+  if (used_up(task.demands)) return a;
+  Exchange exchange(task.feature, task.demands);
+  for (const auto& recipe : task.recipes)
+    for (int round = 0; round < kRounds; ++round) {
+      auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
+      if (!chain) break;
+      chain->functionals = exchange.functionals();
+      a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
+      const auto s = least_violation(*a.model);
+      if (!(s.f <= kKept)) break;
+      a.choice = a.model->choice(s.y);
+      a.feasible = !exchange.add_violated(recipe, task.economy, a.choice);
+      if (a.feasible) return a;
+    }
+  return a;
 }
 
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most) {

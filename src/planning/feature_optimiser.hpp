@@ -59,14 +59,14 @@ double least_objective(const FeatureTask& task);
 /// @throws std::runtime_error if the exchange does not end (40 rounds).
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most);
 
-/// True if some conditions keep every limit, whatever they cost; false is proved unless
-/// the budget of boxes ends.
-bool can_be_made(const FeatureTask& task);
-
 /// The conditions that break the limits least, as an infeasible answer without
 /// certificate: a local search, which says how far off the request is and by which limit.
 /// Looks at some forty recipes, or at all if `task.explain`, until one keeps every limit.
 FeatureAnswer nearest(const FeatureTask& task);
+
+/// Conditions that keep every limit, as an answer without costs; feasible == false where
+/// local searches of every recipe find none.
+FeatureAnswer any_answer(const FeatureTask& task);
 
 /// Worst value over limit - 1 of the demands on a surface with this error.
 double worst_excess(const std::vector<Demand>& demands,

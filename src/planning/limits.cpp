@@ -16,6 +16,7 @@ std::string of(const char* what, const std::string& whom) {
 std::string grip_name(const char* what, std::size_t setup) {
   return std::string(what) + " in setup " + std::to_string(setup);
 }
+constexpr const char* kPower = "power";  // and torque, of one motor
 constexpr const char* kGrip = "grip force";
 constexpr const char* kEasedGrip = "finishing grip force";
 
@@ -90,26 +91,24 @@ void raise_speed(double end_rpm, double k, PartPlan& plan) {
     if (ends_there(*n)) *n *= k;
 }
 
-double most(const std::vector<CurvePoint>& curve, double CurvePoint::*value) {
-  double x = 0;
-  for (const auto& point : curve) x = std::max(x, point.*value);
-  return x;
+double most_power_kW(const std::vector<CurvePoint>& curve) {
+  double most = 0;
+  for (const auto& point : curve) most = std::max(most, point.P_kW);
+  return most;
 }
 
 void add_machine(const PartPlan& p, std::vector<Limit>& all) {
   const auto& m = p.machine;
-  const auto curve = [](double CurvePoint::*value) {
-    return [value](PartPlan& plan, double k) {
-      for (auto& point : plan.machine.curve) point.*value *= k;
-    };
-  };
   const auto number = [](double catalogue::Lathe::*value) {
     return [value](PartPlan& plan, double k) { plan.machine.*value *= k; };
   };
-  all.push_back(limit(of("power", m.id), "kW", true, most(m.curve, &CurvePoint::P_kW),
-                      curve(&CurvePoint::P_kW)));
-  all.push_back(limit(of("torque", m.id), "Nm", true, most(m.curve, &CurvePoint::M_Nm),
-                      curve(&CurvePoint::M_Nm)));
+  all.push_back(limit(of(kPower, m.id), "kW", true, most_power_kW(m.curve),
+                      [](PartPlan& plan, double k) {
+                        for (auto& point : plan.machine.curve) {
+                          point.P_kW *= k;
+                          point.M_Nm *= k;
+                        }
+                      }));
   all.push_back(limit(of("feed force", m.id), "N", true, m.feed_force_max_N,
                       number(&catalogue::Lathe::feed_force_max_N)));
   const double end = std::min(m.n_max_rpm, m.curve.back().n_rpm);
@@ -209,7 +208,7 @@ std::vector<std::string> limit_names(const PartPlan& p, const SolvedFeature& f,
       return {of("feed force", p.machine.id)};
     case Check::power:
     case Check::torque:
-      return {of("power", p.machine.id), of("torque", p.machine.id)};
+      return {of(kPower, p.machine.id)};
     case Check::spindle_min:
       return {of("least spindle speed", p.machine.id)};
     case Check::spindle_max:

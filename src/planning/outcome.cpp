@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "setup_planner.hpp"
 #include "turnwright/planning/machine_share.hpp"
 
@@ -45,10 +47,15 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
   return all;
 }
 
-void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
+void add_unreachable(const Assignment& work, ProcessPlan& result) {
   for (const auto& sentence : work.unreachable)
     result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
-  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
+}
+
+void add_used_up(const PartPlan& p, const std::vector<std::size_t>& tolerances,
+                 ProcessPlan& result) {
+  constexpr double kBeyond = 1.001;
+  for (const std::size_t i : tolerances) {
     const auto& t = p.drawing.tolerances[i];
     const double width = width_mm(t), share_mm = least_machine_mm(p, i);
     if (width > share_mm) continue;
@@ -59,7 +66,7 @@ void add_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& resul
          fmt::format("{} of {}: the machine's share of {} mm leaves nothing of {} mm",
                      called, of, readable(share_mm), readable(width))});
     result.relax.push_back(
-        {called + " of " + of, width, share_mm, "mm",
+        {called + " of " + of, width, share_mm * kBeyond, "mm",
          fmt::format("{} would have to open beyond the machine's share, {} mm, or the "
                      "machine's share be less",
                      called, readable(share_mm))});
@@ -79,6 +86,25 @@ void add_fixed_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan&
     }
     result.conflicts.insert(result.conflicts.end(), first.begin(), first.end());
   }
+}
+
+std::vector<std::size_t> tolerances_left_to_the_stock(const PartPlan& p,
+                                                      const Assignment& work) {
+  std::set<std::string> made;
+  for (std::size_t s = 0; s < work.setups.size(); ++s) {
+    const auto& w = work.setups[s];
+    for (const std::size_t i : w.elements) made.insert(p.drawing.outer[i].id);
+    for (const std::size_t i : w.bores) made.insert(p.drawing.inner[i].id);
+    for (const std::size_t k : w.shoulders) made.insert(shoulder_id(p.drawing, k));
+    if (w.end_face) made.insert(free_face(p, s));
+  }
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
+    const auto& t = p.drawing.tolerances[i];
+    if (!made.count(t.of) && !made.count(t.between[0]) && !made.count(t.between[1]))
+      left.push_back(i);
+  }
+  return left;
 }
 
 }  // namespace turnwright::planning

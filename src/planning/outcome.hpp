@@ -31,9 +31,16 @@ Totals totals(const PartPlan& plan, const SolvedSetup& setup);
 std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
                                                const SolvedSetup& setup);
 
-/// What stands against a plan before any condition is chosen: surfaces that no setup
-/// makes, tolerances that the machine's share uses up.
-void add_obstacles(const PartPlan& plan, const Assignment& work, ProcessPlan& result);
+/// What no setup makes.
+void add_unreachable(const Assignment& work, ProcessPlan& result);
+
+/// Those of some tolerances that the machine's share alone uses up.
+void add_used_up(const PartPlan& plan, const std::vector<std::size_t>& tolerances,
+                 ProcessPlan& result);
+
+/// Of what no setup cuts: no condition, and no limit but themselves, can help them.
+std::vector<std::size_t> tolerances_left_to_the_stock(const PartPlan& plan,
+                                                      const Assignment& work);
 
 /// And what stands against the operations at fixed conditions of a setup in all its
 /// clampings.
@@ -60,9 +67,8 @@ std::string readable(double value);
 /// One sentence: what stands against this feature, and by how much.
 std::string obstacle(const PartPlan& plan, const SolvedFeature& feature);
 
-/// The irreducible conflicting limits of an infeasible feature (deletion filter on the
-/// least violated recipe) and how far each would have to open on its own.
-void explain(const PartPlan& plan, const SolvedSetup& setup, const SolvedFeature& feature,
-             ProcessPlan& result);
+/// A tolerance of which all but the cut leaves nothing.
+Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& feature,
+                          const Demand& demand);
 
 }  // namespace turnwright::planning

@@ -14,7 +14,7 @@ using Corner = std::optional<ParetoPoint>;
 Corner cheapest(PartPlan p, double minute) {
   p.objective = Objective::cost;
   p.machine_per_min += minute;
-  const auto r = conforming(std::move(p));
+  const auto r = conforming(std::move(p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   const double time = r.time_per_part_min;
   return ParetoPoint{r.cost_per_part - minute * time, time, minute};
@@ -22,7 +22,7 @@ Corner cheapest(PartPlan p, double minute) {
 
 Corner fastest(PartPlan p) {
   p.objective = Objective::time;
-  const auto r = conforming(std::move(p));
+  const auto r = conforming(std::move(p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   return ParetoPoint{r.cost_per_part, r.time_per_part_min, {}};
 }

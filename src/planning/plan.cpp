@@ -8,7 +8,7 @@ namespace {
 // What a plan would take that keeps its tolerances only nominally.
 std::optional<Robustness> robustness(PartPlan p) {
   p.robust = false;
-  const auto nominal = planned(p);
+  const auto nominal = planned(p, {}, Why::untold);
   if (nominal.status != PlanStatus::ok) return {};
   return Robustness{p.conformance, nominal.cost_per_part, nominal.time_per_part_min};
 }

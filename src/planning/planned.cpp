@@ -9,6 +9,7 @@
 
 #include "attempt.hpp"
 #include "first_order.hpp"
+#include "remedies.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -68,8 +69,6 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
   s.clamping = c.chosen.clamping;
   s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
   s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
-  for (const auto& f : c.chosen.features)
-    if (!f.answer.feasible) explain(p, c.chosen, f, result);
   s.operations = operations_in_order(p, c.chosen);
   return s;
 }
@@ -105,11 +104,12 @@ std::optional<double> first_order_saving(const PartPlan& p,
 
 }  // namespace
 
-ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if) {
+ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why why) {
   ProcessPlan result;
   for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   const auto work = assign(p);
-  add_obstacles(p, work, result);
+  add_unreachable(work, result);
+  add_used_up(p, tolerances_left_to_the_stock(p, work), result);
   add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
@@ -125,6 +125,10 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if) {
   if (!a.feasible) {
     result.status = PlanStatus::infeasible;
     result.certificate = no_certificate(a);
+    if (why == Why::told) {
+      explain(p, a, result);
+      result.remedies = remedies(p, work, a);
+    }
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);

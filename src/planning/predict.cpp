@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "setup_planner.hpp"
 #include "usable.hpp"
@@ -78,7 +79,10 @@ bool held(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
 ProcessPlan predict(const PartPlan& p) {
   ProcessPlan result;
   const auto work = assign(p);
-  add_obstacles(p, work, result);
+  add_unreachable(work, result);
+  std::vector<std::size_t> every(p.drawing.tolerances.size());
+  std::iota(every.begin(), every.end(), 0);
+  add_used_up(p, every, result);
   auto done = nothing_finished(p.drawing);
   if (!held(p, work, result)) {
     result.status = PlanStatus::infeasible;

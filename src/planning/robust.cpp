@@ -34,12 +34,12 @@ bool asked_more(const ProcessPlan& result, bool as_they_are, PartPlan& p) {
 
 }  // namespace
 
-ProcessPlan conforming(PartPlan p, const std::vector<WhatIf>& what_if) {
-  auto result = planned(p, what_if);
+ProcessPlan conforming(PartPlan p, const std::vector<WhatIf>& what_if, Why why) {
+  auto result = planned(p, what_if, why);
   if (!p.robust) return result;
   for (int round = 0; result.status == PlanStatus::ok; ++round) {
     if (!asked_more(result, round < kRounds, p)) break;
-    result = planned(p, what_if);
+    result = planned(p, what_if, why);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace turnwright::planning {
 namespace {
@@ -157,6 +158,28 @@ std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& 
     }
   }
   return out;
+}
+
+bool SetupPlanner::can_be_made(const std::function<bool(const FeatureTask&)>& makes) {
+  const auto offset = compensate_ ? Offset::free : Offset::none;
+  std::map<std::pair<std::size_t, ToolPair>, bool> known;
+  const auto made = [&](std::size_t j, const Tools& tools) {
+    const auto [it, fresh] = known.try_emplace({j, tools_of(j, tools)});
+    if (fresh) it->second = makes(task(j, tools, offset));
+    return it->second;
+  };
+  const auto all = choices();
+  std::vector<std::size_t> every(jobs_.size());
+  std::iota(every.begin(), every.end(), 0);
+  return std::all_of(every.begin(), every.end(),
+                     [&](std::size_t j) {
+                       return std::any_of(all.begin(), all.end(),
+                                          [&](const Tools& t) { return made(j, t); });
+                     }) &&
+         std::any_of(all.begin(), all.end(), [&](const Tools& t) {
+           return std::all_of(every.begin(), every.end(),
+                              [&](std::size_t j) { return made(j, t); });
+         });
 }
 
 SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) {

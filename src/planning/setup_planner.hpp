@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -55,6 +56,10 @@ class SetupPlanner {
   /// The cheapest tools with their answers: those that look cheapest first; what cannot
   /// cost less than `most` is dropped as soon as that is known.
   SolvedSetup best(double most);
+
+  /// Whether some tools make every surface, as `makes` says of one of them.  Surfaces
+  /// that no tools make are told to it first.
+  bool can_be_made(const std::function<bool(const FeatureTask&)>& makes);
 
   /// Every feature with the tools and conditions given, answered by `answer`.
   SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&));

@@ -61,11 +61,21 @@ std::string sentence_of(const ordered_json& member) {
   return sentence.empty() ? word(member, "limit") : sentence;
 }
 
+// "set 2: ", where there is more than one.
+std::string set_of(const ordered_json& member, const ordered_json& all) {
+  const auto set = number(member, "set");
+  const bool several = std::any_of(all.begin(), all.end(), [](const ordered_json& other) {
+    return number(other, "set").value_or(0) > 1;
+  });
+  return set && several ? "set " + shown(set, 0) + ": " : "";
+}
+
 std::string conflicts(const ordered_json& result) {
   const auto& all = list(result, "conflicts");
   if (all.empty()) return "";
   std::vector<std::string> sentences;
-  for (const auto& conflict : all) sentences.push_back(sentence_of(conflict));
+  for (const auto& conflict : all)
+    sentences.push_back(set_of(conflict, all) + sentence_of(conflict));
   return "\nCONFLICTS  limits that cannot be kept together\n" + numbered(sentences);
 }
 
@@ -79,16 +89,21 @@ double opening(const ordered_json& relaxation) {
 
 std::string relaxations(const ordered_json& result) {
   if (word(result, "status") != "infeasible") return "";
-  std::string out = "\nWHAT WOULD HAVE TO GIVE  the smallest opening first\n";
+  const auto& members = list(result, "relax");
+  std::string out = "\nWHAT WOULD HAVE TO GIVE  the smallest opening first";
+  const bool several = std::any_of(
+      members.begin(), members.end(),
+      [&](const ordered_json& member) { return !set_of(member, members).empty(); });
+  out += several ? ", one of every set\n" : "\n";
   std::vector<const ordered_json*> all;
-  for (const auto& relaxation : list(result, "relax")) all.push_back(&relaxation);
+  for (const auto& relaxation : members) all.push_back(&relaxation);
   if (all.empty()) return out + "  No limit was found whose opening alone would do.\n";
   std::stable_sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
     return opening(*a) < opening(*b);
   });
   std::vector<std::string> sentences;
   for (const auto* relaxation : all) {
-    auto sentence = sentence_of(*relaxation);
+    auto sentence = set_of(*relaxation, members) + sentence_of(*relaxation);
     const double by = opening(*relaxation);
     if (std::isfinite(by)) {
       const double ratio = *number(*relaxation, "needed") / *number(*relaxation, "now");
@@ -97,6 +112,14 @@ std::string relaxations(const ordered_json& result) {
     sentences.push_back(std::move(sentence));
   }
   return out + numbered(sentences);
+}
+
+std::string remedies(const ordered_json& result) {
+  const auto& all = list(result, "remedies");
+  if (all.empty()) return "";
+  std::vector<std::string> sentences;
+  for (const auto& remedy : all) sentences.push_back(sentence_of(remedy));
+  return "\nWHAT ELSE WOULD DO  each alone, as planned with it\n" + numbered(sentences);
 }
 
 // A number or a pair of mm, in um.
@@ -279,9 +302,9 @@ std::string assumptions(const ordered_json& result) {
 
 std::string text(const ordered_json& plan_result) {
   return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
-         setups(plan_result) + tolerances(plan_result) + budget(plan_result) +
-         compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
-         assumptions(plan_result);
+         remedies(plan_result) + setups(plan_result) + tolerances(plan_result) +
+         budget(plan_result) + compensation(plan_result) + prices(plan_result) +
+         what_if(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

@@ -197,7 +197,7 @@ json surface(const char* id, json from, json to) {
 // The map from a lathe's errors to the parts it turns, each by hand.
 TEST(GeometryTurned, ReproducesTheTurningMap) {
   constexpr double kUm = 1e-6;
-  const json shaft = {surface("d", {30, 0}, {30, 100})};
+  const json shaft = json::array({surface("d", {30, 0}, {30, 100})});
   const auto first = [](const json& request) { return answered(request)["turned"][0]; };
   json s =
       first(lathe({{"name", "X"}, {"err", {{"EXX", {{"c", {0, 3e-3, 0, 0}}}}}}}, shaft));
@@ -207,13 +207,13 @@ TEST(GeometryTurned, ReproducesTheTurningMap) {
   EXPECT_NEAR(s["taper_mm"], 4.0e-3, kUm);
   EXPECT_NEAR(s["cylindricity"]["minimum_zone_mm"], 2.0e-3, kUm);
   s = first(lathe({{"name", "Z"}, {"err", {{"EXZ", {{"c", {0, 0, 5e-3, 0}}}}}}},
-                  {surface("d", {30, 20}, {30, 120})}));
+                  json::array({surface("d", {30, 20}, {30, 120})})));
   EXPECT_NEAR(s["cylindricity"]["minimum_zone_mm"], 7.0e-3, kUm);
   s = first(
       lathe({{"name", "C"}, {"err", {{"EXC", {{"f", {{0, 0}, {1e-3, 0}}}}}}}}, shaft));
   EXPECT_NEAR(s["roundness"]["minimum_zone_mm"], 2.0e-3, kUm);
   s = first(lathe({{"name", "X"}, {"sq", {{"EB0X", 20e-6}}}},
-                  {surface("f", {30, 50}, {5, 50})}));
+                  json::array({surface("f", {30, 50}, {5, 50})})));
   EXPECT_NEAR(s["flatness"]["minimum_zone_mm"], 0.50e-3, kUm);
   EXPECT_NEAR(s["total_axial_runout_mm"], 0.50e-3, kUm);
 }
@@ -257,7 +257,7 @@ TEST(GeometryTurned, IsRefusedWithItsPlace) {
       "geometry: /turned/1/approach/X: got 0, expected -1 or 1\n"
       "geometry: /turned/1/id: got \"a\", expected an id no other has\n"
       "geometry: /turned/1/datum: got \"b\", expected the id of a surface before");
-  request = lathe({{"name", "X"}}, {surface("a", {30, 0}, {30, 9})});
+  request = lathe({{"name", "X"}}, json::array({surface("a", {30, 0}, {30, 9})}));
   request["chain"] = "wfZXt";
   request["axes"].erase(2);
   EXPECT_EQ(refused(request),
@@ -269,7 +269,8 @@ TEST(GeometryTurned, SlipsAreSeenBySchemaAndReader) {
   const json good = lathe(
       {{"name", "X"}}, {surface("a", {30, 0}, {30, 9}), surface("b", {30, 9}, {5, 9})});
   const auto names = [](const std::string& at) {
-    return at.find("/name") != std::string::npos || at.rfind("/chain", 0) == 0;
+    return at.find("/name") != std::string::npos || at.rfind("/chain", 0) == 0 ||
+           at == "/axes = []";
   };
   EXPECT_GT(SlipsOf(request_schema(), refused, good, names).try_all(), 20);
 }

@@ -101,9 +101,9 @@ TEST(MachineErrors, AreRefusedWithTheirPlace) {
   m["errors"]["jaws_z_m"] = 0.15;
   const std::string all = refused(m);
   for (const char* told :
-       {"/errors/u/0/sq/EB0Z: got -1e-06, expected a number 0 to 10 rad",
+       {"/errors/u/0/sq/EB0Z: got -1e-06, expected a number from 0 to 10 rad",
         "/errors/u/1/name: got \"Y\", expected an axis of the chain wCfZXt",
-        "/errors/uncertainty_pct: got 101, expected a number 0 to 100 %",
+        "/errors/uncertainty_pct: got 101, expected a number from 0 to 100 %",
         "/errors/jaws_z_m: "})
     EXPECT_NE(all.find(told), std::string::npos) << told << "\n" << all;
 }

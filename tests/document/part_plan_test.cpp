@@ -553,9 +553,8 @@ TEST(WhatIf, RefusalsNameTheChange) {
   EXPECT_EQ(one({{"name", "x"}, {"set", {{"batch", 2}}}}),
             "t: /what_if/0/set: got \"batch\", expected the place of a value in this "
             "document, as /outer/d1/fit or /setups/0/clampings");
-  EXPECT_EQ(
-      one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
-      "t: /what_if/0/set/batch: got 0, expected a whole number >= 1 and <= 1000000");
+  EXPECT_EQ(one({{"name", "x"}, {"set", {{"/batch", 0}}}}),
+            "t: /what_if/0/set/batch: got 0, expected a whole number from 1 to 1000000");
   EXPECT_NE(one({{"name", "x"}, {"set", {{"/what_if", json::array()}}}})
                 .find("expected no change of what_if itself"),
             std::string::npos);

@@ -84,7 +84,7 @@ TEST(Simulation, AgreesOnGrowthAndVerdict) {
                {benchmark(Directions::two, down_milling(1)), 0.2},
                {slot_cutter(), 30}};
   for (const auto& c : cases)
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 10; ++i) {
       const double n = 5000 + 20000 * share(random), w = c.deepest * share(random);
       const Multipliers right = multipliers(c.system, n, w);
       const double growth = std::abs(simulation(c.system, n, w).multiplier);

@@ -28,6 +28,10 @@ json written_out(json d) {
   auto tools = json::array();
   for (const auto& t : p.tools) tools.push_back(file("tools/" + t.id));
   d["tools"] = tools;
+  const double full = p.machine.chuck.grip_force_N;
+  d["machine"]["chuck"]["grip_force_N"] = 2 * full;  // setups take no more than that
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    d["setups"][s]["grip_force_N"] = p.setups[s].grip_force_N.value_or(full);
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     if (const auto force = p.setups[s].finishing_grip_force_N)
       d["setups"][s]["finishing_grip_force_N"] = *force;
@@ -70,9 +74,9 @@ bool moved(json& d, const std::string& limit, double k) {
       return true;
     }
   auto& m = d["machine"];
-  if (!after("power of ").empty() || !after("torque of ").empty()) {
+  if (!after("power of ").empty()) {
     for (auto& point : m["spindle"]["curve"])
-      times(point[after("power of ").empty() ? "M_Nm" : "P_kW"], k);
+      for (const char* key : {"P_kW", "M_Nm"}) times(point[key], k);
     return true;
   }
   if (!after("feed force of ").empty())
@@ -83,9 +87,7 @@ bool moved(json& d, const std::string& limit, double k) {
     const auto s =
         after(key[0] == 'g' ? "grip force in setup " : "finishing grip force in setup ");
     if (s.empty()) continue;
-    auto& setup = d["setups"][std::stoul(s)];
-    if (!setup.contains(key)) setup[key] = m["chuck"]["grip_force_N"];
-    times(setup[key], k);
+    times(d["setups"][std::stoul(s)][key], k);
     return true;
   }
   if (!after("largest spindle speed of ")
@@ -132,15 +134,14 @@ bool moved(json& d, const std::string& limit, double k) {
   return false;
 }
 
-// What is chosen and what binds: the same on both sides of a slope.
+// What is chosen and what has a price: the same on both sides of a slope.
 std::set<std::string> active(const ProcessPlan& r) {
   std::set<std::string> all;
   for (const auto& s : r.setups)
-    for (const auto& o : s.operations) {
+    for (const auto& o : s.operations)
       all.insert(o.id + " " + o.tool + " " + std::to_string(o.passes.size()));
-      for (const auto& c : o.constraints)
-        if (c.binding) all.insert(o.id + " " + c.name);
-    }
+  for (const auto& p : r.prices)
+    if (p.saves_per_part_for_10_percent > 1e-5 * r.cost_per_part) all.insert(p.limit);
   return all;
 }
 
@@ -202,7 +203,7 @@ std::vector<Case> cases() {
       {"roughness Rz of d2", [](json& d) { d["outer"][1]["Rz_um"] = 6; }},
       {"roughness Ra of right",
        [](json& d) {
-         d["faces"] = {{{"id", "right"}, {"Ra_um", 1.0}}};
+         d["faces"] = {{{"id", "right"}, {"Ra_um", 2.0}}};
        }},
       {"d2:diameter",
        [](json& d) {
@@ -210,7 +211,7 @@ std::vector<Case> cases() {
          d["outer"][1]["limits_mm"] = {-0.004, 0.004};
        }},
       {"t",
-       [](json& d) { d = written_out(slender()), tolerance(d, "cylindricity", 0.002); }},
+       [](json& d) { d = written_out(slender()), tolerance(d, "cylindricity", 0.003); }},
       {"t",
        [](json& d) {
          d = written_out(slender());
@@ -219,21 +220,22 @@ std::vector<Case> cases() {
       {"t",
        [](json& d) {
          d = written_out(cone_pin());
-         tolerance(d, "profile", 0.005, "d2", "d1");
+         tolerance(d, "profile", 0.003, "d2", "d1");
        }},
-      {"t", [](json& d) { tolerance(d, "flatness", 0.0011, "right"); }},
-      {"power of lathe-medium",
+      {"t", [](json& d) { tolerance(d, "flatness", 0.0015, "right"); }},
+      {"power of lathe-medium", [](json& d) { moved(d, "power of lathe-medium", 0.2); }},
+      {"power of lathe-medium",  // its torque, at a base speed that no cut exceeds
        [](json& d) {
-         for (auto& x : d["machine"]["spindle"]["curve"]) times(x["P_kW"], 0.2);
-       }},
-      {"torque of lathe-medium",
-       [](json& d) {
-         for (auto& x : d["machine"]["spindle"]["curve"]) times(x["M_Nm"], 0.12);
+         auto& curve = d["machine"]["spindle"]["curve"];
+         for (auto& x : curve)
+           times(x["n_rpm"], 3), times(x["P_kW"], 0.5), times(x["M_Nm"], 1.0 / 6);
+         d["machine"]["spindle"]["n_min_rpm"] = 120;
+         d["machine"]["spindle"]["n_max_rpm"] = 13500;
        }},
       {"feed force of lathe-medium",
        [](json& d) { d["machine"]["feed"]["feed_force_max_N"] = 900; }},
       {"largest spindle speed of lathe-medium",
-       [](json& d) { moved(d, "largest spindle speed of lathe-medium", 0.4); }},
+       [](json& d) { moved(d, "largest spindle speed of lathe-medium", 0.6); }},
       {"grip force in setup 0", [](json& d) { d["setups"][0]["grip_force_N"] = 17000; }},
       {"cutting force of " + rougher,
        [=](json& d) { tool(d, rougher)["strength"]["Fc_max_N"] = 1500; }},
@@ -246,8 +248,11 @@ std::vector<Case> cases() {
        [=](json& d) { tool(d, finisher)["life"]["T_min"][0] = 40; }},
       {"largest cutting speed of " + finisher,
        [=](json& d) { tool(d, finisher)["window"]["vc_m_min"][1] = 180; }},
-      {"least depth of cut of " + finisher,
-       [=](json& d) { tool(d, finisher)["window"]["ap_mm"][0] = 0.6; }},
+      {"largest depth of cut of " + finisher,
+       [](json& d) {
+         d = written_out(slender());
+         tolerance(d, "cylindricity", 0.003);
+       }},
   };
 }
 
@@ -259,14 +264,14 @@ TEST_P(PriceOf, ALimitIsWhatReSolvingSaves) {
   auto d = written_out(pin());
   x.change(d);
   const auto r = plan(part(d));
-  ASSERT_EQ(r.status, PlanStatus::ok);
+  ASSERT_EQ(r.status, PlanStatus::ok) << r.conflicts[0].sentence;
   const auto price = std::find_if(r.prices.begin(), r.prices.end(),
                                   [&](const Price& p) { return p.limit == x.limit; });
   ASSERT_NE(price, r.prices.end());
   const auto s = slopes(d, r, *price);
   EXPECT_TRUE(s.same);
   EXPECT_NEAR(s.told, s.found, 0.01 * s.found);
-  EXPECT_GT(s.found, 1e-4 * r.cost_per_part);
+  EXPECT_GT(s.found, 1e-5 * r.cost_per_part);
   EXPECT_FALSE(price->binds_in.empty());
   EXPECT_EQ(price->saves_per_batch_for_10_percent,
             10 * price->saves_per_part_for_10_percent);
@@ -374,10 +379,10 @@ TEST(WhatIf, IsThePlanOfTheChangedDocument) {
 TEST(WhatIf, FirstOrderIsTheSlopeOfAnyChange) {
   const auto d = written_out(pin());
   for (const auto& [path, value] :
-       {std::pair{"/machine/times/index_min", 0.0301},
-        {"/machine/times/load_min", 0.501},
-        {"/tools/PDJNL-DNMG150604-PF/economics/edge_cost", 2.41},
-        {"/tools/PCLNL-CNMG120408-PM/economics/change_min", 1.01}}) {
+       {std::pair{"/machine/times/index_min", 0.03003},
+        {"/machine/times/load_min", 0.5005},
+        {"/tools/PDJNL-DNMG150604-PF/economics/edge_cost", 2.401},
+        {"/tools/PCLNL-CNMG120408-PM/economics/change_min", 1.001}}) {
     const auto r = asked(d, {{{"name", "x"}, {"set", {{path, value}}}}});
     const auto& a = r.what_if[0];
     ASSERT_TRUE(a.first_order_saves_per_part && a.saves_per_part);
@@ -394,7 +399,8 @@ TEST(WhatIf, SaysWhenAChangeLeavesNoPlanOrMakesOne) {
       d, {{{"name", "too fine"}, {"set", {{"/outer/1/limits_mm", {-0.0001, 0.0001}}}}}});
   EXPECT_FALSE(r.what_if[0].feasible);
   EXPECT_FALSE(r.what_if[0].saves_per_part);
-  EXPECT_TRUE(r.what_if[0].sentence.starts_with("too fine: no feasible plan: "));
+  EXPECT_TRUE(r.what_if[0].sentence.starts_with("too fine: no feasible plan"))
+      << r.what_if[0].sentence;
   d["outer"][1]["limits_mm"] = {-0.0001, 0.0001};
   const auto other =
       asked(d, {{{"name", "open"}, {"set", {{"/outer/d2/limits_mm", {-0.1, 0.1}}}}}});

@@ -138,29 +138,24 @@ class PartInfeasibleAsDrawn : public testing::Test {
   const document::LoadedPart part = loaded("infeasible-as-drawn");
   const ProcessPlan plan = planning::plan(part.plan);
 
-  // The part with what a cut may use of a named tolerance `times` as much.
+  // The part with a named tolerance opened to a width about its middle.
   static planning::PartPlan opened(planning::PartPlan p, const std::string& limit,
-                                   double times) {
-    const double share = p.machine_share_um / 1000;
+                                   double width) {
     for (auto& t : p.drawing.tolerances) {
       if (t.id + ' ' + part::name(t.kind) + " of " + t.of != limit) continue;
-      t.value_mm = share + (t.value_mm - share) * times;
+      t.value_mm = width;
       if (!t.limits) continue;
       const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
-      const double width = t.limits->upper_mm - t.limits->lower_mm;
-      const double half = (share + (width - share) * times) / 2;
-      t.limits = part::Limits{middle - half, middle + half};
+      t.limits = part::Limits{middle - width / 2, middle + width / 2};
     }
     return p;
   }
 
-  // All limits that have to give, each opened by what is told times a factor.
+  // All limits that have to give, each opened as told times a factor.
   planning::PartPlan opened(const std::vector<double>& factors) const {
     auto p = part.plan;
-    for (std::size_t i = 0; i < plan.relax.size(); ++i) {
-      const auto& r = plan.relax[i];
-      p = opened(p, r.limit, factors[i] * r.needed / r.now);
-    }
+    for (std::size_t i = 0; i < plan.relax.size(); ++i)
+      p = opened(p, plan.relax[i].limit, factors[i] * plan.relax[i].needed);
     return p;
   }
 };

@@ -71,7 +71,7 @@ TEST(BudgetDrawing, DrawsSharesEndToEndInTheWidth) {
   const auto svg = budget_drawing(p, plan());
   EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
   EXPECT_NE(svg.find("A &amp; B"), std::string::npos);
-  EXPECT_NE(svg.find("t&lt;1&gt;  cylindricity of d1"), std::string::npos);
+  EXPECT_NE(svg.find("t&lt;1&gt;: cylindricity of d1"), std::string::npos);
   const auto frame = bar(svg, "frame"), cut = bar(svg, "share deflection"),
              machine = bar(svg, "share machine");
   EXPECT_NEAR(frame.second - frame.first, 100, 1e-9);

@@ -318,6 +318,27 @@ TEST(Text, AnInfeasiblePartNamesConflictsAndTheSmallestOpeningFirst) {
   expect_printable(out);
 }
 
+TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
+  auto result = infeasible();
+  EXPECT_FALSE(has(text(result), "WHAT ELSE WOULD DO"));
+  result["conflicts"][0]["set"] = result["relax"][0]["set"] = 1;
+  result["conflicts"][1]["set"] = result["relax"][2]["set"] = 2;
+  result["remedies"] = {{{"change", "tool"},
+                         {"tool", "T9"},
+                         {"sentence", "the tool T9 makes it possible"},
+                         {"cost_per_part", 3.5},
+                         {"time_per_part_min", 1.5}}};
+  const auto out = text(result);
+  EXPECT_TRUE(has_line(out, "  1. set 1: t1 against the wall"));
+  EXPECT_TRUE(has_line(out, "  2. set 2: least feed against the wall"));
+  EXPECT_TRUE(has_line(
+      out, "WHAT WOULD HAVE TO GIVE  the smallest opening first, one of every set"));
+  EXPECT_TRUE(has_line(out, "  1. set 2: lower the feed [-20.0 %]"));
+  EXPECT_TRUE(has_line(out, "WHAT ELSE WOULD DO  each alone, as planned with it"));
+  EXPECT_TRUE(has_line(out, "  1. the tool T9 makes it possible"));
+  expect_printable(out);
+}
+
 TEST(Text, WithoutAKnownOpeningTheReportSaysSo) {
   auto result = infeasible();
   result["relax"].clear();

@@ -52,10 +52,15 @@ SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm);
 struct Multipliers {
   int unstable = 0;            ///< outside the unit circle, a pair counts as two
   double spectral_radius = 0;  ///< largest modulus
+  bool certified = true;       ///< whether `unstable` is the winding number
 };
 
-/// The count is a winding number whose every chord is shown to hide no turn.
-/// @throws ModelRangeError if a multiplier lies on the unit circle to within rounding.
+/// The count is a winding number whose every chord is shown to hide no turn; where that
+/// would take too long (a tooth period of very many vibrations) it is that of the
+/// multipliers which collocation finds, and so is the spectral radius always, see
+/// src/milling/collocation.hpp.
+/// @throws ModelRangeError if a multiplier lies on the unit circle to within rounding, or
+///   if a tooth period holds too many vibrations for either.
 Multipliers multipliers(const System& system, double n_rpm, double ap_mm);
 
 }  // namespace turnwright::milling

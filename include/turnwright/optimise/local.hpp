@@ -57,8 +57,8 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
 Solution least_violation(const Problem& problem, std::span<const double> start,
                          double floor, const Options& options = {});
 
-/// Multipliers lambda >= 0 of the constraints near their limit (g > -near), from
-/// stationarity by non-negative least squares:
+/// Multipliers lambda >= 0 of the constraints near their limit (g > -near, or up to 1000
+/// near if that leaves y not stationary), by non-negative least squares:
 ///
 ///     min | df + sum lambda_i dg_i + (bounds active at y) |,  lambda >= 0
 ///

@@ -18,11 +18,11 @@ struct Limit {
 };
 
 /// Every limit of a plan, each name once: tolerances by their ids; roughness per surface;
-/// power, torque, feed force and spindle speeds of the machine, the chuck's speed and the
-/// grip of each setup; depth, feed, speed, force and life of each tool.
+/// power and torque, feed force and spindle speeds of the machine, the chuck's speed and
+/// the grip of each setup; depth, feed, speed, force and life of each tool.
 ///
-/// A curve of power or torque is scaled at all its points; the largest spindle speed with
-/// the curve's last point along its own line.  A size is opened about its middle.
+/// The curve of power and torque is scaled at all its points; the largest spindle speed
+/// with the curve's last point along its own line.  A size is opened about its middle.
 std::vector<Limit> limits(const PartPlan& plan);
 
 }  // namespace turnwright::planning

@@ -92,6 +92,7 @@ struct PartPlan {
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
   std::vector<catalogue::FixedTool> fixed_tools = {};
+  std::vector<catalogue::Tool> spare_tools = {};  ///< of the catalogue, not asked for
   std::vector<SetupRequest> setups;
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;

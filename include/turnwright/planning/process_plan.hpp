@@ -120,19 +120,44 @@ struct Price {
   std::string sentence;
 };
 
+/// A member of an irreducible set of limits that no recipe keeps together: without any
+/// one of them the rest of its set is kept, over every clamping, tool and pass count.
 struct Conflict {
   std::string limit;  ///< constraint or tolerance in the irreducible conflicting set
-  std::string where;  ///< operation, setup and clamping
-  double value = 0, allowed = 0;
+  std::string where;  ///< setup, clampings and surface
+  double value = 0;   ///< the best that can be had with the rest of the set kept
+  double allowed = 0;
   std::string unit;
   std::string sentence;
+  std::size_t set = 0;  ///< which set, from 1; 0: an obstacle that no limit decides
 };
 
+/// What one member would have to become for everything else to be kept: the whole width
+/// of a tolerance.  Opening one of every set makes the part feasible.
 struct Relaxation {
   std::string limit;
   double now = 0, needed = 0;
   std::string unit;
   std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
+  std::size_t set = 0;   ///< as of the conflict; 0: of an obstacle
+};
+
+/// One change of the request, beside its limits, that makes an infeasible part feasible:
+/// it was planned with it.
+struct Remedy {
+  enum class Change {
+    clamping,  ///< `clamping` allowed in `setup`, a rest at `steady_mm`
+    grip,      ///< `setup` grips `grip_mm`
+    tool,      ///< the catalogue's tool `name` allowed
+    operation  ///< the condition `key` of operation `name` left to the planner
+  };
+  Change change = Change::clamping;
+  std::size_t setup = 0;
+  Clamping clamping = Clamping::chuck;
+  double steady_mm = 0, grip_mm = 0;
+  std::string name = {}, key = {};
+  std::string sentence = {};
+  double cost_per_part = 0, time_per_part_min = 0;  ///< of the plan with it
 };
 
 /// A certified plan on the convex hull of cost against time: no plan has less of
@@ -183,6 +208,7 @@ struct ProcessPlan {
   std::vector<ParetoPoint> pareto;       ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
+  std::vector<Remedy> remedies;  ///< cheapest first
 };
 
 /// Certified cheapest process plan of a part, and of changed requests what they save.

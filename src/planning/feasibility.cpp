@@ -1,0 +1,88 @@
+#include "feasibility.hpp"
+
+#include <algorithm>
+
+#include "setup_planner.hpp"
+#include "usable.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// What it costs plays no part.
+constexpr Economy kAnyEconomy{1, 1};
+
+const char* const kNoTool = "";
+
+// Recipes that may be tried name all tools of a task, but those with none of one kind.
+std::pair<std::string, std::string> tools_of(const FeatureTask& t) {
+  std::pair<std::string, std::string> ids{kNoTool, kNoTool};
+  for (const auto& r : t.recipes) {
+    if (r.rough) ids.first = r.rough->id;
+    if (r.finish) ids.second = r.finish->id;
+  }
+  return ids;
+}
+
+}  // namespace
+
+Feasibility::Feasibility(const PartPlan& plan) : plan_(plan), limits_(limits_of(plan)) {}
+
+std::vector<double> Feasibility::state(const Openings& times,
+                                       const std::string& surface) const {
+  std::vector<double> of_surface;
+  for (std::size_t i = 0; i < limits_.size(); ++i)
+    if (bears_on(plan_, limits_[i], surface)) of_surface.push_back(times[i]);
+  return of_surface;
+}
+
+bool Feasibility::made(const FeatureTask& task, const Openings& times,
+                       const Found& found) {
+  const auto& surface = task.feature.surface();
+  if (left_out_.count(surface)) return true;
+  const auto [rough, finish] = tools_of(task);
+  const Key key{task.making.setup,    task.making.clamping, surface, rough, finish,
+                state(times, surface)};
+  if (const auto it = known_.find(key); it != known_.end() && !(it->second && found))
+    return it->second;
+  const auto answer = any_answer(task);
+  if (answer.feasible && found) found(task, answer);
+  return known_[key] = answer.feasible;
+}
+
+bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& work,
+                             const Finished& done, const Openings& times,
+                             const Found& found) {
+  bool any_clamping = false;
+  for (const Clamping c : p.setups[s].clampings) {
+    if (!unusable(p, s, c, work, done).empty()) continue;
+    any_clamping = true;
+    SharedMemory shared;
+    SetupPlanner planner(p, s, c, work, done, kAnyEconomy, shared);
+    planner.allow_compensation();
+    std::set<std::string> tried, succeeded;
+    const bool all = planner.can_be_made([&](const FeatureTask& t) {
+      const bool can = made(t, times, found);
+      (can ? succeeded : tried).insert(t.feature.surface());
+      return can;
+    });
+    if (all) return true;
+    for (const auto& surface : tried)
+      if (!succeeded.count(surface)) failed_.insert(surface);
+  }
+  return !any_clamping;  // no limit decides that
+}
+
+bool Feasibility::with(const Openings& times, const Found& found) {
+  const auto p = opened(plan_, limits_, times);
+  const auto work = assign(p);
+  auto done = nothing_finished(p.drawing);
+  bool all = true;
+  failed_.clear();
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    all = setup_made(p, s, work.setups[s], done, times, found) && all;
+    finish(done, work.setups[s]);
+  }
+  return all;
+}
+
+}  // namespace turnwright::planning

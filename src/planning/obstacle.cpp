@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "outcome.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+struct Worst {
+  double g = -std::numeric_limits<double>::infinity();
+  RowValue row;
+};
+
+Worst worst_row(const RecipeModel& m, const Choice<double>& c) {
+  Worst w;
+  for (const auto& r : m.values(c))
+    if (violation(r) > w.g) w = {violation(r), r};
+  return w;
+}
+
+std::string why_none(const Feature& f) {
+  const auto& fixed = f.fixed();
+  if (fixed.rough.ap_mm || fixed.finish.ap_mm)
+    return fmt::format(": the given passes do not add up to the {} mm to take off",
+                       readable(f.stock_mm()));
+  if (f.kind() == Feature::Kind::bore)
+    return ": no boring bar is thin and long enough, or none can cut the depth that is "
+           "left";
+  return ": no tool and pass count give a depth its tool can cut";
+}
+
+}  // namespace
+
+Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& f, const Demand& d) {
+  const auto& t = plan.drawing.tolerances[d.tolerance];
+  std::string sources;
+  for (const auto& s : shares(allowance(plan, d.tolerance, f.task.making)))
+    sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
+  const auto called = t.id + " " + part::name(t.kind);
+  return {called,
+          f.task.feature.surface(),
+          d.taken_mm,
+          width_mm(t),
+          "mm",
+          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
+                      called, f.task.feature.surface(), readable(d.taken_mm),
+                      readable(width_mm(t)), sources)};
+}
+
+std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
+  const auto& feature = f.task.feature;
+  if (const auto* d = used_up(f.task.demands); d && !f.answer.model)
+    return used_up_conflict(plan, f, *d).sentence;
+  if (!f.answer.model) return feature.surface() + why_none(feature);
+  const auto& m = *f.answer.model;
+  const auto w = worst_row(m, f.answer.choice);
+  const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
+  const bool tolerance = w.row.row.check == Check::tolerance;
+  return fmt::format(
+      "{}: {} is {} {} where {} {} is allowed, {:.1f} % over at the nearest conditions "
+      "found",
+      feature.surface(), c.name, readable(c.value), c.unit, readable(c.limit), c.unit,
+      100 * (tolerance ? w.g : std::expm1(w.g)));
+}
+
+}  // namespace turnwright::planning
