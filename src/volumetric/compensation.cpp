@@ -46,6 +46,19 @@ class Field {
 
   const Tool& tool(int number) const { return tools_.at(number); }
 
+  /// Length up to which a straight way between targets no farther out than `reach_mm`
+  /// needs no split.
+  double longest_straight_mm(const Vec3& reach_mm, double tolerance_mm) const {
+    double bend = 0;
+    for (const auto& [number, tool] : tools_) {
+      Vec3 q;
+      for (std::size_t k = 0; k < 3; ++k) q[k] = reach_mm[k] + std::abs(tool.point[k]);
+      bend = std::max(bend, tool.kinematics.bend_at_most(q));
+    }
+    // A chord of length h is off by bend h^2/8; half of it for products of errors.
+    return std::sqrt(4 * tolerance_mm / bend);
+  }
+
   /// Of the tip from `target` when commanded to `at`, along the machine's axes.
   Vec3 error(const Tool& tool, const Vec3& at, const Vec3& sign,
              const Vec3& target) const {
@@ -97,6 +110,7 @@ class Walk {
   void run(const NcProgram& program, Visit visit) {
     int number = 0;
     tool_ = &field_.tool(number);
+    unsplit_mm_ = field_.longest_straight_mm(reach(program), o_.tolerance_mm);
     // Where the tip stands, how it came there, and its error.
     Vec3 from = program.start_mm, sign{},
          at_from = field_.error(*tool_, from, sign, from);
@@ -142,9 +156,20 @@ class Walk {
     Vec3 at, error;
   };
 
+  static Vec3 reach(const NcProgram& program) {
+    Vec3 out{};
+    const auto include = [&out](const Vec3& at) {
+      for (std::size_t k = 0; k < 3; ++k) out[k] = std::max(out[k], std::abs(at[k]));
+    };
+    include(program.start_mm);
+    for (const NcMove& m : program.moves)
+      if (m.moves) include(m.target_mm);
+    return out;
+  }
+
   void split(const End& a, const End& b, const Vec3& sign, int depth) {
     constexpr int kDeepest = 12;
-    if (depth == kDeepest) return;
+    if (depth == kDeepest || norm(b.at - a.at) <= unsplit_mm_) return;
     const auto inside = [&](double share) -> End {
       const Vec3 at = a.at + share * (b.at - a.at);
       return {at, field_.error(*tool_, at, sign, at)};
@@ -166,6 +191,7 @@ class Walk {
   const Field& field_;
   const CompensationOptions& o_;
   const Tool* tool_ = nullptr;
+  double unsplit_mm_ = 0;
   std::vector<End> ends_;  // of the move at hand
 };
 
@@ -176,8 +202,9 @@ void full_field(const Field& field, int passes, Stop& s) {
     s.command = s.command - field.error(*s.tool, s.command, s.sign, s.target);
 }
 
-/// Of all moves' ends by a map of least squares: constant, or affine in the target.
-void fitted(Method method, std::vector<Stop>& stops) {
+/// Of all moves' ends by the constant or affine map of least squares from the targets to
+/// the corrections they need by themselves.
+void fitted(Method method, const Field& field, int passes, std::vector<Stop>& stops) {
   std::vector<Stop*> moving;
   for (Stop& s : stops)
     if (s.move->moves) moving.push_back(&s);
@@ -186,11 +213,13 @@ void fitted(Method method, std::vector<Stop>& stops) {
   if (n == 0) return;
   Eigen::MatrixXd A(n, columns), e(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Stop& s = *moving[static_cast<std::size_t>(i)];
+    Stop& s = *moving[static_cast<std::size_t>(i)];
+    full_field(field, passes, s);
     A(i, 0) = 1;
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (columns > 1) A(i, k + 1) = s.target[static_cast<std::size_t>(k)];
-      e(i, k) = s.error[static_cast<std::size_t>(k)];
+      e(i, k) =
+          s.command[static_cast<std::size_t>(k)] - s.target[static_cast<std::size_t>(k)];
     }
   }
   // Complete: points in a plane leave the slope across it open, here zero.
@@ -198,7 +227,7 @@ void fitted(Method method, std::vector<Stop>& stops) {
       A * Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(e);
   for (Eigen::Index i = 0; i < n; ++i) {
     Stop& s = *moving[static_cast<std::size_t>(i)];
-    s.command = s.target - Vec3{fit(i, 0), fit(i, 1), fit(i, 2)};
+    s.command = s.target + Vec3{fit(i, 0), fit(i, 1), fit(i, 2)};
   }
 }
 
@@ -292,6 +321,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   const bool full = options.method == Method::full_field;
   Compensated out;
   out.lines.reserve(program.moves.size());
+  out.distances_mm.reserve(program.moves.size());
   Writer writer(setup, options.decimals);
   Distances before, after;
   const auto write = [&](Stop& s) {
@@ -320,7 +350,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
       write(s);
     }
   });
-  if (!full) fitted(options.method, stops);
+  if (!full) fitted(options.method, field, options.passes, stops);
   for (Stop& s : stops) {
     if (s.move->moves)
       write(s);

@@ -276,6 +276,24 @@ Vec3 Kinematics::tip_error_first_order_mm(const Position& at) const {
   return values(e);
 }
 
+double Kinematics::bend_at_most(const Vec3& reach_mm) const {
+  const double far = vector(reach_mm).norm() + vector(tool_point_).norm();
+  double sum = 0;
+  for (const auto* joints : {&tool_, &work_})
+    for (const Joint& j : *joints) {
+      if (j.axis > 2) continue;  // at rest: its lever runs straight
+      const double t = reach_mm[j.axis] * j.inverse_Q;
+      const auto& c = j.errors.c;
+      const Errors slope = j.inverse_Q * (array(c[1]).abs() + 2 * t * array(c[2]).abs() +
+                                          3 * t * t * array(c[3]).abs());
+      const Errors bend =
+          j.inverse_Q * j.inverse_Q * (2 * array(c[2]).abs() + 6 * t * array(c[3]).abs());
+      sum += bend.matrix().head<3>().norm() + 2 * slope.matrix().tail<3>().norm() +
+             bend.matrix().tail<3>().norm() * (far + vector(j.p).norm());  // Eq. (5)
+    }
+  return sum;
+}
+
 std::vector<AxisEffect> Kinematics::effects(const Position& at) const {
   std::vector<AxisEffect> out;
   // R: R_fw^T R_i of (4) with the sign of its side; lever: R_i^T (P - p_i).

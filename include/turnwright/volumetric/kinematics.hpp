@@ -74,6 +74,11 @@ class Kinematics {
   Vec3 tip_error_mm(const Position& at) const;
   /// By (4).
   Vec3 tip_error_first_order_mm(const Position& at) const;
+  /// No less than the second derivative of (4) along any straight way [1/mm], rotary axes
+  /// at 0 and each linear axis within +-`reach_mm`:
+  ///
+  ///     |e''| <= sum |d''| + |r''| |P - p| + 2 |r'|                                  (5)
+  double bend_at_most(const Vec3& reach_mm) const;
   /// One for each axis of the chain, from the bed to the tool, then to the workpiece.
   std::vector<AxisEffect> effects(const Position& at) const;
 
