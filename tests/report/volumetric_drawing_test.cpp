@@ -101,8 +101,9 @@ TEST(CompensationDrawing, IsLogarithmicAndKeepsPeaks) {
   c.distances_mm[5003] = {1e-3f, 1e-6f};
   const std::string svg = compensation_drawing(c);
   const auto top = [&svg](const char* line) {
+    const auto curves = polylines(svg, line);
     double y = 1e9;
-    for (const Dot& d : polylines(svg, line).at(0)) y = std::min(y, d.y);
+    for (const Dot& d : curves.at(0)) y = std::min(y, d.y);
     return y;
   };
   EXPECT_NEAR(top("made"), 26, 2e-3);
