@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "turnwright/service/requests.hpp"
@@ -282,6 +283,20 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
       EXPECT_NE(contents(window).find("window of speed and feed"), std::string::npos);
       EXPECT_NE(contents(window).find("cost +5 %"), std::string::npos);
     }
+  }
+}
+
+TEST_F(CommandLine, DrawsMachines) {
+  for (const auto& [name, file] :
+       {std::pair{"geometry", "errors.svg"}, std::pair{"ballbar", "ballbar.svg"},
+        std::pair{"compensate", "residual.svg"}}) {
+    SCOPED_TRACE(name);
+    put(folder_ / "request.json", row(name).example);
+    const std::string command = std::string("turnwright ") + name + " request.json";
+    const auto outcome = shell(command + " --drawings new");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, shell(command).out);
+    EXPECT_EQ(contents(folder_ / "new" / file).rfind("<svg ", 0), 0u);
   }
 }
 

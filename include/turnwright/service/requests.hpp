@@ -24,8 +24,7 @@ struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures: setup-0.svg, .., budget.svg if tolerances are judged, and
-/// of plans window-ID.svg for each operation.
+/// A result with its pictures.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
