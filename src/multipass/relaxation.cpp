@@ -18,7 +18,7 @@ Line MeanLife::chord(const Interval& s) const {
 }
 
 Line MeanLife::tangent(double s) const {
-  const double beta = theta_ * std::exp(s - at(s));
+  const double beta = (1 - theta_) * std::exp(s - at(s));
   return {at(s) - beta * s, beta};
 }
 
