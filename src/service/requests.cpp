@@ -19,6 +19,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
+#include "turnwright/report/stability_chart.hpp"
 #include "turnwright/report/text.hpp"
 
 namespace turnwright::service {
@@ -171,6 +172,13 @@ Drawn drawn_predict(const json& request, const Context& context) {
   return drawn(part, planning::predict(part.plan));
 }
 
+Drawn drawn_stability(const json& request, const Context& context) {
+  Drawn all{document::stability(request, context.stop), {}};
+  if (auto svg = report::stability_chart(request, all.result); !svg.empty())
+    all.drawings.push_back({"stability.svg", std::move(svg)});
+  return all;
+}
+
 constexpr const char* kPredictExample = R"({
   "format": "turnwright-part/1", "name": "Pin", "material": "C45",
   "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
@@ -247,9 +255,10 @@ std::span<const Request> requests() {
        }},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
-       [](const json& request, const Context&) -> ordered_json {
-         return document::stability(request);
-       }},
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::stability(request, context.stop);
+       },
+       nullptr, drawn_stability},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

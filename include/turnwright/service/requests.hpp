@@ -24,7 +24,8 @@ struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
+/// A result with its pictures: of plans setup-0.svg, .. and budget.svg, if tolerances are
+/// judged; of limits over speeds stability.svg.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
