@@ -29,7 +29,7 @@ struct Cut {
 std::vector<Cut> simulated_cuts() {
   constexpr int kCuts = 120;
   std::mt19937 random(2011);
-  const auto share = [&] { return random() / 4294967296.0; };
+  const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
   std::vector<Cut> out;
   for (int i = 0; i < kCuts; ++i) {
     Cut c{kSlowest + (kFastest - kSlowest) * share(), kDeepest_mm * share()};

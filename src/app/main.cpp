@@ -112,7 +112,7 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     command->add_flag("--json", arguments.json, "print the result as JSON");
     if (row.drawn)
       command->add_option("--drawings", arguments.drawings,
-                          "write pictures (SVG) to this folder");
+                          "write the result's pictures (SVG) to this folder");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

@@ -1,11 +1,10 @@
 #include "turnwright/report/stability_chart.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <string>
 #include <vector>
 
-#include "svg.hpp"
+#include "chart.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -16,15 +15,7 @@ using nlohmann::ordered_json;
 // Millimetres of paper.
 constexpr double kPage = 190, kHeight = 128, kLeft = 20, kRight = 182, kTop = 20,
                  kBottom = 104, kMark = 0.9;
-constexpr int kTicks = 8, kShades = 4;
-
-/// 1, 2 or 5 times a power of ten, so that `width` takes at most kTicks of them.
-double tick_step(double width) {
-  const double power = std::pow(10, std::floor(std::log10(width / kTicks)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (width <= kTicks * step * power) return step * power;
-  return 10 * power;
-}
+constexpr int kShades = 4;
 
 /// One speed with the width it stands for.
 struct Column {
@@ -52,8 +43,8 @@ class Chart {
  public:
   Chart(const ordered_json& result, double deepest_mm)
       : result_(result), columns_(columns(result.at("speeds"))), deepest_(deepest_mm) {
-    first_ = columns_.front().from_rpm;
-    last_ = columns_.back().to_rpm;
+    speed_ = {columns_.front().from_rpm, columns_.back().to_rpm, kLeft, kRight};
+    depth_ = {0, deepest_, kBottom, kTop};
   }
 
   void fill() {
@@ -89,7 +80,7 @@ class Chart {
     if (!result_.contains("points")) return;
     for (const auto& p : result_.at("points")) {
       const double n = p.at("n_rpm"), depth = p.at("ap_mm");
-      if (!(n >= first_ && n <= last_ && depth <= deepest_)) continue;
+      if (!(n >= speed_.low && n <= speed_.high && depth <= deepest_)) continue;
       const Point at = place(n, depth);
       if (p.at("stable").get<bool>()) {
         diamond("stable", at);
@@ -120,27 +111,12 @@ class Chart {
     const auto shade = [&](double from, double to) {
       if (to > from) box("outside", place(from, deepest_), place(to, 0));
     };
-    shade(first_, std::min(from_rpm, last_));
-    shade(std::max(to_rpm, first_), last_);
+    shade(speed_.low, std::min(from_rpm, speed_.high));
+    shade(std::max(to_rpm, speed_.low), speed_.high);
   }
 
   void axes() {
-    box("frame", {kLeft, kTop}, {kRight, kBottom});
-    const double by_n = tick_step(last_ - first_), by_depth = tick_step(deepest_);
-    for (double k = std::ceil(first_ / by_n); k * by_n <= last_; ++k) {
-      const double x = place(k * by_n, 0).x;
-      svg_.line("", {x, kBottom}, {x, kBottom + 1});
-      svg_.text({x, kBottom + 4.5}, Anchor::middle, plain(k * by_n));
-    }
-    for (double k = 0; k * by_depth <= deepest_ * (1 + 1e-12); ++k) {
-      const double y = place(first_, k * by_depth).y;
-      svg_.line("", {kLeft - 1, y}, {kLeft, y});
-      svg_.text({kLeft - 2, y + 1}, Anchor::end, plain(k * by_depth, 6));
-    }
-    svg_.text({(kLeft + kRight) / 2, kBottom + 9.5}, Anchor::middle,
-              "spindle speed, 1/min");
-    svg_.text_upwards({kLeft - 13, (kTop + kBottom) / 2}, Anchor::middle,
-                      "axial depth, mm");
+    frame(svg_, speed_, depth_, "spindle speed, 1/min", "axial depth, mm", 8, 6);
   }
 
   void key(bool robust) {
@@ -168,8 +144,7 @@ class Chart {
 
  private:
   Point place(double n_rpm, double depth_mm) const {
-    return {kLeft + (kRight - kLeft) * (n_rpm - first_) / (last_ - first_),
-            kBottom - (kBottom - kTop) * depth_mm / deepest_};
+    return {speed_.place(n_rpm), depth_.place(depth_mm)};
   }
 
   void box(const std::string& css_class, Point a, Point b) {
@@ -232,7 +207,8 @@ class Chart {
 
   const ordered_json& result_;
   std::vector<Column> columns_;
-  double deepest_ = 0, first_ = 0, last_ = 0;
+  double deepest_ = 0;
+  Scale speed_, depth_;
   Svg svg_;
 };
 

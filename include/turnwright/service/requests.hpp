@@ -24,8 +24,7 @@ struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures: of plans setup-0.svg, .. and budget.svg, if tolerances are
-/// judged; of limits over speeds stability.svg.
+/// A result with its pictures.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
