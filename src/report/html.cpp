@@ -22,10 +22,10 @@ using Figures = std::vector<Figure>;
 constexpr const char* kStyle = R"css(
 @page { size: A4; margin: 14mm }
 body { max-width: 182mm; margin: 10mm auto; padding: 0 4mm; color: #1a1d21;
-  font: 9.5pt/1.4 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
+  font: 9pt/1.35 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
   font-variant-numeric: tabular-nums }
 h1 { font-size: 18pt; line-height: 1.15; margin: 0 0 1mm; overflow-wrap: anywhere }
-h2 { font-size: 12pt; margin: 7mm 0 2mm; padding-bottom: 0.8mm;
+h2 { font-size: 11.5pt; margin: 5mm 0 1.5mm; padding-bottom: 0.8mm;
   border-bottom: 0.3mm solid #1a1d21; break-after: avoid }
 p { margin: 1mm 0 }
 .status { font-weight: 600 } .status.infeasible { color: #b00d26 }
@@ -33,11 +33,11 @@ p { margin: 1mm 0 }
 dl { display: flex; flex-wrap: wrap; gap: 2mm 10mm; margin: 3mm 0 }
 dt { color: #5b626b; font-size: 8pt } dd { margin: 0; font-size: 14pt }
 dd small { font-size: 8.5pt; color: #5b626b }
-table { border-collapse: collapse; width: 100%; font-size: 8.5pt; margin: 2mm 0 }
+table { border-collapse: collapse; width: 100%; font-size: 8pt; margin: 2mm 0 }
 th { text-align: left; font-weight: 600; border-bottom: 0.2mm solid #8b929b;
   vertical-align: bottom }
 th small { display: block; font-weight: 400; color: #5b626b }
-th, td { padding: 0.7mm 1.6mm 0.7mm 0 }
+th, td { padding: 0.5mm 1.6mm 0.5mm 0 }
 td { border-bottom: 0.1mm solid #d8dce1; vertical-align: top; overflow-wrap: anywhere }
 td.n, th.n { text-align: right; white-space: nowrap }
 tr { break-inside: avoid } thead { display: table-header-group }
@@ -45,8 +45,9 @@ tr.first td { border-bottom: 0 } td.note { color: #454b53; padding-left: 3mm }
 .bad { color: #b00d26; font-weight: 600 }
 ol { padding-left: 6mm; margin: 1mm 0 } li { margin: 0.6mm 0 }
 ul { padding-left: 5mm; margin: 1mm 0; color: #454b53 }
-figure { margin: 3mm 0; break-inside: avoid } figure img { width: 100%; display: block }
-.windows { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
+figure { margin: 2mm 0; break-inside: avoid }
+figure img { max-width: 100%; max-height: 78mm; display: block; margin: 0 auto }
+.windows { display: grid; grid-template-columns: 1fr 1fr 1fr; gap: 3mm }
 .windows figure { margin: 0 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 8pt }
 @media print { body { margin: 0; padding: 0; max-width: none } }

@@ -26,4 +26,4 @@ export const signed = (mm: number): string =>
   mm === 0 ? '0' : (mm > 0 ? '+' : '−') + String(Number(Math.abs(mm).toFixed(4)));
 
 /** "total-radial-runout" as words. */
-export const words = (id: string): string => id.replaceAll('-', ' ');
+export const words = (id: string): string => id.replaceAll(/[-_]/g, ' ');
