@@ -103,9 +103,11 @@ if(BUILD_TESTING)
     PROPERTIES TIMEOUT 600)
 endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp plan_words.cpp setup_words.cpp setups.cpp proof.cpp fields.cpp layout.cpp
-                           drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp html.cpp
-          DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp html_test.cpp)
+                           drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp
+                           chart.cpp volumetric_drawing.cpp html.cpp
+          DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
+                volumetric_drawing_test.cpp html_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

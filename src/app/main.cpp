@@ -117,7 +117,7 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     command->add_flag("--json", arguments.json, "print the result as JSON");
     if (row.drawn)
       command->add_option("--drawings", arguments.drawings,
-                          "write pictures to this folder: setup-0.svg, .., budget.svg");
+                          "write the result's pictures (SVG) to this folder");
     if (row.html)
       command->add_option("--report", arguments.report_file,
                           "write the report (HTML, printable) here");

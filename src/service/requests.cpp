@@ -1,5 +1,6 @@
 #include "turnwright/service/requests.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
@@ -21,6 +22,7 @@
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
+#include "turnwright/report/volumetric_drawing.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -177,6 +179,21 @@ Drawn drawn_predict(const json& request, const Context& context) {
   return drawn(part, planning::predict(part.plan));
 }
 
+Drawn drawn_geometry(const json& request, const Context&) {
+  return {document::geometry(request),
+          {{"errors.svg", report::error_map(document::geometry_machine(request))}}};
+}
+
+Drawn drawn_ball_bar(const json& request, const Context&) {
+  return {document::ball_bar(request),
+          {{"ballbar.svg", report::ball_bar_drawing(document::ball_bar_trace(request))}}};
+}
+
+Drawn drawn_compensate(const json& request, const Context&) {
+  const auto [result, compensated] = document::compensated(request);
+  return {result, {{"residual.svg", report::compensation_drawing(compensated)}}};
+}
+
 constexpr const char* kPredictExample = R"({
   "format": "turnwright-part/1", "name": "Pin", "material": "C45",
   "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
@@ -232,12 +249,14 @@ std::span<const Request> requests() {
        kGeometryExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::geometry(request);
-       }},
+       },
+       nullptr, drawn_geometry},
       {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
        kBallBarExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::ball_bar(request);
-       }},
+       },
+       nullptr, drawn_ball_bar},
       {"samba", "probing strategy -> identifiability; readings -> parameters",
        kSambaExample,
        [](const json& request, const Context&) -> ordered_json {
@@ -252,7 +271,8 @@ std::span<const Request> requests() {
        kCompensateExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compensate(request);
-       }},
+       },
+       nullptr, drawn_compensate},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "turnwright/service/requests.hpp"
@@ -293,6 +294,20 @@ TEST_F(CommandLine, AReportIsOneFile) {
     EXPECT_NE(page.find("data:image/svg+xml,"), std::string::npos);
   }
   EXPECT_EQ(shell("turnwright plan request.json --report none/report.html").code, 74);
+}
+
+TEST_F(CommandLine, DrawsMachines) {
+  for (const auto& [name, file] :
+       {std::pair{"geometry", "errors.svg"}, std::pair{"ballbar", "ballbar.svg"},
+        std::pair{"compensate", "residual.svg"}}) {
+    SCOPED_TRACE(name);
+    put(folder_ / "request.json", row(name).example);
+    const std::string command = std::string("turnwright ") + name + " request.json";
+    const auto outcome = shell(command + " --drawings new");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, shell(command).out);
+    EXPECT_EQ(contents(folder_ / "new" / file).rfind("<svg ", 0), 0u);
+  }
 }
 
 TEST_F(CommandLine, DrawingsThatCannotBeWrittenAreTold) {

@@ -22,7 +22,7 @@ struct Context {
 
 using Picture = report::Figure;
 
-/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
+/// A result with its pictures.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
