@@ -97,6 +97,8 @@ async function planner() {
   await page.getByRole('button', { name: 'Setup 0' }).click();
   await page.getByRole('button', { name: /s0-rough/ }).first().click();
   await look(page, '04-planned');
+  await page.setViewportSize({ width: 1280, height: 1000 });
+  await page.screenshot({ path: `${folder}/page-planned.png` }); // for docs/pictures
 
   // A tighter tolerance is dearer, and says so.
   const runout = page.locator('[data-pointer="/tolerances/0/value_mm"] input');
