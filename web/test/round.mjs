@@ -141,7 +141,7 @@ async function paper(file) {
   const page = await (await browser.newContext()).newPage();
   page.on('request', (r) => assert.ok(/^(file|data):/.test(r.url()), r.url()));
   await page.goto(`file://${file}`);
-  await look(page, '07-report');
+  await look(page, '08-report');
   const pdf = await page.pdf({ path: `${folder}/report.pdf`, preferCSSPageSize: true });
   const pages = pdf.toString('latin1').match(/\/Type\s*\/Page\b/g).length;
   assert.ok(pages <= 4, `the report takes ${pages} pages`);
@@ -155,14 +155,14 @@ async function cancelled() {
   await choose(page, 'spindle-nose');
   await page.getByRole('button', { name: 'Plan', exact: true }).click();
   await page.getByRole('button', { name: 'Cancel' }).waitFor();
-  await look(page, '08-planning');
+  await look(page, '09-planning');
   await page.getByRole('button', { name: 'Cancel' }).click();
   await page.getByRole('button', { name: 'Plan', exact: true }).waitFor();
   await page.unroute('**/v1/plan');
   await page.route('**/v1/plan', (route) => route.abort());
   await page.keyboard.press('Control+Enter');
   await page.getByText('The server does not answer').waitFor();
-  await look(page, '09-no-answer');
+  await look(page, '10-no-answer');
   await page.context().close();
 }
 
@@ -172,7 +172,21 @@ async function impossible() {
   await choose(page, 'infeasible-as-drawn');
   await plan(page);
   await page.getByText('These limits cannot be kept together').waitFor();
-  await look(page, '10-infeasible-dark');
+  await look(page, '11-infeasible-dark');
+  await page.context().close();
+}
+
+async function locked() {
+  const page = await open({ viewport: { width: 1000, height: 700 } });
+  await page.route('**/v1/**', (route) =>
+    route.request().headers().authorization === 'Bearer a-key-of-16-characters'
+      ? route.continue()
+      : route.fulfill({ status: 401, json: { detail: 'expected Authorization: Bearer and a key' } }));
+  await page.reload();
+  await page.getByLabel('This server wants a key').fill('a-key-of-16-characters');
+  await look(page, '12-locked');
+  await page.getByRole('button', { name: 'Use it' }).click();
+  await page.getByRole('option', { name: 'Gearbox input shaft' }).waitFor({ state: 'attached' });
   await page.context().close();
 }
 
@@ -181,7 +195,7 @@ async function narrow() {
     const page = await open({ viewport: { width: 400, height: 800 }, colorScheme });
     await choose(page, 'flanged-bush');
     await plan(page);
-    await look(page, `11-narrow-${colorScheme}`);
+    await look(page, `13-narrow-${colorScheme}`);
     await page.context().close();
   }
 }
@@ -192,9 +206,9 @@ async function others() {
   await page.keyboard.press('ArrowRight'); // by keyboard to the chart
   await page.getByRole('button', { name: 'Draw the chart' }).click();
   await page.getByText('spectral radius').waitFor();
-  await look(page, '12-stability');
+  await look(page, '14-stability');
   await page.getByRole('tab', { name: 'Ball bar' }).click();
-  await look(page, '13-ball-bar-empty');
+  await look(page, '15-ball-bar-empty');
   // An eccentric circle of 5 um and a squareness error: the trace a user brings.
   const rows = Array.from({ length: 72 }, (_, k) => {
     const t = (2 * Math.PI * (k + 0.5)) / 72;
@@ -208,19 +222,19 @@ async function others() {
   await page.getByRole('heading', { name: 'ISO 230-4' }).waitFor();
   // 1 um wider one way and 1 um narrower the other: the hysteresis is 2 um.
   assert.equal(await page.getByRole('row', { name: /H, hysteresis/ }).locator('td').last().innerText(), '2.00');
-  await look(page, '14-ball-bar');
+  await look(page, '16-ball-bar');
   await page.getByLabel(/^Table/).fill('theta_deg,ccw\n1,2');
   await page.getByRole('button', { name: 'Analyse' }).click();
   await page.getByRole('alert').waitFor();
-  await look(page, '15-ball-bar-refused');
+  await look(page, '17-ball-bar-refused');
   await page.setViewportSize({ width: 400, height: 800 });
   await page.getByRole('tab', { name: 'Stability' }).click();
-  await look(page, '16-stability-narrow');
+  await look(page, '18-stability-narrow');
   await page.context().close();
 }
 
 let failed = 0;
-for (const round of [planner, cancelled, impossible, narrow, others]) {
+for (const round of [planner, cancelled, impossible, locked, narrow, others]) {
   try {
     await round();
     console.log(`passed: ${round.name}`);

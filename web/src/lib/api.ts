@@ -37,7 +37,7 @@ async function call(path: string, init: RequestInit): Promise<Response> {
   }
   if (response.ok) return response;
   const problem = await response.json().catch(() => ({}));
-  throw new Refused(response.status, problem.detail ?? response.statusText, problem.errors);
+  throw new Refused(response.status, problem.detail ?? response.statusText, problem.errors ?? []);
 }
 
 function send(path: string, document: unknown, signal?: AbortSignal): Promise<Response> {
