@@ -10,6 +10,7 @@
 #include "turnwright/document/compare.hpp"
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -154,6 +155,11 @@ ordered_json predict(const json& request, const Context& context) {
   return document::to_json(planning::predict(part.plan), part.assumed);
 }
 
+ordered_json drawing(const json& request, const Context& context) {
+  return document::drawing(
+      document::load_part_plan(request, context.catalogue, "drawing"));
+}
+
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
   Drawn all{document::to_json(plan, part.assumed), {}};
   for (auto& svg : report::setup_drawings(part.plan, plan))
@@ -228,9 +234,11 @@ constexpr const char* kPredictExample = R"({
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text, drawn_plan},
+       report::text, drawn_plan, report::html},
       {"predict", "part plan with conditions given -> deviations and verdicts",
-       kPredictExample, predict, report::text, drawn_predict},
+       kPredictExample, predict, report::text, drawn_predict, report::html},
+      {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
+       kPlanExample, drawing},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {
