@@ -53,7 +53,7 @@ class Planned {
 bool inside(const OperatingWindow& w, const At& x) {
   double angle = 0;
   const std::size_t n = w.vc_m_min.size();
-  for (std::size_t k = 0; k < n; k += 1 + n / 8) {
+  for (std::size_t k = 0; k < n; ++k) {
     const std::size_t l = (k + 1) % n;
     const double ax = std::log(w.vc_m_min[k] / x.v), ay = std::log(w.f_mm_rev[k] / x.f);
     const double bx = std::log(w.vc_m_min[l] / x.v), by = std::log(w.f_mm_rev[l] / x.f);
