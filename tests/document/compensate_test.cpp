@@ -74,7 +74,15 @@ TEST(CompensateDoor, RefusesWithLineNumbers) {
 TEST(CompensateDoor, AssumptionsAreSaid) {
   json request = example();
   request.erase("start_mm");
-  EXPECT_EQ(answered(request)["assumed"][0]["pointer"], "/start_mm");
+  request.erase("diameter");
+  request["program"] = {"T0101", "X40 Z2", "G1 Z0"};
+  const json assumed = answered(request)["assumed"];
+  ASSERT_EQ(assumed.size(), 3u);
+  EXPECT_EQ(assumed[0]["pointer"], "/start_mm");
+  EXPECT_EQ(assumed[1]["pointer"], "/diameter");
+  EXPECT_EQ(assumed[1]["value"], false);
+  EXPECT_EQ(assumed[2]["pointer"], "/program#line 2");
+  EXPECT_EQ(assumed[2]["value"], "G0");
 }
 
 TEST(CompensateDoor, SchemaAndReaderAgreeOnEverySlip) {

@@ -115,7 +115,9 @@ TEST(NcProgram, RefusesWithTheLine) {
       // Controls that go elsewhere or come back with other states.
       "M47", "M70", "M72", "M99", "M3.5", "M-3", "/G91", "/M98 P1", "/2 Z3", "/T0101",
       "X+-5", "X--5", "X 1 0", "X1e2", "X0x10", "G100", "G-1", "G64 P.1 L2", "P1", "D2",
-      "X\xc3\xa4", "\xc3\xa4", "\x1b[1m"};
+      "X\xc3\xa4", "\xc3\xa4", "\x1b[1m",
+      // Ends of lines and tapes that controls see elsewhere.
+      "X1\rY2", "; stop\rX5", "(a\rb)", "X1\r\r", "% X5", "%O10", "%(open", "X5 %"};
   for (const auto line : wrong) {
     const auto p = read_nc({"G1 X1 F100", line, "X3"}, {});
     ASSERT_EQ(p.problems.size(), 1u) << line;
@@ -145,7 +147,10 @@ TEST(NcProgram, RefusesWithTheLine) {
                           "g00 x1 y2",
                           "N5 G 1 X 3",
                           "G0 G17 G21 G40 G49 G80 G90 G94 G98",
-                          "X1\tY2\r"})
+                          "X1\tY2\r",
+                          "%",
+                          " % (end)\r",
+                          "\r"})
     EXPECT_TRUE(read_nc({line}, {}).problems.empty()) << line;
 }
 
@@ -196,6 +201,13 @@ TEST(NcProgram, WholeCirclesSurviveRounding) {
     const double turns = angle / (2 * units::kPi) + (angle > 1e-9 ? 0 : 1);
     EXPECT_NEAR(t[2], -2 * turns, 1e-9);
   }
+}
+
+TEST(NcProgram, SaysWhereItAssumesARapid) {
+  EXPECT_EQ(read_nc({"G90", "X5", "Y3"}, {}).rapid_assumed, 2u);
+  EXPECT_EQ(read_nc({"G1 F100", "X5", "G0 Y3"}, {}).rapid_assumed, 0u);
+  EXPECT_EQ(read_nc({"G2 X5 I2.5", "X5 I1"}, {}).rapid_assumed, 0u);
+  EXPECT_EQ(read_nc({"M3", "%"}, {}).rapid_assumed, 0u);
 }
 
 TEST(NcProgram, AskForWhatTheyDoNotKnow) {
