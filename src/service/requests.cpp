@@ -22,6 +22,7 @@
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
 #include "turnwright/report/volumetric_drawing.hpp"
+#include "turnwright/report/window_drawing.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -159,11 +160,16 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
         {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
   if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
     all.drawings.push_back({"budget.svg", std::move(svg)});
+  for (const auto& setup : plan.setups)
+    for (const auto& o : setup.operations)
+      if (o.window)
+        all.drawings.push_back({"window-" + o.id + ".svg", report::window_drawing(o)});
   return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "plan");
+  auto part = document::load_part_plan(request, context.catalogue, "plan");
+  part.plan.window_curves = true;
   return drawn(part, planning::plan(part.plan, part.what_if));
 }
 

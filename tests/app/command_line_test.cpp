@@ -277,6 +277,12 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
     EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
     EXPECT_NE(contents(folder_ / "new" / name / "budget.svg").find("d2:diameter"),
               std::string::npos);
+    const auto window = folder_ / "new" / name / "window-s0-face-right.svg";
+    EXPECT_EQ(fs::exists(window), name == "plan");
+    if (name == "plan") {
+      EXPECT_NE(contents(window).find("window of speed and feed"), std::string::npos);
+      EXPECT_NE(contents(window).find("cost +5 %"), std::string::npos);
+    }
   }
 }
 
