@@ -6,6 +6,7 @@
 
 #include "slips.hpp"
 #include "turnwright/document/file.hpp"
+#include "turnwright/document/parse.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -47,6 +48,15 @@ TEST(CompensateDoor, CorrectsALathesProgram) {
   const json lines = answered(request);
   request["program"] = text;
   EXPECT_EQ(answered(request), lines);
+}
+
+TEST(CompensateDoor, TakesLongProgramsAsText) {
+  json request = example();
+  std::string text = "T0101 G1 F0.2";
+  for (int i = 0; i < 5000; ++i) text += "\nX" + std::to_string(20 + i % 7) + " Z-1";
+  request["program"] = text;
+  const std::string document = request.dump();
+  EXPECT_EQ(answered(parse(document, "t"))["points"], 5000);
 }
 
 TEST(CompensateDoor, RefusesWithLineNumbers) {

@@ -86,6 +86,21 @@ TEST(NcProgram, ArcsStayWithinTheirTolerance) {
   }
 }
 
+// However wide the tolerance: the play of an axis is taken up where it turns back.
+TEST(NcProgram, ArcsAreCutWhereAnAxisReverses) {
+  const std::vector<Vec3> extremes = {{10, 0, 0}, {0, 10, 0}, {-10, 0, 0}, {0, -10, 0}};
+  for (const char* circle : {"G2 X8 Y6 I-8 J-6", "G3 X8 Y6 I-8 J-6"}) {
+    const auto p = read_nc({circle}, {.tolerance_mm = 1, .start_mm = {8, 6, 0}});
+    ASSERT_TRUE(p.problems.empty());
+    for (const Vec3& at : extremes) {
+      double nearest = 1e9;
+      for (const Vec3& t : targets(p))
+        nearest = std::min(nearest, norm(difference(t, at)));
+      EXPECT_LT(nearest, 1e-9) << circle << ' ' << at[0] << ' ' << at[1];
+    }
+  }
+}
+
 TEST(NcProgram, LatheWordsAreDiameters) {
   const auto p =
       read_nc({"T0101", "G0 X40 Z5", "G1 Z-10", "G2 X50 Z-15 I5 K0", "G1 G8 X20"},
@@ -404,11 +419,32 @@ TEST(Compensation, LongMovesFollowABow) {
   EXPECT_EQ(c.lines[1], "G1 X100.000000 Y-0.010000");
 }
 
+// An odd bow has no bend in the middle; between points the tip stays within tolerance.
+TEST(Compensation, LongMovesFollowAnOddBow) {
+  Machine m{"wfXYt", {}, {{'X', {}, 100}, {'Y', {}, 100}}};
+  m.axes[0].errors[1].c[3] = 1e-3;
+  const NcSetup setup{.axes = "XY", .start_mm = {-200, 0, 0}};
+  const auto p = read_nc({"G1 X200 F100"}, setup);
+  const Compensated c = compensate(p, m, setup, {.tolerance_mm = 1e-3});
+  const auto at = targets(read_nc(views(c.lines), setup));
+  Vec3 from{-200, 8e-3, 0};
+  for (const Vec3& to : at) {
+    for (double share = 0; share < 1; share += 0.125) {
+      const double x = from[0] + share * (to[0] - from[0]), t = x / 100;
+      EXPECT_NEAR(from[1] + share * (to[1] - from[1]), -1e-3 * t * t * t, 1.01e-3) << x;
+    }
+    from = to;
+  }
+  EXPECT_LE(at.size(), 8u);
+}
+
 TEST(Compensation, LatheInDiametersAndInches) {
   Machine m{"wCfZXt", {}, {{'C', {}, units::kPi}, {'Z', {}, 100}, {'X', {}, 100}}};
   m.axes[2].errors[0].c[1] = 3e-3;  // 30 ppm on X
   const NcSetup setup{.axes = "XZ", .diameter = true, .lathe = true};
   const auto mm = compensate(read_nc({"G0 X60 Z0"}, setup), m, setup);
+  m.axes[2].errors[1].c[0] = 4e-3;  // tangential: neither corrected nor counted
+  EXPECT_LT(compensate(read_nc({"G0 X60 Z0"}, setup), m, setup).after.max_mm, 1e-6);
   // 60 mm would come out 1.8 um too large.
   EXPECT_EQ(mm.lines[0], "G0 G90 X59.998200 Z0.000000");
   const auto inch = compensate(read_nc({"G20", "G0 X2 Z0"}, setup), m, setup);
@@ -425,6 +461,8 @@ TEST(Compensation, ToolLengthsAreNoMotion) {
   EXPECT_EQ(c.lines[1], "G1 X0.000000 Y0.000000 Z140.003000");  // s = -1: 3 um too low
   EXPECT_EQ(c.lines[2], "G43 H1");
   EXPECT_EQ(c.lines[3], "G1 X5.000000 Y0.000000 Z40.003000");
+  const auto up = compensate(read_nc({"G1 Z160 F100", "G43 H1", "X5"}, setup), m, setup);
+  EXPECT_EQ(up.lines.back(), "G1 X5.000000 Y0.000000 Z59.997000");
 }
 
 // Errors that change by more than the way cannot be taken out by (1).

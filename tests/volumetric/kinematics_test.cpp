@@ -234,6 +234,11 @@ TEST(Kinematics, BendsNoMoreThanItsBound) {
   m = {"wfXt", {0, 0, 50}, {{'X', {}, 100}}};
   m.axes[0].errors[4].c[2] = 1e-4;
   EXPECT_NEAR(Kinematics(m).bend_at_most({0, 0, 0}), 2e-8 * 50, 1e-18);
+  m.tool_point_mm = {};
+  m.axes[0].p_mm = {0, 0, -70};
+  EXPECT_NEAR(Kinematics(m).bend_at_most({0, 0, 0}), 2e-8 * 70, 1e-18);
+  m.axes[0].errors[4].c = {0, 1e-3, 0, 0};  // 10 urad/mm, the lever growing by 1
+  EXPECT_NEAR(Kinematics(m).bend_at_most({5, 0, 0}), 2e-5, 1e-18);
 }
 
 TEST(Kinematics, SquarenessTurnsTheDirectionOnly) {
