@@ -33,6 +33,7 @@ struct Arguments {
   std::string file;
   std::optional<std::filesystem::path> result_file;
   std::optional<std::filesystem::path> drawings;
+  std::optional<std::filesystem::path> report_file;
   bool json = false;
   std::string listed;
 };
@@ -47,7 +48,8 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request,
                       const document::Catalogue& catalogue) {
   try {
-    if (arguments.drawings) return service::drawn_answer(row, request, {catalogue});
+    if (arguments.drawings || arguments.report_file)
+      return service::drawn_answer(row, request, {catalogue});
     return {service::answer(row, request, {catalogue}), {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
@@ -65,10 +67,13 @@ void write_drawings(const std::filesystem::path& folder,
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
-  const auto [result, drawings] = answer(row, arguments, request, catalogue);
+  const auto drawn = answer(row, arguments, request, catalogue);
+  const auto& result = drawn.result;
   const std::string json = result.dump(2) + '\n';
   if (arguments.result_file) write_file(*arguments.result_file, json);
-  if (arguments.drawings) write_drawings(*arguments.drawings, drawings);
+  if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
+  if (arguments.report_file)
+    write_file(*arguments.report_file, service::html_report(row, request, drawn));
   if (row.text && !arguments.json)
     print(row.text(result));
   else if (arguments.json || !arguments.result_file)
@@ -110,6 +115,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.drawn)
       command->add_option("--drawings", arguments.drawings,
                           "write the result's pictures (SVG) to this folder");
+    if (row.html)
+      command->add_option("--report", arguments.report_file,
+                          "write the report (HTML, printable) here");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

@@ -10,6 +10,7 @@
 #include "turnwright/document/compare.hpp"
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -20,6 +21,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
+#include "turnwright/report/stability_chart.hpp"
 #include "turnwright/report/text.hpp"
 #include "turnwright/report/volumetric_drawing.hpp"
 #include "turnwright/report/window_drawing.hpp"
@@ -153,6 +155,11 @@ ordered_json predict(const json& request, const Context& context) {
   return document::to_json(planning::predict(part.plan), part.assumed);
 }
 
+ordered_json drawing(const json& request, const Context& context) {
+  return document::drawing(
+      document::load_part_plan(request, context.catalogue, "drawing"));
+}
+
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
   Drawn all{document::to_json(plan, part.assumed), {}};
   for (auto& svg : report::setup_drawings(part.plan, plan))
@@ -177,6 +184,13 @@ Drawn drawn_predict(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "predict",
                                              document::Purpose::predict);
   return drawn(part, planning::predict(part.plan));
+}
+
+Drawn drawn_stability(const json& request, const Context& context) {
+  Drawn all{document::stability(request, context.stop), {}};
+  if (auto svg = report::stability_chart(request, all.result); !svg.empty())
+    all.drawings.push_back({"stability.svg", std::move(svg)});
+  return all;
 }
 
 Drawn drawn_geometry(const json& request, const Context&) {
@@ -220,9 +234,11 @@ constexpr const char* kPredictExample = R"({
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text, drawn_plan},
+       report::text, drawn_plan, report::html},
       {"predict", "part plan with conditions given -> deviations and verdicts",
-       kPredictExample, predict, report::text, drawn_predict},
+       kPredictExample, predict, report::text, drawn_predict, report::html},
+      {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
+       kPlanExample, drawing},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {
@@ -273,9 +289,10 @@ std::span<const Request> requests() {
        nullptr, drawn_compensate},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
-       [](const json& request, const Context&) -> ordered_json {
-         return document::stability(request);
-       }},
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::stability(request, context.stop);
+       },
+       nullptr, drawn_stability},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {
