@@ -1,5 +1,6 @@
 #include "turnwright/document/multipass.hpp"
 
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -174,6 +175,11 @@ json described(const PassCount& c) {
   return out;
 }
 
+// As the request takes it: passes are counted.
+json limit_value(const std::string& limit, double value) {
+  return limit == "n_max" ? json(std::llround(value)) : json(value);
+}
+
 json described(const multipass::Problem& m, const Answer& a) {
   json counts = json::array();
   for (const PassCount& c : a.per_count) counts.push_back(described(c));
@@ -182,8 +188,8 @@ json described(const multipass::Problem& m, const Answer& a) {
     for (const multipass::Relief& r : a.conflict) {
       names.push_back(r.limit);
       relax.push_back({{"limit", r.limit},
-                       {"now", r.now},
-                       {"needed", r.needed ? json(*r.needed) : json()}});
+                       {"now", limit_value(r.limit, r.now)},
+                       {"needed", r.needed ? limit_value(r.limit, *r.needed) : json()}});
     }
     return {{"status", a.conflict.empty() ? "unsettled" : "infeasible"},
             {"UC", nullptr},

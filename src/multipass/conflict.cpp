@@ -51,6 +51,9 @@ bool on_depth_alone(const Row& row) {
   return rest.isZero() && !row.g.a.isZero();
 }
 
+// Of a request one number stands behind a limit of roughing and of finishing.
+std::string number_of(const Row& row) { return row.name.substr(row.name.find(':') + 1); }
+
 std::vector<Row> without(const std::vector<Row>& rows, const std::string& name) {
   std::vector<Row> rest = rows;
   std::erase_if(rest, [&](const Row& row) { return row.name == name; });
@@ -76,10 +79,12 @@ std::vector<Row> irreducible(const Problem& m, std::vector<Row> kept) {
 }
 
 Relief relief(const Problem& m, const std::vector<Row>& all, const Row& row) {
-  const auto hard = without(all, row.name);
+  std::vector<Row> soft, hard;
+  for (const Row& other : all)
+    (number_of(other) == number_of(row) ? soft : hard).push_back(other);
   double least = kMostRelief;
   for (int n = 1; n <= m.n_max; ++n)
-    if (const auto t = least_violation({row}, hard, depths(m, n), least, kReliefGap))
+    if (const auto t = least_violation(soft, hard, depths(m, n), least, kReliefGap))
       least = *t;
   Relief r{row.name, row.limit, std::nullopt};
   if (least < kMostRelief) r.needed = row.limit * std::exp(row.upper ? least : -least);

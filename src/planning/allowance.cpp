@@ -180,7 +180,7 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
   };
   spread(kMachine, Distribution::normal, machine.u_um / a.ends, 1);
   fixed("jaw-squeeze", squeeze_um(p, t, making));
-  fixed("measurement", (size ? 2 : 1) * shop.measurement_U_um);
+  fixed(kMeasurement, (size ? 2 : 1) * shop.measurement_U_um);
   if (size) {
     const double s = sensitivity(p, t);
     const auto both = together(p, t, making.setup);
@@ -221,13 +221,18 @@ double force_spread(const PartPlan& p) {
          100;
 }
 
+double fixed_in_parts_um(const Allowance& a) {
+  double um = 0;
+  for (const auto& f : a.fixed)
+    if (f.source != kMeasurement) um += f.um;
+  return um;
+}
+
 double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a, Cut cut) {
   const bool corrected = cut == Cut::corrected;
   const double width = width_mm(p.drawing.tolerances[tolerance]);
   if (!p.robust) return std::max(0.0, width - taken_mm(a));
-  double fixed_um = 0;
-  for (const auto& f : a.fixed) fixed_um += f.um;
-  const double h = (units::um_from_mm(width) - fixed_um) / a.ends;
+  const double h = (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
   if (!(h > 0)) return 0;
   const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
   const double r = cut == Cut::none ? 0 : force_spread(p);

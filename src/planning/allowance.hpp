@@ -17,6 +17,7 @@ struct Making {
 
 inline constexpr const char* kMachine = "machine";  ///< sources, below
 inline constexpr const char* kHeat = "heat";
+inline constexpr const char* kMeasurement = "measurement";
 
 /// Sizes (diameter, length, a profile located by datums) are moved up and down, zones
 /// widened:
@@ -57,6 +58,9 @@ Allowance allowance(const PartPlan& plan, std::size_t tolerance, const Making& m
 /// squares of the spread, (3) of tolerance/budget.hpp [mm].
 double taken_mm(const Allowance& allowance);
 
+/// Of what is fixed that which parts have [um]: all but their measurement.
+double fixed_in_parts_um(const Allowance& allowance);
+
 /// Relative standard deviation of what the cut leaves: of forces and of stiffness.
 double force_spread(const PartPlan& plan);
 
@@ -64,10 +68,10 @@ double force_spread(const PartPlan& plan);
 /// corrected for.
 enum class Cut { none, error, corrected };
 
-/// Of a width w, for what the cut leaves: w - taken.  A robust plan asks for more: at
-/// each of the ends, h = (w - fixed)/ends from the middle of a size, or from 0 of a zone,
-/// the largest E of which parts whose force and stiffness spread by r keep the limit with
-/// the wanted probability,
+/// Of a width w, for what the cut leaves: w - taken.  A robust plan asks of the parts
+/// themselves, not of their measurement: at each of the ends, h = (w - fixed)/ends from
+/// the middle of a size, or from 0 of a zone, the largest E of which parts whose force
+/// and stiffness spread by r keep the limit with the wanted probability,
 ///
 ///     P(S + r E Z <= h - E) = p                                                     (1)
 ///

@@ -71,9 +71,19 @@ class Explanation {
     make_joint();
     for (std::size_t k = 0; k < sets_.size(); ++k)
       for (std::size_t i = 0; i < sets_[k].size(); ++i) tell(k, i, result);
+    if (result.conflicts.empty()) tell_nearest(result);
   }
 
  private:
+  // What the search broke least, where no set of limits conflicts by itself.
+  void tell_nearest(ProcessPlan& result) const {
+    for (const auto& s : a_.setups)
+      for (const auto& f : s.chosen.features)
+        if (!f.answer.feasible)
+          result.conflicts.push_back(
+              {"", where(p_, a_, f.task.feature.surface()), 0, 0, "", obstacle(p_, f)});
+  }
+
   // With the members of the other sets left out.
   std::vector<Need> needs(std::size_t k) {
     std::vector<Need> all;

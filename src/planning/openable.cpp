@@ -149,6 +149,13 @@ void leave_out(PartPlan& p, std::size_t tolerance) {
   for (const auto& [i, end] : p.other_ends)
     if (i != tolerance) ends[i < tolerance ? i : i - 1] = end;
   p.other_ends = std::move(ends);
+  std::map<MachinePlace, MachineTake> takes;
+  for (const auto& [at, take] : p.machine_takes) {
+    auto place = at;
+    place.tolerance -= at.tolerance > tolerance;
+    if (at.tolerance != tolerance) takes[place] = take;
+  }
+  p.machine_takes = std::move(takes);
 }
 
 LimitName of_tools(const PartPlan& p, Check check, double catalogue::Tool::*value) {

@@ -7,7 +7,7 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kFarOpen = 1e4;
+constexpr double kFarOpen = 1e9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Least share of what the cut may use of a tolerance, from conditions that keep every

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "feature_optimiser.hpp"
 #include "planned.hpp"
 
 namespace turnwright::planning {
@@ -32,14 +33,31 @@ bool asked_more(const ProcessPlan& result, bool as_they_are, PartPlan& p) {
   return more;
 }
 
+// What is asked of both ends is enough, not necessary: only the bound of the first plan,
+// which was asked for one, holds for every plan that conforms.
+void bound_by(double first, ProcessPlan& r) {
+  auto& c = r.certificate;
+  if (r.status != PlanStatus::ok || !(first < c.lower_bound)) return;
+  const double objective = c.lower_bound / (1 - c.gap);
+  c.lower_bound = first;
+  c.gap = (objective - first) / std::abs(objective);
+  if (c.gap <= kCertified || c.kind != CertificateKind::global) return;
+  c.kind = CertificateKind::local;
+  c.reason =
+      "a size would fail at both of its limits: what is asked of both is enough, "
+      "the bound asks for one";
+}
+
 }  // namespace
 
 ProcessPlan conforming(PartPlan p, const std::vector<WhatIf>& what_if, Why why) {
   auto result = planned(p, what_if, why);
   if (!p.robust) return result;
+  const double bound = result.certificate.lower_bound;
   for (int round = 0; result.status == PlanStatus::ok; ++round) {
-    if (!asked_more(result, round < kRounds, p)) break;
+    if (!asked_more(result, round < kRounds, p)) return result;
     result = planned(p, what_if, why);
+    bound_by(bound, result);
   }
   return result;
 }

@@ -113,8 +113,7 @@ Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
     ++made;
   }
   all.mm = made > 0 ? all.mm / made : units::mm_from_um(p.machine_share_um);
-  for (const auto& f : all.by.fixed)
-    if (f.source != "measurement") all.fixed_mm += units::mm_from_um(f.um);
+  all.fixed_mm = units::mm_from_um(fixed_in_parts_um(all.by));
   return all;
 }
 

@@ -443,6 +443,22 @@ TEST(Robust, ACorrectedSizeIsAskedForWhatCorrectingLeavesUnknown) {
   EXPECT_NEAR(left, 2 * 0.0245 / (3 * force_spread(p)), 1e-7);
 }
 
+// The nominal plan leaves room for the measurement; parts that conform need none, so
+// where it conforms the robust one costs no more.
+TEST(Robust, PartsConformWhateverTheirMeasurement) {
+  auto d = pin_with({{"drift_um", 2}, {"measurement_U_um", 1}});
+  d["outer"][1]["limits_mm"] = {-0.016, 0};
+  const auto nominal = plan(part(d));
+  ASSERT_EQ(nominal.status, PlanStatus::ok);
+  double least = 1;
+  for (const auto& t : nominal.tolerances) least = std::min(least, t.P_conform);
+  ASSERT_GT(least, 0.5);
+  const auto r = plan(part(robust(d, least)));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_LE(r.certificate.lower_bound, nominal.cost_per_part * (1 + 1e-9));
+  EXPECT_LE(r.cost_per_part, nominal.cost_per_part * (1 + 1e-4));
+}
+
 TEST(Robust, PlansConformAsAskedAndCostNoLess) {
   auto d =
       pin_with({{"drift_um", 3}, {"repeatability_um", 1}, {"life_between_offsets", 0.1}});

@@ -303,6 +303,28 @@ void expect_resolving(const json& d, const ProcessPlan& r) {
   EXPECT_TRUE(feasible(all)) << all.dump();
 }
 
+// A size that the machine alone uses up conflicts alone, whatever else is asked.
+TEST(Conflicts, ASizeTheMachineUsesUpStandsAlone) {
+  auto d = reference_part("drilled-bush");
+  d["machine"] = "lathe-worn";
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  std::map<std::size_t, std::set<std::string>> sets;
+  for (const auto& c : r.conflicts) sets[c.set].insert(c.limit);
+  EXPECT_EQ(sets, (std::map<std::size_t, std::set<std::string>>{
+                      {1, {"d2:diameter diameter"}}, {2, {"b1:diameter diameter"}}}));
+  EXPECT_EQ(r.relax.size(), 2u);
+}
+
+TEST(Conflicts, ALimitFarOutOfReachIsToldWithWhatIsInReach) {
+  auto d = reference_part("coupling-shaft");
+  d["outer"][0]["Ra_um"] = 1e-6;
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.relax.size(), 1u);
+  d["outer"][0]["Ra_um"] = r.relax[0].needed;
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+}
+
 class OverConstrained : public testing::TestWithParam<unsigned> {};
 
 TEST_P(OverConstrained, SetsAreIrreducibleAndWhatIsToldMakesThePartFeasible) {

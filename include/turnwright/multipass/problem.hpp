@@ -79,7 +79,8 @@ struct PassCount {
   long nodes = 0;
 };
 
-/// By how much a single limit of a conflict would have to open, the others as they are.
+/// By how much the request's number behind a limit of a conflict, for roughing and
+/// finishing alike, would have to open, the others as they are.
 struct Relief {
   std::string limit;
   double now = 0;
