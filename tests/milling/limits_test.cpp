@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdlib>
 #include <random>
+#include <vector>
 
 #include "../../src/milling/unit_circle.hpp"
 #include "cutters.hpp"
@@ -94,6 +95,17 @@ TEST(Limits, IslandShowsAllItsCrossings) {
 TEST(Limits, DeepSlotHasSixUnstableMultipliers) {
   const System s = benchmark(Directions::two, down_milling(1));
   EXPECT_EQ(multipliers(s, 9000, 5).unstable, 6);
+}
+
+// So deep that a zero is followed instead of every crossing found.
+TEST(Limits, CountsReachBeyondTheSeries) {
+  const System s = benchmark(Directions::two, down_milling(1));
+  const std::vector<double> depths{0.02, 0.5, 2, 3.5, 5};
+  const SpeedLimits at = speed_limits(s, 9000, 5, depths);
+  EXPECT_EQ(at.unstable.front(), 0);
+  EXPECT_EQ(at.unstable.back(), 6);
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    EXPECT_EQ(at.unstable[i], multipliers(s, 9000, depths[i]).unstable) << depths[i];
 }
 
 // Up- and down-milling with an isotropic tool mirror each other.

@@ -95,6 +95,20 @@ TEST(Uncertain, FrequencyMovesTheChartAlongTheSpeeds) {
   EXPECT_NEAR(at.robust_mm.value() / std::min(moved, limit(tool(), 12500)), 1, 1e-8);
 }
 
+TEST(Uncertain, RobustIsTheWorstModeUnderTheLargestForce) {
+  const Bands bands{.frequency = 0.05, .force = 0.2, .samples = 1, .seed = 2};
+  const auto one = drawn(tool(), bands);
+  const double by = one[0].modes[0].wn_rad_s / tool().modes[0].wn_rad_s;
+  int moved_is_worse = 0;
+  for (const double n_rpm : {6100.0, 9000.0, 12500.0, 15000.0, 18500.0}) {
+    const double moved = limit(tool(), n_rpm / by), nominal = limit(tool(), n_rpm);
+    moved_is_worse += moved < nominal;
+    const UncertainLimit at = uncertain_limit(tool(), one, bands, n_rpm, 20);
+    EXPECT_NEAR(at.robust_mm.value() / (std::min(moved, nominal) / 1.2), 1, 1e-8);
+  }
+  EXPECT_GT(moved_is_worse, 0);
+}
+
 TEST(Uncertain, BeyondTheDepthAskedThereIsNoLoss) {
   const Bands bands{.force = 0.5, .samples = 20, .seed = 3};
   const auto all = drawn(tool(), bands);
