@@ -102,6 +102,9 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
+tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
+          DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
+          TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp
           DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
@@ -113,7 +116,7 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             http/message.cpp http/openapi.cpp http/api.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp
-          DEPENDS base catalogue planning document report
+          DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
             SQLite::SQLite3 prometheus-cpp::core Boost::headers Threads::Threads
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp

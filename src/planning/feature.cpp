@@ -128,20 +128,6 @@ const part::Face* find_face(const PartPlan& p, const std::string& id) {
 
 }  // namespace
 
-double clamping_rpm(const PartPlan& p, Clamping clamping) {
-  const auto& m = p.machine;
-  if (clamping == Clamping::between_centres) return m.n_max_rpm;
-  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
-}
-
-double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
-  const auto& c = p.machine.chuck;
-  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
-    return std::numeric_limits<double>::infinity();
-  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
-         units::kPi;
-}
-
 Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
                  std::string surface, const Fixed& fixed)
     : plan_(&plan),

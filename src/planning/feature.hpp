@@ -31,11 +31,6 @@ struct Economy {
   double minute = 0, edge = 0;
 };
 
-/// Fastest spindle speed [1/min] of machine and clamping.
-double clamping_rpm(const PartPlan& plan, Clamping clamping);
-/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
-
 /// What a clamping is to the cut where nothing yields: two clampings that hold alike
 /// differ in no chain without stations.
 struct Holding {
