@@ -118,14 +118,13 @@ void assume_drilled_holes(Draft& draft) {
 // A tube's jaws are eased where the request does not say how far; needs the whole part.
 void assume_grip_forces(Draft& draft) {
   auto& plan = draft.plan();
+  planning::ease_jaws(plan);
   for (std::size_t s = 0; s < plan.setups.size(); ++s) {
-    auto& setup = plan.setups[s];
-    if (setup.finishing_grip_force_N) continue;
+    const auto& setup = plan.setups[s];
+    if (!setup.eased_by_rule) continue;
     const double most = setup.grip_force_N.value_or(plan.machine.chuck.grip_force_N);
-    const double force = planning::gentle_grip_N(plan, s);
-    if (!(force < most)) continue;
-    setup.finishing_grip_force_N = force;
-    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N", force,
+    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N",
+                 *setup.finishing_grip_force_N,
                  "the jaws are eased from " + number_text(most) +
                      " N: their lobes may take a quarter of a roundness");
   }

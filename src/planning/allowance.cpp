@@ -143,6 +143,25 @@ double largest(double most, const Suffices& suffices) {
   return low;
 }
 
+double gentle_grip_N(const PartPlan& p, std::size_t setup) {
+  constexpr double kOfZone = 0.25, kLeast = 0.05;
+  const double most = jaw_force_N(p, setup, Clamping::chuck, Stage::roughing);
+  const auto& clampings = p.setups[setup].clampings;
+  const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
+    return c != Clamping::between_centres;
+  });
+  if (jaws == clampings.end() || !(gripped_bore_mm(p, setup) > 0)) return most;
+  const auto work = assign(p);
+  double share = 1;
+  for (const auto& t : p.drawing.tolerances) {
+    if (setup_of(p, work, t.of) != setup) continue;
+    const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
+    share =
+        std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
+  }
+  return most * std::max(kLeast, share);
+}
+
 }  // namespace
 
 Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& making) {
@@ -179,23 +198,16 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
   return a;
 }
 
-double gentle_grip_N(const PartPlan& p, std::size_t setup) {
-  constexpr double kOfZone = 0.25, kLeast = 0.05;
-  const double most = jaw_force_N(p, setup, Clamping::chuck, Stage::roughing);
-  const auto& clampings = p.setups[setup].clampings;
-  const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
-    return c != Clamping::between_centres;
-  });
-  if (jaws == clampings.end() || !(gripped_bore_mm(p, setup) > 0)) return most;
-  const auto work = assign(p);
-  double share = 1;
-  for (const auto& t : p.drawing.tolerances) {
-    if (setup_of(p, work, t.of) != setup) continue;
-    const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
-    share =
-        std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
+void ease_jaws(PartPlan& p) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    auto& setup = p.setups[s];
+    if (setup.finishing_grip_force_N && !setup.eased_by_rule) continue;
+    setup.finishing_grip_force_N.reset();
+    const double force = gentle_grip_N(p, s);
+    setup.eased_by_rule =
+        force < setup.grip_force_N.value_or(p.machine.chuck.grip_force_N);
+    if (setup.eased_by_rule) setup.finishing_grip_force_N = force;
   }
-  return most * std::max(kLeast, share);
 }
 
 double taken_mm(const Allowance& a) {
@@ -247,6 +259,14 @@ std::vector<Share> shares(const Allowance& a) {
 
 double width_mm(const Tolerance& t) {
   return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
+void widen(part::Tolerance& t, double times) {
+  t.value_mm *= times;
+  if (!t.limits) return;
+  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+  const double half = (t.limits->upper_mm - t.limits->lower_mm) / 2 * times;
+  t.limits = part::Limits{middle - half, middle + half};
 }
 
 double faces_cut(const PartPlan& p, const Tolerance& t) {

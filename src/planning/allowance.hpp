@@ -96,6 +96,9 @@ std::vector<Share> shares(const Allowance& allowance);
 /// Upper less lower limit, or the zone's width [mm].
 double width_mm(const part::Tolerance& tolerance);
 
+/// That width so many times as large, limits about their middle.
+void widen(part::Tolerance& tolerance, double times);
+
 /// Faces of a `length` that this plan cuts: they share what the tolerance leaves.
 double faces_cut(const PartPlan& plan, const part::Tolerance& tolerance);
 

@@ -35,12 +35,18 @@ std::vector<double> Feasibility::state(const Openings& times,
   return of_surface;
 }
 
-bool Feasibility::made(const FeatureTask& task, const Openings& times,
+bool Feasibility::made(const PartPlan& p, const FeatureTask& task, const Openings& times,
                        const Found& found) {
   const auto& surface = task.feature.surface();
   if (left_out_.count(surface)) return true;
   const auto [rough, finish] = tools_of(task);
-  const Key key{task.making.setup,    task.making.clamping, surface, rough, finish,
+  const auto [setup, clamping, last] = task.making;
+  const Key key{setup,
+                clamping,
+                jaw_force_N(p, setup, clamping, Stage::finishing),
+                surface,
+                rough,
+                finish,
                 state(times, surface)};
   if (const auto it = known_.find(key); it != known_.end() && !(it->second && found))
     return it->second;
@@ -61,7 +67,7 @@ bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& 
     planner.allow_compensation();
     std::set<std::string> tried, succeeded;
     const bool all = planner.can_be_made([&](const FeatureTask& t) {
-      const bool can = made(t, times, found);
+      const bool can = made(p, t, times, found);
       (can ? succeeded : tried).insert(t.feature.surface());
       return can;
     });

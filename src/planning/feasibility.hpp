@@ -38,13 +38,15 @@ class Feasibility {
 
  private:
   std::vector<double> state(const Openings& times, const std::string& surface) const;
-  bool made(const FeatureTask& task, const Openings& times, const Found& found);
+  bool made(const PartPlan& plan, const FeatureTask& task, const Openings& times,
+            const Found& found);
   bool setup_made(const PartPlan& plan, std::size_t setup, const SetupWork& work,
                   const Finished& done, const Openings& times, const Found& found);
 
-  // Setup, clamping, surface, its tools, and how far its limits are opened.
-  using Key = std::tuple<std::size_t, Clamping, std::string, std::string, std::string,
-                         std::vector<double>>;
+  // Setup, clamping and the jaws' force at finishing, surface, its tools, and how far its
+  // limits are opened.
+  using Key = std::tuple<std::size_t, Clamping, double, std::string, std::string,
+                         std::string, std::vector<double>>;
 
   const PartPlan& plan_;
   std::vector<Openable> limits_;

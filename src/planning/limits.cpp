@@ -48,12 +48,8 @@ void add_tolerances(const PartPlan& p, std::vector<Limit>& all) {
   for (std::size_t i = 0; i < tolerances.size(); ++i)
     all.push_back({tolerances[i].id, "opening " + called(p, tolerances[i]), "mm", true,
                    width_mm(tolerances[i]), [i](PartPlan& plan, double k) {
-                     auto& t = plan.drawing.tolerances[i];
-                     t.value_mm *= k;
-                     if (!t.limits) return;
-                     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
-                     t.limits = {middle + k * (t.limits->lower_mm - middle),
-                                 middle + k * (t.limits->upper_mm - middle)};
+                     widen(plan.drawing.tolerances[i], k);
+                     ease_jaws(plan);
                    }});
 }
 
@@ -122,13 +118,16 @@ void add_machine(const PartPlan& p, std::vector<Limit>& all) {
               [](PartPlan& plan, double k) { plan.machine.chuck.n_max_rpm *= k; }));
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     const double full = p.setups[s].grip_force_N.value_or(m.chuck.grip_force_N);
-    all.push_back(limit(
-        grip_name(kGrip, s), "N", true, full,
-        [s, full](PartPlan& plan, double k) { plan.setups[s].grip_force_N = k * full; }));
+    all.push_back(
+        limit(grip_name(kGrip, s), "N", true, full, [s, full](PartPlan& plan, double k) {
+          plan.setups[s].grip_force_N = k * full;
+          ease_jaws(plan);
+        }));
     if (const auto eased = p.setups[s].finishing_grip_force_N)
       all.push_back(limit(grip_name(kEasedGrip, s), "N", true, *eased,
                           [s](PartPlan& plan, double k) {
                             *plan.setups[s].finishing_grip_force_N *= k;
+                            plan.setups[s].eased_by_rule = false;
                           }));
   }
 }

@@ -72,14 +72,6 @@ void open_spindle(catalogue::Lathe& m, double times) {
   m.curve.push_back(last);
 }
 
-void open(part::Tolerance& t, double times) {
-  t.value_mm *= times;
-  if (!t.limits) return;
-  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
-  const double half = (t.limits->upper_mm - t.limits->lower_mm) / 2 * times;
-  t.limits = part::Limits{middle - half, middle + half};
-}
-
 void open_given(PartPlan& p, const Openable& l) {
   auto& c = (*p.operations)[l.index].conditions;
   if (l.kind == Kind::passes)
@@ -105,7 +97,7 @@ void open(PartPlan& p, const Openable& l, double times) {
   auto& m = p.machine;
   switch (l.kind) {
     case Kind::tolerance:
-      if (times != kWithout) open(p.drawing.tolerances[l.index], times);
+      if (times != kWithout) widen(p.drawing.tolerances[l.index], times);
       return;
     case Kind::Ra:
     case Kind::Rz:
@@ -202,6 +194,15 @@ bool is_given(const Openable& l) { return l.kind >= Kind::passes && l.kind <= Ki
 
 std::vector<Openable> limits_of(const PartPlan& p) {
   std::vector<Openable> all;
+  for (std::size_t i = 0; p.operations && i < p.operations->size(); ++i) {
+    const auto& c = (*p.operations)[i].conditions;
+    if (c.passes) all.push_back({Kind::passes, i});
+    for (const Kind k : {Kind::ap, Kind::f, Kind::vc})
+      if (condition(c, k)) all.push_back({k, i});
+  }
+  for (const Kind k : {Kind::depth_min, Kind::depth_max, Kind::feed_min, Kind::feed_max,
+                       Kind::vc_min, Kind::vc_max})
+    if (given(p, given_of(k))) all.push_back({k});
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i)
     all.push_back({Kind::tolerance, i, p.drawing.tolerances[i].of});
   for_every_roughness(p, [&](const auto& e) {
@@ -212,16 +213,6 @@ std::vector<Openable> limits_of(const PartPlan& p) {
        {Kind::power, Kind::feed_force, Kind::grip, Kind::spindle_max, Kind::spindle_min,
         Kind::tool_force, Kind::life_min, Kind::life_max})
     all.push_back({k});
-  if (!p.operations) return all;
-  for (std::size_t i = 0; i < p.operations->size(); ++i) {
-    const auto& c = (*p.operations)[i].conditions;
-    if (c.passes) all.push_back({Kind::passes, i});
-    for (const Kind k : {Kind::ap, Kind::f, Kind::vc})
-      if (condition(c, k)) all.push_back({k, i});
-  }
-  for (const Kind k : {Kind::depth_min, Kind::depth_max, Kind::feed_min, Kind::feed_max,
-                       Kind::vc_min, Kind::vc_max})
-    if (given(p, given_of(k))) all.push_back({k});
   return all;
 }
 
@@ -234,6 +225,7 @@ PartPlan opened(const PartPlan& plan, const std::vector<Openable>& limits,
   for (std::size_t i = limits.size(); i-- > 0;)
     if (limits[i].kind == Kind::tolerance && times[i] == kWithout)
       leave_out(p, limits[i].index);
+  ease_jaws(p);
   return p;
 }
 

@@ -42,6 +42,8 @@ struct Openable {
   friend bool operator==(const Openable&, const Openable&) = default;
 };
 
+/// What is given first, then what the tools, the drawing and the machine ask: a conflict
+/// is told with the earlier limits where it can be.
 std::vector<Openable> limits_of(const PartPlan& plan);
 
 /// How often each limit is opened: 1 as it is, infinity without it.

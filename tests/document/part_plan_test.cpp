@@ -569,10 +569,11 @@ TEST(WhatIf, RefusalsNameTheChange) {
   EXPECT_NE(one({{"limit", "roughness Ra of d1"}, {"change_percent", 5}, {"set", 1}})
                 .find("/what_if/0/set"),
             std::string::npos);
-  EXPECT_NE(refusal(asked(json::array()), Purpose::predict)
-                .find("t: /what_if: got a list of 0 entries, expected nothing: only plan "
-                      "answers what_if"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(asked(json::array()), Purpose::predict)
+          .find("t: /what_if: got an empty list, expected nothing: only plan answers "
+                "what_if"),
+      std::string::npos);
 }
 
 }  // namespace

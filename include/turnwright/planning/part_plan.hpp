@@ -31,6 +31,7 @@ struct SetupRequest {
   double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
   std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's
   std::optional<double> finishing_grip_force_N = {};  ///< once roughing is done
+  bool eased_by_rule = false;  ///< finishing_grip_force_N is ease_jaws', not given
 };
 
 /// What else moves the edge or the part in this shop, besides the cut and the machine's

@@ -85,10 +85,10 @@ enum class Stage { roughing, finishing };
 double jaw_force_N(const PartPlan& plan, std::size_t setup, Clamping clamping,
                    Stage stage);
 
-/// Jaw force for finishing in a setup whose request gives none: that of roughing, or as
-/// much less as leaves the lobes a quarter of every zone that sees them; at least a
-/// twentieth [N].
-double gentle_grip_N(const PartPlan& plan, std::size_t setup);
+/// Gives every setup whose request tells no force for finishing its own: that of roughing
+/// (told by nothing), or as much less as leaves the lobes a quarter of every zone that
+/// sees them; at least a twentieth [N].  To be called anew where zones change.
+void ease_jaws(PartPlan& plan);
 
 /// The body from the root to the free end; the end at the root is as the setups before
 /// left it.
