@@ -68,6 +68,9 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
                 prices_test.cpp conflicts_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
+tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
+          DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
+          TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
@@ -75,10 +78,10 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           catalogue.cpp data_folder.cpp references.cpp elements.cpp cuts.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp what_if.cpp part_plan.cpp process_plan.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
-          machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
-          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp nc.cpp
+          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning nc PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
-                malformed_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
+                malformed_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp nc_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
@@ -102,9 +105,6 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
-tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
-          DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
-          TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp
           DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt

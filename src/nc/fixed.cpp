@@ -95,10 +95,11 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
       room = p.side.items[j].z1 - s.z0 - P / 2;
   const double run_in = std::min(kRunIn * P, room);
   if (!(run_in >= P)) {
-    site.cannot.push_back(fmt::format(
-        "setup {}, {}: thread {} begins behind a larger diameter with less than one pitch "
-        "of room for the tool to come in",
-        site.setup, o.id, s.id));
+    site.cannot.push_back(
+        fmt::format("setup {}, {}: thread {} begins behind a larger diameter with less "
+                    "than one pitch "
+                    "of room for the tool to come in",
+                    site.setup, o.id, s.id));
     return;
   }
   const double end = s.z1 + (rises_behind(p, root) ? P : 0);
@@ -120,7 +121,8 @@ void arc(Site& site, const OperationPlan& o, const Place& p) {
   const bool mirrored = site.sign < 0;
   const double first = (mirrored ? cut.drawn.left_mm : cut.drawn.right_mm) / 2;
   const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
-  const auto drawn = arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
+  const auto drawn =
+      arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
   const double before = p.k > 0 ? p.side.items[p.k - 1].h1 : 0;
   const double wall = rises_behind(p, second) ? s.z1 : -INFINITY;
   double left = cut.depth_mm;
@@ -130,10 +132,10 @@ void arc(Site& site, const OperationPlan& o, const Place& p) {
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
     const auto way = tip_arc(raised, tool_of(site, o).re_mm, before, wall);
     if (!way) {
-      site.cannot.push_back(
-          fmt::format("setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
-                      "{:g} mm",
-                      site.setup, o.id, s.id, cut.radius_mm, tool_of(site, o).re_mm));
+      site.cannot.push_back(fmt::format(
+          "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
+          "{:g} mm",
+          site.setup, o.id, s.id, cut.radius_mm, tool_of(site, o).re_mm));
       return;
     }
     site.approach(p.side, {way->from.h_mm, way->from.z_mm + kBefore_mm}, kAbove_mm);

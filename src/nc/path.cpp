@@ -50,10 +50,11 @@ Arc arc_through(const Point& from, const Point& to, double R, bool convex) {
     throw std::domain_error("arc_through: a radius of at least half the chord");
   const auto n = normal(from, to);
   const double side = (convex ? -1 : 1) * beside(R, c / 2);
-  return {from,
-          to,
-          {(from.h_mm + to.h_mm) / 2 + side * n.h, (from.z_mm + to.z_mm) / 2 + side * n.z},
-          convex};
+  return {
+      from,
+      to,
+      {(from.h_mm + to.h_mm) / 2 + side * n.h, (from.z_mm + to.z_mm) / 2 + side * n.z},
+      convex};
 }
 
 std::optional<Arc> tip_arc(const Arc& a, double r, double floor_mm, double wall_z_mm) {

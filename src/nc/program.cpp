@@ -36,7 +36,8 @@ bool in_chuck_alone(const Site& site, const OperationPlan& o) {
 
 // When the jaws have the force of which stage.
 Stage stage_of(const Site& site, const OperationPlan& o) {
-  const bool rough = o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
+  const bool rough =
+      o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
   return rough || in_chuck_alone(site, o) ? Stage::roughing : Stage::finishing;
 }
 
@@ -51,7 +52,8 @@ Diameters swept(const Site& site, const OperationPlan& o) {
     return {std::min(e->left_mm, e->right_mm), std::max(e->left_mm, e->right_mm)};
   for (std::size_t k = 1; k < d.outer.size(); ++k)
     if (planning::shoulder_id(d, k) == o.on[0]) {
-      const auto [small, large] = std::minmax(d.outer[k - 1].right_mm, d.outer[k].left_mm);
+      const auto [small, large] =
+          std::minmax(d.outer[k - 1].right_mm, d.outer[k].left_mm);
       return {small, large};
     }
   return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
@@ -67,8 +69,8 @@ double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
       cap = r.n_max_rpm;
       break;
     }
-  const double force = planning::jaw_force_N(site.part, site.setup, site.clamping,
-                                             stage_of(site, o));
+  const double force =
+      planning::jaw_force_N(site.part, site.setup, site.clamping, stage_of(site, o));
   cap = std::min({cap, planning::clamping_rpm(site.part, site.clamping),
                   planning::grip_loss_rpm(site.part, site.clamping, force)});
   const auto D = swept(site, o);
@@ -77,10 +79,11 @@ double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
   double sum = 0;
   for (const auto& pass : o.passes) sum += pass.ap_mm;
   const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
-  const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
-                           planning::grip_diameter_mm(site.part, site.setup, site.clamping)};
-  const double needed = cutting::grip_needed_N(
-      grip, o.passes[0].Fc_N, o.passes[0].Ff_N, D.large_mm + (outside ? 2 * sum : 0));
+  const cutting::Grip grip{
+      force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+      planning::grip_diameter_mm(site.part, site.setup, site.clamping)};
+  const double needed = cutting::grip_needed_N(grip, o.passes[0].Fc_N, o.passes[0].Ff_N,
+                                               D.large_mm + (outside ? 2 * sum : 0));
   return std::min(cap, cutting::grip_rpm(grip, needed));
 }
 
@@ -163,8 +166,7 @@ class Numbers {
     if (o.kind == OperationKind::fixed) {
       const auto use = use_of(site, o);
       if (use != FixedUse::threading && use != FixedUse::profiling)
-        t.id += fmt::format(" {:g} mm",
-                            (drills(site, o) ? 2 : 1) * o.passes[0].ap_mm);
+        t.id += fmt::format(" {:g} mm", (drills(site, o) ? 2 : 1) * o.passes[0].ap_mm);
       if (drills(site, o)) t.orientation = 7;
     }
     const auto* e = o.on.empty() ? nullptr : &o.on[0];
@@ -189,11 +191,12 @@ std::vector<std::string> heading(const Site& site) {
   if (s.grip_force_N > 0)
     held += fmt::format(", jaws {:.1f} kN, end at Z{:.4g}", s.grip_force_N / 1000,
                         site.root_z);
-  return {"part " + d.name, "material " + site.part.material.name + ", machine " +
-                                site.part.machine.name,
+  return {"part " + d.name,
+          "material " + site.part.material.name + ", machine " + site.part.machine.name,
           fmt::format("stock {:g} x {:g} mm, {:g} mm before Z0", d.stock.outer_mm,
                       d.stock.length_mm, site.front),
-          held, "zero: spindle axis and finished face of the free end",
+          held,
+          "zero: spindle axis and finished face of the free end",
           "tools at their imaginary tip, corner radius in the path"};
 }
 
@@ -202,8 +205,8 @@ void way(Site& site, std::size_t i) {
   if (o.direction == planning::Direction::from_chuck && o.kind != OperationKind::fixed &&
       o.kind != OperationKind::face)
     site.cannot.push_back(fmt::format(
-        "setup {}, {}: no program is made for turning from the chuck outwards", site.setup,
-        o.id));
+        "setup {}, {}: no program is made for turning from the chuck outwards",
+        site.setup, o.id));
   else if (o.kind == OperationKind::fixed)
     fixed(site, i);
   else if (is_shoulder(o))

@@ -29,8 +29,8 @@ Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
     planning::finish(finished, work[k]);
     faced = faced || (work[k].end_face && part.setups[k].hold == part.setups[setup].hold);
   }
-  if (!faced) front = planning::face_stock_mm(part, sign > 0 ? part::End::right
-                                                             : part::End::left);
+  if (!faced)
+    front = planning::face_stock_mm(part, sign > 0 ? part::End::right : part::End::left);
   const auto add = [&](Side& side, const auto& elements, const auto& left_z,
                        const std::vector<bool>& done, bool bore) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -44,9 +44,11 @@ Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
               [](const Surface& x, const Surface& y) { return x.z0 > y.z0; });
   };
   const auto& d = part.drawing;
-  add(outer, d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); },
+  add(
+      outer, d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); },
       finished.outer, false);
-  add(inner, d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); },
+  add(
+      inner, d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); },
       finished.inner, true);
   at = {outer.stock_h + kChange_mm, front + kChange_mm};
 }

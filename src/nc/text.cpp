@@ -105,8 +105,9 @@ std::string text(const SetupProgram& p, Control control) {
   if (fanuc) out += fmt::format("O{:04}\n", p.setup + 1);
   for (const auto& c : p.comments) out += comment(c);
   for (const auto& t : p.tools)
-    out += comment(fmt::format("T{} {}{}", t.number, t.id,
-                               t.re_mm > 0 ? ", corner " + number(t.re_mm, 3) + " mm" : ""));
+    out +=
+        comment(fmt::format("T{} {}{}", t.number, t.id,
+                            t.re_mm > 0 ? ", corner " + number(t.re_mm, 3) + " mm" : ""));
   out += fanuc ? "G18 G21 G40 G99\n" : "G18 G21 G40 G80 G90 G95 G7 G61\n";
   int tool = 0, number_ = 10;
   bool running = false;

@@ -11,6 +11,9 @@ using planning::OperationPlan;
 using Kind = Move::Kind;
 using Table = std::vector<std::pair<double, double>>;
 
+constexpr double kStands_mm = 0.01;  // more than corrections differ
+constexpr double kFlat = 0.01;       // slope below which an element is no cone
+
 double depth_mm(const OperationPlan& o) {
   double sum = 0;
   for (const auto& pass : o.passes) sum += pass.ap_mm;
@@ -75,15 +78,6 @@ double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& si
                   later_mm(site, operation, b + "|" + a));
 }
 
-// Height behind the chuck's end of element k; nothing if the part ends there.
-std::optional<double> height_behind(const Side& side, std::size_t k) {
-  const auto& s = side.items[k];
-  if (k + 1 < side.items.size() && side.items[k + 1].z0 > s.z1 - kSame_mm)
-    return side.top0(side.items[k + 1]);
-  if (side.sign < 0) return side.stock_h;  // the hole goes on
-  return std::nullopt;
-}
-
 // Points on the straight line through two others.
 Point at_z(const Point& a, const Point& b, double z) {
   return {a.h_mm + (b.h_mm - a.h_mm) * (z - a.z_mm) / (b.z_mm - a.z_mm), z};
@@ -101,7 +95,9 @@ struct Pass {
   bool last;  // makes what is drawn
 
   Surface& surface() const { return side.items[k]; }
-  bool from_before() const { return last && operation > 0 && joined(site, operation - 1); }
+  bool from_before() const {
+    return last && operation > 0 && joined(site, operation - 1);
+  }
   bool goes_on() const { return last && joined(site, operation); }
 };
 
@@ -117,25 +113,27 @@ double floor_mm(const Pass& p) {
   return p.side.sign > 0 ? 0 : -INFINITY;
 }
 
-// Comes in along the element's own line, or what can be had of it above the floor; roughing
-// comes in along the axis.
+// Comes in along the element's own line, or what can be had of it above the floor;
+// roughing comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
   if (!p.last) {
     way.front() = tip(c[0], {1, 0}, n, p.re_mm);
-    if (n.z != 0) way.insert(way.begin(), {way.front().h_mm, p.surface().z0 + kBefore_mm});
-    else way.front().z_mm += far;
+    if (n.z != 0)
+      way.insert(way.begin(), {way.front().h_mm, p.surface().z0 + kBefore_mm});
+    else
+      way.front().z_mm += far;
     return;
   }
   const Point on = way.front(), start{on.h_mm - n.z * far, on.z_mm + n.h * far};
   const double floor = floor_mm(p);
-  if (start.h_mm >= floor || !(n.z > 0)) {
+  if (start.h_mm >= floor || !(n.z > kFlat)) {
     way.front() = start;
     return;
   }
   while (way.size() > 2 && way[1].h_mm < floor) way.erase(way.begin());
-  way.front() = at_h(way[0] .h_mm == on.h_mm ? start : way[0], way[1], floor);
+  way.front() = at_h(way[0], way[1], floor);
   way.insert(way.begin(), {floor, way.front().z_mm + kBefore_mm});
 }
 
@@ -147,7 +145,7 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   bool first = p.k == 0;
   for (std::size_t j = 0; j < p.k; ++j) {
     auto& s = p.side.items[j];
-    if (!(p.side.top(s) > h + kSame_mm)) continue;
+    if (!(p.side.top(s) > h + kStands_mm)) continue;
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
@@ -158,28 +156,33 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   if (from > z) way.insert(way.begin(), {h, from});
 }
 
-// z of the wall that the way ends at, behind this element or one that it goes on into.
-std::optional<double> wall_z(const Pass& p) {
-  auto o = p.operation;
-  auto k = p.k;
-  for (; p.last && joined(p.site, o); ++o) ++k;
-  const auto& s = p.side.items[k];
-  const auto behind = height_behind(p.side, k);
-  if (!behind || !(*behind > s.h1 + (p.last ? 0 : p.left_mm) + kSame_mm))
-    return std::nullopt;
-  return s.z1 + shoulder_stock_mm(p.site, p.operation, p.side, k);
+// z of the first place behind an element where the finished part is higher than it is.
+std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
+  const double h = side.items[k].h1 + kSame_mm;
+  double z = side.items[k].z1;
+  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
+    const auto& s = side.items[j];
+    if (s.z0 < z - kSame_mm) break;  // between bores from both ends
+    if (std::max(s.h0, s.h1) > h) return s.z0;
+    z = s.z1;
+  }
+  const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
+  if (side.sign < 0 && !at_end && side.stock_h > h) return z;  // the hole goes on
+  return std::nullopt;
 }
 
 // Ends at a wall, or behind an edge that falls.
 void lead_out(const Pass& p, std::vector<Point>& way) {
-  double end = -INFINITY;
-  if (const auto wall = wall_z(p)) {
-    end = *wall;
-  } else if (!p.goes_on()) {
+  auto o = p.operation;
+  auto k = p.k;
+  for (; p.last && joined(p.site, o); ++o) ++k;
+  double end = p.side.sign > 0 ? p.site.root_z : -INFINITY;
+  if (const auto wall = wall_behind(p.site, p.side, k))
+    end = std::max(end, *wall + shoulder_stock_mm(p.site, p.operation, p.side, k));
+  if (!p.goes_on()) {
     auto& last = way.back();
-    const double z = last.z_mm - p.site.r_most - kBehind_mm;
-    last = at_z(way[way.size() - 2], last, z);
-    if (p.side.sign > 0) end = p.site.root_z;
+    const double corner = p.side.sign > 0 ? p.site.r_most : p.re_mm;
+    last = at_z(way[way.size() - 2], last, last.z_mm - corner - kBehind_mm);
   }
   while (way.size() > 1 && way[way.size() - 2].z_mm <= end) way.pop_back();
   if (way.back().z_mm >= end) return;
@@ -257,7 +260,8 @@ bool joined(const Site& site, std::size_t i) {
   const auto& all = site.answer().operations;
   if (i + 1 >= all.size()) return false;
   const auto &a = all[i], &b = all[i + 1];
-  const bool finish = a.kind == OperationKind::finish || a.kind == OperationKind::bore_finish;
+  const bool finish =
+      a.kind == OperationKind::finish || a.kind == OperationKind::bore_finish;
   if (!finish || a.kind != b.kind || a.tool != b.tool || a.passes.size() != 1 ||
       b.passes.size() != 1 || a.on.size() != 1 || b.on.size() != 1)
     return false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "turnwright/document/catalogue.hpp"
+#include "turnwright/nc/program.hpp"
 
 /// Every capability once: a pure function from a request document to a result document.
 /// The doors (command line, HTTP, batch) are generated from this table, so that adding a
@@ -28,6 +29,7 @@ struct Picture {
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
+  nc::Programs programs = {};  ///< of plans
 };
 
 struct Request {
