@@ -6,7 +6,8 @@ tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cp
   DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen
   TESTS local_test.cpp nnls_test.cpp branch_and_bound_test.cpp posynomial_test.cpp
         relaxation_search_test.cpp)
-tw_domain(catalogue SOURCES iso1832.cpp DEPENDS base TESTS iso1832_test.cpp)
+tw_domain(catalogue SOURCES chip_window.cpp iso1832.cpp DEPENDS base
+          TESTS chip_window_test.cpp iso1832_test.cpp)
 tw_domain(part SOURCES drawing.cpp cut.cpp shaft.cpp DEPENDS base
           TESTS drawing_test.cpp cut_test.cpp shaft_test.cpp)
 # Floor 3
@@ -56,15 +57,17 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
   TESTS iso286_test.cpp general_test.cpp piecewise_test.cpp acceptance_test.cpp
         budget_test.cpp)
 # Floor 5
-tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp chain.cpp feature.cpp
+tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp
+          chain.cpp chebyshev.cpp bar_tip.cpp feature.cpp chatter.cpp
           recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp setup_planner.cpp
-          describe.cpp
+          describe.cpp window.cpp
           tolerance_results.cpp limits.cpp first_order.cpp prices.cpp openable.cpp feasibility.cpp
           conflict_sets.cpp openings.cpp conflicts.cpp obstacle.cpp remedies.cpp outcome.cpp
           planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting volumetric tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS allowance_test.cpp machine_share_test.cpp recipe_model_test.cpp plan_test.cpp
+          TESTS allowance_test.cpp machine_share_test.cpp chatter_test.cpp chip_breaker_test.cpp
+                recipe_model_test.cpp window_test.cpp plan_test.cpp
                 prices_test.cpp conflicts_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
@@ -106,9 +109,11 @@ if(BUILD_TESTING)
     PROPERTIES TIMEOUT 600)
 endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp setups.cpp proof.cpp fields.cpp layout.cpp
-                           drawing.cpp budget_drawing.cpp contour.cpp stack.cpp svg.cpp
-          DEPENDS base part planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
-          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp)
+                           drawing.cpp budget_drawing.cpp window_drawing.cpp contour.cpp stack.cpp svg.cpp
+                           chart.cpp volumetric_drawing.cpp
+          DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
+          TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
+                window_drawing_test.cpp volumetric_drawing_test.cpp)
 # Floor 7, 8
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
@@ -120,6 +125,7 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
             SQLite::SQLite3 prometheus-cpp::core Boost::headers Threads::Threads
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
+                malformed_requests_test.cpp
                 job_store_test.cpp server_test.cpp)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -125,12 +125,12 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     command->add_option("-o,--output", arguments.result_file,
                         "write the result (JSON) here");
     command->add_flag("--json", arguments.json, "print the result as JSON");
-    if (row.drawn) {
+    if (row.drawn)
       command->add_option("--drawings", arguments.drawings,
-                          "write pictures to this folder: setup-0.svg, .., budget.svg");
+                          "write the result's pictures (SVG) to this folder");
+    if (row.drawn && service::request_schema(row) == "part.json")
       command->add_option("--nc", arguments.programs,
                           "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
-    }
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

@@ -205,40 +205,51 @@ std::vector<Calibrated> calibrated(const Trace& t, const BallBarFit& fit,
   return all;
 }
 
-}  // namespace
+struct Request {
+  Trace trace;
+  bool analysed = false;
+  std::optional<MachineDocument> machine;  ///< to be calibrated by the trace
+};
 
-json ball_bar(const json& request) {
+Request read_request(const json& request) {
   Problems problems{.document = "ballbar"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-ballbar/1");
   const bool simulated = r.has("simulate"), analysed = r.has("analyse");
   std::optional<Simulation> simulation;
-  std::optional<Trace> trace;
+  Request q{.trace = {}, .analysed = analysed, .machine = {}};
   if (simulated) simulation = read_simulation(r.object("simulate"));
-  if (analysed) trace = read_trace(r.object("analyse"));
-  std::optional<MachineDocument> machine;
-  if (trace) {
-    const auto axes = axes_of(trace->plane);
-    machine = read_machine_document(r, "wCfZXt", {axes.begin(), axes.end()});
+  if (analysed) {
+    q.trace = read_trace(r.object("analyse"));
+    const auto axes = axes_of(q.trace.plane);
+    q.machine = read_machine_document(r, "wCfZXt", {axes.begin(), axes.end()});
   }
   r.finish();
   if (r.is_object() && simulated == analysed)
     r.problem(simulated ? "both" : "neither", "either simulate or analyse", "conflict");
   problems.throw_if_any();
-  if (trace) {
-    const BallBarFit fit = decompose(*trace);
-    json out = analysis_json(*trace, fit);
-    if (machine) {
-      const auto found = calibrated(*trace, fit, machine->errors.chain);
-      const auto axes = axes_of(trace->plane);
-      out["machine"] = with_errors(std::move(*machine), found,
-                                   std::string("ball bar in ") + axes[0] + axes[1] +
-                                       ", R " + number_text(trace->R_mm) + " mm");
-    }
-    return out;
+  if (simulation) q.trace = simulate(simulation->machine, simulation->test);
+  return q;
+}
+
+}  // namespace
+
+Trace ball_bar_trace(const json& request) { return read_request(request).trace; }
+
+json ball_bar(const json& request) {
+  auto [t, analysed, machine] = read_request(request);
+  if (!analysed)
+    return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
+  const BallBarFit fit = decompose(t);
+  json out = analysis_json(t, fit);
+  if (machine) {
+    const auto found = calibrated(t, fit, machine->errors.chain);
+    const auto axes = axes_of(t.plane);
+    out["machine"] = with_errors(std::move(*machine), found,
+                                 std::string("ball bar in ") + axes[0] + axes[1] +
+                                     ", R " + number_text(t.R_mm) + " mm");
   }
-  const Trace t = simulate(simulation->machine, simulation->test);
-  return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
+  return out;
 }
 
 }  // namespace turnwright::document

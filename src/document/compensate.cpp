@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fields.hpp"
@@ -115,7 +116,9 @@ json deviation_json(const Deviation& d) {
 
 }  // namespace
 
-json compensate(const json& request) {
+json compensate(const json& request) { return compensated(request).result; }
+
+CompensateAnswer compensated(const json& request) {
   const Request q = read_request(request);
   const std::vector<std::string_view> lines(q.lines.begin(), q.lines.end());
   const NcProgram program = read_nc(lines, q.setup);
@@ -127,19 +130,21 @@ json compensate(const json& request) {
     problems.add({"/program", std::to_string(program.moves.size()) + " moves",
                   "at most 5000000; a wider tolerance_mm makes fewer", "range"});
   problems.throw_if_any();
-  const Compensated c = volumetric::compensate(program, q.machine, q.setup, q.options);
+  Compensated c = volumetric::compensate(program, q.machine, q.setup, q.options);
   json assumed = json::array();
   if (!request.contains("start_mm"))
     assumed.push_back({{"pointer", "/start_mm"},
                        {"value", {0, 0, 0}},
                        {"why", "where the tip stands before the first move"}});
-  return {{"program", c.lines},
-          {"residual",
-           {{"before", deviation_json(c.before)}, {"after", deviation_json(c.after)}}},
-          {"points", c.points},
-          {"added_moves", c.added},
-          {"largest_correction_mm", c.largest_correction_mm},
-          {"assumed", assumed}};
+  json result = {
+      {"program", c.lines},
+      {"residual",
+       {{"before", deviation_json(c.before)}, {"after", deviation_json(c.after)}}},
+      {"points", c.points},
+      {"added_moves", c.added},
+      {"largest_correction_mm", c.largest_correction_mm},
+      {"assumed", assumed}};
+  return {std::move(result), std::move(c)};
 }
 
 }  // namespace turnwright::document

@@ -30,6 +30,9 @@ const Choices<catalogue::IsoGroup>& iso_groups();
 /// {"c0_mm_N", "c1_rad_N", "c2_rad_Nmm"}: a compliance that does no negative work.
 catalogue::RootCompliance read_compliance(Reader r);
 
+/// Damping ratio of a mode of slender work or of a bar, "damping_ratio".
+inline const Bounds kDamping = above_up_to(0, 0.5);
+
 /// A list of distinct words.
 template <class E>
 std::vector<E> read_set(Reader& r, std::string_view key, const Choices<E>& choices) {

@@ -16,22 +16,33 @@ Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-}  // namespace
+struct Request {
+  Machine machine;
+  std::vector<Position> points;
+  std::vector<TurnedSurface> surfaces;
+};
 
-json geometry(const json& request) {
+Request read_request(const json& request) {
   Problems problems{.document = "geometry"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-geometry/1");
-  Machine machine = read_chain(r);
-  machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
-  std::vector<Position> points;
-  const auto surfaces = read_turned(r, machine.chain);
+  Request q{.machine = read_chain(r), .points = {}, .surfaces = {}};
+  q.machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
+  q.surfaces = read_turned(r, q.machine.chain);
   const auto items = r.has("turned") ? r.optional_items("points", 1, kPoints)
                                      : r.items("points", 1, kPoints);
-  for (const Reader& point : items) points.push_back(read_position(point, machine));
+  for (const Reader& point : items) q.points.push_back(read_position(point, q.machine));
   r.finish();
   problems.throw_if_any();
+  return q;
+}
 
+}  // namespace
+
+Machine geometry_machine(const json& request) { return read_request(request).machine; }
+
+json geometry(const json& request) {
+  const auto [machine, points, surfaces] = read_request(request);
   const Kinematics kinematics(machine);
   json out = json::array();
   for (const Position& at : points) {

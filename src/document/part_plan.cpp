@@ -64,6 +64,10 @@ void read_economics(Draft& draft) {
       or_assumed(draft, "machine_share_um",
                  r.optional_number("machine_share_um", within(0, 1000, "um")),
                  plan.machine_share_um, plan.machine_share_um);
+  plan.window_percent =
+      or_assumed(draft, "window_percent",
+                 r.optional_number("window_percent", above_up_to(0, 100, "%")),
+                 plan.window_percent, plan.window_percent);
   plan.pareto =
       static_cast<std::size_t>(draft.root.optional_integer("pareto", 2, 50).value_or(0));
   if (draft.root.has("robust"))
@@ -73,6 +77,19 @@ void read_economics(Draft& draft) {
   plan.conformance = or_assumed(draft, "conformance",
                                 r.optional_number("conformance", at_least_below(0.5, 1)),
                                 plan.conformance, plan.conformance);
+}
+
+void read_damping(Draft& draft) {
+  auto& plan = draft.plan();
+  if (const auto given = draft.root.optional_number("damping_ratio", kDamping)) {
+    plan.damping_ratio = *given;
+    return;
+  }
+  const auto& machines = plan.machine.damping_ratio;
+  plan.damping_ratio = machines.value_or(plan.damping_ratio);
+  draft.assume(
+      "/damping_ratio", plan.damping_ratio,
+      machines ? "the machine's own" : "slender parts and bars in a chuck or holder");
 }
 
 void read_budget(Draft& draft) {
@@ -148,6 +165,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_setups(draft);
     read_operations(draft);
     read_economics(draft);
+    read_damping(draft);
     read_budget(draft);
     read_what_if(draft);
     root.optional_items("milling", 0, 100);

@@ -59,18 +59,28 @@ ordered_json json_of(const ConstraintValue& c) {
           {"binding", c.binding}, {"shadow_price", c.shadow_price}};
 }
 
+ordered_json json_of(const OperatingWindow& w) {
+  return {{"percent", w.percent},
+          {"vc_m_min", w.vc_m_min},
+          {"f_mm_rev", w.f_mm_rev},
+          {"limits", w.limits}};
+}
+
 ordered_json json_of(const OperationPlan& op) {
-  return {{"id", op.id},
-          {"kind", name(op.kind)},
-          {"on", op.on},
-          {"tool", op.tool},
-          {"direction", name(op.direction)},
-          {"passes", list(op.passes, [](const Pass& p) { return json_of(p); })},
-          {"time_min", op.time_min},
-          {"cost", op.cost},
-          {"constraints",
-           list(op.constraints, [](const ConstraintValue& c) { return json_of(c); })},
-          {"certificate", json_of(op.certificate)}};
+  ordered_json out{
+      {"id", op.id},
+      {"kind", name(op.kind)},
+      {"on", op.on},
+      {"tool", op.tool},
+      {"direction", name(op.direction)},
+      {"passes", list(op.passes, [](const Pass& p) { return json_of(p); })},
+      {"time_min", op.time_min},
+      {"cost", op.cost},
+      {"constraints",
+       list(op.constraints, [](const ConstraintValue& c) { return json_of(c); })},
+      {"certificate", json_of(op.certificate)}};
+  if (op.window) out["window"] = json_of(*op.window);
+  return out;
 }
 
 ordered_json json_of(const RejectedClamping& r) {

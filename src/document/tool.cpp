@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "fields.hpp"
+#include "turnwright/catalogue/chip_window.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::document {
@@ -30,9 +31,50 @@ void read_geometry(Reader group, catalogue::Tool& t) {
     group.problem_at("gamma_deg", "a wedge: alpha_deg + gamma_deg < 90 deg", "conflict");
 }
 
+const Bounds kFeed = above_up_to(0, 5, "mm/rev"), kDepth = above_up_to(0, 50, "mm");
+
+// A polygon's ranges are those given or, if these are left out, as wide as it is.
+void read_chip_window(Reader& group, catalogue::Tool& t) {
+  std::vector<catalogue::ChipPoint> polygon;
+  const auto faults = [&] {
+    return group.problems().list.size() + group.problems().more;
+  };
+  const auto before = faults();
+  for (const auto& item : group.items("chip_window", 3, 20)) {
+    const auto point = item.as_items(2, 2);
+    if (point.size() == 2)
+      polygon.push_back({point[0].as_number(kDepth), point[1].as_number(kFeed)});
+  }
+  if (faults() > before) return;
+  if (!catalogue::is_simple(polygon)) {
+    group.problem_at("chip_window",
+                     "corners [ap_mm, f_mm_rev] of one area whose edges do not cross",
+                     "conflict");
+    return;
+  }
+  t.chip = catalogue::convex_pieces(polygon);
+  catalogue::Range ap = t.chip[0].ap_mm, f = t.chip[0].f_mm_rev;
+  for (const auto& piece : t.chip) {
+    ap = {std::min(ap.lower, piece.ap_mm.lower), std::max(ap.upper, piece.ap_mm.upper)};
+    f = {std::min(f.lower, piece.f_mm_rev.lower),
+         std::max(f.upper, piece.f_mm_rev.upper)};
+  }
+  const auto within = [&](const char* key, catalogue::Range& given,
+                          const catalogue::Range& polygons) {
+    if (!group.has(key)) given = polygons;
+    if (given.lower >= polygons.upper || given.upper <= polygons.lower)
+      group.problem_at(key, "a range that chip_window reaches", "conflict");
+  };
+  within("ap_mm", t.ap_mm, ap);
+  within("f_mm_rev", t.f_mm_rev, f);
+}
+
 void read_window(Reader group, catalogue::Tool& t) {
-  t.f_mm_rev = read_range(group, "f_mm_rev", above_up_to(0, 5, "mm/rev"));
-  t.ap_mm = read_range(group, "ap_mm", above_up_to(0, 50, "mm"));
+  const bool polygon = group.has("chip_window");
+  if (!polygon || group.has("f_mm_rev"))
+    t.f_mm_rev = read_range(group, "f_mm_rev", kFeed);
+  if (!polygon || group.has("ap_mm")) t.ap_mm = read_range(group, "ap_mm", kDepth);
+  if (polygon) read_chip_window(group, t);
   t.vc_m_min = read_range(group, "vc_m_min", above_up_to(0, 5000, "m/min"));
   finish_group(group);
 }
@@ -59,6 +101,7 @@ catalogue::BoringBar read_bar(Reader group) {
   bar.min_bore_mm = group.number("min_bore_mm", above_up_to(0, 20000, "mm"));
   bar.holder = read_compliance(group.object("holder"));
   bar.tip_mm_N = group.optional_number("tip_mm_N", above_up_to(0, 0.1, "mm/N"));
+  bar.damping_ratio = group.optional_number("damping_ratio", kDamping);
   finish_group(group);
   for (const auto& s : bar.segments)
     if (s.diameter_mm / 2 > bar.min_bore_mm - bar.tip_offset_mm)

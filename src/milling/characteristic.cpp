@@ -167,8 +167,12 @@ void interpolate(const std::vector<Scaled>& f, Coefficients& out) {
 
 Characteristic::Characteristic(const System& system, double n_rpm,
                                const Resolution& resolution)
+    : Characteristic(system, arc_loads(system, n_rpm), n_rpm, resolution) {}
+
+Characteristic::Characteristic(const System& system, std::vector<ArcLoad> arcs,
+                               double n_rpm, const Resolution& resolution)
     : system_(&system),
-      arcs_(arc_loads(system, n_rpm)),
+      arcs_(std::move(arcs)),
       n_rpm_(n_rpm),
       tau_s_(period_s(system, n_rpm)),
       resolution_(resolution) {}

@@ -29,6 +29,9 @@ struct Coefficients {
 class Characteristic {
  public:
   Characteristic(const System& system, double n_rpm, const Resolution& resolution);
+  /// @param arcs  those of the system at that speed.
+  Characteristic(const System& system, std::vector<ArcLoad> arcs, double n_rpm,
+                 const Resolution& resolution);
 
   std::size_t states() const { return 2 * system_->modes.size(); }
   double tau_s() const { return tau_s_; }

@@ -77,7 +77,7 @@ class Map {
         if (cut.used[1]) force(start[a] + i, start[1] + i) = w * (a == 0 ? h.xy : h.yy);
         for (Index j = 0; j < p; ++j)
           volterra(start[a] + i, start[a] + j) =
-              kernel.axis[a][static_cast<std::size_t>(i * p + j)];
+              kernel.axis[a][static_cast<std::size_t>(j * p + i)];
       }
     }
     MatrixXd free = MatrixXd::Zero(rows, states_), end = MatrixXd::Zero(states_, rows);
@@ -94,10 +94,11 @@ class Map {
         const auto node = k * static_cast<std::size_t>(p) + static_cast<std::size_t>(i);
         free(row + i, x) = kernel.from_begin[node].xx;
         free(row + i, x + 1) = kernel.from_begin[node].xv;
-        const double weight =
-            kernel.weight_s[static_cast<std::size_t>(i)] * mode.wn_rad_s / mode.k_N_mm;
-        end(x, row + i) = weight * kernel.to_end[node].xv;
-        end(x + 1, row + i) = weight * kernel.to_end[node].vv;
+        const auto column = static_cast<Index>(cut.axis_of[k]) * p + i;
+        const double* to_end =
+            &kernel.end[static_cast<std::size_t>(column * states_ + x)];
+        end(x, row + i) = to_end[0];
+        end(x + 1, row + i) = to_end[1];
       }
     }
     const MatrixXd again = volterra * force;

@@ -24,7 +24,7 @@ struct Inside {
 class Climb {
  public:
   Climb(const System& system, double n_rpm)
-      : coarse_(system, n_rpm, kCoarse), fine_(system, n_rpm, kFine) {}
+      : coarse_(system, n_rpm, kCoarse), fine_(system, coarse_.arcs(), n_rpm, kFine) {}
 
   std::vector<Crossing> to(double ap_max) {
     double w = by_series(ap_max);

@@ -1,6 +1,7 @@
 #include "patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "turnwright/base/units.hpp"
@@ -13,6 +14,7 @@ constexpr double kTail = 1e-13;      // of the series, relative to its largest t
 constexpr double kFloor = 1e-10;     // the same, where rounding ends the descent
 constexpr double kRounding = 1e-13;  // of a sample, relative to the largest
 constexpr double kUnseen = 1e-2;     // of the noise: terms dropped
+constexpr double kUnfelt = 1e-4;     // of the change over the disc: the same
 constexpr double kPrecise = 1e-7;    // noise accepted, relative to the values
 
 const std::vector<Complex>& unit_roots() {
@@ -62,11 +64,12 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   double log_scale = 0;
   for (const auto& v : values) log_scale = std::max(log_scale, v.log_scale);
 
-  std::vector<Complex> all(out.powers_ * kSamples);
-  std::vector<double> size(kSamples, 0);
+  out.terms_ = kSamples;
+  out.c_.resize(out.powers_ * kSamples);
+  std::array<double, kSamples> size{};
   double to_i = 1;
   for (std::size_t i = 0; i < out.powers_; ++i, to_i *= rho) {
-    std::vector<Complex> v(kSamples);
+    std::array<Complex, kSamples> v;
     for (std::size_t s = 0; s < kSamples; ++s)
       v[s] = values[s].c[i] * (std::exp(values[s].log_scale - log_scale) * to_i);
     const bool constant = i == 0 || i + 1 == out.powers_;
@@ -74,8 +77,8 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
       Complex sum = 0;
       for (std::size_t s = 0; s < kSamples; ++s)
         sum += v[s] * std::conj(roots[s * j % kSamples]);
-      all[i * kSamples + j] = sum / double{kSamples};
-      size[j] += modulus(all[i * kSamples + j]);
+      out.c_[i * kSamples + j] = sum / double{kSamples};
+      size[j] += modulus(out.c_[i * kSamples + j]);
     }
   }
   const double largest = *std::ranges::max_element(size);
@@ -87,7 +90,7 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   double tail = 0;
   while (terms > 3 && size[terms - 1] <= std::max(kTail * largest, 2 * floor))
     tail += size[--terms];
-  out.keep(all, kSamples, terms);
+  out.keep(terms);
   out.noise_ = 2 * tail + kSamples * floor + kRounding * largest;
   out.bound();
   if (!(out.noise_ < kPrecise * out.scale())) return std::nullopt;
@@ -115,11 +118,12 @@ Patch Patch::of(const Series& series, const Disc& disc, double rho) {
     tail += size * power;
     --most;
   }
-  std::vector<Complex> all(out.powers_ * most);
-  std::vector<double> size(most, 0);
+  out.terms_ = most;
+  out.c_.resize(out.powers_ * most);
+  std::array<double, kSeriesTerms> size{};
   double to_i = 1;
   for (std::size_t i = 0; i < out.powers_; ++i, to_i *= rho) {
-    Complex* p = &all[i * most];
+    Complex* p = &out.c_[i * most];
     const std::size_t terms = std::min(most, series.c[i].size());
     std::copy_n(series.c[i].begin(), terms, p);
     for (std::size_t k = 0; k + 1 < terms; ++k)
@@ -130,19 +134,34 @@ Patch Patch::of(const Series& series, const Disc& disc, double rho) {
       size[j] += modulus(p[j]);
     }
   }
-  std::size_t terms = most;
-  while (terms > 4 && tail + size[terms - 1] < negligible) tail += size[--terms];
-  out.keep(all, most, terms);
   out.noise_ += tail;
+  out.drop(size, std::max(negligible, kUnfelt * size[1]));
   out.bound();
   return out;
 }
 
-void Patch::keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms) {
+void Patch::drop(std::span<const double> size, double most) {
+  std::size_t terms = terms_;
+  double tail = 0;
+  while (terms > 4 && tail + size[terms - 1] < most) {
+    tail += size[--terms];
+    slope_noise_ += static_cast<double>(terms) * size[terms];
+  }
+  noise_ += tail;
+  keep(terms);
+}
+
+void Patch::keep(std::size_t terms) {
+  for (std::size_t i = 1; i < powers_; ++i)
+    std::copy_n(&c_[i * terms_], terms, &c_[i * terms]);
+  c_.resize(powers_ * terms);
   terms_ = terms;
-  c_.clear();
-  for (std::size_t i = 0; i < powers_; ++i)
-    c_.insert(c_.end(), &all[i * stride], &all[i * stride] + terms);
+}
+
+double Patch::change() const {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < powers_; ++i) sum += modulus(c_[i * terms_ + 1]);
+  return sum;
 }
 
 double Patch::scale() const {
@@ -155,29 +174,23 @@ double Patch::scale() const {
 Patch Patch::shifted(const Disc& disc) const {
   const Complex s = (disc.centre - disc_.centre) / disc_.radius;
   const double ratio = disc.radius / disc_.radius;
-  std::vector<Complex> c = c_;
-  std::vector<double> size(terms_, 0);
-  double to_j = 1;
+  Patch out = *this;
+  out.disc_ = disc;
+  out.slope_noise_ *= ratio;
+  std::array<double, kSeriesTerms> size{};
   for (std::size_t i = 0; i < powers_; ++i) {
-    Complex* p = &c[i * terms_];
+    Complex* p = &out.c_[i * terms_];
     if (i > 0 && i + 1 < powers_)
       for (std::size_t k = 0; k + 1 < terms_; ++k)  // repeated synthetic division
         for (std::size_t j = terms_ - 1; j-- > k;) p[j] += s * p[j + 1];
-    to_j = 1;
+    double to_j = 1;
     for (std::size_t j = 0; j < terms_; ++j, to_j *= ratio) {
       p[j] *= to_j;
       size[j] += modulus(p[j]);
     }
   }
-  std::size_t terms = terms_;
-  double tail = 0;
-  while (terms > 4 && tail + size[terms - 1] < kUnseen * noise_) tail += size[--terms];
-  Patch out;
-  out.disc_ = disc;
-  out.rho_ = rho_;
-  out.powers_ = powers_;
-  out.keep(c, terms_, terms);
-  out.noise_ = noise_ + tail;
+  out.drop(size, kUnseen * noise_);
+  out.inside_ = out.on_rim_ = {};
   out.bound();
   return out;
 }
@@ -294,6 +307,7 @@ Local Patch::at(const Box& box, Complex u) const {
   out.ww = kk * q * q;
   out.wt = rho_ * k + q * (w * kk + TU * by_t);
   out.tt = UU + 2 * w * TU * by_t + w * k + w * w * kk;
+  out.unseen = slope_noise_ * by_t * (q * box.w_half + w * b) + middle * noise_ * b;
   return out;
 }
 

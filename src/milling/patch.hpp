@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "characteristic.hpp"
@@ -22,6 +23,7 @@ struct Local {
   Complex g;                      ///< value at the centre of the box
   Complex g_w, g_theta;           ///< derivatives there
   double ww = 0, wt = 0, tt = 0;  ///< bounds on the second derivatives in all of the box
+  double unseen = 0;  ///< what g hides in its slopes times the half widths: bound
 };
 
 /// w within w_half of w, theta within theta_half of theta.
@@ -68,6 +70,8 @@ class Patch {
   const Disc& disc() const { return disc_; }
   /// Errors of g in the disc are smaller.
   double noise() const { return noise_; }
+  /// By how much g changes over the disc, to first order: noise far below that is none.
+  double change() const;
   /// |g| at the disc's centre and some z, for telling whether the noise matters.
   double scale() const;
 
@@ -79,7 +83,9 @@ class Patch {
   Point point(Complex z, Complex kappa, double reach, double dz) const;
 
  private:
-  void keep(const std::vector<Complex>& all, std::size_t stride, std::size_t terms);
+  void keep(std::size_t terms);
+  /// Leaves out the last terms as far as their sizes add up to less than `most`.
+  void drop(std::span<const double> size, double most);
   void bound();
 
   Disc disc_;
@@ -88,6 +94,7 @@ class Patch {
   std::size_t terms_ = 0;   // of kappa
   std::vector<Complex> c_;  // [i * terms_ + j]
   double noise_ = 0;
+  double slope_noise_ = 0;  // errors of the derivative by t, of terms dropped
   /// Bounds on derivatives of f in all of |t| <= 1, t = (kappa - centre)/radius, by their
   /// order in t (T) and u = z/rho (U).
   struct Bounds {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace turnwright::milling {
 namespace {
@@ -10,22 +11,35 @@ namespace {
 constexpr double kDropped = 1e-17;  // terms of the series relative to Phi
 constexpr std::size_t kDegree = 60;
 
-/// q = kernel f, row by row with `columns` columns; kColumns the same if not 0.
-template <std::size_t kColumns = 0>
-void apply(const std::vector<double>& kernel, std::size_t columns,
-           const std::vector<double>& f, std::vector<double>& q) {
-  if constexpr (kColumns == 0) {
-    if (columns == 2) return apply<2>(kernel, columns, f, q);
-    if (columns == 4) return apply<4>(kernel, columns, f, q);
-  }
-  const std::size_t m = kColumns ? kColumns : columns, p = f.size() / m;
-  std::fill(q.begin(), q.end(), 0.0);
-  for (std::size_t i = 0; i < p; ++i) {
-    const double* row = &kernel[i * p];
-    double* sum = &q[i * m];
+/// out = matrix f for a matrix of `rows` rows, column by column, and f row by row with M
+/// columns; rows go kRows at a time, so that sums do not wait for each other.
+template <std::size_t M, std::size_t kRows>
+void multiply(const double* matrix, std::size_t rows, std::span<const double> f,
+              double* out) {
+  const std::size_t p = f.size() / M;
+  for (std::size_t first = 0; first < rows; first += kRows) {
+    const std::size_t i = std::min(first, rows - kRows);  // the last may be done twice
+    double sum[M][kRows] = {};
     for (std::size_t j = 0; j < p; ++j)
-      for (std::size_t c = 0; c < m; ++c) sum[c] += row[j] * f[j * m + c];
+      for (std::size_t c = 0; c < M; ++c)
+        for (std::size_t r = 0; r < kRows; ++r)
+          sum[c][r] += matrix[j * rows + i + r] * f[j * M + c];
+    for (std::size_t r = 0; r < kRows; ++r)
+      for (std::size_t c = 0; c < M; ++c) out[(i + r) * M + c] = sum[c][r];
   }
+}
+
+/// The same for any number of columns and at least two rows.
+void multiply(const double* matrix, std::size_t rows, std::size_t columns,
+              std::span<const double> f, double* out) {
+  if (columns == 2 && rows >= 4) return multiply<2, 4>(matrix, rows, f, out);
+  if (columns == 2) return multiply<2, 2>(matrix, rows, f, out);
+  if (columns == 4) return multiply<4, 4>(matrix, rows, f, out);
+  std::fill_n(out, rows * columns, 0.0);
+  for (std::size_t j = 0; j < f.size() / columns; ++j)
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t c = 0; c < columns; ++c)
+        out[i * columns + c] += matrix[j * rows + i] * f[j * columns + c];
 }
 
 /// Neumann series of the stretches of one system.
@@ -44,9 +58,7 @@ class Expansion {
     const std::size_t p = h.size(), m = states_, modes = system_.modes.size();
     SubArc out;
     out.coefficients.assign(m * m, 0);
-    std::array<std::vector<double>, 2> q{std::vector<double>(p * m),
-                                         std::vector<double>(p * m)};
-    std::array<std::vector<double>, 2> force = q;
+    std::vector<double> q(2 * p * m, 0), force = q;  // of x, then of y
     for (std::size_t k = 0; k < modes; ++k) {
       const Transition whole = transition(system_.modes[k], kernel.length_s);
       double* block = &out.coefficients[2 * k * m + 2 * k];
@@ -54,56 +66,43 @@ class Expansion {
       block[1] = whole.xv;
       block[m] = whole.vx;
       block[m + 1] = whole.vv;
-      for (std::size_t i = 0; i < p; ++i) {
-        q[stretches_.axis_of[k]][i * m + 2 * k] = kernel.from_begin[k * p + i].xx;
-        q[stretches_.axis_of[k]][i * m + 2 * k + 1] = kernel.from_begin[k * p + i].xv;
+      double* free = &q[stretches_.axis_of[k] * p * m + 2 * k];
+      for (std::size_t i = 0; i < p; ++i, free += m) {
+        free[0] = kernel.from_begin[k * p + i].xx;
+        free[1] = kernel.from_begin[k * p + i].xv;
       }
     }
+    // An axis without a mode does not move, and its force moves nothing.
+    const std::size_t from = stretches_.used[0] ? 0 : p,
+                      to = stretches_.used[1] ? 2 * p : p;
+    const std::span moving(&force[from * m], (to - from) * m);
     double scale = 1;
     for (std::size_t degree = 1; degree <= kDegree; ++degree) {
       for (std::size_t i = 0; i < p; ++i)
-        for (std::size_t c = 0; c < m; ++c) {
-          const double x = q[0][i * m + c], y = q[1][i * m + c];
-          force[0][i * m + c] = -(h[i].xx * x + h[i].xy * y);
-          force[1][i * m + c] = -(h[i].yx * x + h[i].yy * y);
+        for (std::size_t c = i * m; c < (i + 1) * m; ++c) {
+          const double x = q[c], y = q[p * m + c];
+          force[c] = -(h[i].xx * x + h[i].xy * y);
+          force[p * m + c] = -(h[i].yx * x + h[i].yy * y);
         }
-      const double largest = append_end(kernel, force, out);
+      out.coefficients.resize((degree + 1) * m * m);
+      double* end = &out.coefficients[degree * m * m];
+      multiply(&kernel.end[from * m], m, m, moving, end);
       out.degree = degree;
       scale *= kappa_max_;
+      double largest = 0;
+      for (std::size_t e = 0; e < m * m; ++e)
+        largest = std::max(largest, std::abs(end[e]));
       if (largest * scale < kDropped) break;
       for (std::size_t a = 0; a < 2; ++a)
-        if (stretches_.used[a]) apply(kernel.axis[a], m, force[a], q[a]);
+        if (stretches_.used[a])
+          multiply(kernel.axis[a].data(), p, m, std::span(&force[a * p * m], p * m),
+                   &q[a * p * m]);
     }
     if (stretch.flight_s > 0) fly(stretch.flight_s, out);
     return out;
   }
 
  private:
-  /// Adds the next coefficient, the integral to the end of the stretch; returns its
-  /// largest entry.
-  double append_end(const Kernel& kernel, const std::array<std::vector<double>, 2>& force,
-                    SubArc& out) const {
-    const std::size_t p = kernel.t_s.size(), m = states_, at = out.coefficients.size();
-    out.coefficients.resize(at + m * m, 0);
-    for (std::size_t k = 0; k < system_.modes.size(); ++k) {
-      const Mode& mode = system_.modes[k];
-      double* row = &out.coefficients[at + 2 * k * m];
-      const auto& f = force[stretches_.axis_of[k]];
-      for (std::size_t i = 0; i < p; ++i) {
-        const double weight = kernel.weight_s[i] * mode.wn_rad_s / mode.k_N_mm;
-        const Transition& end = kernel.to_end[k * p + i];
-        for (std::size_t c = 0; c < m; ++c) {
-          row[c] += weight * end.xv * f[i * m + c];
-          row[m + c] += weight * end.vv * f[i * m + c];
-        }
-      }
-    }
-    double largest = 0;
-    for (std::size_t e = at; e < out.coefficients.size(); ++e)
-      largest = std::max(largest, std::abs(out.coefficients[e]));
-    return largest;
-  }
-
   // A free flight in closed form, after the stretch.
   void fly(double length, SubArc& last) const {
     const std::size_t m = states_;

@@ -9,14 +9,13 @@
 namespace turnwright::milling {
 namespace {
 
-constexpr std::size_t kTerms = 96;
 constexpr double kDropped = 1e-18;  // of a polynomial relative to its largest term
 
 using Poly = std::vector<double>;
 
-/// sum += sign a b, as far as kTerms.
+/// sum += sign a b, as far as kSeriesTerms.
 void add_product(Poly& sum, double sign, const Poly& a, const Poly& b) {
-  const std::size_t terms = std::min(a.size() + b.size() - 1, kTerms);
+  const std::size_t terms = std::min(a.size() + b.size() - 1, kSeriesTerms);
   if (sum.size() < terms) sum.resize(terms, 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double factor = sign * a[i];
@@ -25,54 +24,75 @@ void add_product(Poly& sum, double sign, const Poly& a, const Poly& b) {
   }
 }
 
-/// Square matrix of polynomials in kappa/kappa_max, entry by entry.
+/// Square matrix of polynomials in kappa/kappa_max, one matrix per power as in SubArc.
 struct PolyMatrix {
   std::size_t rows = 0;
-  std::vector<Poly> entries;
-  const Poly& operator()(std::size_t r, std::size_t c) const {
-    return entries[r * rows + c];
+  Poly coefficients;
+  std::size_t entries() const { return rows * rows; }
+  std::size_t terms() const { return coefficients.size() / entries(); }
+  Poly operator()(std::size_t r, std::size_t c) const {
+    Poly entry(terms());
+    for (std::size_t j = 0; j < entry.size(); ++j)
+      entry[j] = coefficients[j * entries() + r * rows + c];
+    return entry;
   }
 };
 
 PolyMatrix scaled(const SubArc& stretch, std::size_t m, double kappa_max) {
-  PolyMatrix out{m, std::vector<Poly>(m * m, Poly(stretch.degree + 1))};
+  PolyMatrix out{m, stretch.coefficients};
   double power = 1;
   for (std::size_t j = 0; j <= stretch.degree; ++j, power *= kappa_max)
-    for (std::size_t e = 0; e < m * m; ++e)
-      out.entries[e][j] = power * stretch.coefficients[j * m * m + e];
+    for (std::size_t e = 0; e < m * m; ++e) out.coefficients[j * m * m + e] *= power;
   return out;
 }
 
 /// Cuts off what is lost in the largest term; false if nothing can be.
 bool trim(PolyMatrix& a) {
-  const std::size_t terms = a.entries.front().size();
-  std::array<double, kTerms> largest{};
-  for (const Poly& p : a.entries)
-    for (std::size_t j = 0; j < terms; ++j)
-      largest[j] = std::max(largest[j], std::abs(p[j]));
-  const double least = kDropped * *std::ranges::max_element(largest);
-  std::size_t kept = terms;
-  while (kept > 1 && largest[kept - 1] < least) --kept;
-  for (Poly& p : a.entries) p.resize(kept);
-  return kept < kTerms;
+  const auto largest = [&](std::size_t j) {
+    double most = 0;
+    for (std::size_t e = 0; e < a.entries(); ++e)
+      most = std::max(most, std::abs(a.coefficients[j * a.entries() + e]));
+    return most;
+  };
+  std::size_t kept = a.terms();
+  double most = 0;
+  for (std::size_t j = 0; j < kept; ++j) most = std::max(most, largest(j));
+  while (kept > 1 && largest(kept - 1) < kDropped * most) --kept;
+  a.coefficients.resize(kept * a.entries());
+  return kept < kSeriesTerms;
 }
 
+/// sum += a b, matrices of order m row by row.
+template <std::size_t m>
+void add_product(double* sum, const double* a, const double* b) {
+  for (std::size_t r = 0; r < m; ++r) {
+    double row[m];
+    std::copy_n(sum + r * m, m, row);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t c = 0; c < m; ++c) row[c] += a[r * m + i] * b[i * m + c];
+    std::copy_n(row, m, sum + r * m);
+  }
+}
+
+template <std::size_t m>
 PolyMatrix product(const PolyMatrix& a, const PolyMatrix& b) {
-  const std::size_t m = a.rows;
-  PolyMatrix out{m, std::vector<Poly>(m * m)};
-  for (std::size_t r = 0; r < m; ++r)
-    for (std::size_t c = 0; c < m; ++c)
-      for (std::size_t i = 0; i < m; ++i)
-        add_product(out.entries[r * m + c], 1, a(r, i), b(i, c));
+  const std::size_t terms = std::min(a.terms() + b.terms() - 1, kSeriesTerms);
+  PolyMatrix out{m, Poly(terms * m * m, 0)};
+  for (std::size_t i = 0; i < a.terms(); ++i)
+    for (std::size_t j = 0; j < b.terms() && i + j < terms; ++j)
+      add_product<m>(&out.coefficients[(i + j) * m * m], &a.coefficients[i * m * m],
+                     &b.coefficients[j * m * m]);
   return out;
 }
 
+/// The entries of a matrix one by one.
+using Entries = std::array<std::array<Poly, 4>, 4>;
+
 /// Rows r, s and columns c, d.
-Poly minor(const PolyMatrix& a, std::size_t r, std::size_t s, std::size_t c,
-           std::size_t d) {
+Poly minor(const Entries& a, std::size_t r, std::size_t s, std::size_t c, std::size_t d) {
   Poly out;
-  add_product(out, 1, a(r, c), a(s, d));
-  add_product(out, -1, a(r, d), a(s, c));
+  add_product(out, 1, a[r][c], a[s][d]);
+  add_product(out, -1, a[r][d], a[s][c]);
   return out;
 }
 
@@ -84,11 +104,14 @@ void raise(Poly& bound, const Poly& by) {
 
 /// c_i = (-1)^i times the sum of the principal minors of order i; `minors` bounds those
 /// of order 2.
-std::vector<Poly> characteristic(const PolyMatrix& phi, Poly& minors) {
-  const std::size_t m = phi.rows;
+std::vector<Poly> characteristic(const PolyMatrix& matrix, Poly& minors) {
+  const std::size_t m = matrix.rows;
+  Entries phi;
+  for (std::size_t r = 0; r < m; ++r)
+    for (std::size_t s = 0; s < m; ++s) phi[r][s] = matrix(r, s);
   std::vector<Poly> c(m + 1);
   const Poly minus{-1};
-  for (std::size_t i = 0; i < m; ++i) add_product(c[1], 1, minus, phi(i, i));
+  for (std::size_t i = 0; i < m; ++i) add_product(c[1], 1, minus, phi[i][i]);
   if (m == 2) return c;
   const Poly one{1};
   std::array<std::array<Poly, 4>, 4> last;  // principal
@@ -103,9 +126,9 @@ std::vector<Poly> characteristic(const PolyMatrix& phi, Poly& minors) {
       {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
   for (const auto& [a, b, d] : kTriples) {
     const Poly second = minor(phi, b, d, a, d), third = minor(phi, b, d, a, b);
-    add_product(c[3], -1, phi(a, a), last[b][d]);
-    add_product(c[3], 1, phi(a, b), second);
-    add_product(c[3], -1, phi(a, d), third);
+    add_product(c[3], -1, phi[a][a], last[b][d]);
+    add_product(c[3], 1, phi[a][b], second);
+    add_product(c[3], -1, phi[a][d], third);
     raise(minors, second);
     raise(minors, third);
   }
@@ -145,21 +168,23 @@ SeriesValue value(const Series& series, std::complex<double> z,
 
 std::optional<Series> series(const Propagator& propagator, double kappa_max_mm) {
   const std::size_t m = propagator.states;
-  if (m > 4) return std::nullopt;
+  if (m != 2 && m != 4) return std::nullopt;
   PolyMatrix phi = scaled(propagator.stretches.front(), m, kappa_max_mm);
   for (std::size_t k = 1; k < propagator.stretches.size(); ++k) {
-    phi = product(scaled(propagator.stretches[k], m, kappa_max_mm), phi);
+    const PolyMatrix next = scaled(propagator.stretches[k], m, kappa_max_mm);
+    phi = m == 2 ? product<2>(next, phi) : product<4>(next, phi);
     if (!trim(phi)) return std::nullopt;
   }
   Series out{.radius_mm = kappa_max_mm, .c = {}, .size = {}, .minors = {}};
   out.c = characteristic(phi, out.minors);
   out.c[0] = {1};
   out.c[m] = {std::exp(propagator.log_det)};
-  out.size.assign(phi.entries.front().size(), 0);
+  out.size.assign(phi.terms(), 0);
   for (std::size_t j = 0; j < out.size.size(); ++j)
     for (std::size_t r = 0; r < m; ++r) {
       double row = 0;
-      for (std::size_t c = 0; c < m; ++c) row += std::abs(phi(r, c)[j]);
+      for (std::size_t c = 0; c < m; ++c)
+        row += std::abs(phi.coefficients[j * m * m + r * m + c]);
       out.size[j] = std::max(out.size[j], row);
     }
   constexpr double kEach = 4;  // roundings of a stretch, in units of the last place

@@ -8,6 +8,8 @@
 
 namespace turnwright::milling {
 
+inline constexpr std::size_t kSeriesTerms = 96;  ///< at most
+
 /// The coefficients of f(z, kappa) = det(I - z Phi(kappa)) = sum_i c_i(kappa) z^i as real
 /// polynomials about kappa = 0, which serve every depth and every multiplier at once:
 ///

@@ -154,30 +154,33 @@ class Stretcher {
     const std::size_t p = rule.size;
     const Nodes nodes = graded_nodes(
         rule, length, grading, grading == Grading::none ? 1 : grading_power(system_));
+    const std::size_t states = 2 * system_.modes.size();
     Kernel out{.length_s = length,
                .t_s = nodes.t,
-               .weight_s = {},
                .from_begin = {},
-               .to_end = {},
-               .axis = {}};
-    for (std::size_t i = 0; i < p; ++i)
-      out.weight_s.push_back(rule.weights[i] * nodes.jacobian[i]);
-    for (auto& matrix : out.axis) matrix.assign(p * p, 0);
-    std::vector<Transition> back(p);
+               .axis = {},
+               .end = std::vector<double>(2 * p * states)};
+    for (std::size_t a = 0; a < 2; ++a)
+      if (out_.used[a]) out.axis[a].assign(p * p, 0);
     for (std::size_t k = 0; k < system_.modes.size(); ++k) {
       const Mode& m = system_.modes[k];
-      for (std::size_t i = 0; i < p; ++i) {
+      for (std::size_t i = 0; i < p; ++i)
         out.from_begin.push_back(transition(m, nodes.t[i]));
-        out.to_end.push_back(transition(m, length - nodes.t[i]));
-        back[i] = transition(m, -nodes.t[i]);
-      }
       auto& matrix = out.axis[out_.axis_of[k]];
       const double strength = m.wn_rad_s / m.k_N_mm;
-      for (std::size_t i = 0; i < p; ++i) {
-        const Transition& there = out.from_begin[k * p + i];
-        for (std::size_t j = 0; j < p; ++j)
-          matrix[i * p + j] += strength * rule.to_node[i * p + j] * nodes.jacobian[j] *
-                               (there.xx * back[j].xv + there.xv * back[j].vv);
+      for (std::size_t j = 0; j < p; ++j) {
+        const Transition back = transition(m, -nodes.t[j]),
+                         end = transition(m, length - nodes.t[j]);
+        const double by_node = strength * nodes.jacobian[j],
+                     weight = rule.weights[j] * by_node;
+        double* column = &out.end[(out_.axis_of[k] * p + j) * states];
+        column[2 * k] = weight * end.xv;
+        column[2 * k + 1] = weight * end.vv;
+        for (std::size_t i = 0; i < p; ++i) {
+          const Transition& there = out.from_begin[k * p + i];
+          matrix[j * p + i] += by_node * rule.to_node[i * p + j] *
+                               (there.xx * back.xv + there.xv * back.vv);
+        }
       }
     }
     return out;

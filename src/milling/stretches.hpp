@@ -36,11 +36,14 @@ inline constexpr Resolution kFine{5, 1e-19};
 ///     int_0^t_i sum_k wn_k/k_k [e^(A_k (t_i - s))]_xv f(s) ds = sum_j K_ij f(t_j)    (2)
 ///
 /// over the modes k of the axis.
+///
+/// and all states at the end of the stretch are sum_j E_x,j f_x(t_j) + E_y,j f_y(t_j).
 struct Kernel {
   double length_s = 0;
-  std::vector<double> t_s, weight_s;           ///< nodes, and weights to the end
-  std::vector<Transition> from_begin, to_end;  ///< [mode p + node]
-  std::array<std::vector<double>, 2> axis;     ///< K of x and y, [i p + j]
+  std::vector<double> t_s;                  ///< nodes
+  std::vector<Transition> from_begin;       ///< [mode p + node]
+  std::array<std::vector<double>, 2> axis;  ///< K of x and y, column by column: [j p + i]
+  std::vector<double> end;                  ///< E, [(axis p + j) states + row]
 };
 
 /// A stretch of the cut and the free flight after it.

@@ -55,7 +55,7 @@ Judged judge(const Local& g, const Box& box, double noise) {
   // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
   // into the Newton point +- (q + noise).
   const double row = std::max(size_D, size_E) / std::abs(det);
-  const double q = row * (ww + 2 * wt + tt), slack = q + row * noise;
+  const double q = row * (ww + 2 * wt + tt + g.unseen), slack = q + row * noise;
   if (!(q < 1)) return {};
   if (std::abs(s) > 1 + slack || std::abs(t) > 1 + slack) return {Verdict::none};
   if (std::abs(s) + slack <= 1 && std::abs(t) + slack <= 1) return {Verdict::one, s, t};
@@ -84,7 +84,7 @@ class Patches {
       const double room =
           above->disc().radius - modulus(inner.centre - above->disc().centre);
       own = above->shifted({inner.centre, std::min(2 * inner.radius, room)});
-      if (own->noise() < kNoisy * own->scale()) return &*own;
+      if (own->noise() < kNoisy * (series_ ? own->change() : own->scale())) return &*own;
     } else if (above) {
       return nullptr;
     }
@@ -104,7 +104,7 @@ class Patches {
   }
 
   std::optional<Patch> shifted(const Disc& disc) const {
-    constexpr double kWide = 6;  // terms that matter across the disc
+    constexpr double kWide = 8;  // terms that matter across the disc
     const double share = disc.radius / series_->radius_mm;
     if (modulus(disc.centre) + disc.radius > series_->radius_mm ||
         share * static_cast<double>(series_->size.size()) > kWide)

@@ -130,12 +130,12 @@ void arc(Site& site, const OperationPlan& o, const Place& p) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, tool_of(site, o).re_mm, before, wall);
+    const auto way = tip_arc(raised, kProfilingCorner_mm, before, wall);
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
           "{:g} mm",
-          site.setup, o.id, s.id, cut.radius_mm, tool_of(site, o).re_mm));
+          site.setup, o.id, s.id, cut.radius_mm, kProfilingCorner_mm));
       return;
     }
     site.approach(p.side, {way->from.h_mm, way->from.z_mm + kBefore_mm}, kAbove_mm);

@@ -71,17 +71,17 @@ double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
     }
   const double force =
       planning::jaw_force_N(site.part, site.setup, site.clamping, stage_of(site, o));
-  cap = std::min({cap, planning::clamping_rpm(site.part, site.clamping),
-                  planning::grip_loss_rpm(site.part, site.clamping, force)});
-  const auto D = swept(site, o);
-  if (!(force > 0) || o.kind == OperationKind::fixed || !(D.small_mm < D.large_mm))
-    return cap;
-  double sum = 0;
-  for (const auto& pass : o.passes) sum += pass.ap_mm;
-  const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
+  if (!(force > 0)) return std::min(cap, m.n_max_rpm);
   const cutting::Grip grip{
       force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
       planning::grip_diameter_mm(site.part, site.setup, site.clamping)};
+  const double keeps_a_third = cutting::grip_rpm(grip, (1 - cutting::kGripLoss) * force);
+  cap = std::min({cap, m.n_max_rpm, m.chuck.n_max_rpm, keeps_a_third});
+  const auto D = swept(site, o);
+  if (o.kind == OperationKind::fixed || !(D.small_mm < D.large_mm)) return cap;
+  double sum = 0;
+  for (const auto& pass : o.passes) sum += pass.ap_mm;
+  const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
   const double needed = cutting::grip_needed_N(grip, o.passes[0].Fc_N, o.passes[0].Ff_N,
                                                D.large_mm + (outside ? 2 * sum : 0));
   return std::min(cap, cutting::grip_rpm(grip, needed));

@@ -122,7 +122,7 @@ std::string text(const SetupProgram& p, Control control) {
     for (const auto& c : s.comments) out += comment(c);
     if (s.tool != tool)
       out += fanuc ? fmt::format("N{} T{:02}{:02}\n", number_, s.tool, s.tool)
-                   : fmt::format("N{} T{} M6\nG43\n", number_, s.tool);
+                   : fmt::format("N{} T{} M6\nG43 H{}\n", number_, s.tool, s.tool);
     number_ += 10;
     tool = s.tool;
     out += spindle(s, control);

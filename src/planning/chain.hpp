@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cstdint>
 #include <string>
@@ -85,11 +86,17 @@ enum class Check {
   spindle_max,
   spindle_min,
   grip,
+  chatter,
+  chip_min,
+  chip_max,
   Ra,
   Rz,
   speed_window,
   tolerance
 };
+
+/// Whether a check's value may have either sign, or vanish.
+inline bool either_sign(Check c) { return c == Check::tolerance || c == Check::chatter; }
 
 /// One pass: what is left on the radius after it, and its path.
 struct PassModel {
@@ -109,8 +116,14 @@ struct OperationModel {
   double feed_force_max_N = 0;
   double economic_life_min = 0;
   double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
-  catalogue::Range vc, f;       ///< to choose from: the tool's, or what the request fixes
+  /// 1/limit of the chatter stiffness at the places where it is asked, over the finishing
+  /// depth (Feature::limit_chatter).
+  std::vector<Polynomial> chatter_mm_N;
+  std::vector<double> chatter_at_mm;  ///< these places
+  double chatter_inwards = 1;         ///< limit where K > 0 over that where K < 0
+  catalogue::Range vc, f;  ///< to choose from: the tool's, or what the request fixes
   catalogue::Range vc_window, f_window, ap;  ///< what the tool allows
+  std::vector<catalogue::ChipEdge> chip;     ///< and these of its chip breaker
   catalogue::Range T_min;
   Affine depth_mm;
   std::vector<PassModel> passes;
@@ -192,6 +205,14 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
   }
   sink(Check::feed_min, T(o.f_window.lower), f);
   sink(Check::feed_max, f, T(o.f_window.upper));
+  for (const auto& e : o.chip) {
+    using std::pow;
+    const T edge = e.f1_mm_rev * pow(o.depth_mm(a), e.exponent);
+    if (e.upper)
+      sink(Check::chip_max, f, edge);
+    else
+      sink(Check::chip_min, edge, f);
+  }
   sink(Check::force, F.Fc_N, T(o.tool->Fc_max_N));
   sink(Check::feed_force, F.Ff_N, T(o.feed_force_max_N));
   if (o.grip.force_N > 0 && o.tapered)
@@ -203,6 +224,30 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
            cutting::power_share(l, F.Fc_N, widest, T(1.0), T(o.n_cap_rpm)), T(1.0));
   if (o.Ra_um > 0) sink(Check::Ra, cutting::Ra_um(o.cut, f), T(o.Ra_um));
   if (o.Rz_um > 0) sink(Check::Rz, cutting::Rz_um(o.cut, f), T(o.Rz_um));
+}
+
+/// What is held against the limit of the chatter stiffness: K, or -K in the proportion of
+/// both limits where it is negative.
+inline double chatter_N_mm(const OperationModel& o, double f, double a,
+                           const cutting::Forces<double>& F) {
+  const double K = cutting::chatter_stiffness_N_mm(o.cut, F, o.depth_mm(a), f);
+  return std::max(K, -o.chatter_inwards * K);
+}
+
+/// And chatter, in terms of either sign: K/limit at each place.
+template <class T, class Sink>
+void chatter_checks(const OperationModel& o, std::size_t operation, const T& f,
+                    const T& a, const cutting::Forces<T>& F, const Sink& sink) {
+  if (o.chatter_mm_N.empty()) return;
+  const Signed<T> K = cutting::chatter_stiffness_N_mm(o.cut, F, o.depth_mm(a), f);
+  const bool pushed = o.cut.kp && o.cut.corner.cotangent < 0;  // K < 0 may be
+  for (const auto& c : o.chatter_mm_N) {
+    const Signed<T> share = K * c(linear(a));
+    sink(operation, Check::chatter, false, share, Signed<T>(1.0));
+    if (pushed)
+      sink(operation, Check::chatter, false, Signed<T>(share * -o.chatter_inwards),
+           Signed<T>(1.0));
+  }
 }
 
 /// And every check of the speed.
@@ -497,6 +542,7 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    chatter_checks(o, i, c.f[i], c.a, F[i], sink);
     speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
     const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
     const T cost = objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
@@ -548,6 +594,7 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
+    chatter_checks(o, i, c.f[i], c.a, F[i], sink);
     const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const auto cost = [&](const BestSpeed<T>& best) {

@@ -51,6 +51,19 @@ ConstraintValue priced(ConstraintValue c, double multiplier) {
   return c;
 }
 
+// Chatter at conditions, against the largest stiffness that part and tool bear.
+ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
+  const auto n = check_name(Check::chatter);
+  ConstraintValue c;
+  c.name = n.name;
+  c.unit = n.unit;
+  c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a, x.F[i]);
+  c.limit = limit_N_mm;
+  c.margin = -std::log(std::max(c.value / c.limit, 1e-300));
+  c.binding = c.margin < kBinding;
+  return c;
+}
+
 // One line per check: the tightest row, with the sum of the rows' prices.
 void merge(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
   const auto it = std::find_if(
@@ -130,6 +143,12 @@ CheckName check_name(Check check) {
       return {"least spindle speed", "1/min", false};
     case Check::grip:
       return {"grip of the chuck", "N", true};
+    case Check::chatter:
+      return {"chatter stiffness", "N/mm", true};
+    case Check::chip_min:
+      return {"least feed of the chip breaker", "mm/rev", false};
+    case Check::chip_max:
+      return {"largest feed of the chip breaker", "mm/rev", true};
     case Check::Ra:
       return {"roughness Ra", "um", true};
     case Check::Rz:
@@ -168,6 +187,12 @@ ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
     c.limit = c.value / (r.value / r.limit);
   }
   c.margin = -violation(r);
+  if (r.row.check == Check::chatter) {
+    double most = 0;
+    for (const auto& place : chain.operations[r.row.operation].chatter_mm_N)
+      most = std::max(most, place(choice.a));
+    return chatter({chain, choice, forces(chain, choice)}, r.row.operation, 1 / most);
+  }
   c.binding = c.margin < kBinding;
   return c;
 }
@@ -193,6 +218,7 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
   const Chosen x{a.model->chain(), a.choice, forces(a.model->chain(), a.choice)};
   const auto& feature = solved.task.feature;
   const auto values = a.model->values(a.choice);
+  const auto chatter_limits = feature.chatter_limits_N_mm(x.chain, a.choice.a);
   std::vector<OperationPlan> all;
   for (std::size_t i = 0; i < x.chain.operations.size(); ++i) {
     const auto& o = x.chain.operations[i];
@@ -221,6 +247,7 @@ std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
         merge(p.constraints,
               priced(constraint(plan, x.chain, a.choice, values[r]), a.multipliers[r]));
     }
+    if (o.chatter_mm_N.empty()) p.constraints.push_back(chatter(x, i, chatter_limits[i]));
     if (last)
       for (const auto& demand : solved.task.demands)
         if (demand.shape != Demand::Shape::none)

@@ -1,48 +1,18 @@
 #include "feature.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "bar_tip.hpp"
+#include "chebyshev.hpp"
 #include "turnwright/deflection/rest.hpp"
 #include "turnwright/deflection/thrust.hpp"
 
 namespace turnwright::planning {
 namespace {
-
-constexpr std::size_t kNodes = 11;  // of a law over the finishing depth
-
-// Nodes cos((2 k + 1) pi/2 n) of degree n - 1 interpolation on [-1, 1].
-std::vector<double> chebyshev(std::size_t n) {
-  std::vector<double> u(n);
-  for (std::size_t k = 0; k < n; ++k)
-    u[k] = std::cos((2.0 * static_cast<double>(k) + 1) * std::numbers::pi /
-                    (2.0 * static_cast<double>(n)));
-  return u;
-}
-
-// Monomial coefficients of the polynomials through columns of values at the points.
-Eigen::MatrixXd through(const std::vector<double>& points,
-                        const Eigen::MatrixXd& values) {
-  const auto n = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd V(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      V(i, j) = std::pow(points[static_cast<std::size_t>(i)], static_cast<double>(j));
-  return V.partialPivLu().solve(values);
-}
-
-// Trailing coefficients that are rounding are dropped: fewer operations in every box.
-Polynomial polynomial(const Eigen::VectorXd& c, double centre, double half) {
-  Polynomial p{centre, half, {c.data(), c.data() + c.size()}};
-  const double size = c.cwiseAbs().maxCoeff();
-  while (p.c.size() > 1 && std::abs(p.c.back()) <= 1e-13 * size) p.c.pop_back();
-  return p;
-}
 
 constexpr int kTable = 11;  // places of a correction
 
@@ -93,24 +63,6 @@ std::size_t place_of(const std::vector<std::size_t>& elements, std::size_t index
                                   elements.begin());
 }
 
-// What the tip of a bar does: per passive, feed and cutting force.
-struct BarTip {
-  double w = 0, p = 0, t = 0;  // y_w, y_p, y_t of chain.hpp (3)
-};
-BarTip tip_of(const catalogue::BoringBar& bar) {
-  part::Shaft shaft{bar.E_MPa, bar.nu, {}};
-  for (const auto& s : bar.segments)
-    shaft.segments.push_back(
-        {s.length_mm, s.diameter_mm, s.diameter_mm, s.bore_mm, s.bore_mm});
-  const deflection::Beam beam(shaft);
-  const auto& h = bar.holder;
-  const auto f = beam.at(beam.length_mm(), {deflection::Method::chuck,
-                                            {h.c0_mm_N, h.c1_rad_N, h.c2_rad_Nmm}});
-  const double offset = bar.tip_offset_mm;
-  const double w = bar.tip_mm_N.value_or(f.f_ww_mm_N);
-  return {w, f.f_wp_rad_N * offset, w + offset * offset * beam.twist_rad_Nmm()};
-}
-
 // Of everything that bends, by the thrust on the body as the setup leaves it, its most
 // slender one.
 double amplification(const PartPlan& p, Clamping clamping, const SetupBody& body) {
@@ -120,6 +72,10 @@ double amplification(const PartPlan& p, Clamping clamping, const SetupBody& body
       P, deflection::critical_thrust_N(body.shaft(), planes(p.machine, clamping).radial));
 }
 
+catalogue::Range overlap(const catalogue::Range& a, const catalogue::Range& b) {
+  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
 const part::Face* find_face(const PartPlan& p, const std::string& id) {
   for (const auto& f : p.drawing.faces)
     if (f.id == id) return &f;
@@ -127,6 +83,20 @@ const part::Face* find_face(const PartPlan& p, const std::string& id) {
 }
 
 }  // namespace
+
+double clamping_rpm(const PartPlan& p, Clamping clamping) {
+  const auto& m = p.machine;
+  if (clamping == Clamping::between_centres) return m.n_max_rpm;
+  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
+}
+
+double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
+  const auto& c = p.machine.chuck;
+  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
+         units::kPi;
+}
 
 Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
                  std::string surface, const Fixed& fixed)
@@ -240,8 +210,10 @@ Holding Feature::holding() const {
   return h;
 }
 
-OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
-                                  std::size_t range, const Economy& economy) const {
+OperationModel Feature::operation(const Recipe& recipe, bool finishing,
+                                  const Economy& economy) const {
+  const auto& tool = finishing ? *recipe.finish : *recipe.rough;
+  const std::size_t range = finishing ? recipe.finish_range : recipe.rough_range;
   const auto& m = plan_->machine;
   const auto& want = finishing ? fixed_.finish : fixed_.rough;
   OperationModel o;
@@ -264,6 +236,12 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
       tool.f_mm_rev.lower,
       std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
   o.ap = {std::max(tool.ap_mm.lower, 2.0 / 3.0 * tool.re_mm), tool.ap_mm.upper};
+  if (!tool.chip.empty()) {
+    const auto& piece = tool.chip[finishing ? recipe.finish_piece : recipe.rough_piece];
+    o.f_window = overlap(o.f_window, piece.f_mm_rev);
+    o.ap = overlap(o.ap, piece.ap_mm);
+    o.chip = piece.edges;
+  }
   o.vc_window = tool.vc_m_min;
   o.f = o.f_window;
   o.vc = o.vc_window;
@@ -275,6 +253,7 @@ OperationModel Feature::operation(const catalogue::Tool& tool, bool finishing,
   o.face = is_face();
   o.inner = kind_ == Kind::bore;
   o.least_D_mm = hole_mm_;
+  o.chatter_inwards = (1 + plan_->damping_ratio) / (1 - plan_->damping_ratio);
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -287,10 +266,8 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
   c.weights = {economy.minute, economy.edge};
   const double nr = recipe.rough_passes, nf = recipe.finish_passes;
   double stock = stock_;
-  if (recipe.rough)
-    c.operations.push_back(operation(*recipe.rough, false, recipe.rough_range, economy));
-  if (recipe.finish)
-    c.operations.push_back(operation(*recipe.finish, true, recipe.finish_range, economy));
+  if (recipe.rough) c.operations.push_back(operation(recipe, false, economy));
+  if (recipe.finish) c.operations.push_back(operation(recipe, true, economy));
   for (const auto& o : c.operations)
     if (!(o.f.lower <= o.f.upper) || !enters(*o.tool))
       return {};  // no feed suits both corner and chip breaker
@@ -365,6 +342,27 @@ deflection::Flexibility Feature::at_the_tool(const deflection::Flexibility& f,
              : pressed;
 }
 
+bool Feature::cut_to_chuck(const OperationModel& o) const {
+  return (o.finishing ? fixed_.finish_direction : fixed_.rough_direction) ==
+         Direction::to_chuck;
+}
+
+double Feature::x_mm(const OperationModel& o, double at_mm) const {
+  const auto& body = bodies_[o.finishing ? 1 : 0];
+  return std::clamp(body.x_mm(at_mm), 0.0, body.length_mm());
+}
+
+void Feature::yields(const OperationModel& o, double left_mm, double uncut_mm,
+                     const std::vector<double>& x,
+                     std::vector<deflection::Flexibility>& radial,
+                     std::vector<deflection::Flexibility>& tangential) const {
+  const auto& body = bodies_[o.finishing ? 1 : 0];
+  const Element element{kind_ == Kind::bore, index_};
+  const bool to_chuck = cut_to_chuck(o);
+  yields(body.shaft(element, to_chuck ? uncut_mm : left_mm),
+         body.shaft(element, to_chuck ? left_mm : uncut_mm), body, x, radial, tangential);
+}
+
 void Feature::yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
                      const SetupBody& body, const std::vector<double>& x,
                      std::vector<deflection::Flexibility>& radial,
@@ -418,19 +416,14 @@ std::vector<std::vector<Feature::Values>> Feature::laws_at(const Chain& chain,
   std::vector<std::vector<Values>> all(n);
   std::vector<double> x(n);
   std::vector<deflection::Flexibility> r(n), t(n);
-  const Element element{kind_ == Kind::bore, index_};
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
-    const auto& body = bodies_[o.finishing ? 1 : 0];
-    const bool to_chuck = (o.finishing ? fixed_.finish_direction
-                                       : fixed_.rough_direction) == Direction::to_chuck;
+    const bool to_chuck = cut_to_chuck(o);
     const BarTip bar = o.inner ? tip_of(*o.tool->bar) : BarTip{};
-    for (std::size_t k = 0; k < n; ++k)
-      x[k] = std::clamp(body.x_mm(chain.stations[k].at_mm), 0.0, body.length_mm());
+    for (std::size_t k = 0; k < n; ++k) x[k] = x_mm(o, chain.stations[k].at_mm);
     for (const auto& pass : o.passes) {
-      const double left = pass.left_mm(a), uncut = left + o.depth_mm(a);
-      yields(body.shaft(element, to_chuck ? uncut : left),
-             body.shaft(element, to_chuck ? left : uncut), body, x, r, t);
+      const double left = pass.left_mm(a);
+      yields(o, left, left + o.depth_mm(a), x, r, t);
       for (std::size_t k = 0; k < n; ++k) {
         const double u = (chain.stations[k].at_mm - low_) / (high_ - low_);
         const double D = std::max(

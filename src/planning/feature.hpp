@@ -18,6 +18,8 @@ struct Recipe {
   const catalogue::Tool* finish = nullptr;  ///< finishing or facing tool; may be absent
   int rough_passes = 0, finish_passes = 0;
   std::size_t rough_range = 0, finish_range = 0;  ///< which of the machine's speed ranges
+  std::size_t rough_piece = 0,
+              finish_piece = 0;  ///< and of the tools' chip windows, if these have any
 };
 
 /// What the request has fixed of the operations on this surface.
@@ -30,6 +32,11 @@ struct Fixed {
 struct Economy {
   double minute = 0, edge = 0;
 };
+
+/// Fastest spindle speed [1/min] of machine and clamping.
+double clamping_rpm(const PartPlan& plan, Clamping clamping);
+/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
+double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
 
 /// What a clamping is to the cut where nothing yields: two clampings that hold alike
 /// differ in no chain without stations.
@@ -78,6 +85,27 @@ class Feature {
                              const std::vector<double>& stations,
                              std::optional<double> a_mm = {}) const;
 
+  /// Largest chatter stiffness [N/mm] that each operation bears at a finishing depth:
+  ///
+  ///     K <= 1/C,  C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
+  ///     (1)
+  ///
+  /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
+  /// (3) of chain.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
+  /// damping ratio of part and machine, zeta_b that of a boring bar.  Static compliances:
+  /// whatever the frequencies, 2 zeta (1 + zeta) of the sum of modes' is at most the
+  /// limit of the modes together, at any spindle speed (docs/planning.md).
+  std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
+
+  /// The largest of the operations' chatter stiffness over its limit.
+  double chatter_share(const Chain& chain, const Choice<double>& choice) const;
+
+  /// Asks a chain for (1), of the operations of which some condition comes near it.  Over
+  /// an open depth at places that are the worst, or near it, somewhere.
+  void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
+  /// At one depth, at the places where another chain is asked.
+  void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;
+
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
   /// through exact values: 8 pieces of degree 8 along an element (interpolation error
   /// below 1e-10 of the largest), degree 2 on a face, where it is exact.
@@ -111,7 +139,7 @@ class Feature {
           std::string surface, const Fixed& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
-  OperationModel operation(const catalogue::Tool& tool, bool finishing, std::size_t range,
+  OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].
@@ -119,7 +147,20 @@ class Feature {
     double p, q, s, r;
   };
   std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
-  // Of the bodies left and right of the tool, at distances from the root.
+  // In chatter.cpp.
+  std::vector<double> chatter_yields(const OperationModel& o, double left_mm,
+                                     double uncut_mm,
+                                     const std::vector<double>& places) const;
+  std::vector<double> last_yields(const OperationModel& o, double a_mm,
+                                  const std::vector<double>& places) const;
+  std::vector<double> chatter_places() const;
+  bool cut_to_chuck(const OperationModel& o) const;
+  double x_mm(const OperationModel& o, double at_mm) const;  // from the root
+  // During a pass that leaves so much of what was uncut, at distances from the root.
+  void yields(const OperationModel& o, double left_mm, double uncut_mm,
+              const std::vector<double>& x, std::vector<deflection::Flexibility>& radial,
+              std::vector<deflection::Flexibility>& tangential) const;
+  // Of the bodies left and right of the tool.
   void yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
               const SetupBody& body, const std::vector<double>& x,
               std::vector<deflection::Flexibility>& radial,

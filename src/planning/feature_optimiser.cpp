@@ -20,6 +20,7 @@ constexpr std::size_t kNearest = 40;   // recipes asked for the nearest conditio
 constexpr double kKept = 5e-10;        // the most that a limit may be exceeded by, in ln
 constexpr long kScouting = 150;        // boxes for a first bound of a task
 constexpr double kScoutingGap = 5e-3;  // and what they may leave open
+constexpr double kChatters = 5e-10;    // of the limit, as of a tolerance's
 constexpr const char* kNone = "proved: no conditions keep every limit";
 
 struct Candidate {
@@ -74,8 +75,13 @@ FeatureAnswer not_below(const FeatureAnswer& known) {
   return a;
 }
 
+bool chatters(const FeatureTask& task, const RecipeModel& m, const Choice<double>& c) {
+  return !(task.feature.chatter_share(m.chain(), c) <= 1 + kChatters);
+}
+
 bool keeps_demands(const FeatureTask& task, const FeatureAnswer& a) {
-  return !Exchange(task.feature, task.demands)
+  return !chatters(task, *a.model, a.choice) &&
+         !Exchange(task.feature, task.demands)
               .add_violated(a.model->recipe(), task.economy, a.choice);
 }
 
@@ -84,9 +90,9 @@ FeatureAnswer with_profile(const FeatureTask& task, FeatureAnswer a) {
   return a;
 }
 
-// One task's search over recipes.  It starts without tolerances: what they ask is asked
-// only where an optimum breaks it, so a surface whose tolerances do not bind never pays
-// for its deflection in boxes.  Their places grow from round to round.
+// One task's search over recipes.  It starts without tolerances and chatter: what they
+// ask is asked only where an optimum breaks it, so a surface whose tolerances do not bind
+// never pays for its deflection in boxes.  Their places grow from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
@@ -138,6 +144,7 @@ class FeatureSearch {
     if (!c.model) {
       auto chain = task_.feature.chain(c.recipe, task_.economy, exchange_.stations());
       chain->functionals = exchange_.functionals();
+      if (chatter_) task_.feature.limit_chatter(*chain);
       c.model = std::make_shared<RecipeModel>(c.recipe, std::move(*chain));
     }
     return c.model;
@@ -246,7 +253,10 @@ class FeatureSearch {
 
   bool violated() {
     const auto& m = *model(best_.candidate);
-    return exchange_.add_violated(m.recipe(), task_.economy, m.choice(best_.y));
+    const auto choice = m.choice(best_.y);
+    const bool chatter = !chatter_ && chatters(task_, m, choice);
+    chatter_ = chatter_ || chatter;
+    return exchange_.add_violated(m.recipe(), task_.economy, choice) || chatter;
   }
 
   optimise::Solution polished() {
@@ -287,7 +297,7 @@ class FeatureSearch {
       a.certificate.kind = CertificateKind::global;
       a.certificate.reason.clear();
     }
-    if (exchange_.functionals().empty() && a.certificate.gap <= kCertified)
+    if (!chatter_ && exchange_.functionals().empty() && a.certificate.gap <= kCertified)
       task_.unasked->best = std::make_shared<FeatureAnswer>(a);
     return with_profile(task_, std::move(a));
   }
@@ -306,6 +316,7 @@ class FeatureSearch {
   const FeatureTask& task_;
   double gap_, most_;
   Exchange exchange_;
+  bool chatter_ = false;  // asked
   std::vector<Candidate> all_;
   Best best_;
   double bound_ = kInfinity;
@@ -367,6 +378,7 @@ FeatureAnswer nearest(const FeatureTask& task) {
       auto chain = task.feature.chain(task.recipes[k], task.economy, exchange.stations());
       if (!chain) continue;
       chain->functionals = exchange.functionals();
+      task.feature.limit_chatter(*chain);
       auto m = std::make_shared<RecipeModel>(task.recipes[k], std::move(*chain));
       const auto s = least_violation(*m);
       if (!(s.f < a.least_violation)) continue;
@@ -392,6 +404,7 @@ FeatureAnswer any_answer(const FeatureTask& task) {
       auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
       if (!chain) break;
       chain->functionals = exchange.functionals();
+      task.feature.limit_chatter(*chain);
       a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
       const auto s = least_violation(*a.model);
       if (!(s.f <= kKept)) break;

@@ -14,8 +14,8 @@ inline constexpr double kCertified = 1e-4;
 
 struct FeatureAnswer;
 
-/// What is known of a task while no tolerance is asked; tasks that differ only there, or
-/// in a clamping that holds alike, share it.
+/// What is known of a task while neither a tolerance nor chatter is asked; tasks that
+/// differ only there, or in a clamping that holds alike, share it.
 struct Unasked {
   std::optional<double> least;                ///< see least_objective
   std::shared_ptr<const FeatureAnswer> best;  ///< certified

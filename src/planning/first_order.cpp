@@ -71,6 +71,7 @@ std::optional<double> change(const PartPlan& plan, const SolvedFeature& f,
       feature.chain(recipe, economy(plan, changed, f.task.economy), places, a.choice.a);
   if (!chain) return {};
   chain->functionals = a.model->chain().functionals;
+  feature.limit_chatter_alike(a.model->chain(), a.choice.a, *chain);
   const auto offset = f.compensated ? Offset::free : Offset::none;
   if (!take_limits(f.task.demands, demands(changed, feature.surface(), offset, making),
                    chain->functionals))

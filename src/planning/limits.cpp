@@ -17,6 +17,7 @@ std::string grip_name(const char* what, std::size_t setup) {
   return std::string(what) + " in setup " + std::to_string(setup);
 }
 constexpr const char* kPower = "power";  // and torque, of one motor
+constexpr const char* kDampingRatio = "damping ratio";
 constexpr const char* kGrip = "grip force";
 constexpr const char* kEasedGrip = "finishing grip force";
 
@@ -105,6 +106,8 @@ void add_machine(const PartPlan& p, std::vector<Limit>& all) {
                           point.M_Nm *= k;
                         }
                       }));
+  all.push_back(limit(of(kDampingRatio, m.id), "", true, p.damping_ratio,
+                      [](PartPlan& plan, double k) { plan.damping_ratio *= k; }));
   all.push_back(limit(of("feed force", m.id), "N", true, m.feed_force_max_N,
                       number(&catalogue::Lathe::feed_force_max_N)));
   const double end = std::min(m.n_max_rpm, m.curve.back().n_rpm);
@@ -157,6 +160,10 @@ void add_tools(const PartPlan& p, std::vector<Limit>& all) {
           of(l.what, tool.id), check_name(l.check).unit, check_name(l.check).at_most,
           tool.*l.range.*l.end,
           [i, l](PartPlan& plan, double k) { plan.tools[i].*l.range.*l.end *= k; }));
+    if (tool.bar && tool.bar->damping_ratio)
+      all.push_back(limit(
+          of(kDampingRatio, tool.id), "", true, *tool.bar->damping_ratio,
+          [i](PartPlan& plan, double k) { *plan.tools[i].bar->damping_ratio *= k; }));
     all.push_back(limit(of("cutting force", tool.id), "N", true, tool.Fc_max_N,
                         [i](PartPlan& plan, double k) { plan.tools[i].Fc_max_N *= k; }));
   }
@@ -214,6 +221,8 @@ std::vector<std::string> limit_names(const PartPlan& p, const SolvedFeature& f,
       return spindle_limit_names(p, f, row.operation);
     case Check::grip:
       return {grip_of(p, f, o)};
+    case Check::chatter:
+      return {of(kDampingRatio, p.machine.id), of(kDampingRatio, o.tool->id)};
     case Check::Ra:
       return {of("roughness Ra", surface)};
     case Check::Rz:

@@ -57,12 +57,11 @@ std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
   const auto& m = *f.answer.model;
   const auto w = worst_row(m, f.answer.choice);
   const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
-  const bool tolerance = w.row.row.check == Check::tolerance;
   return fmt::format(
       "{}: {} is {} {} where {} {} is allowed, {:.1f} % over at the nearest conditions "
       "found",
       feature.surface(), c.name, readable(c.value), c.unit, readable(c.limit), c.unit,
-      100 * (tolerance ? w.g : std::expm1(w.g)));
+      100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
 }
 
 }  // namespace turnwright::planning

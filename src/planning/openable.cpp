@@ -129,6 +129,9 @@ void open(PartPlan& p, const Openable& l, double times) {
     case Kind::life_max:
       for (auto& t : p.tools) t.T_min.upper *= far;
       return;
+    case Kind::chatter:
+      p.chatter_times *= far;
+      return;
     case Kind::passes:
     case Kind::ap:
     case Kind::f:
@@ -211,7 +214,7 @@ std::vector<Openable> limits_of(const PartPlan& p) {
   });
   for (const Kind k :
        {Kind::power, Kind::feed_force, Kind::grip, Kind::spindle_max, Kind::spindle_min,
-        Kind::tool_force, Kind::life_min, Kind::life_max})
+        Kind::tool_force, Kind::life_min, Kind::life_max, Kind::chatter})
     all.push_back({k});
   return all;
 }
@@ -272,6 +275,8 @@ LimitName name_of(const PartPlan& p, const Openable& l) {
       return of_windows(p, Check::life_min, &catalogue::Tool::T_min);
     case Kind::life_max:
       return of_windows(p, Check::life_max, &catalogue::Tool::T_min);
+    case Kind::chatter:
+      return {"chatter stiffness", "times", p.chatter_times, true};
     case Kind::depth_min:
       return of_windows(p, Check::depth_min, &catalogue::Tool::ap_mm);
     case Kind::depth_max:

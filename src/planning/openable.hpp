@@ -24,6 +24,7 @@ struct Openable {
     tool_force,
     life_min,
     life_max,
+    chatter,
     passes,  ///< given, as are the next three
     ap,
     f,

@@ -6,6 +6,7 @@
 
 #include "setup_planner.hpp"
 #include "turnwright/planning/machine_share.hpp"
+#include "window.hpp"
 
 namespace turnwright::planning {
 
@@ -32,7 +33,10 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
   std::vector<std::vector<OperationPlan>> places(kPlaces);
   for (const auto& f : s.features) {
     if (!f.answer.model) continue;
-    for (auto& o : describe(p, s.setup, f, {p.machine_per_min})) {
+    auto operations = describe(p, s.setup, f, {p.machine_per_min});
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+      auto& o = operations[i];
+      if (f.answer.feasible) o.window = operating_window(p, f, i);
       const bool rough =
           o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
       places[place_in_setup(f.task.feature.kind(), rough)].push_back(std::move(o));

@@ -15,7 +15,7 @@ using optimise::Box;
 template <class T>
 T g_of(Check check, const T& value, const T& limit) {
   using std::log;
-  if (check == Check::tolerance) return value / limit - 1.0;
+  if (either_sign(check)) return value / limit - 1.0;
   return log(value / limit);
 }
 Bound g_of(Check, const LogDual<optimise::kBoxVariables>& value,

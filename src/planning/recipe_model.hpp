@@ -24,8 +24,8 @@ struct RowValue {
   double value = 0, limit = 0;
 };
 
-/// g of a row: ln(value/limit), and value/limit - 1 for tolerances, whose values have
-/// either sign; the two agree to first order where they bind.
+/// g of a row: ln(value/limit), and value/limit - 1 for tolerances and chatter, whose
+/// values have either sign; the two agree to first order where they bind.
 double violation(const RowValue& r);
 
 /// Variables of the full problem: ln v, ln f of both operations, ln a.

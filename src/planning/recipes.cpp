@@ -79,13 +79,20 @@ std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Wanted& w
   std::vector<Recipe> all;
   if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
   const auto ranges = cutting::speed_ranges(p.machine).size();
+  const auto pieces = [](const Tool* t) {
+    return t ? std::max<std::size_t>(t->chip.size(), 1) : 1;
+  };
   const auto add = [&](Recipe r) {
     for (std::size_t i = 0; i < (r.rough ? ranges : 1); ++i)
-      for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j) {
-        r.rough_range = i;
-        r.finish_range = j;
-        all.push_back(r);
-      }
+      for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j)
+        for (std::size_t k = 0; k < pieces(r.rough); ++k)
+          for (std::size_t l = 0; l < pieces(r.finish); ++l) {
+            r.rough_range = i;
+            r.finish_range = j;
+            r.rough_piece = k;
+            r.finish_piece = l;
+            all.push_back(r);
+          }
   };
   const bool free = !w.given && !f.is_face();
   const double stock =

@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-
-#include "turnwright/base/units.hpp"
-#include "turnwright/cutting/spindle.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -337,20 +333,6 @@ Planes planes(const catalogue::Lathe& m, Clamping clamping) {
   if (clamping == Clamping::between_centres)
     p.radial.method = p.tangential.method = deflection::Method::between_centres;
   return p;
-}
-
-double clamping_rpm(const PartPlan& p, Clamping clamping) {
-  const auto& m = p.machine;
-  if (clamping == Clamping::between_centres) return m.n_max_rpm;
-  return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
-}
-
-double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
-  const auto& c = p.machine.chuck;
-  if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
-    return std::numeric_limits<double>::infinity();
-  return std::sqrt(cutting::kGripLoss * force_N / c.jaw_mass_radius_kg_m) * 30 /
-         units::kPi;
 }
 
 bool has_tailstock(Clamping clamping) {

@@ -1,5 +1,6 @@
 #include "turnwright/service/requests.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "turnwright/document/acceptance.hpp"
@@ -21,6 +22,8 @@
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
 #include "turnwright/report/text.hpp"
+#include "turnwright/report/volumetric_drawing.hpp"
+#include "turnwright/report/window_drawing.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -174,11 +177,16 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
         {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
   if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
     all.drawings.push_back({"budget.svg", std::move(svg)});
+  for (const auto& setup : plan.setups)
+    for (const auto& o : setup.operations)
+      if (o.window)
+        all.drawings.push_back({"window-" + o.id + ".svg", report::window_drawing(o)});
   return all;
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "plan");
+  auto part = document::load_part_plan(request, context.catalogue, "plan");
+  part.plan.window_curves = true;
   return drawn(part, planning::plan(part.plan, part.what_if));
 }
 
@@ -186,6 +194,21 @@ Drawn drawn_predict(const json& request, const Context& context) {
   const auto part = document::load_part_plan(request, context.catalogue, "predict",
                                              document::Purpose::predict);
   return drawn(part, planning::predict(part.plan));
+}
+
+Drawn drawn_geometry(const json& request, const Context&) {
+  return {document::geometry(request),
+          {{"errors.svg", report::error_map(document::geometry_machine(request))}}};
+}
+
+Drawn drawn_ball_bar(const json& request, const Context&) {
+  return {document::ball_bar(request),
+          {{"ballbar.svg", report::ball_bar_drawing(document::ball_bar_trace(request))}}};
+}
+
+Drawn drawn_compensate(const json& request, const Context&) {
+  const auto [result, compensated] = document::compensated(request);
+  return {result, {{"residual.svg", report::compensation_drawing(compensated)}}};
 }
 
 constexpr const char* kPredictExample = R"({
@@ -243,12 +266,14 @@ std::span<const Request> requests() {
        kGeometryExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::geometry(request);
-       }},
+       },
+       nullptr, drawn_geometry},
       {"ballbar", "error model -> circular traces; traces -> ISO 230-4 and decomposition",
        kBallBarExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::ball_bar(request);
-       }},
+       },
+       nullptr, drawn_ball_bar},
       {"samba", "probing strategy -> identifiability; readings -> parameters",
        kSambaExample,
        [](const json& request, const Context&) -> ordered_json {
@@ -263,7 +288,8 @@ std::span<const Request> requests() {
        kCompensateExample,
        [](const json& request, const Context&) -> ordered_json {
          return document::compensate(request);
-       }},
+       },
+       nullptr, drawn_compensate},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
        [](const json& request, const Context&) -> ordered_json {

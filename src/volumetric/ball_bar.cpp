@@ -51,45 +51,71 @@ double own_range(const MatrixXd& A, const VectorXd& path) {
   return range(path - whole * whole.colPivHouseholderQr().solve(path));
 }
 
-using Row = Eigen::Matrix<double, 1, static_cast<int>(kBallBarTerms.size())>;
+/// Terms of (2) that both paths see alike, and those that change sign with dir.
+constexpr std::array<std::size_t, 7> kAlike = {0, 1, 2, 3, 4, 9, 10};
+constexpr std::array<std::size_t, 5> kOpposed = {5, 6, 7, 8, 11};
 
-/// Eq. (2).
-Row basis(double theta, double dir, double R) {
-  const double c = std::cos(theta), s = std::sin(theta), bow = R / kQ * (R / kQ);
-  Row row;
-  row << c, s, R * c * c, R * s * s, R * s * c, -dir * sign(s) * c, dir * sign(c) * s,
-      -dir * std::abs(s), dir * std::abs(c), bow * c * c * s, bow * s * s * c,
-      2 * dir * s * c;
-  return row;
-}
+/// Eq. (2) for dir = 1, the columns of kAlike and of kOpposed.
+struct Basis {
+  MatrixXd alike, opposed;
+};
 
-MatrixXd basis(const Trace& t) {
+Basis basis(const Trace& t) {
   const auto n = static_cast<Index>(t.theta_rad.size());
-  MatrixXd A(2 * n, Row::ColsAtCompileTime);
+  Basis b{MatrixXd(n, kAlike.size()), MatrixXd(n, kOpposed.size())};
+  const double R = t.R_mm, bow = R / kQ * (R / kQ);
   for (Index i = 0; i < n; ++i) {
     const double theta = t.theta_rad[static_cast<std::size_t>(i)];
-    A.row(i) = basis(theta, 1, t.R_mm);
-    A.row(n + i) = basis(theta, -1, t.R_mm);
+    const double c = std::cos(theta), s = std::sin(theta);
+    b.alike.row(i) << c, s, R * c * c, R * s * s, R * s * c, bow * c * c * s,
+        bow * s * s * c;
+    b.opposed.row(i) << -sign(s) * c, sign(c) * s, -std::abs(s), std::abs(c), 2 * s * c;
   }
-  return A;
+  return b;
 }
 
-std::vector<Contribution> ranked(const MatrixXd& A, const VectorXd& x) {
-  std::vector<Contribution> out;
-  const auto add = [&](const char* name, const VectorXd& effect) {
-    out.push_back({name, range(effect)});
+/// Least squares of one group of terms; `inverse`: the diagonal of (A^T A)^-1.
+struct Part {
+  Index rank = 0;
+  VectorXd x, inverse;
+  double rss = 0;
+};
+
+Part solved(const MatrixXd& A, const VectorXd& v) {
+  const Index m = A.cols();
+  const VectorXd norms = A.colwise().norm();
+  if (!(norms.minCoeff() > 0)) return {};
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A * norms.cwiseInverse().asDiagonal());
+  if (qr.rank() < m) return {.rank = qr.rank(), .x = {}, .inverse = {}};
+  const VectorXd x = qr.solve(v).cwiseQuotient(norms);
+  // (A^T A)^-1 = P R^-1 R^-T P^T: its diagonal by the rows of P R^-1.
+  const MatrixXd root =
+      qr.colsPermutation() * qr.matrixR().topRows(m).triangularView<Eigen::Upper>().solve(
+                                 MatrixXd::Identity(m, m));
+  return {m, x, root.rowwise().squaredNorm().cwiseQuotient(norms.cwiseAbs2()),
+          (v - A * x).squaredNorm()};
+}
+
+std::vector<Contribution> ranked(const Basis& b, const VectorXd& alike,
+                                 const VectorXd& opposed) {
+  const double mean = (alike[2] + alike[3]) / 2, mismatch = (alike[2] - alike[3]) / 2;
+  std::vector<Contribution> out = {
+      {"centre_offset", range(b.alike.leftCols(2) * alike.head(2))},
+      {"mean_scale",
+       std::abs(mean) * (b.alike.col(2) + b.alike.col(3)).cwiseAbs().maxCoeff()},
+      {"scale_mismatch", std::abs(mismatch) * range(b.alike.col(2) - b.alike.col(3))}};
+  const auto one = [&](const char* name, Index k) {
+    out.push_back({name, std::abs(alike[k]) * range(b.alike.col(k))});
   };
-  add("centre_offset", A.leftCols(2) * x.head(2));
-  const double mean = (x[2] + x[3]) / 2, mismatch = (x[2] - x[3]) / 2;
-  const VectorXd whole = A.col(2) + A.col(3);
-  out.push_back({"mean_scale", std::abs(mean) * whole.cwiseAbs().maxCoeff()});
-  add("scale_mismatch", mismatch * (A.col(2) - A.col(3)));
-  const std::array<const char*, 8> names = {"squareness",          "backlash_u",
-                                            "backlash_v",          "lateral_play_v_of_u",
-                                            "lateral_play_u_of_v", "straightness_v_of_u",
-                                            "straightness_u_of_v", "servo_mismatch"};
-  for (Index k = 0; k < 8; ++k)
-    add(names[static_cast<std::size_t>(k)], x[k + 4] * A.col(k + 4));
+  one("squareness", 4);
+  one("straightness_v_of_u", 5);
+  one("straightness_u_of_v", 6);
+  const std::array<const char*, kOpposed.size()> names = {
+      "backlash_u", "backlash_v", "lateral_play_v_of_u", "lateral_play_u_of_v",
+      "servo_mismatch"};
+  for (Index k = 0; k < opposed.size(); ++k)  // on one path +, on the other -
+    out.push_back({names[static_cast<std::size_t>(k)],
+                   2 * std::abs(opposed[k]) * b.opposed.col(k).cwiseAbs().maxCoeff()});
   std::ranges::stable_sort(out, std::ranges::greater(), &Contribution::range_mm);
   return out;
 }
@@ -125,7 +151,7 @@ Trace simulate(const Machine& machine, const BallBarTest& test) {
     at.q[letter_index(V)] = test.R_mm * s;
     at.sign[letter_index(U)] = -dir * sign(s);
     at.sign[letter_index(V)] = dir * sign(c);
-    const Vec3 tip = kinematics.actual(at).tip_mm, &o = test.centre_offset_mm;
+    const Vec3 tip = kinematics.actual_tip_mm(at), &o = test.centre_offset_mm;
     return std::hypot(tip[0] - o[0], tip[1] - o[1], tip[2] - o[2]) - test.R_mm;
   };
   Trace out{test.plane, test.R_mm, {}, {}, {}};
@@ -158,34 +184,44 @@ Iso230_4 iso230_4(const Trace& t) {
           .D_mm = common[0]};
 }
 
+// Half the sum of both paths has only the terms alike, half their difference only those
+// opposed: (ccw + cw)/sqrt 2 and (ccw - cw)/sqrt 2 are the values turned by an orthogonal
+// matrix, so that two small fits are the least squares of the whole.
 BallBarFit decompose(const Trace& t) {
   check(t);
-  const MatrixXd A = basis(t);
-  const Index m = A.cols();
-  const VectorXd norms = A.colwise().norm();
-  if (!(A.rows() > m) || !(norms.minCoeff() > 0))
-    throw ModelRangeError(
-        "decompose: more than 12 values, at angles that tell the terms apart");
-  VectorXd v(A.rows());
-  v << vector(t.ccw_mm), vector(t.cw_mm);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A * norms.cwiseInverse().asDiagonal());
-  if (qr.rank() < m)
-    throw ModelRangeError("decompose: the angles tell only " + std::to_string(qr.rank()) +
+  const Basis b = basis(t);
+  const double half = std::sqrt(0.5);
+  const auto ccw = vector(t.ccw_mm), cw = vector(t.cw_mm);
+  const Part alike = solved(b.alike / half, half * (ccw + cw)),
+             opposed = solved(b.opposed / half, half * (ccw - cw));
+  constexpr auto m = static_cast<Index>(kBallBarTerms.size());
+  if (const Index rank = alike.rank + opposed.rank; rank < m)
+    throw ModelRangeError("decompose: the angles tell only " + std::to_string(rank) +
                           " of the 12 terms apart; more angles over the whole circle do");
-  const VectorXd x = qr.solve(v).cwiseQuotient(norms);
-  const double rss = (v - A * x).squaredNorm();
-  const auto values = static_cast<double>(A.rows());
+  const double values = 2 * static_cast<double>(t.theta_rad.size());
+  const double rss = alike.rss + opposed.rss;
   const double s = std::sqrt(rss / (values - static_cast<double>(m)));
-  // (A^T A)^-1 = P R^-1 R^-T P^T: its diagonal by the rows of P R^-1.
-  const MatrixXd inverse =
-      qr.colsPermutation() * qr.matrixR().topRows(m).triangularView<Eigen::Upper>().solve(
-                                 MatrixXd::Identity(m, m));
-  BallBarFit out{.rms_mm = std::sqrt(rss / values), .ranking = ranked(A, x)};
-  for (Index j = 0; j < m; ++j) {
-    out.value[static_cast<std::size_t>(j)] = x[j];
-    out.u[static_cast<std::size_t>(j)] = s * inverse.row(j).norm() / norms[j];
-  }
+  BallBarFit out{.rms_mm = std::sqrt(rss / values),
+                 .ranking = ranked(b, alike.x, opposed.x)};
+  const auto take = [&](const auto& terms, const Part& part) {
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      out.value[terms[k]] = part.x[static_cast<Index>(k)];
+      out.u[terms[k]] = s * std::sqrt(part.inverse[static_cast<Index>(k)]);
+    }
+  };
+  take(kAlike, alike);
+  take(kOpposed, opposed);
   return out;
+}
+
+double fitted_mm(const BallBarFit& fit, double R_mm, double theta_rad, double dir) {
+  const Basis b = basis({Plane::XY, R_mm, {theta_rad}, {}, {}});
+  double sum = 0;
+  for (std::size_t k = 0; k < kAlike.size(); ++k)
+    sum += fit.value[kAlike[k]] * b.alike(0, static_cast<Index>(k));
+  for (std::size_t k = 0; k < kOpposed.size(); ++k)
+    sum += dir * fit.value[kOpposed[k]] * b.opposed(0, static_cast<Index>(k));
+  return sum;
 }
 
 std::vector<std::string> confounded(Plane plane) {

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <utility>
 
+#include "turnwright/base/errors.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
 namespace turnwright::volumetric {
@@ -18,12 +21,18 @@ Vec3 operator-(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
+double norm(const Vec3& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+/// The machine with one of its tools.
+struct Tool {
+  Kinematics kinematics;
+  Vec3 point;
+};
 
 /// The machine with each of its tools.
 class Field {
  public:
-  Field(const Machine& machine, const NcSetup& setup) : axes_(setup.axes) {
+  Field(const Machine& machine, const NcSetup& setup) {
     const auto add = [&](int number, const Vec3& vector) {
       Machine m = machine;
       m.tool_point_mm = m.tool_point_mm + vector;
@@ -31,35 +40,48 @@ class Field {
     };
     add(0, {});
     for (const auto& [number, vector] : setup.tool_offsets_mm) add(number, vector);
+    for (std::size_t k = 0; k < 3; ++k)
+      counts_[k] = setup.axes.find(kLetters[k]) == std::string::npos ? 0 : 1;
+  }
+
+  const Tool& tool(int number) const { return tools_.at(number); }
+
+  /// Length up to which a straight way between targets no farther out than `reach_mm`
+  /// needs no split.
+  double longest_straight_mm(const Vec3& reach_mm, double tolerance_mm) const {
+    double bend = 0;
+    for (const auto& [number, tool] : tools_) {
+      Vec3 q;
+      for (std::size_t k = 0; k < 3; ++k) q[k] = reach_mm[k] + std::abs(tool.point[k]);
+      bend = std::max(bend, tool.kinematics.bend_at_most(q));
+    }
+    // A chord of length h is off by bend h^2/8; half of it for products of errors.
+    return std::sqrt(4 * tolerance_mm / bend);
   }
 
   /// Of the tip from `target` when commanded to `at`, along the machine's axes.
-  Vec3 error(int tool, const Vec3& at, const Vec3& sign, const Vec3& target) const {
-    const Tool& t = tools_.at(tool);
+  Vec3 error(const Tool& tool, const Vec3& at, const Vec3& sign,
+             const Vec3& target) const {
     Position p;
     for (std::size_t k = 0; k < 3; ++k) {
-      p.q[k] = at[k] - t.point[k];
+      p.q[k] = at[k] - tool.point[k];
       p.sign[k] = sign[k];
     }
-    Vec3 e = t.kinematics.actual(p).tip_mm - target;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (axes_.find(kLetters[k]) == std::string::npos) e[k] = 0;
-    return e;
+    const Vec3 e = tool.kinematics.actual_tip_mm(p) - target;
+    return {counts_[0] * e[0], counts_[1] * e[1], counts_[2] * e[2]};
   }
 
  private:
-  struct Tool {
-    Kinematics kinematics;
-    Vec3 point;
-  };
-  std::string axes_;
   std::map<int, Tool> tools_;
+  Vec3 counts_{};
 };
 
 /// A point the tip should reach, with the motion that brings it there.
 struct Stop {
   const NcMove* move;
+  const Tool* tool = nullptr;
   Vec3 target{}, sign{};
+  Vec3 error{};                    // at the target, uncorrected
   bool first = true, last = true;  // of its move's
   Vec3 command{};
 };
@@ -77,81 +99,112 @@ Vec3 signs(const Vec3& from, const Vec3& to, const Vec3& before, AtRest at_rest)
   return out;
 }
 
-class Compensator {
+/// Walks a program's moves, split where the error bends.
+class Walk {
  public:
-  Compensator(const Field& field, const CompensationOptions& options)
+  Walk(const Field& field, const CompensationOptions& options)
       : field_(field), o_(options) {}
 
-  /// Straight moves, split where the error bends; signs of all.
-  std::vector<Stop> stops(const NcProgram& program) {
-    std::vector<Stop> out;
-    Vec3 from = program.start_mm, sign{};
+  /// Calls visit(stop) for each stop of all moves, and each line without any.
+  template <class Visit>
+  void run(const NcProgram& program, Visit visit) {
+    int number = 0;
+    tool_ = &field_.tool(number);
+    unsplit_mm_ = field_.longest_straight_mm(reach(program), o_.tolerance_mm);
+    // Where the tip stands, how it came there, and its error.
+    Vec3 from = program.start_mm, sign{},
+         at_from = field_.error(*tool_, from, sign, from);
     for (const NcMove& m : program.moves) {
       if (!m.moves) {
-        out.push_back({.move = &m});
+        visit(Stop{.move = &m});
         continue;
       }
-      const Vec3 next = signs(from, m.target_mm, sign, o_.at_rest);
-      const bool whole = m.rapid || o_.method != Method::full_field;
-      std::vector<Vec3> ends;
-      if (!whole) {
-        if (norm(field_.error(m.tool, from, next, from) -
-                 field_.error(m.tool, from, sign, from)) > 0 &&
-            turned(sign, next))
-          ends.push_back(from);
-        split(m, from, m.target_mm, next, 0, ends);
+      if (m.tool != number) {  // the axes stand, another tip is looked at
+        const Tool& next = field_.tool(m.tool);
+        from = from + next.point - tool_->point;
+        number = m.tool;
+        tool_ = &next;
+        at_from = field_.error(next, from, sign, from);
       }
-      ends.push_back(m.target_mm);
-      for (std::size_t i = 0; i < ends.size(); ++i)
-        out.push_back({.move = &m,
-                       .target = ends[i],
-                       .sign = next,
-                       .first = i == 0,
-                       .last = i + 1 == ends.size()});
+      const Vec3 before = std::exchange(sign, signs(from, m.target_mm, sign, o_.at_rest));
+      Stop s{.move = &m, .tool = tool_, .sign = sign};
+      const Vec3 at_end = field_.error(*tool_, m.target_mm, sign, m.target_mm);
+      ends_.clear();
+      if (!m.rapid && o_.method == Method::full_field) {
+        if (sign != before) {
+          const Vec3 other_side = field_.error(*tool_, from, sign, from);
+          if (other_side != at_from) ends_.push_back({from, other_side});
+          at_from = other_side;
+        }
+        split({from, at_from}, {m.target_mm, at_end}, sign, 0);
+      }
+      ends_.push_back({m.target_mm, at_end});
+      for (const End& end : ends_) {
+        s.target = end.at;
+        s.error = end.error;
+        s.first = &end == &ends_.front();
+        s.last = &end == &ends_.back();
+        visit(s);
+      }
       from = m.target_mm;
-      sign = next;
+      at_from = at_end;
     }
-    return out;
-  }
-
-  void full_field(Stop& s) const {
-    s.command = s.target;
-    for (int pass = 0; pass < o_.passes; ++pass)  // Eq. (1)
-      s.command = s.command - field_.error(s.move->tool, s.command, s.sign, s.target);
   }
 
  private:
-  static bool turned(const Vec3& before, const Vec3& now) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (before[k] != now[k]) return true;
-    return false;
+  struct End {
+    Vec3 at, error;
+  };
+
+  static Vec3 reach(const NcProgram& program) {
+    Vec3 out{};
+    const auto include = [&out](const Vec3& at) {
+      for (std::size_t k = 0; k < 3; ++k) out[k] = std::max(out[k], std::abs(at[k]));
+    };
+    include(program.start_mm);
+    for (const NcMove& m : program.moves)
+      if (m.moves) include(m.target_mm);
+    return out;
   }
 
-  void split(const NcMove& m, const Vec3& a, const Vec3& b, const Vec3& sign, int depth,
-             std::vector<Vec3>& ends) const {
+  void split(const End& a, const End& b, const Vec3& sign, int depth) {
     constexpr int kDeepest = 12;
-    if (depth == kDeepest) return;
-    const auto at = [&](double share) { return a + share * (b - a); };
-    const auto error = [&](double share) {
-      return field_.error(m.tool, at(share), sign, at(share));
+    if (depth == kDeepest || norm(b.at - a.at) <= unsplit_mm_) return;
+    const auto inside = [&](double share) -> End {
+      const Vec3 at = a.at + share * (b.at - a.at);
+      return {at, field_.error(*tool_, at, sign, at)};
     };
-    const Vec3 e0 = error(0), e1 = error(1);
+    const auto bend = [&](double share, const Vec3& error) {
+      return norm(error - (a.error + share * (b.error - a.error)));
+    };
+    const End middle = inside(0.5);
     // Quarters as well: an odd bow has none in the middle.
-    double bend = 0;
-    for (const double share : {0.25, 0.5, 0.75})
-      bend = std::max(bend, norm(error(share) - (e0 + share * (e1 - e0))));
-    if (!(bend > o_.tolerance_mm)) return;
-    split(m, a, at(0.5), sign, depth + 1, ends);
-    ends.push_back(at(0.5));
-    split(m, at(0.5), b, sign, depth + 1, ends);
+    if (!(bend(0.5, middle.error) > o_.tolerance_mm ||
+          bend(0.25, inside(0.25).error) > o_.tolerance_mm ||
+          bend(0.75, inside(0.75).error) > o_.tolerance_mm))
+      return;
+    split(a, middle, sign, depth + 1);
+    ends_.push_back(middle);
+    split(middle, b, sign, depth + 1);
   }
 
   const Field& field_;
   const CompensationOptions& o_;
+  const Tool* tool_ = nullptr;
+  double unsplit_mm_ = 0;
+  std::vector<End> ends_;  // of the move at hand
 };
 
-/// Of all moves' ends by a map of least squares: constant, or affine in the target.
-void fitted(const Field& field, Method method, std::vector<Stop>& stops) {
+/// Commands by Eq. (1).
+void full_field(const Field& field, int passes, Stop& s) {
+  s.command = s.target - s.error;
+  for (int pass = 1; pass < passes; ++pass)
+    s.command = s.command - field.error(*s.tool, s.command, s.sign, s.target);
+}
+
+/// Of all moves' ends by the constant or affine map of least squares from the targets to
+/// the corrections they need by themselves.
+void fitted(Method method, const Field& field, int passes, std::vector<Stop>& stops) {
   std::vector<Stop*> moving;
   for (Stop& s : stops)
     if (s.move->moves) moving.push_back(&s);
@@ -160,12 +213,13 @@ void fitted(const Field& field, Method method, std::vector<Stop>& stops) {
   if (n == 0) return;
   Eigen::MatrixXd A(n, columns), e(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Stop& s = *moving[static_cast<std::size_t>(i)];
-    const Vec3 error = field.error(s.move->tool, s.target, s.sign, s.target);
+    Stop& s = *moving[static_cast<std::size_t>(i)];
+    full_field(field, passes, s);
     A(i, 0) = 1;
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (columns > 1) A(i, k + 1) = s.target[static_cast<std::size_t>(k)];
-      e(i, k) = error[static_cast<std::size_t>(k)];
+      e(i, k) =
+          s.command[static_cast<std::size_t>(k)] - s.target[static_cast<std::size_t>(k)];
     }
   }
   // Complete: points in a plane leave the slope across it open, here zero.
@@ -173,87 +227,139 @@ void fitted(const Field& field, Method method, std::vector<Stop>& stops) {
       A * Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(e);
   for (Eigen::Index i = 0; i < n; ++i) {
     Stop& s = *moving[static_cast<std::size_t>(i)];
-    s.command = s.target - Vec3{fit(i, 0), fit(i, 1), fit(i, 2)};
+    s.command = s.target + Vec3{fit(i, 0), fit(i, 1), fit(i, 2)};
   }
 }
 
 class Writer {
  public:
-  Writer(const NcSetup& setup, int decimals) : setup_(setup), decimals_(decimals) {}
+  Writer(const NcSetup& setup, int decimals) : decimals_(decimals) {
+    for (const char axis : setup.axes) axes_.push_back(letter_index(axis));
+  }
 
   /// The line of a stop; its command becomes what is written.
   std::string line(Stop& s) {
     const NcMove& m = *s.move;
-    std::string out = s.first ? m.before : "";
-    if (!out.empty()) out += ' ';
-    out += m.rapid ? "G0" : "G1";
-    if (!absolute_) out += " G90";
+    line_ = s.first ? m.before : "";
+    if (!line_.empty()) line_ += ' ';
+    line_ += m.rapid ? "G0" : "G1";
+    if (!absolute_) line_ += " G90";
     absolute_ = true;
     const int decimals = decimals_ + (m.inch ? 2 : 0);
     const double unit = m.inch ? 25.4 : 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (setup_.axes.find(kLetters[k]) == std::string::npos) continue;
-      const double factor = (k == 0 && m.diameter ? 2 : 1) / unit;
-      std::array<char, 40> text;
-      const double value = (s.command[k] - m.origin_mm[k]) * factor;
-      const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                     std::chars_format::fixed, decimals)
-                           .ptr;
-      double written = 0;
-      std::from_chars(text.data(), end, written, std::chars_format::fixed);
-      s.command[k] = written / factor + m.origin_mm[k];
-      out += ' ';
-      out += kLetters[k];
-      out.append(text.data(), end);
+    for (const std::size_t k : axes_) {
+      const double mm = k == 0 && m.diameter ? unit / 2 : unit;  // of one written
+      line_ += ' ';
+      line_ += kLetters[k];
+      s.command[k] =
+          fixed((s.command[k] - m.origin_mm[k]) / mm, decimals) * mm + m.origin_mm[k];
     }
-    if (s.last && !m.after.empty()) out += ' ' + m.after;
-    return out;
+    if (s.last && !m.after.empty()) {
+      line_ += ' ';
+      line_ += m.after;
+    }
+    return line_;
   }
 
  private:
-  const NcSetup& setup_;
+  /// Appends a number and returns what was written.  As a whole number of its last
+  /// decimals, which is exact and some five times as fast as rounding decimal by decimal.
+  double fixed(double value, int decimals) {
+    const double scale = kPowers[static_cast<std::size_t>(decimals)];
+    const double scaled = std::abs(value) * scale + 0.5;
+    if (!(scaled < 9e15))
+      throw ModelRangeError("compensate: a corrected coordinate of " +
+                            std::to_string(value) + ", too far to be written");
+    std::array<char, 24> text;
+    const auto whole = static_cast<std::uint64_t>(scaled);
+    const bool negative = value < 0 && whole > 0;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), whole).ptr;
+    const auto digits = end - text.data();
+    if (negative) line_ += '-';
+    if (digits > decimals)
+      line_.append(text.data(), end - decimals);
+    else
+      line_ += '0';
+    line_ += '.';
+    if (digits < decimals) line_.append(static_cast<std::size_t>(decimals - digits), '0');
+    line_.append(end - std::min<std::ptrdiff_t>(digits, decimals), end);
+    const double written = static_cast<double>(whole) / scale;
+    return negative ? -written : written;
+  }
+
+  static constexpr std::array<double, 12> kPowers = {1,   1e1, 1e2, 1e3, 1e4,  1e5,
+                                                     1e6, 1e7, 1e8, 1e9, 1e10, 1e11};
+  std::vector<std::size_t> axes_;
   int decimals_;
   bool absolute_ = false;
+  std::string line_;
 };
 
-Deviation deviation(const std::vector<double>& distance) {
-  Deviation d;
-  for (const double x : distance) {
-    d.max_mm = std::max(d.max_mm, x);
-    d.rms_mm += x * x;
+/// Greatest and root mean square of distances.
+class Distances {
+ public:
+  void add(double d) {
+    max_ = std::max(max_, d);
+    square_ += d * d;
+    ++count_;
   }
-  if (!distance.empty())
-    d.rms_mm = std::sqrt(d.rms_mm / static_cast<double>(distance.size()));
-  return d;
-}
+  std::size_t count() const { return count_; }
+  Deviation deviation() const {
+    return {max_, count_ ? std::sqrt(square_ / static_cast<double>(count_)) : 0};
+  }
+
+ private:
+  double max_ = 0, square_ = 0;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
 Compensated compensate(const NcProgram& program, const Machine& machine,
                        const NcSetup& setup, const CompensationOptions& options) {
   const Field field(machine, setup);
-  Compensator compensator(field, options);
-  std::vector<Stop> stops = compensator.stops(program);
-  if (options.method != Method::full_field) fitted(field, options.method, stops);
+  const bool full = options.method == Method::full_field;
   Compensated out;
+  out.lines.reserve(program.moves.size());
+  out.distances_mm.reserve(program.moves.size());
   Writer writer(setup, options.decimals);
-  std::vector<double> before, after;
-  for (Stop& s : stops) {
-    if (!s.move->moves) {
-      out.lines.push_back(s.move->before);
-      continue;
-    }
-    if (options.method == Method::full_field) compensator.full_field(s);
+  Distances before, after;
+  const auto write = [&](Stop& s) {
     out.lines.push_back(writer.line(s));
+    const double is = norm(s.error),
+                 left = norm(field.error(*s.tool, s.command, s.sign, s.target));
+    // A rounded coordinate is off by 0.5e-3 mm at most.
+    if (full && !(left <= is + 1e-3))
+      throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
+                            ": errors too large to be corrected by iteration");
     out.largest_correction_mm =
         std::max(out.largest_correction_mm, norm(s.command - s.target));
-    before.push_back(norm(field.error(s.move->tool, s.target, s.sign, s.target)));
-    after.push_back(norm(field.error(s.move->tool, s.command, s.sign, s.target)));
+    before.add(is);
+    after.add(left);
+    out.distances_mm.push_back({static_cast<float>(is), static_cast<float>(left)});
     if (!s.last) ++out.added;
+  };
+  std::vector<Stop> stops;  // of the methods that look at all at once
+  Walk(field, options).run(program, [&](Stop s) {
+    if (!full) {
+      stops.push_back(s);
+    } else if (!s.move->moves) {
+      out.lines.push_back(s.move->before);
+    } else {
+      full_field(field, options.passes, s);
+      write(s);
+    }
+  });
+  if (!full) fitted(options.method, field, options.passes, stops);
+  for (Stop& s : stops) {
+    if (s.move->moves)
+      write(s);
+    else
+      out.lines.push_back(s.move->before);
   }
-  out.points = before.size();
-  out.before = deviation(before);
-  out.after = deviation(after);
+  out.points = before.count();
+  out.before = before.deviation();
+  out.after = after.deviation();
   return out;
 }
 

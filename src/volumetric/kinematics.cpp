@@ -36,26 +36,47 @@ Eigen::Map<const Errors> array(const std::array<double, kDirections>& v) {
 }
 Vec3 values(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-Matrix3d turn(std::size_t axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+/// Below 0.01 rad by series: what they leave out, a^7/5040 and a^8/40320, is less than a
+/// double shows.
+Turn turn(double a) {
+  const double x = a * a;
+  if (x < 1e-4)
+    return {1 - x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
+            a - a * x * (1.0 / 6 - x * (1.0 / 120))};
+  return {std::cos(a), std::sin(a)};
+}
+
+Turn back(const Turn& t) { return {t.cos, -t.sin}; }
+
+/// Turns a vector about one of the axes.
+void rotate(Vector3d& v, std::size_t axis, const Turn& t) {
   const auto j = static_cast<Eigen::Index>((axis + 1) % 3),
              k = static_cast<Eigen::Index>((axis + 2) % 3);
+  const double y = v[j];
+  v[j] = t.cos * y - t.sin * v[k];
+  v[k] = t.sin * y + t.cos * v[k];
+}
+
+Matrix3d matrix(std::size_t axis, const Turn& t) {
   Matrix3d R = Matrix3d::Identity();
-  R(j, j) = R(k, k) = c;
-  R(j, k) = -s;
-  R(k, j) = s;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    Vector3d column = R.col(i);
+    rotate(column, axis, t);
+    R.col(i) = column;
+  }
   return R;
 }
 
-/// Rz(C) Ry(B) Rx(A).
-Matrix3d tilted(double A, double B, double C) {
-  const double ca = std::cos(A), sa = std::sin(A), cb = std::cos(B), sb = std::sin(B),
-               cc = std::cos(C), sc = std::sin(C);
-  Matrix3d R;
-  R << cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa,  //
-      sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa,   //
-      -sb, cb * sa, cb * ca;
-  return R;
+/// Rz(C) Ry(B) Rx(A) v, by the three turns about x, y, z.
+void tilt(Vector3d& v, const std::array<Turn, 3>& t) {
+  rotate(v, 0, t[0]);
+  rotate(v, 1, t[1]);
+  rotate(v, 2, t[2]);
+}
+void untilt(Vector3d& v, const std::array<Turn, 3>& t) {
+  rotate(v, 2, back(t[2]));
+  rotate(v, 1, back(t[1]));
+  rotate(v, 0, back(t[0]));
 }
 
 /// Eq. (3), not yet of unit length; `s` is EA0, EB0, EC0.
@@ -99,24 +120,27 @@ Kinematics::Kinematics(const Machine& machine) : tool_point_(machine.tool_point_
             .sigma = sigma,
             .inverse_Q = 1 / axis.Q,
             .p = axis.p_mm,
-            .travel = {},
-            .c = {},
-            .b = {},
-            .f = {},
-            .location = axis.location,
-            .tilt = {}};
+            .location = {axis.location[0], axis.location[1], axis.location[2]}};
     const Vector3d s(axis.location[3], axis.location[4], axis.location[5]);
-    if (!is_rotary(name)) j.travel = values(direction(j.axis, s).normalized());
-    Eigen::Map<Matrix3d>(j.tilt.data()) = tilted(s.x(), s.y(), s.z());
     for (std::size_t k = 0; k < kDirections; ++k) {
       const ErrorFunction& e = axis.errors[k];
-      for (std::size_t n = 0; n < 4; ++n) j.c[n][k] = e.c[n];
-      j.b[k] = e.b;
-      if (j.f.size() < e.f.size()) j.f.resize(e.f.size());
+      for (std::size_t n = 0; n < 4; ++n) j.errors.c[n][k] = e.c[n];
+      j.errors.b[k] = e.b;
+      if (j.errors.f.size() < e.f.size()) j.errors.f.resize(e.f.size());
       for (std::size_t h = 0; h < e.f.size(); ++h) {
-        j.f[h][0][k] = e.f[h].a;
-        j.f[h][1][k] = e.f[h].d;
+        j.errors.f[h][0][k] = e.f[h].a;
+        j.errors.f[h][1][k] = e.f[h].d;
       }
+    }
+    j.small = j.errors;
+    if (is_rotary(name)) {
+      for (std::size_t k = 0; k < 3; ++k)
+        j.tilt[k] = turn(s[static_cast<Eigen::Index>(k)]);
+      for (std::size_t k = 0; k < kDirections; ++k) j.small.c[0][k] += axis.location[k];
+    } else {
+      j.travel = values(direction(j.axis, s).normalized());
+      for (std::size_t k = 0; k < 3; ++k)
+        j.small.c[1][k] += sigma * axis.Q * (j.travel[k] - (k == j.axis ? 1 : 0));
     }
     return j;
   };
@@ -126,16 +150,17 @@ Kinematics::Kinematics(const Machine& machine) : tool_point_(machine.tool_point_
   for (std::size_t i = bed - 1; i > 0; --i) work_.push_back(joint(machine.chain[i], -1));
 }
 
-std::array<double, kDirections> Kinematics::errors(const Joint& j, const Position& at) {
-  const double q = at.q[j.axis], t = q * j.inverse_Q;
+/// At t = q/Q.
+inline std::array<double, kDirections> Kinematics::Polynomial::at(double q, double t,
+                                                                  double sign) const {
   std::array<double, kDirections> out;
   Eigen::Map<Errors> E(out.data());
   // machine.hpp (1)
-  E = array(j.c[0]) + t * (array(j.c[1]) + t * (array(j.c[2]) + t * array(j.c[3]))) +
-      at.sign[j.axis] * array(j.b);
-  for (std::size_t h = 0; h < j.f.size(); ++h) {
+  E = array(c[0]) + t * (array(c[1]) + t * (array(c[2]) + t * array(c[3]))) +
+      sign * array(b);
+  for (std::size_t h = 0; h < f.size(); ++h) {
     const double hq = static_cast<double>(h + 1) * q;
-    E += std::cos(hq) * array(j.f[h][0]) + std::sin(hq) * array(j.f[h][1]);
+    E += std::cos(hq) * array(f[h][0]) + std::sin(hq) * array(f[h][1]);
   }
   return out;
 }
@@ -148,118 +173,131 @@ ToolPose Kinematics::nominal(const Position& at) const {
       tip[static_cast<Eigen::Index>(j.axis)] += q;
       return;
     }
-    const Matrix3d R = turn(j.axis - 3, q);
-    tip = vector(j.p) + R * (tip - vector(j.p));
-    n = R * n;
+    const Turn angle = turn(q);
+    tip -= vector(j.p);
+    rotate(tip, j.axis - 3, angle);
+    tip += vector(j.p);
+    rotate(n, j.axis - 3, angle);
   };
   for (auto j = tool_.rbegin(); j != tool_.rend(); ++j) carry(*j, 1);
   for (const Joint& j : work_) carry(j, -1);
   return {values(tip), values(n)};
 }
 
-ToolPose Kinematics::actual(const Position& at) const {
+template <bool kDirection>
+ToolPose Kinematics::pose(const Position& at) const {
   Vector3d tip = vector(tool_point_), n = Vector3d::UnitZ();
+  const auto both = [&](auto rotation) {
+    rotation(tip);
+    if constexpr (kDirection) rotation(n);
+  };
   for (auto j = tool_.rbegin(); j != tool_.rend(); ++j) {
-    const auto E = errors(*j, at);
-    const Vector3d shift(E[0], E[1], E[2]);
     const double q = at.q[j->axis];
-    const auto p = vector(j->p);
-    Matrix3d R = tilted(E[3], E[4], E[5]);
-    if (j->axis < 3) {
-      tip = q * vector(j->travel) + p + shift + R * (tip - p);  // Eq. (1)
-    } else {
-      const Eigen::Map<const Matrix3d> tilt(j->tilt.data());
-      R = R * turn(j->axis - 3, q);
-      tip = p + vector({j->location[0], j->location[1], j->location[2]}) +
-            tilt * (shift + R * (tip - p));  // Eq. (2)
-      R = tilt * R;
+    const auto E = j->errors.at(q, q * j->inverse_Q, at.sign[j->axis]);
+    const std::array<Turn, 3> small = {turn(E[3]), turn(E[4]), turn(E[5])};
+    const Vector3d shift(E[0], E[1], E[2]);
+    tip -= vector(j->p);
+    if (j->axis < 3) {  // Eq. (1)
+      both([&](Vector3d& v) { tilt(v, small); });
+      tip += q * vector(j->travel) + vector(j->p) + shift;
+    } else {  // Eq. (2)
+      const Turn angle = turn(q);
+      both([&](Vector3d& v) {
+        rotate(v, j->axis - 3, angle);
+        tilt(v, small);
+      });
+      tip += shift;
+      both([&](Vector3d& v) { tilt(v, j->tilt); });
+      tip += vector(j->p) + vector(j->location);
     }
-    n = R * n;
   }
   for (const Joint& j : work_) {  // inverse of (1) and (2) with sigma = -1
-    const auto E = errors(j, at);
+    const double q = at.q[j.axis];
+    const auto E = j.errors.at(q, q * j.inverse_Q, at.sign[j.axis]);
+    const std::array<Turn, 3> small = {turn(E[3]), turn(E[4]), turn(E[5])};
     const Vector3d shift(E[0], E[1], E[2]);
-    const double q = -at.q[j.axis];
-    const auto p = vector(j.p);
-    Matrix3d R = tilted(E[3], E[4], E[5]);
+    tip -= vector(j.p);
     if (j.axis < 3) {
-      tip = p + R.transpose() * (tip - q * vector(j.travel) - p - shift);
+      tip += q * vector(j.travel) - shift;
+      both([&](Vector3d& v) { untilt(v, small); });
     } else {
-      const Eigen::Map<const Matrix3d> tilt(j.tilt.data());
-      R = R * turn(j.axis - 3, q);
-      const Vector3d moved =
-          tip - p - vector({j.location[0], j.location[1], j.location[2]});
-      tip = p + R.transpose() * (tilt.transpose() * moved - shift);
-      R = tilt * R;
+      tip -= vector(j.location);
+      both([&](Vector3d& v) { untilt(v, j.tilt); });
+      tip -= shift;
+      const Turn angle = turn(q);  // the inverse of -q
+      both([&](Vector3d& v) {
+        untilt(v, small);
+        rotate(v, j.axis - 3, angle);
+      });
     }
-    n = R.transpose() * n;
+    tip += vector(j.p);
   }
   return {values(tip), values(n)};
 }
 
+ToolPose Kinematics::actual(const Position& at) const { return pose<true>(at); }
+
+Vec3 Kinematics::actual_tip_mm(const Position& at) const {
+  return pose<false>(at).tip_mm;
+}
+
 Vec3 Kinematics::tip_error_mm(const Position& at) const {
-  return values(vector(actual(at).tip_mm) - vector(nominal(at).tip_mm));
+  return values(vector(actual_tip_mm(at)) - vector(nominal(at).tip_mm));
 }
 
-/// Calls visit(joint, R_fw^T R_i times the sign of its side, R_i^T (P - p_i)).
-template <class Visit>
-void Kinematics::first_order(const Position& at, Visit visit) const {
-  // From outside inwards: the tip as the bodies nearer the bed see it is carried to the
-  // bed; what lies between needs only the rotation R_fw^T R_i of all of them.
-  Matrix3d to_work = Matrix3d::Identity();
-  for (auto j = work_.begin(); j != work_.end(); ++j)
-    if (j->axis > 2) to_work = turn(j->axis - 3, at.q[j->axis]) * to_work;
-  Matrix3d R = to_work;
-  std::array<Vector3d, kDirections> tips;
-  Vector3d tip = vector(tool_point_);
-  const auto carry = [&](const Joint& j, double q) {
-    if (j.axis < 3)
-      tip[static_cast<Eigen::Index>(j.axis)] += q;
-    else
-      tip = vector(j.p) + turn(j.axis - 3, q) * (tip - vector(j.p));
-  };
-  for (std::size_t i = tool_.size(); i-- > 0;) {
-    // A linear joint's own travel moves tip and reference point alike.
-    if (tool_[i].axis > 2) carry(tool_[i], at.q[tool_[i].axis]);
-    tips[i] = tip - vector(tool_[i].p);
-    if (tool_[i].axis < 3) carry(tool_[i], at.q[tool_[i].axis]);
-  }
-  for (std::size_t i = 0; i < tool_.size(); ++i) {
-    visit(tool_[i], R, tips[i]);
-    if (tool_[i].axis > 2) R = R * turn(tool_[i].axis - 3, at.q[tool_[i].axis]);
-  }
-  R = -to_work;
-  for (const Joint& j : work_) {
-    const double q = at.q[j.axis];
-    if (j.axis < 3) carry(j, q);
-    visit(j, R, tip - vector(j.p));
-    if (j.axis > 2) {
-      carry(j, q);
-      R = R * turn(j.axis - 3, -q);
-    }
-  }
-}
-
+// The nominal tip and its error are carried together, joint by joint; where one turns,
+// R_i^T (P - p_i) and R_fw^T R_i of (4) arise of themselves.
 Vec3 Kinematics::tip_error_first_order_mm(const Position& at) const {
-  Vector3d e = Vector3d::Zero();
-  first_order(at, [&](const Joint& j, const Matrix3d& R, const Vector3d& lever) {
-    const auto E = errors(j, at);
-    Vector3d d(E[0], E[1], E[2]), r(E[3], E[4], E[5]);
-    if (j.axis < 3) {
-      d += j.sigma * at.q[j.axis] *
-           (vector(j.travel) - Vector3d::Unit(static_cast<Eigen::Index>(j.axis)));
-    } else {
-      d += vector({j.location[0], j.location[1], j.location[2]});
-      r += vector({j.location[3], j.location[4], j.location[5]});
-    }
-    e += R * (d + r.cross(lever));  // Eq. (4)
-  });
+  Vector3d tip = vector(tool_point_), e = Vector3d::Zero();
+  const auto added = [&](const Joint& j) -> Vector3d {
+    const double q = at.q[j.axis];
+    const auto E = j.small.at(q, q * j.inverse_Q, at.sign[j.axis]);
+    const Vector3d d(E[0], E[1], E[2]), r(E[3], E[4], E[5]);
+    return d + r.cross(tip - vector(j.p));  // Eq. (4)
+  };
+  const auto turned = [&](const Joint& j) {
+    const Turn angle = turn(at.q[j.axis]);
+    tip -= vector(j.p);
+    rotate(tip, j.axis - 3, angle);
+    tip += vector(j.p);
+    rotate(e, j.axis - 3, angle);
+  };
+  for (auto j = tool_.rbegin(); j != tool_.rend(); ++j) {
+    if (j->axis > 2) turned(*j);
+    e += added(*j);
+    // A linear joint's own travel moves tip and reference point alike.
+    if (j->axis < 3) tip[static_cast<Eigen::Index>(j->axis)] += at.q[j->axis];
+  }
+  for (const Joint& j : work_) {
+    if (j.axis < 3) tip[static_cast<Eigen::Index>(j.axis)] += at.q[j.axis];
+    e -= added(j);
+    if (j.axis > 2) turned(j);
+  }
   return values(e);
+}
+
+double Kinematics::bend_at_most(const Vec3& reach_mm) const {
+  const double far = vector(reach_mm).norm() + vector(tool_point_).norm();
+  double sum = 0;
+  for (const auto* joints : {&tool_, &work_})
+    for (const Joint& j : *joints) {
+      if (j.axis > 2) continue;  // at rest: its lever runs straight
+      const double t = reach_mm[j.axis] * j.inverse_Q;
+      const auto& c = j.errors.c;
+      const Errors slope = j.inverse_Q * (array(c[1]).abs() + 2 * t * array(c[2]).abs() +
+                                          3 * t * t * array(c[3]).abs());
+      const Errors bend =
+          j.inverse_Q * j.inverse_Q * (2 * array(c[2]).abs() + 6 * t * array(c[3]).abs());
+      sum += bend.matrix().head<3>().norm() + 2 * slope.matrix().tail<3>().norm() +
+             bend.matrix().tail<3>().norm() * (far + vector(j.p).norm());  // Eq. (5)
+    }
+  return sum;
 }
 
 std::vector<AxisEffect> Kinematics::effects(const Position& at) const {
   std::vector<AxisEffect> out;
-  first_order(at, [&](const Joint& j, const Matrix3d& R, const Vector3d& lever) {
+  // R: R_fw^T R_i of (4) with the sign of its side; lever: R_i^T (P - p_i).
+  const auto add = [&](const Joint& j, const Matrix3d& R, const Vector3d& lever) {
     AxisEffect effect{.axis = kLetters[j.axis]};
     const Vector3d travel =
         j.sigma * at.q[j.axis] * Vector3d::Unit(static_cast<Eigen::Index>(j.axis % 3));
@@ -270,7 +308,41 @@ std::vector<AxisEffect> Kinematics::effects(const Position& at) const {
       if (j.axis < 3) effect.squareness[k] = values(R * axis.cross(travel));
     }
     out.push_back(effect);
-  });
+  };
+  Matrix3d to_work = Matrix3d::Identity();
+  for (const Joint& j : work_)
+    if (j.axis > 2) to_work = matrix(j.axis - 3, turn(at.q[j.axis])) * to_work;
+  std::array<Vector3d, kDirections> levers;
+  Vector3d tip = vector(tool_point_);
+  const auto carry = [&](const Joint& j) {
+    const double q = at.q[j.axis];
+    if (j.axis < 3) {
+      tip[static_cast<Eigen::Index>(j.axis)] += q;
+    } else {
+      tip -= vector(j.p);
+      rotate(tip, j.axis - 3, turn(q));
+      tip += vector(j.p);
+    }
+  };
+  for (std::size_t i = tool_.size(); i-- > 0;) {
+    if (tool_[i].axis > 2) carry(tool_[i]);
+    levers[i] = tip - vector(tool_[i].p);
+    if (tool_[i].axis < 3) carry(tool_[i]);
+  }
+  Matrix3d R = to_work;
+  for (std::size_t i = 0; i < tool_.size(); ++i) {
+    add(tool_[i], R, levers[i]);
+    if (tool_[i].axis > 2) R = R * matrix(tool_[i].axis - 3, turn(at.q[tool_[i].axis]));
+  }
+  R = -to_work;
+  for (const Joint& j : work_) {
+    if (j.axis < 3) carry(j);
+    add(j, R, tip - vector(j.p));
+    if (j.axis > 2) {
+      carry(j);
+      R = R * matrix(j.axis - 3, back(turn(at.q[j.axis])));
+    }
+  }
   return out;
 }
 

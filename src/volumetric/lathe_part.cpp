@@ -128,7 +128,7 @@ Surface turned(const Kinematics& machine, const Vec3& tool_point_mm, const Gener
     s.theta_rad.push_back(theta);
     for (std::size_t j = 0; j < along; ++j) {
       at.q = {s.r_mm[j] - tool_point_mm[0], 0, s.z_mm[j] - tool_point_mm[2], 0, 0, theta};
-      const Vec3 tip = machine.actual(at).tip_mm;
+      const Vec3 tip = machine.actual_tip_mm(at);
       s.e_mm.push_back(nr * (std::hypot(tip[0], tip[1]) - s.r_mm[j]) +
                        nz * (tip[2] - s.z_mm[j]));
     }

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kInch_mm = 25.4;
 constexpr double kRadii_mm = 0.01;  // start and end of an arc may differ by so much
+constexpr double kSame_mm = 1e-6;   // ends nearer than this make a whole circle
+constexpr double kFarthest_mm = 1e6;
 constexpr std::size_t kMostChords = 100000;
 
 struct Word {
@@ -29,9 +31,24 @@ struct Fault {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
+/// The text's first characters, `bytes` of UTF-8 and what ends the last, in quotation
+/// marks.
+std::string quoted(std::string_view text, std::size_t bytes) {
+  const auto inside = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+  };
+  std::size_t n = std::min(bytes, text.size());
+  while (n < text.size() && inside(text[n])) ++n;
+  std::string out = "\"";
+  for (const char c : text.substr(0, n))
+    out += static_cast<unsigned char>(c) < ' ' || c == 0x7f ? '?' : c;
+  return out + '"';
+}
+
 /// Words and comments of a line.  Throws Fault.
-Block parsed(std::string_view line) {
-  Block block;
+void parse(std::string_view line, Block& block) {
+  block.words.clear();
+  block.comments.clear();
   std::size_t i = 0;
   while (i < line.size()) {
     if (blank(line[i])) {
@@ -53,21 +70,55 @@ Block parsed(std::string_view line) {
     char letter = line[i++];
     if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
     if (letter < 'A' || letter > 'Z')
-      throw Fault{std::string("\"") + letter + '"',
-                  "words of a letter and a number; no variables, expressions or deleted "
-                  "blocks"};
+      throw Fault{quoted(line.substr(start), 1),
+                  "words of a letter and a number; no variables or expressions"};
     while (i < line.size() && blank(line[i])) ++i;
-    if (i < line.size() && line[i] == '+') ++i;
+    if (i + 1 < line.size() && line[i] == '+' && line[i + 1] != '-') ++i;
     double value = 0;
     const auto [end, error] = std::from_chars(line.data() + i, line.data() + line.size(),
                                               value, std::chars_format::fixed);
-    if (error != std::errc() || !std::isfinite(value) || !(std::abs(value) <= 1e6))
-      throw Fault{std::string("\"") + std::string(line.substr(start, 12)) + '"',
+    if (error != std::errc() || !(std::abs(value) <= 1e6))
+      throw Fault{quoted(line.substr(start), 12),
                   std::string("a number after ") + letter + ", at most 1e6"};
     i = static_cast<std::size_t>(end - line.data());
     block.words.push_back({letter, value, line.substr(start, i - start)});
   }
-  return block;
+}
+
+/// By code: the number of its group, whose codes exclude each other in a block; 0 for
+/// codes that are not read.
+constexpr auto kGroups = [] {
+  using Codes = std::initializer_list<std::size_t>;
+  std::array<unsigned, 100> group{};
+  unsigned number = 0;
+  for (const Codes& codes :
+       {Codes{0, 1, 2, 3}, Codes{4}, Codes{7, 8}, Codes{17, 18, 19}, Codes{20, 21},
+        Codes{40}, Codes{43, 49}, Codes{50, 92}, Codes{54, 55, 56, 57, 58, 59},
+        Codes{61, 64}, Codes{80}, Codes{90, 91}, Codes{94, 95}, Codes{96, 97},
+        Codes{98, 99}}) {
+    ++number;
+    for (const std::size_t g : codes) group[g] = number;
+  }
+  return group;
+}();
+
+/// A code's or offset's number.  Throws Fault.
+int whole(const Word& w) {
+  if (!(w.value >= 0) || w.value != std::floor(w.value))
+    throw Fault{std::string(w.text), std::string("a whole number after ") + w.letter};
+  return static_cast<int>(w.value);
+}
+
+/// Number of a G word that is read.  Throws Fault.
+int code(const Word& w) {
+  const bool read = w.value >= 0 && w.value < static_cast<double>(kGroups.size()) &&
+                    w.value == std::floor(w.value) &&
+                    kGroups[static_cast<std::size_t>(w.value)] != 0;
+  if (!read)
+    throw Fault{std::string(w.text),
+                "a code that can be compensated: G0 to G4, G7, G8, G17 to G21, G40, G43, "
+                "G49, G54 to G59, G61, G64, G80, G90, G91, G94 to G99"};
+  return static_cast<int>(w.value);
 }
 
 std::string number(double x) {
@@ -78,11 +129,12 @@ std::string number(double x) {
 
 class Interpreter {
  public:
-  explicit Interpreter(const NcSetup& setup)
+  Interpreter(const NcSetup& setup, std::size_t lines)
       : setup_(setup), plane_(setup.lathe ? 18 : 17), diameter_(setup.diameter) {
     origin_ = offset("G54").value_or(Vec3{});
     tip_ = setup.start_mm;
     program_.start_mm = absolute(tip_);
+    program_.moves.reserve(lines);
   }
 
   void line(std::size_t number, std::string_view text) {
@@ -99,7 +151,7 @@ class Interpreter {
   NcProgram result() { return std::move(program_); }
 
  private:
-  static constexpr int kThrough[] = {40, 61, 64, 80, 94, 95, 96, 97, 98, 99};
+  static constexpr int kNoMotion = -1;
 
   std::optional<Vec3> offset(const std::string& name) const {
     const auto found = setup_.work_offsets_mm.find(name);
@@ -118,65 +170,51 @@ class Interpreter {
   void take(std::string_view text) {
     const auto first = std::ranges::find_if_not(text, blank);
     if (first == text.end() || *first == '%') return pass(text);
-    const Block block = parsed(text);
-    std::optional<int> motion;
-    bool dwell = false, limit = false;
+    if (*first == '/') return deleted(text);
+    parse(text, block_);
     before_.clear();
     after_.clear();
-    std::optional<int> height;
-    bool lengths = false;
-    for (const Word& w : block.words) {
-      if (w.letter == 'H') height = static_cast<int>(w.value);
+    unsigned groups = 0;
+    std::optional<int> motion;
+    bool alone = false, lengths = false;
+    for (const Word& w : block_.words) {
       if (w.letter != 'G') continue;
-      if (w.value != std::floor(w.value)) throw unknown(w);
-      const int g = static_cast<int>(w.value);
-      if (g <= 3 && g >= 0) {
-        if (motion) throw Fault{std::string(w.text), "one of G0 to G3 in a block"};
-        motion = g;
-        continue;
-      }
-      dwell = dwell || g == 4;
-      limit = limit || g == 50 || g == 92;
+      const int g = code(w);
+      const unsigned bit = 1u << kGroups[static_cast<std::size_t>(g)];
+      if (groups & bit)
+        throw Fault{std::string(w.text), "one code of a group in a block"};
+      groups |= bit;
+      if (g <= 3) motion = g;
+      alone = alone || g == 4 || g == 50 || g == 92;
       lengths = lengths || g == 43;
-      state(g, w);
+      state(g, w.text);
     }
-    if (dwell || limit) return special(block, dwell, text);
-    if (lengths) select(height.value_or(-1));
-    words(block);
+    if (alone) return special(text);
+    length(lengths);
+    words();
     if (motion) motion_ = *motion;
-    append(after_, block.comments);
-    move(block, motion.has_value());
+    append(after_, block_.comments);
+    move(motion.has_value());
   }
 
-  static Fault unknown(const Word& w) {
-    return {std::string(w.text),
-            "a code that can be compensated: G0 to G4, G7, G8, G17 to G21, G40, G43, "
-            "G49, G54 to G59, G61, G64, G80, G90, G91, G94 to G99"};
-  }
-
-  void state(int g, const Word& w) {
-    bool keep = true;
-    if (g >= 17 && g <= 19) {
-      plane_ = g;
-    } else if (g == 20 || g == 21) {
-      inch_ = g == 20;
-    } else if (g == 90 || g == 91) {
+  void state(int g, std::string_view text) {
+    if (g <= 3) return;
+    if (g == 90 || g == 91) {
       incremental_ = g == 91;
-      keep = false;
-    } else if (g == 7 || g == 8) {
-      diameter_ = g == 7;
-    } else if (g >= 54 && g <= 59) {
+      return;
+    }
+    if (g == 7 || g == 8) diameter_ = g == 7;
+    if (g >= 17 && g <= 19) plane_ = g;
+    if (g == 20 || g == 21) inch_ = g == 20;
+    if (g == 49) select(0);
+    if (g == 80) motion_ = kNoMotion;
+    if (g >= 54 && g <= 59) {
       const std::string name = "G" + std::to_string(g);
       const auto at = offset(name);
       if (!at && g != 54) throw Fault{name, "a work offset that is given"};
       shift(at.value_or(Vec3{}));
-    } else if (g == 49) {
-      tool_ = 0;
-    } else if (g != 43 && g != 4 && g != 50 && g != 92 &&
-               std::ranges::find(kThrough, g) == std::end(kThrough)) {
-      throw unknown(w);
     }
-    if (keep) append(before_, w.text);
+    append(before_, text);
   }
 
   /// The tip stays, its coordinates change.
@@ -185,17 +223,60 @@ class Interpreter {
     origin_ = origin;
   }
 
-  void special(const Block& block, bool dwell, std::string_view text) {
-    for (const Word& w : block.words)
-      if (!dwell && w.letter != 'G' && w.letter != 'S' && w.letter != 'N')
-        throw Fault{std::string(w.text), "G50 or G92 with S alone, the speed limit"};
+  /// The axes stay; another tip, elsewhere, is looked at.
+  void select(int number) {
+    const auto vector = [this](int n) {
+      const auto found = setup_.tool_offsets_mm.find(n);
+      if (n != 0 && found == setup_.tool_offsets_mm.end())
+        throw Fault{"tool offset " + std::to_string(n), "one that is given"};
+      return n == 0 ? Vec3{} : found->second;
+    };
+    const Vec3 old = vector(tool_), now = vector(number);
+    for (std::size_t k = 0; k < 3; ++k) tip_[k] += now[k] - old[k];
+    tool_ = number;
+  }
+
+  /// Of G43, whose H must be there; H without it would select in silence.
+  void length(bool asked) {
+    const auto h = std::ranges::find(block_.words, 'H', &Word::letter);
+    if (asked && h == block_.words.end()) throw Fault{"G43", "its offset number H"};
+    if (!asked && h != block_.words.end())
+      throw Fault{std::string(h->text), "H with G43"};
+    if (asked) select(whole(*h));
+  }
+
+  /// Dwell and speed limit: lines that go through as they stand, so that nothing modal
+  /// may be among them.
+  void special(std::string_view text) {
+    int codes = 0;
+    bool dwell = false;
+    for (const Word& w : block_.words) {
+      if (w.letter == 'G' && ++codes > 1)
+        throw Fault{std::string(w.text), "G4, G50 and G92 as the only code of a block"};
+      dwell = dwell || (w.letter == 'G' && w.value == 4);
+    }
+    for (const Word& w : block_.words)
+      if (std::string_view(dwell ? "NGPXUSF" : "NGS").find(w.letter) == std::string::npos)
+        throw Fault{
+            std::string(w.text),
+            dwell ? "G4 with a time alone" : "G50 or G92 with S alone, the speed limit"};
     pass(text);
   }
 
-  void select(int number) {
-    if (number != 0 && !setup_.tool_offsets_mm.contains(number))
-      throw Fault{"tool offset " + std::to_string(number), "one that is given"};
-    tool_ = number;
+  /// A line that the control may leave out: only what moves and selects nothing.
+  void deleted(std::string_view text) {
+    auto rest = text.substr(text.find('/') + 1);
+    if (!rest.empty() && rest.front() >= '1' && rest.front() <= '9')
+      rest.remove_prefix(1);
+    parse(rest, block_);
+    for (const Word& w : block_.words) {
+      if (w.letter == 'M') machine_code(w);
+      if (std::string_view("NMSF").find(w.letter) == std::string::npos)
+        throw Fault{
+            '/' + std::string(w.text),
+            "deleted blocks of N, M, S, F, which need no knowledge of the switch"};
+    }
+    pass(text);
   }
 
   static void append(std::string& to, std::string_view text) {
@@ -203,8 +284,13 @@ class Interpreter {
     to += text;
   }
 
-  void words(const Block& block) {
-    for (const Word& w : block.words) switch (w.letter) {
+  bool has(int g) const {
+    return std::ranges::any_of(
+        block_.words, [g](const Word& w) { return w.letter == 'G' && w.value == g; });
+  }
+
+  void words() {
+    for (const Word& w : block_.words) switch (w.letter) {
         case 'G':
         case 'X':
         case 'Y':
@@ -218,10 +304,10 @@ class Interpreter {
           before_ = std::string(w.text) + (before_.empty() ? "" : " ") + before_;
           break;
         case 'M':
-          machine_code(w);
+          append(machine_code(w) ? after_ : before_, w.text);
           break;
         case 'T':
-          if (setup_.lathe && w.value >= 100) select(static_cast<int>(w.value) % 100);
+          if (const int t = whole(w); setup_.lathe && t >= 100) select(t % 100);
           append(before_, w.text);
           break;
         case 'F':
@@ -229,32 +315,39 @@ class Interpreter {
         case 'H':
           append(before_, w.text);
           break;
-        case 'O':
-          if (block.words.size() > 1) throw Fault{std::string(w.text), "O alone"};
-          append(before_, w.text);
-          break;
         default:
-          throw Fault{std::string(w.text),
-                      "words N G X Y Z I J K R F S T H M of a program without "
-                      "subprograms and further axes"};
+          other(w);
       }
   }
 
-  void machine_code(const Word& w) {
-    const int m = static_cast<int>(w.value);
-    if (m == 97 || m == 98 || m == 99)
-      throw Fault{std::string(w.text), "a program without subprograms"};
-    // What stops or switches off does so after the block's motion.
-    const bool late = m <= 2 || m == 5 || m == 9 || m == 30 || m == 60;
-    append(late ? after_ : before_, w.text);
+  void other(const Word& w) {
+    const bool belongs = (w.letter == 'O' && block_.words.size() == 1) ||
+                         ((w.letter == 'P' || w.letter == 'Q') && has(64)) ||
+                         (w.letter == 'D' && has(96));
+    if (!belongs)
+      throw Fault{
+          std::string(w.text),
+          "words N G X Y Z I J K R F S T H M of a program without subprograms and "
+          "further axes; O alone, P with G64, D with G96"};
+    append(before_, w.text);
+  }
+
+  /// Whether the code acts after its block's motion, as what stops or switches off does.
+  static bool machine_code(const Word& w) {
+    const int m = whole(w);
+    // Subprograms, repetition, stored modal states.
+    if (m == 47 || (m >= 70 && m <= 73) || (m >= 97 && m <= 99))
+      throw Fault{std::string(w.text),
+                  "a program without subprograms, repetition and restored states"};
+    return m <= 2 || m == 5 || m == 9 || m == 30 || m == 60;
   }
 
   double mm(double value) const { return inch_ ? value * kInch_mm : value; }
 
-  void move(const Block& block, bool commanded) {
+  void move(bool commanded) {
     std::array<std::optional<double>, 3> to, centre;
     std::optional<double> radius;
-    for (const Word& w : block.words) {
+    for (const Word& w : block_.words) {
       if (w.letter >= 'X' && w.letter <= 'Z') {
         if (setup_.axes.find(w.letter) == std::string::npos)
           throw Fault{std::string(w.text), "axes of the machine: " + setup_.axes};
@@ -276,9 +369,16 @@ class Interpreter {
       append(before_, after_);
       return pass(before_);
     }
+    if (motion_ == kNoMotion)
+      throw Fault{"coordinates after G80", "G0 to G3 before them"};
     Vec3 end = tip_;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (to[k]) end[k] = incremental_ ? tip_[k] + *to[k] : *to[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!to[k]) continue;
+      end[k] = incremental_ ? tip_[k] + *to[k] : *to[k];
+      if (!(std::abs(end[k]) <= kFarthest_mm))
+        throw Fault{std::string(1, "XYZ"[k]) + " = " + number(end[k]) + " mm",
+                    "coordinates within 1e6 mm"};
+    }
     if (arc) {
       chords(end, centre, radius);
     } else {
@@ -310,7 +410,8 @@ class Interpreter {
   /// Of an arc of radius R through both ends, ccw; the long way round if R < 0.
   std::array<double, 2> centre_of(double du, double dv, double R, bool ccw) const {
     const double half = std::hypot(du, dv) / 2;
-    if (!(half > 0)) throw Fault{"R and no other end", "an end, or the centre"};
+    if (!(2 * half > kSame_mm))
+      throw Fault{"R and no other end", "an end, or the centre"};
     const double rest = R * R - half * half;
     if (!(rest > -2 * std::abs(R) * kRadii_mm))
       throw Fault{"R " + number(std::abs(R)) + " mm",
@@ -324,6 +425,10 @@ class Interpreter {
               std::optional<double> R) {
     const auto [u, v, w] = plane();
     if (given[w]) throw Fault{std::string(1, "IJK"[w]), "a centre in the plane"};
+    for (const std::size_t k : {u, v})
+      if (setup_.axes.find("XYZ"[k]) == std::string::npos)
+        throw Fault{"G" + std::to_string(plane_),
+                    "an arc in a plane of the machine's axes: " + setup_.axes};
     const bool ccw = motion_ == 3;
     const double du = end[u] - tip_[u], dv = end[v] - tip_[v];
     if (R && (given[u] || given[v])) throw Fault{"R and a centre", "one of them"};
@@ -338,11 +443,11 @@ class Interpreter {
     const double pi = units::kPi;
     const double a0 = std::atan2(-c[1], -c[0]), a1 = std::atan2(dv - c[1], du - c[0]);
     double sweep = a1 - a0;
-    const bool closed = du == 0 && dv == 0;
-    if (ccw && (closed || sweep <= 0)) sweep += 2 * pi;
-    if (!ccw && (closed || sweep >= 0)) sweep -= 2 * pi;
-    std::vector<double>
-        stops;  // shares of the sweep: where an axis reverses, and the end
+    if (std::hypot(du, dv) <= kSame_mm) sweep = 0;
+    if (ccw && sweep <= 0) sweep += 2 * pi;
+    if (!ccw && sweep >= 0) sweep -= 2 * pi;
+    // Shares of the sweep: where an axis reverses, and the end.
+    std::vector<double> stops;
     for (int q = -8; q <= 8; ++q) {
       const double share = (q * pi / 2 - a0) / sweep;
       if (share > 1e-9 && share < 1 - 1e-9) stops.push_back(share);
@@ -376,6 +481,7 @@ class Interpreter {
   const NcSetup& setup_;
   NcProgram program_;
   std::size_t line_ = 0;
+  Block block_;
   int plane_, motion_ = 0, tool_ = 0;
   bool inch_ = false, incremental_ = false, diameter_;
   Vec3 origin_{}, tip_{};  // tip in program coordinates [mm], X as radius
@@ -385,7 +491,7 @@ class Interpreter {
 }  // namespace
 
 NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup) {
-  Interpreter interpreter(setup);
+  Interpreter interpreter(setup, lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) interpreter.line(i + 1, lines[i]);
   return interpreter.result();
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "turnwright/service/requests.hpp"
@@ -276,6 +277,26 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
     EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
     EXPECT_NE(contents(folder_ / "new" / name / "budget.svg").find("d2:diameter"),
               std::string::npos);
+    const auto window = folder_ / "new" / name / "window-s0-face-right.svg";
+    EXPECT_EQ(fs::exists(window), name == "plan");
+    if (name == "plan") {
+      EXPECT_NE(contents(window).find("window of speed and feed"), std::string::npos);
+      EXPECT_NE(contents(window).find("cost +5 %"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(CommandLine, DrawsMachines) {
+  for (const auto& [name, file] :
+       {std::pair{"geometry", "errors.svg"}, std::pair{"ballbar", "ballbar.svg"},
+        std::pair{"compensate", "residual.svg"}}) {
+    SCOPED_TRACE(name);
+    put(folder_ / "request.json", row(name).example);
+    const std::string command = std::string("turnwright ") + name + " request.json";
+    const auto outcome = shell(command + " --drawings new");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, shell(command).out);
+    EXPECT_EQ(contents(folder_ / "new" / file).rfind("<svg ", 0), 0u);
   }
 }
 

@@ -61,6 +61,70 @@ TEST(Cut, ForcesOfASharpEdgeFollowItsAngle) {
                    kienzle_N(*own.kp, engaged_edge_mm(own, 2.0, 0.3), 2.0, 0.3));
 }
 
+// The section between an edge moved in by w and the surface it left a turn before, by
+// quadrature: its slope over w is the edge's axial extent ap u.
+TEST(Cut, ChatterStiffnessIsThePressureTimesTheSectionsSlope) {
+  const double f = 0.2, h = 1e-4;
+  for (const double ap : {0.1, 0.5, 2.0}) {
+    const auto c = steel(75, 0.8);
+    const double r = c.corner.re_mm, join = r * c.corner.sine;
+    const auto edge = [&](double z) {  // height of the edge over its lowest point
+      if (z > join) return c.corner.depth_mm + (z - join) / c.corner.cotangent;
+      return r - std::sqrt(r * r - z * z);
+    };
+    const auto section = [&](double w) {
+      constexpr int kSteps = 2000000;
+      const double low = -0.5 * f, high = f + 2;
+      double sum = 0;
+      for (int k = 0; k < kSteps; ++k) {
+        const double z = low + (high - low) * (k + 0.5) / kSteps;
+        sum += std::max(0.0, std::min(ap, edge(z)) - edge(z - f) + w);
+      }
+      return sum * (high - low) / kSteps;
+    };
+    const double slope = (section(h) - section(-h)) / (2 * h);
+    EXPECT_NEAR(slope, ap * flow_cotangent(c, ap, f), 1e-3 * slope) << ap;
+    const auto F = forces_N(c, ap, f);
+    EXPECT_NEAR(chatter_stiffness_N_mm(c, F, ap, f), F.Fp_N / (ap * f) * slope,
+                1e-3 * F.Fp_N * slope / (ap * f));
+  }
+}
+
+// Enclosed over boxes, where an obtuse edge pulls too.
+TEST(Cut, ChatterStiffnessIsEnclosed) {
+  using L = LogDual<2>;
+  std::mt19937 seed(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    auto c = steel(60 + 50 * unit(seed), 0.2 + unit(seed));
+    if (trial % 3 == 0) c.kf = c.kp = Kienzle{500, 0.4};
+    const double w = unit(seed);
+    const Interval y(std::log(0.2) + 2 * unit(seed)), z(std::log(0.08) + unit(seed));
+    const Interval ap(y.lo, y.lo + w), f(z.lo, z.lo + w);
+    const L::Half half{w / 2, w / 2};
+    const L a = L::variable(ap, 0, half), b = L::variable(f, 1, half);
+    const auto box = chatter_stiffness_N_mm(c, forces_N(c, a, b), a, b);
+    double before = 0;
+    std::array<double, 2> at{};
+    for (int k = 0; k < 5; ++k) {
+      const std::array<double, 2> x{ap.lo + w * unit(seed), f.lo + w * unit(seed)};
+      const double depth = std::exp(x[0]), feed = std::exp(x[1]);
+      const double K = chatter_stiffness_N_mm(c, forces_N(c, depth, feed), depth, feed);
+      const double slack = 1e-9 * (1 + std::abs(K));
+      EXPECT_LE(box.v.lo, K + slack);
+      EXPECT_GE(box.v.hi, K - slack);
+      if (k > 0) {
+        const Interval step =
+            box.d[0] * Interval(x[0] - at[0]) + box.d[1] * Interval(x[1] - at[1]);
+        EXPECT_LE(step.lo, K - before + slack);
+        EXPECT_GE(step.hi, K - before - slack);
+      }
+      before = K;
+      at = x;
+    }
+  }
+}
+
 TEST(Cut, LifeAndSpeedAreOneLaw) {
   const auto c = steel();
   const double v = speed_for_life_m_min(c, 17.0, 0.25, 1.7);

@@ -56,6 +56,65 @@ class Folder {
   fs::path path_;
 };
 
+TEST(Catalogue, ChipWindowIsAPolygonOrRanges) {
+  const auto json =
+      parse_file(fs::path(TURNWRIGHT_SOURCE_DIR) / "tests/data" / "heavy-rougher.json");
+  Problems none{.document = "t"};
+  const auto tool = read_tool(Reader(json, none));
+  EXPECT_TRUE(none.list.empty());
+  EXPECT_EQ(tool.chip.size(), 2u);
+  EXPECT_NEAR(tool.ap_mm.lower, 0.8, 1e-15);
+  EXPECT_NEAR(tool.ap_mm.upper, 6, 1e-14);
+  EXPECT_NEAR(tool.f_mm_rev.lower, 0.2, 1e-15);
+  EXPECT_NEAR(tool.f_mm_rev.upper, 0.6, 1e-15);
+  const auto with = [&](const auto& change) {
+    auto changed = json;
+    change(changed["window"]);
+    return problems_of(read_tool, changed);
+  };
+  EXPECT_EQ(with([](auto& w) { w["ap_mm"] = {1, 4}; }), "");
+  EXPECT_EQ(with([](auto& w) { w.erase("chip_window"); }),
+            "/window/f_mm_rev: got nothing, expected a list of 2 entries\n"
+            "/window/ap_mm: got nothing, expected a list of 2 entries\n");
+  EXPECT_EQ(with([](auto& w) {
+              w["chip_window"] = {{1, 0.1}, {2, 0.2}};
+            }),
+            "/window/chip_window: got a list of 2 entries, expected a list of 3 to 20 "
+            "entries\n");
+  const std::string area =
+      "corners [ap_mm, f_mm_rev] of one area whose edges do not "
+      "cross\n";
+  EXPECT_EQ(with([](auto& w) {
+              w["chip_window"] = {{1, 0.1}, {2, 0.2}, {2, 0.1}, {1, 0.2}};
+            }),
+            "/window/chip_window: got a list of 4 entries, expected " + area);
+  EXPECT_NE(with([](auto& w) {
+              w["chip_window"][2] = {6, 7};
+            }).find("/window/chip_window/2/1: got 7, expected a number > 0 and <= 5"),
+            std::string::npos);
+  EXPECT_NE(
+      with([](auto& w) { w["chip_window"][1] = {3}; }).find("/window/chip_window/1"),
+      std::string::npos);
+  EXPECT_EQ(with([](auto& w) {
+              w["ap_mm"] = {7, 9};
+            }),
+            "/window/ap_mm: got [7,9], expected a range that chip_window reaches\n");
+}
+
+TEST(Catalogue, DampingRatiosArePositiveAndAtMostOneHalf) {
+  auto lathe = example(kLathe);
+  lathe["stiffness"]["damping_ratio"] = 0.04;
+  Problems none{.document = "t"};
+  EXPECT_EQ(read_lathe(Reader(lathe, none)).damping_ratio, 0.04);
+  for (const double zeta : {0.0, -0.1, 0.6}) {
+    lathe["stiffness"]["damping_ratio"] = zeta;
+    EXPECT_NE(problems_of(read_lathe, lathe)
+                  .find("/stiffness/damping_ratio: got " + nlohmann::json(zeta).dump() +
+                        ", expected a number > 0 and <= 0.5"),
+              std::string::npos);
+  }
+}
+
 // Every number of the example documents, by hand: no field is read from another's key.
 TEST(Catalogue, EveryMaterialFieldComesFromItsKey) {
   const auto json = example(kMaterial);

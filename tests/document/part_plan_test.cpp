@@ -98,6 +98,22 @@ TEST(PartPlan, EveryFieldComesFromItsKey) {
   EXPECT_EQ(plan.price, 40);
   EXPECT_EQ(plan.machine_share_um, 1);
   EXPECT_EQ(plan.conformance, 0.9973);
+  EXPECT_EQ(plan.window_percent, 8);
+  EXPECT_EQ(plan.damping_ratio, 0.04);
+  EXPECT_EQ(assumed(loaded, "/damping_ratio"), nullptr);
+}
+
+// The part's own, else the machine's, else 0.03.
+TEST(PartPlan, DampingIsTheMachinesWhereThePartSaysNone) {
+  auto document = smallest();
+  document["machine"] =
+      parse_file(source_path("tests/data/catalogue/machines/lathe-medium.json"));
+  document["machine"]["stiffness"]["damping_ratio"] = 0.05;
+  const auto loaded = load(document);
+  EXPECT_EQ(loaded.plan.damping_ratio, 0.05);
+  EXPECT_EQ(assumed(loaded, "/damping_ratio")->why, "the machine's own");
+  document["damping_ratio"] = 0.02;
+  EXPECT_EQ(load(document).plan.damping_ratio, 0.02);
 }
 
 TEST(PartPlan, OperationsKeepWhatIsFixedAndLeaveTheRestOpen) {
@@ -267,6 +283,8 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/machine_share_um", 0.0},
                         {"/budget", json::object()},
                         {"/robust", false},
+                        {"/window_percent", 5.0},
+                        {"/damping_ratio", 0.03},
                         {"/conformance", 0.9973}}));
   EXPECT_EQ(loaded.plan.drawing.stock.left_allowance_mm, 1.5);
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 23);

@@ -48,7 +48,8 @@ class Material {
   template <class Frame>
   void cut(const Outline& o, const Frame& frame, double h_a, double z_a, double h_b,
            double z_b) {
-    for (std::size_t i = 0; i < h_.size(); ++i)
+    const auto [from, to] = below(o, frame, z_a, z_b);
+    for (std::size_t i = from; i < to; ++i)
       h_[i] = std::min(h_[i], lowest(o, frame(z(i)), h_a, z_a, h_b, z_b));
   }
   /// The most that such a way would take off.
@@ -56,7 +57,8 @@ class Material {
   double would_cut(const Outline& o, const Frame& frame, double h_a, double z_a,
                    double h_b, double z_b) const {
     double most = 0;
-    for (std::size_t i = 0; i < h_.size(); ++i)
+    const auto [from, to] = below(o, frame, z_a, z_b);
+    for (std::size_t i = from; i < to; ++i)
       most = std::max(most, h_[i] - lowest(o, frame(z(i)), h_a, z_a, h_b, z_b));
     return most;
   }
@@ -67,6 +69,19 @@ class Material {
   }
 
  private:
+  // The places that a way's outlines reach.
+  template <class Frame>
+  std::pair<std::size_t, std::size_t> below(const Outline& o, const Frame& frame,
+                                            double z_a, double z_b) const {
+    const double first = frame(z(0)), step = frame(z(1)) - first;
+    double a = (std::min(z_a, z_b) - first) / step;
+    double b = (std::max(z_a, z_b) + o.re_mm + o.reach() - first) / step;
+    if (a > b) std::swap(a, b);
+    const auto held = [&](double i) {
+      return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(h_.size())));
+    };
+    return {held(std::floor(a) - 1), held(std::ceil(b) + 2)};
+  }
   // Of the outline over a place while the tip goes from a to b; infinite if it never is
   // there.
   static double lowest(const Outline& o, double z, double h_a, double z_a, double h_b,

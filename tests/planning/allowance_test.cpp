@@ -465,12 +465,13 @@ TEST(Tailstock, ItsThrustAddsToTheDeflection) {
     d["machine"] = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
                                         "/machines/lathe-medium.json");
     d["machine"]["stiffness"]["tail_thrust_N"] = thrust_N;
+    d["damping_ratio"] = 0.5;
     d["stock"] = {{"kind", "bar"}, {"diameter_mm", 22}, {"length_mm", 404}};
     d["outer"] = {
         {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 20}},
         {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 360}, {"diameter_mm", 20}}};
     d["general"] = "ISO 2768-c";
-    d["setups"][0]["clampings"] = {"chuck-tailstock"};
+    for (auto& setup : d["setups"]) setup["clampings"] = {"chuck-tailstock"};
     return d;
   };
   const auto p = part(slender(1));
@@ -512,6 +513,7 @@ TEST(FollowRest, HoldsWhatIsTooSlenderForTheTailstockAlone) {
     d["machine"]["stiffness"]["follow_rest"] = {{"radial_mm_N", 3e-5},
                                                 {"tangential_mm_N", 3e-5}};
     d["machine"]["stiffness"]["tail_thrust_N"] = 100;
+    d["damping_ratio"] = 0.5;
     d["stock"] = {{"kind", "bar"}, {"diameter_mm", 16}, {"length_mm", 404}};
     d["outer"] = {
         {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 15}},
@@ -520,7 +522,7 @@ TEST(FollowRest, HoldsWhatIsTooSlenderForTheTailstockAlone) {
          {"length_mm", 360},
          {"diameter_mm", 14},
          {"limits_mm", {-0.03, 0.03}}}};
-    d["setups"][0]["clampings"] = {clamping};
+    for (auto& setup : d["setups"]) setup["clampings"] = {clamping};
     return d;
   };
   EXPECT_EQ(plan(part(slender("chuck-tailstock"))).status, PlanStatus::infeasible);

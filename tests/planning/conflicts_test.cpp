@@ -22,7 +22,18 @@ json source_document(const std::string& folder, const std::string& id) {
 
 constexpr double kEnough = 50;  // times what a machine or tool bears: no limit any more
 
-bool feasible(const json& d) { return plan(part(d)).status == PlanStatus::ok; }
+// The one limit no document can open at will, so it travels beside: how many times as
+// much chatter the part may bear.
+constexpr const char* kChatter = "chatter stiffness";
+
+ProcessPlan planned(json d) {
+  const double times = d.value(kChatter, 1.0);
+  d.erase(kChatter);
+  auto p = part(d);
+  p.chatter_times = times;
+  return plan(p);
+}
+bool feasible(const json& d) { return planned(d).status == PlanStatus::ok; }
 
 // Machine and tools in place of their ids, so that they can be changed.
 json inlined(json d) {
@@ -51,7 +62,9 @@ void open_limits(json& e, double width) {
 
 void scale_machine(json& d, const std::string& limit, double factor) {
   auto& m = d["machine"];
-  if (limit == "power" || limit == "torque")
+  if (limit == kChatter)
+    d[kChatter] = d.value(kChatter, 1.0) * factor;
+  else if (limit == "power" || limit == "torque")
     for (auto& c : m["spindle"]["curve"]) {
       c["P_kW"] = c["P_kW"].get<double>() * factor;
       c["M_Nm"] = c["M_Nm"].get<double>() * factor;
@@ -142,8 +155,8 @@ json only(const json& d, const std::vector<Conflict>& kept) {
           e["limits_mm"] = {-0.5, 0.5};
         if (e.contains("Ra_um") && !is_kept("roughness Ra", id)) e.erase("Ra_um");
       }
-  for (const char* limit :
-       {"power", "feed force", "cutting force", "least tool life", "grip of the chuck"})
+  for (const char* limit : {kChatter, "power", "feed force", "cutting force",
+                            "least tool life", "grip of the chuck"})
     if (!is_kept(limit, "")) scale_machine(out, limit, kEnough);
   return out;
 }
@@ -243,7 +256,7 @@ struct OverConstrainedPart {
 OverConstrainedPart over_constrained(unsigned seed) {
   OverConstrainedPart p{random_part(seed), {}};
   for (;;) {
-    p.plan = plan(part(p.document));
+    p.plan = planned(p.document);
     if (p.plan.status == PlanStatus::infeasible) return p;
     for (auto& t : p.document["tolerances"])
       t["value_mm"] = t["value_mm"].get<double>() / 2;

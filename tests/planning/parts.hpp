@@ -4,6 +4,7 @@
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {
 
@@ -42,6 +43,32 @@ inline nlohmann::json pin() {
           {"batch", 10},
           {"rates", {{"machine_per_min", 1.0}, {"price", 30}}},
           {"machine_share_um", 1}};
+}
+
+/// A plan's own conditions, given back whole.
+inline nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
+  d["operations"] = nlohmann::json::array();
+  for (std::size_t s = 0; s < r.setups.size(); ++s) {
+    d["setups"][s]["clampings"] = {name(r.setups[s].clamping)};
+    for (const auto& o : r.setups[s].operations)
+      d["operations"].push_back({{"id", o.id},
+                                 {"setup", s},
+                                 {"kind", name(o.kind)},
+                                 {"on", o.on},
+                                 {"tool", o.tool},
+                                 {"direction", name(o.direction)},
+                                 {"conditions",
+                                  {{"passes", o.passes.size()},
+                                   {"ap_mm", o.passes[0].ap_mm},
+                                   {"f_mm_rev", o.passes[0].f_mm_rev},
+                                   {"vc_m_min", o.passes[0].vc_m_min}}}});
+  }
+  return d;
+}
+
+inline PartPlan part_to_predict(const nlohmann::json& document) {
+  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
+      .plan;
 }
 
 }  // namespace turnwright::planning

@@ -41,6 +41,7 @@ class Surfaces : public testing::TestWithParam<const char*> {
       chain->functionals = {{{{0, 2.0}}, 0.02, 0},
                             {{{0, 1.0}, {2, -1.0}}, 0.01, 0},
                             {{{1, 1.0}, {0, -0.5}, {2, -0.5}}, 0.004, 0}};
+      f.limit_chatter(*chain);
       models_.push_back(std::make_unique<RecipeModel>(r, std::move(*chain)));
     }
   }

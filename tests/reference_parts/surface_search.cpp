@@ -106,6 +106,7 @@ SurfaceSearch::SurfaceSearch(const planning::Feature& feature,
   if (!(low <= high * (1 + kRounding))) return;
   if (!asks_nothing(demands_))
     chain = feature.chain(recipe, economy, places(feature, kPlaces));
+  feature.limit_chatter(*chain);
   chain_ = std::move(*chain);
   for (const auto& o : chain_.operations) {
     planning::Chain c;

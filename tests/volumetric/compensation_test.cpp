@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machines.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
 namespace turnwright::volumetric {
@@ -102,20 +103,138 @@ TEST(NcProgram, LatheWordsAreDiameters) {
 
 TEST(NcProgram, RefusesWithTheLine) {
   const std::vector<std::string_view> wrong = {
-      "G41 D1",   "G81 Z-5 R2",  "G28 X0",    "G92 X0",   "X1 A5",      "#1=3",
-      "X[1+2]",   "M98 P10",     "/X5",       "G2 X5 Y0", "G1 X",       "G1 XNaN",
-      "G1 X1e9",  "G1 X1 X2",    "G55",       "G43 H7",   "G33 Z-5 K1", "G91.1",
-      "G0 G1 X1", "G1 X1 I2",    "(open",     "G2 X9 I3", "G53 X0",     "G93",
-      "O10 X1",   "G2 X9 K3 Y1", "G10 L2 P1", "X1 U2",    "!",          "G3 X8 Y0 R1"};
+      "G41 D1", "G81 Z-5 R2", "G28 X0", "G92 X0", "X1 A5", "#1=3", "X[1+2]", "M98 P10",
+      "/X5", "G2 X5 Y0", "G1 X", "G1 XNaN", "G1 X1e9", "G1 X1 X2", "G55", "G43 H7",
+      "G33 Z-5 K1", "G91.1", "G0 G1 X1", "G1 X1 I2", "(open", "G2 X9 I3", "G53 X0", "G93",
+      "O10 X1", "G2 X9 K3 Y1", "G10 L2 P1", "X1 U2", "!", "G3 X8 Y0 R1",
+      // What a line that goes through may not change, and codes that exclude each other.
+      "G4 P1 G91", "G50 S900 G91", "G90 G91 X1", "G20 G21", "G54 G59", "G94 G95",
+      "G0 G3 X1 R9", "G4 P1 Z3", "G50 S9 M8",
+      // Offsets: none selected in silence.
+      "G43", "H1", "G49 H1", "T1.5", "T-1", "G43 H1.5",
+      // Controls that go elsewhere or come back with other states.
+      "M47", "M70", "M72", "M99", "M3.5", "M-3", "/G91", "/M98 P1", "/2 Z3", "/T0101",
+      "X+-5", "X--5", "X 1 0", "X1e2", "X0x10", "G100", "G-1", "G64 P.1 L2", "P1", "D2",
+      "X\xc3\xa4", "\xc3\xa4", "\x1b[1m"};
   for (const auto line : wrong) {
     const auto p = read_nc({"G1 X1 F100", line, "X3"}, {});
     ASSERT_EQ(p.problems.size(), 1u) << line;
     EXPECT_EQ(p.problems[0].line, 2u) << line;
   }
   EXPECT_EQ(read_nc({"Y1"}, {.axes = "XZ"}).problems.size(), 1u);
-  for (const auto line : {"G4 P1.5", "G4 X2", "G50 S2000", "G96 S200 M3", "G95 F0.2",
-                          "(X[1])", "; #1", "", "  ", "M6 T1", "G40", "n5g1x2", "X+1.5"})
+  for (const auto line : {"G4 P1.5",
+                          "G4 X2",
+                          "G50 S2000",
+                          "G96 S200 M3",
+                          "G95 F0.2",
+                          "(X[1])",
+                          "; #1",
+                          "",
+                          "  ",
+                          "M6 T1",
+                          "G40",
+                          "n5g1x2",
+                          "X+1.5",
+                          "X5.",
+                          "X-.5",
+                          "/M8",
+                          "/2 N5 M1 (stop)",
+                          "G64 P0.01 Q0.02",
+                          "G96 S200 D2500 M3",
+                          "G4 U2",
+                          "g00 x1 y2",
+                          "N5 G 1 X 3",
+                          "G0 G17 G21 G40 G49 G80 G90 G94 G98",
+                          "X1\tY2\r"})
     EXPECT_TRUE(read_nc({line}, {}).problems.empty()) << line;
+}
+
+// A letter that is no ASCII is told whole: the message stays UTF-8.
+TEST(NcProgram, QuotesWholeCharacters) {
+  const auto p = read_nc(
+      {"\xc3\xa4 X1", "X\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac", "\x1b"}, {});
+  ASSERT_EQ(p.problems.size(), 3u);
+  EXPECT_EQ(p.problems[0].got, "\"\xc3\xa4\"");
+  EXPECT_EQ(p.problems[1].got, "\"X\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\xe2\x82\xac\"");
+  EXPECT_EQ(p.problems[2].got, "\"?\"");
+}
+
+// G43, G49 and T move no axis: the tip looked at changes, and with it the coordinates of
+// those axes that the next block does not name.
+TEST(NcProgram, OffsetsOfToolsMoveNoAxis) {
+  const NcSetup mill{.tool_offsets_mm = {{1, {0, 0, -100}}, {2, {3, 0, -80}}}};
+  const auto p = read_nc(
+      {"G0 X5 Y6 Z200", "G43 H1", "X10", "G91 Z-10", "G43 H2", "G90 Y0", "G49 X0"}, mill);
+  ASSERT_TRUE(p.problems.empty());
+  const auto at = targets(p);
+  near(at[0], {5, 6, 200});
+  near(at[1], {10, 6, 100});  // Z stands at 200
+  near(at[2], {10, 6, 90});
+  near(at[3], {13, 0, 110});  // tool 2 is 20 mm shorter
+  near(at[4], {0, 0, 190});
+  const NcSetup lathe{.axes = "XZ", .lathe = true, .tool_offsets_mm = {{4, {2, 0, -7}}}};
+  near(targets(read_nc({"G0 X50 Z30", "T0404", "X20", "T0400 Z0"}, lathe))[1],
+       {20, 0, 23});
+}
+
+TEST(NcProgram, WholeCirclesSurviveRounding) {
+  const double x = 0.1 + 0.2;  // not the 0.3 of the block
+  for (const char* circle : {"G2 X0.3 Y0 I5", "G3 X0.3 I5", "G2 I5", "G3 Y0 I5 J0"}) {
+    const auto p = read_nc({circle}, {.start_mm = {x, 0, 0}});
+    ASSERT_TRUE(p.problems.empty()) << circle;
+    double least = 1e9, most = -1e9;
+    for (const Vec3& t : targets(p)) {
+      least = std::min(least, t[0]);
+      most = std::max(most, t[0]);
+    }
+    EXPECT_NEAR(most - least, 10, 1e-9) << circle;
+  }
+  // A helix of one turn: height in proportion to the angle.
+  const auto p = read_nc({"G3 X10 Y0 Z-2 I-10"}, {.start_mm = {10, 0, 0}});
+  for (const Vec3& t : targets(p)) {
+    const double angle = std::atan2(t[1], t[0]);
+    const double turns = angle / (2 * units::kPi) + (angle > 1e-9 ? 0 : 1);
+    EXPECT_NEAR(t[2], -2 * turns, 1e-9);
+  }
+}
+
+TEST(NcProgram, AskForWhatTheyDoNotKnow) {
+  // After G80 a control may be in any motion.
+  auto p = read_nc({"G1 X1 F9", "G80", "X5", "G0 X7", "X8"}, {});
+  ASSERT_EQ(p.problems.size(), 1u);
+  EXPECT_EQ(p.problems[0].line, 3u);
+  // An arc in a plane whose axis the machine lacks.
+  p = read_nc({"G17", "G2 X9 I3", "G18 G2 X9 I4.5"}, {.axes = "XZ"});
+  ASSERT_EQ(p.problems.size(), 1u);
+  EXPECT_EQ(p.problems[0].got, "G17");
+  // Coordinates that add up beyond reason.
+  p = read_nc({"G91", "X900000", "X900000", "G20 X90000"}, {});
+  ASSERT_EQ(p.problems.size(), 2u);
+  EXPECT_EQ(p.problems[0].line, 3u);
+}
+
+TEST(NcProgram, ModesOfOneProgram) {
+  const NcSetup setup{.axes = "XZ",
+                      .diameter = true,
+                      .lathe = true,
+                      .work_offsets_mm = {{"G54", {0, 0, 100}}, {"G55", {1, 0, 50}}}};
+  const auto good =
+      read_nc({"O0007 (shaft)", "N10 G21 G90 G95 G54", "N20 G96 S180 M3", "N30 G0 X40 Z2",
+               "N40 G91 X-10 Z-1", "N50 G90 G8 X10", "N60 G7 G20 X1", "N70 G55 Z1 (inch)",
+               "N80 G21 G94 G97 S900 Z0"},
+              setup);
+  ASSERT_TRUE(good.problems.empty()) << good.problems[0].got;
+  const auto at = targets(good);
+  ASSERT_EQ(at.size(), 6u);
+  near(at[0], {20, 0, 102});
+  near(at[1], {15, 0, 101});
+  near(at[2], {10, 0, 101});
+  near(at[3], {12.7, 0, 101});
+  near(at[4], {12.7, 0, 75.4});  // X stands still under the new origin
+  near(at[5], {12.7, 0, 50});
+  EXPECT_EQ(good.moves[7].before, "N70 G55");
+  EXPECT_EQ(good.moves[7].after, "(inch)");
+  EXPECT_EQ(good.moves[8].before, "N80 G21 G94 G97 S900");
 }
 
 /// The seed's scales and squareness, with bows along all axes and play.
@@ -184,6 +303,41 @@ TEST(Compensation, MethodsOnTheSeedsVolume) {
   EXPECT_LT(stretch(two), 2e-6);
 }
 
+// The part of that field which the paper gives, scales and squareness, over the travel of
+// its machine, 630 x 600 x 600 mm: on n equal steps an axis has the mean L/2 and the
+// variance L^2 (n + 1)/(12 (n - 1)), so that every RMS has a closed form.
+TEST(Compensation, LinearFieldsHaveClosedForms) {
+  Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
+  const double a = 90e-6, b = 112.5e-6, c = 230e-6 / 3, k1 = 35e-6, i2 = 20e-6;
+  m.axes[0].errors[0].c[1] = 100 * a;
+  m.axes[1].errors[1].c[1] = 100 * b;
+  m.axes[2].errors[2].c[1] = 100 * c;
+  m.axes[0].location[4] = -k1;  // X runs towards +Z
+  m.axes[2].location[4] = i2;   // Z runs towards +X
+  constexpr int n = 8;
+  const Vec3 L{630, 600, 600};
+  std::vector<std::string> lines;
+  for (int i = 0; i < n * n * n; ++i)
+    lines.push_back("G0 X" + std::to_string(L[0] * (i % n) / (n - 1)) + " Y" +
+                    std::to_string(L[1] * (i / n % n) / (n - 1)) + " Z" +
+                    std::to_string(L[2] * (i / n / n) / (n - 1)));
+  const auto left = [&](Method method) {
+    return compensate(read_nc(views(lines), {}), m, {}, {.method = method});
+  };
+  const auto variance = [&](std::size_t k) {
+    return L[k] * L[k] * (n + 1) / (12.0 * (n - 1));
+  };
+  const double spread = (a * a + k1 * k1) * variance(0) + b * b * variance(1) +
+                        (c * c + i2 * i2) * variance(2);
+  const Vec3 mean{(a * L[0] + i2 * L[2]) / 2, b * L[1] / 2, (k1 * L[0] + c * L[2]) / 2};
+  const Compensated average = left(Method::average);
+  // Unit vectors and six decimals cost up to 1 nm.
+  EXPECT_NEAR(average.before.rms_mm, std::sqrt(spread + norm(mean) * norm(mean)), 2e-6);
+  EXPECT_NEAR(average.after.rms_mm, std::sqrt(spread), 2e-6);
+  EXPECT_LT(left(Method::affine).after.max_mm, 3e-6);
+  EXPECT_LT(left(Method::full_field).after.max_mm, 1e-6);
+}
+
 // The corrected program, read again and run on the machine, goes where the source should.
 TEST(Compensation, CorrectedProgramReachesItsTargets) {
   Machine m = seed_machine();
@@ -247,6 +401,43 @@ TEST(Compensation, LatheInDiametersAndInches) {
   EXPECT_EQ(mm.lines[0], "G0 G90 X59.998200 Z0.000000");
   const auto inch = compensate(read_nc({"G20", "G0 X2 Z0"}, setup), m, setup);
   EXPECT_EQ(inch.lines[1], "G0 G90 X1.99994000 Z0.00000000");
+}
+
+// A tool's length is no motion: no play is taken up, no coordinate runs.
+TEST(Compensation, ToolLengthsAreNoMotion) {
+  Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
+  m.axes[2].errors[2].b = 3e-3;
+  const NcSetup setup{.start_mm = {0, 0, 150}, .tool_offsets_mm = {{1, {0, 0, -100}}}};
+  const auto c = compensate(read_nc({"G1 Z140 F100", "G43 H1", "X5"}, setup), m, setup);
+  ASSERT_EQ(c.lines.size(), 4u);
+  EXPECT_EQ(c.lines[1], "G1 X0.000000 Y0.000000 Z140.003000");  // s = -1: 3 um too low
+  EXPECT_EQ(c.lines[2], "G43 H1");
+  EXPECT_EQ(c.lines[3], "G1 X5.000000 Y0.000000 Z40.003000");
+}
+
+// Errors that change by more than the way cannot be taken out by (1).
+TEST(Compensation, ErrorsBeyondCorrectionAreSaid) {
+  Machine m{"wfXYt", {}, {{'X', {}, 100}, {'Y', {}, 100}}};
+  m.axes[0].errors[0].c[1] = 250;  // 2.5 mm per mm
+  const NcSetup setup{.axes = "XY"};
+  const auto p = read_nc({"M8", "G0 X10"}, setup);
+  EXPECT_THROW(compensate(p, m, setup), ModelRangeError);
+  m.axes[0].errors[0].c = {1e17, 0, 0, 0};
+  EXPECT_THROW(compensate(p, m, setup), ModelRangeError);
+}
+
+// What is written is the nearest number of so many decimals.
+TEST(Compensation, WritesDecimalsRounded) {
+  Machine m{"wfXYt", {}, {{'X', {}, 100}, {'Y', {}, 100}}};
+  const NcSetup setup{.axes = "XY"};
+  const auto line = [&](const char* source, int decimals) {
+    return compensate(read_nc({source}, setup), m, setup, {.decimals = decimals})
+        .lines[0];
+  };
+  EXPECT_EQ(line("G0 X0.0004 Y-0.0004", 3), "G0 G90 X0.000 Y0.000");
+  EXPECT_EQ(line("G0 X0.0006 Y-0.0006", 3), "G0 G90 X0.001 Y-0.001");
+  EXPECT_EQ(line("G0 X-12.3456 Y999999.9996", 3), "G0 G90 X-12.346 Y1000000.000");
+  EXPECT_EQ(line("G0 X100 Y-.05", 9), "G0 G90 X100.000000000 Y-0.050000000");
 }
 
 }  // namespace

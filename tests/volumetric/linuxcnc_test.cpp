@@ -39,8 +39,10 @@ struct Interpreter {
         ("turnwright-rs274-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
     fs::create_directories(folder);
     std::ofstream parameters(folder / "rs274.var");
-    for (int i = 5161; i <= 5390; ++i) parameters << i << (i == 5220 ? " 1\n" : " 0\n");
-    std::ofstream(folder / "tool.tbl") << "T1 P1 Z0\n";
+    // G54 is active, G55 at (1, 0, -2) inches; tool 2 is 4 inches long, 0.5 off.
+    for (int i = 5161; i <= 5390; ++i)
+      parameters << i << ' ' << (i == 5220 || i == 5241 ? 1 : i == 5243 ? -2 : 0) << '\n';
+    std::ofstream(folder / "tool.tbl") << "T1 P1 Z0\nT2 P2 X0.5 Z4\n";
   }
   ~Interpreter() { fs::remove_all(folder); }
 
@@ -133,6 +135,43 @@ TEST(LinuxCnc, RefusesNoArcThatIsRead) {
     const auto p = read_nc({"G0 X10 Y0", arc, "G1 X3 Y4"}, {});
     ASSERT_TRUE(p.problems.empty());
     EXPECT_EQ(rs274.moves({"G21", "G0 X10 Y0", arc, "G1 X3 Y4"}).size(), 2u) << arc;
+  }
+}
+
+// Modal states, offsets and units: where a program goes by LinuxCNC, in its coordinates.
+TEST(LinuxCnc, ModesAreReadAlike) {
+  const Interpreter rs274;
+  if (rs274.moves({"G21", "G0 X1"}).size() != 1) GTEST_SKIP() << "rs274 is not there";
+  const NcSetup setup{.work_offsets_mm = {{"G55", {25.4, 0, -50.8}}},
+                      .tool_offsets_mm = {{2, {-12.7, 0, -101.6}}}};
+  const std::vector<std::vector<std::string>> programs = {
+      {"G21", "G90 G54 G17 G40 G49 G80 G94", "N10 G0 X5 Y6 Z200", "G43 H2",
+       "N20 X10 (unnamed Z changes with the tool)", "G91 G1 Z-10 F100", "G49", "G90 Y0",
+       "G43 H2 X1", "Z3", "G49 X2"},
+      {"G21", "G0 X10 Y20 Z30", "G55", "X1", "G91 Y5", "G54", "Z1", "G90 G55 Z0",
+       "G54 X0"},
+      {"G21", "G1 X25.4 Y50.8 F100", "G20", "Z1", "G91 X1", "G21 Y-10",
+       "g90 x-.5 y+.25 z3.", "G 1 X 7 ;end"},
+      {"G21", "G96 D2500 S100 M3", "G95 F0.2", "G1 X3", "G97 S900", "G94 F100", "Y4 M5",
+       "G64 P0.01", "G4 P0.1", "G61", "X8 Z1 (a) M8 (b)", "G80", "G0 Z9"},
+      {"G21", "G91 G0 X1 Y1", "X1 Y-3", "G43 H2", "Z1", "G43 H1", "X1", "G49", "Y1"}};
+  for (auto source : programs) {
+    NcSetup with_1 = setup;
+    with_1.tool_offsets_mm[1] = {};
+    const std::vector<std::string_view> views(source.begin(), source.end());
+    auto p = read_nc(views, with_1);
+    ASSERT_TRUE(p.problems.empty()) << p.problems[0].line << p.problems[0].got;
+    std::erase_if(p.moves, [](const NcMove& m) { return !m.moves; });
+    const auto canonical = rs274.moves(source);
+    ASSERT_EQ(canonical.size(), p.moves.size()) << source[1];
+    for (std::size_t i = 0; i < canonical.size(); ++i) {
+      const NcMove& m = p.moves[i];
+      EXPECT_EQ(canonical[i].rapid, m.rapid);
+      for (std::size_t k = 0; k < 3; ++k)  // told in the units of the block
+        EXPECT_NEAR(canonical[i].to[k],
+                    (m.target_mm[k] - m.origin_mm[k]) / (m.inch ? 25.4 : 1), 6e-5)
+            << source[m.line - 1];
+    }
   }
 }
 

@@ -52,7 +52,8 @@ struct Lathe {
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::optional<GeometricErrors> errors = {};
-  std::vector<std::string> clampings;  ///< "chuck", "chuck-tailstock", ...
+  std::optional<double> damping_ratio = {};  ///< of slender work and bars in it
+  std::vector<std::string> clampings;        ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {
     return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();
   }

@@ -34,6 +34,19 @@ struct BoringBar {
   double min_bore_mm = 0;          ///< smallest hole it enters
   RootCompliance holder;           ///< in both planes
   std::optional<double> tip_mm_N;  ///< measured at the tip, in place of shank and holder
+  std::optional<double> damping_ratio;  ///< of the bar; absent: as that of the part
+};
+
+/// An edge of a chip breaker's window, straight in logarithms: f <= or >= f1 ap^exponent.
+struct ChipEdge {
+  double f1_mm_rev = 0, exponent = 0;
+  bool upper = true;  ///< <=
+};
+
+/// A piece of such a window, convex in logarithms: its ranges and its other edges.
+struct ChipPiece {
+  Range ap_mm, f_mm_rev;
+  std::vector<ChipEdge> edges;
 };
 
 /// A turning tool: holder and insert, ISO 13399 symbols, and what its maker allows.
@@ -49,7 +62,8 @@ struct Tool {
   double alpha_deg = 0;  ///< clearance
   double re_mm = 0;      ///< corner radius RE
   bool wiper = false;
-  Range f_mm_rev, ap_mm;         ///< chip-breaker window
+  Range f_mm_rev, ap_mm;         ///< chip-breaker window, or what holds it
+  std::vector<ChipPiece> chip;   ///< its pieces where it is a polygon
   Range vc_m_min;                ///< of the grade, all materials
   double Fc_max_N = 0;           ///< strength of insert and holder
   Range T_min;                   ///< tool life window [min]

@@ -1,6 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "turnwright/volumetric/ball_bar.hpp"
+
 namespace turnwright::document {
 
 /// The door `ballbar`: error model -> traces, or traces -> values of ISO 230-4 and their
@@ -9,5 +11,8 @@ namespace turnwright::document {
 /// @throws InputError with every problem of the request; ModelRangeError if the angles do
 ///   not tell the errors apart.
 nlohmann::json ball_bar(const nlohmann::json& request);
+
+/// The trace of the same request, simulated or given.
+volumetric::Trace ball_bar_trace(const nlohmann::json& request);
 
 }  // namespace turnwright::document

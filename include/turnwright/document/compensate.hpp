@@ -1,6 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "turnwright/volumetric/compensation.hpp"
+
 namespace turnwright::document {
 
 /// The door `compensate`: an NC program and a machine's errors -> the corrected program
@@ -9,5 +11,12 @@ namespace turnwright::document {
 /// @throws InputError with every problem of the request; those of the program point at
 ///   its lines, "/program#line 12".
 nlohmann::json compensate(const nlohmann::json& request);
+
+struct CompensateAnswer {
+  nlohmann::json result;
+  volumetric::Compensated compensated;
+};
+/// The same with what the result was made from.
+CompensateAnswer compensated(const nlohmann::json& request);
 
 }  // namespace turnwright::document

@@ -1,6 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "turnwright/volumetric/machine.hpp"
+
 namespace turnwright::document {
 
 /// The door `geometry`: a kinematic chain with its errors and positions -> tip and
@@ -8,5 +10,8 @@ namespace turnwright::document {
 /// by schemas/geometry.request.json and schemas/geometry.result.json.
 /// @throws InputError with every problem of the request.
 nlohmann::json geometry(const nlohmann::json& request);
+
+/// The machine of the same request.
+volumetric::Machine geometry_machine(const nlohmann::json& request);
 
 }  // namespace turnwright::document

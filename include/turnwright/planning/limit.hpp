@@ -18,8 +18,8 @@ struct Limit {
 };
 
 /// Every limit of a plan, each name once: tolerances by their ids; roughness per surface;
-/// power and torque, feed force and spindle speeds of the machine, the chuck's speed and
-/// the grip of each setup; depth, feed, speed, force and life of each tool.
+/// power and torque, damping, feed force and spindle speeds of the machine, the chuck's
+/// speed and the grip of each setup; depth, feed, speed, force and life of each tool.
 ///
 /// The curve of power and torque is scaled at all its points; the largest spindle speed
 /// with the curve's last point along its own line.  A size is opened about its middle.

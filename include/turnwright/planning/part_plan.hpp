@@ -103,6 +103,10 @@ struct PartPlan {
   double machine_share_um =
       0;  ///< of every tolerance, besides what `machine.errors` take
   std::map<MachinePlace, MachineTake> machine_takes = {};  ///< of machine.errors
+  double window_percent = 5;    ///< how far above its optimum an operation's window goes
+  bool window_curves = false;   ///< with limits and lines of equal cost, to be drawn
+  double damping_ratio = 0.03;  ///< of what the part stands in, for chatter
+  double chatter_times = 1;     ///< limits of chatter are taken so many times as high
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally

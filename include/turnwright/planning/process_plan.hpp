@@ -36,6 +36,22 @@ struct ConstraintValue {
   double shadow_price = 0;  ///< d ln(objective of the group) / d ln(limit), >= 0
 };
 
+/// A line in the plane of speed and feed, for a picture.
+struct WindowCurve {
+  std::string name;  ///< of the limit, or "+2.5 %"
+  std::vector<double> vc_m_min, f_mm_rev;
+};
+
+/// Speeds and feeds of an operation that keep every limit and cost at most `percent` more
+/// than its optimum, with depths, passes and all other operations as chosen: a polygon,
+/// straight in logarithms, that holds nothing else (window.hpp).
+struct OperatingWindow {
+  double percent = 0;
+  std::vector<double> vc_m_min, f_mm_rev;  ///< vertices, counter-clockwise
+  std::vector<std::string> limits;         ///< of the edge from each vertex to the next
+  std::vector<WindowCurve> limit_curves, cost_curves;  ///< if asked for
+};
+
 struct OperationPlan {
   std::string id;
   OperationKind kind = OperationKind::rough;
@@ -47,6 +63,7 @@ struct OperationPlan {
   double cost = 0;      ///< in the cut, on approach and return, and of edges
   std::vector<ConstraintValue> constraints;
   Certificate certificate;
+  std::optional<OperatingWindow> window;  ///< of conditions that were chosen
 };
 
 struct RejectedClamping {

@@ -126,11 +126,6 @@ struct Planes {
 };
 Planes planes(const catalogue::Lathe& machine, Clamping clamping);
 
-/// Fastest spindle speed [1/min] of machine and clamping.
-double clamping_rpm(const PartPlan& plan, Clamping clamping);
-/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
-
 /// Whether a tailstock presses on the part.
 bool has_tailstock(Clamping clamping);
 

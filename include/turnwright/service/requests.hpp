@@ -25,7 +25,7 @@ struct Picture {
   std::string file, svg;
 };
 
-/// A result with its pictures: setup-0.svg, .. and budget.svg, if tolerances are judged.
+/// A result with its pictures.
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;

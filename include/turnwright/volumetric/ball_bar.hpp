@@ -90,6 +90,9 @@ struct BallBarFit {
 /// @throws ModelRangeError if the angles do not tell the twelve terms apart.
 BallBarFit decompose(const Trace& trace);
 
+/// Eq. (2) at an angle of a path, dir = +1 counter-clockwise [mm].
+double fitted_mm(const BallBarFit& fit, double R_mm, double theta_rad, double dir);
+
 /// Sentences on what one circle cannot separate.
 std::vector<std::string> confounded(Plane plane);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct Compensated {
   Deviation before, after;            ///< after: of the coordinates as written
   std::size_t points = 0, added = 0;  ///< moves written; those not in the source's moves
   double largest_correction_mm = 0;
+  /// Distances of the tip from where it should be at each point, before and after.
+  std::vector<std::array<float, 2>> distances_mm;
 };
 
 /// The program whose moves, made by the machine with its errors, end where the source's
@@ -49,7 +52,8 @@ struct Compensated {
 /// at 0; only axes the machine has are corrected and counted (tangential errors of a
 /// lathe act by y^2/2R).  Where an axis turns back in a feed move, its play is taken up
 /// first by a move of its own.
-/// @throws std::domain_error as Kinematics.
+/// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves a point farther
+///   off than it was, errors changing by as much as the way.
 Compensated compensate(const NcProgram& program, const Machine& machine,
                        const NcSetup& setup, const CompensationOptions& options = {});
 

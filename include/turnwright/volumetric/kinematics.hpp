@@ -29,6 +29,11 @@ struct AxisEffect {
   std::array<Vec3, 3> squareness{};
 };
 
+/// An angle by its cosine and sine.
+struct Turn {
+  double cos = 1, sin = 0;
+};
+
 /// A machine's chain made ready to be evaluated at many positions.
 ///
 /// With sigma = +1 for joints between bed and tool, -1 between bed and workpiece, a joint
@@ -64,27 +69,38 @@ class Kinematics {
   ToolPose nominal(const Position& at) const;
   /// By (1) and (2).
   ToolPose actual(const Position& at) const;
+  Vec3 actual_tip_mm(const Position& at) const;
   /// actual - nominal of the tip [mm], in the workpiece frame.
   Vec3 tip_error_mm(const Position& at) const;
   /// By (4).
   Vec3 tip_error_first_order_mm(const Position& at) const;
+  /// No less than the second derivative of (4) along any straight way [1/mm], rotary axes
+  /// at 0 and each linear axis within +-`reach_mm`:
+  ///
+  ///     |e''| <= sum |d''| + |r''| |P - p| + 2 |r'|                                  (5)
+  double bend_at_most(const Vec3& reach_mm) const;
   /// One for each axis of the chain, from the bed to the tool, then to the workpiece.
   std::vector<AxisEffect> effects(const Position& at) const;
 
  private:
+  /// Six errors of one axis, machine.hpp (1): by power, then direction.
+  struct Polynomial {
+    std::array<std::array<double, kDirections>, 4> c{};
+    std::array<double, kDirections> b{};
+    std::vector<std::array<std::array<double, kDirections>, 2>> f;  // a_h and d_h
+    std::array<double, kDirections> at(double q, double t, double sign) const;
+  };
   struct Joint {
     std::size_t axis;  // place in kLetters
     double sigma, inverse_Q;
-    Vec3 p, travel;                                    // travel: u of a linear axis
-    std::array<std::array<double, kDirections>, 4> c;  // by power, then direction
-    std::array<double, kDirections> b;
-    std::vector<std::array<std::array<double, kDirections>, 2>> f;  // a_h and d_h
-    std::array<double, kDirections> location;                       // of a rotary axis
-    std::array<double, 9> tilt;  // Rz(EC0) Ry(EB0) Rx(EA0), column by column
+    Vec3 p, location;            // location: of a rotary axis
+    Vec3 travel{};               // u of a linear axis
+    std::array<Turn, 3> tilt{};  // EA0, EB0, EC0 of a rotary axis
+    Polynomial errors{};
+    Polynomial small{};  // R_i^T d_i and R_i^T r_i of (4): errors with what is constant
   };
-  static std::array<double, kDirections> errors(const Joint& joint, const Position& at);
-  template <class Visit>
-  void first_order(const Position& at, Visit visit) const;
+  template <bool kDirection>
+  ToolPose pose(const Position& at) const;
 
   std::vector<Joint> tool_, work_;  // each from the bed outwards
   Vec3 tool_point_;

@@ -50,12 +50,19 @@ struct NcProgram {
 /// The program's moves.  Read are G0 G1 G2 G3 (centre by I J K from the start, or R), G17
 /// to G19, G20 G21, G90 G91, G54 to G59, G43 H, G49, G7 G8 (X as diameter, radius) and
 /// tool words; G4, G40, G61, G64, G80, G94 to G99, the speed limit of G50 or G92 with S
-/// alone and M codes go through.  Arcs become chords within the tolerance, cut also where
-/// an axis reverses; ends of arcs may lie 0.01 mm off the radius of their start.
+/// alone and M codes go through.  Numbers are mm or inches with or without a point.  The
+/// motion is G0 until one is given.  Arcs become chords within the tolerance, cut also
+/// where an axis reverses; ends of arcs may lie 0.01 mm off the radius of their start,
+/// and ends within 1e-6 mm make a whole circle, or a turn of a helix.
 ///
-/// All else is a problem of its line, nothing is passed in silence: canned cycles, thread
-/// cutting, cutter radius compensation, G53, G28, G92 with axes, other axes, variables,
-/// expressions, subprograms, block delete.
+/// A tool's offset, once selected, moves no axis: the tip looked at is another, and axes
+/// that the next block does not name stay where they are (as LinuxCNC has it).
+///
+/// All else is a problem of its line, nothing is passed in silence: canned cycles (of
+/// lathes also where they are named G90, G92, G94: codes are those of system B, G90 is
+/// absolute), thread cutting, cutter radius compensation, G53, G28, G92 with axes, other
+/// axes, variables, expressions, subprograms, coordinates after G80 without a motion, two
+/// codes of one group in a block, block delete but of N, M, S and F words.
 ///
 /// The written-out moves are absolute (G90); G2, G3, G90, G91 and arc words are dropped.
 NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup);
