@@ -101,6 +101,9 @@ TEST(Server, RefusesWhatIsTooLargeOrNoHttp) {
   for (int i = 0; i < 3; ++i)
     chunks += "f4240\r\n" + std::string(1'000'000, ' ') + "\r\n";
   EXPECT_EQ(status(chunks + "0\r\n\r\n"), 413);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
+                   std::string(1'000'000, 'a') + "\r\n{\r\n0\r\n\r\n"),
+            431);
   EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 5\r\n"
                    "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
             400);

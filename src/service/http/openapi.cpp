@@ -29,10 +29,11 @@ void move_references(ordered_json& schema, const std::string& name) {
     for (auto& member : schema) move_references(member, name);
 }
 
-void rename(ordered_json& schema, const char* from, const char* to) {
-  if (!schema.contains(from)) return;
-  schema[to] = std::move(schema[from]);
-  schema.erase(from);
+// A member's value, taken out; members move when one is added.
+ordered_json taken(ordered_json& object, const char* key) {
+  auto value = std::move(object.at(key));
+  object.erase(key);
+  return value;
 }
 
 // OpenAPI 3.1 reads schemas as of 2020-12, which says in other words than draft 7 what a
@@ -42,13 +43,14 @@ void to_2020_12(ordered_json& schema) {
     for (auto& one : schema) to_2020_12(one);
   if (!schema.is_object()) return;
   if (schema.contains("items") && schema["items"].is_array()) {
-    rename(schema, "items", "prefixItems");
-    rename(schema, "additionalItems", "items");
+    schema["prefixItems"] = taken(schema, "items");
+    if (schema.contains("additionalItems"))
+      schema["items"] = taken(schema, "additionalItems");
   }
-  if (const auto all = schema.find("dependencies"); all != schema.end()) {
-    for (const auto& [key, value] : all->items())
+  if (schema.contains("dependencies")) {
+    const auto all = taken(schema, "dependencies");
+    for (const auto& [key, value] : all.items())
       schema[value.is_array() ? "dependentRequired" : "dependentSchemas"][key] = value;
-    schema.erase("dependencies");
   }
   for (auto& [key, value] : schema.items()) {
     if (key == "properties" || key == "patternProperties" || key == "definitions" ||

@@ -19,7 +19,7 @@ using asio::ip::tcp;
 struct Connection {
   explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
   tcp::socket socket;
-  beast::flat_buffer buffer;
+  beast::flat_buffer buffer{65'536};  ///< the most that may come before it is understood
   bool idle = false;  ///< between two calls: may be closed without losing one
 };
 
