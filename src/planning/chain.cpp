@@ -151,7 +151,7 @@ double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double 
   if (lower == upper) return 0;
   std::uintmax_t steps = 50;
   return boost::math::tools::newton_raphson_iterate(G, first / std::max(1.0, slope),
-                                                    lower, upper, 52, steps);
+                                                    lower, upper, 30, steps);
 }
 
 LastPass last_pass(const Chain& chain, const Station& station, const Choice<double>& c) {

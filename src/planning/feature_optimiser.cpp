@@ -16,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
-constexpr std::size_t kNearest = 40;   // recipes asked for the nearest conditions
+constexpr std::size_t kNearest = 12;   // recipes asked for the nearest conditions
 constexpr double kKept = 5e-10;        // the most that a limit may be exceeded by, in ln
 constexpr long kScouting = 150;        // boxes for a first bound of a task
 constexpr double kScoutingGap = 5e-3;  // and what they may leave open

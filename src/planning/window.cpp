@@ -17,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kKept = 8e-10;      // beyond a limit: what the optimum's places leave
 constexpr int kLooks = 24;           // feeds looked at to each side of the optimum
-constexpr int kBisections = 44;      // of a feed
+constexpr int kBisections = 20;      // of a feed
 constexpr int kRounds = 20;          // of places that tolerances are asked at
 constexpr int kStretches = 8;        // of a curve to begin with
 constexpr int kHalvings = 8;         // of one of them

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "turnwright/base/interval.hpp"
 
@@ -26,6 +27,12 @@ struct Dual {
   Dual(double value) : v(V(value)) {}  // NOLINT: a number is a constant
   Dual(V value, std::array<V, N> gradient) : v(value), d(gradient) {}
 };
+
+/// A number or a number with its gradient: no enclosure.
+template <class T>
+inline constexpr bool is_point = std::is_floating_point_v<T>;
+template <int N>
+inline constexpr bool is_point<Dual<double, N>> = true;
 
 /// The variable number i with value v.
 template <class V, int N>
@@ -140,8 +147,10 @@ Dual<V, N> acos(const Dual<V, N>& x) {
 template <class V, int N>
 Dual<V, N> pow(const Dual<V, N>& x, double p) {
   using std::pow;
-  const V slope = V(p) * pow(x.v, p - 1);
-  return detail::chain(V(pow(x.v, p)), slope, x);
+  const V value = pow(x.v, p);
+  if constexpr (std::is_floating_point_v<V>)
+    if (x.v != 0) return detail::chain(value, V(p) * value / x.v, x);
+  return detail::chain(value, V(p) * pow(x.v, p - 1), x);
 }
 template <class V, int N>
 Dual<V, N> sqr(const Dual<V, N>& x) {

@@ -98,7 +98,9 @@ struct Forces {
 template <class T>
 T kienzle_N(const Kienzle& k, const T& L_mm, const T& ap_mm, const T& f_mm_rev) {
   using std::pow;
-  return k.k11_MPa * pow(L_mm, k.m) * pow(ap_mm * f_mm_rev, 1 - k.m);
+  const T A = ap_mm * f_mm_rev;
+  if constexpr (is_point<T>) return k.k11_MPa * A * pow(L_mm / A, k.m);  // one power
+  return k.k11_MPa * pow(L_mm, k.m) * pow(A, 1 - k.m);  // enclosed without error
 }
 
 /// cot(kappa_eff) = u of the chip's flow, normal to the chord of the engaged edge:
