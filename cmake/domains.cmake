@@ -74,6 +74,7 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
 tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
           DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
           TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
+# Floor 7
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
@@ -114,7 +115,7 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
                 window_drawing_test.cpp volumetric_drawing_test.cpp)
-# Floor 7, 8
+# Floor 8, 9
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
