@@ -26,3 +26,25 @@ add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -D SANITIZE=$<JOIN:${TURNWRIGHT_SANITIZE},$<COMMA>>
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
+
+foreach(step IN ITEMS build check round)
+  add_test(NAME page.${step} COMMAND ${CMAKE_COMMAND} -D STEP=${step}
+    -D WEB=${PROJECT_SOURCE_DIR}/web -D WORK_DIR=${PROJECT_BINARY_DIR}/page/web
+    -D PROGRAM=$<TARGET_FILE:turnwright> -P ${PROJECT_SOURCE_DIR}/web/test/run.cmake)
+  set_tests_properties(page.${step} PROPERTIES LABELS page TIMEOUT 900
+    SKIP_REGULAR_EXPRESSION "SKIPPED" RESOURCE_LOCK page)
+endforeach()
+
+add_test(NAME service.examples COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/service/examples.bash $<TARGET_FILE:turnwright>
+  ${PROJECT_SOURCE_DIR})
+set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+add_test(NAME package.deb COMMAND ${CMAKE_COMMAND}
+  -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/package-test
+  -D PART=${PROJECT_SOURCE_DIR}/parts/pump-shaft.json -D SANITIZE=${TURNWRIGHT_SANITIZE}
+  -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
+add_test(NAME package.completion COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/completion.bash $<TARGET_FILE_DIR:turnwright>
+  ${PROJECT_SOURCE_DIR}/packaging/turnwright.bash-completion)
+set_tests_properties(package.deb PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")

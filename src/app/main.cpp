@@ -35,6 +35,7 @@ struct Arguments {
   std::optional<std::filesystem::path> result_file;
   std::optional<std::filesystem::path> drawings;
   std::optional<std::filesystem::path> programs;
+  std::optional<std::filesystem::path> report_file;
   bool json = false;
   std::string listed;
 };
@@ -52,7 +53,7 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request,
                       const document::Catalogue& catalogue) {
   try {
-    if (arguments.drawings || arguments.programs)
+    if (arguments.drawings || arguments.programs || arguments.report_file)
       return service::drawn_answer(row, request, {catalogue});
     return {service::answer(row, request, {catalogue}), {}, {}};
   } catch (const InputError& e) {
@@ -82,11 +83,14 @@ void write_programs(const std::filesystem::path& folder, const nc::Programs& pro
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
-  const auto [result, drawings, programs] = answer(row, arguments, request, catalogue);
+  const auto drawn = answer(row, arguments, request, catalogue);
+  const auto& result = drawn.result;
   const std::string json = result.dump(2) + '\n';
   if (arguments.result_file) write_file(*arguments.result_file, json);
-  if (arguments.drawings) write_drawings(*arguments.drawings, drawings);
-  if (arguments.programs) write_programs(*arguments.programs, programs);
+  if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
+  if (arguments.programs) write_programs(*arguments.programs, drawn.programs);
+  if (arguments.report_file)
+    write_file(*arguments.report_file, service::html_report(row, request, drawn));
   if (row.text && !arguments.json)
     print(row.text(result));
   else if (arguments.json || !arguments.result_file)
@@ -131,6 +135,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.drawn && service::request_schema(row) == "part.json")
       command->add_option("--nc", arguments.programs,
                           "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
+    if (row.html)
+      command->add_option("--report", arguments.report_file,
+                          "write the report (HTML, printable) here");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {

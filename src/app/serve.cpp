@@ -1,6 +1,8 @@
 #include "serve.hpp"
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "output.hpp"
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 
 struct ServeArguments {
   service::ServerOptions options;
-  std::optional<fs::path> keys, jobs;
+  std::optional<fs::path> keys, jobs, page;
   double deadline_s = 60;
   unsigned batch_threads = 1;
 };
@@ -44,6 +46,19 @@ std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& aske
   }
 }
 
+/// The page as it lies in a folder, read anew for every answer.
+service::HttpApi::Page page_of(const fs::path& folder) {
+  const auto read = [file = folder / "index.html"]() -> std::string {
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+      throw InputError(file.string(),
+                       {{"", "nothing that can be read", "the page", "file"}});
+    return {std::istreambuf_iterator<char>(in), {}};
+  };
+  read();  // what is wrong is told at once
+  return read;
+}
+
 void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
   if (arguments.keys) arguments.options.keys = service::read_keys(*arguments.keys);
   arguments.options.deadline =
@@ -54,7 +69,9 @@ void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
   const auto jobs = open_jobs(arguments.jobs);
   std::optional<service::Batches> batches;
   if (jobs) batches.emplace(*jobs, catalogue, arguments.batch_threads);
-  const service::HttpApi api(folder, catalogue, batches ? &*batches : nullptr);
+  const service::HttpApi api(
+      folder, catalogue, batches ? &*batches : nullptr,
+      arguments.page ? page_of(*arguments.page) : service::built_in_page);
   service::Server server(arguments.options, api);
   const bool v6 = arguments.options.address.find(':') != std::string::npos;
   print("turnwright serves http://" +
@@ -81,6 +98,8 @@ void add_serve(CLI::App& app, const std::optional<fs::path>& data,
   command->add_option("--jobs", arguments->jobs,
                       "file that keeps the batches (default: turnwright/jobs.sqlite in "
                       "$XDG_STATE_HOME)");
+  command->add_option("--page", arguments->page,
+                      "folder of another page, index.html, read anew for every answer");
   command->add_option("--threads", options.threads, "threads that compute; 0: one a core")
       ->capture_default_str();
   command

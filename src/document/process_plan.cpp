@@ -223,6 +223,10 @@ ordered_json json_of(const Assumption& a) {
 
 }  // namespace
 
+ordered_json to_json(const std::vector<Assumption>& assumed) {
+  return list(assumed, [](const Assumption& a) { return json_of(a); });
+}
+
 ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
   const auto if_planned = [&](double x) -> ordered_json {
     if (!(plan.time_per_part_min > 0)) return nullptr;
@@ -255,7 +259,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
   if (!plan.remedies.empty())
     out["remedies"] = list(plan.remedies, [](const Remedy& r) { return json_of(r); });
-  out["assumed"] = list(assumed, [](const Assumption& a) { return json_of(a); });
+  out["assumed"] = to_json(assumed);
   require_finite(out, "process plan");
   return out;
 }

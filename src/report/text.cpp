@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "common.hpp"
 #include "fields.hpp"
 #include "layout.hpp"
+#include "plan_words.hpp"
 #include "proof.hpp"
 #include "setups.hpp"
 #include "stack.hpp"
@@ -56,102 +55,27 @@ std::string numbered(const std::vector<std::string>& sentences) {
   return out;
 }
 
-std::string sentence_of(const ordered_json& member) {
-  const auto sentence = word(member, "sentence");
-  return sentence.empty() ? word(member, "limit") : sentence;
-}
-
-// "set 2: ", where there is more than one.
-std::string set_of(const ordered_json& member, const ordered_json& all) {
-  const auto set = number(member, "set");
-  const bool several = std::any_of(all.begin(), all.end(), [](const ordered_json& other) {
-    return number(other, "set").value_or(0) > 1;
-  });
-  return set && several ? "set " + shown(set, 0) + ": " : "";
-}
-
 std::string conflicts(const ordered_json& result) {
-  const auto& all = list(result, "conflicts");
-  if (all.empty()) return "";
-  std::vector<std::string> sentences;
-  for (const auto& conflict : all)
-    sentences.push_back(set_of(conflict, all) + sentence_of(conflict));
+  const auto sentences = conflict_sentences(result);
+  if (sentences.empty()) return "";
   return "\nCONFLICTS  limits that cannot be kept together\n" + numbered(sentences);
-}
-
-// |ln(needed/now)|: how far a limit has to move, whichever way opens it.
-double opening(const ordered_json& relaxation) {
-  const auto now = number(relaxation, "now"), needed = number(relaxation, "needed");
-  if (!now || !needed || !(*now > 0) || !(*needed > 0))
-    return std::numeric_limits<double>::infinity();
-  return std::abs(std::log(*needed / *now));
 }
 
 std::string relaxations(const ordered_json& result) {
   if (word(result, "status") != "infeasible") return "";
-  const auto& members = list(result, "relax");
   std::string out = "\nWHAT WOULD HAVE TO GIVE  the smallest opening first";
-  const bool several = std::any_of(
-      members.begin(), members.end(),
-      [&](const ordered_json& member) { return !set_of(member, members).empty(); });
-  out += several ? ", one of every set\n" : "\n";
-  std::vector<const ordered_json*> all;
-  for (const auto& relaxation : members) all.push_back(&relaxation);
-  if (all.empty()) return out + "  No limit was found whose opening alone would do.\n";
-  std::stable_sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
-    return opening(*a) < opening(*b);
-  });
-  std::vector<std::string> sentences;
-  for (const auto* relaxation : all) {
-    auto sentence = set_of(*relaxation, members) + sentence_of(*relaxation);
-    const double by = opening(*relaxation);
-    if (std::isfinite(by)) {
-      const double ratio = *number(*relaxation, "needed") / *number(*relaxation, "now");
-      sentence += fmt::format(" [{:+.1f} %]", 100 * (ratio - 1));
-    }
-    sentences.push_back(std::move(sentence));
-  }
+  out += several_sets(list(result, "relax")) ? ", one of every set\n" : "\n";
+  const auto sentences = opening_sentences(result);
+  if (sentences.empty())
+    return out + "  No limit was found whose opening alone would do.\n";
   return out + numbered(sentences);
 }
 
 std::string remedies(const ordered_json& result) {
   const auto& all = list(result, "remedies");
   if (all.empty()) return "";
-  std::vector<std::string> sentences;
-  for (const auto& remedy : all) sentences.push_back(sentence_of(remedy));
-  return "\nWHAT ELSE WOULD DO  each alone, as planned with it\n" + numbered(sentences);
-}
-
-// A number or a pair of mm, in um.
-std::string micrometres(const ordered_json& tolerance, const char* key) {
-  std::vector<std::string> parts;
-  for (const auto& value : list(tolerance, key))
-    parts.push_back(value.is_number() ? shown(units::um_from_mm(value.get<double>()), 1)
-                                      : "-");
-  if (!parts.empty()) return joined(parts, "..");
-  const auto value = number(tolerance, key);
-  return value ? shown(units::um_from_mm(*value), 1) : "-";
-}
-
-std::string verdict(const ordered_json& tolerance) {
-  const auto ours = word(tolerance, "verdict");
-  if (ours == "met-with-offset") return "offset";
-  return ours == "not-met" ? "NOT MET" : ours;
-}
-
-// The published equations' verdict, where it is another.
-std::string other_verdict(const ordered_json& tolerance) {
-  const bool accepted = word(tolerance, "verdict") != "not-met";
-  if (!tolerance.contains("seed_verdict") || flag(tolerance, "seed_verdict") == accepted)
-    return "";
-  return accepted ? "not met" : "met";
-}
-
-// A sentence, where the probability does not round to certainty.
-std::string conformance(const ordered_json& tolerance) {
-  const auto p = number(tolerance, "P_conform");
-  if (!p || *p >= 0.99995) return "";
-  return fmt::format("conforms with a probability of {} %", shown(100 * *p, 2));
+  return "\nWHAT ELSE WOULD DO  each alone, as planned with it\n" +
+         numbered(sentences_of(all));
 }
 
 std::string tolerances(const ordered_json& result) {
@@ -180,16 +104,6 @@ std::string tolerances(const ordered_json& result) {
                 {"verdict", Align::left},
                 {"paper", Align::left}},
                rows);
-}
-
-Stack stack_of(const ordered_json& tolerance) {
-  Shares shares;
-  for (const auto& s : list(tolerance, "shares"))
-    shares.emplace_back(word(s, "source"), number(s, "um").value_or(0));
-  const bool size = list(tolerance, "predicted_mm").size() == 2;
-  return stack(units::um_from_mm(number(tolerance, "width_mm").value_or(0)),
-               units::um_from_mm(number(tolerance, "margin_mm").value_or(0)),
-               size ? 2 : 1, shares);
 }
 
 // A column a source, and what is left.
@@ -272,15 +186,7 @@ std::string prices(const ordered_json& result) {
 std::string what_if(const ordered_json& result) {
   const auto& all = list(result, "what_if");
   if (all.empty()) return "";
-  std::vector<std::string> sentences;
-  for (const auto& answer : all) sentences.push_back(sentence_of(answer));
-  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences);
-}
-
-// A string bare, anything else as JSON.
-std::string plain(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences_of(all));
 }
 
 // One line each: a long value gives way to the reason.
@@ -289,7 +195,7 @@ std::string assumptions(const ordered_json& result) {
   std::string out;
   for (const auto& a : list(result, "assumed")) {
     const auto found = a.find("value");
-    const auto value = found == a.end() ? "-" : plain(*found);
+    const auto value = found == a.end() ? "-" : value_text(*found);
     const std::string lead = word(a, "pointer") + " = ", why = ": " + word(a, "why");
     const auto taken = std::min(characters(lead + why), kWidth - kLeastValue);
     out += "  " + clipped(lead + clipped(value, kWidth - taken) + why, kWidth) + '\n';

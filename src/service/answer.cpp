@@ -9,10 +9,10 @@ namespace turnwright::service {
 
 std::string_view version() { return TURNWRIGHT_VERSION; }
 
-// plan and predict speak the same two documents.
+// These take the same document; plan and predict also give the same.
 std::string request_schema(const Request& row) {
-  return row.name == "plan" || row.name == "predict" ? "part.json"
-                                                     : row.name + ".request.json";
+  const bool part = row.name == "plan" || row.name == "predict" || row.name == "drawing";
+  return part ? "part.json" : row.name + ".request.json";
 }
 
 std::string result_schema(const Request& row) {
@@ -47,6 +47,12 @@ Drawn drawn_answer(const Request& row, const nlohmann::json& request,
   Drawn all = row.drawn(request, context);
   sign(all.result, row, request);
   return all;
+}
+
+std::string html_report(const Request& row, const nlohmann::json& request,
+                        const Drawn& drawn) {
+  if (!row.html) throw std::domain_error("html_report: " + row.name + " has no report");
+  return row.html(request.value("name", "part"), drawn.result, drawn.drawings);
 }
 
 bool infeasible(const nlohmann::ordered_json& result) {

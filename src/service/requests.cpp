@@ -10,6 +10,7 @@
 #include "turnwright/document/compare.hpp"
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/document/deflection.hpp"
+#include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
@@ -170,6 +171,11 @@ std::string nc_text(const ordered_json& result) {
   return all;
 }
 
+ordered_json drawing(const json& request, const Context& context) {
+  return document::drawing(
+      document::load_part_plan(request, context.catalogue, "drawing"));
+}
+
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
   Drawn all{document::to_json(plan, part.assumed), {}, nc::programs(part.plan, plan)};
   for (auto& svg : report::setup_drawings(part.plan, plan))
@@ -237,11 +243,13 @@ constexpr const char* kPredictExample = R"({
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text, drawn_plan},
+       report::text, drawn_plan, report::html},
       {"predict", "part plan with conditions given -> deviations and verdicts",
-       kPredictExample, predict, report::text, drawn_predict},
+       kPredictExample, predict, report::text, drawn_predict, report::html},
       {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
        nc_programs, nc_text},
+      {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
+       kPlanExample, drawing},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",
        kDeflectionExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -286,6 +286,22 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
   }
 }
 
+TEST_F(CommandLine, AReportIsOneFile) {
+  for (const std::string name : {"plan", "predict"}) {
+    SCOPED_TRACE(name);
+    put(folder_ / "request.json", row(name).example);
+    const std::string command = "turnwright " + name + " request.json";
+    const auto outcome = shell(command + " --report report.html");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, shell(command).out);
+    const auto page = contents(folder_ / "report.html");
+    EXPECT_EQ(page.rfind("<!doctype html>", 0), 0u);
+    EXPECT_NE(page.find("<h1>Pin</h1>"), std::string::npos);
+    EXPECT_NE(page.find("data:image/svg+xml,"), std::string::npos);
+  }
+  EXPECT_EQ(shell("turnwright plan request.json --report none/report.html").code, 74);
+}
+
 TEST_F(CommandLine, DrawsMachines) {
   for (const auto& [name, file] :
        {std::pair{"geometry", "errors.svg"}, std::pair{"ballbar", "ballbar.svg"},

@@ -88,6 +88,36 @@ TEST(HttpApi, TellsWhatIsWrongWithABody) {
   EXPECT_EQ(reply(typed).status, 200);
 }
 
+TEST(HttpApi, ThePageIsAtTheRoot) {
+  const auto page = reply(call("GET", "/"));
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
+  EXPECT_EQ(page.body, built_in_page());
+  EXPECT_EQ(page.headers.at(0).first, "Content-Security-Policy");
+  const HttpApi other(TURNWRIGHT_SOURCE_DIR, catalogue(), nullptr,
+                      [] { return std::string("<p>other</p>"); });
+  EXPECT_EQ(other.reply(call("GET", "/"), {}).body, "<p>other</p>");
+}
+
+TEST(HttpApi, GivesAPlanAsAReport) {
+  for (const auto& row : requests()) {
+    const auto path = "/v1/" + row.name + "/report";
+    if (!row.html) {
+      EXPECT_EQ(reply(call("POST", path, row.example)).status, 404) << row.name;
+      continue;
+    }
+    const auto report = reply(call("POST", path, row.example));
+    ASSERT_EQ(report.status, 200) << report.body;
+    EXPECT_EQ(report.content_type, "text/html; charset=utf-8");
+    const auto result = answer(row, json::parse(row.example), {catalogue()});
+    EXPECT_NE(report.body.find(result.at("request_digest").get<std::string>()),
+              std::string::npos);
+    EXPECT_EQ(report.headers.at(0).first, "Content-Security-Policy");
+    EXPECT_EQ(problem_of(reply(call("POST", path, "{}"))).at("status"), 422);
+    EXPECT_EQ(problem_of(reply(call("POST", path, "{"))).at("status"), 400);
+  }
+}
+
 TEST(HttpApi, AnInfeasiblePlanIsAnAnswer) {
   std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/infeasible-as-drawn.json");
   const std::string part{std::istreambuf_iterator<char>(file), {}};

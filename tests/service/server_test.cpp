@@ -266,6 +266,8 @@ TEST(Server, WantsAKeyWhereThereAreKeys) {
   EXPECT_EQ(status("Authorization: Bearer another-key-of-16-characters\r\n"), 200);
   EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
   EXPECT_EQ(status_of(client.ask(get("/metrics"))), 401);
+  // The page is no secret: it asks for the key.
+  EXPECT_EQ(status_of(client.ask(get("/"))), 200);
 }
 
 TEST(Server, IsNotOpenToOthersWithoutKeys) {

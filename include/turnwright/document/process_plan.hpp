@@ -13,4 +13,7 @@ namespace turnwright::document {
 nlohmann::ordered_json to_json(const planning::ProcessPlan& plan,
                                const std::vector<Assumption>& assumed);
 
+/// The list `assumed` of a result.
+nlohmann::ordered_json to_json(const std::vector<Assumption>& assumed);
+
 }  // namespace turnwright::document

@@ -1,17 +1,20 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <stop_token>
 #include <string>
 
 #include "turnwright/service/batches.hpp"
 #include "turnwright/service/http_message.hpp"
+#include "turnwright/service/page.hpp"
 
 namespace turnwright::service {
 
 /// The HTTP API without sockets:
 ///
 ///     POST   /v1/{name}                     every row of the request table
+///     POST   /v1/{name}/report              as HTML, of rows that have a report
 ///     GET    /v1/materials|tools|machines|parts[/{id}]
 ///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, a
 ///     job GET    /v1/batches[/{id}[/results?from=n]] POST   /v1/batches/{id}/cancel
@@ -22,10 +25,13 @@ namespace turnwright::service {
 /// is a problem document.  Safe from several threads.
 class HttpApi {
  public:
+  /// Gives the page at "/"; called for every answer.
+  using Page = std::function<std::string()>;
+
   /// @param batches  nullptr: this server takes no batches (404).
   /// @throws InputError if the folder's documents cannot be read.
   HttpApi(const std::filesystem::path& data_folder, const document::Catalogue& catalogue,
-          Batches* batches);
+          Batches* batches, Page page = built_in_page);
 
   /// The answer; `stop` cuts long computations short.
   /// @throws Cancelled if `stop` was asked for.
@@ -49,6 +55,7 @@ class HttpApi {
 
   const document::Catalogue& catalogue_;
   Batches* batches_;
+  Page page_;
   std::map<std::string, Listing> listings_;  ///< by "materials", ..
   std::string openapi_;
 };

@@ -8,6 +8,7 @@
 
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/nc/program.hpp"
+#include "turnwright/report/html.hpp"
 
 /// Every capability once: a pure function from a request document to a result document.
 /// The doors (command line, HTTP, batch) are generated from this table, so that adding a
@@ -20,10 +21,7 @@ struct Context {
   std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
 };
 
-/// A picture as SVG and the name of its file.
-struct Picture {
-  std::string file, svg;
-};
+using Picture = report::Figure;
 
 /// A result with its pictures.
 struct Drawn {
@@ -41,6 +39,9 @@ struct Request {
       nullptr;  ///< for a terminal
   /// `result` with pictures, of rows that have any.
   Drawn (*drawn)(const nlohmann::json& request, const Context& context) = nullptr;
+  /// The report for a browser or a printer, of rows that have one.
+  std::string (*html)(std::string_view name, const nlohmann::ordered_json& result,
+                      const std::vector<Picture>& drawings) = nullptr;
 };
 
 std::span<const Request> requests();
@@ -64,6 +65,11 @@ nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
 /// @throws std::domain_error if the row has none.
 Drawn drawn_answer(const Request& row, const nlohmann::json& request,
                    const Context& context);
+
+/// The row's report as one HTML file.
+/// @throws std::domain_error if the row has none.
+std::string html_report(const Request& row, const nlohmann::json& request,
+                        const Drawn& drawn);
 
 /// Whether the result says that no plan can meet the request.
 bool infeasible(const nlohmann::ordered_json& result);

@@ -9,6 +9,7 @@
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/service/http_api.hpp"
+#include "turnwright/service/page.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -17,6 +18,8 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kDocumentBytes = document::ParseLimits{}.bytes;
 constexpr std::size_t kBatchBytes = 256'000'000;
+constexpr const char* kReportPolicy =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; sandbox";
 constexpr std::size_t kResultBytes = 8'000'000;  // of one page of a batch's results
 
 std::string text_of(const ordered_json& document) { return document.dump(2) + '\n'; }
@@ -73,7 +76,24 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-Reply answer_request(const Request& row, const Call& call, const Context& context) {
+Reply answer_with_result(const Request& row, const nlohmann::json& request,
+                         const Context& context) {
+  return {200, "application/json", text_of(answer(row, request, context)), {}};
+}
+
+Reply answer_with_report(const Request& row, const nlohmann::json& request,
+                         const Context& context) {
+  const auto report = html_report(row, request, drawn_answer(row, request, context));
+  Reply reply{200, "text/html; charset=utf-8", report, {}};
+  reply.headers.emplace_back("Content-Security-Policy", kReportPolicy);
+  return reply;
+}
+
+using Answer = Reply (*)(const Request& row, const nlohmann::json& request,
+                         const Context& context);
+
+Reply answer_request(const Request& row, Answer answer, const Call& call,
+                     const Context& context) {
   if (!has_type(call, "application/json")) return wrong_type(call, "application/json");
   nlohmann::json request;
   try {
@@ -83,7 +103,7 @@ Reply answer_request(const Request& row, const Call& call, const Context& contex
                    error.problems());
   }
   try {
-    return {200, "application/json", text_of(answer(row, request, context)), {}};
+    return answer(row, request, context);
   } catch (const InputError& error) {
     const auto count = error.problems().size();
     return problem(422, "wrong-input",
@@ -180,12 +200,18 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
   };
   static const std::vector<Route> kRoutes = [&] {
     std::vector<Route> all;
-    for (const auto& row : requests())
+    const auto add = [&](const Request& row, const std::string& path, Answer answer) {
       all.push_back(
-          {"/v1/" + row.name, "POST",
-           [&row](const HttpApi& api, const Call& call, const Arguments&, Stop stop) {
-             return answer_request(row, call, {api.catalogue_, std::move(stop)});
+          {path, "POST",
+           [&row, answer](const HttpApi& api, const Call& call, const Arguments&,
+                          Stop stop) {
+             return answer_request(row, answer, call, {api.catalogue_, std::move(stop)});
            }});
+    };
+    for (const auto& row : requests()) {
+      add(row, "/v1/" + row.name, answer_with_result);
+      if (row.html) add(row, "/v1/" + row.name + "/report", answer_with_report);
+    }
     for (const char* what : {"materials", "tools", "machines", "parts"}) {
       const std::string path = std::string("/v1/") + what;
       all.push_back(
@@ -225,6 +251,10 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
         {"/healthz", "GET", [](const HttpApi&, const Call&, const Arguments&, Stop) {
            return plain("ok\n");
          }});
+    all.push_back(
+        {"/", "GET", [](const HttpApi& api, const Call&, const Arguments&, Stop) {
+           return page_reply(api.page_());
+         }});
     all.push_back({"/openapi.json", "GET",
                    [](const HttpApi& api, const Call&, const Arguments&, Stop) -> Reply {
                      return {200, "application/json", api.openapi_, {}};
@@ -235,8 +265,11 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
 }
 
 HttpApi::HttpApi(const std::filesystem::path& folder,
-                 const document::Catalogue& catalogue, Batches* batches)
-    : catalogue_(catalogue), batches_(batches), openapi_(text_of(openapi(folder))) {
+                 const document::Catalogue& catalogue, Batches* batches, Page page)
+    : catalogue_(catalogue),
+      batches_(batches),
+      page_(std::move(page)),
+      openapi_(text_of(openapi(folder))) {
   for (const char* what : {"materials", "tools", "machines", "parts"}) {
     auto& listing = listings_[what];
     auto index = ordered_json::array();

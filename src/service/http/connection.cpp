@@ -182,7 +182,7 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
                ? problem(503, "busy", "not ready for calls", call)
                : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
   if (get && path == "/healthz") return state.api.reply(call, {});
-  if (!state.options.keys.empty() && path.starts_with("/") &&
+  if (!state.options.keys.empty() && path.starts_with("/") && path != "/" &&
       !authorized(state.options.keys, call.authorization)) {
     Reply reply = problem(401, "key", "expected Authorization: Bearer and a key", call);
     reply.headers.emplace_back("WWW-Authenticate", "Bearer");

@@ -109,10 +109,12 @@ ordered_json path_parameter(const std::string& name, ordered_json schema) {
   return {{"name", name}, {"in", "path"}, {"required", true}, {"schema", schema}};
 }
 
-ordered_json request_path(const Request& row) {
+/// What a row answers with, as its result or its report.
+ordered_json request_path(const Request& row, const std::string& id,
+                          const std::string& summary, ordered_json content) {
   return {{"post",
-           {{"operationId", row.name},
-            {"summary", row.summary},
+           {{"operationId", id},
+            {"summary", summary},
             {"requestBody",
              {{"required", true},
               {"content",
@@ -120,15 +122,14 @@ ordered_json request_path(const Request& row) {
                  {{"schema", reference(component(request_schema(row)))},
                   {"example", ordered_json::parse(row.example)}}}}}}},
             {"responses",
-             responses(
-                 {{"200",
-                   {{"description", "the result, infeasible ones too"},
-                    {"content", json_content(reference(component(result_schema(row))))}}},
-                  {"400", problem("the body is no JSON")},
-                  {"413", problem("the body is larger than 2 MB")},
-                  {"415", problem("the body is not application/json")},
-                  {"422", problem("wrong input, or outside a model's range")},
-                  {"504", problem("not done before the deadline")}})}}}};
+             responses({{"200",
+                         {{"description", "the result, infeasible ones too"},
+                          {"content", std::move(content)}}},
+                        {"400", problem("the body is no JSON")},
+                        {"413", problem("the body is larger than 2 MB")},
+                        {"415", problem("the body is not application/json")},
+                        {"422", problem("wrong input, or outside a model's range")},
+                        {"504", problem("not done before the deadline")}})}}}};
 }
 
 ordered_json get(const std::string& id, const std::string& summary, ordered_json content,
@@ -227,8 +228,14 @@ void add_own_schemas(ordered_json& schemas) {
 
 ordered_json openapi(const std::filesystem::path& folder) {
   ordered_json paths, schemas;
+  const ordered_json page{{"text/html", {{"schema", {{"type", "string"}}}}}};
   for (const auto& row : requests()) {
-    paths["/v1/" + row.name] = request_path(row);
+    paths["/v1/" + row.name] =
+        request_path(row, row.name, row.summary,
+                     json_content(reference(component(result_schema(row)))));
+    if (row.html)
+      paths["/v1/" + row.name + "/report"] =
+          request_path(row, row.name + "-report", "the same as a report to print", page);
     add_schema(schemas, folder, request_schema(row));
     add_schema(schemas, folder, result_schema(row));
   }
@@ -246,7 +253,8 @@ ordered_json openapi(const std::filesystem::path& folder) {
   paths["/healthz"] = get("health", "the process answers", text, none);
   paths["/readyz"] = get("ready", "calls are taken", text, none);
   paths["/metrics"] = get("metrics", "Prometheus text exposition", text, none);
-  for (const char* open : {"/healthz", "/readyz"})
+  paths["/"] = get("page", "the planner's page", page, none);
+  for (const char* open : {"/", "/healthz", "/readyz"})
     paths[open]["get"]["security"] = {ordered_json::object()};
   add_own_schemas(schemas);
   return {{"openapi", "3.1.0"},

@@ -1,0 +1,26 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace turnwright::report {
+
+/// A picture as SVG and the name of its file.
+struct Figure {
+  std::string file, svg;
+};
+
+/// The result document of `plan` or `predict` (schemas/plan.result.json) as one HTML file
+/// that needs nothing else: no script, no request, the pictures inside it.  Printed it
+/// takes two or three pages of A4.
+///
+/// It says what text() (text.hpp) says, with the same numbers; every pass and constraint
+/// is in the result document alone.  Text of the request is escaped.  Figures are placed
+/// by their files' names: setup-<i>.svg beside its setup, budget.svg under the
+/// tolerances, window-<operation>.svg side by side.  Equal documents give equal bytes.
+/// @param name  of the part, as the request has it.
+std::string html(std::string_view name, const nlohmann::ordered_json& plan_result,
+                 const std::vector<Figure>& figures);
+
+}  // namespace turnwright::report

@@ -1,0 +1,28 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// A setup and its operations in words and rounded numbers.
+namespace turnwright::report {
+
+/// "left end in the chuck, 25 mm gripped, jaws with 60 kN"
+std::string holding(const nlohmann::ordered_json& setup);
+
+/// Passes that follow each other with the same depth, feed and speed.
+struct Passes {
+  const nlohmann::ordered_json* first = nullptr;
+  std::size_t count = 0;
+  double n_least = INFINITY, n_most = -INFINITY;
+};
+std::vector<Passes> runs(const nlohmann::ordered_json& passes);
+
+/// Spindle speed of the run, or from its least to its most.
+std::string speeds(const Passes& run);
+
+/// What the operation cuts, which limits bind it, and where its proof is wanting.
+std::string note(const nlohmann::ordered_json& operation);
+
+}  // namespace turnwright::report

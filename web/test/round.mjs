@@ -1,0 +1,249 @@
+// A newcomer's round through the page: plan three parts, change a tolerance, see price and
+// plan change, meet the errors, upload a ball-bar trace, draw a stability chart, take the
+// report home. Every state is checked by axe-core; no request may leave the host.
+//
+// Usage: node test/round.mjs TURNWRIGHT FOLDER [PAGE]
+// Pictures of every state are put into FOLDER; PAGE is the folder of another page.
+import { spawn } from 'node:child_process';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { createInterface } from 'node:readline';
+import assert from 'node:assert/strict';
+import { chromium } from 'playwright-core';
+
+const [program, folder, own] = process.argv.slice(2);
+const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+mkdirSync(folder, { recursive: true });
+
+const server = spawn(program, ['serve', '--port', '0', ...(own ? ['--page', own] : [])], {
+  stdio: ['ignore', 'pipe', 'ignore'],
+  env: { ...process.env, XDG_STATE_HOME: folder },
+});
+const base = await new Promise((resolve, reject) => {
+  createInterface({ input: server.stdout }).once('line', (line) => resolve(line.split(' ').pop()));
+  server.once('exit', (code) => reject(new Error(`turnwright serve ended with ${code}`)));
+});
+
+const browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox'] });
+let checks = 0;
+const faults = []; // of the page under way
+
+async function open(options) {
+  const context = await browser.newContext({ acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(90_000);
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!/^(data|blob):/.test(url) && !url.startsWith(base)) faults.push(`left the host: ${url}`);
+  });
+  page.on('pageerror', (error) => faults.push(`the page threw: ${error}`));
+  page.on('console', (message) => {
+    // What is refused or fails is shown to the planner; the console has it too.
+    const refused = /Failed to load resource/.test(message.text());
+    if (message.type() === 'error' && !refused) faults.push(`console: ${message.text()}`);
+  });
+  await page.goto(base);
+  return page;
+}
+
+/** A picture of the state, no violation of axe-core, nothing wider than the window. */
+async function look(page, name) {
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.screenshot({ path: `${folder}/${name}.png`, fullPage: true });
+  const found = await page.evaluate(`${axeSource}; axe.run()`); // by DevTools: no CSP in its way
+  assert.deepEqual(
+    found.violations.map((v) => `${v.id}: ${v.nodes.slice(0, 4).map((n) => n.target.join(' ')).join(', ')}`), [], name);
+  const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(over <= 0, `${name} is ${over} px wider than its window`);
+  assert.deepEqual(faults.splice(0), [], name);
+  checks += 1;
+}
+
+const cost = (page) => page.locator('[data-test=cost]').innerText().then(Number);
+
+async function choose(page, part) {
+  await page.getByLabel('Part', { exact: true }).selectOption(part);
+  await page.getByRole('group', { name: /^Drawing of/ }).waitFor();
+}
+
+async function plan(page) {
+  const done = page.waitForResponse((r) => r.url().endsWith('/v1/plan'));
+  await page.getByRole('button', { name: /^Plan/ }).click();
+  await done;
+  await page.getByRole('heading', { name: 'Operations' }).waitFor();
+}
+
+async function planner() {
+  const page = await open({ viewport: { width: 1360, height: 900 } });
+  await page.getByRole('option', { name: 'Gearbox input shaft' }).waitFor({ state: 'attached' });
+  await look(page, '01-empty');
+
+  for (const part of ['pump-shaft', 'roller-tube']) {
+    await choose(page, part);
+    await plan(page);
+    assert.ok((await cost(page)) > 0);
+    await look(page, `02-${part}`);
+  }
+
+  await choose(page, 'gearbox-input-shaft');
+  await page.getByRole('button', { name: /^d1, cylinder/ }).focus();
+  await page.getByText('t1 cylindricity 0.008 mm').waitFor();
+  await look(page, '03-drawing');
+  await plan(page);
+  const before = await cost(page);
+  const prices = await page.getByText(/saves .* per part/).allInnerTexts();
+  assert.ok(prices.length > 3);
+  await page.getByRole('button', { name: 'Setup 0' }).click();
+  await page.getByRole('button', { name: /s0-rough/ }).first().click();
+  await look(page, '04-planned');
+  await page.setViewportSize({ width: 1280, height: 1000 });
+  await page.screenshot({ path: `${folder}/page-planned.png` }); // for docs/pictures
+
+  // A tighter tolerance is dearer, and says so.
+  const runout = page.locator('[data-pointer="/tolerances/0/value_mm"] input');
+  await runout.fill('0.002');
+  await runout.press('Tab');
+  await page.getByText('The document has changed since').waitFor();
+  await plan(page);
+  const after = await cost(page);
+  assert.ok(after > before, `0.002 instead of 0.008 mm costs ${after} against ${before}`);
+  await page.getByText(/\+.* against .* before/).waitFor();
+  assert.notDeepEqual(await page.getByText(/saves .* per part/).allInnerTexts(), prices);
+  await look(page, '05-tighter');
+
+  // Bad input marks the field it is about.
+  const diameter = page.locator('[data-pointer="/outer/0/diameter_mm"] input');
+  await diameter.fill('-30');
+  await diameter.press('Tab');
+  await page.getByText('got -30').first().waitFor();
+  assert.equal(await diameter.getAttribute('aria-invalid'), 'true');
+  assert.ok(await page.getByRole('button', { name: /^Plan/ }).isDisabled());
+  await look(page, '06-bad-input');
+  await diameter.fill('30');
+  await diameter.press('Tab');
+  await page.locator('[aria-invalid=true]').waitFor({ state: 'detached' });
+
+  // The report is one file that shows the same cost.
+  await plan(page);
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Report (HTML)' }).click();
+  const file = `${folder}/report.html`;
+  await (await download).saveAs(file);
+  const report = readFileSync(file, 'utf8');
+  assert.ok(report.includes(`<dd>${(await cost(page)).toFixed(4)} `));
+  await page.context().close();
+  await paper(file);
+}
+
+/** The report as it is printed. */
+async function paper(file) {
+  const page = await (await browser.newContext()).newPage();
+  page.on('request', (r) => assert.ok(/^(file|data):/.test(r.url()), r.url()));
+  await page.goto(`file://${file}`);
+  await look(page, '08-report');
+  const pdf = await page.pdf({ path: `${folder}/report.pdf`, preferCSSPageSize: true });
+  const pages = pdf.toString('latin1').match(/\/Type\s*\/Page\b/g).length;
+  assert.ok(pages <= 4, `the report takes ${pages} pages`);
+  console.log(`report: ${pages} pages of A4`);
+  await page.context().close();
+}
+
+async function cancelled() {
+  const page = await open({ viewport: { width: 1360, height: 900 } });
+  await page.route('**/v1/plan', () => {}); // it never answers
+  await choose(page, 'spindle-nose');
+  await page.getByRole('button', { name: 'Plan', exact: true }).click();
+  await page.getByRole('button', { name: 'Cancel' }).waitFor();
+  await look(page, '09-planning');
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.getByRole('button', { name: 'Plan', exact: true }).waitFor();
+  await page.unroute('**/v1/plan');
+  await page.route('**/v1/plan', (route) => route.abort());
+  await page.keyboard.press('Control+Enter');
+  await page.getByText('The server does not answer').waitFor();
+  await look(page, '10-no-answer');
+  await page.context().close();
+}
+
+async function impossible() {
+  const page = await open({ viewport: { width: 1360, height: 900 }, colorScheme: 'dark' });
+  assert.equal(await page.locator('html').getAttribute('data-theme'), 'dark');
+  await choose(page, 'infeasible-as-drawn');
+  await plan(page);
+  await page.getByText('These limits cannot be kept together').waitFor();
+  await look(page, '11-infeasible-dark');
+  await page.context().close();
+}
+
+async function locked() {
+  const page = await open({ viewport: { width: 1000, height: 700 } });
+  await page.route('**/v1/**', (route) =>
+    route.request().headers().authorization === 'Bearer a-key-of-16-characters'
+      ? route.continue()
+      : route.fulfill({ status: 401, json: { detail: 'expected Authorization: Bearer and a key' } }));
+  await page.reload();
+  await page.getByLabel('This server wants a key').fill('a-key-of-16-characters');
+  await look(page, '12-locked');
+  await page.getByRole('button', { name: 'Use it' }).click();
+  await page.getByRole('option', { name: 'Gearbox input shaft' }).waitFor({ state: 'attached' });
+  await page.context().close();
+}
+
+async function narrow() {
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open({ viewport: { width: 400, height: 800 }, colorScheme });
+    await choose(page, 'flanged-bush');
+    await plan(page);
+    await look(page, `13-narrow-${colorScheme}`);
+    await page.context().close();
+  }
+}
+
+async function others() {
+  const page = await open({ viewport: { width: 1200, height: 900 } });
+  await page.getByRole('tab', { name: 'Plan' }).focus();
+  await page.keyboard.press('ArrowRight'); // by keyboard to the chart
+  await page.getByRole('button', { name: 'Draw the chart' }).click();
+  await page.getByText('spectral radius').waitFor();
+  await look(page, '14-stability');
+  await page.getByRole('tab', { name: 'Ball bar' }).click();
+  await look(page, '15-ball-bar-empty');
+  // An eccentric circle of 5 um and a squareness error: the trace a user brings.
+  const rows = Array.from({ length: 72 }, (_, k) => {
+    const t = (2 * Math.PI * (k + 0.5)) / 72;
+    const um = 5 * Math.cos(t) + 8 * Math.sin(2 * t);
+    return `${((t * 180) / Math.PI).toFixed(3)},${(um + 1).toFixed(3)},${(um - 1).toFixed(3)}`;
+  });
+  await page.getByLabel('Values in').selectOption('um');
+  await page.getByLabel('Open a trace').setInputFiles({
+    name: 'trace.csv', mimeType: 'text/csv', buffer: Buffer.from(['theta_deg,ccw,cw', ...rows].join('\n')),
+  });
+  await page.getByRole('heading', { name: 'ISO 230-4' }).waitFor();
+  // 1 um wider one way and 1 um narrower the other: the hysteresis is 2 um.
+  assert.equal(await page.getByRole('row', { name: /H, hysteresis/ }).locator('td').last().innerText(), '2.00');
+  await look(page, '16-ball-bar');
+  await page.getByLabel(/^Table/).fill('theta_deg,ccw\n1,2');
+  await page.getByRole('button', { name: 'Analyse' }).click();
+  await page.getByRole('alert').waitFor();
+  await look(page, '17-ball-bar-refused');
+  await page.setViewportSize({ width: 400, height: 800 });
+  await page.getByRole('tab', { name: 'Stability' }).click();
+  await look(page, '18-stability-narrow');
+  await page.context().close();
+}
+
+let failed = 0;
+for (const round of [planner, cancelled, impossible, locked, narrow, others]) {
+  try {
+    await round();
+    console.log(`passed: ${round.name}`);
+  } catch (error) {
+    failed += 1;
+    console.error(`FAILED: ${round.name}\n${error.stack}`);
+  }
+}
+await browser.close();
+server.kill('SIGTERM');
+console.log(`${checks} states looked at, ${failed} rounds failed`);
+process.exitCode = failed ? 1 : 0;
