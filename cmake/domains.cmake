@@ -36,11 +36,11 @@ tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensat
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches.cpp propagator.cpp
                           series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
-                          chatter_frequency.cpp limits.cpp multipliers.cpp collocation.cpp
+                          chatter_frequency.cpp limits.cpp uncertain.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
@@ -110,11 +110,11 @@ if(BUILD_TESTING)
     PROPERTIES TIMEOUT 600)
 endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp plan_words.cpp setup_words.cpp setups.cpp proof.cpp fields.cpp layout.cpp
-                           drawing.cpp budget_drawing.cpp window_drawing.cpp contour.cpp stack.cpp svg.cpp
+                           drawing.cpp budget_drawing.cpp window_drawing.cpp stability_chart.cpp contour.cpp stack.cpp svg.cpp
                            chart.cpp volumetric_drawing.cpp html.cpp
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
-                window_drawing_test.cpp volumetric_drawing_test.cpp html_test.cpp)
+                window_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp)
 # Floor 8, 9
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fields.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/document/reader.hpp"
 #include "turnwright/milling/checks.hpp"
 #include "turnwright/milling/limits.hpp"
+#include "turnwright/milling/uncertain.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -21,7 +24,9 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 200;
-constexpr int kDepths = 40;  // scanned by the checks
+constexpr int kDepths = 40;                                 // scanned by the checks
+constexpr std::size_t kCounted = 1000, kCuts = 1'000'000;   // depths of a speed, cuts
+constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times speeds
 constexpr double kSlenderDamping = 0.03;
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
              kPointDepth = within(0, 1000, "mm"), kFrequency = within(0.1, 1e6, "Hz"),
@@ -36,11 +41,19 @@ struct Point {
   double n_rpm = 0, ap_mm = 0;
 };
 
+struct SpeedRange {
+  double from_rpm = 0, to_rpm = 0;
+  bool holds(double n_rpm) const { return n_rpm >= from_rpm && n_rpm <= to_rpm; }
+};
+
 struct Request {
   Model model = Model::milling;
   System system;
   std::optional<double> ap_max_mm;
   std::vector<double> speeds_rpm;
+  std::vector<double> depths_mm;  // counted at each speed
+  std::optional<Bands> bands;
+  std::optional<SpeedRange> machine;
   std::vector<Point> points;
   Method method = Method::fundamental_matrix;
   int resolution = 0;  // elements or intervals
@@ -138,12 +151,18 @@ void read_turning(Reader& r, Request& q) {
   }
 }
 
+SpeedRange read_range(Reader& r) {
+  const SpeedRange range{r.number("from", kSpeed), r.number("to", kSpeed)};
+  if (range.from_rpm > range.to_rpm)
+    r.problem_at("to", "a speed not below from", "range");
+  return range;
+}
+
 std::vector<double> read_speeds(Reader& r) {
   if (auto found = r.find("speeds_rpm")) {
     if (!found->is_object()) return found->as_numbers(kSpeed, 1, kSpeeds);
-    const double from = found->number("from", kSpeed), to = found->number("to", kSpeed);
+    const auto [from, to] = read_range(*found);
     const long count = found->integer("count", 1, kSpeeds);
-    if (from > to) found->problem_at("to", "a speed not below from", "range");
     found->finish();
     std::vector<double> out;
     for (long i = 0; i < count; ++i)
@@ -153,6 +172,54 @@ std::vector<double> read_speeds(Reader& r) {
     return out;
   }
   return {};
+}
+
+/// "depths": so many equal steps up to ap_max_mm.
+void read_depths(Reader& r, Request& q) {
+  if (!r.has("depths")) return;
+  const long count = r.integer("depths", 1, kCounted);
+  if (q.method != Method::fundamental_matrix)
+    r.problem_at("depths", "no such key with this method", "exclusive");
+  else if (static_cast<std::size_t>(count) * q.speeds_rpm.size() > kCuts)
+    r.problem_at("depths", "at most " + std::to_string(kCuts) + " depths over all speeds",
+                 "range");
+  for (long i = 1; i <= count && q.ap_max_mm; ++i)
+    q.depths_mm.push_back(*q.ap_max_mm * static_cast<double>(i) /
+                          static_cast<double>(count));
+}
+
+void read_uncertainty(Reader& r, Request& q) {
+  auto found = r.find("uncertainty");
+  if (!found) return;
+  Reader u = found->as_object();
+  const Bounds band = within(0, 0.9);
+  Bands bands;
+  bands.frequency = u.number_or("frequency", band, 0);
+  bands.damping = u.number_or("damping", band, 0);
+  bands.stiffness = u.number_or("stiffness", band, 0);
+  bands.force = u.number_or("force", band, 0);
+  bands.samples = static_cast<int>(u.integer("samples", 1, kDrawn));
+  bands.seed = static_cast<std::uint64_t>(u.integer("seed", 0, 2147483647));
+  if (static_cast<std::size_t>(bands.samples) * q.speeds_rpm.size() > kSearches)
+    u.problem_at("samples",
+                 "at most " + std::to_string(kSearches) + " samples over all speeds",
+                 "range");
+  u.finish();
+  if (q.method != Method::fundamental_matrix)
+    r.problem_at("uncertainty", "no such key with this method", "exclusive");
+  q.bands = bands;
+}
+
+/// The spindle's speeds, among which `best` is looked for.
+void read_machine(Reader& r, Request& q) {
+  auto found = r.find("machine_rpm");
+  if (!found) return;
+  Reader range = found->as_object();
+  q.machine = read_range(range);
+  range.finish();
+  if (!q.speeds_rpm.empty() &&
+      std::ranges::none_of(q.speeds_rpm, [&](double n) { return q.machine->holds(n); }))
+    r.problem_at("machine_rpm", "a range that holds one of speeds_rpm", "range");
 }
 
 /// "method" with its own key.
@@ -186,6 +253,9 @@ Request read_request(const json& request, Problems& problems) {
   read_method(r, q);
   q.speeds_rpm = read_speeds(r);
   q.ap_max_mm = r.optional_number("ap_max_mm", kDepth);
+  read_depths(r, q);
+  read_uncertainty(r, q);
+  read_machine(r, q);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
     point = point.as_object();
     Point p;
@@ -205,11 +275,16 @@ Request read_request(const json& request, Problems& problems) {
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
     r.problem_at("ap_max_mm", expected_number(kDepth) + " to search up to", "missing");
+  for (const std::string_view key : {"depths", "uncertainty", "machine_rpm"})
+    if (!r.broken() && r.has(key) && !r.has("speeds_rpm"))
+      r.problem_at(key, "no such key without speeds_rpm", "exclusive");
   if (known) r.finish();
   return q;
 }
 
-Dominant checked(const Request& q, double n_rpm, double ap_mm) {
+Dominant checked(const Request& q, double n_rpm, double ap_mm,
+                 const std::stop_token& stop) {
+  leave_if(stop);
   if (q.method == Method::tfea)
     return time_finite_elements(q.system, n_rpm, ap_mm, q.resolution);
   if (q.method == Method::semi_discretisation)
@@ -217,14 +292,16 @@ Dominant checked(const Request& q, double n_rpm, double ap_mm) {
   return simulation(q.system, n_rpm, ap_mm);
 }
 
-SpeedLimits limits_of(const Request& q, double n_rpm) {
+SpeedLimits limits_of(const Request& q, double n_rpm, const std::stop_token& stop) {
+  leave_if(stop);
   if (q.method == Method::fundamental_matrix)
-    return speed_limits(q.system, n_rpm, *q.ap_max_mm);
+    return speed_limits(q.system, n_rpm, *q.ap_max_mm, q.depths_mm);
   return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths,
-                        [&](double ap_mm) { return checked(q, n_rpm, ap_mm); });
+                        [&](double ap_mm) { return checked(q, n_rpm, ap_mm, stop); });
 }
 
-ordered_json judged(const Request& q, const Point& p) {
+ordered_json judged(const Request& q, const Point& p, const std::stop_token& stop) {
+  leave_if(stop);
   ordered_json out{{"n_rpm", p.n_rpm}, {"ap_mm", p.ap_mm}};
   if (q.method == Method::fundamental_matrix) {
     const Multipliers m = multipliers(q.system, p.n_rpm, p.ap_mm);
@@ -233,7 +310,7 @@ ordered_json judged(const Request& q, const Point& p) {
     out["stable"] = m.unstable == 0;
     return out;
   }
-  const Dominant d = checked(q, p.n_rpm, p.ap_mm);
+  const Dominant d = checked(q, p.n_rpm, p.ap_mm, stop);
   const double radius = std::abs(d.multiplier);
   out["unstable_multipliers"] = d.unstable ? ordered_json(*d.unstable) : ordered_json();
   out["spectral_radius"] = radius;
@@ -251,6 +328,10 @@ auto at_speed(double n_rpm, F compute) {
   }
 }
 
+ordered_json or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
 ordered_json described(const SpeedLimits& speed) {
   ordered_json crossings = ordered_json::array();
   for (const Crossing& c : speed.crossings)
@@ -262,20 +343,29 @@ ordered_json described(const SpeedLimits& speed) {
                                                 ? ordered_json()
                                                 : ordered_json(c.relative_error)}});
   ordered_json out{{"n_rpm", speed.n_rpm}};
-  const auto limit = speed.limit_mm();
-  out["limit_mm"] = limit ? ordered_json(*limit) : ordered_json();
+  out["limit_mm"] = or_null(speed.limit_mm());
   out["crossings"] = std::move(crossings);
+  if (!speed.unstable.empty()) out["unstable_multipliers"] = speed.unstable;
   return out;
+}
+
+ordered_json described(const UncertainLimit& limit) {
+  return {{"robust_mm", or_null(limit.robust_mm)},
+          {"p05_mm", or_null(limit.p05_mm)},
+          {"p50_mm", or_null(limit.p50_mm)},
+          {"p95_mm", or_null(limit.p95_mm)}};
 }
 
 double stable_mm(const SpeedLimits& speed, double ap_max) {
   return speed.limit_mm().value_or(ap_max);
 }
 
-/// The speed that removes most: n times the depth up to the first loss.
-ordered_json best(const std::vector<SpeedLimits>& speeds, double ap_max) {
+/// The machine's speed that removes most: n times the depth up to the first loss.
+ordered_json best(const Request& q, const std::vector<SpeedLimits>& speeds) {
+  const double ap_max = *q.ap_max_mm;
   const auto volume = [&](const SpeedLimits& s) {
-    return s.n_rpm * stable_mm(s, ap_max);
+    const bool possible = !q.machine || q.machine->holds(s.n_rpm);
+    return possible ? s.n_rpm * stable_mm(s, ap_max) : 0;
   };
   const auto at = std::ranges::max_element(speeds, {}, volume);
   return {{"n_rpm", at->n_rpm},
@@ -302,28 +392,41 @@ double absolute_limit_mm(const System& system) {
          std::get<ConstantForce>(system.force).K_MPa;
 }
 
+UncertainLimit uncertain_of(const Request& q, const std::vector<System>& systems,
+                            double n_rpm, const std::stop_token& stop) {
+  leave_if(stop);
+  return uncertain_limit(q.system, systems, *q.bands, n_rpm, *q.ap_max_mm);
+}
+
+void add_speeds(const Request& q, const std::stop_token& stop, ordered_json& out) {
+  const auto systems = q.bands ? drawn(q.system, *q.bands) : std::vector<System>{};
+  std::vector<SpeedLimits> speeds;
+  ordered_json told = ordered_json::array();
+  for (const double n_rpm : q.speeds_rpm) {
+    speeds.push_back(at_speed(n_rpm, [&] { return limits_of(q, n_rpm, stop); }));
+    told.push_back(described(speeds.back()));
+    if (q.bands)
+      told.back()["uncertain"] = described(
+          at_speed(n_rpm, [&] { return uncertain_of(q, systems, n_rpm, stop); }));
+  }
+  out["speeds"] = std::move(told);
+  if (!q.depths_mm.empty()) out["depths_mm"] = q.depths_mm;
+  out["best"] = best(q, speeds);
+  out["magic_speeds"] = magic(speeds, *q.ap_max_mm);
+}
+
 }  // namespace
 
-ordered_json stability(const json& request) {
+ordered_json stability(const json& request, const std::stop_token& stop) {
   Problems problems{.document = "stability"};
   const Request q = read_request(request, problems);
   problems.throw_if_any();
   ordered_json out{{"format", "turnwright-stability-result/1"}};
-  if (!q.speeds_rpm.empty()) {
-    std::vector<SpeedLimits> speeds;
-    ordered_json told = ordered_json::array();
-    for (const double n_rpm : q.speeds_rpm) {
-      speeds.push_back(at_speed(n_rpm, [&] { return limits_of(q, n_rpm); }));
-      told.push_back(described(speeds.back()));
-    }
-    out["speeds"] = std::move(told);
-    out["best"] = best(speeds, *q.ap_max_mm);
-    out["magic_speeds"] = magic(speeds, *q.ap_max_mm);
-  }
+  if (!q.speeds_rpm.empty()) add_speeds(q, stop, out);
   if (!q.points.empty()) {
     ordered_json points = ordered_json::array();
     for (const Point& p : q.points)
-      points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p); }));
+      points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p, stop); }));
     out["points"] = std::move(points);
   }
   if (q.model == Model::turning && q.system.modes.size() == 1)

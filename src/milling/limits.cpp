@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "chatter_frequency.hpp"
 #include "tracking.hpp"
@@ -20,13 +21,19 @@ struct Inside {
   Complex z;
 };
 
+/// From a depth up to the next level's: so many unstable multipliers, if known.
+struct Level {
+  double from_mm = 0;
+  std::optional<int> unstable;
+};
+
 /// Walks up in depth, keeping the number of unstable multipliers.
 class Climb {
  public:
   Climb(const System& system, double n_rpm)
       : coarse_(system, n_rpm, kCoarse), fine_(system, coarse_.arcs(), n_rpm, kFine) {}
 
-  std::vector<Crossing> to(double ap_max) {
+  void to(double ap_max) {
     double w = by_series(ap_max);
     if (w == 0) {
       w = first_strip(ap_max);
@@ -34,13 +41,24 @@ class Climb {
     }
     while (w < ap_max) {
       const double reached = count_ > 0 ? followed(w, ap_max) : w;
+      if (reached > w) levels_.push_back({w, std::nullopt});
       if (reached >= ap_max) break;
-      if (reached > w) count_ = multipliers_outside(coarse_, reached);
+      if (reached > w) {
+        count_ = multipliers_outside(coarse_, reached);
+        levels_.push_back({reached, count_});
+      }
       const double next = std::min(ap_max, reached * (count_ > 0 ? 1.05 : 1.5));
       search(reached, next);
       w = next;
     }
-    return std::move(crossings_);
+  }
+
+  const std::vector<Crossing>& crossings() const { return crossings_; }
+
+  int unstable(double w) const {
+    const auto above = std::ranges::upper_bound(levels_, w, {}, &Level::from_mm);
+    const auto known = std::prev(above)->unstable;
+    return known ? *known : multipliers_outside(coarse_, w);
   }
 
  private:
@@ -69,6 +87,7 @@ class Climb {
       const bool was_stable = count_ == 0;
       count_ += at.change;
       if (count_ < 0) throw std::domain_error("speed_limits: a zero was missed");
+      levels_.push_back({at.w_mm, count_});
       if (was_stable == (count_ == 0)) continue;
       if (was_stable) entered_ = {at.w_mm * (1 + 1e-6), std::polar(1.0, -at.theta)};
       const double tau = coarse_.tau_s();
@@ -114,6 +133,7 @@ class Climb {
   std::optional<Inside> entered_;  // the zero of the last loss
   Complex last_ = 0.5;             // where a zero was followed to
   std::vector<Crossing> crossings_;
+  std::vector<Level> levels_{{0, 0}};
 };
 
 }  // namespace
@@ -123,8 +143,13 @@ std::optional<double> SpeedLimits::limit_mm() const {
   return crossings.front().ap_mm;
 }
 
-SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm) {
-  return {.n_rpm = n_rpm, .crossings = Climb(system, n_rpm).to(ap_max_mm)};
+SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm,
+                         std::span<const double> depths_mm) {
+  Climb climb(system, n_rpm);
+  climb.to(ap_max_mm);
+  SpeedLimits out{.n_rpm = n_rpm, .crossings = climb.crossings(), .unstable = {}};
+  for (const double w : depths_mm) out.unstable.push_back(climb.unstable(w));
+  return out;
 }
 
 }  // namespace turnwright::milling

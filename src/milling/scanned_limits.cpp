@@ -12,7 +12,7 @@ SpeedLimits scanned_limits(const System& system, double n_rpm, double ap_max_mm,
                            const std::function<Dominant(double ap_mm)>& method) {
   constexpr double kBisected = 1e-9;
   const auto stable = [&](double w) { return std::abs(method(w).multiplier) < 1; };
-  SpeedLimits out{.n_rpm = n_rpm, .crossings = {}};
+  SpeedLimits out{.n_rpm = n_rpm, .crossings = {}, .unstable = {}};
   bool was_stable = true;
   double below = 0;
   for (int i = 1; i <= depths; ++i) {

@@ -47,7 +47,7 @@ ol { padding-left: 6mm; margin: 1mm 0 } li { margin: 0.6mm 0 }
 ul { padding-left: 5mm; margin: 1mm 0; color: #454b53 }
 figure { margin: 2mm 0; break-inside: avoid }
 figure img { max-width: 100%; max-height: 78mm; display: block; margin: 0 auto }
-.windows { display: grid; grid-template-columns: 1fr 1fr 1fr; gap: 3mm }
+.windows { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
 .windows figure { margin: 0 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 8pt }
 @media print { body { margin: 0; padding: 0; max-width: none } }
@@ -264,14 +264,26 @@ std::string tolerances(const ordered_json& result, const Figures& figures) {
          figure_named(figures, "budget.svg", "What takes each tolerance's width");
 }
 
-std::string windows(const Figures& figures) {
+// Of the operations that cost most; the others' pictures stand alone.
+std::string windows(const ordered_json& result, const Figures& figures) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::pair<double, std::string>> shown_first;
+  for (const auto& setup : list(result, "setups"))
+    for (const auto& o : list(setup, "operations"))
+      shown_first.emplace_back(-number(o, "cost").value_or(0), word(o, "id"));
+  std::stable_sort(shown_first.begin(), shown_first.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::string out;
-  for (const auto& f : figures)
-    if (f.file.starts_with("window-"))
-      out += figure(f, "Speeds and feeds of " + f.file.substr(7, f.file.size() - 11));
+  std::size_t count = 0;
+  for (const auto& [cost, id] : shown_first) {
+    const auto one =
+        figure_named(figures, "window-" + id + ".svg", "Speeds and feeds of " + id);
+    if (one.empty() || ++count > kMost) continue;
+    out += one;
+  }
   if (out.empty()) return "";
-  return tag("h2", "Windows of speed and feed") + "<div class=\"windows\">\n" + out +
-         "</div>\n";
+  return tag("h2", "Windows of speed and feed: the operations that cost most") +
+         "<div class=\"windows\">\n" + out + "</div>\n";
 }
 
 std::string compensation(const ordered_json& result) {
@@ -347,7 +359,7 @@ std::string html(std::string_view name, const ordered_json& result,
   out += setups(result, figures) + tolerances(result, figures) + prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
-         compensation(result) + windows(figures) + assumptions(result);
+         compensation(result) + windows(result, figures) + assumptions(result);
   return out + "</main>\n</body>\n</html>\n";
 }
 

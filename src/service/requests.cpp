@@ -22,6 +22,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
+#include "turnwright/report/stability_chart.hpp"
 #include "turnwright/report/text.hpp"
 #include "turnwright/report/volumetric_drawing.hpp"
 #include "turnwright/report/window_drawing.hpp"
@@ -202,6 +203,13 @@ Drawn drawn_predict(const json& request, const Context& context) {
   return drawn(part, planning::predict(part.plan));
 }
 
+Drawn drawn_stability(const json& request, const Context& context) {
+  Drawn all{document::stability(request, context.stop), {}};
+  if (auto svg = report::stability_chart(request, all.result); !svg.empty())
+    all.drawings.push_back({"stability.svg", std::move(svg)});
+  return all;
+}
+
 Drawn drawn_geometry(const json& request, const Context&) {
   return {document::geometry(request),
           {{"errors.svg", report::error_map(document::geometry_machine(request))}}};
@@ -300,9 +308,10 @@ std::span<const Request> requests() {
        nullptr, drawn_compensate},
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
-       [](const json& request, const Context&) -> ordered_json {
-         return document::stability(request);
-       }},
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::stability(request, context.stop);
+       },
+       nullptr, drawn_stability},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

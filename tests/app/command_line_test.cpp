@@ -316,6 +316,18 @@ TEST_F(CommandLine, DrawsMachines) {
   }
 }
 
+TEST_F(CommandLine, TheStabilityChartIsDrawnWhereSpeedsAreAsked) {
+  auto request = nlohmann::json::parse(row("stability").example);
+  put(folder_ / "request.json", request.dump());
+  const std::string command = "turnwright stability request.json --json --drawings ";
+  EXPECT_EQ(shell(command + "speeds").code, 0);
+  EXPECT_EQ(contents(folder_ / "speeds" / "stability.svg").rfind("<svg ", 0), 0u);
+  request.erase("speeds_rpm");
+  put(folder_ / "request.json", request.dump());
+  EXPECT_EQ(shell(command + "points").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "points" / "stability.svg"));
+}
+
 TEST_F(CommandLine, DrawingsThatCannotBeWrittenAreTold) {
   put(folder_ / "request.json", row("predict").example);
   put(folder_ / "file", "old");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "schema_check.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
 
@@ -55,7 +56,7 @@ TEST(Stability, TellsTheIsland) {
 }
 
 TEST(Stability, ExamplesAreAnswered) {
-  for (std::size_t i = 0; i < 7; ++i) answered(example(i));
+  for (std::size_t i = 0; i < 8; ++i) answered(example(i));
 }
 
 TEST(Stability, SlotIsFullImmersionAndMassIsStiffness) {
@@ -180,8 +181,8 @@ TEST(Stability, RefusesWhatDoesNotGoTogether) {
             R"(stability: /radial_immersion: got 0.5, expected 1 or none, for a slot
 stability: /modes/0/mass_kg: got 0.03993, expected either mass_kg or stiffness_N_mm
 stability: /modes/1/stiffness_N_mm: got nothing, expected stiffness_N_mm or mass_kg
-stability: /speeds_rpm/count: got 1000000, expected a whole number from 1 to 10000
 stability: /speeds_rpm/to: got 8000, expected a speed not below from
+stability: /speeds_rpm/count: got 1000000, expected a whole number from 1 to 10000
 stability: /ap_max_mm: got nothing, expected a number > 0 and <= 1000 mm to search up to)");
   EXPECT_EQ(refused({{"model", "drilling"}}),
             "stability: /model: got \"drilling\", expected \"milling\", \"power-law\" or "
@@ -189,6 +190,80 @@ stability: /ap_max_mm: got nothing, expected a number > 0 and <= 1000 mm to sear
             "stability: /speeds_rpm: got nothing, expected speeds_rpm or points");
   EXPECT_EQ(refused(json::array()).substr(0, 58),
             "stability: document: got an empty list, expected an object");
+}
+
+TEST(Stability, CountsAtDepthsAgreeWithPoints) {
+  json q = example(7);
+  q.erase("uncertainty");
+  for (const double n : {9000, 12000})
+    for (int i = 1; i <= 12; ++i)
+      q["points"].push_back({{"n_rpm", n}, {"ap_mm", 0.5 * i}});
+  const json r = answered(q);
+  ASSERT_EQ(r["depths_mm"].size(), 12u);
+  EXPECT_EQ(r["depths_mm"][11], 6);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(r["speeds"][0]["unstable_multipliers"][i],
+              r["points"][i]["unstable_multipliers"]);
+    EXPECT_EQ(r["speeds"][3]["unstable_multipliers"][i],
+              r["points"][12 + i]["unstable_multipliers"]);
+  }
+}
+
+TEST(Stability, BestIsWithinTheMachinesSpeeds) {
+  json q = example(7);
+  q["uncertainty"]["samples"] = 2;
+  q["machine_rpm"]["to"] = 25000;
+  EXPECT_EQ(answered(q)["best"]["n_rpm"], 10000);
+  q["machine_rpm"]["to"] = 9500;
+  EXPECT_EQ(answered(q)["best"]["n_rpm"], 9000);
+  q["machine_rpm"] = {{"from", 100}, {"to", 8999}};
+  EXPECT_EQ(refused(q).substr(0, 25), "stability: /machine_rpm: ");
+}
+
+TEST(Stability, RobustLimitIsNoDeeperThanAnyOther) {
+  const json r = answered(example(7));
+  for (const json& speed : r["speeds"]) {
+    const json& u = speed["uncertain"];
+    EXPECT_LE(u["robust_mm"], speed["limit_mm"].get<double>() / 1.1 * (1 + 1e-9));
+    EXPECT_LE(u["robust_mm"], u["p05_mm"]);
+    EXPECT_LE(u["p05_mm"], u["p50_mm"]);
+    EXPECT_LE(u["p50_mm"], u["p95_mm"]);
+  }
+  EXPECT_EQ(r, answered(example(7)));
+}
+
+TEST(Stability, RefusesTooManyCutsAndSearches) {
+  json q = example(7);
+  q["speeds_rpm"]["count"] = 10000;
+  q["depths"] = 101;
+  q["uncertainty"]["samples"] = 11;
+  q["uncertainty"]["force"] = 1;
+  EXPECT_EQ(
+      refused(q),
+      R"(stability: /depths: got 101, expected at most 1000000 depths over all speeds
+stability: /uncertainty/force: got 1, expected a number from 0 to 0.9
+stability: /uncertainty/samples: got 11, expected at most 100000 samples over all speeds)");
+  q = example(7);
+  q.erase("speeds_rpm");
+  q.erase("machine_rpm");
+  q["points"] = {{{"n_rpm", 9000}, {"ap_mm", 1}}};
+  EXPECT_EQ(refused(q),
+            "stability: /depths: got 12, expected no such key without speeds_rpm\n"
+            "stability: /uncertainty: got an object, expected no such key without "
+            "speeds_rpm");
+}
+
+TEST(Stability, IsLeftSoonAfterAStopWasAskedFor) {
+  std::stop_source source;
+  source.request_stop();
+  for (const std::size_t i : {0, 4, 5}) {
+    EXPECT_THROW(stability(example(i), source.get_token()), Cancelled);
+    json points = example(i);
+    points.erase("speeds_rpm");
+    points.erase("ap_max_mm");
+    points["points"] = {{{"n_rpm", 9000}, {"ap_mm", 1}}};
+    EXPECT_THROW(stability(points, source.get_token()), Cancelled);
+  }
 }
 
 TEST(Stability, WhatTakesTooLongIsToldWithItsSpeed) {

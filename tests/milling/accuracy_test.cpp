@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "../../src/milling/unit_circle.hpp"
 #include "cutters.hpp"
 #include "turnwright/milling/limits.hpp"
 
@@ -90,20 +91,25 @@ double off(const System& s, double n_rpm, const Crossing& at) {
 /// Speeds looked at in each case; TURNWRIGHT_LONG_TESTS asks for 200.
 int speeds() { return std::getenv("TURNWRIGHT_LONG_TESTS") ? 200 : 15; }
 
+struct Case {
+  System system;
+  double deepest;
+};
+
+std::vector<Case> cases() {
+  return {{benchmark(Directions::one, down_milling(0.1)), 6},
+          {benchmark(Directions::one, down_milling(0.05)), 6},
+          {benchmark(Directions::one, down_milling(1)), 2},
+          {benchmark(Directions::two, down_milling(0.1)), 4},
+          {benchmark(Directions::two, up_milling(0.3)), 1},
+          {benchmark(Directions::two, down_milling(1)), 0.3},
+          {slot_cutter(), 60}};
+}
+
 TEST(Accuracy, EveryCrossingIsWhereAnIndependentIntegrationHasIt) {
   std::mt19937 random(41);
   std::uniform_real_distribution<double> share(0, 1);
-  const struct {
-    System system;
-    double deepest;
-  } cases[] = {{benchmark(Directions::one, down_milling(0.1)), 6},
-               {benchmark(Directions::one, down_milling(0.05)), 6},
-               {benchmark(Directions::one, down_milling(1)), 2},
-               {benchmark(Directions::two, down_milling(0.1)), 4},
-               {benchmark(Directions::two, up_milling(0.3)), 1},
-               {benchmark(Directions::two, down_milling(1)), 0.3},
-               {slot_cutter(), 60}};
-  for (const auto& c : cases) {
+  for (const Case& c : cases()) {
     int crossings = 0;
     for (int i = 0; i < speeds(); ++i) {
       const double n = 5000 + 20000 * share(random);
@@ -116,6 +122,28 @@ TEST(Accuracy, EveryCrossingIsWhereAnIndependentIntegrationHasIt) {
     }
     EXPECT_GT(crossings, speeds() / 4);
   }
+}
+
+// Stretches half as long with rounding-free nodes, searched anew about each crossing.
+TEST(Accuracy, OverResolvedRunsFindTheSameCrossings) {
+  constexpr Resolution kOver{2.5, 1e-22}, kFiner{2, 1e-23};
+  std::mt19937 random(43);
+  std::uniform_real_distribution<double> share(0, 1);
+  double worst = 0;
+  for (const Case& c : cases())
+    for (int i = 0; i < speeds(); ++i) {
+      const double n = 5000 + 20000 * share(random);
+      const Characteristic over(c.system, n, kOver), finer(c.system, n, kFiner);
+      for (const Crossing& at : speed_limits(c.system, n, c.deepest).crossings) {
+        const auto found =
+            on_circle(over, finer, at.ap_mm * (1 - 1e-6), at.ap_mm * (1 + 1e-6));
+        ASSERT_EQ(found.size(), 1u) << n << " " << at.ap_mm;
+        const double error = std::abs(found[0].w_mm / at.ap_mm - 1);
+        EXPECT_LT(error, 1e-9) << n << " " << at.ap_mm;
+        worst = std::max(worst, error);
+      }
+    }
+  RecordProperty("worst", std::to_string(worst * 1e12) + "e-12");
 }
 
 }  // namespace

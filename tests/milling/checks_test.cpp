@@ -80,7 +80,9 @@ TEST(Simulation, AgreesOnGrowthAndVerdict) {
     double deepest;
   } cases[] = {{benchmark(Directions::one, down_milling(0.1)), 4},
                {benchmark(Directions::one, down_milling(1)), 1},
+               {benchmark(Directions::one, down_milling(0.05)), 5},
                {benchmark(Directions::two, down_milling(0.1)), 2},
+               {benchmark(Directions::two, down_milling(0.05)), 4},
                {benchmark(Directions::two, down_milling(1)), 0.2},
                {slot_cutter(), 30}};
   for (const auto& c : cases)

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <random>
+#include <vector>
 
+#include "../../src/milling/unit_circle.hpp"
 #include "cutters.hpp"
 
 namespace turnwright::milling {
@@ -94,6 +97,17 @@ TEST(Limits, DeepSlotHasSixUnstableMultipliers) {
   EXPECT_EQ(multipliers(s, 9000, 5).unstable, 6);
 }
 
+// So deep that a zero is followed instead of every crossing found.
+TEST(Limits, CountsReachBeyondTheSeries) {
+  const System s = benchmark(Directions::two, down_milling(1));
+  const std::vector<double> depths{0.02, 0.5, 2, 3.5, 5};
+  const SpeedLimits at = speed_limits(s, 9000, 5, depths);
+  EXPECT_EQ(at.unstable.front(), 0);
+  EXPECT_EQ(at.unstable.back(), 6);
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    EXPECT_EQ(at.unstable[i], multipliers(s, 9000, depths[i]).unstable) << depths[i];
+}
+
 // Up- and down-milling with an isotropic tool mirror each other.
 TEST(Limits, IsotropicToolDoesNotKnowUpFromDown) {
   for (const double immersion : {0.07, 0.3, 0.6})
@@ -175,8 +189,8 @@ TEST(Limits, TurningFollowsItsLobes) {
       // Other lobes may lie below this point of the lobe; then that one is the limit.
       double lowest = at.w;
       for (int other = 0; other < 12; ++other)
-        for (double x = 1.0005; x < 3; x += 1e-4) {
-          const Lobe a = lobe(s, 800, x, other), b = lobe(s, 800, x + 1e-4, other);
+        for (double x = 1.0005; x < 3; x += 1e-3) {
+          const Lobe a = lobe(s, 800, x, other), b = lobe(s, 800, x + 1e-3, other);
           if ((a.n_rpm - at.n_rpm) * (b.n_rpm - at.n_rpm) > 0) continue;
           const double t = (at.n_rpm - a.n_rpm) / (b.n_rpm - a.n_rpm);
           lowest = std::min(lowest, a.w + t * (b.w - a.w));
@@ -204,6 +218,55 @@ TEST(Limits, AgreeWithCountsAtRandomDepths) {
       EXPECT_EQ(multipliers(s, n_rpm, w).unstable > 0, above % 2 == 1)
           << immersion << " " << n_rpm << " " << w;
     }
+  }
+}
+
+// Winding numbers of the characteristic function itself, which the search for crossings
+// does not use: none is missed, and none is one too many.
+TEST(Limits, AgreeWithADenseGridOfCounts) {
+  const bool all = std::getenv("TURNWRIGHT_LONG_TESTS") != nullptr;
+  const int speeds = all ? 60 : 5, rows = all ? 200 : 60;
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> share(0, 1);
+  const struct {
+    System system;
+    double deepest;
+  } cases[] = {{benchmark(Directions::one, down_milling(0.1)), 6},
+               {benchmark(Directions::one, down_milling(0.05)), 8},
+               {benchmark(Directions::one, down_milling(1)), 2},
+               {benchmark(Directions::two, down_milling(0.1)), 4},
+               {benchmark(Directions::two, down_milling(1)), 0.3},
+               {slot_cutter(), 60}};
+  for (const auto& c : cases)
+    for (int i = 0; i < speeds; ++i) {
+      const double n_rpm = 5000 + 20000 * share(random);
+      std::vector<double> depths;
+      for (int j = 1; j <= rows; ++j)
+        depths.push_back(c.deepest * (j - share(random)) / rows);
+      const SpeedLimits at = speed_limits(c.system, n_rpm, c.deepest, depths);
+      const Characteristic f(c.system, n_rpm, kCoarse);
+      for (std::size_t j = 0; j < depths.size(); ++j) {
+        const int outside = multipliers_outside(f, depths[j]);
+        EXPECT_EQ(at.unstable[j], outside) << n_rpm << " " << depths[j];
+        const auto below = std::ranges::count_if(
+            at.crossings, [&](const Crossing& x) { return x.ap_mm < depths[j]; });
+        EXPECT_EQ(outside > 0, below % 2 == 1) << n_rpm << " " << depths[j];
+      }
+    }
+}
+
+// Where a multiplier is 1 the delayed displacement is the present one and nothing cuts:
+// det(I - Phi) is that of the free vibration whatever the depth, and not 0.
+TEST(Limits, NoMultiplierEverPassesThroughOne) {
+  for (const auto directions : {Directions::one, Directions::two}) {
+    const System s = benchmark(directions, down_milling(0.3));
+    const Characteristic f(s, 9000, kFine);
+    const double tau = period_s(s, 9000), wn = s.modes[0].wn_rad_s, zeta = 0.011;
+    const std::complex<double> mu =
+        std::exp(std::complex<double>(-zeta, std::sqrt(1 - zeta * zeta)) * wn * tau);
+    const double free = std::pow(std::norm(1.0 - mu), s.modes.size());
+    for (const double w : {0.0, 0.3, 2.0})
+      EXPECT_NEAR(std::abs(f.value(1, w) - free), 0, 1e-12 * free) << w;
   }
 }
 

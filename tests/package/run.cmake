@@ -49,11 +49,21 @@ foreach(library IN LISTS libraries)
   file(COPY ${library} DESTINATION ${root}${folder} FOLLOW_SYMLINK_CHAIN)
   list(APPEND copied ${root}${library})
 endforeach()
+# In a mount namespace of its own with /proc, where a program reads its own place.
+file(MAKE_DIRECTORY ${root}/proc)
+set(inside unshare --mount sh -c
+    "mount -t proc proc $0/proc && exec chroot $0 \"$@\"" ${root})
+execute_process(COMMAND ${inside} /usr/bin/turnwright --version RESULT_VARIABLE barred
+                OUTPUT_QUIET ERROR_VARIABLE why)
+if(barred)
+  message("SKIPPED: no chroot with /proc here: ${why}")
+  return()
+endif()
 file(COPY ${PART} DESTINATION ${root}/home)
 get_filename_component(part ${PART} NAME)
-run(chroot ${root} /usr/bin/turnwright plan /home/${part} --report /home/plan.html)
+run(${inside} /usr/bin/turnwright plan /home/${part} --report /home/plan.html)
 expect("${output}" "every limit is kept")
-run(chroot ${root} /usr/bin/turnwright list machines)
+run(${inside} /usr/bin/turnwright list machines)
 expect("${output}" "lathe-medium")
 if(NOT EXISTS ${root}/usr/share/man/man1/turnwright.1 OR
    NOT EXISTS ${root}/lib/systemd/system/turnwright.service AND

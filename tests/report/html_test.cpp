@@ -107,7 +107,7 @@ TEST(Html, CarriesItsPicturesInside) {
       "'&amp;'</text></svg>\n";
   const auto page =
       html("Shaft", feasible(),
-           {{"setup-0.svg", svg}, {"budget.svg", svg}, {"window-op.svg", svg}});
+           {{"setup-0.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
   const std::regex image(
       "<img alt=\"[^\"]*\" src=\"data:image/svg\\+xml,([^\"<>#& ]*[^\"<>#]*)\">");
   int count = 0;
@@ -118,6 +118,26 @@ TEST(Html, CarriesItsPicturesInside) {
   EXPECT_EQ(count, 3);
   EXPECT_EQ(std::string::npos, page.find("src=\"http"));
   EXPECT_FALSE(holds(page, "<link"));
+}
+
+TEST(Html, ShowsTheWindowsOfTheFourOperationsThatCostMost) {
+  auto document = feasible();
+  auto& operations = document["setups"][0]["operations"];
+  const auto one = operations[0];
+  operations = ordered_json::array();
+  std::vector<Figure> figures;
+  for (int i = 0; i < 6; ++i) {
+    operations.push_back(one);
+    operations.back()["id"] = "op" + std::to_string(i);
+    operations.back()["cost"] = i % 3 + 0.1 * i;  // 0, 1.1, 2.2, 0.3, 1.4, 2.5
+    figures.push_back({"window-op" + std::to_string(i) + ".svg", "<svg/>"});
+  }
+  const auto page = html("Shaft", document, figures);
+  std::string order;
+  for (auto at = page.find("Speeds and feeds of op"); at != std::string::npos;
+       at = page.find("Speeds and feeds of op", at + 1))
+    order += page[at + 22];
+  EXPECT_EQ(order, "5241");
 }
 
 TEST(Html, TellsWhyThereIsNoPlan) {

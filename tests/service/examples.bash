@@ -6,7 +6,7 @@ for tool in curl python3; do
   command -v "$tool" >/dev/null || { echo "SKIPPED: no $tool"; exit 0; }
 done
 folder=$(mktemp -d)
-trap 'kill "$server" 2>/dev/null; rm -rf "$folder"' EXIT
+trap 'kill "$server" 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 "$turnwright" serve --port 0 --jobs jobs.sqlite > said 2> log &
 server=$!

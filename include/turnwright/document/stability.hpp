@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <stop_token>
 
 namespace turnwright::document {
 
@@ -7,7 +8,8 @@ namespace turnwright::document {
 /// per point.  Computed by milling/limits.hpp; the documents are described by
 /// schemas/stability.request.json and schemas/stability.result.json.
 /// @throws InputError with every problem of the request; ModelRangeError if a speed and
-///   depth would take too long to search.
-nlohmann::ordered_json stability(const nlohmann::json& request);
+///   depth would take too long to search; Cancelled soon after `stop` was asked for.
+nlohmann::ordered_json stability(const nlohmann::json& request,
+                                 const std::stop_token& stop = {});
 
 }  // namespace turnwright::document

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "turnwright/milling/system.hpp"
@@ -20,6 +21,7 @@ struct Crossing {
 struct SpeedLimits {
   double n_rpm = 0;
   std::vector<Crossing> crossings;  ///< rising
+  std::vector<int> unstable;        ///< multipliers outside the circle at depths asked
   /// The first loss; none if the cut is stable up to the depth asked about.
   std::optional<double> limit_mm() const;
 };
@@ -45,8 +47,12 @@ struct SpeedLimits {
 /// Source: derived here; checked in accuracy_test against
 /// direct integration and in limits_test against printed charts of the
 /// literature's benchmark, semi-discretisation and simulation.
-/// @throws ModelRangeError if the search becomes longer than a few seconds.
-SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm);
+/// @param depths_mm  rising, up to ap_max: counted too, by the multipliers that crossed
+///   below; where a zero was followed past them, by winding numbers.
+/// @throws ModelRangeError if the search becomes longer than a few seconds, or if a
+///   multiplier lies on the circle at one of the depths to within rounding.
+SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm,
+                         std::span<const double> depths_mm = {});
 
 /// Multipliers of one cut.
 struct Multipliers {

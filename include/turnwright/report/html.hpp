@@ -18,7 +18,8 @@ struct Figure {
 /// It says what text() (text.hpp) says, with the same numbers; every pass and constraint
 /// is in the result document alone.  Text of the request is escaped.  Figures are placed
 /// by their files' names: setup-<i>.svg beside its setup, budget.svg under the
-/// tolerances, window-<operation>.svg side by side.  Equal documents give equal bytes.
+/// tolerances, window-<operation>.svg of the four operations that cost most at the end.
+/// Equal documents give equal bytes.
 /// @param name  of the part, as the request has it.
 std::string html(std::string_view name, const nlohmann::ordered_json& plan_result,
                  const std::vector<Figure>& figures);
