@@ -42,10 +42,7 @@ struct Arguments {
 
 nlohmann::json read_request(const std::string& file) {
   if (file != "-") return document::parse_file(file);
-  std::string text(document::ParseLimits{}.bytes + 1, '\0');
-  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(std::cin.gcount()));
-  return document::parse(text, "standard input");
+  return document::parse(std::cin, "standard input", document::kLocalLimits);
 }
 
 // Problems of the request are told under the name its reader knows.

@@ -110,6 +110,21 @@ Request read_request(const json& document) {
   return q;
 }
 
+json assumed(const json& request, const NcSetup& setup, const NcProgram& program) {
+  json out = json::array();
+  const auto assume = [&out](const std::string& pointer, json value, const char* why) {
+    out.push_back({{"pointer", pointer}, {"value", std::move(value)}, {"why", why}});
+  };
+  if (!request.contains("start_mm"))
+    assume("/start_mm", {0, 0, 0}, "where the tip stands before the first move");
+  if (setup.lathe && !request.contains("diameter"))
+    assume("/diameter", false, "X words are radii until G7");
+  if (program.rapid_assumed > 0)
+    assume("/program#line " + std::to_string(program.rapid_assumed), "G0",
+           "coordinates before any of G0 to G3");
+  return out;
+}
+
 json deviation_json(const Deviation& d) {
   return {{"max_mm", d.max_mm}, {"rms_mm", d.rms_mm}};
 }
@@ -131,11 +146,6 @@ CompensateAnswer compensated(const json& request) {
                   "at most 5000000; a wider tolerance_mm makes fewer", "range"});
   problems.throw_if_any();
   Compensated c = volumetric::compensate(program, q.machine, q.setup, q.options);
-  json assumed = json::array();
-  if (!request.contains("start_mm"))
-    assumed.push_back({{"pointer", "/start_mm"},
-                       {"value", {0, 0, 0}},
-                       {"why", "where the tip stands before the first move"}});
   json result = {
       {"program", c.lines},
       {"residual",
@@ -143,7 +153,7 @@ CompensateAnswer compensated(const json& request) {
       {"points", c.points},
       {"added_moves", c.added},
       {"largest_correction_mm", c.largest_correction_mm},
-      {"assumed", assumed}};
+      {"assumed", assumed(request, q.setup, program)}};
   return {std::move(result), std::move(c)};
 }
 

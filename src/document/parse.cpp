@@ -206,4 +206,15 @@ json parse(std::string_view text, const std::string& document,
   return builder.take();
 }
 
+json parse(std::istream& in, const std::string& document, const ParseLimits& limits) {
+  std::string text;
+  std::vector<char> piece(1 << 16);
+  while (text.size() <= limits.bytes &&
+         in.read(piece.data(), static_cast<std::streamsize>(piece.size())).gcount() > 0)
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  // One byte more than allowed is enough to refuse the rest.
+  text.resize(std::min(text.size(), limits.bytes + 1));
+  return parse(text, document, limits);
+}
+
 }  // namespace turnwright::document

@@ -185,28 +185,27 @@ Iso230_4 iso230_4(const Trace& t) {
 }
 
 // Half the sum of both paths has only the terms alike, half their difference only those
-// opposed: (ccw + cw)/sqrt 2 and (ccw - cw)/sqrt 2 are the values turned by an orthogonal
-// matrix, so that two small fits are the least squares of the whole.
+// opposed: sqrt 2 times them are the values turned by an orthogonal matrix, so that two
+// small fits, every row of which counts twice, are the least squares of the whole.
 BallBarFit decompose(const Trace& t) {
   check(t);
   const Basis b = basis(t);
-  const double half = std::sqrt(0.5);
   const auto ccw = vector(t.ccw_mm), cw = vector(t.cw_mm);
-  const Part alike = solved(b.alike / half, half * (ccw + cw)),
-             opposed = solved(b.opposed / half, half * (ccw - cw));
+  const Part alike = solved(b.alike, (ccw + cw) / 2),
+             opposed = solved(b.opposed, (ccw - cw) / 2);
   constexpr auto m = static_cast<Index>(kBallBarTerms.size());
   if (const Index rank = alike.rank + opposed.rank; rank < m)
     throw ModelRangeError("decompose: the angles tell only " + std::to_string(rank) +
                           " of the 12 terms apart; more angles over the whole circle do");
   const double values = 2 * static_cast<double>(t.theta_rad.size());
-  const double rss = alike.rss + opposed.rss;
+  const double rss = 2 * (alike.rss + opposed.rss);
   const double s = std::sqrt(rss / (values - static_cast<double>(m)));
   BallBarFit out{.rms_mm = std::sqrt(rss / values),
                  .ranking = ranked(b, alike.x, opposed.x)};
   const auto take = [&](const auto& terms, const Part& part) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
       out.value[terms[k]] = part.x[static_cast<Index>(k)];
-      out.u[terms[k]] = s * std::sqrt(part.inverse[static_cast<Index>(k)]);
+      out.u[terms[k]] = s * std::sqrt(part.inverse[static_cast<Index>(k)] / 2);
     }
   };
   take(kAlike, alike);

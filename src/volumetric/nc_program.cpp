@@ -29,7 +29,7 @@ struct Fault {
   std::string got, expected;
 };
 
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool blank(char c) { return c == ' ' || c == '\t'; }
 
 /// The text's first characters, `bytes` of UTF-8 and what ends the last, in quotation
 /// marks.
@@ -168,8 +168,12 @@ class Interpreter {
   }
 
   void take(std::string_view text) {
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    if (text.find('\r') != text.npos)
+      throw Fault{"a carriage return within the line", "one block in a line"};
     const auto first = std::ranges::find_if_not(text, blank);
-    if (first == text.end() || *first == '%') return pass(text);
+    if (first == text.end()) return pass(text);
+    if (*first == '%') return tape_end(text);
     if (*first == '/') return deleted(text);
     parse(text, block_);
     before_.clear();
@@ -193,6 +197,7 @@ class Interpreter {
     length(lengths);
     words();
     if (motion) motion_ = *motion;
+    commanded_ = commanded_ || motion;
     append(after_, block_.comments);
     move(motion.has_value());
   }
@@ -234,6 +239,14 @@ class Interpreter {
     const Vec3 old = vector(tool_), now = vector(number);
     for (std::size_t k = 0; k < 3; ++k) tip_[k] += now[k] - old[k];
     tool_ = number;
+  }
+
+  /// % with nothing but comments: controls differ in what they make of more.
+  void tape_end(std::string_view text) {
+    parse(text.substr(text.find('%') + 1), block_);
+    if (!block_.words.empty())
+      throw Fault{'%' + std::string(block_.words[0].text), "% without words"};
+    pass(text);
   }
 
   /// Of G43, whose H must be there; H without it would select in silence.
@@ -371,6 +384,7 @@ class Interpreter {
     }
     if (motion_ == kNoMotion)
       throw Fault{"coordinates after G80", "G0 to G3 before them"};
+    if (!commanded_ && program_.rapid_assumed == 0) program_.rapid_assumed = line_;
     Vec3 end = tip_;
     for (std::size_t k = 0; k < 3; ++k) {
       if (!to[k]) continue;
@@ -483,6 +497,7 @@ class Interpreter {
   std::size_t line_ = 0;
   Block block_;
   int plane_, motion_ = 0, tool_ = 0;
+  bool commanded_ = false;  // a motion code was read
   bool inch_ = false, incremental_ = false, diameter_;
   Vec3 origin_{}, tip_{};  // tip in program coordinates [mm], X as radius
   std::string before_, after_;

@@ -6,6 +6,7 @@
 
 #include "slips.hpp"
 #include "turnwright/document/file.hpp"
+#include "turnwright/document/parse.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -49,6 +50,16 @@ TEST(CompensateDoor, CorrectsALathesProgram) {
   EXPECT_EQ(answered(request), lines);
 }
 
+TEST(CompensateDoor, TakesLongProgramsAsText) {
+  json request = example();
+  std::string text = "T0101 G1 F0.2";
+  for (int i = 0; i < 5000; ++i) text += "\nX" + std::to_string(20 + i % 7) + " Z-1";
+  request["program"] = text;
+  const std::string document = request.dump();
+  const json result = answered(parse(document, "t"));
+  EXPECT_EQ(result["points"].get<int>() - result["added_moves"].get<int>(), 5000);
+}
+
 TEST(CompensateDoor, RefusesWithLineNumbers) {
   json request = example();
   request["program"] = {"G1 X1 F0.1", "G41 X5", "G1 Y3", "#1=4", "G55"};
@@ -74,7 +85,15 @@ TEST(CompensateDoor, RefusesWithLineNumbers) {
 TEST(CompensateDoor, AssumptionsAreSaid) {
   json request = example();
   request.erase("start_mm");
-  EXPECT_EQ(answered(request)["assumed"][0]["pointer"], "/start_mm");
+  request.erase("diameter");
+  request["program"] = {"T0101", "X40 Z2", "G1 Z0"};
+  const json assumed = answered(request)["assumed"];
+  ASSERT_EQ(assumed.size(), 3u);
+  EXPECT_EQ(assumed[0]["pointer"], "/start_mm");
+  EXPECT_EQ(assumed[1]["pointer"], "/diameter");
+  EXPECT_EQ(assumed[1]["value"], false);
+  EXPECT_EQ(assumed[2]["pointer"], "/program#line 2");
+  EXPECT_EQ(assumed[2]["value"], "G0");
 }
 
 TEST(CompensateDoor, SchemaAndReaderAgreeOnEverySlip) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "turnwright/base/errors.hpp"
 
@@ -67,6 +68,13 @@ TEST(Parse, HoldsItsLimits) {
             "t: /a: got a key of 3 bytes, expected at most 2 bytes");
   EXPECT_EQ(refusal(R"(["abc", "abcd"])", {.string_bytes = 3}),
             "t: /1: got a text of 4 bytes, expected at most 3 bytes");
+  for (const std::size_t bytes : {6u, 7u}) {
+    std::istringstream in("[1,2,3]");
+    if (bytes == 7)
+      EXPECT_EQ(parse(in, "t", {.bytes = bytes}).size(), 3u);
+    else
+      EXPECT_THROW(parse(in, "t", {.bytes = bytes}), InputError);
+  }
   EXPECT_NE(refusal(std::string(1'900'000, '[')).find("nested too deeply"),
             std::string::npos);
 }

@@ -86,6 +86,21 @@ TEST(NcProgram, ArcsStayWithinTheirTolerance) {
   }
 }
 
+// However wide the tolerance: the play of an axis is taken up where it turns back.
+TEST(NcProgram, ArcsAreCutWhereAnAxisReverses) {
+  const std::vector<Vec3> extremes = {{10, 0, 0}, {0, 10, 0}, {-10, 0, 0}, {0, -10, 0}};
+  for (const char* circle : {"G2 X8 Y6 I-8 J-6", "G3 X8 Y6 I-8 J-6"}) {
+    const auto p = read_nc({circle}, {.tolerance_mm = 1, .start_mm = {8, 6, 0}});
+    ASSERT_TRUE(p.problems.empty());
+    for (const Vec3& at : extremes) {
+      double nearest = 1e9;
+      for (const Vec3& t : targets(p))
+        nearest = std::min(nearest, norm(difference(t, at)));
+      EXPECT_LT(nearest, 1e-9) << circle << ' ' << at[0] << ' ' << at[1];
+    }
+  }
+}
+
 TEST(NcProgram, LatheWordsAreDiameters) {
   const auto p =
       read_nc({"T0101", "G0 X40 Z5", "G1 Z-10", "G2 X50 Z-15 I5 K0", "G1 G8 X20"},
@@ -115,7 +130,9 @@ TEST(NcProgram, RefusesWithTheLine) {
       // Controls that go elsewhere or come back with other states.
       "M47", "M70", "M72", "M99", "M3.5", "M-3", "/G91", "/M98 P1", "/2 Z3", "/T0101",
       "X+-5", "X--5", "X 1 0", "X1e2", "X0x10", "G100", "G-1", "G64 P.1 L2", "P1", "D2",
-      "X\xc3\xa4", "\xc3\xa4", "\x1b[1m"};
+      "X\xc3\xa4", "\xc3\xa4", "\x1b[1m",
+      // Ends of lines and tapes that controls see elsewhere.
+      "X1\rY2", "; stop\rX5", "(a\rb)", "X1\r\r", "% X5", "%O10", "%(open", "X5 %"};
   for (const auto line : wrong) {
     const auto p = read_nc({"G1 X1 F100", line, "X3"}, {});
     ASSERT_EQ(p.problems.size(), 1u) << line;
@@ -145,7 +162,10 @@ TEST(NcProgram, RefusesWithTheLine) {
                           "g00 x1 y2",
                           "N5 G 1 X 3",
                           "G0 G17 G21 G40 G49 G80 G90 G94 G98",
-                          "X1\tY2\r"})
+                          "X1\tY2\r",
+                          "%",
+                          " % (end)\r",
+                          "\r"})
     EXPECT_TRUE(read_nc({line}, {}).problems.empty()) << line;
 }
 
@@ -173,7 +193,7 @@ TEST(NcProgram, OffsetsOfToolsMoveNoAxis) {
   near(at[3], {13, 0, 110});  // tool 2 is 20 mm shorter
   near(at[4], {0, 0, 190});
   const NcSetup lathe{.axes = "XZ", .lathe = true, .tool_offsets_mm = {{4, {2, 0, -7}}}};
-  near(targets(read_nc({"G0 X50 Z30", "T0404", "X20", "T0400 Z0"}, lathe))[1],
+  near(targets(read_nc({"G0 X50 Z30", "T0704", "X20", "T0700 Z0"}, lathe))[1],
        {20, 0, 23});
 }
 
@@ -196,6 +216,13 @@ TEST(NcProgram, WholeCirclesSurviveRounding) {
     const double turns = angle / (2 * units::kPi) + (angle > 1e-9 ? 0 : 1);
     EXPECT_NEAR(t[2], -2 * turns, 1e-9);
   }
+}
+
+TEST(NcProgram, SaysWhereItAssumesARapid) {
+  EXPECT_EQ(read_nc({"G90", "X5", "Y3"}, {}).rapid_assumed, 2u);
+  EXPECT_EQ(read_nc({"G1 F100", "X5", "G0 Y3"}, {}).rapid_assumed, 0u);
+  EXPECT_EQ(read_nc({"G2 X5 I2.5", "X5 I1"}, {}).rapid_assumed, 0u);
+  EXPECT_EQ(read_nc({"M3", "%"}, {}).rapid_assumed, 0u);
 }
 
 TEST(NcProgram, AskForWhatTheyDoNotKnow) {
@@ -392,11 +419,32 @@ TEST(Compensation, LongMovesFollowABow) {
   EXPECT_EQ(c.lines[1], "G1 X100.000000 Y-0.010000");
 }
 
+// An odd bow has no bend in the middle; between points the tip stays within tolerance.
+TEST(Compensation, LongMovesFollowAnOddBow) {
+  Machine m{"wfXYt", {}, {{'X', {}, 100}, {'Y', {}, 100}}};
+  m.axes[0].errors[1].c[3] = 1e-3;
+  const NcSetup setup{.axes = "XY", .start_mm = {-200, 0, 0}};
+  const auto p = read_nc({"G1 X200 F100"}, setup);
+  const Compensated c = compensate(p, m, setup, {.tolerance_mm = 1e-3});
+  const auto at = targets(read_nc(views(c.lines), setup));
+  Vec3 from{-200, 8e-3, 0};
+  for (const Vec3& to : at) {
+    for (double share = 0; share < 1; share += 0.125) {
+      const double x = from[0] + share * (to[0] - from[0]), t = x / 100;
+      EXPECT_NEAR(from[1] + share * (to[1] - from[1]), -1e-3 * t * t * t, 1.01e-3) << x;
+    }
+    from = to;
+  }
+  EXPECT_LE(at.size(), 8u);
+}
+
 TEST(Compensation, LatheInDiametersAndInches) {
   Machine m{"wCfZXt", {}, {{'C', {}, units::kPi}, {'Z', {}, 100}, {'X', {}, 100}}};
   m.axes[2].errors[0].c[1] = 3e-3;  // 30 ppm on X
   const NcSetup setup{.axes = "XZ", .diameter = true, .lathe = true};
   const auto mm = compensate(read_nc({"G0 X60 Z0"}, setup), m, setup);
+  m.axes[2].errors[1].c[0] = 4e-3;  // tangential: neither corrected nor counted
+  EXPECT_LT(compensate(read_nc({"G0 X60 Z0"}, setup), m, setup).after.max_mm, 1e-6);
   // 60 mm would come out 1.8 um too large.
   EXPECT_EQ(mm.lines[0], "G0 G90 X59.998200 Z0.000000");
   const auto inch = compensate(read_nc({"G20", "G0 X2 Z0"}, setup), m, setup);
@@ -413,6 +461,8 @@ TEST(Compensation, ToolLengthsAreNoMotion) {
   EXPECT_EQ(c.lines[1], "G1 X0.000000 Y0.000000 Z140.003000");  // s = -1: 3 um too low
   EXPECT_EQ(c.lines[2], "G43 H1");
   EXPECT_EQ(c.lines[3], "G1 X5.000000 Y0.000000 Z40.003000");
+  const auto up = compensate(read_nc({"G1 Z160 F100", "G43 H1", "X5"}, setup), m, setup);
+  EXPECT_EQ(up.lines.back(), "G1 X5.000000 Y0.000000 Z59.997000");
 }
 
 // Errors that change by more than the way cannot be taken out by (1).

@@ -203,6 +203,44 @@ TEST(Kinematics, EffectsAreTheFirstOrderErrorOfUnitErrors) {
   }
 }
 
+// Second differences of the first-order error, along random ways on random chains.
+TEST(Kinematics, BendsNoMoreThanItsBound) {
+  RandomMachines random(11);
+  for (int i = 0; i < 200; ++i) {
+    const Kinematics k(random.machine(1e-2));
+    Vec3 reach, way;
+    Position at;
+    for (std::size_t n = 0; n < 3; ++n) {
+      reach[n] = std::abs(random.number(300)) + 2;
+      way[n] = random.number(1);
+      at.q[n] = random.number(reach[n] - 1);
+      at.sign[n] = 1;
+    }
+    const double length = std::hypot(way[0], way[1], way[2]);
+    const auto error = [&](double s) {
+      Position there = at;
+      for (std::size_t n = 0; n < 3; ++n) there.q[n] += s * way[n] / length;
+      return k.tip_error_first_order_mm(there);
+    };
+    const Vec3 a = error(-1), b = error(0), c = error(1);
+    const double bend = std::hypot(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1],
+                                   a[2] - 2 * b[2] + c[2]);
+    EXPECT_LE(bend, k.bend_at_most(reach) + 1e-12) << i;
+  }
+  // Reached by one bow, and by pitch that grows under a tool 50 mm off.
+  Machine m{"wfXt", {}, {{'X', {}, 100}}};
+  m.axes[0].errors[1].c[2] = 0.01;
+  EXPECT_NEAR(Kinematics(m).bend_at_most({7, 0, 0}), 2e-6, 1e-18);
+  m = {"wfXt", {0, 0, 50}, {{'X', {}, 100}}};
+  m.axes[0].errors[4].c[2] = 1e-4;
+  EXPECT_NEAR(Kinematics(m).bend_at_most({0, 0, 0}), 2e-8 * 50, 1e-18);
+  m.tool_point_mm = {};
+  m.axes[0].p_mm = {0, 0, -70};
+  EXPECT_NEAR(Kinematics(m).bend_at_most({0, 0, 0}), 2e-8 * 70, 1e-18);
+  m.axes[0].errors[4].c = {0, 1e-3, 0, 0};  // 10 urad/mm, the lever growing by 1
+  EXPECT_NEAR(Kinematics(m).bend_at_most({5, 0, 0}), 2e-5, 1e-18);
+}
+
 TEST(Kinematics, SquarenessTurnsTheDirectionOnly) {
   Machine m{"wXft", {}, {{'X', {}, 100}}};
   m.axes[0].location[5] = 1e-2;  // EC0X, the table: X programmed +100 moves it by -100 u

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <sstream>
 #include <string>
 
 #include "turnwright/volumetric/compensation.hpp"
@@ -46,29 +49,52 @@ struct Interpreter {
   }
   ~Interpreter() { fs::remove_all(folder); }
 
-  struct Move {
-    bool rapid = false;
-    Vec3 to{};
-  };
-  /// Straight moves of a program; arcs by their ends, as feeds.
-  std::vector<Move> moves(const std::vector<std::string>& lines) const {
+  /// Canonical commands of a program, a line each.
+  std::vector<std::string> commands(const std::vector<std::string>& lines) const {
     std::ofstream program(folder / "program.ngc");
     for (const std::string& line : lines) program << line << '\n';
     program << "M2\n";
     program.close();
-    const std::string text = printed("cd " + folder.string() + " && " + path +
-                                     " -g -v rs274.var -t tool.tbl program.ngc");
+    std::istringstream text(printed("cd " + folder.string() + " && " + path +
+                                    " -g -v rs274.var -t tool.tbl program.ngc"));
+    std::vector<std::string> out;
+    for (std::string line; std::getline(text, line);) out.push_back(line);
+    return out;
+  }
+
+  struct Move {
+    bool rapid = false;
+    Vec3 to{};
+  };
+  /// Straight moves of a program.
+  std::vector<Move> moves(const std::vector<std::string>& lines) const {
     std::vector<Move> out;
-    for (std::size_t at = 0; at < text.size();) {
-      const auto end = std::min(text.find('\n', at), text.size());
-      const std::string line = text.substr(at, end - at);
-      at = end + 1;
+    for (const std::string& line : commands(lines)) {
       const auto open = line.find('(');
       Move m{.rapid = line.find("STRAIGHT_TRAVERSE") != line.npos};
       if (!m.rapid && line.find("STRAIGHT_FEED") == line.npos) continue;
       if (std::sscanf(line.c_str() + open, "(%lf, %lf, %lf", m.to.data(), m.to.data() + 1,
                       m.to.data() + 2) == 3)
         out.push_back(m);
+    }
+    return out;
+  }
+
+  struct Arc {
+    std::array<double, 2> end{}, centre{};  // in the plane's axes
+    int turn = 0;                           // +1 from the first axis to the second
+    double across = 0;                      // end along the third
+  };
+  std::vector<Arc> arcs(const std::vector<std::string>& lines) const {
+    std::vector<Arc> out;
+    for (const std::string& line : commands(lines)) {
+      const auto at = line.find("ARC_FEED(");
+      Arc a;
+      if (at != line.npos &&
+          std::sscanf(line.c_str() + at, "ARC_FEED(%lf, %lf, %lf, %lf, %d, %lf",
+                      a.end.data(), a.end.data() + 1, a.centre.data(),
+                      a.centre.data() + 1, &a.turn, &a.across) == 6)
+        out.push_back(a);
     }
     return out;
   }
@@ -126,16 +152,89 @@ TEST(LinuxCnc, RunsCorrectedProgramsAsAsked) {
                 lathe, machine("wCfZXt"), {"G7"});
 }
 
-// LinuxCNC and read_nc take the same arcs for the same: the same ends, and centres by R.
-TEST(LinuxCnc, RefusesNoArcThatIsRead) {
+/// Random arcs: of any plane, by centre or radius, absolute or not, flat or helical.
+std::vector<std::string> random_arcs(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto number = [&random](double least, double most) {
+    return std::uniform_real_distribution<>(least, most)(random);
+  };
+  const auto word = [](char letter, double value) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), " %c%.6f", letter, value);
+    return std::string(text.data());
+  };
+  std::vector<std::string> out = {"G21 G90 G17", "G0 X10 Y20 Z30", "G1 X11 F100"};
+  Vec3 at{11, 20, 30};
+  for (int i = 0; i < count; ++i) {
+    const std::size_t w = random() % 3, u = (w + 1) % 3, v = (w + 2) % 3;
+    const double r = number(2, 20), from = number(-3, 3), by_radius = number(-1, 1);
+    const double sweep = by_radius > 0 ? number(0.3, 2.8) : number(0.3, 6);
+    const bool whole = by_radius<-0.8, incremental = number(-1, 1)> 0;
+    const Vec3 start = at;
+    if (!whole) {
+      at[u] += r * (std::cos(from + sweep) - std::cos(from));
+      at[v] += r * (std::sin(from + sweep) - std::sin(from));
+    }
+    if (number(-1, 1) > 0) at[w] += number(-5, 5);
+    for (double& x : at) x = std::round(x * 1e6) / 1e6;
+    const std::array<const char*, 3> planes = {"G19", "G18", "G17"};
+    std::string line = std::string(planes[w]) + (incremental ? " G91" : " G90") +
+                       (random() % 2 ? " G2" : " G3");
+    for (const std::size_t k : {u, v, w})
+      if (!whole || k == w) line += word("XYZ"[k], at[k] - (incremental ? start[k] : 0));
+    if (by_radius > 0) {
+      line += word('R', random() % 2 ? r : -r);
+    } else {
+      line += word("IJK"[u], -r * std::cos(from));
+      line += word("IJK"[v], -r * std::sin(from));
+    }
+    out.push_back(line);
+  }
+  return out;
+}
+
+// Centre, sense, end and height of each arc by LinuxCNC: the chords lie there.
+TEST(LinuxCnc, ArcsAreReadAlike) {
   const Interpreter rs274;
   if (rs274.moves({"G21", "G0 X1"}).size() != 1) GTEST_SKIP() << "rs274 is not there";
-  for (const char* arc : {"G3 X0 Y10 R10 F9", "G3 X0 Y10 R-10 F9", "G2 X0 Y10 I-10 F9",
-                          "G3 X10 Y0 I-10 F9"}) {
-    const auto p = read_nc({"G0 X10 Y0", arc, "G1 X3 Y4"}, {});
-    ASSERT_TRUE(p.problems.empty());
-    EXPECT_EQ(rs274.moves({"G21", "G0 X10 Y0", arc, "G1 X3 Y4"}).size(), 2u) << arc;
+  const std::vector<std::string> source = random_arcs(200, 7);
+  const auto arcs = rs274.arcs(source);
+  ASSERT_EQ(arcs.size(), 200u);
+  const auto p = read_nc({source.begin(), source.end()}, {.tolerance_mm = 0.01});
+  ASSERT_TRUE(p.problems.empty()) << p.problems[0].line << p.problems[0].got;
+  constexpr double kPrinted = 3e-4;  // four decimals of ends, centre and start
+  Vec3 from = p.moves[2].target_mm;
+  std::size_t k = 3;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const std::string& line = source[i + 3];
+    const std::size_t w = line.starts_with("G17")   ? 2
+                          : line.starts_with("G18") ? 1
+                                                    : 0,
+                      u = (w + 1) % 3, v = (w + 2) % 3;
+    const auto& [end, centre, turn, across] = arcs[i];
+    const auto about = [&](const Vec3& at) {
+      return std::array{at[u] - centre[0], at[v] - centre[1]};
+    };
+    const Vec3 start = from;
+    const double r = std::hypot(about(start)[0], about(start)[1]);
+    double turned = 0;
+    std::vector<std::array<double, 2>> heights;  // angle and way along the axis
+    for (; k < p.moves.size() && p.moves[k].line == i + 4; ++k) {
+      const Vec3& to = p.moves[k].target_mm;
+      const auto a = about(from), b = about(to);
+      turned += std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+      heights.push_back({turned, to[w] - start[w]});
+      EXPECT_NEAR(std::hypot(b[0], b[1]), r, kPrinted) << line;
+      from = to;
+    }
+    EXPECT_GT(turned * turn, 0) << line;
+    EXPECT_LE(std::abs(turned), 2 * units::kPi + kPrinted) << line;
+    for (const auto& [angle, way] : heights)
+      EXPECT_NEAR(way, (across - start[w]) * angle / turned, kPrinted) << line;
+    EXPECT_NEAR(from[u], end[0], kPrinted) << line;
+    EXPECT_NEAR(from[v], end[1], kPrinted) << line;
   }
+  EXPECT_EQ(k, p.moves.size());
 }
 
 // Modal states, offsets and units: where a program goes by LinuxCNC, in its coordinates.

@@ -45,6 +45,8 @@ struct NcProgram {
   Vec3 start_mm{};  ///< tip in the machine frame
   std::vector<NcMove> moves;
   std::vector<NcProblem> problems;  ///< if any, `moves` is not to be used
+  /// Line of the first coordinates if no motion was commanded before, taken for G0; or 0.
+  std::size_t rapid_assumed = 0;
 };
 
 /// The program's moves.  Read are G0 G1 G2 G3 (centre by I J K from the start, or R), G17
