@@ -43,7 +43,7 @@ struct Slip {
 class Slips {
  public:
   explicit Slips(const std::string& example) : good_(json::parse(example)) {
-    pointers_of(good_, {}, pointers_);
+    pointers_of(good_, json::json_pointer(), pointers_);
   }
 
   Slip next() {
@@ -108,6 +108,12 @@ bool below(const std::string& pointer, const std::string& above) {
   return pointer == above || pointer.starts_with(above + '/');
 }
 
+// The lines of a table are told by their table.
+std::string told_at(const std::string& pointer) {
+  const auto table = pointer.find("/csv/");
+  return table == pointer.npos ? pointer : pointer.substr(0, table + 4);
+}
+
 TEST(MalformedRequests, AreAnsweredByProblemsThatPointAtThem) {
   for (const auto& row : requests()) {
     Slips slips(row.example);
@@ -123,7 +129,7 @@ TEST(MalformedRequests, AreAnsweredByProblemsThatPointAtThem) {
       const auto problem = json::parse(reply.body);
       bool found = false;
       for (const auto& error : problem.at("errors"))
-        found = found || below(error.at("pointer"), slip.pointer);
+        found = found || below(error.at("pointer"), told_at(slip.pointer));
       ASSERT_TRUE(found) << row.name << ' ' << slip.pointer << '\n'
                          << slip.body << '\n'
                          << reply.body;
