@@ -193,7 +193,7 @@ TEST(NcProgram, OffsetsOfToolsMoveNoAxis) {
   near(at[3], {13, 0, 110});  // tool 2 is 20 mm shorter
   near(at[4], {0, 0, 190});
   const NcSetup lathe{.axes = "XZ", .lathe = true, .tool_offsets_mm = {{4, {2, 0, -7}}}};
-  near(targets(read_nc({"G0 X50 Z30", "T0404", "X20", "T0400 Z0"}, lathe))[1],
+  near(targets(read_nc({"G0 X50 Z30", "T0704", "X20", "T0700 Z0"}, lathe))[1],
        {20, 0, 23});
 }
 
