@@ -71,6 +71,10 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
                 prices_test.cpp conflicts_test.cpp fixed_test.cpp
           TEST_DEPENDS document)
 # Floor 6
+tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
+          DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
+          TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
+# Floor 7
 file(RELATIVE_PATH data_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
 set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
@@ -78,10 +82,10 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           catalogue.cpp data_folder.cpp references.cpp elements.cpp cuts.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp unsupported.cpp what_if.cpp part_plan.cpp process_plan.cpp drawing.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
-          machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp
-          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning PUBLIC_LIBS nlohmann_json::nlohmann_json
+          machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp nc.cpp
+          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning nc PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
-                malformed_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp drawing_test.cpp)
+                malformed_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp nc_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp drawing_test.cpp)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
@@ -111,17 +115,18 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
                 window_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp)
-# Floor 7, 8
+# Floor 8, 9
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             http/message.cpp http/openapi.cpp http/api.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp
-          DEPENDS base catalogue planning document report
+          DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
             SQLite::SQLite3 prometheus-cpp::core Boost::headers Threads::Threads
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
+                malformed_requests_test.cpp
                 job_store_test.cpp server_test.cpp page_test.cpp)
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)

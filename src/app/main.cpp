@@ -11,6 +11,7 @@
 #include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
+#include "turnwright/document/nc.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/service/listing.hpp"
 #include "turnwright/service/requests.hpp"
@@ -33,6 +34,7 @@ struct Arguments {
   std::string file;
   std::optional<std::filesystem::path> result_file;
   std::optional<std::filesystem::path> drawings;
+  std::optional<std::filesystem::path> programs;
   std::optional<std::filesystem::path> report_file;
   bool json = false;
   std::string listed;
@@ -48,9 +50,9 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request,
                       const document::Catalogue& catalogue) {
   try {
-    if (arguments.drawings || arguments.report_file)
+    if (arguments.drawings || arguments.programs || arguments.report_file)
       return service::drawn_answer(row, request, {catalogue});
-    return {service::answer(row, request, {catalogue}), {}};
+    return {service::answer(row, request, {catalogue}), {}, {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
     const bool piped = arguments.file == "-";
@@ -64,6 +66,17 @@ void write_drawings(const std::filesystem::path& folder,
   for (const auto& picture : drawings) write_file(folder / picture.file, picture.svg);
 }
 
+void write_programs(const std::filesystem::path& folder, const nc::Programs& programs) {
+  constexpr auto kControl = nc::Control::linuxcnc;
+  make_folder(folder);
+  for (const auto& program : programs.setups)
+    write_file(folder / document::file_name(program, kControl),
+               nc::text(program, kControl));
+  if (!programs.setups.empty())
+    write_file(folder / "tools.tbl", nc::tool_table(programs.setups));
+  for (const auto& why : programs.cannot) std::cerr << "no NC program: " << why << '\n';
+}
+
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
@@ -72,6 +85,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   const std::string json = result.dump(2) + '\n';
   if (arguments.result_file) write_file(*arguments.result_file, json);
   if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
+  if (arguments.programs) write_programs(*arguments.programs, drawn.programs);
   if (arguments.report_file)
     write_file(*arguments.report_file, service::html_report(row, request, drawn));
   if (row.text && !arguments.json)
@@ -115,6 +129,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.drawn)
       command->add_option("--drawings", arguments.drawings,
                           "write the result's pictures (SVG) to this folder");
+    if (row.drawn && service::request_schema(row) == "part.json")
+      command->add_option("--nc", arguments.programs,
+                          "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
     if (row.html)
       command->add_option("--report", arguments.report_file,
                           "write the report (HTML, printable) here");

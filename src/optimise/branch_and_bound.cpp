@@ -5,6 +5,8 @@
 #include <limits>
 #include <queue>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::optimise {
 namespace {
 
@@ -145,6 +147,7 @@ class Search {
     for (std::size_t p = 0; p < pieces_.size(); ++p)
       queue_.push({-kInfinity, births_++, p, pieces_[p].box});
     while (!queue_.empty() && result_.nodes < options_.max_nodes) {
+      leave_if_asked();
       Node node = queue_.top();
       queue_.pop();
       if (node.lower >= cut())

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::planning {
 namespace {
 
@@ -269,6 +271,7 @@ FeatureTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset)
 }
 
 Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {
+  leave_if_asked();
   const auto key = tools_of(j, tools);
   auto& memory = memory_[j];
   if (jobs_[j].feature.kind() == Feature::Kind::end_face) {

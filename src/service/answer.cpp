@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/finite.hpp"
 #include "turnwright/service/digest.hpp"
 #include "turnwright/service/requests.hpp"
@@ -32,6 +33,7 @@ void sign(nlohmann::ordered_json& result, const Request& row,
 
 nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
                               const Context& context) {
+  const Listening listening(context.stop);
   nlohmann::ordered_json result = row.result(request, context);
   sign(result, row, request);
   return result;
@@ -41,6 +43,7 @@ Drawn drawn_answer(const Request& row, const nlohmann::json& request,
                    const Context& context) {
   if (!row.drawn)
     throw std::domain_error("drawn_answer: " + row.name + " has no pictures");
+  const Listening listening(context.stop);
   Drawn all = row.drawn(request, context);
   sign(all.result, row, request);
   return all;

@@ -13,6 +13,7 @@
 #include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/multipass.hpp"
+#include "turnwright/document/nc.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/samba.hpp"
@@ -155,13 +156,29 @@ ordered_json predict(const json& request, const Context& context) {
   return document::to_json(planning::predict(part.plan), part.assumed);
 }
 
+std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
+
+ordered_json nc_programs(const json& request, const Context& context) {
+  const auto [part, control] = document::load_nc_request(request, context.catalogue);
+  const auto plan = planning::plan(part.plan);
+  return document::to_json(nc::programs(part.plan, plan), plan, control);
+}
+
+std::string nc_text(const ordered_json& result) {
+  std::string all;
+  for (const auto& program : result["programs"])
+    all += program["text"].get<std::string>();
+  for (const auto& why : result["cannot"]) all += why.get<std::string>() + '\n';
+  return all;
+}
+
 ordered_json drawing(const json& request, const Context& context) {
   return document::drawing(
       document::load_part_plan(request, context.catalogue, "drawing"));
 }
 
 Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
-  Drawn all{document::to_json(plan, part.assumed), {}};
+  Drawn all{document::to_json(plan, part.assumed), {}, nc::programs(part.plan, plan)};
   for (auto& svg : report::setup_drawings(part.plan, plan))
     all.drawings.push_back(
         {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
@@ -237,6 +254,8 @@ std::span<const Request> requests() {
        report::text, drawn_plan, report::html},
       {"predict", "part plan with conditions given -> deviations and verdicts",
        kPredictExample, predict, report::text, drawn_predict, report::html},
+      {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
+       nc_programs, nc_text},
       {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
        kPlanExample, drawing},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",

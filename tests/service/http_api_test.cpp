@@ -189,5 +189,36 @@ TEST(HttpApi, SpoiledRequestsAreNeverAFaultOfTheServer) {
   }
 }
 
+TEST(HttpApi, TheDescriptionThatIsKeptIsTheOneServed) {
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/docs/openapi.json");
+  const std::string kept{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(kept == reply(call("GET", "/openapi.json")).body)
+      << "docs/openapi.json is old: curl http://127.0.0.1:8080/openapi.json";
+}
+
+// Draft 7's words for tuples and for members that need others mean nothing in 2020-12.
+void expect_2020_12(const json& schema, const std::string& where) {
+  if (schema.is_array())
+    for (const auto& one : schema) expect_2020_12(one, where);
+  if (!schema.is_object()) return;
+  for (const char* word : {"additionalItems", "dependencies", "definitions", "$schema"})
+    EXPECT_FALSE(schema.contains(word)) << where << ": " << word;
+  EXPECT_FALSE(schema.contains("items") && schema["items"].is_array()) << where;
+  for (const auto& [key, value] : schema.items()) {
+    if (key == "properties" || key == "dependentSchemas" || key == "patternProperties")
+      for (const auto& [name, member] : value.items())
+        expect_2020_12(member, where + '/' + name);
+    else if (key != "examples" && key != "enum" && key != "const" && key != "default")
+      expect_2020_12(value, where + '/' + key);
+  }
+}
+
+TEST(HttpApi, SchemasAreTheDescriptionsDialect) {
+  const auto document = json::parse(reply(call("GET", "/openapi.json")).body);
+  const auto& schemas = document.at("components").at("schemas");
+  for (const auto& [name, schema] : schemas.items()) expect_2020_12(schema, name);
+  EXPECT_NE(schemas.dump().find("\"prefixItems\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace turnwright::service

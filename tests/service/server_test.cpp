@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "http_client.hpp"
@@ -99,6 +101,9 @@ TEST(Server, RefusesWhatIsTooLargeOrNoHttp) {
   for (int i = 0; i < 3; ++i)
     chunks += "f4240\r\n" + std::string(1'000'000, ' ') + "\r\n";
   EXPECT_EQ(status(chunks + "0\r\n\r\n"), 413);
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
+                   std::string(1'000'000, 'a') + "\r\n{\r\n0\r\n\r\n"),
+            431);
   EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 5\r\n"
                    "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
             400);
@@ -175,6 +180,50 @@ TEST(Server, ADeadlineIsKept) {
   EXPECT_NE(body_of(answer).find("urn:turnwright:problem:deadline"), std::string::npos);
 }
 
+// A part that takes seconds: a plan on every corner of cost against time.
+std::string long_plan() {
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
+  auto part = nlohmann::json::parse(file);
+  part["pareto"] = 12;
+  return part.dump();
+}
+
+void wait_for_metric(RawClient& client, const std::string& line) {
+  while (body_of(client.ask(get("/metrics"))).find(line) == std::string::npos) {
+  }
+}
+
+// The pool's only thread is free again long before the plan would be done.
+TEST(Server, APlanWhoseClientLeavesIsLeft) {
+  ServerOptions options;
+  options.threads = 1;
+  const Running server(options);
+  auto other = server.client();
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(status_of(other.ask(post("/v1/plan", long_plan()))), 200);
+  const auto whole = std::chrono::steady_clock::now() - begin;
+  {
+    const auto leaving = server.client();
+    leaving.send(post("/v1/plan", long_plan()));
+    wait_for_metric(other, "turnwright_calls_waiting 1");
+  }
+  const auto left = std::chrono::steady_clock::now();
+  wait_for_metric(other, "turnwright_calls_waiting 0");
+  EXPECT_LT(std::chrono::steady_clock::now() - left, whole / 2);
+}
+
+TEST(Server, APlanBeyondItsDeadlineIsLeft) {
+  ServerOptions options;
+  options.threads = 1;
+  options.deadline = 20ms;
+  const Running server(options);
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask(post("/v1/plan", long_plan()))), 504);
+  const auto begin = std::chrono::steady_clock::now();
+  wait_for_metric(client, "turnwright_calls_waiting 0");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+}
+
 TEST(Server, AnswersWhatHasArrivedBeforeItStops) {
   Running server;
   std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/pump-shaft.json");
@@ -232,6 +281,20 @@ TEST(Server, IsNotOpenToOthersWithoutKeys) {
   EXPECT_THROW(Server(options, api), InputError);
   options.address = "::1";
   EXPECT_NO_THROW(Server(options, api));
+}
+
+TEST(Server, IdsTellProcessesApart) {
+  const auto id = [](const std::string& answer) {
+    const auto at = answer.find("X-Request-Id: ") + 14;
+    return answer.substr(at, answer.find("\r\n", at) - at);
+  };
+  std::set<std::string> ids;
+  for (int i = 0; i < 3; ++i) {
+    const Running server;
+    auto client = server.client();
+    for (int k = 0; k < 3; ++k) ids.insert(id(client.ask(get("/healthz"))));
+  }
+  EXPECT_EQ(ids.size(), 9u);
 }
 
 TEST(Server, CarriesTheCallersIdBack) {

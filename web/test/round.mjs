@@ -132,6 +132,15 @@ async function planner() {
   await (await download).saveAs(file);
   const report = readFileSync(file, 'utf8');
   assert.ok(report.includes(`<dd>${(await cost(page)).toFixed(4)} `));
+
+  // One NC program a setup, with the plan's tools and speeds.
+  await page.getByRole('button', { name: 'Write NC programs' }).click();
+  const program = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save setup 0' }).click();
+  await (await program).saveAs(`${folder}/setup-0.ngc`);
+  assert.match(readFileSync(`${folder}/setup-0.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
+  await page.getByText(/^setup-0.ngc/).click();
+  await look(page, '07-nc');
   await page.context().close();
   await paper(file);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "turnwright/document/catalogue.hpp"
+#include "turnwright/nc/program.hpp"
 #include "turnwright/report/html.hpp"
 
 /// Every capability once: a pure function from a request document to a result document.
@@ -26,6 +27,7 @@ using Picture = report::Figure;
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
+  nc::Programs programs = {};  ///< of plans
 };
 
 struct Request {

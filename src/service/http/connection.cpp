@@ -69,7 +69,7 @@ Call call_of(const Parser& parser, ServerState& state) {
           text(message[http::field::content_type]),
           text(message[http::field::accept_encoding]),
           text(message[http::field::authorization]),
-          is_request_id(id) ? text(id) : "call-" + std::to_string(++state.calls),
+          is_request_id(id) ? text(id) : state.name + '-' + std::to_string(++state.calls),
           {}};
 }
 

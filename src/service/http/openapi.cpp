@@ -29,12 +29,46 @@ void move_references(ordered_json& schema, const std::string& name) {
     for (auto& member : schema) move_references(member, name);
 }
 
+// A member's value, taken out; members move when one is added.
+ordered_json taken(ordered_json& object, const char* key) {
+  auto value = std::move(object.at(key));
+  object.erase(key);
+  return value;
+}
+
+// OpenAPI 3.1 reads schemas as of 2020-12, which says in other words than draft 7 what a
+// tuple holds and which members ask for others.
+void to_2020_12(ordered_json& schema) {
+  if (schema.is_array())
+    for (auto& one : schema) to_2020_12(one);
+  if (!schema.is_object()) return;
+  if (schema.contains("items") && schema["items"].is_array()) {
+    schema["prefixItems"] = taken(schema, "items");
+    if (schema.contains("additionalItems"))
+      schema["items"] = taken(schema, "additionalItems");
+  }
+  if (schema.contains("dependencies")) {
+    const auto all = taken(schema, "dependencies");
+    for (const auto& [key, value] : all.items())
+      schema[value.is_array() ? "dependentRequired" : "dependentSchemas"][key] = value;
+  }
+  for (auto& [key, value] : schema.items()) {
+    if (key == "properties" || key == "patternProperties" || key == "definitions" ||
+        key == "dependentSchemas")
+      for (auto& member : value) to_2020_12(member);
+    else if (key != "const" && key != "enum" && key != "default" && key != "examples" &&
+             key != "dependentRequired")
+      to_2020_12(value);
+  }
+}
+
 void add_schema(ordered_json& schemas, const std::filesystem::path& folder,
                 const std::string& file) {
   const std::string name = component(file);
   if (schemas.contains(name)) return;
   ordered_json schema = document::parse_file(folder / "schemas" / file);
   move_references(schema, name);
+  to_2020_12(schema);
   if (const auto definitions = schema.find("definitions"); definitions != schema.end())
     for (auto& [key, value] : definitions->items()) schemas[name + '.' + key] = value;
   schema.erase("definitions");

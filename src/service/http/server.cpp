@@ -1,6 +1,9 @@
 #include "turnwright/service/server.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <random>
 #include <thread>
 
 #include "state.hpp"
@@ -63,6 +66,8 @@ void begin_drain(ServerState& state) {
 }
 
 }  // namespace
+
+std::string process_name() { return fmt::format("{:08x}", std::random_device()()); }
 
 Server::Server(const ServerOptions& options, const HttpApi& api)
     : state_(std::make_unique<ServerState>(complete(options), api)) {

@@ -19,9 +19,12 @@ using asio::ip::tcp;
 struct Connection {
   explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
   tcp::socket socket;
-  beast::flat_buffer buffer;
+  beast::flat_buffer buffer{65'536};  ///< the most that may come before it is understood
   bool idle = false;  ///< between two calls: may be closed without losing one
 };
+
+/// Eight random hexadecimal digits: ids of calls tell one process from the next.
+std::string process_name();
 
 /// Everything but `pool`'s work is touched by the one thread that runs `io`.
 struct ServerState {
@@ -37,7 +40,8 @@ struct ServerState {
   asio::signal_set signals{io, SIGINT, SIGTERM};
   asio::steady_timer drain{io};
   std::set<Connection*> connections;
-  std::size_t waiting = 0;  ///< calls in `pool`
+  std::size_t waiting = 0;                  ///< calls in `pool`
+  const std::string name = process_name();  ///< of this process, in the ids of calls
   std::uint64_t calls = 0;
   bool draining = false;
 

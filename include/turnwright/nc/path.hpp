@@ -1,0 +1,60 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+/// Ways of a turning tool over a contour.
+///
+/// The contour lies in a plane of height h and place z: h points out of the material into
+/// the air (h = radius outside, h = -radius in a bore), z along the axis towards the free
+/// end.  The tool cuts towards the chuck, so a contour runs with falling z and does not
+/// fall in h.
+namespace turnwright::nc {
+
+struct Point {
+  double h_mm = 0, z_mm = 0;
+};
+
+/// Unit normals of a contour, into the air.
+struct Normal {
+  double h = 0, z = 0;
+};
+/// Of the straight line between two points.
+/// @throws std::domain_error if they are the same.
+Normal normal(const Point& from, const Point& to);
+
+/// The programmed point of a tool whose corner, of radius r, touches a contour at P.  It
+/// is the imaginary tip, where the tangents of the corner parallel to both axes meet:
+///
+///     tip = P + r (n - (1, 1)) (1)
+///
+/// On lines parallel to an axis the tip is on the contour; along others it keeps the
+/// corner tangent to it.
+Point tip(const Point& touched, const Normal& n, double re_mm);
+
+/// Tip where two lines of normals m and n meet in P, tangent to both,
+///
+///     tip = P + r ((m + n)/(1 + m n) - (1, 1)). (2)
+///
+/// In an inner corner the fillet of the corner's radius stays, an outer one is sharp.
+Point tip(const Point& corner, const Normal& m, const Normal& n, double re_mm);
+
+/// Tips at the points of a straight-lined contour; by (1) at its ends, (2) between.
+std::vector<Point> tips(const std::vector<Point>& contour, double re_mm);
+
+/// A circular piece of a contour, from its free end to the chuck's.
+struct Arc {
+  Point from, to, centre;
+  bool convex = true;  ///< the centre lies in the material
+};
+/// Of a radius through two points.
+/// @throws std::domain_error unless R is at least half the chord (1e-9 R is forgiven).
+Arc arc_through(const Point& from, const Point& to, double radius_mm, bool convex);
+
+/// The tip's way along an arc: an arc of radius R + r (convex) or R - r about a centre
+/// shifted by (-r, -r).  It begins no lower than `floor_mm` and goes no farther than
+/// `wall_z_mm`, so that the corner cuts neither what lies before nor after the arc.
+/// Nothing if the corner does not fit into the arc.
+std::optional<Arc> tip_arc(const Arc& contour, double re_mm, double floor_mm,
+                           double wall_z_mm);
+
+}  // namespace turnwright::nc

@@ -1,0 +1,182 @@
+#include "fixed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "turning.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+using catalogue::FixedTool;
+using catalogue::FixedUse;
+using planning::OperationPlan;
+using Kind = Move::Kind;
+
+constexpr double kRunIn = 3;  // of a thread, in pitches
+
+const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
+  return *std::find_if(site.part.fixed_tools.begin(), site.part.fixed_tools.end(),
+                       [&](const FixedTool& t) { return t.id == o.tool; });
+}
+
+double bored_mm(const Site& site) {
+  const auto end = site.sign > 0 ? part::End::right : part::End::left;
+  double depth = 0;
+  for (const auto& e : site.part.drawing.inner)
+    if (e.from == end) depth += e.length_mm;
+  return depth;
+}
+
+void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
+  const double D = 2 * o.passes[0].ap_mm;
+  const bool centre = tool.use == FixedUse::centring;
+  const double depth = centre ? tool.reach * D : bored_mm(site);
+  const double point = D / 2 / std::tan(units::rad_from_deg(tool.point_deg / 2));
+  site.rapid(0, site.at.z_mm);
+  site.rapid(0, site.front + kBefore_mm);
+  site.to(Kind::feed, site.outer, {0, -(depth + point)});
+  site.rapid(0, site.front + kBefore_mm);
+  if (!centre) site.inner.stock_h = -D / 2;
+}
+
+struct Place {
+  Side& side;
+  std::size_t k;
+  Surface& surface() const { return side.items[k]; }
+};
+
+Place place_of(Site& site, const std::string& id) {
+  for (Side* side : {&site.outer, &site.inner})
+    for (std::size_t k = 0; k < side->items.size(); ++k)
+      if (side->items[k].id == id) return {*side, k};
+  throw std::domain_error("nc: no element " + id);
+}
+
+const part::Cut& cut_of(const Site& site, const Surface& s) {
+  const auto& d = site.part.drawing;
+  return *(s.inner ? d.inner[s.index].cut : d.outer[s.index].cut);
+}
+
+bool rises_behind(const Place& p, double h) {
+  const auto& items = p.side.items;
+  if (p.k + 1 >= items.size() || items[p.k + 1].z0 < p.surface().z1 - kSame_mm)
+    return p.side.sign < 0 && p.side.stock_h > h + kSame_mm;
+  return p.side.top0(items[p.k + 1]) > h + kSame_mm;
+}
+
+void groove(Site& site, const OperationPlan& o, const Place& p) {
+  auto& s = p.surface();
+  const double w = o.passes[0].ap_mm, above = s.h0 + site.above(p.side);
+  const double floor = p.side.sign * cut_of(site, s).drawn.left_mm / 2;
+  const auto n = o.passes.size();
+  const double step = n > 1 ? (s.z0 - s.z1 - w) / static_cast<double>(n - 1) : 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = s.z1 + static_cast<double>(i) * step;
+    const double beside = i == 0 && rises_behind(p, s.h1) ? kBehind_mm : 0;
+    site.approach(p.side, {above, z + beside}, 0);
+    site.to(Kind::feed, p.side, {above, z});
+    site.to(Kind::feed, p.side, {floor, z});
+    site.rapid(p.side.sign * above, z);
+  }
+  s.h0 = s.h1 = floor;
+}
+
+void thread(Site& site, const OperationPlan& o, const Place& p) {
+  auto& s = p.surface();
+  const auto& cut = cut_of(site, s);
+  const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
+  double room = INFINITY;
+  for (std::size_t j = 0; j < p.k; ++j)
+    if (p.side.top(p.side.items[j]) > root + kSame_mm)
+      room = p.side.items[j].z1 - s.z0 - P / 2;
+  const double run_in = std::min(kRunIn * P, room);
+  if (!(run_in >= P)) {
+    site.cannot.push_back(
+        fmt::format("setup {}, {}: thread {} begins behind a larger diameter with less "
+                    "than one pitch "
+                    "of room for the tool to come in",
+                    site.setup, o.id, s.id));
+    return;
+  }
+  const double end = s.z1 + (rises_behind(p, root) ? P : 0);
+  const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
+  site.approach(p.side, before, 0);
+  double h = s.h0;
+  for (const auto& pass : o.passes) {
+    h -= pass.ap_mm;
+    site.rapid(p.side.sign * h, before.z_mm);
+    site.to(Kind::thread, p.side, {h, end});
+    site.rapid(p.side.sign * before.h_mm, end);
+    site.rapid(p.side.sign * before.h_mm, before.z_mm);
+  }
+}
+
+void arc(Site& site, const OperationPlan& o, const Place& p) {
+  auto& s = p.surface();
+  const auto& cut = cut_of(site, s);
+  const bool mirrored = site.sign < 0;
+  const double first = (mirrored ? cut.drawn.left_mm : cut.drawn.right_mm) / 2;
+  const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
+  const auto drawn =
+      arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
+  const double before = p.k > 0 ? p.side.items[p.k - 1].h1 : 0;
+  const double wall = rises_behind(p, second) ? s.z1 : -INFINITY;
+  double left = cut.depth_mm;
+  for (std::size_t i = 0; i < o.passes.size(); ++i) {
+    left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
+    Arc raised = drawn;
+    for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
+    const auto way = tip_arc(raised, kProfilingCorner_mm, before, wall);
+    if (!way) {
+      site.cannot.push_back(fmt::format(
+          "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
+          "{:g} mm",
+          site.setup, o.id, s.id, cut.radius_mm, kProfilingCorner_mm));
+      return;
+    }
+    site.approach(p.side, {way->from.h_mm, way->from.z_mm + kBefore_mm}, kAbove_mm);
+    site.to(Kind::feed, p.side, way->from);
+    site.moves.push_back(
+        {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});
+    site.at = way->to;
+    site.lift(p.side);
+  }
+  s.h0 = first;
+  s.h1 = second;
+}
+
+void part_off(Site& site, const OperationPlan& o) {
+  const double L = part::length_mm(site.part.drawing), w = o.passes[0].ap_mm;
+  const double z = -L - *site.part.drawing.stock.parted_mm - w;
+  site.approach(site.outer, {site.outer.stock_h + kAbove_mm, z}, 0);
+  site.to(Kind::feed, site.outer, {site.part.drawing.stock.inner_mm / 2, z});
+  site.rapid(site.outer.stock_h + kClear_mm, z);
+}
+
+}  // namespace
+
+FixedUse use_of(const Site& site, const OperationPlan& o) { return tool_of(site, o).use; }
+
+void fixed(Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
+  const auto& tool = tool_of(site, o);
+  switch (tool.use) {
+    case FixedUse::centring:
+    case FixedUse::drilling:
+      return drill(site, o, tool);
+    case FixedUse::parting:
+      return part_off(site, o);
+    case FixedUse::grooving:
+      return groove(site, o, place_of(site, o.on[0]));
+    case FixedUse::threading:
+      return thread(site, o, place_of(site, o.on[0]));
+    case FixedUse::profiling:
+      return arc(site, o, place_of(site, o.on[0]));
+  }
+}
+
+}  // namespace turnwright::nc

@@ -1,0 +1,81 @@
+#include "turnwright/nc/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace turnwright::nc {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upright
+
+// Along the axis from a centre to where a circle has a height, or the other way round.
+double beside(double radius_mm, double across_mm) {
+  return std::sqrt(std::max(0.0, radius_mm * radius_mm - across_mm * across_mm));
+}
+
+}  // namespace
+
+Normal normal(const Point& from, const Point& to) {
+  const double dh = to.h_mm - from.h_mm, dz = to.z_mm - from.z_mm;
+  const double l = std::hypot(dh, dz);
+  if (!(l > 0)) throw std::domain_error("normal: two different points");
+  return {-dz / l, dh / l};
+}
+
+Point tip(const Point& p, const Normal& n, double r) {
+  return {p.h_mm + r * (n.h - 1), p.z_mm + r * (n.z - 1)};  // Eq. (1)
+}
+
+Point tip(const Point& p, const Normal& m, const Normal& n, double r) {
+  const double k = 1 / (1 + m.h * n.h + m.z * n.z);
+  return tip(p, {(m.h + n.h) * k, (m.z + n.z) * k}, r);  // Eq. (2)
+}
+
+std::vector<Point> tips(const std::vector<Point>& contour, double r) {
+  std::vector<Point> all;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const auto& p = contour[i];
+    const auto before = normal(contour[i > 0 ? i - 1 : 0], contour[i > 0 ? i : 1]);
+    const auto after = i + 1 < contour.size() ? normal(p, contour[i + 1]) : before;
+    all.push_back(tip(p, before, after, r));
+  }
+  return all;
+}
+
+Arc arc_through(const Point& from, const Point& to, double R, bool convex) {
+  const double dh = to.h_mm - from.h_mm, dz = to.z_mm - from.z_mm;
+  const double c = std::hypot(dh, dz);
+  if (!(R >= c / 2 * (1 - kRounding)) || !(c > 0))
+    throw std::domain_error("arc_through: a radius of at least half the chord");
+  const auto n = normal(from, to);
+  const double side = (convex ? -1 : 1) * beside(R, c / 2);
+  return {
+      from,
+      to,
+      {(from.h_mm + to.h_mm) / 2 + side * n.h, (from.z_mm + to.z_mm) / 2 + side * n.z},
+      convex};
+}
+
+std::optional<Arc> tip_arc(const Arc& a, double r, double floor_mm, double wall_z_mm) {
+  const double R = std::hypot(a.from.h_mm - a.centre.h_mm, a.from.z_mm - a.centre.z_mm);
+  const double rho = a.convex ? R + r : R - r;
+  if (!(rho > -kRounding * R)) return std::nullopt;
+  const double outwards = a.convex ? 1 : -1;
+  const auto tip_at = [&](const Point& p) {
+    return tip(p,
+               {outwards * (p.h_mm - a.centre.h_mm) / R,
+                outwards * (p.z_mm - a.centre.z_mm) / R},
+               r);
+  };
+  const Point centre{a.centre.h_mm - r, a.centre.z_mm - r};
+  Arc t{tip_at(a.from), tip_at(a.to), centre, a.convex};
+  if (t.from.h_mm < floor_mm)
+    t.from = {floor_mm, centre.z_mm + outwards * beside(rho, floor_mm - centre.h_mm)};
+  if (t.to.z_mm < wall_z_mm)
+    t.to = {centre.h_mm + outwards * beside(rho, wall_z_mm - centre.z_mm), wall_z_mm};
+  if (!(t.from.z_mm >= t.to.z_mm)) return std::nullopt;
+  return t;
+}
+
+}  // namespace turnwright::nc

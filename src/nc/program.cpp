@@ -1,0 +1,267 @@
+#include "turnwright/nc/program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fixed.hpp"
+#include "turning.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/cutting/spindle.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+using catalogue::FixedUse;
+using planning::Clamping;
+using planning::OperationKind;
+using planning::OperationPlan;
+using planning::Stage;
+
+bool is_shoulder(const OperationPlan& o) {
+  return o.kind == OperationKind::face && o.on[0].find('|') != std::string::npos;
+}
+
+bool drills(const Site& site, const OperationPlan& o) {
+  if (o.kind != OperationKind::fixed) return false;
+  const auto use = use_of(site, o);
+  return use == FixedUse::centring || use == FixedUse::drilling;
+}
+
+// End faces, centre holes and drilling are made in the chuck alone, before a centre or a
+// rest comes in.
+bool in_chuck_alone(const Site& site, const OperationPlan& o) {
+  return (o.kind == OperationKind::face && !is_shoulder(o)) || drills(site, o);
+}
+
+// When the jaws have the force of which stage.
+Stage stage_of(const Site& site, const OperationPlan& o) {
+  const bool rough =
+      o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
+  return rough || in_chuck_alone(site, o) ? Stage::roughing : Stage::finishing;
+}
+
+struct Diameters {
+  double small_mm = 0, large_mm = 0;
+};
+
+// That an operation's last pass sweeps.
+Diameters swept(const Site& site, const OperationPlan& o) {
+  const auto& d = site.part.drawing;
+  if (const auto e = part::extent(d, o.on[0]))
+    return {std::min(e->left_mm, e->right_mm), std::max(e->left_mm, e->right_mm)};
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (planning::shoulder_id(d, k) == o.on[0]) {
+      const auto [small, large] =
+          std::minmax(d.outer[k - 1].right_mm, d.outer[k].left_mm);
+      return {small, large};
+    }
+  return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
+}
+
+// The limit [1/min] that the plan's conditions stand under.
+double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
+  const auto& m = site.part.machine;
+  const double n = o.passes[0].n_rpm;
+  double cap = m.n_max_rpm;
+  for (const auto& r : cutting::speed_ranges(m))
+    if (n <= r.n_max_rpm * (1 + 1e-12)) {
+      cap = r.n_max_rpm;
+      break;
+    }
+  const double force =
+      planning::jaw_force_N(site.part, site.setup, site.clamping, stage_of(site, o));
+  if (!(force > 0)) return std::min(cap, m.n_max_rpm);
+  const cutting::Grip grip{
+      force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+      planning::grip_diameter_mm(site.part, site.setup, site.clamping)};
+  const double keeps_a_third = cutting::grip_rpm(grip, (1 - cutting::kGripLoss) * force);
+  cap = std::min({cap, m.n_max_rpm, m.chuck.n_max_rpm, keeps_a_third});
+  const auto D = swept(site, o);
+  if (o.kind == OperationKind::fixed || !(D.small_mm < D.large_mm)) return cap;
+  double sum = 0;
+  for (const auto& pass : o.passes) sum += pass.ap_mm;
+  const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
+  const double needed = cutting::grip_needed_N(grip, o.passes[0].Fc_N, o.passes[0].Ff_N,
+                                               D.large_mm + (outside ? 2 * sum : 0));
+  return std::min(cap, cutting::grip_rpm(grip, needed));
+}
+
+// Grooving and parting run at constant surface speed, what drills, cuts threads or
+// profiles at the plan's spindle speed.
+bool constant_surface_speed(const Site& site, const OperationPlan& o) {
+  if (o.kind != OperationKind::fixed) return true;
+  const auto use = use_of(site, o);
+  return use == FixedUse::grooving || use == FixedUse::parting;
+}
+
+std::vector<std::string> comments(const OperationPlan& o) {
+  const auto& p = o.passes[0];
+  std::string on;
+  for (const auto& id : o.on) on += " " + id;
+  std::string depths;
+  for (const auto& pass : o.passes) {
+    const auto text = fmt::format("{:.4g}", pass.ap_mm);
+    if (&pass == &o.passes[0] || text != fmt::format("{:.4g}", (&pass)[-1].ap_mm))
+      depths += (depths.empty() ? "" : " ") + text;
+  }
+  return {fmt::format("operation {}:{} {}, {} x {} mm, {:.4g} mm/rev, {:.4g} m/min", o.id,
+                      on, name(o.kind), o.passes.size(), depths, p.f_mm_rev, p.vc_m_min),
+          fmt::format("plan: {:.0f} 1/min, Fc {:.0f} N, {:.2f} kW, edge {:.3g} min, cut "
+                      "{:.3f} min",
+                      p.n_rpm, p.Fc_N, p.Pc_kW, p.T_min, o.time_min)};
+}
+
+std::string clamping_change(const Site& site) {
+  switch (site.clamping) {
+    case Clamping::chuck:
+      break;
+    case Clamping::chuck_tailstock:
+      return "stop: bring up the tailstock";
+    case Clamping::between_centres:
+      return "stop: from the chuck to between centres";
+    case Clamping::chuck_steady:
+      return fmt::format("stop: set the steady rest at Z{:.1f}",
+                         site.z(site.part.setups[site.setup].steady_z_mm));
+    case Clamping::tailstock_follow:
+      return "stop: bring up the tailstock, set the follow rest";
+  }
+  return "";
+}
+
+Step stop(std::string told) {
+  Step s;
+  s.comments = {std::move(told)};
+  s.stop = true;
+  return s;
+}
+
+// Before each operation, where somebody changes the clamping.
+std::vector<std::vector<Step>> stops(const Site& site) {
+  const auto& s = site.answer();
+  std::vector<std::vector<Step>> all;
+  bool clamped = false;
+  double force_N = s.grip_force_N;
+  for (const auto& o : s.operations) {
+    auto& before = all.emplace_back();
+    if (!clamped && !in_chuck_alone(site, o)) {
+      clamped = true;
+      if (auto told = clamping_change(site); !told.empty()) before.push_back(stop(told));
+    }
+    const double wanted_N =
+        stage_of(site, o) == Stage::roughing ? s.grip_force_N : s.finishing_grip_force_N;
+    if (wanted_N != force_N)
+      before.push_back(stop(fmt::format("stop: jaws to {:.1f} kN", wanted_N / 1000)));
+    force_N = wanted_N;
+  }
+  return all;
+}
+
+// Numbers of the plan's tools, drills and blades of each size, in their order of use.
+class Numbers {
+ public:
+  explicit Numbers(const planning::PartPlan& part) : part_(part) {}
+  TableTool tool(const Site& site, const OperationPlan& o) {
+    TableTool t{0, o.tool, corner_mm(site, o), 3};
+    if (o.kind == OperationKind::fixed) {
+      const auto use = use_of(site, o);
+      if (use != FixedUse::threading && use != FixedUse::profiling)
+        t.id += fmt::format(" {:g} mm", (drills(site, o) ? 2 : 1) * o.passes[0].ap_mm);
+      if (drills(site, o)) t.orientation = 7;
+    }
+    const auto* e = o.on.empty() ? nullptr : &o.on[0];
+    const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
+    if (extent && extent->inner && t.orientation == 3) t.orientation = 2;
+    auto it = std::find(ids_.begin(), ids_.end(), t.id);
+    if (it == ids_.end()) it = ids_.insert(it, t.id);
+    t.number = static_cast<int>(it - ids_.begin()) + 1;
+    return t;
+  }
+
+ private:
+  const planning::PartPlan& part_;
+  std::vector<std::string> ids_;
+};
+
+std::vector<std::string> heading(const Site& site) {
+  const auto& d = site.part.drawing;
+  const auto& s = site.answer();
+  auto held = fmt::format("setup {}: {} end held, {}", site.setup,
+                          s.hold == part::End::left ? "left" : "right", name(s.clamping));
+  if (s.grip_force_N > 0)
+    held += fmt::format(", jaws {:.1f} kN, end at Z{:.4g}", s.grip_force_N / 1000,
+                        site.root_z);
+  return {"part " + d.name,
+          "material " + site.part.material.name + ", machine " + site.part.machine.name,
+          fmt::format("stock {:g} x {:g} mm, {:g} mm before Z0", d.stock.outer_mm,
+                      d.stock.length_mm, site.front),
+          held,
+          "zero: spindle axis and finished face of the free end",
+          "tools at their imaginary tip, corner radius in the path"};
+}
+
+void way(Site& site, std::size_t i) {
+  const auto& o = site.answer().operations[i];
+  if (o.direction == planning::Direction::from_chuck && o.kind != OperationKind::fixed &&
+      o.kind != OperationKind::face)
+    site.cannot.push_back(fmt::format(
+        "setup {}, {}: no program is made for turning from the chuck outwards",
+        site.setup, o.id));
+  else if (o.kind == OperationKind::fixed)
+    fixed(site, i);
+  else if (is_shoulder(o))
+    face_shoulder(site, i);
+  else if (o.kind == OperationKind::face)
+    face(site, i);
+  else
+    turn(site, i);
+}
+
+SetupProgram program(Site& site, Numbers& numbers) {
+  SetupProgram p;
+  p.setup = site.setup;
+  p.comments = heading(site);
+  const auto& operations = site.answer().operations;
+  const auto changes = stops(site);
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    const auto& o = operations[i];
+    p.steps.insert(p.steps.end(), changes[i].begin(), changes[i].end());
+    const auto tool = numbers.tool(site, o);
+    if (std::none_of(p.tools.begin(), p.tools.end(),
+                     [&](const TableTool& t) { return t.number == tool.number; }))
+      p.tools.push_back(tool);
+    Step step;
+    step.comments = comments(o);
+    step.tool = tool.number;
+    step.constant_surface_speed = constant_surface_speed(site, o);
+    step.S = step.constant_surface_speed ? o.passes[0].vc_m_min : o.passes[0].n_rpm;
+    step.n_max_rpm = spindle_limit_rpm(site, o);
+    step.f_mm_rev = o.passes[0].f_mm_rev;
+    site.moves.clear();
+    way(site, i);
+    const bool tool_stays = i + 1 < operations.size() && changes[i + 1].empty() &&
+                            operations[i + 1].tool == o.tool;
+    if (!tool_stays) site.home(tool.orientation != 3);
+    step.moves = site.moves;
+    p.steps.push_back(std::move(step));
+  }
+  return p;
+}
+
+}  // namespace
+
+Programs programs(const planning::PartPlan& part, const planning::ProcessPlan& plan) {
+  Programs all;
+  if (plan.status != planning::PlanStatus::ok) return all;
+  Numbers numbers(part);
+  for (std::size_t s = 0; s < plan.setups.size(); ++s) {
+    Site site(part, plan, s);
+    if (site.answer().operations.empty()) continue;
+    all.setups.push_back(program(site, numbers));
+    all.cannot.insert(all.cannot.end(), site.cannot.begin(), site.cannot.end());
+  }
+  if (!all.cannot.empty()) all.setups.clear();
+  return all;
+}
+
+}  // namespace turnwright::nc

@@ -1,0 +1,96 @@
+#include "site.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turnwright::nc {
+
+using planning::SetupWork;
+
+double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
+
+Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
+           std::size_t setup_)
+    : part(part_),
+      plan(plan_),
+      setup(setup_),
+      clamping(plan_.setups[setup_].clamping),
+      sign(part_.setups[setup_].hold == part::End::left ? 1 : -1),
+      free_z(planning::free_z_mm(part_, setup_)),
+      root_z(sign * (planning::root_z_mm(part_, setup_, clamping) - free_z)) {
+  const auto& stock = part.drawing.stock;
+  for (const auto& t : part.tools) r_most = std::max(r_most, t.re_mm);
+  outer = {1, stock.outer_mm / 2, {}};
+  inner = {-1, -stock.inner_mm / 2, {}};
+  const auto work = planning::assign(part).setups;
+  auto finished = planning::nothing_finished(part.drawing);
+  bool faced = false;
+  for (std::size_t k = 0; k < setup; ++k) {
+    planning::finish(finished, work[k]);
+    faced = faced || (work[k].end_face && part.setups[k].hold == part.setups[setup].hold);
+  }
+  if (!faced)
+    front = planning::face_stock_mm(part, sign > 0 ? part::End::right : part::End::left);
+  const auto add = [&](Side& side, const auto& elements, const auto& left_z,
+                       const std::vector<bool>& done, bool bore) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const auto& e = elements[i];
+      const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
+      const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
+      side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0}
+                                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0});
+    }
+    std::sort(side.items.begin(), side.items.end(),
+              [](const Surface& x, const Surface& y) { return x.z0 > y.z0; });
+  };
+  const auto& d = part.drawing;
+  add(
+      outer, d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); },
+      finished.outer, false);
+  add(
+      inner, d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); },
+      finished.inner, true);
+  at = {outer.stock_h + kChange_mm, front + kChange_mm};
+}
+
+void Site::rapid(double x, double z_) {
+  if (x == at.h_mm && z_ == at.z_mm) return;
+  moves.push_back({Move::Kind::rapid, x, z_, {}, false});
+  at = {x, z_};
+}
+
+void Site::to(Move::Kind kind, const Side& side, const Point& p) {
+  moves.push_back({kind, side.sign * p.h_mm, p.z_mm, {}, false});
+  at = {side.sign * p.h_mm, p.z_mm};
+}
+
+void Site::approach(const Side& side, const Point& p, double above_mm) {
+  const double x = side.sign * (p.h_mm + above_mm);
+  if (side.sign > 0) {
+    rapid(std::max(at.h_mm, outer.stock_h + kClear_mm), at.z_mm);
+    rapid(at.h_mm, p.z_mm);
+    rapid(x, p.z_mm);
+  } else {
+    rapid(at.h_mm, std::max(at.z_mm, front + kClear_mm));
+    rapid(x, at.z_mm);
+    rapid(x, p.z_mm);
+  }
+  to(Move::Kind::feed, side, p);
+}
+
+void Site::lift(const Side& side) {
+  rapid(at.h_mm + side.sign * above(side), at.z_mm + above(side));
+}
+
+void Site::home(bool from_bore) {
+  const double x = outer.stock_h + kChange_mm, z_ = front + kChange_mm;
+  if (from_bore) {
+    rapid(at.h_mm, z_);
+    rapid(x, z_);
+  } else {
+    rapid(x, at.z_mm);
+    rapid(x, z_);
+  }
+}
+
+}  // namespace turnwright::nc

@@ -1,0 +1,336 @@
+#include "turning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turnwright::nc {
+namespace {
+
+using planning::OperationKind;
+using planning::OperationPlan;
+using Kind = Move::Kind;
+using Table = std::vector<std::pair<double, double>>;
+
+constexpr double kStands_mm = 0.01;  // more than corrections differ
+constexpr double kFlat = 0.01;       // slope below which an element is no cone
+
+double depth_mm(const OperationPlan& o) {
+  double sum = 0;
+  for (const auto& pass : o.passes) sum += pass.ap_mm;
+  return sum;
+}
+
+bool is_on(const OperationPlan& o, const std::string& surface) {
+  return std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+}
+
+bool is_bore(OperationKind kind) {
+  return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
+}
+
+// What operations after this one take off the same surface.
+double later_mm(const Site& site, std::size_t operation, const std::string& surface) {
+  const auto& all = site.answer().operations;
+  double sum = 0;
+  for (std::size_t k = operation + 1; k < all.size(); ++k)
+    if (all[k].kind != OperationKind::fixed && is_on(all[k], surface))
+      sum += depth_mm(all[k]);
+  return sum;
+}
+
+std::size_t place(const Side& side, const std::string& id) {
+  return static_cast<std::size_t>(
+      std::find_if(side.items.begin(), side.items.end(),
+                   [&](const Surface& s) { return s.id == id; }) -
+      side.items.begin());
+}
+
+// The plan's correction of a surface; empty: none is proposed.
+const Table& correction(const Site& site, const std::string& surface) {
+  static const Table none;
+  for (const auto& c : site.plan.compensation)
+    if (c.on == surface && c.setup == site.setup) return c.table_mm;
+  return none;
+}
+
+// The finished element with the plan's correction.
+std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
+  std::vector<Point> all{{s.h0, s.z0}, {s.h1, s.z1}};
+  const auto& table = correction(site, s.id);
+  if (table.empty()) return all;
+  all.clear();
+  for (const auto& [part_z, dr] : table) {
+    const double z = std::clamp(site.z(part_z), s.z1, s.z0);
+    const double u = (s.z0 - z) / (s.z0 - s.z1);
+    all.push_back({s.h0 + (s.h1 - s.h0) * u + side.sign * dr, z});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Point& a, const Point& b) { return a.z_mm > b.z_mm; });
+  return all;
+}
+
+// What roughing and finishing leave before a shoulder that is faced later.
+double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& side,
+                         std::size_t k) {
+  if (side.sign < 0 || k + 1 >= side.items.size()) return 0;
+  const auto &a = side.items[k].id, &b = side.items[k + 1].id;
+  return std::max(later_mm(site, operation, a + "|" + b),
+                  later_mm(site, operation, b + "|" + a));
+}
+
+// Points on the straight line through two others.
+Point at_z(const Point& a, const Point& b, double z) {
+  return {a.h_mm + (b.h_mm - a.h_mm) * (z - a.z_mm) / (b.z_mm - a.z_mm), z};
+}
+Point at_h(const Point& a, const Point& b, double h) {
+  return {h, a.z_mm + (b.z_mm - a.z_mm) * (h - a.h_mm) / (b.h_mm - a.h_mm)};
+}
+
+// One pass over an element.
+struct Pass {
+  Site& site;
+  Side& side;
+  std::size_t operation, k;  // k: the element's place in the tool's order
+  double left_mm, re_mm;
+  bool last;  // makes what is drawn
+
+  Surface& surface() const { return side.items[k]; }
+  bool from_before() const {
+    return last && operation > 0 && joined(site, operation - 1);
+  }
+  bool goes_on() const { return last && joined(site, operation); }
+};
+
+std::vector<Point> contour(const Pass& p) {
+  if (p.last) return corrected(p.site, p.side, p.surface());
+  const auto& s = p.surface();
+  return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
+}
+
+// What the corner must not go below before the element.
+double floor_mm(const Pass& p) {
+  if (p.k > 0) return corrected(p.site, p.side, p.side.items[p.k - 1]).back().h_mm;
+  return p.side.sign > 0 ? 0 : -INFINITY;
+}
+
+// Comes in along the element's own line, or what can be had of it above the floor;
+// roughing comes in along the axis.
+void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
+  const auto n = normal(c[0], c[1]);
+  const double far = kBefore_mm + p.re_mm;
+  if (!p.last) {
+    way.front() = tip(c[0], {1, 0}, n, p.re_mm);
+    if (n.z != 0)
+      way.insert(way.begin(), {way.front().h_mm, p.surface().z0 + kBefore_mm});
+    else
+      way.front().z_mm += far;
+    return;
+  }
+  const Point on = way.front(), start{on.h_mm - n.z * far, on.z_mm + n.h * far};
+  const double floor = floor_mm(p);
+  if (start.h_mm >= floor || !(n.z > kFlat)) {
+    way.front() = start;
+    return;
+  }
+  while (way.size() > 2 && way[1].h_mm < floor) way.erase(way.begin());
+  way.front() = at_h(way[0], way[1], floor);
+  way.insert(way.begin(), {floor, way.front().z_mm + kBefore_mm});
+}
+
+// Starts a pass clear of what elements before still carry, which it takes off, and of the
+// material before the free end.
+void start_clear(const Pass& p, std::vector<Point>& way) {
+  const auto [h, z] = way.front();
+  double from = z;
+  bool first = p.k == 0;
+  for (std::size_t j = 0; j < p.k; ++j) {
+    auto& s = p.side.items[j];
+    if (!(p.side.top(s) > h + kStands_mm)) continue;
+    from = std::max(from, s.z0 + kBefore_mm);
+    first = first || j == 0;
+    s.stock = false;
+    s.left = h - std::max(s.h0, s.h1);
+  }
+  if (first && from < p.site.front + kBefore_mm && p.site.front > 0)
+    from = p.site.front + kBefore_mm;
+  if (from > z) way.insert(way.begin(), {h, from});
+}
+
+// z of the first place behind an element where the finished part is higher than it is.
+std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
+  const double h = side.items[k].h1 + kSame_mm;
+  double z = side.items[k].z1;
+  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
+    const auto& s = side.items[j];
+    if (s.z0 < z - kSame_mm) break;  // between bores from both ends
+    if (std::max(s.h0, s.h1) > h) return s.z0;
+    z = s.z1;
+  }
+  const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
+  if (side.sign < 0 && !at_end && side.stock_h > h) return z;  // the hole goes on
+  return std::nullopt;
+}
+
+// Ends at a wall, or behind an edge that falls.
+void lead_out(const Pass& p, std::vector<Point>& way) {
+  auto o = p.operation;
+  auto k = p.k;
+  for (; p.last && joined(p.site, o); ++o) ++k;
+  double end = p.side.sign > 0 ? p.site.root_z : -INFINITY;
+  if (const auto wall = wall_behind(p.site, p.side, k))
+    end = std::max(end, *wall + shoulder_stock_mm(p.site, p.operation, p.side, k));
+  if (!p.goes_on()) {
+    auto& last = way.back();
+    const double corner = p.side.sign > 0 ? p.site.r_most : p.re_mm;
+    last = at_z(way[way.size() - 2], last, last.z_mm - corner - kBehind_mm);
+  }
+  while (way.size() > 1 && way[way.size() - 2].z_mm <= end) way.pop_back();
+  if (way.back().z_mm >= end) return;
+  if (way.size() < 2)
+    way.clear();
+  else
+    way.back() = at_z(way[way.size() - 2], way.back(), end);
+}
+
+std::vector<Point> way_of(const Pass& p) {
+  const auto c = contour(p);
+  auto way = tips(c, p.re_mm);
+  if (p.from_before()) {
+    const auto before = corrected(p.site, p.side, p.side.items[p.k - 1]);
+    way.front() = tip(c[0], normal(before[before.size() - 2], before.back()),
+                      normal(c[0], c[1]), p.re_mm);
+  } else {
+    lead_in(p, c, way);
+    start_clear(p, way);
+  }
+  if (p.goes_on()) {
+    const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
+    way.back() = tip(c.back(), normal(c[c.size() - 2], c.back()),
+                     normal(after[0], after[1]), p.re_mm);
+  }
+  lead_out(p, way);
+  return way;
+}
+
+void pass(const Pass& p) {
+  const auto way = way_of(p);
+  if (!way.empty()) {
+    if (p.from_before())
+      p.site.to(Kind::feed, p.side, way.front());
+    else
+      p.site.approach(p.side, way.front(), p.site.above(p.side));
+    for (std::size_t i = 1; i < way.size(); ++i) p.site.to(Kind::feed, p.side, way[i]);
+  }
+  if (!p.goes_on()) p.site.lift(p.side);
+  p.surface().stock = false;
+  p.surface().left = p.left_mm;
+}
+
+// A facing pass over contact points from the axis outwards, tool coming from outside.
+void face_pass(Site& site, const std::vector<Point>& contact, double re) {
+  auto way = tips(contact, re);
+  std::reverse(way.begin(), way.end());
+  site.approach(site.outer, way.front(), 0);
+  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
+}
+
+// Contact points of a face at z between two radii, the last pass by the correction.
+std::vector<Point> face_contour(const Site& site, const std::string& id, double z,
+                                double from, double to, bool last) {
+  std::vector<Point> all{{from, z}};
+  if (last)
+    for (const auto& [rho, dz] : correction(site, id))
+      if (rho > from && rho < to) all.push_back({rho, z + dz});
+  all.front().z_mm = all.size() > 1 ? all[1].z_mm : z;
+  all.push_back({to, all.back().z_mm});
+  return all;
+}
+
+}  // namespace
+
+double corner_mm(const Site& site, const OperationPlan& o) {
+  for (const auto& t : site.part.tools)
+    if (t.id == o.tool) return t.re_mm;
+  for (const auto& t : site.part.fixed_tools)
+    if (t.id == o.tool && t.use == catalogue::FixedUse::profiling)
+      return kProfilingCorner_mm;
+  return 0;
+}
+
+bool joined(const Site& site, std::size_t i) {
+  const auto& all = site.answer().operations;
+  if (i + 1 >= all.size()) return false;
+  const auto &a = all[i], &b = all[i + 1];
+  const bool finish =
+      a.kind == OperationKind::finish || a.kind == OperationKind::bore_finish;
+  if (!finish || a.kind != b.kind || a.tool != b.tool || a.passes.size() != 1 ||
+      b.passes.size() != 1 || a.on.size() != 1 || b.on.size() != 1)
+    return false;
+  const auto& side = is_bore(a.kind) ? site.inner : site.outer;
+  const auto k = place(side, a.on[0]);
+  if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
+  const auto &s = side.items[k], &t = side.items[k + 1];
+  return std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm;
+}
+
+void turn(Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
+  auto& side = site.side(is_bore(o.kind));
+  for (const auto& id : o.on) {
+    double left = later_mm(site, operation, id) + depth_mm(o);
+    const bool finishes = left - depth_mm(o) < kSame_mm;
+    for (std::size_t i = 0; i < o.passes.size(); ++i) {
+      left -= o.passes[i].ap_mm;
+      const bool last = finishes && i + 1 == o.passes.size();
+      pass({site, side, operation, place(side, id), last ? 0 : left, corner_mm(site, o),
+            last});
+    }
+  }
+}
+
+void face(Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
+  const double re = corner_mm(site, o), hole = -site.inner.stock_h;
+  const double outside = site.outer.stock_h + kAbove_mm + re;
+  double left = later_mm(site, operation, o.on[0]) + depth_mm(o);
+  for (const auto& pass : o.passes) {
+    left -= pass.ap_mm;
+    const bool last = left < kSame_mm;
+    face_pass(site,
+              face_contour(site, o.on[0], last ? 0 : left,
+                           hole > 0 ? hole - kBehind_mm : 0, outside, last),
+              re);
+    site.rapid(site.at.h_mm, site.at.z_mm + kAbove_mm);
+    site.front = last ? 0 : left;
+  }
+}
+
+void face_shoulder(Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
+  const auto& id = o.on[0];
+  const auto& items = site.outer.items;
+  std::size_t k = 0;  // the smaller element, before the shoulder
+  while (items[k].id + "|" + items[k + 1].id != id &&
+         items[k + 1].id + "|" + items[k].id != id)
+    ++k;
+  const auto& small = items[k];
+  const double re = corner_mm(site, o), z = small.z1;
+  const double foot = corrected(site, site.outer, small).back().h_mm;
+  const double outside = site.outer.top0(items[k + 1]) + kAbove_mm + re;
+  const double stock = later_mm(site, operation, id) + depth_mm(o);
+  double left = stock;
+  for (const auto& pass : o.passes) {
+    left -= pass.ap_mm;
+    const bool last = left < kSame_mm;
+    face_pass(site,
+              face_contour(site, id, z + (last ? 0 : left),
+                           foot + re + (last ? 0 : kBehind_mm), outside, last),
+              re);
+    const double turned_to = z + stock + site.r_most - re;
+    if (last && turned_to > site.at.z_mm)
+      site.to(Kind::feed, site.outer, {foot, turned_to});
+    site.lift(site.outer);
+  }
+}
+
+}  // namespace turnwright::nc

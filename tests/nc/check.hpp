@@ -1,0 +1,286 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <map>
+
+#include "plans.hpp"
+#include "removal.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+/// Whether ways of tools, wherever they come from, make the part of a plan with the
+/// plan's conditions.
+namespace turnwright::nc::test {
+
+/// A straight way of the tip, in radius and place of the program.
+struct Way {
+  std::string operation;
+  bool rapid = false, thread = false;
+  double x0 = 0, z0 = 0, x1 = 0, z1 = 0;
+  double f_mm_rev = 0, S = 0;
+  double n_max_rpm = 0;  ///< of constant surface speed; 0: S is 1/min
+};
+using Faults = std::vector<std::string>;
+
+class Check {
+ public:
+  explicit Check(const Planned& p)
+      : p_(p),
+        outer_(-kBeside, length() + kBeside, p.part.drawing.stock.outer_mm / 2),
+        inner_(-kBeside, length() + kBeside, -p.part.drawing.stock.inner_mm / 2) {
+    const auto& stock = p.part.drawing.stock;
+    for (std::size_t i = 0; i < outer_.size(); ++i)
+      if (outer_.z(i) < -stock.left_allowance_mm - 1e-9 ||
+          outer_.z(i) > stock.length_mm - stock.left_allowance_mm + 1e-9)
+        outer_.remove(i);
+    remove_gone();
+  }
+
+  void setup(std::size_t s, const std::vector<Way>& ways) {
+    setup_ = s;
+    left_ = p_.part.setups[s].hold == part::End::left;
+    for (const auto& way : ways) follow(way);
+  }
+
+  /// The contour against the drawing with the plan's corrections, all setups done.
+  void contour() {
+    const auto& d = p_.part.drawing;
+    for (std::size_t i = 0; i < d.outer.size(); ++i)
+      element(outer_, 1, d.outer, i, part::left_z_mm(d, i));
+    for (std::size_t i = 0; i < d.inner.size(); ++i)
+      element(inner_, -1, d.inner, i, part::inner_left_z_mm(d, i));
+    for (const auto& e : d.outer) thread(e, 1);
+    for (const auto& e : d.inner) thread(e, -1);
+    for (const double z : {-0.02, length() + 0.02})
+      if (faced(z < 0) && std::isfinite(at(outer_, z)))
+        fault(fmt::format("the face at {:.2f} is not made", z));
+  }
+
+  const Faults& faults() const { return faults_; }
+
+ private:
+  static constexpr double kBeside = 3, kTolerance = 1e-4;
+
+  double length() const { return part::length_mm(p_.part.drawing); }
+  void fault(const std::string& text) {
+    if (faults_.size() < 20) faults_.push_back(text);
+  }
+  static double at(const Material& m, double z) {
+    return m[static_cast<std::size_t>(std::lround((z - m.z(0)) / kGrid_mm))];
+  }
+  bool faced(bool left) const {
+    for (const auto& s : p_.plan.setups)
+      for (const auto& o : s.operations)
+        if (o.on[0] == (left ? "left" : "right")) return true;
+    return false;
+  }
+
+  const planning::OperationPlan* operation(const std::string& id) const {
+    for (const auto& o : p_.plan.setups[setup_].operations)
+      if (o.id == id) return &o;
+    return nullptr;
+  }
+
+  struct Tool {
+    Outline outline;
+    bool inner = false, drill = false, thread = false;
+    double D = 0, point = 0;
+  };
+  Tool tool(const planning::OperationPlan& o) const {
+    const auto e = part::extent(p_.part.drawing, o.on[0]);
+    const bool inner = e && e->inner;
+    for (const auto& t : p_.part.tools)
+      if (t.id == o.tool)
+        return {{t.re_mm, t.minor_kapr_deg * M_PI / 180, 0}, inner, false, false, 0, 0};
+    for (const auto& t : p_.part.fixed_tools) {
+      if (t.id != o.tool) continue;
+      using enum catalogue::FixedUse;
+      if (t.use == centring || t.use == drilling)
+        return {{},
+                true,
+                true,
+                false,
+                2 * o.passes[0].ap_mm,
+                o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
+      if (t.use == grooving || t.use == parting)
+        return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
+      if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};
+      return {{0.4, 0.5, 0, 4}, inner, false, false, 0, 0};
+    }
+    return {};
+  }
+
+  void conditions(const Way& w, const planning::OperationPlan& o) {
+    const auto& p = o.passes[0];
+    if (!(std::abs(w.f_mm_rev - p.f_mm_rev) <= 1.001e-4) ||
+        w.f_mm_rev > p.f_mm_rev * (1 + 1e-9))
+      fault(fmt::format("{}: feed {} where {} is planned", o.id, w.f_mm_rev, p.f_mm_rev));
+    const auto& m = p_.part.machine;
+    const bool chuck =
+        p_.plan.setups[setup_].clamping != planning::Clamping::between_centres;
+    const double most = chuck ? std::min(m.n_max_rpm, m.chuck.n_max_rpm) : m.n_max_rpm;
+    if (w.n_max_rpm == 0) {
+      if (!(std::abs(w.S - p.n_rpm) <= 0.02) || !(w.S <= most))
+        fault(fmt::format("{}: {} 1/min where {} are planned", o.id, w.S, p.n_rpm));
+      if (o.kind != planning::OperationKind::fixed)
+        fault(o.id + ": without constant surface speed");
+      return;
+    }
+    if (!(std::abs(w.S - p.vc_m_min) <= 0.0101))
+      fault(fmt::format("{}: {} m/min where {} are planned", o.id, w.S, p.vc_m_min));
+    double n = 0;
+    for (const auto& pass : o.passes) n = std::max(n, pass.n_rpm);
+    if (!(w.n_max_rpm <= most && w.n_max_rpm >= std::floor(n)))
+      fault(fmt::format("{}: spindle limit {} where {} are planned and {} allowed", o.id,
+                        w.n_max_rpm, n, most));
+  }
+
+  void follow(const Way& w) {
+    const auto* o = operation(w.operation);
+    if (!o) return fault("no operation " + w.operation);
+    const auto t = tool(*o);
+    if (!w.rapid) conditions(w, *o);
+    const auto frame = [&](double z) { return left_ ? z - length() : -z; };
+    if (t.drill) {
+      if (w.x0 == 0 && w.x1 == 0 && !w.rapid)
+        inner_.drill(t.D, std::min(w.z0, w.z1) + t.point, frame);
+      return;
+    }
+    const double root = left_
+                            ? planning::root_z_mm(p_.part, setup_, clamping()) - length()
+                            : -planning::root_z_mm(p_.part, setup_, clamping());
+    if (!t.inner && std::min(w.z0, w.z1) < root - 1e-4)
+      fault(fmt::format("{}: into the jaws at Z{}", w.operation, std::min(w.z0, w.z1)));
+    auto& m = t.inner ? inner_ : outer_;
+    const double sign = t.inner ? -1 : 1;
+    if (w.thread) {
+      threads_[o->on[0]] =
+          std::min(threads_.contains(o->on[0]) ? threads_[o->on[0]] : 1e9, sign * w.x1);
+      return;
+    }
+    if (w.rapid) {
+      const double taken =
+          m.would_cut(t.outline, frame, sign * w.x0, w.z0, sign * w.x1, w.z1);
+      if (taken > 2e-4 && !t.thread)
+        fault(fmt::format("{}: rapid from X{} Z{} to X{} Z{} cuts {} mm", w.operation,
+                          w.x0, w.z0, w.x1, w.z1, taken));
+      return;
+    }
+    if (t.thread) return;
+    m.cut(t.outline, frame, sign * w.x0, w.z0, sign * w.x1, w.z1);
+    remove_gone();
+  }
+
+  template <class Element>
+  void thread(const Element& e, double sign) {
+    if (!e.cut || e.cut->kind != part::CutKind::thread) return;
+    const double root = sign * e.left_mm / 2 - e.cut->depth_mm;
+    if (!threads_.contains(e.id) || !(std::abs(threads_[e.id] - root) <= kTolerance))
+      fault(e.id + ": its thread is not cut to its depth");
+  }
+
+  // Where no wall is left between outside and hole, what lies outwards falls off.
+  void remove_gone() {
+    const auto gone = [&](std::size_t i) { return outer_[i] <= -inner_[i] + 1e-9; };
+    for (std::size_t i = 0; i < outer_.size(); ++i) {
+      if (!gone(i)) continue;
+      const bool left = outer_.z(i) < length() / 2;
+      for (std::size_t k = left ? 0 : i; k < (left ? i + 1 : outer_.size()); ++k) {
+        outer_.remove(k);
+        inner_.remove(k);
+      }
+      if (!left) break;
+    }
+  }
+
+  planning::Clamping clamping() const { return p_.plan.setups[setup_].clamping; }
+
+  double correction(const std::string& id, double z) const {
+    for (const auto& c : p_.plan.compensation) {
+      if (c.on != id) continue;
+      const auto& t = c.table_mm;
+      for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+        const auto [z0, r0] = t[i];
+        const auto [z1, r1] = t[i + 1];
+        if (std::min(z0, z1) <= z && z <= std::max(z0, z1))
+          return r0 + (r1 - r0) * (z - z0) / (z1 - z0);
+      }
+    }
+    return 0;
+  }
+
+  // Radius drawn at a place of an element.
+  template <class Element>
+  static double drawn(const Element& e, double u) {
+    const double straight = e.left_mm + (e.right_mm - e.left_mm) * u;
+    if (!e.cut || e.cut->kind == part::CutKind::thread) return straight / 2;
+    if (e.cut->kind == part::CutKind::groove) return e.cut->drawn.left_mm / 2;
+    const double a = e.cut->drawn.left_mm / 2, b = e.cut->drawn.right_mm / 2;
+    const double R = e.cut->radius_mm, c = std::hypot(e.length_mm, b - a);
+    const double to_centre = std::sqrt(std::max(0.0, R * R - c * c / 4));
+    const double out = e.cut->convex ? 1 : -1;  // from the centre to the arc
+    const double zc = e.length_mm / 2 + out * to_centre * (b - a) / c;
+    const double rc = (a + b) / 2 - out * to_centre * e.length_mm / c;
+    const double dz = u * e.length_mm - zc;
+    return rc + out * std::sqrt(std::max(0.0, R * R - dz * dz));
+  }
+
+  // Whether the contour rises beyond an end of an element, at a place z: a fillet stays.
+  template <class Element>
+  bool rises(const std::vector<Element>& all, double sign, double own, double z) const {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double z0 = begin(all[k], k), z1 = z0 + all[k].length_mm;
+      if (std::abs(z - z0) > 1e-9 && std::abs(z - z1) > 1e-9) continue;
+      for (const double u : {0.0, 1.0})
+        if (sign * drawn(all[k], u) > own + 1e-9) return true;
+    }
+    return sign < 0 && z > 1e-9 && z < length() - 1e-9;  // the hole goes on
+  }
+  double begin(const part::OuterElement&, std::size_t k) const {
+    return part::left_z_mm(p_.part.drawing, k);
+  }
+  double begin(const part::InnerElement&, std::size_t k) const {
+    return part::inner_left_z_mm(p_.part.drawing, k);
+  }
+
+  template <class Element>
+  void element(const Material& m, double sign, const std::vector<Element>& all,
+               std::size_t k, double left_z) {
+    const auto& e = all[k];
+    const double L = e.length_mm, step = 1e-6;
+    const bool left_rises = rises(all, sign, sign * drawn(e, 0), left_z);
+    const bool right_rises = rises(all, sign, sign * drawn(e, 1), left_z + L);
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      const double z = m.z(i) - left_z;
+      if (!(z > 1e-6 && z < L - 1e-6)) continue;
+      const double slope = (drawn(e, std::min(1.0, z / L + step)) -
+                            drawn(e, std::max(0.0, z / L - step))) /
+                           (std::min(1.0, z / L + step) - std::max(0.0, z / L - step)) /
+                           L;
+      const double error = (m[i] - sign * (drawn(e, z / L) + correction(e.id, m.z(i)))) /
+                           std::sqrt(1 + slope * slope);
+      low = std::min(low, error);
+      double fillet = 0;
+      if (left_rises) fillet = std::max(fillet, fillet_mm(z));
+      if (right_rises) fillet = std::max(fillet, fillet_mm(L - z));
+      high = std::max(high, error - fillet);
+    }
+    if (!(low >= -kTolerance) || !(high <= kTolerance))
+      fault(fmt::format("{}: from {:.5f} to {:.5f} mm off its contour", e.id, low, high));
+  }
+  // That the largest corner leaves at a distance from a wall.
+  double fillet_mm(double d) const {
+    double r = 0;
+    for (const auto& t : p_.part.tools) r = std::max(r, t.re_mm);
+    return d < r ? r - std::sqrt(std::max(0.0, r * r - (r - d) * (r - d))) : 0;
+  }
+
+  const Planned& p_;
+  std::size_t setup_ = 0;
+  bool left_ = true;
+  Material outer_, inner_;
+  std::map<std::string, double> threads_;
+  Faults faults_;
+};
+
+}  // namespace turnwright::nc::test

@@ -1,0 +1,207 @@
+// The programs' texts through LinuxCNC's interpreter (TURNWRIGHT_RS274, see
+// scripts/rs274, else one on the path): its canonical moves make the contour, with the
+// plan's conditions.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "check.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+
+std::string printed(const std::string& command) {
+  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+  if (!pipe) return "";
+  std::string out;
+  std::array<char, 4096> buffer;
+  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe))
+    out.append(buffer.data(), n);
+  return pclose(pipe) == 0 ? out : "";
+}
+
+class Interpreter {
+ public:
+  Interpreter() {
+    const char* given = std::getenv("TURNWRIGHT_RS274");
+    path_ = given ? given : printed("command -v rs274");
+    while (path_.ends_with('\n')) path_.pop_back();
+    folder_ = fs::temp_directory_path() /
+              ("turnwright-nc-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+    fs::create_directories(folder_);
+    std::ofstream parameters(folder_ / "rs274.var");
+    for (int i = 5161; i <= 5390; ++i) parameters << i << ' ' << (i == 5220) << '\n';
+  }
+  ~Interpreter() { fs::remove_all(folder_); }
+
+  /// Its canonical calls; "" if it refuses the program.
+  std::string canonical(const std::string& program, const std::string& tools) const {
+    std::ofstream(folder_ / "program.ngc") << program;
+    std::ofstream(folder_ / "tools.tbl") << tools;
+    return printed("cd " + folder_.string() + " && " + path_ +
+                   " -g -v rs274.var -t tools.tbl program.ngc");
+  }
+  bool there() const { return !canonical("G21\nG0 X1\nM2\n", "T1 P1\n").empty(); }
+
+ private:
+  std::string path_;
+  fs::path folder_;
+};
+
+std::vector<double> numbers(const std::string& call) {
+  std::vector<double> all;
+  auto text = call.substr(call.find('(') + 1);
+  for (char& c : text)
+    if (c == ',' || c == ')') c = ' ';
+  std::istringstream in(text);
+  for (double x; in >> x;) all.push_back(x);
+  return all;
+}
+
+// ARC_FEED in the ZX plane: end z, end x, centre z, centre x, turns against the clock
+// from Z to X.
+void add_arc(std::vector<Way>& ways, Way w, const std::vector<double>& a) {
+  const double R = std::hypot(w.z0 - a[2], w.x0 - a[3]);
+  const double from = std::atan2(w.x0 - a[3], w.z0 - a[2]);
+  double to = std::atan2(a[1] - a[3], a[0] - a[2]);
+  if (a[4] > 0 && to < from) to += 2 * M_PI;
+  if (a[4] < 0 && to > from) to -= 2 * M_PI;
+  const int n = 1 + static_cast<int>(std::abs(to - from) * R / std::sqrt(1.6e-5 * R));
+  for (int i = 1; i <= n; ++i) {
+    const double t = from + (to - from) * i / n;
+    w.x1 = i < n ? a[3] + R * std::sin(t) : a[1];
+    w.z1 = i < n ? a[2] + R * std::cos(t) : a[0];
+    ways.push_back(w);
+    w.x0 = w.x1;
+    w.z0 = w.z1;
+  }
+}
+
+std::vector<Way> ways_of(const std::string& canonical) {
+  std::vector<Way> ways;
+  Way w;
+  bool known = false, in_operation = false;
+  std::istringstream in(canonical);
+  for (std::string line; std::getline(in, line);) {
+    const auto has = [&](const char* word) { return line.find(word) != line.npos; };
+    const auto operation = line.find("operation ");
+    if (has("COMMENT") && operation != line.npos) {
+      const auto from = operation + 10;
+      w.operation = line.substr(from, line.find(':', from) - from);
+      in_operation = true;
+    }
+    if (has("SET_FEED_RATE")) w.f_mm_rev = numbers(line)[0];
+    if (has("START_SPEED_FEED_SYNC")) {
+      w.thread = true;
+      w.f_mm_rev = numbers(line)[0];
+    }
+    if (has("STOP_SPEED_FEED_SYNC")) w.thread = false;
+    if (has("SET_SPINDLE_MODE"))
+      std::sscanf(line.c_str() + line.find('('), "(%*d %lf", &w.n_max_rpm);
+    if (has("SET_SPINDLE_SPEED")) w.S = numbers(line)[1];
+    const bool traverse = has("STRAIGHT_TRAVERSE"), arc = has("ARC_FEED");
+    if (!in_operation || (!traverse && !arc && !has("STRAIGHT_FEED"))) continue;
+    const auto a = numbers(line);
+    w.rapid = traverse;
+    const double x = arc ? a[1] : a[0], z = arc ? a[0] : a[2];
+    w.x0 = known ? w.x1 : x;
+    w.z0 = known ? w.z1 : z;
+    known = true;
+    if (arc)
+      add_arc(ways, w, a);
+    else {
+      w.x1 = x;
+      w.z1 = z;
+      ways.push_back(w);
+    }
+    w.x1 = x;
+    w.z1 = z;
+  }
+  return ways;
+}
+
+using Change = std::function<std::string(std::string)>;
+
+const Change kAsWritten = [](std::string t) { return t; };
+
+// Of the programs for `asked`, changed, as programs for `p`.
+Faults faults_of(const Interpreter& rs274, const Planned& p, const Planned& asked,
+                 const Change& change = kAsWritten) {
+  const auto all = programs(asked.part, asked.plan);
+  Check check(p);
+  Faults refused;
+  for (const auto& program : all.setups) {
+    const auto canonical =
+        rs274.canonical(change(text(program, Control::linuxcnc)), tool_table(all.setups));
+    if (canonical.empty()) refused.push_back("rs274 refuses the program");
+    check.setup(program.setup, ways_of(canonical));
+  }
+  check.contour();
+  refused.insert(refused.end(), check.faults().begin(), check.faults().end());
+  return refused;
+}
+
+std::string listed(const Faults& faults) {
+  std::string all;
+  for (const auto& f : faults) all += f + '\n';
+  return all;
+}
+
+class NcThroughLinuxCnc : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (rs274.there()) return;
+    std::fputs("NOT CHECKED: no rs274 of LinuxCNC, see scripts/rs274\n", stderr);
+    GTEST_SKIP() << "rs274 is not there";
+  }
+  Interpreter rs274;
+};
+
+TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(listed(faults_of(rs274, p, p)), "") << name;
+  }
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  return at == text.npos ? text : text.replace(at, what.size(), by);
+}
+
+TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
+  const auto p = planned_reference("threaded-spindle");
+  ASSERT_EQ(listed(faults_of(rs274, p, p)), "");
+  const std::vector<std::pair<const char*, Change>> slips = {
+      {"a radius 5 um too small",
+       [](auto t) { return replaced(t, "X28 Z", "X27.99 Z"); }},
+      {"no limit of the spindle",
+       [](auto t) {
+         return t.replace(t.find(" D"), t.find(" S", t.find("G96")) - t.find(" D"), "");
+       }},
+      {"another feed", [](auto t) { return replaced(t, " F0.", " F1."); }},
+      {"another speed", [](auto t) { return replaced(t, " S2", " S3"); }}};
+  for (const auto& [what, slip] : slips)
+    EXPECT_FALSE(faults_of(rs274, p, p, slip).empty()) << what;
+  auto pin = planned_reference("titanium-pin"), corner = pin;
+  ASSERT_EQ(listed(faults_of(rs274, pin, pin)), "");
+  for (auto& t : corner.part.tools) t.re_mm *= 1.1;
+  EXPECT_FALSE(faults_of(rs274, pin, corner).empty()) << "another corner, on a cone";
+  auto hole = planned_reference("drilled-bush"), small = hole;
+  ASSERT_EQ(listed(faults_of(rs274, hole, hole)), "");
+  for (auto& e : small.part.drawing.inner) e.left_mm = e.right_mm -= 1e-3;
+  EXPECT_FALSE(faults_of(rs274, hole, small).empty())
+      << "bores too tight by 0.5 um on the radius";
+}
+
+}  // namespace
+}  // namespace turnwright::nc

@@ -1,0 +1,109 @@
+// Ways of the tip over a contour.
+#include "turnwright/nc/path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace turnwright::nc {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+// From a point to the straight line through two others, the air's side positive.
+double above(const Point& p, const Point& a, const Point& b) {
+  const auto n = normal(a, b);
+  return (p.h_mm - a.h_mm) * n.h + (p.z_mm - a.z_mm) * n.z;
+}
+
+Point centre_of(const Point& tip, double r) { return {tip.h_mm + r, tip.z_mm + r}; }
+
+TEST(Normal, PointsIntoTheAir) {
+  EXPECT_NEAR(normal({10, 0}, {10, -5}).h, 1, kRounding);
+  EXPECT_NEAR(normal({10, -5}, {14, -5}).z, 1,
+              kRounding);  // a wall seen from its free end
+  const auto cone = normal({10, 0}, {13, -4});
+  EXPECT_NEAR(cone.h, 0.8, kRounding);
+  EXPECT_NEAR(cone.z, 0.6, kRounding);
+  EXPECT_THROW(normal({1, 1}, {1, 1}), std::domain_error);
+}
+
+TEST(Tip, IsOnLinesAlongTheAxes) {
+  for (const double r : {0.0, 0.4, 1.2}) {
+    EXPECT_NEAR(tip({10, -3}, {1, 0}, r).h_mm, 10, kRounding);
+    EXPECT_NEAR(tip({12, -7}, {0, 1}, r).z_mm, -7, kRounding);
+    // Where a cylinder meets a wall the tip is in the corner.
+    const auto corner = tip({10, -7}, {1, 0}, {0, 1}, r);
+    EXPECT_NEAR(corner.h_mm, 10, kRounding);
+    EXPECT_NEAR(corner.z_mm, -7, kRounding);
+  }
+}
+
+TEST(Tips, KeepTheCornerTangentToEveryLine) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<> part(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double r = 1.2 * part(random);
+    std::vector<Point> contour{{10, 0}};
+    for (int k = 0; k < 4; ++k)
+      contour.push_back({contour.back().h_mm + 3 * part(random),
+                         contour.back().z_mm - 5 - 5 * part(random)});
+    const auto way = tips(contour, r);
+    ASSERT_EQ(way.size(), contour.size());
+    for (std::size_t k = 0; k + 1 < contour.size(); ++k)
+      for (const auto& end : {way[k], way[k + 1]})
+        EXPECT_NEAR(above(centre_of(end, r), contour[k], contour[k + 1]), r, 1e-9);
+  }
+}
+
+TEST(ArcThrough, HasItsEndsAtItsRadius) {
+  for (const bool convex : {true, false}) {
+    const auto a = arc_through({14, 0}, {20, -6}, 6, convex);
+    for (const auto& p : {a.from, a.to})
+      EXPECT_NEAR(std::hypot(p.h_mm - a.centre.h_mm, p.z_mm - a.centre.z_mm), 6, 1e-9);
+    // A quarter circle: its centre is level with one end, below or above the other.
+    EXPECT_NEAR(a.centre.h_mm, convex ? 14 : 20, 1e-9);
+    EXPECT_NEAR(a.centre.z_mm, convex ? -6 : 0, 1e-9);
+  }
+  EXPECT_THROW(arc_through({0, 0}, {10, -10}, 7, true), std::domain_error);
+}
+
+TEST(TipArc, KeepsTheCornerTangentToTheArc) {
+  for (const bool convex : {true, false})
+    for (const double r : {0.0, 0.4, 1.2}) {
+      const auto a = arc_through({14, 0}, {19, -7}, 9, convex);
+      const auto t = tip_arc(a, r, -1e9, -1e9);
+      ASSERT_TRUE(t);
+      for (const auto& end : {t->from, t->to}) {
+        const auto c = centre_of(end, r);
+        EXPECT_NEAR(std::hypot(c.h_mm - a.centre.h_mm, c.z_mm - a.centre.z_mm),
+                    convex ? 9 + r : 9 - r, 1e-9);
+        EXPECT_NEAR(std::hypot(end.h_mm - t->centre.h_mm, end.z_mm - t->centre.z_mm),
+                    convex ? 9 + r : 9 - r, 1e-9);
+      }
+      // The corner touches the drawn ends.
+      const auto c = centre_of(t->to, r);
+      EXPECT_NEAR(std::hypot(c.h_mm - a.to.h_mm, c.z_mm - a.to.z_mm), r, 1e-9);
+    }
+}
+
+TEST(TipArc, StaysOffWhatIsBeforeAndAfter) {
+  const auto a = arc_through({14, 0}, {19, -7}, 9, false);
+  const auto t = tip_arc(a, 0.8, 14, -7);
+  ASSERT_TRUE(t);
+  EXPECT_GE(t->from.h_mm, 14 - kRounding);
+  EXPECT_GE(t->to.z_mm, -7 - kRounding);
+  for (const auto& end : {t->from, t->to})  // still on the tip's circle
+    EXPECT_NEAR(std::hypot(end.h_mm - t->centre.h_mm, end.z_mm - t->centre.z_mm), 8.2,
+                1e-9);
+}
+
+TEST(TipArc, RefusesACornerThatDoesNotFit) {
+  EXPECT_FALSE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, false), 0.8, 0, -100));
+  EXPECT_TRUE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, true), 0.8, 0, -100));
+}
+
+}  // namespace
+}  // namespace turnwright::nc

@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/nc/program.hpp"
+
+namespace turnwright::nc::test {
+
+inline std::filesystem::path source(const std::string& path) {
+  return std::filesystem::path(TURNWRIGHT_SOURCE_DIR) / path;
+}
+
+inline const document::Catalogue& catalogue() {
+  static const auto kCatalogue = document::load_catalogue(source(""));
+  return kCatalogue;
+}
+
+/// Names of the reference parts, without ".json".
+inline std::vector<std::string> reference_parts() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(source("parts")))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Planned {
+  planning::PartPlan part;
+  planning::ProcessPlan plan;
+};
+
+inline Planned planned(const nlohmann::json& document) {
+  auto part = document::load_part_plan(document, catalogue(), "part").plan;
+  auto plan = planning::plan(part);
+  return {std::move(part), std::move(plan)};
+}
+
+inline Planned planned_reference(const std::string& name) {
+  auto document = document::parse_file(source("parts/" + name + ".json"));
+  document.erase("what_if");
+  return planned(document);
+}
+
+}  // namespace turnwright::nc::test
