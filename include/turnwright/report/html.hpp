@@ -13,7 +13,7 @@ struct Figure {
 
 /// The result document of `plan` or `predict` (schemas/plan.result.json) as one HTML file
 /// that needs nothing else: no script, no request, the pictures inside it.  Printed it
-/// takes two or three pages of A4.
+/// takes two to four pages of A4.
 ///
 /// It says what text() (text.hpp) says, with the same numbers; every pass and constraint
 /// is in the result document alone.  Text of the request is escaped.  Figures are placed
