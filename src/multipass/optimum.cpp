@@ -146,9 +146,8 @@ std::vector<Limit> limits_at(const Problem& m, const std::vector<Row>& all,
                       .value = all[i].limit * std::exp(sign * g),
                       .limit = all[i].limit,
                       .margin = -g,
-                      .binding = -g<kBinding, .price = multipliers[i]> 0
-                                     ? -sign * multipliers[i]
-                                     : 0});
+                      .binding = (-g < kBinding),
+                      .price = multipliers[i] > 0 ? -sign * multipliers[i] : 0});
   }
   return limits;
 }
