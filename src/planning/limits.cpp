@@ -88,12 +88,6 @@ void raise_speed(double end_rpm, double k, PartPlan& plan) {
     if (ends_there(*n)) *n *= k;
 }
 
-double most_power_kW(const std::vector<CurvePoint>& curve) {
-  double most = 0;
-  for (const auto& point : curve) most = std::max(most, point.P_kW);
-  return most;
-}
-
 void add_machine(const PartPlan& p, std::vector<Limit>& all) {
   const auto& m = p.machine;
   const auto number = [](double catalogue::Lathe::*value) {
@@ -189,6 +183,12 @@ std::vector<Limit> limits(const PartPlan& p) {
   add_machine(p, all);
   add_tools(p, all);
   return all;
+}
+
+double most_power_kW(const std::vector<CurvePoint>& curve) {
+  double most = 0;
+  for (const auto& point : curve) most = std::max(most, point.P_kW);
+  return most;
 }
 
 std::vector<std::string> spindle_limit_names(const PartPlan& p, const SolvedFeature& f,

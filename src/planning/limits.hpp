@@ -8,6 +8,9 @@
 /// Which limits of a request stand behind the rows of a solved surface.
 namespace turnwright::planning {
 
+/// The largest of a motor's curve.
+double most_power_kW(const std::vector<catalogue::CurvePoint>& curve);
+
 /// The limits that a row may stand for, by name.
 std::vector<std::string> limit_names(const PartPlan& plan, const SolvedFeature& feature,
                                      const Row& row);

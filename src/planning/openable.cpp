@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "allowance.hpp"
-#include "describe.hpp"
+#include "limits.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -252,11 +252,6 @@ bool bears_on(const PartPlan& p, const Openable& l, const std::string& surface) 
 
 LimitName name_of(const PartPlan& p, const Openable& l) {
   const auto& m = p.machine;
-  const auto most_kW = [&] {
-    double most = 0;
-    for (const auto& c : m.curve) most = std::max(most, c.P_kW);
-    return most;
-  };
   switch (l.kind) {
     case Kind::tolerance: {
       const auto& t = p.drawing.tolerances[l.index];
@@ -267,7 +262,7 @@ LimitName name_of(const PartPlan& p, const Openable& l) {
     case Kind::Rz:
       return named(Check::Rz, roughness(p, l));
     case Kind::power:
-      return named(Check::power, most_kW());
+      return named(Check::power, most_power_kW(m.curve));
     case Kind::feed_force:
       return named(Check::feed_force, m.feed_force_max_N);
     case Kind::grip:

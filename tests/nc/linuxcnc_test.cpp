@@ -1,15 +1,12 @@
-// The programs' texts through LinuxCNC's interpreter (TURNWRIGHT_RS274, see
-// scripts/rs274, else one on the path): its canonical moves make the contour, with the
-// plan's conditions.
+// The programs' texts through LinuxCNC's interpreter: its canonical moves make the
+// contour, with the plan's conditions.
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
+#include "../rs274.hpp"
 #include "check.hpp"
 
 namespace turnwright::nc {
@@ -18,43 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 
-std::string printed(const std::string& command) {
-  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
-  if (!pipe) return "";
-  std::string out;
-  std::array<char, 4096> buffer;
-  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe))
-    out.append(buffer.data(), n);
-  return pclose(pipe) == 0 ? out : "";
+bool there(const turnwright::test::Rs274& rs274) {
+  return !rs274.canonical("G21\nG0 X1\nM2\n", "T1 P1\n").empty();
 }
-
-class Interpreter {
- public:
-  Interpreter() {
-    const char* given = std::getenv("TURNWRIGHT_RS274");
-    path_ = given ? given : printed("command -v rs274");
-    while (path_.ends_with('\n')) path_.pop_back();
-    folder_ = fs::temp_directory_path() /
-              ("turnwright-nc-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-    fs::create_directories(folder_);
-    std::ofstream parameters(folder_ / "rs274.var");
-    for (int i = 5161; i <= 5390; ++i) parameters << i << ' ' << (i == 5220) << '\n';
-  }
-  ~Interpreter() { fs::remove_all(folder_); }
-
-  /// Its canonical calls; "" if it refuses the program.
-  std::string canonical(const std::string& program, const std::string& tools) const {
-    std::ofstream(folder_ / "program.ngc") << program;
-    std::ofstream(folder_ / "tools.tbl") << tools;
-    return printed("cd " + folder_.string() + " && " + path_ +
-                   " -g -v rs274.var -t tools.tbl program.ngc");
-  }
-  bool there() const { return !canonical("G21\nG0 X1\nM2\n", "T1 P1\n").empty(); }
-
- private:
-  std::string path_;
-  fs::path folder_;
-};
 
 std::vector<double> numbers(const std::string& call) {
   std::vector<double> all;
@@ -133,8 +96,8 @@ using Change = std::function<std::string(std::string)>;
 const Change kAsWritten = [](std::string t) { return t; };
 
 // Of the programs for `asked`, changed, as programs for `p`.
-Faults faults_of(const Interpreter& rs274, const Planned& p, const Planned& asked,
-                 const Change& change = kAsWritten) {
+Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
+                 const Planned& asked, const Change& change = kAsWritten) {
   const auto all = programs(asked.part, asked.plan);
   Check check(p);
   Faults refused;
@@ -158,11 +121,11 @@ std::string listed(const Faults& faults) {
 class NcThroughLinuxCnc : public testing::Test {
  protected:
   void SetUp() override {
-    if (rs274.there()) return;
+    if (there(rs274)) return;
     std::fputs("NOT CHECKED: no rs274 of LinuxCNC, see scripts/rs274\n", stderr);
     GTEST_SKIP() << "rs274 is not there";
   }
-  Interpreter rs274;
+  turnwright::test::Rs274 rs274;
 };
 
 TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {

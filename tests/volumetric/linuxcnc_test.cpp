@@ -1,62 +1,28 @@
-// Corrected programs through LinuxCNC's interpreter: TURNWRIGHT_RS274 names it (see
-// scripts/rs274), else one on the path is taken.
+// Corrected programs through LinuxCNC's interpreter.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <sstream>
 #include <string>
 
+#include "../rs274.hpp"
 #include "turnwright/volumetric/compensation.hpp"
 
 namespace turnwright::volumetric {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// What the command prints; "" if it fails.
-std::string printed(const std::string& command) {
-  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
-  if (!pipe) return "";
-  std::string out;
-  std::array<char, 4096> buffer;
-  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe))
-    out.append(buffer.data(), n);
-  return pclose(pipe) == 0 ? out : "";
-}
-
 struct Interpreter {
-  std::string path;
-  fs::path folder;
-  Interpreter() {
-    const char* given = std::getenv("TURNWRIGHT_RS274");
-    path = given ? given : printed("command -v rs274");
-    while (path.ends_with('\n')) path.pop_back();
-    folder =
-        fs::temp_directory_path() /
-        ("turnwright-rs274-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-    fs::create_directories(folder);
-    std::ofstream parameters(folder / "rs274.var");
-    // G54 is active, G55 at (1, 0, -2) inches; tool 2 is 4 inches long, 0.5 off.
-    for (int i = 5161; i <= 5390; ++i)
-      parameters << i << ' ' << (i == 5220 || i == 5241 ? 1 : i == 5243 ? -2 : 0) << '\n';
-    std::ofstream(folder / "tool.tbl") << "T1 P1 Z0\nT2 P2 X0.5 Z4\n";
-  }
-  ~Interpreter() { fs::remove_all(folder); }
+  test::Rs274 rs274;
 
-  /// Canonical commands of a program, a line each.
+  /// Canonical commands of a program, a line each; tool 2 is 4 inches long, 0.5 off.
   std::vector<std::string> commands(const std::vector<std::string>& lines) const {
-    std::ofstream program(folder / "program.ngc");
-    for (const std::string& line : lines) program << line << '\n';
-    program << "M2\n";
-    program.close();
-    std::istringstream text(printed("cd " + folder.string() + " && " + path +
-                                    " -g -v rs274.var -t tool.tbl program.ngc"));
+    std::string program;
+    for (const std::string& line : lines) program += line + '\n';
+    std::istringstream text(
+        rs274.canonical(program + "M2\n", "T1 P1 Z0\nT2 P2 X0.5 Z4\n"));
     std::vector<std::string> out;
     for (std::string line; std::getline(text, line);) out.push_back(line);
     return out;
