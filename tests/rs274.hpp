@@ -1,10 +1,10 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 /// LinuxCNC's interpreter for tests: TURNWRIGHT_RS274 names it (see scripts/rs274), else
@@ -29,10 +29,10 @@ class Rs274 {
     const char* given = std::getenv("TURNWRIGHT_RS274");
     path_ = given ? given : printed("command -v rs274");
     while (path_.ends_with('\n')) path_.pop_back();
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        ("turnwright-rs274-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-    std::filesystem::create_directories(folder_);
+    std::string name =
+        (std::filesystem::temp_directory_path() / "turnwright-rs274-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no folder for rs274");
+    folder_ = name;
     std::ofstream parameters(folder_ / "rs274.var");
     for (int i = 5161; i <= 5390; ++i)
       parameters << i << ' ' << (i == 5220 || i == 5241 ? 1 : i == 5243 ? -2 : 0) << '\n';
