@@ -22,7 +22,8 @@ inline std::string printed(const std::string& command) {
   return pclose(pipe) == 0 ? out : "";
 }
 
-/// In a folder of its own, gone with it.  G54 is active, G55 at (1, 0, -2) inches.
+/// In a folder of its own, gone with it; its home too, since all of a home share one
+/// table of tools, run at once or not.  G54 is active, G55 at (1, 0, -2) inches.
 class Rs274 {
  public:
   Rs274() {
@@ -45,7 +46,7 @@ class Rs274 {
   std::string canonical(const std::string& program, const std::string& tools) const {
     std::ofstream(folder_ / "program.ngc") << program;
     std::ofstream(folder_ / "tools.tbl") << tools;
-    return printed("cd " + folder_.string() + " && " + path_ +
+    return printed("cd " + folder_.string() + " && HOME=$PWD " + path_ +
                    " -g -v rs274.var -t tools.tbl program.ngc");
   }
 
