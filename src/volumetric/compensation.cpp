@@ -347,6 +347,10 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   const auto write = [&](Stop& s) {
     out.lines.push_back(writer.block(*s.move, s.command, s.first, s.last));
     run.go(s);
+    if (out.lines.size() > setup.moves_max)
+      throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
+                            ": more than " + std::to_string(setup.moves_max) +
+                            " moves; a wider tolerance makes fewer");
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // A rounded coordinate is off by 0.5e-3 mm at most.

@@ -234,6 +234,17 @@ TEST(NcProgram, AskForWhatTheyDoNotKnow) {
   p = read_nc({"G17", "G2 X9 I3", "G18 G2 X9 I4.5"}, {.axes = "XZ"});
   ASSERT_EQ(p.problems.size(), 1u);
   EXPECT_EQ(p.problems[0].got, "G17");
+  // No word but G and M twice.
+  p = read_nc({"G2 X10 R50 R5", "G2 X10 I3 I5", "G1 X1 F1 F2", "T1 T2", "M3 M8"}, {});
+  ASSERT_EQ(p.problems.size(), 4u);
+  EXPECT_EQ(p.problems[0].got, "R5");
+  EXPECT_EQ(p.problems[0].expected, "R once in a block");
+  EXPECT_EQ(p.problems[3].got, "T2");
+  // Reading ends where there is no more room.
+  p = read_nc({"G17 G1 X1", "G2 I90", "G1 X2", "X3"}, {.moves_max = 100});
+  ASSERT_EQ(p.problems.size(), 1u);
+  EXPECT_EQ(p.problems[0].line, 2u);
+  EXPECT_EQ(p.problems[0].got, "more than 100 moves");
   // Coordinates that add up beyond reason.
   p = read_nc({"G91", "X900000", "X900000", "G20 X90000"}, {});
   ASSERT_EQ(p.problems.size(), 2u);
