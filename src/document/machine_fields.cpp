@@ -142,8 +142,7 @@ std::vector<Axis> read_axes(const std::vector<Reader>& items, const std::string&
       item.problem_at("name", "an axis of the chain " + chain, "reference");
     if (std::ranges::find(axes, name, &Axis::name) != axes.end())
       item.problem_at("name", "each axis once", "duplicate");
-    const bool table = !chain.empty() && chain.find(name) < chain.find('f');
-    meaning.side = table ? -1 : 1;
+    meaning.side = chain.empty() ? 1 : sense(chain, name);
     axes.push_back(read_axis(item, name, meaning));
   }
   return axes;
