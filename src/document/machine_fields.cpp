@@ -134,8 +134,8 @@ std::vector<Axis> read_axes(const std::vector<Reader>& items, const std::string&
   static const std::vector<std::string> kNames = {"X", "Y", "Z", "A", "B", "C"};
   std::vector<Axis> axes;
   for (Reader item : items) {
-    item = item.as_object();
     const std::size_t problems = item.problems().list.size();
+    item = item.as_object();
     const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
     if (item.problems().list.size() != problems) continue;
     if (!chain.empty() && chain.find(name) == std::string::npos)

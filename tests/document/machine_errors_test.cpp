@@ -3,6 +3,7 @@
 #include <string>
 
 #include "slips.hpp"
+#include "turnwright/base/units.hpp"
 #include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/file.hpp"
@@ -10,6 +11,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/samba.hpp"
 #include "turnwright/planning/machine_share.hpp"
+#include "turnwright/volumetric/samba.hpp"
 
 // The member "errors" of a machine's document.
 namespace turnwright::document {
@@ -231,6 +233,56 @@ TEST(Calibration, WhatStaysIsNotFoundAgain) {
         EXPECT_NEAR(is[k] + is[k + 36] - was[k] - was[k + 36], 0, 4e-7) << path << k;
     }
   }
+}
+
+// Probed balls too: cubics and harmonics that the machine has and nobody asks for are not
+// taken for scales and locations.
+TEST(Calibration, OfProbedBallsLeavesWhatStays) {
+  volumetric::SambaStrategy s;
+  json strategy = {{"balls_mm", json::array()},
+                   {"indexations_deg", json::array()},
+                   {"balls_seen", json::array()},
+                   {"scale_bar_mm", 240}};
+  for (const volumetric::Vec3& ball : std::vector<volumetric::Vec3>{
+           {-120, 0, 40}, {120, 0, 40}, {0, 130, 90}, {30, -110, 60}}) {
+    s.balls_mm.push_back(ball);
+    strategy["balls_mm"].push_back(ball);
+  }
+  s.scale_bar_mm = 240;
+  for (int i = 0; i < 7; ++i) {
+    const double B = 12.0 * i - 30, C = 50.0 * i * i;
+    s.indexations.push_back(
+        {units::rad_from_deg(B), units::rad_from_deg(C), {0, 1, 2, 3}, {}});
+    strategy["indexations_deg"].push_back({B, C});
+    strategy["balls_seen"].push_back({1, 2, 3, 4});
+  }
+  json errors = {{"chain", "wCBXfZYt"}, {"axes", json::array()}};
+  for (const char* name : {"C", "B", "X", "Z", "Y"})
+    errors["axes"].push_back({{"name", name}});
+  json& X = errors["axes"][2];
+  X["err"] = {{"EXX", {{"c", {0, 4e-4, 0, 3e-4}}}}, {"EYX", {{"c", {0, 0, 2e-4, 0}}}}};
+  errors["axes"][1]["loc"] = {{"EC0B", 1e-5}};
+  errors["axes"][0]["err"] = {{"EZC", {{"f", {{2e-4, 1e-4}}}}}};
+  json machine = medium();
+  machine["errors"] = errors;
+  const auto truth = read(machine).errors->chain;
+  json request = {{"strategy", strategy},
+                  {"parameters", {"EXX1", "EC0B", "EYY1"}},
+                  {"readings_mm", json::array()},
+                  {"noise_mm", 1e-3}};
+  const auto readings = volumetric::samba_readings(s, truth);
+  for (std::size_t k = 0; k < readings.size(); k += 3)
+    request["readings_mm"].push_back({readings[k], readings[k + 1], readings[k + 2]});
+  request["machine"] = machine;
+  request["machine"]["errors"]["axes"][1].erase("loc");
+  request["machine"]["errors"]["axes"][2]["err"]["EXX"]["c"][1] = 0.7;  // replaced
+  const auto found = *read(samba(request)["machine"]).errors;
+  EXPECT_NEAR(axis(found.chain.axes, 'X').errors[0].c[1], 4e-4, 1e-7);
+  EXPECT_NEAR(axis(found.chain.axes, 'B').location[5], 1e-5, 1e-9);
+  EXPECT_NEAR(axis(found.chain.axes, 'Y').errors[1].c[1], 0, 1e-7);
+  // Without the machine's help the cubic is read as a scale.
+  EXPECT_GT(std::abs(samba(request)["parameters"]["EXX1"]["value"].get<double>() - 4e-4),
+            1e-5);
 }
 
 TEST(Calibration, OfMachinesThatLackAnAxisIsRefused) {
