@@ -82,6 +82,21 @@ TEST(MachineErrors, TablesOfALaserAreFitted) {
   EXPECT_NEAR(e.c[0], 2e-3, 1e-12);
   EXPECT_NEAR(e.c[1], 2e-3, 1e-12);
   EXPECT_NEAR(e.b, -1e-3, 1e-12);
+  // Scatter becomes uncertainty, but where the document states its own.
+  json& X = m["errors"]["axes"][2];
+  X["err"]["EXX"]["table"]["plus"] = {1, 2.2, 3, 4};
+  EXPECT_GT(axis(read(m).errors->u, 'X').errors[0].c[1], 1e-5);
+  m["errors"]["u"] = {{{"name", "X"}, {"err", {{"EXX", {{"b", 7e-4}}}}}}};
+  EXPECT_EQ(axis(read(m).errors->u, 'X').errors[0].c[1], 0);
+  EXPECT_EQ(axis(read(m).errors->u, 'X').errors[0].b, 7e-4);
+  // Positions too near each other tell no polynomial.
+  X["err"]["EXX"]["table"]["q"] = {0, 1e-9, 2e-9, 3e-9};
+  EXPECT_EQ(refused(m),
+            "lathe: /errors/axes/2/err/EXX/table: got a fit out of bounds, expected "
+            "positions so far apart that each coefficient is a number from -1000 to 1000 "
+            "mm");
+  X["err"]["EXX"]["table"]["q"] = {0, 1e-300, 2e-300, 3e-300};
+  EXPECT_NE(refused(m).find("a fit out of bounds"), std::string::npos);
 }
 
 TEST(MachineErrors, AreRefusedWithTheirPlace) {
