@@ -204,7 +204,8 @@ TEST_F(CommandLine, SpecialFilesAreWrittenNotReplaced) {
   const auto printed = shell("turnwright acceptance request.json").out;
   const auto outcome = shell(
       "mkfifo pipe; timeout 200 cat pipe & "
-      "timeout 200 turnwright acceptance request.json -o pipe; code=$?; wait; exit $code");
+      "timeout 200 turnwright acceptance request.json -o pipe; code=$?; wait; exit "
+      "$code");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, printed);
   EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
