@@ -132,7 +132,8 @@ include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
-  add_executable(app_test tests/app/command_line_test.cpp tests/app/readme_test.cpp)
+  add_executable(app_test tests/app/command_line_test.cpp tests/app/killed_server_test.cpp
+    tests/app/readme_test.cpp)
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>")
