@@ -41,8 +41,8 @@ struct Trace {
   std::vector<double> theta_rad, ccw_mm, cw_mm;
 };
 
-/// |tip - nominal tip at the centre - o| - R in the workpiece frame, the tool point at the
-/// origin at q = 0 whatever the machine says.
+/// |tip - nominal tip at the centre - o| - R in the workpiece frame, the tool point at
+/// the origin at q = 0 whatever the machine says.
 /// @throws std::domain_error as Kinematics, if there are no angles, R is not > 0, or the
 ///   chain lacks an axis of the plane.
 Trace simulate(const Machine& machine, const BallBarTest& test);

@@ -50,8 +50,8 @@ struct Compensated {
 ///
 /// which gains the size of the errors' slopes (1e-4) with each pass.  Rotary axes stand
 /// at 0, a lathe's spindle turns: its harmonics shift nothing in the mean and are left
-/// out.  Only axes the machine has are corrected and counted (tangential errors of a lathe
-/// act by y^2/2R).  Signs are those of the corrected motions, down to half the last
+/// out.  Only axes the machine has are corrected and counted (tangential errors of a
+/// lathe act by y^2/2R).  Signs are those of the corrected motions, down to half the last
 /// decimal written: an axis that stands in the source and follows a bow has them too.
 /// Where an axis turns back in a feed move, its play is taken up first by a move of its
 /// own; one that overshoots its turn (b against the motion) stays where it is.
