@@ -100,6 +100,15 @@ TEST_F(Batch, AnswersEveryLineInOrder) {
   EXPECT_EQ(files_of(folder_ / "results"), files);
 }
 
+TEST_F(Batch, TheExampleOfItsHelpRuns) {
+  const auto help = shell("turnwright batch --help").out;
+  const auto at = help.find("Example");
+  ASSERT_NE(at, std::string::npos);
+  const auto run = shell("set -e" + help.substr(help.find('\n', at)));
+  EXPECT_EQ(run.out, "depths/results.jsonl: 2 records, 2 ok, 0 infeasible, 0 errors\n");
+  EXPECT_EQ(run.err, "");
+}
+
 TEST_F(Batch, ABadLineIsARecordWithItsNumber) {
   put(folder_ / "lines.jsonl",
       "{\"name\": \n" + acceptance(1) +
