@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "turnwright/service/batch_runner.hpp"
 #include "turnwright/document/parse.hpp"
+#include "turnwright/service/batch_runner.hpp"
 #include "turnwright/service/known_answers.hpp"
 
 namespace turnwright::service {
