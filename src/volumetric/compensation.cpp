@@ -354,7 +354,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // A rounded coordinate is off by 0.5e-3 mm at most.
-    if (full && !(left <= is + 1e-3))
+    if (full && !(left <= is / 2 + 1e-3))
       throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
                             ": errors too large to be corrected by iteration");
     out.largest_correction_mm =
