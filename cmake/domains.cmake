@@ -110,6 +110,16 @@ if(BUILD_TESTING)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
+# What holds of any part, tried on random ones: here a few, more by RC_PARAMS.
+if(BUILD_TESTING)
+  add_executable(properties_test tests/properties/plan_properties_test.cpp)
+  target_link_libraries(properties_test PRIVATE turnwright::document rapidcheck tw_dev
+    GTest::gtest_main)
+  target_compile_definitions(properties_test PRIVATE
+    TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(properties_test TEST_PREFIX properties.
+    PROPERTIES TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
+endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp plan_words.cpp setup_words.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp budget_drawing.cpp window_drawing.cpp stability_chart.cpp contour.cpp stack.cpp svg.cpp
                            chart.cpp volumetric_drawing.cpp html.cpp
