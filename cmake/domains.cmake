@@ -43,7 +43,8 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
           TESTS limits_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
-target_compile_options(turnwright_milling PRIVATE -fcx-limited-range)
+target_compile_options(turnwright_milling PRIVATE
+                       $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
@@ -108,6 +109,16 @@ if(BUILD_TESTING)
   endforeach()
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
+endif()
+# What holds of any part, tried on random ones: here a few, more by RC_PARAMS.
+if(BUILD_TESTING)
+  add_executable(properties_test tests/properties/plan_properties_test.cpp)
+  target_link_libraries(properties_test PRIVATE turnwright::document rapidcheck tw_dev
+    GTest::gtest_main)
+  target_compile_definitions(properties_test PRIVATE
+    TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(properties_test TEST_PREFIX properties.
+    PROPERTIES TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp plan_words.cpp setup_words.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp budget_drawing.cpp window_drawing.cpp stability_chart.cpp contour.cpp stack.cpp svg.cpp
