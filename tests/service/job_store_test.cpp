@@ -35,8 +35,8 @@ JobStore::Record record(const JobStore::Line& line, std::string text) {
 
 TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   JobStore store(file());
-  const auto first = store.submit({"a", "", "b"});
-  const auto second = store.submit({"c"});
+  const auto first = *store.submit("a\n\nb");
+  const auto second = *store.submit("c\n");
   const auto lines = store.take(2);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].text + lines[1].text, "ab");
@@ -48,9 +48,18 @@ TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   EXPECT_EQ(store.job(first)->lines, 2);
 }
 
+TEST_F(JobStoreTest, TooManyLinesAreNoJob) {
+  JobStore store(file());
+  std::string lines(2 * JobStore::kMostLines, '\n');
+  for (std::size_t i = 0; i < lines.size(); i += 2) lines[i] = '0';
+  EXPECT_TRUE(store.submit(lines));
+  EXPECT_FALSE(store.submit(lines + '0'));
+  EXPECT_EQ(store.jobs().size(), 1U);
+}
+
 TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
   JobStore store(file());
-  const auto id = store.submit({"a", "b", "c"});
+  const auto id = *store.submit("a\nb\nc");
   const auto lines = store.take(3);
   store.finish(
       std::vector{record(lines[0], R"({"x":1})"), record(lines[2], R"({"x":3})")});
@@ -67,7 +76,7 @@ TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
 TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
   {
     JobStore store(file());
-    store.submit({"a", "b", "c"});
+    store.submit("a\nb\nc");
     const auto lines = store.take(2);
     store.finish(std::vector{record(lines[0], "{}")});
   }
@@ -80,7 +89,7 @@ TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
 
 TEST_F(JobStoreTest, ARecordOnceStoredStays) {
   JobStore store(file());
-  const auto id = store.submit({"a"});
+  const auto id = *store.submit("a");
   const auto lines = store.take(1);
   store.finish(
       std::vector{record(lines[0], R"({"x":1})"), record(lines[0], R"({"x":2})")});
@@ -90,7 +99,7 @@ TEST_F(JobStoreTest, ARecordOnceStoredStays) {
 
 TEST_F(JobStoreTest, CancelledLinesAreLeftAndRemovedJobsForgotten) {
   JobStore store(file());
-  const auto id = store.submit({"a", "b"});
+  const auto id = *store.submit("a\nb\n");
   const auto lines = store.take(1);
   EXPECT_TRUE(store.cancel(id));
   EXPECT_TRUE(store.take(9).empty());
@@ -122,7 +131,9 @@ TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   lines[4] = R"({"name": "multipas", "document": {}})";
   lines[5] = R"({"name": "multipass", "document": {"dt_mm": "8"}})";
   lines[6] = R"({"name": "multipass", "document": {"dt_mm": 100}})";
-  const auto id = store.submit(lines);
+  std::string text;
+  for (const auto& line : lines) text += line + '\n';
+  const auto id = *store.submit(text);
   {
     Batches batches(store, catalogue, 2);
     while (store.job(id)->state == "running")

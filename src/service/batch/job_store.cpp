@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "turnwright/service/batch_line.hpp"
@@ -47,8 +48,8 @@ Job job_of(SQLite::Statement& row) {
 
 constexpr const char* kJobColumns = "SELECT id, state, lines, open, errors FROM job ";
 
-bool blank(const std::string& line) {
-  return line.find_first_not_of(" \t\r") == std::string::npos;
+bool blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
 }  // namespace
@@ -63,22 +64,26 @@ JobStore::JobStore(const std::filesystem::path& file) try
 
 JobStore::~JobStore() = default;
 
-std::int64_t JobStore::submit(const std::vector<std::string>& lines) {
+std::optional<std::int64_t> JobStore::submit(std::string_view lines) {
   const std::lock_guard lock(mutex_);
   SQLite::Transaction transaction(*database_);
   database_->exec("INSERT INTO job (state, lines, open) VALUES ('running', 0, 0)");
   const std::int64_t id = database_->getLastInsertRowid();
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (blank(lines[i])) continue;
+  std::int64_t count = 0, number = 0;
+  while (!lines.empty()) {
+    const auto end = std::min(lines.find('\n'), lines.size());
+    const auto line = lines.substr(0, end);
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+    ++number;
+    if (blank(line)) continue;
+    if (++count > kMostLines) return std::nullopt;
     insert.bind(1, id);
-    insert.bind(2, static_cast<std::int64_t>(i) + 1);
-    insert.bindNoCopy(3, lines[i]);
+    insert.bind(2, number);
+    insert.bind(3, std::string(line));
     insert.exec();
     insert.reset();
-    ++count;
   }
   SQLite::Statement update(
       *database_,

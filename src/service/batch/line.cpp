@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/document/reader.hpp"
 #include "turnwright/service/batch_line.hpp"
@@ -70,7 +71,9 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context) {
             true};
   } catch (const ModelRangeError& error) {
     return failed(name, "outside a model's range", error.what());
-  } catch (const std::domain_error& error) {
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
     return failed(name, "internal error", error.what());
   }
 }
