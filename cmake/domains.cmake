@@ -30,7 +30,7 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensation.cpp
-          kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp samba.cpp
+          kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp nc_writer.cpp samba.cpp
   DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)

@@ -424,6 +424,17 @@ TEST(Plan, ABoreComesOutNarrowerByWhatWallAndBarYield) {
   EXPECT_NEAR(tolerance(r, "b:diameter").predicted_mm[0], middle - 2 * left, 1e-10);
 }
 
+TEST(Plan, ToolsForAnotherMaterialAreTold) {
+  auto d = pin();
+  d["material"] = "AlMgSi";
+  d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"};
+  const auto r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_FALSE(r.conflicts.empty());
+  EXPECT_EQ(r.conflicts[0].sentence,
+            "d1: none of the tools for finishing has a grade for AlMgSi");
+}
+
 TEST(Plan, AHoleNoBarEntersIsTold) {
   auto d = bush();
   d["stock"]["inner_mm"] = 30;
