@@ -48,13 +48,15 @@ TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   EXPECT_EQ(store.job(first)->lines, 2);
 }
 
-TEST_F(JobStoreTest, TooManyLinesAreNoJob) {
+TEST_F(JobStoreTest, TooManyLinesAreNoJobAndEmptyOnesAreNone) {
   JobStore store(file());
-  std::string lines(2 * JobStore::kMostLines, '\n');
-  for (std::size_t i = 0; i < lines.size(); i += 2) lines[i] = '0';
-  EXPECT_TRUE(store.submit(lines));
-  EXPECT_FALSE(store.submit(lines + '0'));
-  EXPECT_EQ(store.jobs().size(), 1U);
+  std::string lines;
+  for (std::size_t i = 0; i <= JobStore::kMostLines; ++i) lines += "0\n";
+  EXPECT_FALSE(store.submit(lines));
+  EXPECT_TRUE(store.jobs().empty());
+  EXPECT_TRUE(store.submit(std::string(2 * JobStore::kMostLines, '\n') + "a"));
+  EXPECT_EQ(store.take(9).at(0).number,
+            static_cast<std::int64_t>(2 * JobStore::kMostLines + 1));
 }
 
 TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {

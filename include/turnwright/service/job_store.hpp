@@ -53,8 +53,8 @@ class JobStore {
   /// numbers are those of the sender's file.
   /// @return its id; none, and nothing is stored, if there are more lines than
   /// kMostLines.
-  std::optional<std::int64_t> submit(std::string_view lines);
-  static constexpr std::int64_t kMostLines = 1'000'000;
+  std::optional<std::int64_t> submit(std::string_view text);
+  static constexpr std::size_t kMostLines = 1'000'000;
   std::optional<Job> job(std::int64_t id) const;
   std::vector<Job> jobs() const;
   /// Lines not yet taken are left; false if there is no such job.

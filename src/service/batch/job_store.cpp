@@ -52,6 +52,25 @@ bool blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
+struct Given {
+  std::int64_t number = 0;
+  std::string_view text;
+};
+
+/// Lines that are not blank; none if there are too many.
+std::optional<std::vector<Given>> lines_of(std::string_view text) {
+  std::vector<Given> lines;
+  for (std::int64_t number = 1; !text.empty(); ++number) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const auto line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (blank(line)) continue;
+    if (lines.size() == JobStore::kMostLines) return std::nullopt;
+    lines.push_back({number, line});
+  }
+  return lines;
+}
+
 }  // namespace
 
 JobStore::JobStore(const std::filesystem::path& file) try
@@ -64,24 +83,19 @@ JobStore::JobStore(const std::filesystem::path& file) try
 
 JobStore::~JobStore() = default;
 
-std::optional<std::int64_t> JobStore::submit(std::string_view lines) {
+std::optional<std::int64_t> JobStore::submit(std::string_view text) {
+  const auto lines = lines_of(text);
+  if (!lines) return std::nullopt;
   const std::lock_guard lock(mutex_);
   SQLite::Transaction transaction(*database_);
   database_->exec("INSERT INTO job (state, lines, open) VALUES ('running', 0, 0)");
   const std::int64_t id = database_->getLastInsertRowid();
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
-  std::int64_t count = 0, number = 0;
-  while (!lines.empty()) {
-    const auto end = std::min(lines.find('\n'), lines.size());
-    const auto line = lines.substr(0, end);
-    lines.remove_prefix(std::min(end + 1, lines.size()));
-    ++number;
-    if (blank(line)) continue;
-    if (++count > kMostLines) return std::nullopt;
+  for (const auto& line : *lines) {
     insert.bind(1, id);
-    insert.bind(2, number);
-    insert.bind(3, std::string(line));
+    insert.bind(2, line.number);
+    insert.bind(3, std::string(line.text));
     insert.exec();
     insert.reset();
   }
@@ -89,7 +103,7 @@ std::optional<std::int64_t> JobStore::submit(std::string_view lines) {
       *database_,
       "UPDATE job SET lines = ?1, open = ?1, "
       "state = CASE WHEN ?1 = 0 THEN 'done' ELSE state END WHERE id = ?2");
-  update.bind(1, count);
+  update.bind(1, static_cast<std::int64_t>(lines->size()));
   update.bind(2, id);
   update.exec();
   transaction.commit();
