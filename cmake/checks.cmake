@@ -55,3 +55,9 @@ add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
   ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)
 set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
   SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+# A short batch; scripts/faults runs a long one.
+add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
+  $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)
+set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 240
+  SKIP_REGULAR_EXPRESSION "SKIPPED")

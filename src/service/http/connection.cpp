@@ -249,10 +249,7 @@ asio::awaitable<error_code> read_call_body(const ServerState& state,
                                            Connection& connection, Parser& parser,
                                            Call& call) {
   error_code ec;
-  const auto limit = HttpApi::body_limit(call);
-  if (parser.content_length() && *parser.content_length() > limit)
-    co_return http::make_error_code(http::error::body_limit);
-  parser.body_limit(limit);
+  parser.body_limit(HttpApi::body_limit(call));
   const Alarm alarm(connection.socket, state.options.body);
   if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
     constexpr char kGo[] = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -288,6 +285,9 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   error_code ec = co_await read_call_header(state, connection, parser);
   Call call = call_of(parser, state);
   std::optional<Reply> reply;
+  if (!ec && parser.content_length() &&
+      *parser.content_length() > HttpApi::body_limit(call))
+    ec = http::make_error_code(http::error::body_limit);
   if (!ec) reply = objection(state, parser, call);
   const bool taken = !ec && !reply;
   if (taken) ec = co_await read_call_body(state, connection, parser, call);
