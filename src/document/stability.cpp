@@ -186,9 +186,10 @@ void read_cutter(Reader& r, Request& q) {
   const bool edges =
       mill && std::ranges::any_of(kEdges, [&](const char* key) { return r.has(key); });
   const bool damped = r.has("process_damping");
+  const double diameter = r.number_or("diameter_mm", above_up_to(0, 1e4, "mm"), 0);
   if (!edges && !damped) return;
   Cutter cutter{.system = q.system};
-  cutter.diameter_mm = r.number_or("diameter_mm", above_up_to(0, 1e4, "mm"), 0);
+  cutter.diameter_mm = diameter;
   if (mill) read_edges(r, cutter);
   if (auto found = r.find("process_damping")) {
     Reader damping = found->as_object();

@@ -291,13 +291,16 @@ TEST(Stability, RefusesHalfToldCutters) {
   q["process_damping"] = {{"friction", -1}};
   EXPECT_EQ(refused(q),
             R"(stability: /helix_deg: got 90, expected a number from 0 to 80 deg
-stability: /pitch_deg: got [90, 90, 90, 80], expected angles that add up to 360 deg
-stability: /runout_mm: got [0, 0, 0], expected at least 4 entries
-stability: /feed_mm: got nothing, expected a feed per tooth, for runout_mm
+stability: /pitch_deg: got [90,90,90,80], expected angles that add up to 360 deg
+stability: /runout_mm: got [0,0,0], expected a list of 4 entries
 stability: /process_damping/C_N_mm: got nothing, expected a number from 0 to 1000000 N/mm
 stability: /process_damping/friction: got -1, expected a number from 0 to 2
 stability: /diameter_mm: got nothing, expected a diameter, for helix_deg and process_damping
 stability: /method: got "simulation", expected no such key with helix_deg, pitch_deg, runout_mm, feed_mm or process_damping)");
+  q = example(8);
+  q.erase("feed_mm");
+  EXPECT_EQ(refused(q),
+            "stability: /feed_mm: got nothing, expected a feed per tooth, for runout_mm");
   q = example(2);
   q["helix_deg"] = 30;
   EXPECT_EQ(refused(q), "stability: /helix_deg: got 30, expected no such key");

@@ -15,8 +15,7 @@
 /// a tooth from y. An axis without a mode is rigid.
 ///
 /// Linear in the displacements: no tooth leaves the cut by vibrating; forces are
-/// proportional to the depth and the teeth are alike; cutter.hpp has helix, unlike teeth
-/// and friction of the flank.
+/// proportional to the depth (no helix) and the teeth are alike.
 namespace turnwright::milling {
 
 enum class Axis { x, y };
