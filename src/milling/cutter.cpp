@@ -101,10 +101,14 @@ class Ascent {
     climb(middle, to);
   }
 
-  /// False if the zeros found do not explain the change of the count.
+  /// False if noise hides zeros or those found do not explain the change of the count.
   bool enter(const Sheet& sheet) {
     Search<OneSheet> search{OneSheet{&sheet}};
-    search.strip(sheet.from_mm(), sheet.to_mm(), nullptr, true);
+    try {
+      search.strip(sheet.from_mm(), sheet.to_mm(), nullptr, true);
+    } catch (const ModelRangeError&) {
+      return false;
+    }
     std::vector<OnCircle> found;
     int count = sheet.unstable_at_from();
     for (const Box& zero : search.found()) {
@@ -193,9 +197,9 @@ Multipliers multipliers(const Cutter& cutter, double n_rpm, double ap_mm) {
   const double differ = std::abs(radius - modulus(coarse.front()));
   const bool clear = std::ranges::none_of(
       fine, [&](Complex mu) { return std::abs(modulus(mu) - 1) <= 10 * differ; });
-  return {.unstable = count(fine),
-          .spectral_radius = radius,
-          .certified = clear && count(fine) == count(coarse)};
+  if (count(fine) != count(coarse))
+    throw ModelRangeError("milling: a multiplier lies on the circle asked about");
+  return {.unstable = count(fine), .spectral_radius = radius, .certified = clear};
 }
 
 }  // namespace turnwright::milling

@@ -274,6 +274,18 @@ TEST(Cutter, CountsAtDepthsAreThoseOfCuts) {
   }
 }
 
+// Four teeth in a slot deep above the limit, where noise first hides zeros.
+TEST(Cutter, DeepHelicalSlotIsTold) {
+  Cutter c = with_pitches(mill(4, {0, kPi}), {84, 96, 85, 95});
+  c.helix_rad = kPi / 6;
+  const auto crossings = speed_limits(c, 12000, 4).crossings;
+  ASSERT_FALSE(crossings.empty());
+  for (const Crossing& at : crossings)
+    for (const double share : {0.999, 1.001})
+      EXPECT_EQ(multipliers(c, 12000, share * at.ap_mm).unstable > 0,
+                (share > 1) == at.loss);
+}
+
 TEST(Cutter, WallIsThatOfTheSimulation) {
   for (Option o : options()) {
     if (o.cutter.feed_mm == 0) o.cutter.feed_mm = 0.05;

@@ -48,18 +48,19 @@ double period_s(const Cutter& cutter, double n_rpm);
 
 /// As their namesakes of limits.hpp, by the multipliers of the delayed motion collocated
 /// at depths, see src/milling/delay_map.hpp, between which their characteristic function
-/// is interpolated until its tail is below 1e-9 of it or counts as noise, see
-/// src/milling/sheet.hpp.  What is searched for crossings is that function, so that
-/// islands are not missed.
+/// is interpolated until its tail is below 1e-9 of it, with a helix 1e-6, and counts as
+/// noise, see src/milling/sheet.hpp.  What is searched for crossings is that function, so
+/// that islands are not missed.
 ///
 /// With teeth that differ a multiplier may be 1: `fold`.
 /// @throws ModelRangeError as its namesake, and if a period needs too many nodes.
 SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
                          const std::vector<double>& depths_mm = {});
 
-/// `unstable` is what collocation counts, twice: with nodes of unlike fineness.
-/// `certified` says that both agree and that no multiplier is nearer the circle than
-/// the two differ.
+/// `unstable` is what collocation counts, with two finenesses of nodes alike; `certified`
+/// says that no multiplier is nearer the circle than ten times what their spectral radii
+/// differ by.
+/// @throws ModelRangeError if the two do not agree, or if a period needs too many nodes.
 Multipliers multipliers(const Cutter& cutter, double n_rpm, double ap_mm);
 
 /// The wall that a stable cut leaves: the motion of the tool that the feed forces, where
