@@ -39,10 +39,6 @@
 /// lets the tools' circles pass over the contour.
 namespace turnwright::nc {
 
-/// Corner radius [mm] that profiling tools are taken to have: the usual one of inserts
-/// for profiling; the catalogue's documents say it in words only.
-inline constexpr double kProfilingCorner_mm = 0.4;
-
 /// What the control is told in its own words.
 enum class Control {
   linuxcnc,  ///< spindle's limit with G96 (D), G95, G33 K, diameters by G7
