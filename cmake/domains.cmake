@@ -30,7 +30,7 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensation.cpp
-          kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp samba.cpp
+          kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp nc_writer.cpp samba.cpp
   DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
@@ -132,7 +132,8 @@ include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/output.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
-  add_executable(app_test tests/app/command_line_test.cpp tests/app/readme_test.cpp)
+  add_executable(app_test tests/app/command_line_test.cpp tests/app/killed_server_test.cpp
+    tests/app/readme_test.cpp)
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>")

@@ -21,7 +21,7 @@ using nlohmann::json;
 constexpr std::size_t kPoints = 20000;
 constexpr std::size_t kLeast = 7;  // of each path: more values than terms
 const Bounds kRadius = above_up_to(0, 1e5, "mm"), kValue = within(-1e3, 1e3, "mm"),
-             kAngle = within(-1e3, 1e3, "rad");
+             kAngle = within(-1e3, 1e3, "rad"), kPlace = within(-1e5, 1e5, "mm");
 
 Plane read_plane(Reader& r) {
   return r.choice<Plane>("plane",
@@ -40,6 +40,7 @@ Simulation read_simulation(Reader r) {
   s.test.n = static_cast<std::size_t>(r.integer("n", 1, kPoints));
   if (r.has("centre_offset_mm"))
     s.test.centre_offset_mm = read_vec3(r, "centre_offset_mm", kValue);
+  if (r.has("centre_mm")) s.test.centre_mm = read_vec3(r, "centre_mm", kPlace);
   s.test.theta0_rad = r.optional_number("theta0_rad", kAngle);
   r.finish();
   if (!chain_fault(s.machine.chain).empty()) return s;
@@ -63,6 +64,8 @@ void read_table(Reader& r, Trace& t) {
     ccw = names->text_or("ccw", ccw);
     cw = names->text_or("cw", cw);
     names->finish();
+    if (theta == ccw || theta == cw || ccw == cw)
+      names->problem("a column twice", "three columns: theta, ccw and cw", "conflict");
   }
   for (const CsvRow& row : csv_rows(r.at("csv", "the text of a table, or its lines"),
                                     {{.name = theta}, {.name = ccw}, {.name = cw}},
@@ -98,9 +101,10 @@ void read_lists(Reader& r, Trace& t) {
     t.theta_rad.push_back(first + turn * static_cast<double>(k));
 }
 
-Trace read_trace(Reader r) {
+Trace read_trace(Reader r, Vec3& centre_mm) {
   Trace t;
   t.plane = read_plane(r);
+  if (r.has("centre_mm")) centre_mm = read_vec3(r, "centre_mm", kPlace);
   t.R_mm = r.number("R_mm", kRadius);
   if (r.has("csv"))
     read_table(r, t);
@@ -163,39 +167,27 @@ json analysis_json(const Trace& t, const BallBarFit& fit) {
           {"confounded", confounded(t.plane)}};
 }
 
-}  // namespace
-
-namespace {
-
 /// What a trace says of the machine's errors, physical: relative values change their sign
-/// on the workpiece's side.  The squareness is put to the plane's first axis, on top of
-/// what the model has of the other.
-std::vector<Calibrated> calibrated(const Trace& t, const BallBarFit& fit,
+/// on the workpiece's side.  The squareness is put to the plane's first axis.
+std::vector<Calibrated> calibrated(Plane plane, const BallBarFit& fit,
                                    const Machine& machine) {
-  const auto axes = axes_of(t.plane);
-  const char U = axes[0], V = axes[1];
+  const auto [U, V] = axes_of(plane);
   const auto E = [](char direction, char axis, char number) {
     return std::string{'E', direction, axis, number};
   };
-  const auto side = [&](char axis) {
-    return machine.chain.find(axis) < machine.chain.find('f') ? -1.0 : 1.0;
-  };
-  const char turn = t.plane == Plane::XY ? 'C' : t.plane == Plane::YZ ? 'A' : 'B';
-  double square_V = 0;
-  for (const Axis& axis : machine.axes)
-    if (axis.name == V) square_V = axis.location[letter_index(turn)];
+  const auto side = [&](char axis) { return sense(machine.chain, axis); };
+  const char turn = plane == Plane::XY ? 'C' : plane == Plane::YZ ? 'A' : 'B';
   std::vector<Calibrated> all;
-  const auto add = [&](std::string_view term, const std::string& name, double factor,
-                       double more = 0) {
+  const auto add = [&](std::string_view term, const std::string& name, double factor) {
     const auto k = static_cast<std::size_t>(
         std::find(kBallBarTerms.begin(), kBallBarTerms.end(), term) -
         kBallBarTerms.begin());
-    all.push_back({name, factor * fit.value[k] + more, std::abs(factor) * fit.u[k]});
+    all.push_back({name, factor * fit.value[k], std::abs(factor) * fit.u[k]});
   };
   const double Q = default_Q(U);
   add("scale_u", E(U, U, '1'), side(U) * Q);
   add("scale_v", E(V, V, '1'), side(V) * Q);
-  add("square", {'E', turn, '0', U}, 1, square_V);
+  add("square", {'E', turn, '0', U}, 1);
   add("EUUb", E(U, U, 'b'), side(U));
   add("EVVb", E(V, V, 'b'), side(V));
   add("EVUb", E(V, U, 'b'), side(U));
@@ -205,9 +197,40 @@ std::vector<Calibrated> calibrated(const Trace& t, const BallBarFit& fit,
   return all;
 }
 
+/// The machine whose circle is the trace: what it has of other errors explains its part,
+/// what is found the rest.  Each round takes off what the last has left, products of
+/// errors and, off the origin, the slopes of bows.
+json with_trace(MachineDocument m, const Trace& t, const Vec3& centre_mm) {
+  constexpr int kRounds = 4;
+  const Plane plane = t.plane;
+  BallBarFit sum{};
+  std::vector<Calibrated> found = calibrated(plane, sum, m.errors.chain);
+  for (int round = 0; round < kRounds; ++round) {
+    for (const Calibrated& one : found) put(one, m.errors);
+    Trace left = t;
+    const Trace own = simulate(m.errors.chain, {.plane = plane,
+                                                .R_mm = t.R_mm,
+                                                .theta_rad = t.theta_rad,
+                                                .centre_mm = centre_mm});
+    for (std::size_t k = 0; k < left.theta_rad.size(); ++k) {
+      left.ccw_mm[k] -= own.ccw_mm[k];
+      left.cw_mm[k] -= own.cw_mm[k];
+    }
+    const BallBarFit rest = decompose(left);
+    for (std::size_t k = 0; k < sum.value.size(); ++k) sum.value[k] += rest.value[k];
+    sum.u = rest.u;
+    found = calibrated(plane, sum, m.errors.chain);
+  }
+  const auto [U, V] = axes_of(plane);
+  return with_errors(
+      std::move(m), found,
+      std::string("ball bar in ") + U + V + ", R " + number_text(t.R_mm) + " mm");
+}
+
 struct Request {
   Trace trace;
   bool analysed = false;
+  Vec3 centre_mm{};
   std::optional<MachineDocument> machine;  ///< to be calibrated by the trace
 };
 
@@ -217,10 +240,10 @@ Request read_request(const json& request) {
   read_format(r, "turnwright-ballbar/1");
   const bool simulated = r.has("simulate"), analysed = r.has("analyse");
   std::optional<Simulation> simulation;
-  Request q{.trace = {}, .analysed = analysed, .machine = {}};
+  Request q{.trace = {}, .analysed = analysed, .centre_mm = {}, .machine = {}};
   if (simulated) simulation = read_simulation(r.object("simulate"));
   if (analysed) {
-    q.trace = read_trace(r.object("analyse"));
+    q.trace = read_trace(r.object("analyse"), q.centre_mm);
     const auto axes = axes_of(q.trace.plane);
     q.machine = read_machine_document(r, "wCfZXt", {axes.begin(), axes.end()});
   }
@@ -237,18 +260,11 @@ Request read_request(const json& request) {
 Trace ball_bar_trace(const json& request) { return read_request(request).trace; }
 
 json ball_bar(const json& request) {
-  auto [t, analysed, machine] = read_request(request);
+  auto [t, analysed, centre_mm, machine] = read_request(request);
   if (!analysed)
     return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
-  const BallBarFit fit = decompose(t);
-  json out = analysis_json(t, fit);
-  if (machine) {
-    const auto found = calibrated(t, fit, machine->errors.chain);
-    const auto axes = axes_of(t.plane);
-    out["machine"] = with_errors(std::move(*machine), found,
-                                 std::string("ball bar in ") + axes[0] + axes[1] +
-                                     ", R " + number_text(t.R_mm) + " mm");
-  }
+  json out = analysis_json(t, decompose(t));
+  if (machine) out["machine"] = with_trace(std::move(*machine), t, centre_mm);
   return out;
 }
 

@@ -1,9 +1,12 @@
 #include "turnwright/document/compare.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "csv.hpp"
@@ -29,31 +32,59 @@ struct Calibration {
   std::vector<Row> rows;
 };
 
-Row read_row(Reader r) {
-  r = r.as_object();
-  Row row{.runs = {r.text("name", 32), {}},
+Row named_row(Reader& r) {
+  return {.runs = {r.text("name", 32), {}},
           .group = r.text_or("group", ""),
           .unit = r.text_or("unit", "", 32),
           .pointer = r.pointer()};
-  row.runs.value = r.numbers("runs", kValue, 2, kRuns);
+}
+
+Row read_row(Reader r) {
+  r = r.as_object();
+  Row row = named_row(r);
+  for (const double value : r.numbers("runs", kValue, 2, kRuns))
+    row.runs.value.emplace_back(value);
   r.finish();
   return row;
 }
 
-bool is_run(std::string_view column) {
-  for (const std::string_view start : {"test", "run"})
-    if (column.starts_with(start) && column.size() > start.size() &&
-        column.find_first_not_of("0123456789", start.size()) == column.npos)
-      return true;
-  return false;
+/// The number of a column test1, run1, ..; 0 of others.
+std::size_t run_of(std::string_view column) {
+  for (const std::string_view start : {"test", "run"}) {
+    if (!column.starts_with(start)) continue;
+    std::size_t number = 0;
+    const auto [end, fault] = std::from_chars(column.data() + start.size(),
+                                              column.data() + column.size(), number);
+    if (fault == std::errc() && end == column.data() + column.size())
+      return number <= kRuns ? number : 0;
+  }
+  return 0;
 }
 
 /// The columns a header names: runs are numbers, all else may be anything.
 std::vector<CsvColumn> columns_of(const Reader& csv) {
   std::vector<CsvColumn> out;
   for (const std::string& name : csv_header(csv))
-    out.push_back({.name = name, .required = false, .text = !is_run(name)});
+    out.push_back({.name = name, .required = false, .text = run_of(name) == 0});
   return out;
+}
+
+/// A line of a table; a run that it leaves blank it has not.
+Row line_row(const CsvRow& line, const std::map<std::size_t, std::string>& run_columns,
+             Problems& problems) {
+  json named{{"name", line.value.value("param", "")}};
+  for (const char* key : {"group", "unit"})
+    if (line.value.contains(key)) named[key] = line.value[key];
+  Reader r(named, problems, line.pointer);
+  Row row = named_row(r);
+  Reader cells(line.value, problems, line.pointer);
+  row.runs.value.resize(run_columns.rbegin()->first);
+  for (const auto& [run, column] : run_columns)
+    row.runs.value[run - 1] = cells.optional_number(column, kValue);
+  if (const auto n = values(row.runs).size(); n < 2)
+    problems.add(
+        {line.pointer, std::to_string(n) + " runs", "two runs or more", "count"});
+  return row;
 }
 
 std::vector<Row> read_table(const Reader& csv) {
@@ -72,16 +103,14 @@ std::vector<Row> read_table(const Reader& csv) {
                 "missing");
     return {};
   }
+  std::map<std::size_t, std::string> run_columns;
+  for (const CsvColumn& c : columns)
+    if (!c.text && !run_columns.emplace(run_of(c.name), c.name).second)
+      csv.problem("a first line with run " + std::to_string(run_of(c.name)) + " twice",
+                  "each run once", "duplicate");
   std::vector<Row> out;
-  for (const CsvRow& line : csv_rows(csv, columns, OtherColumns::refused, kParameters)) {
-    json row{{"name", line.value.value("param", "")}, {"runs", json::array()}};
-    for (const char* key : {"group", "unit"})
-      if (line.value.contains(key)) row[key] = line.value[key];
-    for (const CsvColumn& c : columns)
-      if (!c.text && line.value.contains(c.name))
-        row["runs"].push_back(line.value[c.name]);
-    out.push_back(read_row(Reader(row, csv.problems(), line.pointer)));
-  }
+  for (const CsvRow& line : csv_rows(csv, columns, OtherColumns::refused, kParameters))
+    out.push_back(line_row(line, run_columns, csv.problems()));
   return out;
 }
 
@@ -117,7 +146,8 @@ Calibration read_calibration(Reader r) {
       factor *= 1000 / *length;
       row->unit = "ppm";
     }
-    for (double& v : row->runs.value) v *= factor;
+    for (auto& value : row->runs.value)
+      if (value) *value *= factor;
   }
   return c;
 }
@@ -135,8 +165,8 @@ json summary_json(const Summary& s, std::size_t n) {
 json agreement_json(const Row& a, const Row& b) {
   const Agreement found = agreement(a.runs, b.runs);
   json out{{"name", found.name},
-           {"a", summary_json(found.a, a.runs.value.size())},
-           {"b", summary_json(found.b, b.runs.value.size())},
+           {"a", summary_json(found.a, values(a.runs).size())},
+           {"b", summary_json(found.b, values(b.runs).size())},
            {"difference", found.difference},
            {"range", std::abs(found.difference)},
            {"overlap", found.overlap}};
@@ -153,22 +183,20 @@ json agreement_json(const Row& a, const Row& b) {
 /// Common jumps of one calibration, with what leaving the run out does to the overlaps.
 void add_jumps(const Calibration& own, const Calibration& other, json& jumps,
                json& notes) {
-  std::vector<std::string> groups;
+  std::vector<std::pair<std::string, std::string>> groups;  // of one unit each
   for (const Row& row : own.rows)
-    if (std::ranges::find(groups, row.group) == groups.end()) groups.push_back(row.group);
-  for (const std::string& group : groups) {
+    if (const std::pair of(row.group, row.unit);
+        std::ranges::find(groups, of) == groups.end())
+      groups.push_back(of);
+  for (const auto& [group, unit] : groups) {
     std::vector<Runs> runs;
-    std::string unit;
     for (const Row& row : own.rows)
-      if (row.group == group) {
-        runs.push_back(row.runs);
-        unit = row.unit;
-      }
+      if (row.group == group && row.unit == unit) runs.push_back(row.runs);
     for (const CommonJump& jump : common_jumps(runs)) {
       json changed = json::array();
       for (const Runs& r : runs) {
         const Row* against = row_of(other, r.name);
-        if (!against || r.value.size() < 3) continue;
+        if (!against || values(r).size() < 3) continue;
         const bool before = agreement(r, against->runs).overlap;
         if (agreement(without_run(r, jump.run), against->runs).overlap != before)
           changed.push_back(r.name);

@@ -16,7 +16,7 @@ namespace {
 using namespace volumetric;
 using nlohmann::json;
 
-constexpr std::size_t kLines = 2'000'000, kLineBytes = 1000, kWritten = 5'000'000;
+constexpr std::size_t kLines = 2'000'000, kLineBytes = 1000;
 const Bounds kPlace = within(-1e5, 1e5, "mm"), kTolerance = within(1e-6, 1, "mm");
 
 struct Request {
@@ -26,17 +26,14 @@ struct Request {
   std::vector<std::string> lines;
 };
 
-std::vector<std::string> read_program(const Reader& r) {
+std::vector<std::string> lines_of(const Reader& r) {
   std::vector<std::string> out;
-  if (r.broken()) return out;
   if (r.is_array()) {
     for (const Reader& line : r.as_items(1, kLines)) {
-      const json& text = line.json();
-      if (!text.is_string() || text.get_ref<const std::string&>().size() > kLineBytes ||
-          text.get_ref<const std::string&>().find('\n') != std::string::npos)
-        line.problem("a line of at most 1000 bytes", "type");
+      if (line.is_text())
+        out.push_back(line.json());
       else
-        out.push_back(text);
+        line.problem("a line of the program", "type");
     }
     return out;
   }
@@ -50,6 +47,26 @@ std::vector<std::string> read_program(const Reader& r) {
     out.push_back(text.substr(at, end - at));
     if (out.back().ends_with('\r')) out.back().pop_back();
     at = end + 1;
+  }
+  return out;
+}
+
+std::vector<std::string> read_program(const Reader& r) {
+  if (r.broken()) return {};
+  auto out = lines_of(r);
+  if (out.size() > kLines)
+    r.problem(std::to_string(out.size()) + " lines",
+              "at most " + std::to_string(kLines) + " lines", "count");
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto fault = [&](const std::string& got, const char* expected) {
+      const auto at =
+          r.is_array() ? "/" + std::to_string(i) : "#line " + std::to_string(i + 1);
+      r.problems().add({r.pointer() + at, got, expected, "range"});
+    };
+    if (out[i].size() > kLineBytes)
+      fault(std::to_string(out[i].size()) + " bytes", "a line of at most 1000 bytes");
+    if (out[i].find('\n') != std::string::npos)
+      fault("a line feed within the line", "one line of the program");
   }
   return out;
 }
@@ -141,9 +158,6 @@ CompensateAnswer compensated(const json& request) {
   for (const NcProblem& p : program.problems)
     problems.add(
         {"/program#line " + std::to_string(p.line), p.got, p.expected, "unsupported"});
-  if (program.moves.size() > kWritten)
-    problems.add({"/program", std::to_string(program.moves.size()) + " moves",
-                  "at most 5000000; a wider tolerance_mm makes fewer", "range"});
   problems.throw_if_any();
   Compensated c = volumetric::compensate(program, q.machine, q.setup, q.options);
   json result = {

@@ -129,12 +129,13 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
 // out.
 void read_geometry(Reader group, catalogue::Lathe& m) {
   const auto problems = group.problems().list.size();
-  catalogue::GeometricErrors g{.chain = read_chain(group)};
+  std::vector<catalogue::Axis> fitted;
+  catalogue::GeometricErrors g{.chain = read_chain(group, &fitted)};
   const Bounds place = within(-1e6, 1e6, "mm");
   if (group.has("tool_point_mm"))
     g.chain.tool_point_mm = read_vec3(group, "tool_point_mm", place);
   g.jaws_z_mm = group.number_or("jaws_z_mm", place, 0);
-  g.u = read_uncertainties(group, g.chain);
+  g.u = read_uncertainties(group, g.chain, fitted);
   g.relative_u = group.number_or("uncertainty_pct", within(0, 100, "%"), 0) / 100;
   group.optional_text("source", 1000);
   group.optional_text("note", 2000);

@@ -24,11 +24,19 @@ const Bounds kShift = within(-1e3, 1e3, "mm"), kTurn = within(-10, 10, "rad"),
 struct Meaning {
   bool uncertainty = false;
   double side = 1;
+  std::vector<Axis>* fitted_u = nullptr;  ///< where uncertainties of fitted tables go
   const Bounds& bounds(std::size_t direction) const {
     if (uncertainty) return direction < 3 ? kShiftU : kTurnU;
     return direction < 3 ? kShift : kTurn;
   }
 };
+
+Axis& axis_named(std::vector<Axis>& axes, char name) {
+  const auto found = std::ranges::find(axes, name, &Axis::name);
+  if (found != axes.end()) return *found;
+  axes.push_back({.name = name, .Q = default_Q(name)});
+  return axes.back();
+}
 
 /// "EYX", "EY0X".
 std::string error_name(std::size_t direction, const char* of, char axis) {
@@ -41,9 +49,15 @@ bool has_location(char axis, std::size_t direction) {
   return is_rotary(axis) || (direction > 2 && direction != letter_index(axis) + 3);
 }
 
+bool fits(const AxisFit& fit, const Bounds& bounds) {
+  const auto within_bounds = [&](double x) { return contains(bounds, x); };
+  return std::ranges::all_of(fit.error.c, within_bounds) &&
+         std::ranges::all_of(fit.u, within_bounds) && within_bounds(fit.error.b);
+}
+
 /// {"q", "plus", "minus", "unit", "sign", "degree"} fitted.
-ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
-                               double side) {
+AxisFit read_error_table(Reader r, const Bounds& travel, bool turns, double Q,
+                         double side, const Bounds& bounds) {
   AxisTable t;
   const std::size_t problems = r.problems().list.size();
   t.q = r.numbers("q", travel, 1, kReadings);
@@ -70,8 +84,13 @@ ErrorFunction read_error_table(Reader r, const Bounds& travel, bool turns, doubl
               "missing");
   else if (places.size() < static_cast<std::size_t>(degree) + 1)
     r.problem_at("q", std::to_string(degree + 1) + " positions or more", "count");
+  else if (const AxisFit fit = fit_axis(t, Q, degree); fits(fit, bounds))
+    return fit;
   else
-    return fit_axis(t, Q, degree).error;
+    r.problem(
+        "a fit out of bounds",
+        "positions so far apart that each coefficient is " + expected_number(bounds),
+        "range");
   return {};
 }
 
@@ -83,10 +102,15 @@ ErrorFunction read_error(Reader r, const Axis& of, std::size_t direction,
   ErrorFunction e;
   if (!meaning.uncertainty)
     if (auto table = r.optional_object("table")) {
-      e = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace, direction > 2, of.Q,
-                           meaning.side);
+      const AxisFit fit = read_error_table(*table, is_rotary(axis) ? kAngle : kPlace,
+                                           direction > 2, of.Q, meaning.side, bounds);
       r.finish();
-      return e;
+      if (meaning.fitted_u) {
+        ErrorFunction& u = axis_named(*meaning.fitted_u, axis).errors[direction];
+        std::copy_n(fit.u.begin(), u.c.size(), u.c.begin());
+        u.b = fit.u.back();
+      }
+      return fit.error;
     }
   if (r.has("c")) {
     const auto c = r.numbers("c", bounds, 4, 4);
@@ -134,16 +158,15 @@ std::vector<Axis> read_axes(const std::vector<Reader>& items, const std::string&
   static const std::vector<std::string> kNames = {"X", "Y", "Z", "A", "B", "C"};
   std::vector<Axis> axes;
   for (Reader item : items) {
-    item = item.as_object();
     const std::size_t problems = item.problems().list.size();
+    item = item.as_object();
     const char name = kLetters[item.at("name", "an axis of the chain").as_choice(kNames)];
     if (item.problems().list.size() != problems) continue;
     if (!chain.empty() && chain.find(name) == std::string::npos)
       item.problem_at("name", "an axis of the chain " + chain, "reference");
     if (std::ranges::find(axes, name, &Axis::name) != axes.end())
       item.problem_at("name", "each axis once", "duplicate");
-    const bool table = !chain.empty() && chain.find(name) < chain.find('f');
-    meaning.side = table ? -1 : 1;
+    meaning.side = chain.empty() ? 1 : sense(chain, name);
     axes.push_back(read_axis(item, name, meaning));
   }
   return axes;
@@ -157,14 +180,15 @@ Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds) {
   return out;
 }
 
-Machine read_chain(Reader& r) {
+Machine read_chain(Reader& r, std::vector<Axis>* fitted_u) {
   Machine m;
   m.chain = r.text("chain", 9);
   const std::string fault = chain_fault(m.chain);
   const bool known = fault.empty();
   if (!m.chain.empty() && !known)
     r.problem_at("chain", "a chain such as wCfZXt: " + fault, "chain");
-  m.axes = read_axes(r.items("axes", 0, kDirections), known ? m.chain : "", {});
+  m.axes = read_axes(r.items("axes", 0, kDirections), known ? m.chain : "",
+                     {.fitted_u = fitted_u});
   if (known && r.json().contains("axes") && r.json()["axes"].is_array())
     for (const char c : m.chain)
       if (letter_index(c) != std::string_view::npos &&
@@ -174,10 +198,17 @@ Machine read_chain(Reader& r) {
   return m;
 }
 
-std::vector<Axis> read_uncertainties(Reader& r, const Machine& m) {
+std::vector<Axis> read_uncertainties(Reader& r, const Machine& m,
+                                     const std::vector<Axis>& fitted) {
   const bool known = chain_fault(m.chain).empty();
-  return read_axes(r.optional_items("u", 0, kDirections), known ? m.chain : "",
-                   {.uncertainty = true});
+  auto given = read_axes(r.optional_items("u", 0, kDirections), known ? m.chain : "",
+                         {.uncertainty = true});
+  for (const Axis& axis : fitted)
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      ErrorFunction& u = axis_named(given, axis.name).errors[k];
+      if (u.c == std::array<double, 4>{} && u.b == 0) u = axis.errors[k];
+    }
+  return given;
 }
 
 Position read_position(Reader r, const Machine& m) {
@@ -222,13 +253,6 @@ json axis_json(const Axis& axis) {
     if (!f.empty()) error["f"] = f;
   }
   return one;
-}
-
-Axis& axis_named(std::vector<Axis>& axes, char name) {
-  const auto found = std::ranges::find(axes, name, &Axis::name);
-  if (found != axes.end()) return *found;
-  axes.push_back({.name = name, .Q = default_Q(name)});
-  return axes.back();
 }
 
 /// The number of an error's name: "EXX1" its c1 at Q = 100 mm or pi, "EXXb" its b, "EB0Z"

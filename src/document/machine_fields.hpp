@@ -16,12 +16,16 @@
 namespace turnwright::document {
 
 /// Members "chain" and "axes".  A machine with problems is not fit for Kinematics.
-volumetric::Machine read_chain(Reader& r);
+/// @param fitted_u  gets the standard uncertainties of errors that tables tell.
+volumetric::Machine read_chain(Reader& r,
+                               std::vector<volumetric::Axis>* fitted_u = nullptr);
 
 /// Member "u", absent or axes of the chain with the standard uncertainties of their
 /// errors: "name", "err", "sq" and "loc" as above, without tables, nothing negative.
-std::vector<volumetric::Axis> read_uncertainties(Reader& r,
-                                                 const volumetric::Machine& machine);
+/// Those of tables, `fitted`, where it has none.
+std::vector<volumetric::Axis> read_uncertainties(
+    Reader& r, const volumetric::Machine& machine,
+    const std::vector<volumetric::Axis>& fitted);
 
 volumetric::Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds);
 

@@ -50,6 +50,22 @@ void read_pre_moves(Reader r, SambaStrategy& s) {
   r.finish();
 }
 
+/// What a bar's length may be off the distance of its balls as they were given.
+constexpr double kBarOff = 0.02;
+
+void check_scale_bar(Reader& r, const SambaStrategy& s) {
+  const Vec3 &a = s.balls_mm[0], &b = s.balls_mm[1];
+  const double apart = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  if (!(apart > 0))
+    r.problem_at("balls_mm", "the first two, the bar's, apart from each other",
+                 "conflict");
+  else if (s.scale_bar_mm > 0 && !(std::abs(s.scale_bar_mm - apart) <= kBarOff * apart))
+    r.problem_at("scale_bar_mm",
+                 "the distance of its balls, the first two of balls_mm, " +
+                     number_text(apart) + " mm, within 2 %",
+                 "conflict");
+}
+
 SambaStrategy read_strategy(Reader r) {
   SambaStrategy s;
   for (const Reader& pose : r.items("indexations_deg", 1, kIndexations)) {
@@ -65,8 +81,9 @@ SambaStrategy read_strategy(Reader r) {
   const auto seen = r.items("balls_seen", 1, kIndexations);
   if (!seen.empty() && !s.indexations.empty() && seen.size() != s.indexations.size())
     r.problem_at("balls_seen", "one list for each of indexations_deg", "count");
-  const auto balls = static_cast<long>(std::max<std::size_t>(2, s.balls_mm.size()));
-  for (std::size_t i = 0; i < std::min(seen.size(), s.indexations.size()); ++i)
+  const auto balls = static_cast<long>(s.balls_mm.size());
+  for (std::size_t i = 0; balls > 0 && i < std::min(seen.size(), s.indexations.size());
+       ++i)
     for (const Reader& ball : seen[i].as_items(0, kPerIndexation))
       s.indexations[i].balls.push_back(
           static_cast<std::size_t>(ball.as_integer(1, balls)) - 1);
@@ -76,10 +93,11 @@ SambaStrategy read_strategy(Reader r) {
   if (touched || r.has("facet_mm")) s.facet_mm = read_vec3(r, "facet_mm", kPlace);
   if (touched || r.has("facet_normal")) {
     s.facet_normal = read_vec3(r, "facet_normal", within(-1, 1));
-    if (s.facet_normal == Vec3{})
+    if (r.has("facet_normal") && r.json()["facet_normal"] == json{0, 0, 0})
       r.problem_at("facet_normal", "a direction that is not zero", "range");
   }
   s.scale_bar_mm = r.number("scale_bar_mm", above_up_to(0, 1e5, "mm"));
+  if (s.balls_mm.size() > 1) check_scale_bar(r, s);
   if (r.has("styli_mm")) {
     s.styli_mm.clear();
     for (const Reader& tip : r.items("styli_mm", 1, 10))
@@ -162,7 +180,13 @@ Request read_request(const json& document) {
   } else {
     for (const char* key : {"sign", "frame", "readings_mm"}) r.has(key);
   }
-  q.machine = read_machine_document(r, "wCBXfZYt", "XYZBC");
+  const std::string chain(kSambaChain);
+  q.machine = read_machine_document(r, chain, "XYZBC");
+  if (q.machine && q.machine->errors.chain.chain != chain)
+    r.problem_at(
+        "machine",
+        "a machine of the chain " + chain + ", not " + q.machine->errors.chain.chain,
+        "conflict");
   if (q.machine && !q.given)
     r.problem_at("machine", "readings_mm as well: without them nothing is found",
                  "conflict");
@@ -171,18 +195,43 @@ Request read_request(const json& document) {
   return q;
 }
 
+/// Uncertainties are null where nothing tells them: no noise given, none left over.
 json values_json(const Identifiability& of, std::size_t from, std::size_t to,
-                 const SambaFit* fit) {
+                 const SambaFit* fit, bool uncertain) {
   json out = json::object();
   for (std::size_t j = from; j < to; ++j) {
     json one{{"identifiable", static_cast<bool>(of.identifiable[j])}};
     if (fit && of.identifiable[j]) {
       one["value"] = fit->value[j];
-      one["u"] = fit->u[j];
+      one["u"] = uncertain ? json(fit->u[j]) : json(nullptr);
     }
     out[of.unknowns[j]] = std::move(one);
   }
   return out;
+}
+
+/// What the machine has of other errors explains its part of the readings, what is found
+/// the rest.
+json with_readings(const Request& q) {
+  MachineDocument m = *q.machine;
+  const auto calibrated = [&](const SambaFit& fit) {
+    std::vector<Calibrated> all;
+    for (std::size_t j = 0; j < fit.of.parameters; ++j)
+      if (fit.of.identifiable[j] && fit.of.unknowns[j] != "facet")
+        all.push_back({fit.of.unknowns[j], fit.value[j], fit.u[j]});
+    return all;
+  };
+  const auto fitted = [&](const std::vector<double>& readings_mm) {
+    return samba_fit(q.strategy, q.parameters, readings_mm, q.noise_mm);
+  };
+  for (Calibrated one : calibrated(fitted(q.readings_mm))) {
+    one.value = 0;
+    put(one, m.errors);
+  }
+  std::vector<double> left = q.readings_mm;
+  const auto own = samba_readings(q.strategy, m.errors.chain);
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= own[i];
+  return with_errors(std::move(m), calibrated(fitted(left)), "probed balls (SAMBA)");
 }
 
 }  // namespace
@@ -197,28 +246,30 @@ json samba(const json& request) {
   } else {
     of = identifiability(q.strategy, q.parameters);
   }
+  const bool uncertain = q.noise_mm || (fit && fit->dof > 0);
+  if (q.machine && !uncertain)
+    throw InputError("samba",
+                     {{"/noise_mm", "nothing",
+                       "the standard deviation of a reading: these leave no degree of "
+                       "freedom that would tell it",
+                       "missing"}});
   json suggested = json::array();
   for (const Remedy& remedy : remedies(q.strategy, of))
     suggested.push_back(
         {{"remedy", remedy.what}, {"rank", remedy.rank}, {"gains", remedy.gains}});
   const SambaFit* found = fit ? &*fit : nullptr;
-  json out{{"unknowns", of.unknowns.size()},
-           {"equations", of.equations},
-           {"rank", of.rank},
-           {"condition", of.condition},
-           {"null_vectors", of.null_vectors},
-           {"parameters", values_json(of, 0, of.parameters, found)},
-           {"setup", values_json(of, of.parameters, of.unknowns.size(), found)},
-           {"dof", of.equations - of.rank},
-           {"remedies", suggested}};
-  if (fit) out["s0"] = fit->s0_mm;
-  if (fit && q.machine) {
-    std::vector<Calibrated> calibrated;
-    for (std::size_t j = 0; j < of.parameters; ++j)
-      if (of.identifiable[j] && of.unknowns[j] != "facet")
-        calibrated.push_back({of.unknowns[j], fit->value[j], fit->u[j]});
-    out["machine"] = with_errors(*q.machine, calibrated, "probed balls (SAMBA)");
-  }
+  json out{
+      {"unknowns", of.unknowns.size()},
+      {"equations", of.equations},
+      {"rank", of.rank},
+      {"condition", of.condition},
+      {"null_vectors", of.null_vectors},
+      {"parameters", values_json(of, 0, of.parameters, found, uncertain)},
+      {"setup", values_json(of, of.parameters, of.unknowns.size(), found, uncertain)},
+      {"dof", of.equations - of.rank},
+      {"remedies", suggested}};
+  if (fit) out["s0"] = fit->dof > 0 ? json(fit->s0_mm) : json(nullptr);
+  if (q.machine) out["machine"] = with_readings(q);
   return out;
 }
 

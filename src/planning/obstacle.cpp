@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "outcome.hpp"
+#include "recipes.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -20,8 +21,20 @@ Worst worst_row(const RecipeModel& m, const Choice<double>& c) {
   return w;
 }
 
-std::string why_none(const Feature& f) {
+catalogue::ToolUse use_of(const Feature& f) {
+  if (f.is_face()) return catalogue::ToolUse::facing;
+  return f.kind() == Feature::Kind::bore ? catalogue::ToolUse::boring
+                                         : catalogue::ToolUse::finishing;
+}
+
+std::string why_none(const PartPlan& plan, const Feature& f) {
   const auto& fixed = f.fixed();
+  if (!plan.operations && tools_for(plan, use_of(f)).empty())
+    return fmt::format(": none of the tools for {} has a grade for {}",
+                       f.is_face()                       ? "facing"
+                       : f.kind() == Feature::Kind::bore ? "boring"
+                                                         : "finishing",
+                       plan.material.id);
   if (fixed.rough.ap_mm || fixed.finish.ap_mm)
     return fmt::format(": the given passes do not add up to the {} mm to take off",
                        readable(f.stock_mm()));
@@ -53,7 +66,7 @@ std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
   const auto& feature = f.task.feature;
   if (const auto* d = used_up(f.task.demands); d && !f.answer.model)
     return used_up_conflict(plan, f, *d).sentence;
-  if (!f.answer.model) return feature.surface() + why_none(feature);
+  if (!f.answer.model) return feature.surface() + why_none(plan, feature);
   const auto& m = *f.answer.model;
   const auto w = worst_row(m, f.answer.choice);
   const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);

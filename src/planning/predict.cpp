@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "setup_planner.hpp"
 #include "usable.hpp"
@@ -74,6 +76,73 @@ bool held(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
   return all;
 }
 
+std::vector<SolvedSetup> solved(const PartPlan& p, const Assignment& work,
+                                const std::set<std::string>& corrected) {
+  auto done = nothing_finished(p.drawing);
+  std::vector<SolvedSetup> all;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    SharedMemory shared;
+    SetupPlanner planner(p, s, p.setups[s].clampings.front(), work.setups[s], done,
+                         {p.machine_per_min, 1}, shared);
+    all.push_back(planner.as_given(as_given, corrected));
+    finish(done, work.setups[s]);
+  }
+  return all;
+}
+
+SetupPlan setup_plan(const PartPlan& p, std::size_t s, const SolvedSetup& solved,
+                     ProcessPlan& result) {
+  SetupPlan setup;
+  setup.hold = p.setups[s].hold;
+  setup.clamping = p.setups[s].clampings.front();
+  setup.grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::roughing);
+  setup.finishing_grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::finishing);
+  setup.operations = operations_in_order(p, solved);
+  for (const auto& f : solved.features)
+    if (!f.answer.model)
+      result.conflicts.push_back(
+          {"depth of cut", fmt::format("setup {}", s), 0, 0, "mm", obstacle(p, f)});
+  const auto& missing = solved.fixed.conflicts;
+  result.conflicts.insert(result.conflicts.end(), missing.begin(), missing.end());
+  add_broken(setup, s, result);
+  return setup;
+}
+
+// The surfaces of tolerances that are not met.
+std::set<std::string> missed(const PartPlan& p,
+                             const std::vector<ToleranceResult>& tolerances) {
+  std::set<std::string> all;
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    if (tolerances[i].verdict != Verdict::not_met) continue;
+    const auto& t = p.drawing.tolerances[i];
+    if (t.kind == part::ToleranceKind::length)
+      all.insert(t.between.begin(), t.between.end());
+    else
+      all.insert(t.of);
+  }
+  return all;
+}
+
+bool feasible(const std::vector<SolvedSetup>& setups) {
+  return std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); });
+}
+
+// Corrected are the surfaces that keep their tolerances so, and not without.
+std::vector<SolvedSetup> with_corrections(const PartPlan& p, const Assignment& work) {
+  auto plain = solved(p, work, {});
+  if (!feasible(plain)) return plain;
+  auto surfaces = missed(p, tolerance_results(p, plain));
+  if (surfaces.empty()) return plain;
+  const auto corrected = solved(p, work, surfaces);
+  for (const auto& left : missed(p, tolerance_results(p, corrected)))
+    surfaces.erase(left);
+  for (const auto& setup : corrected)
+    for (const auto& f : setup.features)
+      if (worst_excess(f.task.demands, f.answer.profile) > kBeyondRounding)
+        surfaces.erase(f.task.feature.surface());
+  return surfaces.empty() ? plain : solved(p, work, surfaces);
+}
+
 }  // namespace
 
 ProcessPlan predict(const PartPlan& p) {
@@ -83,38 +152,19 @@ ProcessPlan predict(const PartPlan& p) {
   std::vector<std::size_t> every(p.drawing.tolerances.size());
   std::iota(every.begin(), every.end(), 0);
   add_used_up(p, every, result);
-  auto done = nothing_finished(p.drawing);
   if (!held(p, work, result)) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "nothing to predict: the part cannot be held so";
     return result;
   }
-  std::vector<SolvedSetup> setups;
-  for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    SharedMemory shared;
-    SetupPlanner planner(p, s, p.setups[s].clampings.front(), work.setups[s], done,
-                         {p.machine_per_min, 1}, shared);
-    setups.push_back(planner.as_given(as_given));
-    finish(done, work.setups[s]);
-    SetupPlan setup;
-    setup.hold = p.setups[s].hold;
-    setup.clamping = p.setups[s].clampings.front();
-    setup.grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::roughing);
-    setup.finishing_grip_force_N = jaw_force_N(p, s, setup.clamping, Stage::finishing);
-    setup.operations = operations_in_order(p, setups.back());
-    for (const auto& f : setups.back().features)
-      if (!f.answer.model)
-        result.conflicts.push_back(
-            {"depth of cut", fmt::format("setup {}", s), 0, 0, "mm", obstacle(p, f)});
-    const auto& missing = setups.back().fixed.conflicts;
-    result.conflicts.insert(result.conflicts.end(), missing.begin(), missing.end());
-    add_broken(setup, s, result);
-    result.setups.push_back(std::move(setup));
-  }
+  const auto setups = with_corrections(p, work);
+  for (std::size_t s = 0; s < setups.size(); ++s)
+    result.setups.push_back(setup_plan(p, s, setups[s], result));
   result.certificate.reason = "conditions as given";
-  if (std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); })) {
+  if (feasible(setups)) {
     result.tolerances = tolerance_results(p, setups);
     result.deviations = deviations(p, setups);
+    result.compensation = compensations(setups);
     for (const auto& s : setups) {
       const auto t = totals(p, s);
       result.cost_per_part += t.cost;

@@ -184,12 +184,14 @@ bool SetupPlanner::can_be_made(const std::function<bool(const FeatureTask&)>& ma
          });
 }
 
-SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&)) {
+SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&),
+                                   const std::set<std::string>& corrected) {
   SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
-    auto t = task(j, {}, Offset::none);
+    const bool free = corrected.contains(jobs_[j].feature.surface());
+    auto t = task(j, {}, free ? Offset::free : Offset::none);
     auto a = answer(t);
-    s.features.push_back({std::move(t), std::move(a), false, jobs_[j].wanted.ids});
+    s.features.push_back({std::move(t), std::move(a), free, jobs_[j].wanted.ids});
   }
   s.fixed = fixed_;
   s.indexings = indexings(s);

@@ -2,6 +2,8 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -61,8 +63,10 @@ class SetupPlanner {
   /// that no tools make are told to it first.
   bool can_be_made(const std::function<bool(const FeatureTask&)>& makes);
 
-  /// Every feature with the tools and conditions given, answered by `answer`.
-  SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&));
+  /// Every feature with the tools and conditions given, answered by `answer`; the tool
+  /// path follows the error of the `corrected` surfaces.
+  SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&),
+                       const std::set<std::string>& corrected);
 
   /// Every feature with the tools of the best setup, which is not feasible.
   SolvedSetup explained();

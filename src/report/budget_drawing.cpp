@@ -52,10 +52,10 @@ void draw_bar(Svg& svg, const ToleranceResult& t, const Stack& s, double y) {
     x = to;
   }
   box(svg, "frame", kFirst, kFirst + kWhole, y, y + kBar);
-  const bool over = s.left_um < 0;
-  svg.text({std::max(x, kFirst + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
-           plain(units::um_from_mm(t.width_mm), 1) + " \u00b5m" + (over ? ", over" : ""),
-           over ? "accent" : "");
+  svg.text(
+      {std::max(x, kFirst + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
+      plain(units::um_from_mm(t.width_mm), 1) + " \u00b5m" + (s.over() ? ", over" : ""),
+      s.over() ? "accent" : "");
 }
 
 double draw_key(Svg& svg, const std::vector<std::string>& sources, double y) {

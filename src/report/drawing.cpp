@@ -341,13 +341,21 @@ bool corrects(const Sheet& s) {
                              [&](const auto& c) { return !stand_off(s, c, 0).empty(); });
 }
 
+/// What jaws hold: the part, beyond it the bar that it is parted off.
+Runs held_between(const Sheet& s, double from_z, double to_z) {
+  const double bar = s.part.drawing.stock.outer_mm / 2;
+  Runs all = s.contour.outer;
+  if (from_z < s.left_z()) all.insert(all.begin(), {from_z, s.left_z(), bar, bar});
+  if (to_z > s.right_z()) all.push_back({s.right_z(), to_z, bar, bar});
+  return between(all, from_z, to_z);
+}
+
 /// Jaws bored to the part: they touch it over the whole grip.
 void draw_jaws(Sheet& s) {
   const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
   const double grip = s.part.setups[s.setup].grip_mm;
   const double outward = s.holds_left() ? end - grip : end + grip;
-  const Runs held =
-      between(s.contour.outer, std::min(end, outward), std::max(end, outward));
+  const Runs held = held_between(s, std::min(end, outward), std::max(end, outward));
   double top = 0;
   for (const Run& run : held) top = std::max({top, run.r0, run.r1});
   top += kJaw / s.scale.length;

@@ -20,38 +20,38 @@ using nlohmann::ordered_json;
 using Figures = std::vector<Figure>;
 
 constexpr const char* kStyle = R"css(
-@page { size: A4; margin: 14mm }
-body { max-width: 182mm; margin: 10mm auto; padding: 0 4mm; color: #1a1d21;
-  font: 9pt/1.35 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
+@page { size: A4; margin: 12mm }
+body { max-width: 186mm; margin: 10mm auto; padding: 0 4mm; color: #1a1d21;
+  font: 8.5pt/1.3 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
   font-variant-numeric: tabular-nums }
 h1 { font-size: 18pt; line-height: 1.15; margin: 0 0 1mm; overflow-wrap: anywhere }
-h2 { font-size: 11.5pt; margin: 5mm 0 1.5mm; padding-bottom: 0.8mm;
+h2 { font-size: 11pt; margin: 4mm 0 1mm; padding-bottom: 0.8mm;
   border-bottom: 0.3mm solid #1a1d21; break-after: avoid }
-p { margin: 1mm 0 }
+p { margin: 0.8mm 0 } h2 + p { break-after: avoid }
 .status { font-weight: 600 } .status.infeasible { color: #b00d26 }
 .from { color: #5b626b; font-size: 8pt }
-dl { display: flex; flex-wrap: wrap; gap: 2mm 10mm; margin: 3mm 0 }
+dl { display: flex; flex-wrap: wrap; gap: 1mm 10mm; margin: 2mm 0 }
 dt { color: #5b626b; font-size: 8pt } dd { margin: 0; font-size: 14pt }
 dd small { font-size: 8.5pt; color: #5b626b }
-table { border-collapse: collapse; width: 100%; font-size: 8pt; margin: 2mm 0 }
+table { border-collapse: collapse; width: 100%; font-size: 7.5pt; margin: 1mm 0 }
 th { text-align: left; font-weight: 600; border-bottom: 0.2mm solid #8b929b;
   vertical-align: bottom }
 th small { display: block; font-weight: 400; color: #5b626b }
-th, td { padding: 0.5mm 1.6mm 0.5mm 0 }
+th, td { padding: 0.4mm 1.6mm 0.4mm 0 }
 td { border-bottom: 0.1mm solid #d8dce1; vertical-align: top; overflow-wrap: anywhere }
 td.n, th.n { text-align: right; white-space: nowrap }
 tr { break-inside: avoid } thead { display: table-header-group }
 tr.first td { border-bottom: 0 } td.note { color: #454b53; padding-left: 3mm }
 .bad { color: #b00d26; font-weight: 600 }
-ol { padding-left: 6mm; margin: 1mm 0 } li { margin: 0.6mm 0 }
+ol { padding-left: 6mm; margin: 1mm 0 } li { margin: 0.4mm 0 }
 ul { padding-left: 5mm; margin: 1mm 0; color: #454b53 }
 figure { margin: 2mm 0; break-inside: avoid }
-figure img { max-width: 100%; max-height: 78mm; display: block; margin: 0 auto }
-.windows { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
-.windows figure { margin: 0 }
-.assumed td:first-child { white-space: nowrap } .assumed { font-size: 8pt }
+figure img { max-width: 100%; max-height: 70mm; display: block; margin: 0 auto }
+.pairs { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
+.pairs figure { margin: 0 }
+.assumed td:first-child { white-space: nowrap } .assumed { font-size: 7.5pt }
 @media print { body { margin: 0; padding: 0; max-width: none } }
-@media (max-width: 640px) { .scroll { overflow-x: auto } .windows { grid-template-columns: 1fr } }
+@media (max-width: 640px) { .scroll { overflow-x: auto } .pairs { grid-template-columns: 1fr } }
 )css";
 
 std::string tag(const std::string& name, std::string_view text) {
@@ -198,15 +198,27 @@ std::string operations(const ordered_json& all) {
   return out + kTableFoot;
 }
 
-std::string setups(const ordered_json& result, const Figures& figures) {
+/// Figures two beside each other.
+std::string pairs(const std::string& figures) {
+  return figures.empty() ? "" : "<div class=\"pairs\">\n" + figures + "</div>\n";
+}
+
+std::string setup_figures(const ordered_json& result, const Figures& figures) {
+  std::string out;
+  for (std::size_t i = 0; i < list(result, "setups").size(); ++i)
+    out += figure_named(
+        figures, fmt::format("setup-{}.svg", i),
+        fmt::format("Setup {}: the part, its clamping and its deviations", i));
+  return pairs(out);
+}
+
+std::string setups(const ordered_json& result) {
   std::string out;
   const bool feasible = word(result, "status") != "infeasible";
   std::size_t index = 0;
   for (const auto& setup : list(result, "setups")) {
     const auto i = std::to_string(index++);
     out += tag("h2", "Setup " + i) + tag("p", "Hold " + holding(setup) + ".");
-    out += figure_named(figures, "setup-" + i + ".svg",
-                        "Setup " + i + ": the part, its clamping and its deviations");
     std::string rejected;
     for (const auto& r : list(setup, "rejected"))
       rejected += tag("li", "not " + word(r, "clamping") + ": " + word(r, "why"));
@@ -224,13 +236,14 @@ std::string setups(const ordered_json& result, const Figures& figures) {
 std::string used_cell(const ordered_json& tolerance) {
   const auto width = number(tolerance, "width_mm");
   if (!width || !(*width > 0)) return words_cell("-");
-  const double used = 1 - stack_of(tolerance).left_um / units::um_from_mm(*width);
+  const Stack stack = stack_of(tolerance);
+  const double used = 1 - stack.left_um / units::um_from_mm(*width);
   const double shown_width = 60 * std::clamp(used, 0.0, 1.0);
   return fmt::format(
       "<td class=\"n\">{} % <svg width=\"60\" height=\"7\" aria-hidden=\"true\">"
       "<rect width=\"60\" height=\"7\" fill=\"#e3e6ea\"/>"
       "<rect width=\"{:.2f}\" height=\"7\" fill=\"{}\"/></svg></td>",
-      shown(100 * used, 0), shown_width, used > 1 ? "#b00d26" : "#3a4654");
+      shown(100 * used, 0), shown_width, stack.over() ? "#b00d26" : "#3a4654");
 }
 
 std::string tolerances(const ordered_json& result, const Figures& figures) {
@@ -283,7 +296,7 @@ std::string windows(const ordered_json& result, const Figures& figures) {
   }
   if (out.empty()) return "";
   return tag("h2", "Windows of speed and feed: the operations that cost most") +
-         "<div class=\"windows\">\n" + out + "</div>\n";
+         pairs(out);
 }
 
 // Of every milled place: how deep it may be cut over the spindle's speeds.
@@ -366,7 +379,8 @@ std::string html(std::string_view name, const ordered_json& result,
                    opening_sentences(result));
   out += section("What else would do, each alone, as planned with it",
                  sentences_of(list(result, "remedies")));
-  out += setups(result, figures) + tolerances(result, figures) + prices(result) +
+  out += setup_figures(result, figures) + setups(result) + tolerances(result, figures) +
+         prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
          compensation(result) + stability(result, figures) + windows(result, figures) +

@@ -11,6 +11,9 @@ using Shares = std::vector<std::pair<std::string, double>>;  ///< source, um on 
 struct Stack {
   Shares slices;       ///< deflection first
   double left_um = 0;  ///< of the width; below 0: so much more than there is
+
+  /// More is taken than there is; a margin used up to its end is none by rounding.
+  bool over() const { return left_um < -1e-3; }
 };
 
 /// Shares of one tolerance so that they and what is left add up to its width. Independent

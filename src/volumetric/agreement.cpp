@@ -20,12 +20,18 @@ double two_sided(double t, double dof) {
 }
 
 std::optional<Correlation> correlation(const Runs& a, const Runs& b) {
-  const std::size_t n = a.value.size();
-  const Summary sa = summary(a.value), sb = summary(b.value);
-  if (b.value.size() != n || n < 3 || !(sa.sd > 0) || !(sb.sd > 0)) return std::nullopt;
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < std::min(a.value.size(), b.value.size()); ++i)
+    if (a.value[i] && b.value[i]) {
+      x.push_back(*a.value[i]);
+      y.push_back(*b.value[i]);
+    }
+  const std::size_t n = x.size();
+  if (n < 3) return std::nullopt;
+  const Summary sa = summary(x), sb = summary(y);
+  if (!(sa.sd > 0) || !(sb.sd > 0)) return std::nullopt;
   double sum = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    sum += (a.value[i] - sa.mean) * (b.value[i] - sb.mean);
+  for (std::size_t i = 0; i < n; ++i) sum += (x[i] - sa.mean) * (y[i] - sb.mean);
   const auto count = static_cast<double>(n);
   Correlation c;
   c.r = std::clamp(sum / ((count - 1) * sa.sd * sb.sd), -1.0, 1.0);
@@ -46,18 +52,28 @@ std::optional<Correlation> correlation(const Runs& a, const Runs& b) {
 
 /// Of a run from the others, if it is far from them.
 std::optional<double> jump(const Runs& runs, std::size_t run) {
-  const std::vector<double> others = without_run(runs, run).value;
+  if (run >= runs.value.size() || !runs.value[run]) return std::nullopt;
+  const std::vector<double> others = values(without_run(runs, run));
   if (others.size() < 2) return std::nullopt;
   const Summary s = summary(others);
-  const double distance = runs.value[run] - s.mean;
+  const double distance = *runs.value[run] - s.mean;
   if (!(std::abs(distance) > kJump * s.sd)) return std::nullopt;
   return distance;
 }
 
 }  // namespace
 
+std::vector<double> values(const Runs& runs) {
+  std::vector<double> out;
+  for (const auto& value : runs.value)
+    if (value) out.push_back(*value);
+  return out;
+}
+
 Summary summary(const std::vector<double>& values) {
   if (values.size() < 2) throw std::domain_error("summary: at least two runs");
+  if (const auto [low, high] = std::ranges::minmax(values); low == high)
+    return {.mean = low, .sd = 0};
   Summary s{.mean = mean(values), .sd = 0};
   double square = 0;
   for (const double v : values) square += (v - s.mean) * (v - s.mean);
@@ -66,9 +82,10 @@ Summary summary(const std::vector<double>& values) {
 }
 
 Agreement agreement(const Runs& a, const Runs& b) {
+  const std::vector<double> in_a = values(a), in_b = values(b);
   Agreement out{.name = a.name,
-                .a = summary(a.value),
-                .b = summary(b.value),
+                .a = summary(in_a),
+                .b = summary(in_b),
                 .difference = 0,
                 .overlap = false,
                 .t = {},
@@ -77,8 +94,7 @@ Agreement agreement(const Runs& a, const Runs& b) {
                 .correlation = correlation(a, b)};
   out.difference = out.a.mean - out.b.mean;
   out.overlap = std::abs(out.difference) <= out.a.sd + out.b.sd;
-  const auto na = static_cast<double>(a.value.size()),
-             nb = static_cast<double>(b.value.size());
+  const auto na = static_cast<double>(in_a.size()), nb = static_cast<double>(in_b.size());
   const double va = out.a.sd * out.a.sd / na, vb = out.b.sd * out.b.sd / nb;
   if (va + vb > 0) {  // Welch and Satterthwaite
     out.t = out.difference / std::sqrt(va + vb);
@@ -96,7 +112,6 @@ std::vector<CommonJump> common_jumps(const std::vector<Runs>& group) {
     for (const double sense : {1.0, -1.0}) {
       CommonJump common{.run = run, .parameters = {}, .jump = {}};
       for (const Runs& r : group) {
-        if (run >= r.value.size()) continue;
         const auto distance = jump(r, run);
         if (!distance || *distance * sense <= 0) continue;
         common.parameters.push_back(r.name);
@@ -111,7 +126,7 @@ std::vector<CommonJump> common_jumps(const std::vector<Runs>& group) {
 
 Runs without_run(const Runs& runs, std::size_t run) {
   Runs out = runs;
-  out.value.erase(out.value.begin() + static_cast<std::ptrdiff_t>(run));
+  if (run < out.value.size()) out.value[run].reset();
   return out;
 }
 

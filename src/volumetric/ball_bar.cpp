@@ -136,29 +136,36 @@ std::array<char, 2> axes_of(Plane plane) {
 
 Trace simulate(const Machine& machine, const BallBarTest& test) {
   const auto [U, V] = axes_of(test.plane);
-  if (test.n == 0 || !(test.R_mm > 0) || machine.chain.find(U) == std::string::npos ||
+  Trace out{test.plane, test.R_mm, test.theta_rad, {}, {}};
+  const double turn = 2 * units::kPi / static_cast<double>(test.n);
+  if (out.theta_rad.empty())
+    for (std::size_t k = 0; k < test.n; ++k)
+      out.theta_rad.push_back(test.theta0_rad.value_or(turn / 2) +
+                              turn * static_cast<double>(k));
+  if (out.theta_rad.empty() || !(test.R_mm > 0) ||
+      machine.chain.find(U) == std::string::npos ||
       machine.chain.find(V) == std::string::npos)
-    throw std::domain_error("simulate: n > 0, R > 0 and both axes in the chain");
+    throw std::domain_error("simulate: angles, R > 0 and both axes in the chain");
   Machine at_origin = machine;
   at_origin.tool_point_mm = {};
   const Kinematics kinematics(at_origin);
-  const double turn = 2 * units::kPi / static_cast<double>(test.n);
-  const double first = test.theta0_rad.value_or(turn / 2);
+  Position centre;
+  std::ranges::copy(test.centre_mm, centre.q.begin());
+  Vec3 o = kinematics.nominal(centre).tip_mm;
+  for (std::size_t k = 0; k < 3; ++k) o[k] += test.centre_offset_mm[k];
   const auto length = [&](double theta, double dir) {
     const double c = std::cos(theta), s = std::sin(theta);
-    Position at;
-    at.q[letter_index(U)] = test.R_mm * c;
-    at.q[letter_index(V)] = test.R_mm * s;
+    Position at = centre;
+    at.q[letter_index(U)] += test.R_mm * c;
+    at.q[letter_index(V)] += test.R_mm * s;
     at.sign[letter_index(U)] = -dir * sign(s);
     at.sign[letter_index(V)] = dir * sign(c);
-    const Vec3 tip = kinematics.actual_tip_mm(at), &o = test.centre_offset_mm;
+    const Vec3 tip = kinematics.actual_tip_mm(at);
     return std::hypot(tip[0] - o[0], tip[1] - o[1], tip[2] - o[2]) - test.R_mm;
   };
-  Trace out{test.plane, test.R_mm, {}, {}, {}};
-  for (std::size_t k = 0; k < test.n; ++k) {
-    out.theta_rad.push_back(first + turn * static_cast<double>(k));
-    out.ccw_mm.push_back(length(out.theta_rad.back(), 1));
-    out.cw_mm.push_back(length(out.theta_rad.back(), -1));
+  for (const double theta : out.theta_rad) {
+    out.ccw_mm.push_back(length(theta, 1));
+    out.cw_mm.push_back(length(theta, -1));
   }
   return out;
 }

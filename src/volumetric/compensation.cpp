@@ -2,12 +2,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "nc_writer.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
@@ -36,6 +36,9 @@ class Field {
     const auto add = [&](int number, const Vec3& vector) {
       Machine m = machine;
       m.tool_point_mm = m.tool_point_mm + vector;
+      if (setup.lathe)  // the spindle turns: its harmonics shift nothing in the mean
+        for (Axis& axis : m.axes)
+          for (ErrorFunction& e : axis.errors) e.f.clear();
       tools_.emplace(number, Tool{Kinematics(m), m.tool_point_mm});
     };
     add(0, {});
@@ -80,8 +83,10 @@ class Field {
 struct Stop {
   const NcMove* move;
   const Tool* tool = nullptr;
-  Vec3 target{}, sign{};
-  Vec3 error{};                    // at the target, uncorrected
+  Vec3 from{}, target{};
+  Vec3 asked{};                    // signs of the source's motion
+  Vec3 sign{};                     // and of the one made
+  Vec3 error{};                    // at the target, uncorrected, moving as asked
   bool first = true, last = true;  // of its move's
   Vec3 command{};
 };
@@ -127,20 +132,17 @@ class Walk {
         at_from = field_.error(next, from, sign, from);
       }
       const Vec3 before = std::exchange(sign, signs(from, m.target_mm, sign, o_.at_rest));
-      Stop s{.move = &m, .tool = tool_, .sign = sign};
+      Stop s{.move = &m, .tool = tool_, .asked = sign, .sign = sign};
       const Vec3 at_end = field_.error(*tool_, m.target_mm, sign, m.target_mm);
       ends_.clear();
       if (!m.rapid && o_.method == Method::full_field) {
-        if (sign != before) {
-          const Vec3 other_side = field_.error(*tool_, from, sign, from);
-          if (other_side != at_from) ends_.push_back({from, other_side});
-          at_from = other_side;
-        }
+        if (sign != before) at_from = field_.error(*tool_, from, sign, from);
         split({from, at_from}, {m.target_mm, at_end}, sign, 0);
       }
       ends_.push_back({m.target_mm, at_end});
+      s.target = from;
       for (const End& end : ends_) {
-        s.target = end.at;
+        s.from = std::exchange(s.target, end.at);
         s.error = end.error;
         s.first = &end == &ends_.front();
         s.last = &end == &ends_.back();
@@ -195,9 +197,9 @@ class Walk {
   std::vector<End> ends_;  // of the move at hand
 };
 
-/// Commands by Eq. (1).
-void full_field(const Field& field, int passes, Stop& s) {
-  s.command = s.target - s.error;
+/// The command by (1), from the error at the target.
+void correct(const Field& field, int passes, const Vec3& error, Stop& s) {
+  s.command = s.target - error;
   for (int pass = 1; pass < passes; ++pass)
     s.command = s.command - field.error(*s.tool, s.command, s.sign, s.target);
 }
@@ -214,7 +216,7 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
   Eigen::MatrixXd A(n, columns), e(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     Stop& s = *moving[static_cast<std::size_t>(i)];
-    full_field(field, passes, s);
+    correct(field, passes, s.error, s);
     A(i, 0) = 1;
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (columns > 1) A(i, k + 1) = s.target[static_cast<std::size_t>(k)];
@@ -231,68 +233,85 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
   }
 }
 
-class Writer {
+/// The machine as the corrected program moves it: play lies where the motions made leave
+/// it, not where the source's would.
+class Run {
  public:
-  Writer(const NcSetup& setup, int decimals) : decimals_(decimals) {
-    for (const char axis : setup.axes) axes_.push_back(letter_index(axis));
+  Run(const Field& field, const NcWriter& writer, const CompensationOptions& options,
+      const Vec3& start_mm)
+      : field_(field),
+        writer_(writer),
+        o_(options),
+        follows_(options.at_rest == AtRest::last),
+        q_(start_mm - field.tool(0).point) {}
+
+  /// The command of a stop by (1), with the signs of the motions it makes.  An axis that
+  /// would have to go back if it went on, and on if it went back, stays where it is.
+  void approach(Stop& s) const {
+    approach(s, signs(s.from, s.target, sign_, o_.at_rest));
   }
 
-  /// The line of a stop; its command becomes what is written.
-  std::string line(Stop& s) {
-    const NcMove& m = *s.move;
-    line_ = s.first ? m.before : "";
-    if (!line_.empty()) line_ += ' ';
-    line_ += m.rapid ? "G0" : "G1";
-    if (!absolute_) line_ += " G90";
-    absolute_ = true;
-    const int decimals = decimals_ + (m.inch ? 2 : 0);
-    const double unit = m.inch ? 25.4 : 1;
-    for (const std::size_t k : axes_) {
-      const double mm = k == 0 && m.diameter ? unit / 2 : unit;  // of one written
-      line_ += ' ';
-      line_ += kLetters[k];
-      s.command[k] =
-          fixed((s.command[k] - m.origin_mm[k]) / mm, decimals) * mm + m.origin_mm[k];
-    }
-    if (s.last && !m.after.empty()) {
-      line_ += ' ';
-      line_ += m.after;
-    }
-    return line_;
+  /// Before a feed move: the stop that takes up play, if there is any to take up.
+  std::optional<Stop> take_up(const Stop& s) const {
+    if (s.move->rapid || s.sign == sign_) return {};
+    Stop t = s;
+    t.target = s.from;
+    t.last = false;
+    t.asked = s.sign;
+    t.error = field_.error(*t.tool, t.target, t.asked, t.target);
+    approach(t, t.asked);
+    const Vec3 way = t.command - t.tool->point - q_;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(way[k]) > writer_.step_mm(*t.move, k)) return t;
+    return {};
+  }
+
+  /// Goes to a command as written; the stop's signs become those of the motions made.
+  void go(Stop& s) {
+    if (follows_) s.sign = made(s);
+    sign_ = s.sign;
+    q_ = s.command - s.tool->point;
   }
 
  private:
-  /// Appends a number and returns what was written.  As a whole number of its last
-  /// decimals, which is exact and some five times as fast as rounding decimal by decimal.
-  double fixed(double value, int decimals) {
-    const double scale = kPowers[static_cast<std::size_t>(decimals)];
-    const double scaled = std::abs(value) * scale + 0.5;
-    if (!(scaled < 9e15))
-      throw ModelRangeError("compensate: a corrected coordinate of " +
-                            std::to_string(value) + ", too far to be written");
-    std::array<char, 24> text;
-    const auto whole = static_cast<std::uint64_t>(scaled);
-    const bool negative = value < 0 && whole > 0;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), whole).ptr;
-    const auto digits = end - text.data();
-    if (negative) line_ += '-';
-    if (digits > decimals)
-      line_.append(text.data(), end - decimals);
-    else
-      line_ += '0';
-    line_ += '.';
-    if (digits < decimals) line_.append(static_cast<std::size_t>(decimals - digits), '0');
-    line_.append(end - std::min<std::ptrdiff_t>(digits, decimals), end);
-    const double written = static_cast<double>(whole) / scale;
-    return negative ? -written : written;
+  Vec3 made(const Stop& s) const {
+    Vec3 out{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double way = s.command[k] - s.tool->point[k] - q_[k];
+      if (std::abs(way) > 0.500001 * writer_.step_mm(*s.move, k))
+        out[k] = way > 0 ? 1 : -1;
+      else
+        out[k] = sign_[k];
+    }
+    return out;
   }
 
-  static constexpr std::array<double, 12> kPowers = {1,   1e1, 1e2, 1e3, 1e4,  1e5,
-                                                     1e6, 1e7, 1e8, 1e9, 1e10, 1e11};
-  std::vector<std::size_t> axes_;
-  int decimals_;
-  bool absolute_ = false;
-  std::string line_;
+  void approach(Stop& s, Vec3 sign) const {
+    constexpr int kStays = 2;
+    std::array<int, 3> turned{};
+    for (bool settled = false; !settled;) {
+      s.sign = sign;
+      const bool known = sign == s.asked;
+      correct(field_, o_.passes,
+              known ? s.error : field_.error(*s.tool, s.target, sign, s.target), s);
+      if (!follows_) return;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (turned[k] == kStays) s.command[k] = q_[k] + s.tool->point[k];
+      const Vec3 is = made(s);
+      settled = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (is[k] == sign[k] || turned[k] == kStays) continue;
+        settled = false;
+        sign[k] = ++turned[k] < kStays ? is[k] : sign_[k];
+      }
+    }
+  }
+
+  const Field& field_;
+  const NcWriter& writer_;
+  const CompensationOptions& o_;
+  const bool follows_;  // the play; else signs are the source's
+  Vec3 q_, sign_{};
 };
 
 /// Greatest and root mean square of distances.
@@ -322,10 +341,16 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   Compensated out;
   out.lines.reserve(program.moves.size());
   out.distances_mm.reserve(program.moves.size());
-  Writer writer(setup, options.decimals);
+  NcWriter writer(setup, options.decimals);
+  Run run(field, writer, options, program.start_mm);
   Distances before, after;
   const auto write = [&](Stop& s) {
-    out.lines.push_back(writer.line(s));
+    out.lines.push_back(writer.block(*s.move, s.command, s.first, s.last));
+    run.go(s);
+    if (out.lines.size() > setup.moves_max)
+      throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
+                            ": more than " + std::to_string(setup.moves_max) +
+                            " moves; a wider tolerance makes fewer");
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // A rounded coordinate is off by 0.5e-3 mm at most.
@@ -346,7 +371,12 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     } else if (!s.move->moves) {
       out.lines.push_back(s.move->before);
     } else {
-      full_field(field, options.passes, s);
+      run.approach(s);
+      if (auto before_it = run.take_up(s)) {
+        write(*before_it);
+        s.first = false;
+        run.approach(s);
+      }
       write(s);
     }
   });

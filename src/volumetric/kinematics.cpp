@@ -9,6 +9,10 @@
 
 namespace turnwright::volumetric {
 
+double sense(std::string_view chain, char axis) {
+  return chain.find(axis) < chain.find('f') ? -1 : 1;
+}
+
 std::string chain_fault(std::string_view chain) {
   if (chain.size() < 3 || chain.front() != 'w' || chain.back() != 't')
     return "it runs from w to t";

@@ -148,6 +148,8 @@ class Interpreter {
     }
   }
 
+  bool full() const { return full_; }
+
   NcProgram result() { return std::move(program_); }
 
  private:
@@ -168,6 +170,7 @@ class Interpreter {
   }
 
   void take(std::string_view text) {
+    require_room();
     if (text.ends_with('\r')) text.remove_suffix(1);
     if (text.find('\r') != text.npos)
       throw Fault{"a carriage return within the line", "one block in a line"};
@@ -176,6 +179,7 @@ class Interpreter {
     if (*first == '%') return tape_end(text);
     if (*first == '/') return deleted(text);
     parse(text, block_);
+    require_single();
     before_.clear();
     after_.clear();
     unsigned groups = 0;
@@ -200,6 +204,18 @@ class Interpreter {
     commanded_ = commanded_ || motion;
     append(after_, block_.comments);
     move(motion.has_value());
+  }
+
+  /// G words have their groups, of M words controls take several.
+  void require_single() const {
+    unsigned seen = 0;
+    for (const Word& w : block_.words) {
+      if (w.letter == 'G' || w.letter == 'M') continue;
+      const unsigned bit = 1u << (w.letter - 'A');
+      if (seen & bit)
+        throw Fault{std::string(w.text), std::string(1, w.letter) + " once in a block"};
+      seen |= bit;
+    }
   }
 
   void state(int g, std::string_view text) {
@@ -365,7 +381,6 @@ class Interpreter {
         if (setup_.axes.find(w.letter) == std::string::npos)
           throw Fault{std::string(w.text), "axes of the machine: " + setup_.axes};
         const auto k = static_cast<std::size_t>(w.letter - 'X');
-        if (to[k]) throw Fault{std::string(w.text), "each axis once in a block"};
         to[k] = mm(w.value) * (k == 0 && diameter_ ? 0.5 : 1);
       }
       if (w.letter >= 'I' && w.letter <= 'K')
@@ -399,6 +414,13 @@ class Interpreter {
       emit(end, true, true);
     }
     tip_ = end;
+  }
+
+  void require_room() {
+    full_ = program_.moves.size() >= setup_.moves_max;
+    if (full_)
+      throw Fault{"more than " + std::to_string(setup_.moves_max) + " moves",
+                  "fewer; a wider tolerance makes shorter programs of arcs"};
   }
 
   void emit(const Vec3& p, bool first, bool last) {
@@ -479,6 +501,7 @@ class Interpreter {
         const double share =
             from + (stop - from) * static_cast<double>(i) / static_cast<double>(n);
         const bool last = i == n && stop == 1;
+        require_room();
         const double a = a0 + share * sweep, r = r0 + share * (r1 - r0);
         Vec3 p = end;
         if (!last) {
@@ -497,6 +520,7 @@ class Interpreter {
   std::size_t line_ = 0;
   Block block_;
   int plane_, motion_ = 0, tool_ = 0;
+  bool full_ = false;
   bool commanded_ = false;  // a motion code was read
   bool inch_ = false, incremental_ = false, diameter_;
   Vec3 origin_{}, tip_{};  // tip in program coordinates [mm], X as radius
@@ -507,7 +531,8 @@ class Interpreter {
 
 NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup) {
   Interpreter interpreter(setup, lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) interpreter.line(i + 1, lines[i]);
+  for (std::size_t i = 0; i < lines.size() && !interpreter.full(); ++i)
+    interpreter.line(i + 1, lines[i]);
   return interpreter.result();
 }
 

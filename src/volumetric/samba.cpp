@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "turnwright/volumetric/kinematics.hpp"
@@ -17,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr const char* kChain = "wCBXfZYt";
 constexpr std::string_view kAxes = "XYZBC";
 constexpr double kLever = 100;  // of angles against shifts [mm]
 // Above it a null vector moves an unknown.  Directions that are null but for 1e-7 drag
@@ -88,6 +88,39 @@ Vector3d sensitivity(const Parameter& p, const std::vector<AxisEffect>& effects,
   }
 }
 
+/// Where the axes stand with a tip at `target`, and how they came there.
+Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
+                  const Vec3& target, const std::array<double, 3>& sign) {
+  const Vector3d q = R * vector(target) - vector(stylus);
+  Position p{.q = {q[0], q[1], q[2], 0, at.B_rad, at.C_rad}};
+  std::ranges::copy(sign, p.sign.begin());
+  return p;
+}
+
+/// Calls ball(R, pose, stylus, index) and touch(R, pose, stylus, signs of X, Y, Z) for
+/// each probing, in the order of the readings.
+template <class Ball, class Touch>
+void each_probing(const SambaStrategy& s, Ball ball, Touch touch) {
+  const Vector3d n = vector(s.facet_normal).normalized();
+  for (const Indexation& at : s.indexations) {
+    const Matrix3d R = rotation(at);
+    const Vector3d on_machine = R * n;
+    Index probing = 0;
+    on_machine.cwiseAbs().maxCoeff(&probing);
+    for (const Vec3& stylus : s.styli_mm) {
+      for (const std::size_t b : at.balls) ball(R, at, stylus, b);
+      for (const auto& move : at.pre_moves) {
+        std::array<double, 3> sign{};
+        std::size_t next = 0;
+        for (Index k = 0; k < 3; ++k)
+          sign[static_cast<std::size_t>(k)] =
+              k == probing ? (on_machine[k] > 0 ? -1.0 : 1.0) : move[next++];
+        touch(R, at, stylus, sign);
+      }
+    }
+  }
+}
+
 /// Equations (1) to (3), in the order of the readings.
 struct Equations {
   std::vector<std::string> unknowns;
@@ -119,8 +152,20 @@ class Builder {
   }
 
   Equations build() {
-    for (const Indexation& at : strategy_.indexations)
-      for (const Vec3& stylus : strategy_.styli_mm) add(at, stylus);
+    const Vector3d n = vector(strategy_.facet_normal).normalized();
+    each_probing(
+        strategy_,
+        [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus, std::size_t b) {
+          MatrixXd row = tip(R, at, stylus, strategy_.balls_mm[b], {});
+          row.middleCols<3>(ball(b)) = -Matrix3d::Identity();  // Eq. (1)
+          for (Index k = 0; k < 3; ++k) rows_.push_back(row.row(k));
+        },
+        [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus,
+            const std::array<double, 3>& sign) {
+          VectorXd row = tip(R, at, stylus, strategy_.facet_mm, sign).transpose() * n;
+          if (facet_) row[*facet_] = -1;  // Eq. (2)
+          rows_.push_back(row);
+        });
     const auto [a, b] = strategy_.scale_bar_ends;
     const Vector3d u =
         (vector(strategy_.balls_mm[b]) - vector(strategy_.balls_mm[a])).normalized();
@@ -145,39 +190,15 @@ class Builder {
   /// The tip's error at `target`, by unknown.
   MatrixXd tip(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
                const Vec3& target, const std::array<double, 3>& sign) const {
-    Machine machine{kChain, stylus, {}};
+    Machine machine{std::string(kSambaChain), stylus, {}};
     for (const char c : kAxes) machine.axes.push_back({c, {}, default_Q(c)});
-    const Vector3d q = R * vector(target) - vector(stylus);
-    Position position{.q = {q[0], q[1], q[2], 0, at.B_rad, at.C_rad}};
-    std::ranges::copy(sign, position.sign.begin());
-    const auto effects = Kinematics(machine).effects(position);
+    const Position there = position(R, at, stylus, target, sign);
+    const auto effects = Kinematics(machine).effects(there);
     MatrixXd row = MatrixXd::Zero(3, tip_ + 3);
     for (std::size_t j = 0; j < parameters_.size(); ++j)
-      row.col(static_cast<Index>(j)) = sensitivity(parameters_[j], effects, position);
+      row.col(static_cast<Index>(j)) = sensitivity(parameters_[j], effects, there);
     row.middleCols<3>(tip_) = R.transpose();
     return row;
-  }
-
-  void add(const Indexation& at, const Vec3& stylus) {
-    const Matrix3d R = rotation(at);
-    for (const std::size_t b : at.balls) {
-      MatrixXd row = tip(R, at, stylus, strategy_.balls_mm[b], {});
-      row.middleCols<3>(ball(b)) = -Matrix3d::Identity();  // Eq. (1)
-      for (Index k = 0; k < 3; ++k) rows_.push_back(row.row(k));
-    }
-    const Vector3d n = vector(strategy_.facet_normal).normalized(), on_machine = R * n;
-    Index probing = 0;
-    on_machine.cwiseAbs().maxCoeff(&probing);
-    for (const auto& move : at.pre_moves) {
-      std::array<double, 3> sign{};
-      std::size_t next = 0;
-      for (Index k = 0; k < 3; ++k)
-        sign[static_cast<std::size_t>(k)] =
-            k == probing ? (on_machine[k] > 0 ? -1.0 : 1.0) : move[next++];
-      VectorXd row = tip(R, at, stylus, strategy_.facet_mm, sign).transpose() * n;
-      if (facet_) row[*facet_] = -1;  // Eq. (2)
-      rows_.push_back(row);
-    }
   }
 
   const SambaStrategy& strategy_;
@@ -336,6 +357,30 @@ std::vector<double> samba_readings(const SambaStrategy& strategy,
   return {b.begin(), b.end() - 1};
 }
 
+std::vector<double> samba_readings(const SambaStrategy& s, const Machine& machine) {
+  if (machine.chain != kSambaChain)
+    throw std::domain_error("samba_readings: a machine " + std::string(kSambaChain));
+  Machine m = machine;
+  const auto error = [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus,
+                         const Vec3& target, const std::array<double, 3>& sign) {
+    m.tool_point_mm = stylus;
+    return vector(Kinematics(m).tip_error_mm(position(R, at, stylus, target, sign)));
+  };
+  const Vector3d n = vector(s.facet_normal).normalized();
+  std::vector<double> out;
+  each_probing(
+      s,
+      [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus, std::size_t b) {
+        const Vector3d e = error(R, at, stylus, s.balls_mm[b], {});
+        out.insert(out.end(), e.begin(), e.end());
+      },
+      [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus,
+          const std::array<double, 3>& sign) {
+        out.push_back(n.dot(error(R, at, stylus, s.facet_mm, sign)));
+      });
+  return out;
+}
+
 std::vector<Remedy> remedies(const SambaStrategy& strategy,
                              const Identifiability& found) {
   const std::vector<std::string> names(
@@ -344,10 +389,10 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
   SambaStrategy changed = strategy;
   Identifiability best = found;
   std::vector<Remedy> out;
-  const auto try_out = [&](const char* what) {
+  const auto try_out = [&](std::string what) {
     Identifiability now = identifiability(changed, names);
     if (now.rank <= best.rank) return;
-    Remedy remedy{.what = what, .rank = now.rank, .gains = {}};
+    Remedy remedy{.what = std::move(what), .rank = now.rank, .gains = {}};
     for (std::size_t j = 0; j < now.parameters; ++j)
       if (now.identifiable[j] && !best.identifiable[j])
         remedy.gains.push_back(now.unknowns[j]);
@@ -355,12 +400,18 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
     best = std::move(now);
   };
   double turn = 0;
-  for (Indexation& at : changed.indexations) {
+  std::string turned;
+  for (std::size_t i = 0; i < changed.indexations.size(); ++i) {
+    Indexation& at = changed.indexations[i];
     if (at.balls.empty() || !at.pre_moves.empty()) continue;
     turn += kGolden;
     at.C_rad = std::remainder(turn, 2 * units::kPi);
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%s%.1f (%zu)", turned.empty() ? "" : ", ",
+                  units::deg_from_rad(at.C_rad), i + 1);
+    turned += text.data();
   }
-  try_out("decouple C from B: turn C on by 137.5 deg from one indexation to the next");
+  try_out("decouple C from B: C at, deg (indexation), " + turned);
   const Vec3 tip = strategy.styli_mm.front();
   changed.styli_mm = {tip, {tip[0], tip[1], tip[2] - 60}};
   try_out("probe with two stylus lengths, 60 mm apart");

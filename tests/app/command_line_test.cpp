@@ -203,8 +203,9 @@ TEST_F(CommandLine, SpecialFilesAreWrittenNotReplaced) {
   put(folder_ / "request.json", row("acceptance").example);
   const auto printed = shell("turnwright acceptance request.json").out;
   const auto outcome = shell(
-      "mkfifo pipe; timeout 20 cat pipe & "
-      "timeout 20 turnwright acceptance request.json -o pipe; code=$?; wait; exit $code");
+      "mkfifo pipe; timeout 200 cat pipe & "
+      "timeout 200 turnwright acceptance request.json -o pipe; code=$?; wait; exit "
+      "$code");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, printed);
   EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));

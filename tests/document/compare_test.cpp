@@ -136,6 +136,31 @@ TEST(CompareDoor, ConventionsAreDeclared) {
   EXPECT_EQ(answered(request)["parameters"][0]["b"]["mean"], 4);
 }
 
+// Runs are told apart by their number, in any order and with gaps, and jumps by unit.
+TEST(CompareDoor, RunsAreThoseOfTheirNumber) {
+  json request{{"a", {{"name", "a"}}}, {"b", {{"name", "b"}}}};
+  request["a"]["csv"] = "param,test2,test1,test3\nEXX,1,2,5\n";
+  request["b"]["csv"] = "param,test1,test2,test3\nEXX,2,1,5\n";
+  EXPECT_NEAR(answered(request)["parameters"][0]["correlation"]["r"], 1, 1e-12);
+  request["a"]["csv"] = "param,test1,test2,test3,test4\nEXX,1,,3,4\n";
+  request["b"]["csv"] = "param,test1,test2,test3,test4\nEXX,1,2,,4\n";
+  EXPECT_FALSE(answered(request)["parameters"][0].contains("correlation"));
+  EXPECT_EQ(answered(request)["parameters"][0]["a"]["n"], 3);
+  request["a"]["csv"] =
+      "param,unit,test1,test2,test3,test4,test5\nEXX,um,,1,2,1.5,30\n"
+      "EYY,ppm,,1,2,1.6,31\nEZZ,um,,2,1,1.5,29\n";
+  request["b"]["csv"] = "param,unit,test1,test2\nEXX,um,1,2\n";
+  const json jumps = answered(request)["common_jumps"];
+  ASSERT_EQ(jumps.size(), 1u);
+  EXPECT_EQ(jumps[0]["run"], 5);
+  EXPECT_EQ(jumps[0]["unit"], "um");
+  EXPECT_EQ(jumps[0]["parameters"], json({"EXX", "EZZ"}));
+  request["a"]["csv"] = "param,test1,run1\nEXX,1,2\n";
+  EXPECT_NE(refused(request).find("/a/csv: got a first line with run 1 twice"),
+            std::string::npos)
+      << refused(request);
+}
+
 TEST(CompareDoor, TellsEveryFaultWithItsPlace) {
   const auto has = [](const json& request, const char* part) {
     EXPECT_NE(refused(request).find(part), std::string::npos) << refused(request);
@@ -144,7 +169,7 @@ TEST(CompareDoor, TellsEveryFaultWithItsPlace) {
   std::string& csv = request["a"]["csv"].get_ref<std::string&>();
   const std::string good = csv;
   csv.replace(csv.find("2.335"), 5, "nan");
-  has(request, "/a/csv#line 3/runs/1: got \"nan\"");
+  has(request, "/a/csv#line 3/test2: got \"nan\"");
   csv = good;
   csv.replace(csv.find("EYYb"), 4, "EXXb");
   has(request, "/a/csv#line 3/name: got \"EXXb\", expected each parameter once");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "slips.hpp"
+#include "turnwright/base/units.hpp"
 #include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/file.hpp"
@@ -10,6 +11,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/samba.hpp"
 #include "turnwright/planning/machine_share.hpp"
+#include "turnwright/volumetric/samba.hpp"
 
 // The member "errors" of a machine's document.
 namespace turnwright::document {
@@ -80,6 +82,21 @@ TEST(MachineErrors, TablesOfALaserAreFitted) {
   EXPECT_NEAR(e.c[0], 2e-3, 1e-12);
   EXPECT_NEAR(e.c[1], 2e-3, 1e-12);
   EXPECT_NEAR(e.b, -1e-3, 1e-12);
+  // Scatter becomes uncertainty, but where the document states its own.
+  json& X = m["errors"]["axes"][2];
+  X["err"]["EXX"]["table"]["plus"] = {1, 2.2, 3, 4};
+  EXPECT_GT(axis(read(m).errors->u, 'X').errors[0].c[1], 1e-5);
+  m["errors"]["u"] = {{{"name", "X"}, {"err", {{"EXX", {{"b", 7e-4}}}}}}};
+  EXPECT_EQ(axis(read(m).errors->u, 'X').errors[0].c[1], 0);
+  EXPECT_EQ(axis(read(m).errors->u, 'X').errors[0].b, 7e-4);
+  // Positions too near each other tell no polynomial.
+  X["err"]["EXX"]["table"]["q"] = {0, 1e-9, 2e-9, 3e-9};
+  EXPECT_EQ(refused(m),
+            "lathe: /errors/axes/2/err/EXX/table: got a fit out of bounds, expected "
+            "positions so far apart that each coefficient is a number from -1000 to 1000 "
+            "mm");
+  X["err"]["EXX"]["table"]["q"] = {0, 1e-300, 2e-300, 3e-300};
+  EXPECT_NE(refused(m).find("a fit out of bounds"), std::string::npos);
 }
 
 TEST(MachineErrors, AreRefusedWithTheirPlace) {
@@ -134,17 +151,19 @@ TEST(MachineErrors, SlipsAreSeenBySchemaAndReader) {
   EXPECT_GT(SlipsOf(schema, refused, m, outside).try_all(), 100);
 }
 
-json simulated(const json& errors, const char* plane) {
+json simulated(const json& errors, const char* plane, const json& centre_mm = {0, 0, 0}) {
   json request = {{"simulate",
                    {{"chain", errors["chain"]},
                     {"axes", errors["axes"]},
                     {"plane", plane},
                     {"R_mm", 100},
+                    {"centre_mm", centre_mm},
                     {"n", 72}}}};
   const json trace = ball_bar(request);
   return {{"analyse",
            {{"plane", plane},
             {"R_mm", 100},
+            {"centre_mm", centre_mm},
             {"theta_rad", trace["theta_rad"]},
             {"ccw_mm", trace["ccw_mm"]},
             {"cw_mm", trace["cw_mm"]}}}};
@@ -206,6 +225,79 @@ TEST(Calibration, KnowsTheSideOfEachAxis) {
   EXPECT_NEAR(axis(g.chain.axes, 'Z').location[4], 0, 1e-9);  // all of it is X's
   EXPECT_NEAR(axis(g.chain.axes, 'X').location[4], -1e-5, 1e-9);
   EXPECT_EQ(saved["errors"]["note"], "kept");
+}
+
+// What stays in the machine explains its part of the trace, cubics and bows along the
+// axes too, wherever the circle lies: the machine that comes back makes the trace.
+TEST(Calibration, WhatStaysIsNotFoundAgain) {
+  for (const json& centre : {json{0, 0, 0}, json{35, 0, -60}}) {
+    json errors = worn()["errors"];
+    for (json& axis : errors["axes"])
+      if (axis["name"] == "Z")
+        axis["err"]["EZZ"] = {{"c", {0, 2e-3, 4e-3, 3e-3}}, {"b", -1e-3}};
+    json request = simulated(errors, "ZX", centre);
+    request["machine"] = worn();
+    request["machine"]["errors"] = errors;
+    for (json& axis : request["machine"]["errors"]["axes"])  // as not measured yet
+      if (axis["name"] == "X") axis.erase("err");
+    const json saved = ball_bar(request)["machine"]["errors"];
+    const json again = simulated(saved, "ZX", centre)["analyse"];
+    for (const char* path : {"ccw_mm", "cw_mm"}) {
+      const std::vector<double> was = request["analyse"][path], is = again[path];
+      for (std::size_t k = 0; k < 36; ++k)  // but for the centre
+        EXPECT_NEAR(is[k] + is[k + 36] - was[k] - was[k + 36], 0, 4e-7) << path << k;
+    }
+  }
+}
+
+// Probed balls too: cubics and harmonics that the machine has and nobody asks for are not
+// taken for scales and locations.
+TEST(Calibration, OfProbedBallsLeavesWhatStays) {
+  volumetric::SambaStrategy s;
+  json strategy = {{"balls_mm", json::array()},
+                   {"indexations_deg", json::array()},
+                   {"balls_seen", json::array()},
+                   {"scale_bar_mm", 240}};
+  for (const volumetric::Vec3& ball : std::vector<volumetric::Vec3>{
+           {-120, 0, 40}, {120, 0, 40}, {0, 130, 90}, {30, -110, 60}}) {
+    s.balls_mm.push_back(ball);
+    strategy["balls_mm"].push_back(ball);
+  }
+  s.scale_bar_mm = 240;
+  for (int i = 0; i < 7; ++i) {
+    const double B = 12.0 * i - 30, C = 50.0 * i * i;
+    s.indexations.push_back(
+        {units::rad_from_deg(B), units::rad_from_deg(C), {0, 1, 2, 3}, {}});
+    strategy["indexations_deg"].push_back({B, C});
+    strategy["balls_seen"].push_back({1, 2, 3, 4});
+  }
+  json errors = {{"chain", "wCBXfZYt"}, {"axes", json::array()}};
+  for (const char* name : {"C", "B", "X", "Z", "Y"})
+    errors["axes"].push_back({{"name", name}});
+  json& X = errors["axes"][2];
+  X["err"] = {{"EXX", {{"c", {0, 4e-4, 0, 3e-4}}}}, {"EYX", {{"c", {0, 0, 2e-4, 0}}}}};
+  errors["axes"][1]["loc"] = {{"EC0B", 1e-5}};
+  errors["axes"][0]["err"] = {{"EZC", {{"f", {{2e-4, 1e-4}}}}}};
+  json machine = medium();
+  machine["errors"] = errors;
+  const auto truth = read(machine).errors->chain;
+  json request = {{"strategy", strategy},
+                  {"parameters", {"EXX1", "EC0B", "EYY1"}},
+                  {"readings_mm", json::array()},
+                  {"noise_mm", 1e-3}};
+  const auto readings = volumetric::samba_readings(s, truth);
+  for (std::size_t k = 0; k < readings.size(); k += 3)
+    request["readings_mm"].push_back({readings[k], readings[k + 1], readings[k + 2]});
+  request["machine"] = machine;
+  request["machine"]["errors"]["axes"][1].erase("loc");
+  request["machine"]["errors"]["axes"][2]["err"]["EXX"]["c"][1] = 0.7;  // replaced
+  const auto found = *read(samba(request)["machine"]).errors;
+  EXPECT_NEAR(axis(found.chain.axes, 'X').errors[0].c[1], 4e-4, 1e-7);
+  EXPECT_NEAR(axis(found.chain.axes, 'B').location[5], 1e-5, 1e-9);
+  EXPECT_NEAR(axis(found.chain.axes, 'Y').errors[1].c[1], 0, 1e-7);
+  // Without the machine's help the cubic is read as a scale.
+  EXPECT_GT(std::abs(samba(request)["parameters"]["EXX1"]["value"].get<double>() - 4e-4),
+            1e-5);
 }
 
 TEST(Calibration, OfMachinesThatLackAnAxisIsRefused) {

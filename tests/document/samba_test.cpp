@@ -96,6 +96,11 @@ TEST(SambaDoor, TellsEveryFaultWithItsPlace) {
   has(spoilt([](json& r) { r["readings_mm"][0] = 0.001; }), "/readings_mm/0");
   has(spoilt([](json& r) { r["readings_mm"][3] = {0, 0, 0}; }), "/readings_mm/3");
   has(spoilt([](json& r) { r["readings_mm"][3] = "NaN"; }), "/readings_mm/3");
+  has(spoilt([](json& r) { r["strategy"]["scale_bar_mm"] = 0.1; }),
+      "/strategy/scale_bar_mm: got 0.1, expected the distance of its balls");
+  has(spoilt(
+          [](json& r) { r["strategy"]["balls_mm"][1] = r["strategy"]["balls_mm"][0]; }),
+      "/strategy/balls_mm: got ");
   has(spoilt([](json& r) { r["strategy"]["balls_seen"][1][0] = 4; }),
       "/strategy/balls_seen/1/0: got 4, expected a whole number from 1 to 3");
   has(spoilt([](json& r) { r["strategy"]["balls_seen"].erase(0); }),

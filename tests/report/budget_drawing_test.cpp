@@ -90,6 +90,8 @@ TEST(BudgetDrawing, ReachesOverTheEndWhereThereIsTooLittle) {
   EXPECT_NEAR(bar(svg, "share deflection").second - bar(svg, "frame").first, 120, 1e-9);
   EXPECT_NE(svg.find(", over"), std::string::npos);
   EXPECT_NE(svg.find("unheard-of"), std::string::npos);
+  over.tolerances[0].margin_mm = -1e-15;
+  EXPECT_EQ(budget_drawing({}, over).find(", over"), std::string::npos);
 }
 
 TEST(BudgetDrawing, IsNoneOfAPlanWithoutTolerancesAndRefusesNoNumbers) {

@@ -194,6 +194,24 @@ TEST(SetupDrawings, JawsHoldTheGrip) {
   }
 }
 
+TEST(SetupDrawings, JawsHoldTheBarThatThePartIsPartedOff) {
+  auto part = bush();
+  part.drawing.stock = {part::StockKind::tube, 40, 10, 160, 60, 0.6};
+  auto plan = planned();
+  plan.setups.resize(1);
+  const auto svg = setup_drawings(part, plan)[0];
+  const auto jaws = shapes(svg, "jaw");
+  ASSERT_EQ(jaws.size(), 2u);
+  const double scale = 158.0 / 160;  // paper mm of a mm
+  const double top = 20 + 9 / scale;
+  const Points expected{{-60, 20}, {-40, 20}, {-40, top}, {-60, top}};
+  ASSERT_EQ(jaws[0].size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(jaws[0][i].first, 16 + scale * (expected[i].first + 60), 1e-3);
+    EXPECT_NEAR(axis(svg) - jaws[0][i].second, scale * expected[i].second, 2e-3);
+  }
+}
+
 TEST(SetupDrawings, CentresStandWhereTheClampingHasThem) {
   auto part = bush();
   auto plan = planned();

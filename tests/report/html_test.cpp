@@ -75,6 +75,12 @@ TEST(Html, DrawsHowMuchOfATolerancesWidthIsUsed) {
   EXPECT_TRUE(holds(worse, ">140 % <svg"));
   EXPECT_TRUE(holds(worse, "<rect width=\"60.00\""));
   EXPECT_TRUE(holds(worse, "NOT MET"));
+  EXPECT_TRUE(holds(worse, "fill=\"#b00d26\""));
+  // A margin used to its end, as the cheapest plan's often is, is not a fault.
+  auto full = over;
+  full["tolerances"][0]["margin_mm"] = -1e-15;
+  full["tolerances"][0]["verdict"] = "met";
+  EXPECT_FALSE(holds(html("Shaft", full, {}), "fill=\"#b00d26\""));
 }
 
 TEST(Html, EscapesWhateverTheRequestCallsThings) {

@@ -16,14 +16,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
+const HttpApi& api() {
+  static const auto kCatalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  static const HttpApi kApi(TURNWRIGHT_SOURCE_DIR, kCatalogue, nullptr);
+  return kApi;
+}
+
 /// A server on a free port for the time of one test.
 class Running {
  public:
-  explicit Running(ServerOptions options = {})
-      : catalogue_(document::load_catalogue(TURNWRIGHT_SOURCE_DIR)),
-        api_(TURNWRIGHT_SOURCE_DIR, catalogue_, nullptr) {
+  explicit Running(ServerOptions options = {}) {
     options.port = 0;
-    server_.emplace(options, api_);
+    server_.emplace(options, api());
     thread_ = std::thread([this] { server_->run(); });
   }
   ~Running() {
@@ -35,8 +39,6 @@ class Running {
   RawClient client() const { return RawClient(server_->port()); }
 
  private:
-  document::Catalogue catalogue_;
-  HttpApi api_;
   std::optional<Server> server_;
   std::thread thread_;
 };
@@ -49,6 +51,19 @@ std::string post(const std::string& target, const std::string& body,
                  const std::string& more = "") {
   return "POST " + target + " HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n" +
          more + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+// A part that takes seconds: a plan on every corner of cost against time.
+std::string long_plan() {
+  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
+  auto part = nlohmann::json::parse(file);
+  part["pareto"] = 12;
+  return part.dump();
+}
+
+void wait_for_metric(RawClient& client, const std::string& line) {
+  while (body_of(client.ask(get("/metrics"))).find(line) == std::string::npos) {
+  }
 }
 
 TEST(Server, KeepsAConnectionForManyCalls) {
@@ -153,15 +168,11 @@ TEST(Server, AFullQueueSaysSo) {
   options.threads = 1;
   options.queue = 0;
   const Running server(options);
-  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
-  const std::string part{std::istreambuf_iterator<char>(file), {}};
   auto first = server.client(), second = server.client();
-  first.send(post("/v1/plan", part));
-  std::string answer;
-  do {  // until the first call has reached the pool
-    answer = second.ask(get("/readyz"));
-  } while (status_of(answer) == 200);
-  answer = second.ask(post("/v1/plan", part));
+  first.send(post("/v1/plan", long_plan()));
+  wait_for_metric(second, "turnwright_calls_waiting 1");
+  EXPECT_EQ(status_of(second.ask(get("/readyz"))), 503);
+  const auto answer = second.ask(post("/v1/multipass", "{}"));
   EXPECT_EQ(status_of(answer), 503);
   EXPECT_NE(answer.find("Retry-After: 1\r\n"), std::string::npos);
   EXPECT_EQ(status_of(second.ask(get("/healthz"))), 200);
@@ -172,25 +183,10 @@ TEST(Server, ADeadlineIsKept) {
   ServerOptions options;
   options.deadline = 1ms;
   const Running server(options);
-  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
-  const std::string part{std::istreambuf_iterator<char>(file), {}};
   auto client = server.client();
-  const auto answer = client.ask(post("/v1/plan", part));
+  const auto answer = client.ask(post("/v1/plan", long_plan()));
   EXPECT_EQ(status_of(answer), 504);
   EXPECT_NE(body_of(answer).find("urn:turnwright:problem:deadline"), std::string::npos);
-}
-
-// A part that takes seconds: a plan on every corner of cost against time.
-std::string long_plan() {
-  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/gearbox-input-shaft.json");
-  auto part = nlohmann::json::parse(file);
-  part["pareto"] = 12;
-  return part.dump();
-}
-
-void wait_for_metric(RawClient& client, const std::string& line) {
-  while (body_of(client.ask(get("/metrics"))).find(line) == std::string::npos) {
-  }
 }
 
 // The pool's only thread is free again long before the plan would be done.
@@ -226,19 +222,57 @@ TEST(Server, APlanBeyondItsDeadlineIsLeft) {
 
 TEST(Server, AnswersWhatHasArrivedBeforeItStops) {
   Running server;
-  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/parts/pump-shaft.json");
-  const std::string part{std::istreambuf_iterator<char>(file), {}};
   auto busy = server.client();
   const auto idle = server.client();
-  busy.send(post("/v1/plan", part));
+  busy.send(post("/v1/plan", long_plan()));
   auto other = server.client();
-  while (body_of(other.ask(get("/metrics"))).find("turnwright_calls_waiting 1") ==
-         std::string::npos) {
-  }
+  wait_for_metric(other, "turnwright_calls_waiting 1");
   server.stop();
   EXPECT_EQ(status_of(busy.rest()), 200);
   EXPECT_EQ(idle.rest(), "");
   server.wait();
+}
+
+// Between two calls, or just about to be: nobody is waited for.
+TEST(Server, StopsAtOnceWhenNothingIsAsked) {
+  for (int i = 0; i < 20; ++i) {
+    Running server;
+    auto kept = server.client();
+    const auto fresh = server.client();
+    EXPECT_EQ(status_of(kept.ask(get("/healthz"))), 200);
+    server.stop();
+    EXPECT_EQ(kept.rest(), "");
+    EXPECT_EQ(fresh.rest(), "");
+    server.wait();
+  }
+}
+
+// An answer that fills the socket is still being written when the server is told to stop.
+TEST(Server, AConnectionEndsAfterTheAnswerThatWasUnderWayAtTheStop) {
+  Running server;
+  auto client = server.client();
+  std::string calls;
+  for (int i = 0; i < 100; ++i) calls += get("/openapi.json");
+  client.send(calls);
+  client.answer();
+  server.stop();
+  for (int i = 1; i < 100; ++i) EXPECT_EQ(status_of(client.answer()), 200);
+  EXPECT_EQ(client.rest(), "");
+  server.wait();
+}
+
+// The system has taken the connection and the call, the server has not yet looked.
+TEST(Server, AnswersWhatTheSystemHasTakenForIt) {
+  ServerOptions options;
+  options.port = 0;
+  Server server(options, api());
+  const RawClient client(server.port());
+  client.send(post("/v1/multipass", "{}") + get("/nowhere"));
+  server.stop();
+  server.run();
+  const auto all = client.rest();
+  EXPECT_EQ(status_of(all), 200);
+  EXPECT_NE(all.find("HTTP/1.1 404"), std::string::npos);
 }
 
 TEST(Server, TooManyConnectionsAreTurnedAway) {
@@ -271,16 +305,14 @@ TEST(Server, WantsAKeyWhereThereAreKeys) {
 }
 
 TEST(Server, IsNotOpenToOthersWithoutKeys) {
-  const document::Catalogue none;
-  const HttpApi api(TURNWRIGHT_SOURCE_DIR, none, nullptr);
   ServerOptions options;
   options.port = 0;
   options.address = "0.0.0.0";
-  EXPECT_THROW(Server(options, api), InputError);
+  EXPECT_THROW(Server(options, api()), InputError);
   options.address = "localhost";
-  EXPECT_THROW(Server(options, api), InputError);
+  EXPECT_THROW(Server(options, api()), InputError);
   options.address = "::1";
-  EXPECT_NO_THROW(Server(options, api));
+  EXPECT_NO_THROW(Server(options, api()));
 }
 
 TEST(Server, IdsTellProcessesApart) {

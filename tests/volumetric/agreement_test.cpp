@@ -38,6 +38,9 @@ TEST(Agreement, CorrelationOfFourRuns) {
   EXPECT_FALSE(agreement({"x", {1, 1, 1}}, {"x", {1, 2, 3}}).correlation);
   EXPECT_FALSE(agreement({"x", {1, 1}}, {"x", {1, 1}}).t);
   EXPECT_FALSE(agreement({"x", {1, 2, 3}}, {"x", {1, 2}}).correlation);
+  // Equal values do not scatter, whatever rounding makes of their mean.
+  EXPECT_FALSE(agreement({"x", {.1, .1, .1}}, {"x", {1, 2, 3}}).correlation);
+  EXPECT_FALSE(agreement({"x", {.1, .1, .1}}, {"x", {.3, .3, .3}}).t);
 }
 
 TEST(Agreement, JumpsAreCommonOnlyIfAlike) {

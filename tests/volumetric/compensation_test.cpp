@@ -234,6 +234,17 @@ TEST(NcProgram, AskForWhatTheyDoNotKnow) {
   p = read_nc({"G17", "G2 X9 I3", "G18 G2 X9 I4.5"}, {.axes = "XZ"});
   ASSERT_EQ(p.problems.size(), 1u);
   EXPECT_EQ(p.problems[0].got, "G17");
+  // No word but G and M twice.
+  p = read_nc({"G2 X10 R50 R5", "G2 X10 I3 I5", "G1 X1 F1 F2", "T1 T2", "M3 M8"}, {});
+  ASSERT_EQ(p.problems.size(), 4u);
+  EXPECT_EQ(p.problems[0].got, "R5");
+  EXPECT_EQ(p.problems[0].expected, "R once in a block");
+  EXPECT_EQ(p.problems[3].got, "T2");
+  // Reading ends where there is no more room.
+  p = read_nc({"G17 G1 X1", "G2 I90", "G1 X2", "X3"}, {.moves_max = 100});
+  ASSERT_EQ(p.problems.size(), 1u);
+  EXPECT_EQ(p.problems[0].line, 2u);
+  EXPECT_EQ(p.problems[0].got, "more than 100 moves");
   // Coordinates that add up beyond reason.
   p = read_nc({"G91", "X900000", "X900000", "G20 X90000"}, {});
   ASSERT_EQ(p.problems.size(), 2u);
@@ -264,7 +275,7 @@ TEST(NcProgram, ModesOfOneProgram) {
   EXPECT_EQ(good.moves[8].before, "N80 G21 G94 G97 S900");
 }
 
-/// The seed's scales and squareness, with bows along all axes and play.
+/// The seed's scales and squareness, with bows along all axes.
 Machine seed_machine() {
   Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
   m.axes[0].errors[0].c = {0, 9e-3, 1e-3, -2e-4};
@@ -408,6 +419,69 @@ TEST(Compensation, PlayIsTakenUpWhereAnAxisTurnsBack) {
   EXPECT_NE(std::ranges::find(none.lines, "G1 X10.000000 Y5.000000"), none.lines.end());
 }
 
+/// Where the tip of a machine goes that keeps, of each axis, the side of its play:
+/// motions read off the written coordinates alone.
+std::vector<Vec3> made(const Machine& m, const std::vector<Vec3>& written, Vec3 at) {
+  const Kinematics k(m);
+  std::vector<Vec3> out;
+  Position p;
+  for (const Vec3& to : written) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::abs(to[i] - at[i]) > 1e-9) p.sign[i] = to[i] > at[i] ? 1 : -1;
+      p.q[i] = to[i];
+    }
+    at = to;
+    out.push_back(k.actual(p).tip_mm);
+  }
+  return out;
+}
+
+// Axes that stand in the source follow the bows of others, back and forth: what the
+// corrected program does is what it is said to do, with lost motion or overshoot.
+TEST(Compensation, AxesThatFollowABowTurnBackToo) {
+  for (const double b : {-5e-3, 2e-3}) {
+    Machine m = seed_machine();
+    m.axes[0].errors[1].c = {0, 0, 0.02, 0.004};
+    m.axes[1].errors[1].b = b;
+    m.axes[2].errors[2].b = b / 2;
+    const NcSetup setup{.start_mm = {-60, -2, 1}};
+    const auto p = read_nc({"G0 X-50 Y-1 Z0", "G1 F100 Y0", "X50", "X-50", "G0 X40 Y3",
+                            "G1 Z-5", "X-80", "Y3 X30", "Z-4.999"},
+                           setup);
+    const Compensated c = compensate(p, m, setup);
+    const NcProgram again = read_nc(views(c.lines), setup);
+    const auto tips = made(m, targets(again), setup.start_mm);
+    ASSERT_EQ(tips.size(), c.points);
+    // The ends of the source's moves are among them, in their order; an axis that
+    // overshoots its turns stays where it is instead.
+    const double most = b < 0 ? 1.5e-6 : 2 * b;
+    std::size_t at = 0;
+    for (const Vec3& goal : targets(p)) {
+      while (at < tips.size() && norm(difference(tips[at], goal)) > most) ++at;
+      ASSERT_LT(at, tips.size()) << b;
+    }
+    EXPECT_LT(c.after.max_mm, most) << b;
+    if (b < 0) {
+      EXPECT_GT(c.added, 10u);
+    }
+  }
+}
+
+// Once per turn, a spindle only makes the part run out of its own centre.
+TEST(Compensation, ATurningSpindlesHarmonicsShiftNothing) {
+  Machine m{"wCfZXt", {}, {{'C', {}, units::kPi}, {'Z', {}, 100}, {'X', {}, 100}}};
+  m.axes[0].errors[0].f = {{6e-4, 0}, {4e-4, 1e-4}};
+  m.axes[0].errors[2].f = {{6e-4, 0}};
+  const NcSetup setup{.axes = "XZ", .diameter = true, .lathe = true};
+  const auto p = read_nc({"G0 X50 Z2", "G1 X40 F.2", "Z-30"}, setup);
+  const auto c = compensate(p, m, setup);
+  EXPECT_EQ(c.lines[2], "G1 X40.000000 Z-30.000000");
+  // Of a mill's table, standing at 0, they do.
+  const NcSetup mill{.axes = "XZ"};
+  EXPECT_NE(compensate(read_nc({"G1 X20 Z-30"}, mill), m, mill).lines[0],
+            "G1 G90 X20.000000 Z-30.000000");
+}
+
 TEST(Compensation, LongMovesFollowABow) {
   Machine m{"wfXYt", {}, {{'X', {}, 100}, {'Y', {}, 100}}};
   m.axes[0].errors[1].c[2] = 10e-3;
@@ -454,15 +528,15 @@ TEST(Compensation, LatheInDiametersAndInches) {
 // A tool's length is no motion: no play is taken up, no coordinate runs.
 TEST(Compensation, ToolLengthsAreNoMotion) {
   Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
-  m.axes[2].errors[2].b = 3e-3;
+  m.axes[2].errors[2].b = -3e-3;
   const NcSetup setup{.start_mm = {0, 0, 150}, .tool_offsets_mm = {{1, {0, 0, -100}}}};
   const auto c = compensate(read_nc({"G1 Z140 F100", "G43 H1", "X5"}, setup), m, setup);
   ASSERT_EQ(c.lines.size(), 4u);
-  EXPECT_EQ(c.lines[1], "G1 X0.000000 Y0.000000 Z140.003000");  // s = -1: 3 um too low
+  EXPECT_EQ(c.lines[1], "G1 X0.000000 Y0.000000 Z139.997000");  // s = -1: 3 um too high
   EXPECT_EQ(c.lines[2], "G43 H1");
-  EXPECT_EQ(c.lines[3], "G1 X5.000000 Y0.000000 Z40.003000");
+  EXPECT_EQ(c.lines[3], "G1 X5.000000 Y0.000000 Z39.997000");
   const auto up = compensate(read_nc({"G1 Z160 F100", "G43 H1", "X5"}, setup), m, setup);
-  EXPECT_EQ(up.lines.back(), "G1 X5.000000 Y0.000000 Z59.997000");
+  EXPECT_EQ(up.lines.back(), "G1 X5.000000 Y0.000000 Z60.003000");
 }
 
 // Errors that change by more than the way cannot be taken out by (1).

@@ -7,14 +7,16 @@
 /// other.
 namespace turnwright::volumetric {
 
-/// Repeated values of one parameter.
+/// Repeated values of one parameter, by run; none where a run lacks it.
 struct Runs {
   std::string name;
-  std::vector<double> value;
+  std::vector<std::optional<double>> value;
 };
+/// Without the gaps.
+std::vector<double> values(const Runs& runs);
 
 struct Summary {
-  double mean = 0, sd = 0;  ///< sd of a sample: by n - 1
+  double mean = 0, sd = 0;  ///< sd of a sample: by n - 1; 0 of equal values
 };
 /// @throws std::domain_error of fewer than two values.
 Summary summary(const std::vector<double>& values);
@@ -36,7 +38,8 @@ struct Agreement {
   /// Welch's test of equal means: t, degrees of freedom, two-sided probability; none if
   /// neither list scatters.
   std::optional<double> t, dof, p;
-  std::optional<Correlation> correlation;  ///< if both have as many runs, and scatter
+  /// Over the runs that both have, if they are three or more and scatter in both.
+  std::optional<Correlation> correlation;
 };
 
 /// @throws std::domain_error if one has fewer than two runs.
@@ -61,7 +64,7 @@ std::vector<CommonJump> common_jumps(const std::vector<Runs>& group);
 
 inline constexpr double kJump = 3;
 
-/// Without one run; the rest keep their order.
+/// Without the value of one run.
 Runs without_run(const Runs& runs, std::size_t run);
 
 }  // namespace turnwright::volumetric

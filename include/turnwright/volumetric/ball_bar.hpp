@@ -11,9 +11,9 @@
 ///
 /// In the plane UV (XY, YZ or ZX) the tool ball runs on
 ///
-///     q_U = R cos theta,  q_V = R sin theta,  theta_k = theta0 + 2 pi k/n            (1)
+///     q = centre + R (u cos theta + v sin theta),  theta_k = theta0 + 2 pi k/n       (1)
 ///
-/// counter-clockwise (dir = +1) and clockwise (-1), the third axis at rest at 0; the
+/// counter-clockwise (dir = +1) and clockwise (-1), the third axis at rest; the
 /// signs of motion are s_U = -dir sgn(sin theta), s_V = dir sgn(cos theta), |sin| and
 /// |cos| below 1e-12 counting as 0.  A value is the bar's length less R, both paths by
 /// the same angles.
@@ -29,6 +29,8 @@ struct BallBarTest {
   std::size_t n = 72;
   /// pi/n unless given: for n divisible by 4 no point lies where an axis reverses.
   std::optional<double> theta0_rad = {};
+  std::vector<double> theta_rad = {};  ///< if any: the angles instead of n and theta0
+  Vec3 centre_mm{};                    ///< where X, Y, Z stand at the circle's centre
   /// Of the workpiece ball from the nominal centre, in the workpiece frame.
   Vec3 centre_offset_mm{};
 };
@@ -39,10 +41,10 @@ struct Trace {
   std::vector<double> theta_rad, ccw_mm, cw_mm;
 };
 
-/// |tip - o| - R in the workpiece frame, the tool point at the origin at q = 0 whatever
-/// the machine says.
-/// @throws std::domain_error as Kinematics, if n = 0, R is not > 0, or the chain lacks an
-///   axis of the plane.
+/// |tip - nominal tip at the centre - o| - R in the workpiece frame, the tool point at
+/// the origin at q = 0 whatever the machine says.
+/// @throws std::domain_error as Kinematics, if there are no angles, R is not > 0, or the
+///   chain lacks an axis of the plane.
 Trace simulate(const Machine& machine, const BallBarTest& test);
 
 /// Circles are least squares on D + e_u cos + e_v sin [mm].

@@ -17,7 +17,7 @@ enum class Method {
 
 enum class AtRest {
   last,  ///< an axis at rest keeps the side of its play that its last motion left
-  none   ///< s = 0
+  none   ///< s = 0, whatever its correction does
 };
 
 struct CompensationOptions {
@@ -49,9 +49,12 @@ struct Compensated {
 ///     q_0 = q(P),   q_{k+1} = q_k - (T(q_k) - P)                                     (1)
 ///
 /// which gains the size of the errors' slopes (1e-4) with each pass.  Rotary axes stand
-/// at 0; only axes the machine has are corrected and counted (tangential errors of a
-/// lathe act by y^2/2R).  Where an axis turns back in a feed move, its play is taken up
-/// first by a move of its own.
+/// at 0, a lathe's spindle turns: its harmonics shift nothing in the mean and are left
+/// out.  Only axes the machine has are corrected and counted (tangential errors of a
+/// lathe act by y^2/2R).  Signs are those of the corrected motions, down to half the last
+/// decimal written: an axis that stands in the source and follows a bow has them too.
+/// Where an axis turns back in a feed move, its play is taken up first by a move of its
+/// own; one that overshoots its turn (b against the motion) stays where it is.
 /// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves a point farther
 ///   off than it was, errors changing by as much as the way.
 Compensated compensate(const NcProgram& program, const Machine& machine,

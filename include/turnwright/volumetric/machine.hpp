@@ -22,4 +22,7 @@ using Machine = catalogue::KinematicChain;
 /// has one f between, and axes of kLetters, each at most once.
 std::string chain_fault(std::string_view chain);
 
+/// sigma of an axis of a chain: 1 between bed and tool, -1 between bed and workpiece.
+double sense(std::string_view chain, char axis);
+
 }  // namespace turnwright::volumetric

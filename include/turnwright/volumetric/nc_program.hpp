@@ -21,6 +21,7 @@ struct NcSetup {
   std::map<std::string, Vec3> work_offsets_mm = {};
   /// Tool vectors by offset number (G43 H1, T0101) [mm], from the machine's tool point.
   std::map<int, Vec3> tool_offsets_mm = {};
+  std::size_t moves_max = 2'000'000;  ///< reading stops at the line that makes more
 };
 
 /// A straight move of the tip, or a line that goes through unchanged.
@@ -64,7 +65,8 @@ struct NcProgram {
 /// lathes also where they are named G90, G92, G94: codes are those of system B, G90 is
 /// absolute), thread cutting, cutter radius compensation, G53, G28, G92 with axes, other
 /// axes, variables, expressions, subprograms, coordinates after G80 without a motion, two
-/// codes of one group in a block, block delete but of N, M, S and F words.
+/// codes of one group in a block, other words but M repeated in a block, block delete but
+/// of N, M, S and F words.
 ///
 /// The written-out moves are absolute (G90); G2, G3, G90, G91 and arc words are dropped.
 NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup);

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "turnwright/volumetric/machine.hpp"
@@ -103,6 +104,13 @@ SambaFit samba_fit(const SambaStrategy& strategy,
 /// The readings (1), (2) that errors would give: name -> value, others 0.
 std::vector<double> samba_readings(const SambaStrategy& strategy,
                                    const std::map<std::string, double>& errors);
+
+/// The chain whose parameters are found.
+inline constexpr std::string_view kSambaChain = "wCBXfZYt";
+
+/// The readings that a machine of that chain gives by its exact kinematics, balls, tip
+/// and facet in their nominal places.
+std::vector<double> samba_readings(const SambaStrategy& strategy, const Machine& machine);
 
 /// A change of the strategy and what it would find.
 struct Remedy {

@@ -246,6 +246,12 @@ asio::awaitable<error_code> read_call_header(const ServerState& state,
   co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
 }
 
+/// Whether a byte of another call has arrived.
+bool has_arrived(const Connection& connection) {
+  error_code ec;
+  return connection.buffer.size() > 0 || connection.socket.available(ec) > 0;
+}
+
 /// One call.  @return whether the connection may carry another.
 asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   Parser parser;
@@ -258,7 +264,8 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
     reply = refusal(ec, call);
   else if (!(reply = at_once(state, call)))
     reply = co_await computed(state, connection, call);
-  const bool keep_alive = !ec && parser.get().keep_alive() && !state.draining;
+  const bool keep_alive =
+      !ec && parser.get().keep_alive() && (!state.draining || has_arrived(connection));
   const int status = reply ? reply->status : 499;
   const std::size_t bytes = reply ? reply->body.size() : 0;
   if (ec && !reply) co_return false;
@@ -273,16 +280,18 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   co_return again;
 }
 
+/// Whether a byte of another call is there, or comes in time.
 asio::awaitable<bool> next_call(const ServerState& state, Connection& connection) {
-  if (connection.buffer.size() > 0) co_return true;
-  error_code ec;
-  connection.idle = true;
-  const Alarm alarm(connection.socket, state.options.idle);
-  const auto bytes = co_await connection.socket.async_read_some(
-      connection.buffer.prepare(4096), into(ec));
-  connection.buffer.commit(bytes);
-  connection.idle = false;
-  co_return !ec && !alarm.rang();
+  if (connection.buffer.size() == 0 && !state.draining) {
+    const Alarm alarm(connection.socket, state.options.idle);
+    error_code ec;
+    connection.idle = true;
+    const auto bytes = co_await connection.socket.async_read_some(
+        connection.buffer.prepare(4096), into(ec));
+    connection.idle = false;
+    connection.buffer.commit(bytes);
+  }
+  co_return connection.buffer.size() > 0 || (state.draining && has_arrived(connection));
 }
 
 }  // namespace

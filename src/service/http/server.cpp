@@ -31,31 +31,41 @@ asio::ip::address address_of(const ServerOptions& options) {
   return address;
 }
 
+void admit(ServerState& state, tcp::socket socket) {
+  const bool room = state.connections.size() < state.options.connections;
+  asio::co_spawn(state.io, (room ? serve : turn_away)(state, std::move(socket)),
+                 asio::detached);
+}
+
 asio::awaitable<void> accept(ServerState& state) {
-  for (;;) {
+  while (state.acceptor.is_open()) {
     boost::system::error_code ec;
     auto socket = co_await state.acceptor.async_accept(
         asio::redirect_error(asio::use_awaitable, ec));
-    if (!state.acceptor.is_open()) co_return;
-    if (ec) {  // out of file descriptors, or the client left: others may fare better
+    if (!ec) {
+      admit(state, std::move(socket));
+    } else {  // out of file descriptors, or the client left: others may fare better
       asio::steady_timer pause(state.io, std::chrono::milliseconds(20));
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ec));
-    } else if (state.connections.size() < state.options.connections) {
-      asio::co_spawn(state.io, serve(state, std::move(socket)), asio::detached);
-    } else {
-      asio::co_spawn(state.io, turn_away(state, std::move(socket)), asio::detached);
     }
   }
 }
 
-void begin_drain(ServerState& state) {
-  if (state.draining) return;
-  state.draining = true;
+/// Connections that the system has taken for us may carry calls.
+void admit_waiting(ServerState& state) {
   boost::system::error_code ec;
-  state.acceptor.close(ec);
-  state.signals.cancel(ec);
+  state.acceptor.non_blocking(true, ec);
+  for (int left = tcp::acceptor::max_listen_connections; left > 0 && !ec; --left) {
+    auto socket = state.acceptor.accept(ec);
+    if (!ec) admit(state, std::move(socket));
+  }
+}
+
+/// Ends the waiting of idle connections; the others have until the drain's end.
+void drain_connections(ServerState& state) {
+  boost::system::error_code ec;
   for (auto* connection : state.connections)
-    if (connection->idle) connection->socket.close(ec);
+    if (connection->idle) connection->socket.cancel(ec);
   if (state.connections.empty()) return;
   state.drain.expires_after(state.options.drain);
   state.drain.async_wait([&state](boost::system::error_code cancelled) {
@@ -63,6 +73,17 @@ void begin_drain(ServerState& state) {
     if (!cancelled)
       for (auto* connection : state.connections) connection->socket.close(ignored);
   });
+}
+
+void begin_drain(ServerState& state) {
+  if (state.draining) return;
+  state.draining = true;
+  boost::system::error_code ec;
+  admit_waiting(state);
+  state.acceptor.close(ec);
+  state.signals.cancel(ec);
+  // By then whoever was admitted is among the connections.
+  asio::post(state.io, [&state] { drain_connections(state); });
 }
 
 }  // namespace
