@@ -114,7 +114,7 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text
                            chart.cpp volumetric_drawing.cpp html.cpp
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
-                window_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp)
+                window_drawing_test.cpp milled_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp)
 # Floor 8, 9
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

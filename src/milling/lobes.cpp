@@ -1,7 +1,10 @@
 #include "turnwright/milling/lobes.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::milling {
 namespace {
@@ -12,6 +15,17 @@ double first_guess(const std::vector<System>& systems) {
   for (const auto& s : systems)
     for (const auto& m : s.modes) least = std::min(least, 2 * m.k_N_mm * m.zeta);
   return least;
+}
+
+// A search that ends with a multiplier on the circle, to within rounding, goes a little
+// deeper.
+std::optional<double> first_loss(const System& system, double n_rpm, double& depth) {
+  try {
+    return speed_limits(system, n_rpm, depth).limit_mm();
+  } catch (const ModelRangeError&) {
+    depth *= 1.05;
+    return speed_limits(system, n_rpm, depth).limit_mm();
+  }
 }
 
 }  // namespace
@@ -25,8 +39,7 @@ Lobes::Known Lobes::search(const System& system, double n_rpm, Known k,
                            double enough) const {
   while (!k.lost && k.searched < enough) {
     k.searched = k.searched > 0 ? 2 * k.searched : first_;
-    if (const auto loss = speed_limits(system, n_rpm, k.searched).limit_mm())
-      k = {*loss, true};
+    if (const auto loss = first_loss(system, n_rpm, k.searched)) k = {*loss, true};
   }
   return k;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "milled_geometry.hpp"
 #include "milled_search.hpp"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kBinding = 1e-4;  // ln: the search stays so far inside a lobe
 constexpr std::size_t kDrawn = 240;
 constexpr double kSlack = 1e-9;
+constexpr double kPassCounts = 200;  // beyond the fewest
 
 double sqr(double x) { return x * x; }
 
@@ -270,8 +272,10 @@ FixedOperation operation(const Site& s, const Choice& c, const MilledCase& k, do
 
 std::pair<int, int> pass_counts(const Milled& m, const catalogue::MillingCutter& c) {
   if (m.passes) return {*m.passes, *m.passes};
-  return {static_cast<int>(std::ceil(m.depth_mm / c.ap_mm.upper - kSlack)),
-          static_cast<int>(std::floor(m.depth_mm / c.ap_mm.lower + kSlack))};
+  const int fewest =
+      std::max(1, static_cast<int>(std::ceil(m.depth_mm / c.ap_mm.upper - kSlack)));
+  const double most = std::floor(m.depth_mm / c.ap_mm.lower + kSlack);
+  return {fewest, static_cast<int>(std::min(most, fewest + kPassCounts))};
 }
 
 void refuse(const Site& s, const std::string& name, double value, double allowed,
@@ -281,21 +285,24 @@ void refuse(const Site& s, const std::string& name, double value, double allowed
 }
 
 // Why none of the choices keeps everything: what stands against the shallowest cut of
-// the way that comes nearest.
+// the way that comes nearest, at speeds a margin apart.
 void explain(const Site& s, const std::vector<Choice>& choices,
              const std::vector<MilledCase>& cases, FixedWork& out) {
+  std::map<const MilledWay*, int> shallowest;
+  for (const auto& c : choices) shallowest[c.way] = std::max(shallowest[c.way], c.passes);
   std::size_t nearest = cases.size();
   double most = 0, at = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto& k = cases[i];
-    if (!(k.n_min_rpm <= k.n_max_rpm)) continue;
-    const double step = 1 + k.speed_margin / 2;
-    for (double n = k.n_min_rpm; n <= k.n_max_rpm; n *= step) {
+    if (choices[i].passes < shallowest[choices[i].way]) continue;
+    for (double n = k.n_min_rpm; n <= k.n_max_rpm; n *= 1 + k.speed_margin) {
       const double fz = feed_mm(k, n);
       if (!(fz >= k.fz_min_mm * (1 - kSlack))) continue;
       const double W = load_N_mm(k, fz);
-      const double share = stable_around_N_mm(*k.lobes, n, k.speed_margin, W) / W;
-      if (share > most) most = share, at = n, nearest = i;
+      double stable = W;
+      for (const double u : {1 - k.speed_margin, 1.0, 1 + k.speed_margin})
+        stable = std::min(stable, k.lobes->stable_to_N_mm(n * u, stable));
+      if (stable / W > most) most = stable / W, at = n, nearest = i;
     }
   }
   if (nearest == cases.size()) {

@@ -143,7 +143,7 @@ std::vector<MilledWay> milled_ways(const PartPlan& p, const Milled& m) {
     }
     const int fewest =
         static_cast<int>(std::ceil(m.width_mm / (kLaneStep * c.dc_mm) - kSlack));
-    for (const int times : {1, 2, 4})  // Eq. (2)
+    for (const int times : {1, 2})  // Eq. (2)
       ways.push_back({i, fewest * times, lobes_of(p, m, c, fewest * times)});
   }
   return ways;

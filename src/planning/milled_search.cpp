@@ -218,8 +218,9 @@ MilledOptimum cheapest(const std::vector<MilledCase>& cases) {
     }
     ++best.steps;
     const double s = c.speed_margin;
-    auto found =
-        losses_at(c, now.n_rpm, {now.n_rpm * (1 - s), now.n_rpm, now.n_rpm * (1 + s)});
+    const double low = now.n_rpm * (1 - s), high = now.n_rpm * (1 + s);
+    auto found = losses_at(c, now.n_rpm, {low, now.n_rpm});
+    if (found.empty()) found = losses_at(c, now.n_rpm, {now.n_rpm, high});
     for (const double parts : {kCoarse, kFine})
       if (found.empty())
         found = losses_at(c, now.n_rpm, speeds_about(now.n_rpm, s, parts));

@@ -28,7 +28,7 @@ inline constexpr double kLaneStep = 0.7;
 ///     keyway, slot:  D <= w <= 2 D, one lane of ae = D; if D < w both sides after it,
 ///                    down-milled, ae = (w - D)/2                                   (1)
 ///     flat:          lanes of equal ae <= kLaneStep D across the chord, down-milled;
-///                    also twice and four times as many                             (2)
+///                    also twice as many                             (2)
 ///
 /// A cutter fits if it has conditions for the material, reaches the floor, has no larger
 /// corner than the place allows, is shorter across than a closed place is long, and cuts
