@@ -49,3 +49,9 @@ add_test(NAME package.completion COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/completion.bash $<TARGET_FILE_DIR:turnwright>
   ${PROJECT_SOURCE_DIR}/packaging/turnwright.bash-completion)
 set_tests_properties(package.deb PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+# A short batch; scripts/faults runs a long one.
+add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
+  $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)
+set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 240
+  SKIP_REGULAR_EXPRESSION "SKIPPED")

@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <stdexcept>
 
 namespace turnwright::deflection {
@@ -577,10 +576,9 @@ Identifiability identifiability(std::span<const PlaneTest> tests, Plane plane) {
   out.one_force = setups_of_one_force(tests, d);
 
   // More is asked of the setup that has most cuts already.
-  const auto most = std::ranges::max_element(
-      std::views::iota(std::size_t{0}, d.names.size()), {},
-      [&](std::size_t s) { return c.mean.weight[static_cast<Eigen::Index>(s)]; });
-  const std::size_t s = *most;
+  Eigen::Index most = 0;
+  c.mean.weight.head(static_cast<Eigen::Index>(d.names.size())).maxCoeff(&most);
+  const auto s = static_cast<std::size_t>(most);
   std::vector<PlaneTest> setup;
   for (std::size_t i = 0; i < tests.size(); ++i)
     if (d.setup[i] == s) setup.push_back(tests[i]);

@@ -135,7 +135,8 @@ std::array<char, 2> axes_of(Plane plane) {
 }
 
 Trace simulate(const Machine& machine, const BallBarTest& test) {
-  const auto [U, V] = axes_of(test.plane);
+  const auto axes = axes_of(test.plane);
+  const char U = axes[0], V = axes[1];
   Trace out{test.plane, test.R_mm, test.theta_rad, {}, {}};
   const double turn = 2 * units::kPi / static_cast<double>(test.n);
   if (out.theta_rad.empty())

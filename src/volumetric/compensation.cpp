@@ -88,6 +88,7 @@ struct Stop {
   Vec3 sign{};                     // and of the one made
   Vec3 error{};                    // at the target, uncorrected, moving as asked
   bool first = true, last = true;  // of its move's
+  bool stays = false;              // an axis, see Run::approach
   Vec3 command{};
 };
 
@@ -302,7 +303,9 @@ class Run {
       for (std::size_t k = 0; k < 3; ++k) {
         if (is[k] == sign[k] || turned[k] == kStays) continue;
         settled = false;
-        sign[k] = ++turned[k] < kStays ? is[k] : sign_[k];
+        const bool stays = ++turned[k] == kStays;
+        sign[k] = stays ? sign_[k] : is[k];
+        s.stays = s.stays || stays;
       }
     }
   }
@@ -354,7 +357,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // A rounded coordinate is off by 0.5e-3 mm at most.
-    if (full && !(left <= is + 1e-3))
+    if (full && !s.stays && !(left <= is / 2 + 1e-3))
       throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
                             ": errors too large to be corrected by iteration");
     out.largest_correction_mm =

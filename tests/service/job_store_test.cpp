@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "temporary_folder.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
 
@@ -16,17 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class JobStoreTest : public testing::Test {
+class JobStoreTest : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path file() const { return folder_ / "jobs.sqlite"; }
-
-  fs::path folder_;
 };
 
 JobStore::Record record(const JobStore::Line& line, std::string text) {

@@ -55,8 +55,8 @@ struct Compensated {
 /// decimal written: an axis that stands in the source and follows a bow has them too.
 /// Where an axis turns back in a feed move, its play is taken up first by a move of its
 /// own; one that overshoots its turn (b against the motion) stays where it is.
-/// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves a point farther
-///   off than it was, errors changing by as much as the way.
+/// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves more than
+///   half of an error, errors changing by as much as the way.
 Compensated compensate(const NcProgram& program, const Machine& machine,
                        const NcSetup& setup, const CompensationOptions& options = {});
 

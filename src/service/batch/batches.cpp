@@ -20,7 +20,7 @@ JobStore::Record answered(const JobStore& store, const JobStore::Line& line,
   JobStore::Record record{line.job, line.number, {}, {}, false};
   const auto take = [&](BatchRecord made) {
     record.text = std::move(made.text);
-    record.error = made.error;
+    record.error = made.status == BatchStatus::error;
   };
   try {
     const BatchRequest request = read_batch_line(line.text);
