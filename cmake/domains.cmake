@@ -38,9 +38,11 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
                           series.cpp characteristic.cpp patch.cpp unit_circle.cpp tracking.cpp
                           chatter_frequency.cpp limits.cpp lobes.cpp uncertain.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
+                         contact.cpp delay_map.cpp sheet.cpp cutter.cpp
                           simulation.cpp scanned_limits.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
-          TESTS limits_test.cpp lobes_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp)
+          TESTS limits_test.cpp lobes_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp
+                cutter_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE
@@ -132,7 +134,7 @@ set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITION
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             batch/input.cpp batch/chunk.cpp batch/folder.cpp batch/known_answers.cpp batch/runner.cpp batch/slurm.cpp
-            http/message.cpp http/openapi.cpp http/api.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp
           DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "turnwright/document/parse.hpp"
 #include "turnwright/service/batch_runner.hpp"
@@ -13,6 +14,9 @@ namespace {
 
 // A line that takes long holds up those behind it only when so many wait for their turn.
 constexpr std::size_t kInFlightPerJob = 64;
+
+// What is found again faster than it is looked up need not be kept.
+constexpr auto kWorthKeeping = std::chrono::milliseconds(1);
 
 /// A line on its way; a blank one has no record.
 struct Item {
@@ -97,8 +101,10 @@ void answer(Item& item, const document::Catalogue& catalogue, KnownAnswers& know
     if (auto earlier = known.find(request.digest)) {
       record = std::move(*earlier);
     } else {
+      const auto begun = std::chrono::steady_clock::now();
       record = batch_record(request, {catalogue});
-      known.keep(request.digest, record);
+      if (std::chrono::steady_clock::now() - begun > kWorthKeeping)
+        known.keep(request.digest, record);
     }
   } catch (const InputError& error) {
     record = batch_record(error);
