@@ -67,7 +67,7 @@ SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clampi
       setup_(setup),
       clamping_(clamping),
       economy_(economy),
-      fixed_(fixed_work(p, setup, clamping, work)),
+      fixed_(fixed_work(p, setup, clamping, work, economy)),
       shared_(shared) {
   const auto& d = p.drawing;
   const auto add = [&](const std::string& surface, const auto& make) {

@@ -299,6 +299,16 @@ std::string windows(const ordered_json& result, const Figures& figures) {
          pairs(out);
 }
 
+// Of every milled place: how deep it may be cut over the spindle's speeds.
+std::string stability(const ordered_json& result, const Figures& figures) {
+  std::string out;
+  for (const auto& setup : list(result, "setups"))
+    for (const auto& o : list(setup, "operations"))
+      out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
+                          "Stable depth over speed of " + word(o, "id"));
+  return out.empty() ? "" : tag("h2", "Stability of milled places") + out;
+}
+
 std::string compensation(const ordered_json& result) {
   std::string rows;
   for (const auto& c : list(result, "compensation")) {
@@ -373,7 +383,8 @@ std::string html(std::string_view name, const ordered_json& result,
          prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
-         compensation(result) + windows(result, figures) + assumptions(result);
+         compensation(result) + stability(result, figures) + windows(result, figures) +
+         assumptions(result);
   return out + "</main>\n</body>\n</html>\n";
 }
 

@@ -53,10 +53,10 @@ struct Move {
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
 };
 
-/// One operation of the plan, or a stop.
+/// One operation of the plan, or a stop: what is milled is not in a turning program.
 struct Step {
   std::vector<std::string> comments;
-  bool stop = false;  ///< M0: somebody changes the clamping
+  bool stop = false;  ///< M0: somebody changes the clamping, or mills
   int tool = 0;
   bool constant_surface_speed = false;
   double S = 0;          ///< m/min, or 1/min

@@ -267,7 +267,8 @@ HttpApi::HttpApi(const std::filesystem::path& folder,
     auto& listing = listings_[what];
     auto index = ordered_json::array();
     std::map<std::string, std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / what)) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(folder / what)) {
       if (entry.path().extension() != ".json") continue;
       const auto document = document::parse_file(entry.path());
       const auto id = document.value("id", entry.path().stem().string());
