@@ -44,9 +44,10 @@ TEST(MilledDrawing, ShowsLimitMarginsAndTheChosenPass) {
   EXPECT_EQ(count(svg, "class=\"best\""), 1U);
   EXPECT_EQ(count(svg, "class=\"count2\""), 1U);
   // The line of limits: 20 to 182 mm across, 100 mm at depth 0, 20 mm at 3 mm.
-  EXPECT_NE(svg.find("20,60 101,20 182,40"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("20.000,60.000 101.000,20.000 182.000,40.000"), std::string::npos)
+      << svg;
   // The box of the margins ends at 1.5 mm, half way up.
-  EXPECT_NE(svg.find(",60 "), std::string::npos);
+  EXPECT_NE(svg.find(",60.000 "), std::string::npos);
 }
 
 TEST(MilledDrawing, NeedsAMilledOperation) {
