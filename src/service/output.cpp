@@ -125,7 +125,9 @@ std::vector<std::string> replace_files(
     out.flush();
   }
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const auto name = entry.path().filename().string(); ours(name)) left.insert(name);
+    if (const auto name = entry.path().filename().string();
+        !entry.is_directory() && ours(name))
+      left.insert(name);
   std::vector<std::string> gone;
   std::set_difference(left.begin(), left.end(), names.begin(), names.end(),
                       std::back_inserter(gone));
