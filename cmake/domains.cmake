@@ -134,7 +134,7 @@ set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITION
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             batch/input.cpp batch/chunk.cpp batch/folder.cpp batch/known_answers.cpp batch/runner.cpp batch/slurm.cpp
-            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/target.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp
           DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
