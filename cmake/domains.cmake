@@ -142,7 +142,7 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
                 malformed_requests_test.cpp
                 batch_input_test.cpp batch_chunk_test.cpp batch_folder_test.cpp known_answers_test.cpp
-                job_store_test.cpp server_test.cpp page_test.cpp)
+                job_store_test.cpp little_memory.cpp server_test.cpp page_test.cpp)
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "http_client.hpp"
+#include "little_memory.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::service {
@@ -310,6 +311,20 @@ TEST(Server, AFullQueueSaysSo) {
   EXPECT_NE(answer.find("Retry-After: 1\r\n"), std::string::npos);
   EXPECT_EQ(status_of(second.ask(get("/healthz"))), 200);
   EXPECT_EQ(status_of(first.answer()), 200);
+}
+
+TEST(Server, ACallWithoutMemoryIsAFaultAndTheNextIsAnswered) {
+  std::string large = R"({"dt_mm": [0)";
+  for (int i = 0; i < 20'000; ++i) large += ",0";
+  const Running server;
+  auto client = server.client();
+  {
+    const LittleMemory little(100'000);
+    const auto answer = client.ask(post("/v1/multipass", large + "]}"));
+    EXPECT_EQ(status_of(answer), 500);
+    EXPECT_NE(body_of(answer).find("urn:turnwright:problem:fault"), std::string::npos);
+  }
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", large + "]}"))), 422);
 }
 
 TEST(Server, ADeadlineIsKept) {

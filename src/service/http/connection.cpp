@@ -123,18 +123,27 @@ struct Pending {
   bool gone = false;  ///< the client left
 };
 
-Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
-  Reply reply;
+/// What is said of a fault of this program, even where there is no memory to say it.
+Reply fault(const Call& call, const char* what) {
   try {
-    reply = api.reply(call, stop);
+    log_fault(call, what);
+    return problem(500, "fault", "a fault of this program; the log has more", call);
+  } catch (const std::exception&) {
+    return {500, "", "", {}};
+  }
+}
+
+/// Nothing is thrown: a thread of the pool has nobody to catch it.
+Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
+  try {
+    Reply reply = api.reply(call, stop);
+    compress_for(call, reply);
+    return reply;
   } catch (const Cancelled&) {
     return {};  // nobody reads it
   } catch (const std::exception& error) {
-    log_fault(call, error.what());
-    reply = problem(500, "fault", "a fault of this program; the log has more", call);
+    return fault(call, error.what());
   }
-  compress_for(call, reply);
-  return reply;
 }
 
 void watch(tcp::socket& socket, const std::shared_ptr<Pending>& pending) {
@@ -350,14 +359,34 @@ asio::awaitable<bool> next_call(const ServerState& state, Connection& connection
   co_return has_begun(connection.buffer) || (state.draining && has_arrived(connection));
 }
 
+/// A connection among those of the server, as long as it lives.
+class Listed {
+ public:
+  Listed(ServerState& state, Connection& connection)
+      : state_(state), connection_(connection) {
+    state_.connections.insert(&connection_);
+    state_.metrics.connections.Increment();
+  }
+  Listed(const Listed&) = delete;
+  Listed& operator=(const Listed&) = delete;
+  ~Listed() {
+    state_.connections.erase(&connection_);
+    state_.metrics.connections.Decrement();
+    if (state_.draining && state_.connections.empty()) state_.drain.cancel();
+  }
+
+ private:
+  ServerState& state_;
+  Connection& connection_;
+};
+
 }  // namespace
 
 asio::awaitable<void> serve(ServerState& state, tcp::socket socket) {
   Connection connection(std::move(socket));
+  const Listed listed(state, connection);
   error_code ec;
   connection.socket.set_option(tcp::no_delay(true), ec);
-  state.connections.insert(&connection);
-  state.metrics.connections.Increment();
   try {
     bool more = true;
     while (more) {
@@ -367,9 +396,6 @@ asio::awaitable<void> serve(ServerState& state, tcp::socket socket) {
   } catch (const std::exception& error) {
     log_event("connection lost", error.what());
   }
-  state.metrics.connections.Decrement();
-  state.connections.erase(&connection);
-  if (state.draining && state.connections.empty()) state.drain.cancel();
 }
 
 asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket) {

@@ -219,11 +219,12 @@ void add_own_schemas(ordered_json& schemas) {
     return ordered_json{{"type", "array"}, {"items", std::move(of)}};
   };
   schemas["entries"] = list(object({{"id", text}, {"name", text}}));
-  schemas["job"] = object({{"id", count},
-                           {"state", {{"enum", {"running", "cancelled", "done"}}}},
-                           {"lines", count},
-                           {"done", count},
-                           {"errors", count}});
+  schemas["job"] =
+      object({{"id", count},
+              {"state", {{"enum", {"running", "cancelled", "done", "outdated"}}}},
+              {"lines", count},
+              {"done", count},
+              {"errors", count}});
   schemas["jobs"] = list(reference("job"));
   schemas["problem"] = object({{"type", text},
                                {"title", text},
