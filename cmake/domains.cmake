@@ -39,10 +39,10 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
                           chatter_frequency.cpp limits.cpp lobes.cpp uncertain.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                          contact.cpp delay_map.cpp sheet.cpp cutter.cpp
-                          simulation.cpp scanned_limits.cpp
+                          simulation.cpp scanned_limits.cpp frf.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
           TESTS limits_test.cpp lobes_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp
-                cutter_test.cpp)
+                cutter_test.cpp frf_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE
