@@ -133,7 +133,7 @@ std::string figure_6(const std::vector<Cut>& cuts) {
   constexpr int kMost = 40;
   const auto stable = std::ranges::count(cuts, true, &Cut::stable);
   const report::Scale x{0, kMost, 20, 182},
-      y{0, 10 * std::ceil(static_cast<double>(stable) / 10), 92, 20};
+      y{0, 10 * (2 + std::floor(static_cast<double>(stable) / 10)), 92, 20};
   std::vector<report::Point> right, unsafe;
   fmt::print(
       "{} cuts, {} of them stable\n\n| E | stable cuts called stable | unstable cuts "

@@ -46,7 +46,7 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE
-                       $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
+                       -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen

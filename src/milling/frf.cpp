@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::milling {
 namespace {
 
@@ -215,6 +217,7 @@ std::vector<Peak> places(const Lines& lines, const Model& m) {
 
 /// The best fit with one more peak.
 Model with_one_more(const Lines& lines, const Model& m) {
+  leave_if_asked();
   std::vector<Model> starts;
   for (const Peak& p : places(lines, m)) {
     starts.push_back(m);
