@@ -59,5 +59,5 @@ set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
 # A short batch; scripts/faults runs a long one.
 add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
   $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)
-set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 240
+set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 500
   SKIP_REGULAR_EXPRESSION "SKIPPED")

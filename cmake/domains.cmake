@@ -134,7 +134,7 @@ set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITION
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             batch/input.cpp batch/chunk.cpp batch/folder.cpp batch/known_answers.cpp batch/runner.cpp batch/slurm.cpp
-            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/target.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp
           DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
@@ -142,14 +142,14 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
                 malformed_requests_test.cpp
                 batch_input_test.cpp batch_chunk_test.cpp batch_folder_test.cpp known_answers_test.cpp
-                job_store_test.cpp server_test.cpp page_test.cpp)
+                job_store_test.cpp little_memory.cpp server_test.cpp page_test.cpp)
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/progress_line.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
   add_executable(app_test tests/app/command_line_test.cpp tests/app/batch_test.cpp
     tests/app/killed_server_test.cpp
-    tests/app/readme_test.cpp)
+    tests/app/options_test.cpp tests/app/programs_test.cpp tests/app/readme_test.cpp)
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>" TURNWRIGHT_FAULTS="$<TARGET_FILE:faults>"

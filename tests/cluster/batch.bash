@@ -37,9 +37,10 @@ done > lines.jsonl
 say "$lines lines on this machine alone"
 
 cluster_up "$folder/cluster" 3
+cp -r cluster/state before
 say "controller and three nodes are up"
 batch() {
-  cluster_run timeout 120 "$turnwright" --data "$data" batch lines.jsonl -o results \
+  cluster_run timeout 200 "$turnwright" --data "$data" batch lines.jsonl -o results \
     --task-lines $((lines / 25)) "$@"
 }
 running_on() { cluster_run squeue --noheader --states=running --nodelist="$1" | grep -q .; }
@@ -73,9 +74,9 @@ say "complete: every line once"
 cluster_heal w2
 cluster_start w1
 
-# The controller dies right after it has taken an array, and forgets it.
+# The controller dies right after it has taken an array, and forgets that and all before: it
+# gives out the same job numbers again, which node w2, once cut off, may still hold and refuse.
 mv results first
-cp -r cluster/state before
 batch --chunk 10 --slurm
 cluster_kill ctl
 rm -rf cluster/state
