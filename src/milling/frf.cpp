@@ -104,11 +104,12 @@ class Lines {
 /// Normal equations with columns of length 1.
 struct Normal {
   VectorXd scale;
-  MatrixXd matrix;
+  MatrixXd matrix;  // its lower half, which LDL^T takes
   explicit Normal(const MatrixXd& J) : scale(J.colwise().norm()) {
     for (double& s : scale) s = s > 0 ? 1 / s : 1;
     const MatrixXd unit = J * scale.asDiagonal();
-    matrix = unit.transpose() * unit;
+    matrix = MatrixXd::Zero(J.cols(), J.cols());
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(unit.transpose());
   }
   VectorXd step(const VectorXd& slope, double damping) const {
     const MatrixXd damped =
@@ -151,15 +152,14 @@ Model with_heights(const Lines& lines, Model m) {
   return m;
 }
 
-/// Levenberg and Marquardt.
-Model fitted(const Lines& lines, const Model& start) {
-  constexpr int kSteps = 100;
-  constexpr double kSmall = 1e-14, kStiff = 1e12;
-  Model m = with_heights(lines, start);
+/// Levenberg and Marquardt; what a last step changes is far below rounding or what is
+/// left.
+Model fitted(const Lines& lines, Model m, int steps) {
+  constexpr double kSmall = 1e-14, kUnfelt = 1e-9, kStiff = 1e12;
   VectorXd e = lines.left(m);
   m.left = e.squaredNorm();
   double damping = 1e-3;
-  for (int i = 0; i < kSteps && damping < kStiff; ++i) {
+  for (int i = 0; i < steps && damping < kStiff; ++i) {
     const MatrixXd J = lines.jacobian(m);
     const Normal normal(J);
     const VectorXd slope = J.transpose() * e;
@@ -170,7 +170,8 @@ Model fitted(const Lines& lines, const Model& start) {
       VectorXd left = lines.left(next);
       next.left = left.squaredNorm();
       if (!(next.left <= m.left)) continue;
-      small = step.cwiseQuotient(normal.scale).norm() <= kSmall * lines.y().norm();
+      small = step.cwiseQuotient(normal.scale).norm() <=
+              std::max(kSmall * lines.y().norm(), kUnfelt * std::sqrt(m.left));
       m = std::move(next);
       e = std::move(left);
       damping = std::max(damping / 16, 1e-16);
@@ -181,11 +182,17 @@ Model fitted(const Lines& lines, const Model& start) {
   return m;
 }
 
+Model without_peaks(const Lines& lines) {
+  Model m = with_heights(lines, {});
+  m.left = lines.left(m).squaredNorm();
+  return m;
+}
+
 /// Where one more peak explains most of what is left, as far as small changes of those
 /// there are cannot: the best places, apart from each other.
 std::vector<Peak> places(const Lines& lines, const Model& m) {
-  constexpr Eigen::Index kTried = 300;
-  constexpr std::array kDamping{0.003, 0.01, 0.03, 0.1};
+  constexpr Eigen::Index kTried = 250;
+  constexpr std::array kDamping{0.004, 0.02, 0.1};
   constexpr std::size_t kKept = 3;
   const MatrixXd J = lines.jacobian(m);
   const Normal normal(J);
@@ -232,9 +239,14 @@ Model with_one_more(const Lines& lines, const Model& m) {
     starts.back().peaks[k].ln_wn -= apart;
     starts.back().peaks.back().ln_wn += apart;
   }
+  constexpr int kFew = 8, kAll = 100;
+  constexpr std::size_t kBest = 2;
+  for (Model& start : starts) start = fitted(lines, with_heights(lines, start), kFew);
+  std::ranges::sort(starts, {}, &Model::left);
   Model best;
-  for (const Model& start : starts)
-    if (Model now = fitted(lines, start); now.left < best.left) best = std::move(now);
+  for (std::size_t i = 0; i < std::min(kBest, starts.size()); ++i)
+    if (Model now = fitted(lines, starts[i], kAll); now.left < best.left)
+      best = std::move(now);
   return best;
 }
 
@@ -327,8 +339,7 @@ ModalFit described(const Lines& lines, Model m) {
 bool enough(const Lines& lines, int modes) { return lines.rows() >= 3 * modes + 2; }
 
 std::variant<ModalFit, NoFit> asked(const Lines& lines, int modes) {
-  if (!enough(lines, modes)) return NoFit{Why::too_few_lines, 0};
-  Model fewer, m = fitted(lines, {});
+  Model fewer, m = without_peaks(lines);
   for (int n = 0; n < modes; ++n) {
     if (nothing_left(lines, m)) return NoFit{n == 0 ? Why::no_peak : Why::not_told, 0};
     fewer = std::exchange(m, with_one_more(lines, m));
@@ -340,8 +351,7 @@ std::variant<ModalFit, NoFit> asked(const Lines& lines, int modes) {
 }
 
 std::variant<ModalFit, NoFit> chosen(const Lines& lines) {
-  if (!enough(lines, 1)) return NoFit{Why::too_few_lines, 0};
-  Model m = fitted(lines, {});
+  Model m = without_peaks(lines);
   for (int n = 1; n <= kMostModes && enough(lines, n) && !nothing_left(lines, m); ++n) {
     Model next = with_one_more(lines, m);
     if (!(schwarz(lines, next) < schwarz(lines, m))) break;
@@ -358,9 +368,9 @@ std::variant<ModalFit, NoFit> chosen(const Lines& lines) {
 
 std::variant<ModalFit, NoFit> modal_fit(const FrequencyResponse& response,
                                         std::optional<int> modes) {
-  if (response.w_rad_s.empty()) return NoFit{Why::too_few_lines, 0};
-  if (const auto why = wrong_way(response)) return *why;
   const Lines lines(response);
+  if (!enough(lines, modes.value_or(1))) return NoFit{Why::too_few_lines, 0};
+  if (const auto why = wrong_way(response)) return *why;
   return modes ? asked(lines, *modes) : chosen(lines);
 }
 

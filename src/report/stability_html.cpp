@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMost = 80;  // rows of a table
+constexpr std::size_t kMost = 40;  // rows of a table
 
 std::string header(const ordered_json& result) {
   std::string out = tag("h1", "Stability of the cut");
@@ -89,7 +89,7 @@ std::string speeds(const ordered_json& result) {
   std::string out = tag("h2", "Limits");
   if (step > 1)
     out += fmt::format(
-        "<p class=\"from\">Every {}. of {} speeds; all are in the result "
+        "<p class=\"from\">One in {} of {} speeds; all are in the result "
         "document.</p>\n",
         step, all.size());
   return out +

@@ -23,7 +23,7 @@ std::string stability_chart(const nlohmann::json& request,
                             const nlohmann::ordered_json& result);
 
 /// The result as one HTML file to print, of the kind of html(): the chart, what the
-/// limits rest on, verdicts, limits - at most 80 rows of each - and what was assumed.
+/// limits rest on, verdicts, limits - at most 40 rows of each - and what was assumed.
 /// @param figures  with stability.svg.
 std::string stability_html(std::string_view name, const nlohmann::ordered_json& result,
                            const std::vector<Figure>& figures);
