@@ -171,7 +171,13 @@ TEST(Server, AnswersPagesOfItsOwnAlone) {
   for (const char* host :
        {"localhost:8080", "127.0.0.1", "[::1]:8080", "lathe", "10.0.0.7:1"})
     EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 200) << host;
-  EXPECT_EQ(status(open, "Host: rebound.example:8080\r\n"), 421);
+  for (const char* host :
+       {"rebound.example:8080", "rebound.example.", "10.0.0.7.example"})
+    EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 421) << host;
+  for (const char* host : {"[::1].rebound.example", "[", "[::1", "[x]", "a, b", "x:80a",
+                           "a b", "user@x", "x:1:2", "a/b", "127.0.0.1,x"})
+    EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 400) << host;
+  EXPECT_EQ(status(open, "Host:\r\n"), 200);  // of a client that has none
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:1\r\n"), 200);
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:2\r\n"), 403);
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: null\r\n"), 403);
@@ -473,6 +479,32 @@ TEST(Server, WantsAKeyWhereThereAreKeys) {
   EXPECT_EQ(status_of(client.ask(get("/metrics"))), 401);
   // The page is no secret: it asks for the key.
   EXPECT_EQ(status_of(client.ask(get("/"))), 200);
+}
+
+// Nobody waits for the body of a call that is refused: who has no key sends it in vain.
+TEST(Server, WhatIsRefusedByItsHeaderIsNotRead) {
+  ServerOptions options;
+  options.keys = {"one-key-of-16-characters"};
+  const Running server(options);
+  const std::string key = "Authorization: Bearer one-key-of-16-characters\r\n";
+  const auto status = [&](const std::string& path, const std::string& header) {
+    const auto client = server.client();
+    client.send("POST " + path + " HTTP/1.1\r\nHost: x\r\n" + header + "\r\n");
+    return status_of(client.rest());  // the body never comes
+  };
+  const std::string large = "Content-Length: 200000000\r\n";
+  EXPECT_EQ(status("/v1/batches", large), 401);
+  EXPECT_EQ(status("/v1/batches", "Transfer-Encoding: chunked\r\n"), 401);
+  EXPECT_EQ(status("/v1/batches?x=1", key + large), 400);
+  EXPECT_EQ(status("/v1/plans", key + "Content-Length: 1900000\r\n"), 404);
+  EXPECT_EQ(status("/v1/parts", key + "Transfer-Encoding: chunked\r\n"), 405);
+  EXPECT_EQ(status("/v1/parts", key + "Expect: 100-continue\r\nContent-Length: 2\r\n"),
+            405);
+  // Small ones are, and the connection goes on.
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask(post("/v1/plans", "{}", key))), 404);
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", "{}"))), 401);
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", "{}", key))), 200);
 }
 
 TEST(Server, IsNotOpenToOthersWithoutKeys) {

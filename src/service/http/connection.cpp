@@ -186,8 +186,8 @@ asio::awaitable<std::optional<Reply>> computed(ServerState& state, Connection& c
                     call);
 }
 
-/// What needs no computing and must be answered when the pool is busy.
-std::optional<Reply> at_once(const ServerState& state, const Call& call) {
+/// The answer to a call without its key, or to one that is not of the API.
+std::optional<Reply> refused(const ServerState& state, const Call& call) {
   const auto path = call.path();
   const bool open = path == "/" || path == "/healthz" || path == "/readyz";
   if (!state.options.keys.empty() && !open &&
@@ -196,7 +196,13 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
     reply.headers.emplace_back("WWW-Authenticate", "Bearer");
     return reply;
   }
-  if (auto reply = state.api.at_once(call)) return reply;
+  return state.api.at_once(call);
+}
+
+/// What needs no computing and must be answered when the pool is busy.
+std::optional<Reply> at_once(const ServerState& state, const Call& call) {
+  if (auto reply = refused(state, call)) return reply;
+  const auto path = call.path();
   if (path == "/healthz") return state.api.reply(call, {});
   if (path == "/readyz")
     return state.full() || state.draining
@@ -225,6 +231,9 @@ std::optional<Reply> objection(const ServerState& state, const Parser& parser,
   const auto hosts = message.count(http::field::host);
   if (hosts == 0 && message.version() >= 11)
     return problem(400, "host", "expected one Host", call);
+  for (const auto& host : {text(message[http::field::host]), call.host})
+    if (!is_host(host))
+      return problem(400, "host", "got '" + host + "', expected a host", call);
   const auto coding = text(message[http::field::transfer_encoding]);
   if (!coding.empty() && (!beast::iequals(coding, "chunked") || message.version() < 11))
     return problem(501, "transfer-coding",
@@ -293,6 +302,18 @@ asio::awaitable<error_code> read_call_header(const ServerState& state,
   co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
 }
 
+/// The answer to a refused call whose body is not worth waiting for: only its header has
+/// been read, and who has no key cannot fill the memory.
+std::optional<Reply> refused_unread(const ServerState& state, const Parser& parser,
+                                    const Call& call) {
+  constexpr std::uint64_t kReadAnyway = 65'536;  // keeps the connection for more calls
+  const auto length = parser.content_length();
+  const bool expects = parser.get().count(http::field::expect) > 0;
+  if (parser.is_done() || (length && *length <= kReadAnyway && !expects))
+    return std::nullopt;
+  return refused(state, call);
+}
+
 /// Whether a byte of another call has arrived.
 bool has_arrived(const Connection& connection) {
   error_code ec;
@@ -308,7 +329,8 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   if (!ec && parser.content_length() &&
       *parser.content_length() > HttpApi::body_limit(call))
     ec = http::make_error_code(http::error::body_limit);
-  if (!ec) reply = objection(state, parser, call);
+  if (!ec && !(reply = objection(state, parser, call)))
+    reply = refused_unread(state, parser, call);
   const bool taken = !ec && !reply;
   if (taken) ec = co_await read_call_body(state, connection, parser, call);
   const auto arrived = Clock::now();
