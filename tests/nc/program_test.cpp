@@ -98,9 +98,9 @@ TEST(NcPrograms, StopWhereAPlaceIsMilled) {
     "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
     "milling": [
       {"id": "k1", "kind": "keyway", "on": "d1", "z_mm": 40, "length_mm": 32,
-       "width_mm": 10, "depth_mm": 5, "tool": "KEYWAY-HM-10"},
+       "width_mm": 8, "depth_mm": 4, "tool": "KEYWAY-HM-8"},
       {"id": "f1", "kind": "flat", "on": "d1", "z_mm": 40, "length_mm": 20,
-       "depth_mm": 1, "angle_deg": 180, "tool": "ENDMILL-HM-16"}],
+       "depth_mm": 1, "angle_deg": 180, "tool": "ENDMILL-HM-10"}],
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
   ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
   const auto all = programs(p.part, p.plan);
