@@ -49,3 +49,15 @@ add_test(NAME package.completion COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/completion.bash $<TARGET_FILE_DIR:turnwright>
   ${PROJECT_SOURCE_DIR}/packaging/turnwright.bash-completion)
 set_tests_properties(package.deb PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
+# A whole Debian is fetched: only `ctest -C slow` does that.
+add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/clean_root.bash ${PROJECT_BINARY_DIR}
+  ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)
+set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+# A short batch; scripts/faults runs a long one.
+add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
+  $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)
+set_tests_properties(cluster.batch PROPERTIES LABELS cluster TIMEOUT 500
+  SKIP_REGULAR_EXPRESSION "SKIPPED")

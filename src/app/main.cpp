@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "output.hpp"
+#include "batch.hpp"
 #include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/service/listing.hpp"
+#include "turnwright/service/output.hpp"
 #include "turnwright/service/requests.hpp"
 
 namespace turnwright::app {
@@ -62,18 +63,19 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
 
 void write_drawings(const std::filesystem::path& folder,
                     const std::vector<service::Picture>& drawings) {
-  make_folder(folder);
-  for (const auto& picture : drawings) write_file(folder / picture.file, picture.svg);
+  service::make_folder(folder);
+  for (const auto& picture : drawings)
+    service::write_file(folder / picture.file, picture.svg);
 }
 
 void write_programs(const std::filesystem::path& folder, const nc::Programs& programs) {
   constexpr auto kControl = nc::Control::linuxcnc;
-  make_folder(folder);
+  service::make_folder(folder);
   for (const auto& program : programs.setups)
-    write_file(folder / document::file_name(program, kControl),
-               nc::text(program, kControl));
+    service::write_file(folder / document::file_name(program, kControl),
+                        nc::text(program, kControl));
   if (!programs.setups.empty())
-    write_file(folder / "tools.tbl", nc::tool_table(programs.setups));
+    service::write_file(folder / "tools.tbl", nc::tool_table(programs.setups));
   for (const auto& why : programs.cannot) std::cerr << "no NC program: " << why << '\n';
 }
 
@@ -83,15 +85,16 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto drawn = answer(row, arguments, request, catalogue);
   const auto& result = drawn.result;
   const std::string json = result.dump(2) + '\n';
-  if (arguments.result_file) write_file(*arguments.result_file, json);
+  if (arguments.result_file) service::write_file(*arguments.result_file, json);
   if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
   if (arguments.programs) write_programs(*arguments.programs, drawn.programs);
   if (arguments.report_file)
-    write_file(*arguments.report_file, service::html_report(row, request, drawn));
+    service::write_file(*arguments.report_file,
+                        service::html_report(row, request, drawn));
   if (row.text && !arguments.json)
-    print(row.text(result));
+    service::print(row.text(result));
   else if (arguments.json || !arguments.result_file)
-    print(json);
+    service::print(json);
   return service::infeasible(result) ? kInfeasible : kOk;
 }
 
@@ -111,7 +114,7 @@ Exit run_list(const Arguments& arguments) {
   std::string text;
   for (const auto& entry : list)
     text += entry.id + std::string(width + 2 - entry.id.size(), ' ') + entry.name + '\n';
-  print(text);
+  service::print(text);
   return kOk;
 }
 
@@ -161,7 +164,8 @@ int run(int argc, char** argv) {
   app.add_option("--data", arguments.data,
                  "folder with materials/, tools/ and machines/");
   std::string examples =
-      "Examples:\n  turnwright list parts\n  turnwright serve --help\n";
+      "Examples:\n  turnwright list parts\n  turnwright batch --help\n"
+      "  turnwright serve --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
@@ -171,12 +175,14 @@ int run(int argc, char** argv) {
       examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
-  add_serve(app, arguments.data, [&chosen](std::function<void()> serve) {
-    chosen = [serve = std::move(serve)] {
-      serve();
+  const auto choose = [&chosen](std::function<void()> work) {
+    chosen = [work = std::move(work)] {
+      work();
       return kOk;
     };
-  });
+  };
+  add_batch(app, arguments.data, choose);
+  add_serve(app, arguments.data, choose);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -198,7 +204,7 @@ int main(int argc, char** argv) {
   } catch (const ModelRangeError& e) {
     std::cerr << e.what() << '\n';
     return app::kRange;
-  } catch (const app::OutputError& e) {
+  } catch (const service::OutputError& e) {
     std::cerr << e.what() << '\n';
     return app::kOutput;
   } catch (const std::exception& e) {

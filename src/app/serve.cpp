@@ -5,9 +5,9 @@
 #include <iterator>
 #include <memory>
 
-#include "output.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/service/log.hpp"
+#include "turnwright/service/output.hpp"
 #include "turnwright/service/server.hpp"
 
 namespace turnwright::app {
@@ -74,9 +74,10 @@ void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
       arguments.page ? page_of(*arguments.page) : service::built_in_page);
   service::Server server(arguments.options, api);
   const bool v6 = arguments.options.address.find(':') != std::string::npos;
-  print("turnwright serves http://" +
-        (v6 ? '[' + arguments.options.address + ']' : arguments.options.address) + ':' +
-        std::to_string(server.port()) + "/\n");
+  service::print(
+      "turnwright serves http://" +
+      (v6 ? '[' + arguments.options.address + ']' : arguments.options.address) + ':' +
+      std::to_string(server.port()) + "/\n");
   server.run();
   service::log_event("stopped", "every call that had arrived is answered");
 }

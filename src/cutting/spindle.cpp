@@ -37,14 +37,14 @@ void add_unless_there(std::vector<PowerLine>& lines, const PowerLine& line) {
   if (!there) lines.push_back(line);
 }
 
-}  // namespace
-
-std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine) {
-  const auto& c = machine.curve;
-  const double eta = machine.efficiency;
-  const double n_max = std::min(machine.n_max_rpm, c.back().n_rpm);
+// Of the main spindle or the driven tools'.
+template <class Drive>
+std::vector<SpeedRange> ranges_of(const Drive& drive) {
+  const auto& c = drive.curve;
+  const double eta = drive.efficiency;
+  const double n_max = std::min(drive.n_max_rpm, c.back().n_rpm);
   std::vector<SpeedRange> ranges;
-  SpeedRange now{machine.n_min_rpm, n_max, {}};
+  SpeedRange now{drive.n_min_rpm, n_max, {}};
   // Below the first point the motor gives that point's torque: P ~ n.
   const double M0 =
       std::min(c.front().M_Nm, c.front().P_kW / units::shaft_power_kW(1, c[0].n_rpm));
@@ -53,7 +53,7 @@ std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine) {
     if (i > 0 && dip(c, i)) {
       now.n_max_rpm = std::min(n_max, c[i].n_rpm);
       if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
-      now = {std::max(machine.n_min_rpm, c[i].n_rpm), n_max, {}};
+      now = {std::max(drive.n_min_rpm, c[i].n_rpm), n_max, {}};
     }
     const auto &a = c[i], &b = c[i + 1];
     add_unless_there(now.lines, through(a.n_rpm, a.P_kW, b.n_rpm, b.P_kW, eta, false));
@@ -62,6 +62,16 @@ std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine) {
   }
   if (now.n_max_rpm > now.n_min_rpm) ranges.push_back(now);
   return ranges;
+}
+
+}  // namespace
+
+std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine) {
+  return ranges_of(machine);
+}
+
+std::vector<SpeedRange> speed_ranges(const catalogue::DrivenTools& spindle) {
+  return ranges_of(spindle);
 }
 
 }  // namespace turnwright::cutting

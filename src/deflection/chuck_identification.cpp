@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <stdexcept>
 
 namespace turnwright::deflection {

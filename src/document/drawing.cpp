@@ -109,10 +109,13 @@ ordered_json json_of(const PartPlan& plan, std::size_t s) {
   const auto& setup = plan.setups[s];
   auto clampings = ordered_json::array();
   for (const auto clamping : setup.clampings) clampings.push_back(name(clamping));
-  return {{"hold", setup.hold == part::End::left ? "left" : "right"},
-          {"grip_mm", setup.grip_mm},
-          {"jaws_z_mm", planning::root_z_mm(plan, s, Clamping::chuck)},
-          {"clampings", std::move(clampings)}};
+  ordered_json out{{"hold", setup.hold == part::End::left ? "left" : "right"},
+                   {"grip_mm", setup.grip_mm},
+                   {"jaws_z_mm", planning::root_z_mm(plan, s, Clamping::chuck)}};
+  if (std::ranges::find(setup.clampings, Clamping::chuck_steady) != setup.clampings.end())
+    out["steady_z_mm"] = setup.steady_z_mm;
+  out["clampings"] = std::move(clampings);
+  return out;
 }
 
 }  // namespace

@@ -83,4 +83,18 @@ catalogue::RootCompliance read_compliance(Reader r) {
   return c;
 }
 
+std::vector<catalogue::TipMode> read_tip_modes(Reader& r) {
+  std::vector<catalogue::TipMode> modes;
+  for (Reader item : r.items("modes", 1, 10)) {
+    item = item.as_object();
+    auto& m = modes.emplace_back();
+    m.along_feed = item.choice<bool>("axis", {{"x", true}, {"y", false}});
+    m.frequency_Hz = item.number("frequency_Hz", above_up_to(0, 1e5, "Hz"));
+    m.damping_ratio = item.number("damping_ratio", kDamping);
+    m.stiffness_N_mm = item.number("stiffness_N_mm", above_up_to(0, 1e9, "N/mm"));
+    item.finish();
+  }
+  return modes;
+}
+
 }  // namespace turnwright::document

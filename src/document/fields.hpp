@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/document/reader.hpp"
 
@@ -32,6 +33,10 @@ catalogue::RootCompliance read_compliance(Reader r);
 
 /// Damping ratio of a mode of slender work or of a bar, "damping_ratio".
 inline const Bounds kDamping = above_up_to(0, 0.5);
+
+/// "modes": {"axis": "x" along the feed or "y" across it, "frequency_Hz",
+/// "damping_ratio", "stiffness_N_mm"}, one to ten of them.
+std::vector<catalogue::TipMode> read_tip_modes(Reader& r);
 
 /// A list of distinct words.
 template <class E>

@@ -45,6 +45,7 @@ void read_kind(Reader& r, FixedTool& t) {
       break;
     case FixedUse::profiling:
       t.ap_mm = r.number("ap_mm", above_up_to(0, 50, "mm"));
+      t.re_mm = r.number("re_mm", within(0, 20, "mm"));
       break;
   }
   if (t.use != FixedUse::grooving && t.use != FixedUse::threading) return;

@@ -29,28 +29,51 @@ catalogue::CurvePoint read_point(Reader r) {
   return p;
 }
 
-void read_curve(Reader& group, catalogue::Lathe& m) {
+template <class Drive>
+void read_curve(Reader& group, Drive& d) {
   const auto points = group.items("curve", 2, 50);
   for (const auto& point : points) {
-    m.curve.push_back(read_point(point));
-    const auto n = m.curve.size();
-    if (n > 1 && m.curve[n - 1].n_rpm <= m.curve[n - 2].n_rpm)
+    d.curve.push_back(read_point(point));
+    const auto n = d.curve.size();
+    if (n > 1 && d.curve[n - 1].n_rpm <= d.curve[n - 2].n_rpm)
       point.problem("a speed above the point's before", "order");
   }
-  if (m.curve.empty()) return;
-  if (m.curve.front().n_rpm > m.n_min_rpm || m.curve.back().n_rpm < m.n_max_rpm)
+  if (d.curve.empty()) return;
+  if (d.curve.front().n_rpm > d.n_min_rpm || d.curve.back().n_rpm < d.n_max_rpm)
     group.problem_at("curve", "points from n_min_rpm or below to n_max_rpm or above",
                      "conflict");
 }
 
-void read_spindle(Reader group, catalogue::Lathe& m) {
-  m.n_min_rpm = group.number("n_min_rpm", kSpeed);
-  m.n_max_rpm = group.number("n_max_rpm", kSpeed);
-  if (m.n_min_rpm >= m.n_max_rpm)
+// The main spindle, or the one of the driven tools.
+template <class Drive>
+void read_drive(Reader& group, Drive& d) {
+  d.n_min_rpm = group.number("n_min_rpm", kSpeed);
+  d.n_max_rpm = group.number("n_max_rpm", kSpeed);
+  if (d.n_min_rpm >= d.n_max_rpm)
     group.problem_at("n_min_rpm", "a speed below n_max_rpm", "order");
-  m.efficiency = group.number("efficiency", above_up_to(0, 1));
-  read_curve(group, m);
+  d.efficiency = group.number("efficiency", above_up_to(0, 1));
+  read_curve(group, d);
+}
+
+void read_spindle(Reader group, catalogue::Lathe& m) {
+  read_drive(group, m);
   finish_group(group);
+}
+
+catalogue::DrivenTools read_driven_tools(Reader group) {
+  catalogue::DrivenTools d;
+  read_drive(group, d);
+  d.feed_max_mm_min = group.number("feed_max_mm_min", above_up_to(0, 1e6, "mm/min"));
+  for (Reader item : group.optional_items("measured", 0, 200)) {
+    item = item.as_object();
+    const auto cutter = read_id(item, "cutter");
+    if (!cutter.empty() && d.modes.count(cutter))
+      item.problem_at("cutter", "each cutter once", "duplicate");
+    d.modes[cutter] = read_tip_modes(item);
+    item.finish();
+  }
+  finish_group(group);
+  return d;
 }
 
 void read_times(Reader group, catalogue::Lathe& m) {
@@ -156,6 +179,8 @@ catalogue::Lathe read_lathe(Reader r) {
   finish_group(room);
   read_chuck(r.object("chuck"), m.chuck);
   read_stiffness(r.object("stiffness"), m);
+  if (auto driven = r.optional_object("driven_tools"))
+    m.driven_tools = read_driven_tools(*driven);
   if (auto errors = r.optional_object("errors")) read_geometry(*errors, m);
   r.finish();
   return m;

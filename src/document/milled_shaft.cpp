@@ -30,14 +30,6 @@ bool parts(const Slot& a, const Slot& b, double between_rad, double outer_mm) {
          middle_b * sin >= a.width_mm / 2 + deep_b * sin + b.width_mm / 2 * cos;
 }
 
-// At the rim, or further in where wide slots are deep.
-bool meet(const Slot& a, const Slot& b, double outer_mm) {
-  const double between =
-      std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * units::kPi));
-  return between <= half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm) ||
-         !(parts(a, b, between, outer_mm) || parts(b, a, between, outer_mm));
-}
-
 // Without a width the slot is a flat, as wide as the chord at its floor.
 Slot read_slot(Reader r, const part::Segment& s) {
   r = r.as_object();
@@ -70,6 +62,13 @@ void read_slots(Reader& r, const part::Segment& s, deflection::Section& section)
 }
 
 }  // namespace
+
+bool meet(const Slot& a, const Slot& b, double outer_mm) {
+  const double between =
+      std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * units::kPi));
+  return between <= half_opening_rad(a, outer_mm) + half_opening_rad(b, outer_mm) ||
+         !(parts(a, b, between, outer_mm) || parts(b, a, between, outer_mm));
+}
 
 ReadShaft read_milled_shaft(Reader r) {
   ReadShaft out;

@@ -20,4 +20,7 @@ struct ReadShaft {
 };
 ReadShaft read_milled_shaft(Reader r);
 
+/// Whether two slots meet, at the rim or, where wide ones are deep, further in.
+bool meet(const deflection::Slot& a, const deflection::Slot& b, double outer_mm);
+
 }  // namespace turnwright::document

@@ -202,6 +202,10 @@ json parse(std::string_view text, const std::string& document,
   }
   Builder builder(text, problems, limits);
   json::sax_parse(text.begin(), text.end(), &builder);
+  // The library ends at a NUL, whatever follows.
+  if (const auto nul = text.find('\0'); nul != text.npos && problems.list.empty())
+    problems.add({"", "broken JSON at " + place(text, nul + 1) + ": a NUL", "valid JSON",
+                  "syntax"});
   problems.throw_if_any();
   return builder.take();
 }

@@ -168,12 +168,12 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_damping(draft);
     read_budget(draft);
     read_what_if(draft);
-    root.optional_items("milling", 0, 100);
-    refuse_unsupported(root);
+    read_milling(draft);
     root.finish();
   }
   problems.throw_if_any();
   assume_drilled_holes(draft);
+  place_milling(draft);
   assume_grip_forces(draft);
   draft.plan().machine_takes = planning::machine_takes(draft.plan());
   draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);

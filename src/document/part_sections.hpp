@@ -13,6 +13,7 @@ struct Draft {
   const Catalogue& catalogue;
   Purpose purpose = Purpose::plan;
   LoadedPart loaded = {};
+  std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, else all
 
   planning::PartPlan& plan() { return loaded.plan; }
   part::Drawing& drawing() { return loaded.plan.drawing; }
@@ -38,7 +39,15 @@ void check_bores(Draft& draft);      // after the stock
 void read_tolerances(Draft& draft);  // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups
+void read_milling(Draft& draft);     // after the setups
 void read_what_if(Draft& draft);     // the form alone
+
+/// In which setups places are milled, and their ways; needs a part without problems.
+/// @throws InputError with those that no setup leaves free.
+void place_milling(Draft& draft);
+
+/// A milling cutter by its id or its document.
+catalogue::MillingCutter cutter_of(const Draft& draft, const Reader& value);
 
 /// The changed requests of a document without problems, each read as a whole.
 /// @throws InputError with what is wrong in them.

@@ -66,6 +66,28 @@ ordered_json json_of(const OperatingWindow& w) {
           {"limits", w.limits}};
 }
 
+// What is cut deeper than shown before stability is lost has no limit there.
+ordered_json json_of(const MilledCut& m) {
+  return {{"kind", name(m.kind)},
+          {"lanes", m.lanes},
+          {"ae_mm", m.ae_mm},
+          {"fz_mm", m.fz_mm},
+          {"hm_mm", m.hm_mm},
+          {"vf_mm_min", m.vf_mm_min},
+          {"Kt_MPa", m.Kt_MPa},
+          {"Kn_MPa", m.Kn_MPa},
+          {"stability_margin", m.depth_margin},
+          {"speed_margin", m.speed_margin},
+          {"part_share", m.part_share},
+          {"limit_mm", m.limit_mm},
+          {"shown_mm", m.shown_mm},
+          {"chart",
+           {{"n_rpm", m.n_rpm},
+            {"limit_mm", list(m.limits_mm, [](const std::optional<double>& x) {
+               return x ? ordered_json(*x) : ordered_json();
+             })}}}};
+}
+
 ordered_json json_of(const OperationPlan& op) {
   ordered_json out{
       {"id", op.id},
@@ -80,6 +102,7 @@ ordered_json json_of(const OperationPlan& op) {
        list(op.constraints, [](const ConstraintValue& c) { return json_of(c); })},
       {"certificate", json_of(op.certificate)}};
   if (op.window) out["window"] = json_of(*op.window);
+  if (op.milled) out["milling"] = json_of(*op.milled);
   return out;
 }
 

@@ -53,6 +53,16 @@ bool is_fixed_tool(const Draft& draft, const Reader& item) {
          });
 }
 
+// An id of tools/milling, or a document of that format.
+bool is_cutter(const Draft& draft, const Reader& item) {
+  if (item.is_object())
+    return item.json().value("format", nlohmann::json()) == "turnwright-milling-cutter/1";
+  const auto& cutters = draft.catalogue.cutters;
+  return item.is_text() &&
+         std::any_of(cutters.begin(), cutters.end(),
+                     [&](const auto& c) { return item.json() == c.id; });
+}
+
 // What fixed operations need and the request lists no tool for, the catalogue has.
 void add_fixed_tools_of_the_catalogue(Draft& draft) {
   auto& tools = draft.plan().fixed_tools;
@@ -68,6 +78,7 @@ void read_tools(Draft& draft) {
   if (!draft.root.has("tools")) {
     plan.tools = draft.catalogue.tools;
     plan.fixed_tools = draft.catalogue.fixed_tools;
+    draft.cutters = draft.catalogue.cutters;
     draft.assume("/tools", ids(plan.tools), "the whole catalogue");
     return;
   }
@@ -75,11 +86,14 @@ void read_tools(Draft& draft) {
     if (is_fixed_tool(draft, item))
       add_once(item, plan.fixed_tools,
                resolve(item, draft.catalogue.fixed_tools, read_fixed_tool, "tool"));
+    else if (is_cutter(draft, item))
+      add_once(item, draft.cutters, cutter_of(draft, item));
     else
       add_once(item, plan.tools,
                resolve(item, draft.catalogue.tools, read_tool, "tool",
                        ids(draft.catalogue.fixed_tools)));
   add_fixed_tools_of_the_catalogue(draft);
+  if (draft.cutters.empty()) draft.cutters = draft.catalogue.cutters;
   for (const auto& spare : draft.catalogue.tools)
     if (std::none_of(plan.tools.begin(), plan.tools.end(),
                      [&](const auto& tool) { return tool.id == spare.id; }))
@@ -87,6 +101,10 @@ void read_tools(Draft& draft) {
 }
 
 }  // namespace
+
+catalogue::MillingCutter cutter_of(const Draft& draft, const Reader& value) {
+  return resolve(value, draft.catalogue.cutters, read_milling_cutter, "milling cutter");
+}
 
 std::string expected_reference(const std::string& id,
                                const std::vector<std::string>& known,

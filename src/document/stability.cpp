@@ -1,6 +1,7 @@
 #include "turnwright/document/stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "turnwright/base/units.hpp"
 #include "turnwright/document/reader.hpp"
 #include "turnwright/milling/checks.hpp"
+#include "turnwright/milling/cutter.hpp"
 #include "turnwright/milling/limits.hpp"
 #include "turnwright/milling/uncertain.hpp"
 
@@ -28,6 +30,7 @@ constexpr int kDepths = 40;                                 // scanned by the ch
 constexpr std::size_t kCounted = 1000, kCuts = 1'000'000;   // depths of a speed, cuts
 constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times speeds
 constexpr double kSlenderDamping = 0.03;
+constexpr std::size_t kShapedSpeeds = 500;  // of cutters beyond straight and even edges
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
              kPointDepth = within(0, 1000, "mm"), kFrequency = within(0.1, 1e6, "Hz"),
              kDamping = within(1e-6, 10), kMass = within(1e-9, 1e9, "kg"),
@@ -49,6 +52,7 @@ struct SpeedRange {
 struct Request {
   Model model = Model::milling;
   System system;
+  std::optional<Cutter> cutter;  // with what `system` does not hold
   std::optional<double> ap_max_mm;
   std::vector<double> speeds_rpm;
   std::vector<double> depths_mm;  // counted at each speed
@@ -151,6 +155,54 @@ void read_turning(Reader& r, Request& q) {
   }
 }
 
+/// Helix, pitches, offsets and feed of a mill.
+void read_edges(Reader& r, Cutter& cutter) {
+  const auto teeth = static_cast<std::size_t>(cutter.system.teeth);
+  if (r.has("helix_deg"))
+    cutter.helix_rad = units::rad_from_deg(r.number("helix_deg", within(0, 80, "deg")));
+  if (r.has("pitch_deg")) {
+    cutter.pitch_rad = r.numbers("pitch_deg", above_up_to(0, 360, "deg"), teeth, teeth);
+    double sum = 0;
+    for (double& pitch : cutter.pitch_rad) {
+      sum += pitch;
+      pitch = units::rad_from_deg(pitch);
+    }
+    constexpr double kClosed = 1e-6;
+    if (cutter.pitch_rad.size() == teeth && std::abs(sum - 360) > kClosed)
+      r.problem_at("pitch_deg", "angles that add up to 360 deg", "range");
+    for (double& pitch : cutter.pitch_rad) pitch *= 360 / sum;
+  }
+  if (r.has("runout_mm"))
+    cutter.offset_mm = r.numbers("runout_mm", within(-10, 10, "mm"), teeth, teeth);
+  cutter.feed_mm = r.number_or("feed_mm", above_up_to(0, 10, "mm"), 0);
+  if (!cutter.offset_mm.empty() && !r.has("feed_mm"))
+    r.problem_at("feed_mm", "a feed per tooth, for runout_mm", "missing");
+}
+
+/// What a straight, even, sharp cutter does not have; none if no key asks for it.
+void read_cutter(Reader& r, Request& q) {
+  constexpr std::array kEdges{"helix_deg", "pitch_deg", "runout_mm", "feed_mm"};
+  const bool mill = q.model == Model::milling;
+  const bool edges =
+      mill && std::ranges::any_of(kEdges, [&](const char* key) { return r.has(key); });
+  const bool damped = r.has("process_damping");
+  const double diameter = r.number_or("diameter_mm", above_up_to(0, 1e4, "mm"), 0);
+  if (!edges && !damped) return;
+  Cutter cutter{.system = q.system};
+  cutter.diameter_mm = diameter;
+  if (mill) read_edges(r, cutter);
+  if (auto found = r.find("process_damping")) {
+    Reader damping = found->as_object();
+    cutter.indentation_N_mm = damping.number("C_N_mm", within(0, 1e6, "N/mm"));
+    if (mill) cutter.friction = damping.number_or("friction", within(0, 2), 0);
+    damping.finish();
+  }
+  if (((mill && r.has("helix_deg")) || damped) && !r.has("diameter_mm"))
+    r.problem_at("diameter_mm", "a diameter, for helix_deg and process_damping",
+                 "missing");
+  q.cutter = std::move(cutter);
+}
+
 SpeedRange read_range(Reader& r) {
   const SpeedRange range{r.number("from", kSpeed), r.number("to", kSpeed)};
   if (range.from_rpm > range.to_rpm)
@@ -236,6 +288,17 @@ void read_method(Reader& r, Request& q) {
     q.resolution = static_cast<int>(r.integer("intervals", 1, 200));
 }
 
+void refuse_beside_cutter(Reader& r, const Request& q) {
+  const std::string with =
+      "no such key with helix_deg, pitch_deg, runout_mm, feed_mm or process_damping";
+  if (q.method != Method::fundamental_matrix) r.problem_at("method", with, "exclusive");
+  if (q.bands) r.problem_at("uncertainty", with, "exclusive");
+  if (q.speeds_rpm.size() > kShapedSpeeds)
+    r.problem_at("speeds_rpm",
+                 "at most " + std::to_string(kShapedSpeeds) + " speeds of such a cutter",
+                 "range");
+}
+
 Request read_request(const json& request, Problems& problems) {
   Request q;
   Reader r = Reader(request, problems).as_object();
@@ -249,6 +312,7 @@ Request read_request(const json& request, Problems& problems) {
     if (q.model == Model::milling) read_milling(r, q);
     if (q.model == Model::power_law) read_power_law(r, q);
     if (q.model == Model::turning) read_turning(r, q);
+    if (q.model != Model::power_law) read_cutter(r, q);
   }
   read_method(r, q);
   q.speeds_rpm = read_speeds(r);
@@ -271,6 +335,7 @@ Request read_request(const json& request, Problems& problems) {
   };
   few("speeds_rpm", q.speeds_rpm.size());
   few("points", q.points.size());
+  if (q.cutter) refuse_beside_cutter(r, q);
   if (!r.broken() && !r.has("speeds_rpm") && !r.has("points"))
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))
@@ -294,20 +359,34 @@ Dominant checked(const Request& q, double n_rpm, double ap_mm,
 
 SpeedLimits limits_of(const Request& q, double n_rpm, const std::stop_token& stop) {
   leave_if(stop);
+  if (q.cutter) return speed_limits(*q.cutter, n_rpm, *q.ap_max_mm, q.depths_mm);
   if (q.method == Method::fundamental_matrix)
     return speed_limits(q.system, n_rpm, *q.ap_max_mm, q.depths_mm);
   return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths,
                         [&](double ap_mm) { return checked(q, n_rpm, ap_mm, stop); });
 }
 
+/// The walls that a stable cut leaves.
+ordered_json walls(const Cutter& cutter, const Point& p) {
+  ordered_json out = ordered_json::array();
+  for (const Surface& wall : surfaces(cutter, p.n_rpm, p.ap_mm))
+    out.push_back({{"milled", wall.up_milled ? "up" : "down"},
+                   {"height_mm", wall.height_mm},
+                   {"left_mm", wall.left_mm}});
+  return out;
+}
+
 ordered_json judged(const Request& q, const Point& p, const std::stop_token& stop) {
   leave_if(stop);
   ordered_json out{{"n_rpm", p.n_rpm}, {"ap_mm", p.ap_mm}};
   if (q.method == Method::fundamental_matrix) {
-    const Multipliers m = multipliers(q.system, p.n_rpm, p.ap_mm);
+    const Multipliers m = q.cutter ? multipliers(*q.cutter, p.n_rpm, p.ap_mm)
+                                   : multipliers(q.system, p.n_rpm, p.ap_mm);
     out["unstable_multipliers"] = m.unstable;
     out["spectral_radius"] = m.spectral_radius;
     out["stable"] = m.unstable == 0;
+    if (q.cutter && q.cutter->feed_mm > 0 && p.ap_mm > 0)
+      out["walls"] = m.unstable == 0 ? walls(*q.cutter, p) : ordered_json();
     return out;
   }
   const Dominant d = checked(q, p.n_rpm, p.ap_mm, stop);
@@ -337,7 +416,9 @@ ordered_json described(const SpeedLimits& speed) {
   for (const Crossing& c : speed.crossings)
     crossings.push_back({{"ap_mm", c.ap_mm},
                          {"sense", c.loss ? "loss" : "regain"},
-                         {"kind", c.flip ? "flip" : "hopf"},
+                         {"kind", c.flip             ? "flip"
+                                  : c.theta_rad == 0 ? "fold"
+                                                     : "hopf"},
                          {"frequency_Hz", c.frequency_Hz},
                          {"relative_error", std::isnan(c.relative_error)
                                                 ? ordered_json()
@@ -429,7 +510,7 @@ ordered_json stability(const json& request, const std::stop_token& stop) {
       points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p, stop); }));
     out["points"] = std::move(points);
   }
-  if (q.model == Model::turning && q.system.modes.size() == 1)
+  if (q.model == Model::turning && q.system.modes.size() == 1 && !q.cutter)
     out["absolute_limit_mm"] = absolute_limit_mm(q.system);
   out["assumed"] = q.assumed;
   return out;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/math/special_functions/legendre.hpp>
+#include <numeric>
 #include <stdexcept>
 
 namespace turnwright::milling {
@@ -33,7 +34,7 @@ std::vector<double> roots(std::size_t n) {
 // The Lagrange polynomial of node j is w_j sum_k (2 k + 1)/2 P_k(x_j) P_k(x), k < n, and
 // int_-1^x P_k = (P_{k+1} - P_{k-1})/(2 k + 1), x + 1 for k = 0; halved for [0, 1].
 Quadrature made(std::size_t n) {
-  Quadrature q{.size = n, .nodes = {}, .weights = {}, .to_node = {}};
+  Quadrature q{.size = n, .nodes = {}, .weights = {}, .to_node = {}, .legendre = {}};
   const std::vector<double> x = roots(n);
   std::vector<std::vector<double>> p;
   for (const double xi : x) p.push_back(legendre(n, xi));
@@ -43,6 +44,8 @@ Quadrature made(std::size_t n) {
       sum += (2 * static_cast<double>(k) + 1) * p[i][k] * p[i][k];
     q.nodes.push_back((1 + x[i]) / 2);
     q.weights.push_back(1 / sum);  // half of 2 / sum
+    q.legendre.insert(q.legendre.end(), p[i].begin(),
+                      p[i].begin() + static_cast<std::ptrdiff_t>(n));
   }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
@@ -64,6 +67,18 @@ const Quadrature& quadrature(std::size_t size) {
   if (size < 2 || size > kLargest)
     throw std::domain_error("quadrature: size must be from 2 to 40");
   return kAll[size];
+}
+
+std::vector<double> integrals_to(const Quadrature& rule, double s) {
+  const std::size_t n = rule.size;
+  const std::vector<double> to = legendre(n, 2 * s - 1);
+  std::vector<double> rises(n, 2 * s), out;
+  for (std::size_t k = 1; k < n; ++k) rises[k] = to[k + 1] - to[k - 1];
+  for (std::size_t j = 0; j < n; ++j)
+    out.push_back(
+        rule.weights[j] / 2 *
+        std::inner_product(rises.begin(), rises.end(), &rule.legendre[j * n], 0.0));
+  return out;
 }
 
 }  // namespace turnwright::milling

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "box_search.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -13,69 +14,21 @@ namespace {
 
 using units::kPi;
 
-constexpr double kInflation = 1.1;  // of boxes, so that zeros on their borders are met
-constexpr double kNoisy = 1e-4;     // noise of a patch relative to its values: renew it
-
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
-double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
-
-// Distance of 0 from the segment p + t d, |t| <= 1.
-double distance(Complex p, Complex d) {
-  const double t =
-      std::norm(d) > 0 ? std::clamp(-dot(p, d) / std::norm(d), -1.0, 1.0) : 0;
-  return modulus(p + t * d);
-}
-
-enum class Verdict { none, one, unclear };
-
-struct Judged {
-  Verdict verdict = Verdict::unclear;
-  double s = 0, t = 0;  // of the zero, in half widths of the box
-};
-
-/// What the local bounds tell of the zeros of g in the box.
-Judged judge(const Local& g, const Box& box, double noise) {
-  const Complex D = g.g_w * box.w_half, E = g.g_theta * box.theta_half;
-  const double ww = g.ww * box.w_half * box.w_half,
-               wt = g.wt * box.w_half * box.theta_half,
-               tt = g.tt * box.theta_half * box.theta_half;
-  const double rest = (ww + 2 * wt + tt) / 2 + noise;
-  const double size_D = modulus(D), size_E = modulus(E);
-  if (modulus(g.g) > size_D + size_E + rest) return {Verdict::none};
-
-  const double det = cross(D, E);
-  if (det == 0) return {};
-  const double s = -cross(g.g, E) / det, t = -cross(D, g.g) / det;
-  const bool inside = std::abs(s) <= 1 && std::abs(t) <= 1;
-  if (!inside) {
-    const double far = std::min({distance(g.g + D, E), distance(g.g - D, E),
-                                 distance(g.g + E, D), distance(g.g - E, D)});
-    if (far > rest) return {Verdict::none};
-  }
-  // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
-  // into the Newton point +- (q + noise).
-  const double row = std::max(size_D, size_E) / std::abs(det);
-  const double q = row * (ww + 2 * wt + tt + g.unseen), slack = q + row * noise;
-  if (!(q < 1)) return {};
-  if (std::abs(s) > 1 + slack || std::abs(t) > 1 + slack) return {Verdict::none};
-  if (std::abs(s) + slack <= 1 && std::abs(t) + slack <= 1) return {Verdict::one, s, t};
-  return {};
-}
-
-Box scaled(Box box, double factor) {
-  box.w_half *= factor;
-  box.theta_half *= factor;
-  return box;
-}
+constexpr double kNoisy = 1e-4;  // noise of a patch relative to its values: renew it
 
 /// Patches on demand: those of the boxes above are reused while they are good.
 class Patches {
  public:
+  using Patch = milling::Patch;
   Patches(const Characteristic& f, double rho) : f_(&f), rho_(rho) {}
   explicit Patches(const Series& series) : series_(&series), rho_(1) {}
 
   /// A patch for `inner`: `above` itself, a shift of it or a new one, kept in `own`; null
   /// if the disc is too large for any.
+  const Patch* pick(const Patch* above, const Box& box, Complex u,
+                    std::optional<Patch>& own) const {
+    return pick(above, milling::disc(box, u, rho_), own);
+  }
   const Patch* pick(const Patch* above, const Disc& inner,
                     std::optional<Patch>& own) const {
     constexpr double kFar = 6;  // from here on bounds of third order are too wide
@@ -115,82 +68,6 @@ class Patches {
   const Characteristic* f_ = nullptr;
   const Series* series_ = nullptr;
   double rho_;
-};
-
-class Search {
- public:
-  explicit Search(Patches patches) : patches_(patches) {}
-
-  /// All zeros with w in [from, to].
-  void strip(double from, double to, const Patch* patch) {
-    const double half = (to - from) / 2;
-    constexpr double kBorder = kPi / 6;  // half height of the box about theta = pi
-    go({from + half, half, kPi, kBorder}, true, patch);
-    go({from + half, half, (kPi - kBorder) / 2, (kPi - kBorder) / 2}, false, patch);
-  }
-
-  const Patches& patches() const { return patches_; }
-  const std::vector<Box>& found() const { return found_; }
-  std::size_t boxes() const { return boxes_; }
-
- private:
-  void go(const Box& box, bool border, const Patch* above) {
-    if (++boxes_ > kBoxes)
-      throw ModelRangeError(
-          "milling: the search for stability limits at a speed needs "
-          "more than " +
-          std::to_string(kBoxes) +
-          " boxes; ask for a smaller ap_max_mm or a higher speed");
-    const Box wide = scaled(box, kInflation);
-    std::optional<Patch> own;
-    const Complex u = box.u();
-    const Patch* patch = patches_.pick(above, disc(wide, u, 1), own);
-    Local g;
-    if (patch) {
-      g = patch->at(wide, u);
-      const Judged judged = judge(g, wide, patch->noise());
-      if (judged.verdict == Verdict::none) return;
-      if (judged.verdict == Verdict::one) {
-        Box zero = wide;
-        zero.w += judged.s * wide.w_half;
-        zero.theta = border ? kPi : wide.theta + judged.t * wide.theta_half;
-        found_.push_back(zero);
-        return;
-      }
-    }
-    split(box, u, border, g, patch ? patch : (above && !own ? above : nullptr));
-  }
-
-  void split(const Box& box, Complex u, bool border, const Local& g, const Patch* patch) {
-    double by_w = box.w_half * modulus(1.0 - u), by_theta = box.w * box.theta_half;
-    if (g.tt > 0) {
-      by_w = std::sqrt(g.ww) * box.w_half;
-      by_theta = std::sqrt(g.tt) * box.theta_half;
-    }
-    Box part = box;
-    if (by_w > by_theta) {
-      part.w_half = box.w_half / 2;
-      part.w = box.w - part.w_half;
-      go(part, border, patch);
-      part.w = box.w + part.w_half;
-      go(part, border, patch);
-    } else if (border) {
-      part.theta_half = box.theta_half / 3;
-      go(part, true, patch);
-      part.theta = box.theta - 2 * part.theta_half;
-      go(part, false, patch);
-    } else {
-      part.theta_half = box.theta_half / 2;
-      part.theta = box.theta - part.theta_half;
-      go(part, false, patch);
-      part.theta = box.theta + part.theta_half;
-      go(part, false, patch);
-    }
-  }
-
-  Patches patches_;
-  std::vector<Box> found_;
-  std::size_t boxes_ = 0;
 };
 
 Complex g_at(const Characteristic& f, double w, double theta) {
@@ -290,11 +167,11 @@ bool OnCircle::flip() const { return theta == kPi; }
 
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
                                 double from_mm, double to_mm) {
-  Search search(Patches(coarse, 1));
+  Search<Patches> search(Patches(coarse, 1));
   // The disc about w of radius w holds kappa for every depth up to w and |z| <= 1.
   constexpr double kReach = 1.6;
   std::optional<Patch> first;
-  if (from_mm == 0) first = search.patches().sampled({to_mm, kReach * to_mm});
+  if (from_mm == 0) first = search.source().sampled({to_mm, kReach * to_mm});
   search.strip(from_mm, to_mm, first ? &*first : nullptr);
 
   std::vector<OnCircle> zeros;
@@ -305,7 +182,7 @@ std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characterist
 std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coarse,
                                 const Characteristic& fine, double to_mm) {
   constexpr double kLarge = 1e-9;  // error: polish without the series
-  Search search{Patches(series)};
+  Search<Patches> search{Patches(series)};
   search.strip(0, to_mm, nullptr);
   std::vector<OnCircle> zeros;
   for (const Box& zero : search.found()) {

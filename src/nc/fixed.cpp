@@ -115,7 +115,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-void arc(Site& site, const OperationPlan& o, const Place& p) {
+void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   auto& s = p.surface();
   const auto& cut = cut_of(site, s);
   const bool mirrored = site.sign < 0;
@@ -130,12 +130,12 @@ void arc(Site& site, const OperationPlan& o, const Place& p) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, kProfilingCorner_mm, before, wall);
+    const auto way = tip_arc(raised, tool.re_mm, before, wall);
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
           "{:g} mm",
-          site.setup, o.id, s.id, cut.radius_mm, kProfilingCorner_mm));
+          site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
     site.approach(p.side, {way->from.h_mm, way->from.z_mm + kBefore_mm}, kAbove_mm);
@@ -175,7 +175,7 @@ void fixed(Site& site, std::size_t operation) {
     case FixedUse::threading:
       return thread(site, o, place_of(site, o.on[0]));
     case FixedUse::profiling:
-      return arc(site, o, place_of(site, o.on[0]));
+      return arc(site, o, tool, place_of(site, o.on[0]));
   }
 }
 

@@ -136,6 +136,15 @@ Step stop(std::string told) {
   return s;
 }
 
+// A turning program mills nothing: it stops where that is to be done.
+Step mill_here(const OperationPlan& o) {
+  const auto& p = o.passes[0];
+  return stop(
+      fmt::format("stop: not in this program: {} with {}, {} x {:.4g} mm, {:.0f} 1/min, "
+                  "{:.4g} mm/min",
+                  o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min));
+}
+
 // Before each operation, where somebody changes the clamping.
 std::vector<std::vector<Step>> stops(const Site& site) {
   const auto& s = site.answer();
@@ -226,6 +235,10 @@ SetupProgram program(Site& site, Numbers& numbers) {
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const auto& o = operations[i];
     p.steps.insert(p.steps.end(), changes[i].begin(), changes[i].end());
+    if (o.kind == OperationKind::mill) {
+      p.steps.push_back(mill_here(o));
+      continue;
+    }
     const auto tool = numbers.tool(site, o);
     if (std::none_of(p.tools.begin(), p.tools.end(),
                      [&](const TableTool& t) { return t.number == tool.number; }))

@@ -252,8 +252,7 @@ double corner_mm(const Site& site, const OperationPlan& o) {
   for (const auto& t : site.part.tools)
     if (t.id == o.tool) return t.re_mm;
   for (const auto& t : site.part.fixed_tools)
-    if (t.id == o.tool && t.use == catalogue::FixedUse::profiling)
-      return kProfilingCorner_mm;
+    if (t.id == o.tool) return t.re_mm;
   return 0;
 }
 

@@ -113,11 +113,11 @@ std::optional<double> first_order(const PartPlan& plan,
     }
     finish(done, work.setups[s]);
     if (own.features.empty()) continue;
-    const auto fixed = fixed_work(changed, s, own.clamping, work.setups[s]);
-    if (!fixed.conflicts.empty()) return {};
     const auto e = own.features[0].task.economy;
-    sum += besides(changed, own, fixed, economy(plan, changed, e)) -
-           besides(plan, own, own.fixed, e);
+    const auto then = economy(plan, changed, e);
+    const auto fixed = fixed_work(changed, s, own.clamping, work.setups[s], then);
+    if (!fixed.conflicts.empty()) return {};
+    sum += besides(changed, own, fixed, then) - besides(plan, own, own.fixed, e);
   }
   return sum;
 }

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numeric>
 
-#include "feature.hpp"
+#include "milled.hpp"
 #include "outcome.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
@@ -541,10 +541,16 @@ double FixedWork::edges_cost() const {
   return sum;
 }
 
+double FixedWork::open() const {
+  double sum = 0;
+  for (const auto& o : all()) sum += o.open;
+  return sum;
+}
+
 int FixedWork::indexings() const { return brought_in(before) + brought_in(after); }
 
 FixedWork fixed_work(const PartPlan& p, std::size_t setup, Clamping clamping,
-                     const SetupWork& work) {
+                     const SetupWork& work, const Economy& economy) {
   FixedWork out;
   Site s{p, setup, clamping, work, Stage::roughing, out};
   const auto& d = p.drawing;
@@ -560,6 +566,7 @@ FixedWork fixed_work(const PartPlan& p, std::size_t setup, Clamping clamping,
     for (const std::size_t i : work.elements) add_cut(s, d.outer[i], false, kind);
     for (const std::size_t i : work.bores) add_cut(s, d.inner[i], true, kind);
   }
+  add_milled(p, setup, clamping, economy, out);
   if (setup == 0 && d.stock.parted_mm) add_parting(s);
   return out;
 }
@@ -572,7 +579,7 @@ double drilled_mm(const PartPlan& p, part::End end) {
 
 std::vector<Conflict> fixed_conflicts(const PartPlan& p, std::size_t setup,
                                       Clamping clamping, const SetupWork& work) {
-  const auto fixed = fixed_work(p, setup, clamping, work);
+  const auto fixed = fixed_work(p, setup, clamping, work, {p.machine_per_min, 1});
   auto all = fixed.conflicts;
   for (const auto& o : fixed.all())
     for (const auto& c : o.plan.constraints)

@@ -1,11 +1,13 @@
 #pragma once
 #include <vector>
 
+#include "feature.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
-/// The operations of a setup at the catalogue's conditions: centre holes, drilling,
-/// arcs, grooves, threads, parting off.  Nothing of them is chosen.
+/// The operations of a setup beside turning and boring: centre holes, drilling, arcs,
+/// grooves, threads, parting off at the catalogue's conditions, and milled places at
+/// conditions of their own (milled.hpp).  The other surfaces' do not change them.
 namespace turnwright::planning {
 
 /// One of them with what it takes beside its entry in the result.
@@ -13,6 +15,7 @@ struct FixedOperation {
   OperationPlan plan;
   double minutes = 0;     ///< cut, approach, return and worn edges changed
   double edges_cost = 0;  ///< of worn edges
+  double open = 0;        ///< objective less its lower bound
 };
 
 struct FixedWork {
@@ -21,10 +24,11 @@ struct FixedWork {
   std::vector<FixedOperation> all() const;
   double minutes() const;
   double edges_cost() const;
+  double open() const;    ///< of all, objective less lower bound
   int indexings() const;  ///< tools brought in
 };
 
-/// What a setup does at fixed conditions, in order.
+/// What a setup does so, in order; milled places come before parting off.
 ///
 ///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P (1) centre,
 ///     drill:  t = (depth + D/2/tan(sigma/2) + 2)/(f n),  f = k D               (2)
@@ -41,7 +45,7 @@ struct FixedWork {
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
 /// the tool.
 FixedWork fixed_work(const PartPlan& plan, std::size_t setup, Clamping clamping,
-                     const SetupWork& work);
+                     const SetupWork& work, const Economy& economy);
 
 /// The conflicts of a setup at fixed conditions, limits that are not kept among them.
 std::vector<Conflict> fixed_conflicts(const PartPlan& plan, std::size_t setup,

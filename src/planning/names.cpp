@@ -32,6 +32,20 @@ const char* name(OperationKind k) {
       return "bore-finish";
     case OperationKind::fixed:
       return "fixed";
+    case OperationKind::mill:
+      return "mill";
+  }
+  return "";
+}
+
+const char* name(MilledKind k) {
+  switch (k) {
+    case MilledKind::flat:
+      return "flat";
+    case MilledKind::keyway:
+      return "keyway";
+    case MilledKind::slot:
+      return "slot";
   }
   return "";
 }

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "milled.hpp"
 #include "setup_planner.hpp"
 #include "turnwright/planning/machine_share.hpp"
 #include "window.hpp"
@@ -48,6 +49,7 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
     all.insert(all.end(), std::make_move_iterator(places[i].begin()),
                std::make_move_iterator(places[i].end()));
   for (const auto& o : s.fixed.after) all.push_back(o.plan);
+  for (auto& o : all) add_lobes(p, o);
   return all;
 }
 

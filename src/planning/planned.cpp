@@ -32,6 +32,13 @@ Certificate total_certificate(const Attempt& a) {
     }
   for (const auto& e : engines) c.engine += (c.engine.empty() ? "" : " and ") + e;
   c.lower_bound = std::min(a.lower_bound, a.objective);
+  for (const auto& s : a.setups)
+    for (const auto& o : s.chosen.fixed.all()) {
+      c.lower_bound -= o.open;
+      if (o.plan.certificate.kind == CertificateKind::global) continue;
+      c.kind = o.plan.certificate.kind;
+      c.reason = o.plan.id + ": " + o.plan.certificate.reason;
+    }
   c.gap = a.objective > 0 ? 1 - c.lower_bound / a.objective : 0;
   if (c.kind == CertificateKind::global && c.gap > kCertified) {
     c.kind = CertificateKind::local;

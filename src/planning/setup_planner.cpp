@@ -27,6 +27,12 @@ RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
   if (!least) return {t.id, use, "its grades are not for this material", {}};
   if (!std::isfinite(least->at_least))
     return {t.id, use, "cannot make every surface within its limits", {}};
+  if (!least->solved && least->at_least < best.at_least)
+    return {t.id, use,
+            fmt::format(
+                "as good as the chosen: at most {:.4f} below {:.4f} for this setup",
+                std::ceil(1e4 * (best.at_least - least->at_least)) / 1e4, best.at_least),
+            least->at_least};
   return {t.id, use,
           fmt::format("{} {:.4f} against {:.4f} for this setup",
                       least->solved ? "comes to" : "cannot come below", least->at_least,
@@ -61,7 +67,7 @@ SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clampi
       setup_(setup),
       clamping_(clamping),
       economy_(economy),
-      fixed_(fixed_work(p, setup, clamping, work)),
+      fixed_(fixed_work(p, setup, clamping, work, economy)),
       shared_(shared) {
   const auto& d = p.drawing;
   const auto add = [&](const std::string& surface, const auto& make) {

@@ -50,7 +50,7 @@ figure img { max-width: 100%; max-height: 70mm; display: block; margin: 0 auto }
 .pairs { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
 .pairs figure { margin: 0 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 7.5pt }
-@media print { body { margin: 0; padding: 0; max-width: none } }
+@media print { body { margin: 0; padding: 0; max-width: none } figure img { max-height: 62mm } }
 @media (max-width: 640px) { .scroll { overflow-x: auto } .pairs { grid-template-columns: 1fr } }
 )css";
 
@@ -299,6 +299,16 @@ std::string windows(const ordered_json& result, const Figures& figures) {
          pairs(out);
 }
 
+// Of every milled place: how deep it may be cut over the spindle's speeds.
+std::string stability(const ordered_json& result, const Figures& figures) {
+  std::string out;
+  for (const auto& setup : list(result, "setups"))
+    for (const auto& o : list(setup, "operations"))
+      out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
+                          "Stable depth over speed of " + word(o, "id"));
+  return out.empty() ? "" : tag("h2", "Stability of milled places") + pairs(out);
+}
+
 std::string compensation(const ordered_json& result) {
   std::string rows;
   for (const auto& c : list(result, "compensation")) {
@@ -373,7 +383,8 @@ std::string html(std::string_view name, const ordered_json& result,
          prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
-         compensation(result) + windows(result, figures) + assumptions(result);
+         compensation(result) + stability(result, figures) + windows(result, figures) +
+         assumptions(result);
   return out + "</main>\n</body>\n</html>\n";
 }
 

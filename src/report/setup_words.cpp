@@ -77,17 +77,36 @@ std::string speeds(const Passes& run) {
   return least == most ? least : least + "-" + most;
 }
 
+namespace {
+
+// What a milled place might bear where it is cut.
+std::string milled(const ordered_json& cut) {
+  const double depth = number(cut, "limit_mm").value_or(0);
+  const bool beyond = depth >= number(cut, "shown_mm").value_or(0);
+  return fmt::format(
+      "; {} lane{}, fz {} mm; stable to {}{} mm within {} % of the speed, {} % more than "
+      "the pass asked for",
+      shown(number(cut, "lanes"), 0), number(cut, "lanes") == 1 ? "" : "s",
+      shown(number(cut, "fz_mm"), 4), beyond ? "more than " : "", shown(depth, 3),
+      shown(100 * number(cut, "speed_margin").value_or(0), 1),
+      shown(100 * number(cut, "stability_margin").value_or(0), 0));
+}
+
+}  // namespace
+
 std::string note(const ordered_json& operation) {
   std::vector<std::string> on, binding;
   for (const auto& id : list(operation, "on"))
     if (id.is_string()) on.push_back(id.get<std::string>());
   for (const auto& c : list(operation, "constraints"))
     if (flag(c, "binding")) binding.push_back(word(c, "name"));
-  const auto direction = word(operation, "direction");
+  const bool mills = operation.contains("milling");
+  const auto direction = mills ? "" : word(operation, "direction");
   std::string text = word(operation, "kind") + " " + joined(on);
   if (direction == "to-chuck") text += ", towards the chuck";
   if (direction == "from-chuck") text += ", away from the chuck";
   text += binding.empty() ? "; no limit binds" : "; bound by " + joined(binding);
+  if (mills) text += milled(operation.at("milling"));
   const auto certificate = operation.find("certificate");
   const auto reason = certificate == operation.end() ? "" : word(*certificate, "reason");
   if (!reason.empty())

@@ -22,8 +22,8 @@ std::vector<Entry> list_materials(const document::Catalogue& catalogue) {
 
 std::vector<Entry> list_tools(const document::Catalogue& catalogue) {
   auto list = entries(catalogue.tools);
-  const auto fixed = entries(catalogue.fixed_tools);
-  list.insert(list.end(), fixed.begin(), fixed.end());
+  for (const auto& more : {entries(catalogue.fixed_tools), entries(catalogue.cutters)})
+    list.insert(list.end(), more.begin(), more.end());
   std::sort(list.begin(), list.end(),
             [](const Entry& a, const Entry& b) { return a.id < b.id; });
   return list;

@@ -22,6 +22,7 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/report/budget_drawing.hpp"
 #include "turnwright/report/drawing.hpp"
+#include "turnwright/report/milled_drawing.hpp"
 #include "turnwright/report/stability_chart.hpp"
 #include "turnwright/report/text.hpp"
 #include "turnwright/report/volumetric_drawing.hpp"
@@ -185,9 +186,12 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
   if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
     all.drawings.push_back({"budget.svg", std::move(svg)});
   for (const auto& setup : plan.setups)
-    for (const auto& o : setup.operations)
+    for (const auto& o : setup.operations) {
       if (o.window)
         all.drawings.push_back({"window-" + o.id + ".svg", report::window_drawing(o)});
+      if (o.milled)
+        all.drawings.push_back({"stability-" + o.id + ".svg", report::milled_drawing(o)});
+    }
   return all;
 }
 

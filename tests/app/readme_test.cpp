@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/file.hpp"
@@ -17,9 +19,34 @@ namespace {
 
 const std::filesystem::path kRoot = TURNWRIGHT_SOURCE_DIR;
 
-std::string readme() {
-  std::ifstream in(kRoot / "README.md");
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string readme() { return text_of(kRoot / "README.md"); }
+
+std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);
+  std::vector<std::string> all;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    all.push_back((*it)[1]);
+  return all;
+}
+
+// What links to a heading say: small letters, dashes for blanks, nothing else.
+std::set<std::string> anchors(const std::string& text) {
+  std::set<std::string> all;
+  for (const auto& heading : found(text, "^#+ (.*)$")) {
+    std::string anchor;
+    for (const char c : heading)
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+        anchor += static_cast<char>(std::tolower(c));
+      else if (c == ' ')
+        anchor += '-';
+    all.insert(anchor);
+  }
+  return all;
 }
 
 std::vector<std::vector<std::string>> rows(const std::string& text, std::size_t cells) {
@@ -74,6 +101,38 @@ TEST(Readme, FilesItNamesExist) {
     ++count;
   }
   EXPECT_GT(count, 20);
+}
+
+TEST(Docs, LinksAndTestsTheyNameExist) {
+  namespace fs = std::filesystem;
+  std::set<std::string> tests;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+    tests.insert(entry.path().stem().string());
+  std::vector<fs::path> files{kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  int links = 0, named = 0;
+  for (const auto& file : files) {
+    const auto text = text_of(file);
+    for (const auto& link : found(text, R"(\]\(([^)]+)\))")) {
+      if (link.starts_with("http")) continue;
+      ++links;
+      const auto hash = link.find('#');
+      const auto path = link.substr(0, hash);
+      const auto to = path.empty() ? file : file.parent_path() / path;
+      EXPECT_TRUE(fs::exists(to)) << file << ": " << link;
+      if (hash != std::string::npos) {
+        EXPECT_TRUE(anchors(text_of(to)).contains(link.substr(hash + 1)))
+            << file << ": " << link;
+      }
+    }
+    for (const auto& test : found(text, "`(\\w+_test)`")) {
+      ++named;
+      EXPECT_TRUE(tests.contains(test)) << file << ": " << test;
+    }
+  }
+  EXPECT_GT(links, 40);
+  EXPECT_GT(named, 20);
 }
 
 }  // namespace

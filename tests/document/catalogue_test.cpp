@@ -18,6 +18,7 @@ nlohmann::json example(const std::string& file) {
 }
 const char* const kMaterial = "materials/test-steel.json";
 const char* const kTool = "tools/test-rougher.json";
+const char* const kCutter = "tools/milling/test-cutter.json";
 const char* const kLathe = "machines/lathe-medium.json";
 
 template <class T>
@@ -220,6 +221,74 @@ TEST(Catalogue, EveryLatheFieldComesFromItsKey) {
   EXPECT_EQ(m.tool_rr_mm_N, 2.2e-5);
   EXPECT_EQ(m.tool_rt_mm_N, -3e-6);
   EXPECT_EQ(m.stiffness_uncertainty_pct, 25);
+  ASSERT_TRUE(m.driven_tools);
+  const auto& driven = *m.driven_tools;
+  EXPECT_EQ(driven.n_min_rpm, 45);
+  EXPECT_EQ(driven.n_max_rpm, 5500);
+  EXPECT_EQ(driven.efficiency, 0.7);
+  EXPECT_EQ(driven.feed_max_mm_min, 7000);
+  ASSERT_EQ(driven.curve.size(), 3U);
+  EXPECT_EQ(driven.curve[2].M_Nm, 6.53);
+  ASSERT_EQ(driven.modes.count("test-cutter"), 1U);
+  const auto& mode = driven.modes.at("test-cutter").at(0);
+  EXPECT_FALSE(mode.along_feed);
+  EXPECT_EQ(mode.frequency_Hz, 700);
+  EXPECT_EQ(mode.damping_ratio, 0.02);
+  EXPECT_EQ(mode.stiffness_N_mm, 9000);
+}
+
+TEST(Catalogue, EveryCutterFieldComesFromItsKey) {
+  const auto json = example(kCutter);
+  Problems problems;
+  const auto c = read_milling_cutter(Reader(json, problems));
+  ASSERT_TRUE(problems.list.empty());
+  EXPECT_EQ(c.id, "test-cutter");
+  EXPECT_EQ(c.name, "Invented cutter for tests");
+  EXPECT_EQ(c.dc_mm, 10);
+  EXPECT_EQ(c.teeth, 3);
+  EXPECT_EQ(c.re_mm, 0.5);
+  EXPECT_EQ(c.lu_mm, 25);
+  EXPECT_EQ(c.gamma_deg, 8);
+  EXPECT_TRUE(c.centre_cutting);
+  EXPECT_EQ(c.ap_mm.lower, 0.2);
+  EXPECT_EQ(c.ap_mm.upper, 15);
+  EXPECT_EQ(c.conditions_in(catalogue::IsoGroup::K), nullptr);
+  const auto* steel = c.conditions_in(catalogue::IsoGroup::M);
+  ASSERT_NE(steel, nullptr);
+  EXPECT_EQ(steel->vc_m_min.lower, 50);
+  EXPECT_EQ(steel->vc_m_min.upper, 190);
+  EXPECT_EQ(steel->hex_mm.lower, 0.01);
+  EXPECT_EQ(steel->hex_mm.upper, 0.055);
+  EXPECT_EQ(steel->T0_min, 45);
+  EXPECT_EQ(steel->v0_m_min, 130);
+  EXPECT_EQ(steel->n, 0.3);
+  EXPECT_EQ(c.Fc_max_N, 1100);
+  ASSERT_EQ(c.modes.size(), 2U);
+  EXPECT_TRUE(c.modes[0].along_feed);
+  EXPECT_FALSE(c.modes[1].along_feed);
+  EXPECT_EQ(c.modes[1].frequency_Hz, 950);
+  EXPECT_EQ(c.modes[1].damping_ratio, 0.035);
+  EXPECT_EQ(c.modes[1].stiffness_N_mm, 13000);
+  EXPECT_EQ(c.change_min, 1.25);
+  EXPECT_EQ(c.edge_cost, 30);
+}
+
+TEST(Catalogue, CuttersThatContradictThemselvesAreRefused) {
+  auto json = example(kCutter);
+  json["geometry"]["re_mm"] = 6;
+  json["geometry"]["ap_mm"] = {1, 26};
+  json["conditions"][1]["hex_mm"] = {0.1, 0.05};
+  EXPECT_EQ(problems_of(read_milling_cutter, json),
+            "/geometry/re_mm: got 6, expected a corner radius of at most half of dc_mm\n"
+            "/geometry/ap_mm: got [1,26], expected depths up to lu_mm at most\n"
+            "/conditions/1/hex_mm: got [0.1,0.05], expected [lower, upper] with lower <= "
+            "upper\n");
+  auto lathe = example(kLathe);
+  auto& measured = lathe["driven_tools"]["measured"];
+  measured.push_back(measured[0]);
+  EXPECT_EQ(problems_of(read_lathe, lathe),
+            "/driven_tools/measured/1/cutter: got \"test-cutter\", expected each cutter "
+            "once\n");
 }
 
 TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
@@ -227,6 +296,8 @@ TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
        {std::pair{kMaterial,
                   +[](const nlohmann::json& j) { return problems_of(read_material, j); }},
         {kTool, +[](const nlohmann::json& j) { return problems_of(read_tool, j); }},
+        {kCutter,
+         +[](const nlohmann::json& j) { return problems_of(read_milling_cutter, j); }},
         {kLathe, +[](const nlohmann::json& j) { return problems_of(read_lathe, j); }}}) {
     const auto good = example(name);
     EXPECT_EQ(read(good), "");

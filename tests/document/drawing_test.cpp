@@ -76,6 +76,11 @@ TEST(Drawing, TellsJawsAndWhichSetupCutsWhat) {
   // 20 mm of the stock, which begins at -3; then 30 mm of the finished part's right end.
   EXPECT_EQ(d.at("setups").at(0).at("jaws_z_mm"), 17.0);
   EXPECT_EQ(d.at("setups").at(1).at("jaws_z_mm"), 50.0);
+  EXPECT_FALSE(d.at("setups").at(1).contains("steady_z_mm"));
+  auto steadied = tube();
+  steadied["setups"][1]["clampings"].push_back("chuck-steady");
+  steadied["setups"][1]["steady_mm"] = 20;
+  EXPECT_EQ(drawn(steadied).at("setups").at(1).at("steady_z_mm"), 20.0);
   EXPECT_EQ(named(d.at("elements"), "c").at("setup"), 0);
   EXPECT_EQ(named(d.at("elements"), "a").at("setup"), 1);  // it begins in the jaws
   EXPECT_EQ(named(d.at("faces"), "left").at("setup"), 1);

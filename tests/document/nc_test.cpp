@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slips.hpp"
+#include "turnwright/document/compensate.hpp"
 #include "turnwright/document/file.hpp"
 
 namespace turnwright::document {
@@ -44,6 +45,23 @@ TEST(NcDoor, GivesAProgramForEverySetup) {
   for (const char* word : {"G96 D", "G95", "M8", "M30", "operation s0-finish-d2"})
     EXPECT_NE(text.find(word), text.npos) << word;
   EXPECT_NE(result["tool_table"].get<std::string>().find("T1 P1"), std::string::npos);
+}
+
+TEST(NcDoor, ItsProgramsAreTakenForCompensation) {
+  json machine = json::parse(R"({"chain": "wCfZXt", "diameter": true, "lathe": true,
+      "axes": [{"name": "C"}, {"name": "Z", "sq": {"EB0Z": 2e-5}}, {"name": "X"}]})");
+  for (int tool = 1; tool < 9; ++tool)
+    machine["tool_offsets_mm"][std::to_string(tool)] = {0, 0, 0};
+  for (const char* control : {"linuxcnc", "fanuc"}) {
+    json asked = request("drilled-bush");
+    asked["control"] = control;
+    for (const auto& program : answered(asked)["programs"]) {
+      machine["program"] = program["text"];
+      const auto corrected = compensate(machine);
+      EXPECT_GT(corrected["residual"]["before"]["max_mm"], 1e-4) << control;
+      EXPECT_LT(corrected["residual"]["after"]["max_mm"], 1e-4) << control;
+    }
+  }
 }
 
 TEST(NcDoor, SpeaksAnotherControlsWords) {

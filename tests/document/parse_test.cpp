@@ -57,6 +57,12 @@ TEST(Parse, PointsAtTheFirstByteThatIsNoJson) {
             "t: document: got an empty document, expected a JSON document");
 }
 
+TEST(Parse, ReadsOnBehindANul) {
+  using namespace std::string_view_literals;
+  for (const auto text : {"{}\0"sv, "{}\0{}"sv, "[1,\n2]\0 x"sv})
+    EXPECT_THROW(parse(text, "t"), InputError);
+}
+
 TEST(Parse, HoldsItsLimits) {
   EXPECT_EQ(refusal("[[[]]]", {.depth = 3}), "accepted");
   EXPECT_EQ(refusal("[[[[]]]]", {.depth = 3}),

@@ -32,6 +32,7 @@ TEST(Schema, FitsEveryFileOfTheCatalogue) {
     every_file_fits(root / "materials", "material.json");
     every_file_fits(root / "tools", "tool.json");
     every_file_fits(root / "tools" / "fixed", "fixed-tool.json");
+    every_file_fits(root / "tools" / "milling", "milling-cutter.json");
     every_file_fits(root / "machines", "lathe.json");
   }
 }
@@ -127,6 +128,9 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
     try_all(fixed, refused_entry<catalogue::FixedTool, read_fixed_tool>, tool_of_one_kind,
             50);
   }
+  try_all(SchemaCheck("milling-cutter.json"),
+          refused_entry<catalogue::MillingCutter, read_milling_cutter>,
+          example("tools/milling/test-cutter.json"));
   try_all(lathe, refused_entry<catalogue::Lathe, read_lathe>,
           example("machines/lathe-medium.json"));
 }

@@ -56,7 +56,7 @@ TEST(Stability, TellsTheIsland) {
 }
 
 TEST(Stability, ExamplesAreAnswered) {
-  for (std::size_t i = 0; i < 8; ++i) answered(example(i));
+  for (std::size_t i = 0; i < 10; ++i) answered(example(i));
 }
 
 TEST(Stability, SlotIsFullImmersionAndMassIsStiffness) {
@@ -251,6 +251,59 @@ stability: /uncertainty/samples: got 11, expected at most 100000 samples over al
             "stability: /depths: got 12, expected no such key without speeds_rpm\n"
             "stability: /uncertainty: got an object, expected no such key without "
             "speeds_rpm");
+}
+
+// A key whose value changes nothing changes no limit.
+TEST(Stability, EvenTeethAsPitchesAreThoseOfTheCutter) {
+  json q = example(0);
+  const json plain = answered(q);
+  q["pitch_deg"] = {180, 180};
+  q["feed_mm"] = 0.05;
+  const json even = answered(q);
+  const json &a = plain["speeds"][0]["crossings"], &b = even["speeds"][0]["crossings"];
+  ASSERT_EQ(b.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(a[i]["ap_mm"].get<double>() / b[i]["ap_mm"].get<double>(), 1, 1e-8);
+  EXPECT_EQ(b[0]["kind"], "fold");  // -1 of a tooth is 1 of a revolution of two
+  EXPECT_EQ(b[2]["kind"], "hopf");
+  // No mode along y: the wall is where the path is.
+  const json& walls = even["points"][0]["walls"];
+  ASSERT_EQ(walls.size(), 1u);
+  EXPECT_EQ(walls[0]["milled"], "down");
+  for (const json& left : walls[0]["left_mm"]) EXPECT_EQ(left, 0);
+}
+
+TEST(Stability, WallsOfAnUnstableCutAreNotTold) {
+  json q = example(0);
+  q["feed_mm"] = 0.05;
+  q["points"][0]["ap_mm"] = 5;
+  EXPECT_TRUE(answered(q)["points"][0]["walls"].is_null());
+}
+
+TEST(Stability, RefusesHalfToldCutters) {
+  json q = example(8);
+  q.erase("diameter_mm");
+  q.erase("feed_mm");
+  q["pitch_deg"] = {90, 90, 90, 80};
+  q["runout_mm"] = {0, 0, 0};
+  q["helix_deg"] = 90;
+  q["method"] = "simulation";
+  q["process_damping"] = {{"friction", -1}};
+  EXPECT_EQ(refused(q),
+            R"(stability: /helix_deg: got 90, expected a number from 0 to 80 deg
+stability: /pitch_deg: got [90,90,90,80], expected angles that add up to 360 deg
+stability: /runout_mm: got [0,0,0], expected a list of 4 entries
+stability: /process_damping/C_N_mm: got nothing, expected a number from 0 to 1000000 N/mm
+stability: /process_damping/friction: got -1, expected a number from 0 to 2
+stability: /diameter_mm: got nothing, expected a diameter, for helix_deg and process_damping
+stability: /method: got "simulation", expected no such key with helix_deg, pitch_deg, runout_mm, feed_mm or process_damping)");
+  q = example(8);
+  q.erase("feed_mm");
+  EXPECT_EQ(refused(q),
+            "stability: /feed_mm: got nothing, expected a feed per tooth, for runout_mm");
+  q = example(2);
+  q["helix_deg"] = 30;
+  EXPECT_EQ(refused(q), "stability: /helix_deg: got 30, expected no such key");
 }
 
 TEST(Stability, IsLeftSoonAfterAStopWasAskedFor) {

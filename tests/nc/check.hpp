@@ -104,7 +104,7 @@ class Check {
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
       if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};
-      return {{0.4, 0.5, 0, 4}, inner, false, false, 0, 0};
+      return {{t.re_mm, 0.5, 0, 4}, inner, false, false, 0, 0};
     }
     return {};
   }

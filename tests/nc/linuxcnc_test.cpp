@@ -152,9 +152,17 @@ TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
          return t.replace(t.find(" D"), t.find(" S", t.find("G96")) - t.find(" D"), "");
        }},
       {"another feed", [](auto t) { return replaced(t, " F0.", " F1."); }},
-      {"another speed", [](auto t) { return replaced(t, " S2", " S3"); }}};
+      {"another speed", [](auto t) { return replaced(t, " S2", " S3"); }},
+      {"another pitch", [](auto t) { return replaced(t, " K1.5", " K1.6"); }},
+      {"a rapid through the part",
+       [](auto t) { return replaced(t, "\nG1 Z-", "\nG0 Z-"); }},
+      {"an arc the other way",
+       [](auto t) { return replaced(replaced(t, "\nG2 ", "\nG0 "), "\nG3 ", "\nG2 "); }}};
   for (const auto& [what, slip] : slips)
     EXPECT_FALSE(faults_of(rs274, p, p, slip).empty()) << what;
+  auto other = p;
+  for (auto& t : other.part.fixed_tools) t.re_mm *= 2;
+  EXPECT_FALSE(faults_of(rs274, p, other).empty()) << "another corner, on an arc";
   auto pin = planned_reference("titanium-pin"), corner = pin;
   ASSERT_EQ(listed(faults_of(rs274, pin, pin)), "");
   for (auto& t : corner.part.tools) t.re_mm *= 1.1;

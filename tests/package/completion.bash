@@ -22,6 +22,7 @@ offers 'turnwright ' plan calibrate-material serve list --version
 offers 'turnwright plan --d' --drawings --data
 offers 'turnwright plan --re' --report
 offers 'turnwright serve --p' --port --page
+offers 'turnwright batch --s' --shard --slurm
 offers 'turnwright list m' materials machines
 cd "$(mktemp -d)"
 touch part.json

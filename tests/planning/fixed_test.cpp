@@ -236,7 +236,8 @@ TEST(Limits, WeakFeedDriveIsNamed) {
 TEST(Limits, ThrustBelowTheDriveIsFeasibleAndExact) {
   auto p = part(bush());
   const auto work = assign(p);
-  const auto ops = fixed_work(p, 0, Clamping::chuck, work.setups[0]).all();
+  const auto ops =
+      fixed_work(p, 0, Clamping::chuck, work.setups[0], {p.machine_per_min, 1}).all();
   ASSERT_EQ(ops[0].plan.id, "s0-drill-b1");
   const double Ff = ops[0].plan.passes[0].Ff_N;
   p.machine.feed_force_max_N = Ff * (1 + 1e-12);

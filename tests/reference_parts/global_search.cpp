@@ -69,7 +69,7 @@ class SetupSearch {
         clamping_(clamping),
         economy_(economy),
         effort_(effort),
-        fixed_(planning::fixed_work(p, setup, clamping, work)) {
+        fixed_(planning::fixed_work(p, setup, clamping, work, economy)) {
     if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
     for (const std::size_t i : work.elements) {
       auto f = Feature::element(p, setup, clamping, work, done, i, {});

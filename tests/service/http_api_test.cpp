@@ -58,6 +58,11 @@ TEST(HttpApi, EveryDocumentOfTheCatalogueIsThere) {
   }
 }
 
+TEST(HttpApi, ToolsOfEveryKindAreListed) {
+  for (const auto* id : {"PCLNL-CNMG120408-PM", "PART-3", "KEYWAY-HM-8"})
+    EXPECT_EQ(reply(call("GET", std::string("/v1/tools/") + id)).status, 200) << id;
+}
+
 TEST(HttpApi, NoPathLeadsToTheFileSystem) {
   for (const char* target :
        {"/v1/parts/../machines/lathe-small", "/v1/parts/..%2f..%2fREADME.md",

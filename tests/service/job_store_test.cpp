@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "temporary_folder.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
 
@@ -16,17 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class JobStoreTest : public testing::Test {
+class JobStoreTest : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path file() const { return folder_ / "jobs.sqlite"; }
-
-  fs::path folder_;
 };
 
 JobStore::Record record(const JobStore::Line& line, std::string text) {
@@ -35,8 +28,8 @@ JobStore::Record record(const JobStore::Line& line, std::string text) {
 
 TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   JobStore store(file());
-  const auto first = store.submit({"a", "", "b"});
-  const auto second = store.submit({"c"});
+  const auto first = *store.submit("a\n\nb");
+  const auto second = *store.submit("c\n");
   const auto lines = store.take(2);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].text + lines[1].text, "ab");
@@ -48,9 +41,20 @@ TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   EXPECT_EQ(store.job(first)->lines, 2);
 }
 
+TEST_F(JobStoreTest, TooManyLinesAreNoJobAndEmptyOnesAreNone) {
+  JobStore store(file());
+  std::string lines;
+  for (std::size_t i = 0; i <= JobStore::kMostLines; ++i) lines += "0\n";
+  EXPECT_FALSE(store.submit(lines));
+  EXPECT_TRUE(store.jobs().empty());
+  EXPECT_TRUE(store.submit(std::string(2 * JobStore::kMostLines, '\n') + "a"));
+  EXPECT_EQ(store.take(9).at(0).number,
+            static_cast<std::int64_t>(2 * JobStore::kMostLines + 1));
+}
+
 TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
   JobStore store(file());
-  const auto id = store.submit({"a", "b", "c"});
+  const auto id = *store.submit("a\nb\nc");
   const auto lines = store.take(3);
   store.finish(
       std::vector{record(lines[0], R"({"x":1})"), record(lines[2], R"({"x":3})")});
@@ -67,7 +71,7 @@ TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
 TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
   {
     JobStore store(file());
-    store.submit({"a", "b", "c"});
+    store.submit("a\nb\nc");
     const auto lines = store.take(2);
     store.finish(std::vector{record(lines[0], "{}")});
   }
@@ -80,7 +84,7 @@ TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
 
 TEST_F(JobStoreTest, ARecordOnceStoredStays) {
   JobStore store(file());
-  const auto id = store.submit({"a"});
+  const auto id = *store.submit("a");
   const auto lines = store.take(1);
   store.finish(
       std::vector{record(lines[0], R"({"x":1})"), record(lines[0], R"({"x":2})")});
@@ -90,7 +94,7 @@ TEST_F(JobStoreTest, ARecordOnceStoredStays) {
 
 TEST_F(JobStoreTest, CancelledLinesAreLeftAndRemovedJobsForgotten) {
   JobStore store(file());
-  const auto id = store.submit({"a", "b"});
+  const auto id = *store.submit("a\nb\n");
   const auto lines = store.take(1);
   EXPECT_TRUE(store.cancel(id));
   EXPECT_TRUE(store.take(9).empty());
@@ -122,7 +126,9 @@ TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   lines[4] = R"({"name": "multipas", "document": {}})";
   lines[5] = R"({"name": "multipass", "document": {"dt_mm": "8"}})";
   lines[6] = R"({"name": "multipass", "document": {"dt_mm": 100}})";
-  const auto id = store.submit(lines);
+  std::string text;
+  for (const auto& line : lines) text += line + '\n';
+  const auto id = *store.submit(text);
   {
     Batches batches(store, catalogue, 2);
     while (store.job(id)->state == "running")

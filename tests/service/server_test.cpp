@@ -85,14 +85,14 @@ TEST(Server, ClosesWhenAsked) {
   client.send(get("/healthz", "Connection: close\r\n"));
   EXPECT_EQ(status_of(client.rest()), 200);
   auto old = server.client();
-  old.send("GET /healthz HTTP/1.0\r\n\r\n");
+  old.send("GET /healthz HTTP/1.0\r\nConnection: keep-alive\r\n\r\n");
   EXPECT_EQ(status_of(old.rest()), 200);
 }
 
 TEST(Server, HeadHasNoBody) {
   const Running server;
   auto client = server.client();
-  client.send("HEAD /healthz HTTP/1.1\r\nConnection: close\r\n\r\n");
+  client.send("HEAD /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
   const auto all = client.rest();
   EXPECT_NE(all.find("Content-Length: 3\r\n"), std::string::npos);
   EXPECT_EQ(body_of(all), "");
@@ -107,18 +107,23 @@ TEST(Server, RefusesWhatIsTooLargeOrNoHttp) {
   };
   EXPECT_EQ(status(get('/' + std::string(100'000, 'a'))), 414);
   EXPECT_EQ(status(get("/healthz", "X: " + std::string(100'000, 'a') + "\r\n")), 431);
-  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 1000000000000\r\n\r\n"),
-            413);
+  EXPECT_EQ(
+      status(
+          "POST /v1/plan HTTP/1.1\r\nHost: x\r\nContent-Length: 1000000000000\r\n\r\n"),
+      413);
   EXPECT_EQ(status(post("/v1/plan", std::string(2'000'001, ' '))), 413);
-  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"),
+  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: "
+                   "chunked\r\n\r\nzz\r\n"),
             400);
-  std::string chunks = "POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n";
+  std::string chunks =
+      "POST /v1/plan HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n";
   for (int i = 0; i < 3; ++i)
     chunks += "f4240\r\n" + std::string(1'000'000, ' ') + "\r\n";
   EXPECT_EQ(status(chunks + "0\r\n\r\n"), 413);
-  EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
-                   std::string(1'000'000, 'a') + "\r\n{\r\n0\r\n\r\n"),
-            431);
+  EXPECT_EQ(
+      status("POST /v1/plan HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
+             std::string(1'000'000, 'a') + "\r\n{\r\n0\r\n\r\n"),
+      431);
   EXPECT_EQ(status("POST /v1/plan HTTP/1.1\r\nContent-Length: 5\r\n"
                    "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
             400);
@@ -127,11 +132,54 @@ TEST(Server, RefusesWhatIsTooLargeOrNoHttp) {
   EXPECT_EQ(status("GET /healthz HTTP/9.9\r\n\r\n"), 400);
 }
 
+TEST(Server, RefusesWhatTwoReadersCouldReadDifferently) {
+  const Running server;
+  const auto status = [&](const std::string& header, const char* version = "1.1") {
+    const auto client = server.client();
+    client.send("POST /v1/multipass HTTP/" + std::string(version) +
+                "\r\nContent-Type: application/json\r\nConnection: close\r\n" + header +
+                "\r\n{}");
+    return status_of(client.rest());
+  };
+  EXPECT_EQ(status("Host: x\r\nContent-Length: 2\r\n"), 200);
+  EXPECT_EQ(status("Content-Length: 2\r\n"), 400);
+  EXPECT_EQ(status("Content-Length: 2\r\n", "1.0"), 200);
+  EXPECT_EQ(status("Host: x\r\nHost: y\r\nContent-Length: 2\r\n"), 400);
+  EXPECT_EQ(status("Host: x\r\nTransfer-Encoding: xchunked\r\nContent-Length: 2\r\n"),
+            501);
+  EXPECT_EQ(status("Host: x\r\nTransfer-Encoding: gzip, chunked\r\n"), 501);
+  EXPECT_EQ(status("Host: x\r\nTransfer-Encoding: chunked\r\n", "1.0"), 501);
+  EXPECT_EQ(status("Host: x\r\nContent-Encoding: gzip\r\nContent-Length: 2\r\n"), 415);
+}
+
+// A browser is led here by a page from elsewhere, which may know this machine by a name
+// of its own.
+TEST(Server, AnswersPagesOfItsOwnAlone) {
+  const auto status = [](const Running& server, const std::string& header) {
+    const auto client = server.client();
+    client.send("GET /healthz HTTP/1.1\r\nConnection: close\r\n" + header + "\r\n");
+    return status_of(client.rest());
+  };
+  const Running open;
+  for (const char* host :
+       {"localhost:8080", "127.0.0.1", "[::1]:8080", "lathe", "10.0.0.7:1"})
+    EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 200) << host;
+  EXPECT_EQ(status(open, "Host: rebound.example:8080\r\n"), 421);
+  EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:1\r\n"), 200);
+  EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:2\r\n"), 403);
+  EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: null\r\n"), 403);
+  ServerOptions options;
+  options.keys = {"one-key-of-16-characters"};  // which no browser sends unasked
+  const Running locked(options);
+  EXPECT_EQ(status(locked, "Host: plans.example\r\nOrigin: https://plans.example\r\n"),
+            200);
+}
+
 TEST(Server, TakesChunksAndExpectations) {
   const Running server;
   auto client = server.client();
   const std::string head =
-      "POST /v1/multipass HTTP/1.1\r\nContent-Type: application/json\r\n";
+      "POST /v1/multipass HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n";
   EXPECT_EQ(status_of(client.ask(head + "Transfer-Encoding: chunked\r\n\r\n"
                                         "1\r\n{\r\n1\r\n}\r\n0\r\n\r\n")),
             200);
@@ -148,8 +196,9 @@ TEST(Server, SlowCallersAreCutAndDoNotHoldOthersUp) {
   std::vector<std::unique_ptr<RawClient>> slow;
   for (int i = 0; i < 50; ++i) {
     slow.emplace_back(new RawClient(server.client()));
-    slow.back()->send(i % 2 ? "GET /heal"
-                            : "POST /v1/plan HTTP/1.1\r\nContent-Length: 9\r\n\r\n{");
+    slow.back()->send(
+        i % 2 ? "GET /heal"
+              : "POST /v1/plan HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\n{");
   }
   auto client = server.client();
   EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
@@ -298,6 +347,7 @@ TEST(Server, WantsAKeyWhereThereAreKeys) {
   EXPECT_EQ(status("Authorization: Bearer one-key-of-16-character\r\n"), 401);
   EXPECT_EQ(status("Authorization: Basic one-key-of-16-characters\r\n"), 401);
   EXPECT_EQ(status("Authorization: Bearer another-key-of-16-characters\r\n"), 200);
+  EXPECT_EQ(status("Authorization: bearer another-key-of-16-characters\r\n"), 200);
   EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
   EXPECT_EQ(status_of(client.ask(get("/metrics"))), 401);
   // The page is no secret: it asks for the key.

@@ -83,6 +83,10 @@ async function planner() {
     await choose(page, part);
     await plan(page);
     assert.ok((await cost(page)) > 0);
+    if (part === 'roller-tube') {
+      await page.getByRole('button', { name: 'Setup 1' }).click();
+      await page.getByText('chuck steady, grip').waitFor(); // on a steady rest
+    }
     await look(page, `02-${part}`);
   }
 
@@ -186,6 +190,31 @@ async function papers() {
   await page.context().close();
 }
 
+async function otherwise() {
+  const page = await open({ viewport: { width: 1360, height: 900 } });
+  await choose(page, 'bearing-seat');
+  await page.getByLabel('Cost against time').fill('3');
+  await page.getByLabel('Cost against time').press('Tab');
+  await plan(page);
+  await page.getByRole('heading', { name: 'Cost against time' }).waitFor();
+  await page.getByRole('img', { name: /^Cost against time of/ }).waitFor();
+  const limit = page.getByLabel('Limit', { exact: true });
+  await limit.selectOption({ index: 1 });
+  const named = await limit.inputValue();
+  await page.getByLabel('Change [%]').fill('20');
+  await page.getByRole('button', { name: 'Ask', exact: true }).click();
+  await page.getByText(`${named} +20 %: plan to see`).waitFor();
+  await plan(page);
+  await page.getByText('plan to see').waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: `Remove ${named} +20 %` }).waitFor();
+  await look(page, '08-otherwise');
+  await page.getByRole('button', { name: `Remove ${named} +20 %` }).click();
+  await page.getByText('Prices are first order').waitFor();
+  await page.setViewportSize({ width: 400, height: 800 });
+  await look(page, '08-otherwise-narrow');
+  await page.context().close();
+}
+
 async function cancelled() {
   const page = await open({ viewport: { width: 1360, height: 900 } });
   await page.route('**/v1/plan', () => {}); // it never answers
@@ -271,7 +300,7 @@ async function others() {
 }
 
 let failed = 0;
-for (const round of [planner, papers, cancelled, impossible, locked, narrow, others]) {
+for (const round of [planner, papers, otherwise, cancelled, impossible, locked, narrow, others]) {
   try {
     await round();
     console.log(`passed: ${round.name}`);

@@ -32,6 +32,7 @@ struct FixedTool {
   double reach = 0;          ///< deepest cut: drills in diameters, blades in mm
   double point_deg = 0;      ///< of drills
   double ap_mm = 0;          ///< deepest pass of profiling
+  double re_mm = 0;          ///< corner radius of profiling tools
   double passes_per_mm = 0;  ///< infeeds of a thread per mm of pitch
   double gamma_deg = 0;      ///< rake
   std::vector<FixedConditions> conditions;

@@ -1,11 +1,13 @@
 #pragma once
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "turnwright/catalogue/geometric_errors.hpp"
+#include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
 namespace turnwright::catalogue {
@@ -27,6 +29,15 @@ struct Chuck {
   double friction = 0;              ///< mu_sp between jaws and part
   double n_max_rpm = 0;
   Range diameter_mm;  ///< what it can hold
+};
+
+/// Spindles of the turret for milling cutters.
+struct DrivenTools {
+  double n_min_rpm = 0, n_max_rpm = 0;
+  std::vector<CurvePoint> curve;  ///< as of the main spindle
+  double efficiency = 0;
+  double feed_max_mm_min = 0;
+  std::map<std::string, std::vector<TipMode>> modes;  ///< measured here, by cutter
 };
 
 struct Lathe {
@@ -52,6 +63,7 @@ struct Lathe {
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   std::optional<GeometricErrors> errors = {};
+  std::optional<DrivenTools> driven_tools = {};
   std::optional<double> damping_ratio = {};  ///< of slender work and bars in it
   std::vector<std::string> clampings;        ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {

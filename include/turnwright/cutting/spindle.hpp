@@ -25,6 +25,7 @@ struct SpeedRange {
 /// first point at its torque.  Segments of a log-concave curve support it, so the least
 /// of their lines is the curve; a curve with dips is cut into ranges where that holds.
 std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine);
+std::vector<SpeedRange> speed_ranges(const catalogue::DrivenTools& spindle);
 
 /// A path of the tool over diameters that change linearly along it (or not at all).
 template <class T>

@@ -9,11 +9,13 @@
 #include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/document/reader.hpp"
 
 /// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json,
-/// schemas/fixed-tool.json and schemas/lathe.json say which keys there are.
+/// schemas/fixed-tool.json, schemas/milling-cutter.json and schemas/lathe.json say which
+/// keys there are.
 namespace turnwright::document {
 
 /// All that a request may refer to by id; each list in the order of ids.
@@ -21,6 +23,7 @@ struct Catalogue {
   std::vector<catalogue::Material> materials;
   std::vector<catalogue::Tool> tools;
   std::vector<catalogue::FixedTool> fixed_tools;
+  std::vector<catalogue::MillingCutter> cutters;
   std::vector<catalogue::Lathe> machines;
   std::map<std::string, nlohmann::json> material_documents;  ///< as written, by id
 };
@@ -29,9 +32,11 @@ struct Catalogue {
 catalogue::Material read_material(Reader document);
 catalogue::Tool read_tool(Reader document);
 catalogue::FixedTool read_fixed_tool(Reader document);
+catalogue::MillingCutter read_milling_cutter(Reader document);
 catalogue::Lathe read_lathe(Reader document);
 
-/// The *.json files in materials/, tools/, tools/fixed/ and machines/ of `folder`.
+/// The *.json files in materials/, tools/, tools/fixed/, tools/milling/ and machines/ of
+/// `folder`.
 /// @throws InputError with all problems over all files; their pointers start with the
 /// file,
 ///   "materials/C45.json#/kienzle/mc".

@@ -33,8 +33,4 @@ enum class Purpose { plan, predict };
 LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
                           const std::string& document, Purpose purpose = Purpose::plan);
 
-/// What the schema allows but this version cannot plan (milling): one problem with code
-/// "unsupported" for each.
-void refuse_unsupported(const Reader& root);
-
 }  // namespace turnwright::document

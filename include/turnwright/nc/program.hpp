@@ -39,10 +39,6 @@
 /// lets the tools' circles pass over the contour.
 namespace turnwright::nc {
 
-/// Corner radius [mm] that profiling tools are taken to have: the usual one of inserts
-/// for profiling; the catalogue's documents say it in words only.
-inline constexpr double kProfilingCorner_mm = 0.4;
-
 /// What the control is told in its own words.
 enum class Control {
   linuxcnc,  ///< spindle's limit with G96 (D), G95, G33 K, diameters by G7
@@ -57,10 +53,10 @@ struct Move {
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
 };
 
-/// One operation of the plan, or a stop.
+/// One operation of the plan, or a stop: what is milled is not in a turning program.
 struct Step {
   std::vector<std::string> comments;
-  bool stop = false;  ///< M0: somebody changes the clamping
+  bool stop = false;  ///< M0: somebody changes the clamping, or mills
   int tool = 0;
   bool constant_surface_speed = false;
   double S = 0;          ///< m/min, or 1/min

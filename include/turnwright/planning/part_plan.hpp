@@ -1,6 +1,7 @@
 #pragma once
 #include <compare>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,8 +9,13 @@
 #include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/part/drawing.hpp"
+
+namespace turnwright::milling {
+class Lobes;
+}
 
 /// The request of `plan` and `predict` as plain values: everything resolved, every
 /// default filled in (document/ reports which under `assumed`).
@@ -63,7 +69,7 @@ struct MachinePlace {
   auto operator<=>(const MachinePlace&) const = default;
 };
 
-enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed };
+enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed, mill };
 const char* name(OperationKind kind);
 
 enum class Direction { to_chuck, from_chuck };
@@ -85,6 +91,40 @@ struct OperationRequest {
   Conditions conditions;
 };
 
+enum class MilledKind {
+  flat,    ///< across the cylinder, as wide as its chord
+  keyway,  ///< closed at both ends
+  slot     ///< runs out at one end of its element at least
+};
+const char* name(MilledKind kind);
+
+/// A way of milling a place: cutter, lanes side by side, and what they bear.
+struct MilledWay {
+  std::size_t cutter = 0;  ///< of Milled::cutters
+  int lanes = 1;
+  std::shared_ptr<const milling::Lobes> lobes;
+};
+
+/// A place milled into an outer cylinder once that is turned, by a driven tool whose axis
+/// crosses the part's at a right angle, fed along the part.
+struct Milled {
+  std::string id;
+  MilledKind kind = MilledKind::keyway;
+  std::size_t element = 0;          ///< of drawing.outer
+  double z_mm = 0, length_mm = 0;   ///< left end, along the part; rounded ends included
+  double width_mm = 0;              ///< of a flat the chord at its floor
+  double depth_mm = 0;              ///< of the floor below the cylinder's rim
+  double angle_deg = 0;             ///< of its middle about the axis
+  std::optional<double> corner_mm;  ///< largest corner radius at the floor
+  std::size_t setup = 0;
+  double depth_margin = 0.2;   ///< stable so much deeper, relative,
+  double speed_margin = 0.02;  ///< at every speed so much slower or faster
+  std::vector<catalogue::MillingCutter> cutters;  ///< one that is given, or all there are
+  std::optional<int> passes, lanes;               ///< given, else chosen
+  std::optional<double> n_rpm, fz_mm;
+  std::vector<MilledWay> ways;  ///< those that fit, of milled_ways
+};
+
 enum class Objective { cost, time, profit };
 
 struct PartPlan {
@@ -95,6 +135,7 @@ struct PartPlan {
   std::vector<catalogue::FixedTool> fixed_tools = {};
   std::vector<catalogue::Tool> spare_tools = {};  ///< of the catalogue, not asked for
   std::vector<SetupRequest> setups;
+  std::vector<Milled> milled = {};
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
   double batch = 1;

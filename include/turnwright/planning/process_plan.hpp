@@ -52,6 +52,23 @@ struct OperatingWindow {
   std::vector<WindowCurve> limit_curves, cost_curves;  ///< if asked for
 };
 
+/// How a milled place is cut, beside its passes, and how deep it might be.
+struct MilledCut {
+  MilledKind kind = MilledKind::keyway;
+  int lanes = 1;
+  double ae_mm = 0;  ///< radial depth of the widest cut
+  double fz_mm = 0, hm_mm = 0, vf_mm_min = 0;
+  double Kt_MPa = 0, Kn_MPa = 0;
+  double depth_margin = 0, speed_margin = 0;  ///< asked for
+  /// The part's compliance across the feed over the tool point's: both yield together.
+  double part_share = 0;
+  double limit_mm = 0;  ///< least first loss of stability of all speeds within the margin
+  /// First losses over the speeds of cutter and spindle, none: beyond the depth shown.
+  std::vector<double> n_rpm;
+  std::vector<std::optional<double>> limits_mm;
+  double shown_mm = 0;
+};
+
 struct OperationPlan {
   std::string id;
   OperationKind kind = OperationKind::rough;
@@ -64,6 +81,7 @@ struct OperationPlan {
   std::vector<ConstraintValue> constraints;
   Certificate certificate;
   std::optional<OperatingWindow> window;  ///< of conditions that were chosen
+  std::optional<MilledCut> milled = {};
 };
 
 struct RejectedClamping {

@@ -18,15 +18,18 @@ struct BatchRequest {
 /// @throws InputError if it is no JSON, or names no row, or holds other members.
 BatchRequest read_batch_line(const std::string& line);
 
+enum class BatchStatus { ok, infeasible, error };
+
 struct BatchRecord {
   std::string text;  ///< one line of JSON
-  bool error = false;
+  BatchStatus status = BatchStatus::ok;
 };
 
 /// The record of a line without its number: "status" is "ok", "infeasible" or "error";
 /// with "name" and "result" or with the problem's "title", "detail" and "errors".  Bad
 /// input is a record, never the end of a batch.
-/// @throws Cancelled if `stop` is asked for.
+/// @throws Cancelled if `stop` is asked for; std::bad_alloc, which says nothing about the
+///   line.
 BatchRecord batch_record(const BatchRequest& request, const Context& context);
 
 /// The record of a line that read_batch_line refused.

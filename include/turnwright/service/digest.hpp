@@ -1,10 +1,25 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // OpenSSL's EVP_MD_CTX
+
 namespace turnwright::service {
 
-/// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.  Source: FIPS 180-4.
+/// SHA-256 of bytes that come piece by piece.  Source: FIPS 180-4.
+class Sha256 {
+ public:
+  Sha256();
+  void update(std::string_view bytes);
+  /// Of all bytes so far, as 64 lower-case hexadecimal digits; ends the digest.
+  std::string hex();
+
+ private:
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> state_;
+};
+
+/// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
 
 /// The same in base64 (RFC 4648, section 4).

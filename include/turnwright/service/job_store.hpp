@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace SQLite {
@@ -48,8 +49,12 @@ class JobStore {
   explicit JobStore(const std::filesystem::path& file);
   ~JobStore();
 
-  /// Empty lines are skipped but counted, so that numbers are those of the sender's file.
-  std::int64_t submit(const std::vector<std::string>& lines);
+  /// A job of lines that end in "\n".  Empty lines are skipped but counted, so that
+  /// numbers are those of the sender's file.
+  /// @return its id; none, and nothing is stored, if there are more lines than
+  /// kMostLines.
+  std::optional<std::int64_t> submit(std::string_view text);
+  static constexpr std::size_t kMostLines = 1'000'000;
   std::optional<Job> job(std::int64_t id) const;
   std::vector<Job> jobs() const;
   /// Lines not yet taken are left; false if there is no such job.

@@ -6,6 +6,7 @@
 
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
+#include "turnwright/service/log.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -20,7 +21,7 @@ JobStore::Record answered(const JobStore& store, const JobStore::Line& line,
   JobStore::Record record{line.job, line.number, {}, {}, false};
   const auto take = [&](BatchRecord made) {
     record.text = std::move(made.text);
-    record.error = made.error;
+    record.error = made.status == BatchStatus::error;
   };
   try {
     const BatchRequest request = read_batch_line(line.text);
@@ -62,7 +63,11 @@ void Batches::work(const std::stop_token& stop) {
       const std::lock_guard lock(mutex_);
       seen = wakes_;
     }
-    if (work_some(stop)) continue;
+    try {
+      if (work_some(stop)) continue;
+    } catch (const std::exception& error) {  // a full disk; what was taken stays open
+      log_event("batches wait for a wake", error.what());
+    }
     std::unique_lock lock(mutex_);
     changed_.wait(lock, stop, [&] { return wakes_ != seen; });
   }

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "turnwright/service/batch_line.hpp"
@@ -47,8 +48,27 @@ Job job_of(SQLite::Statement& row) {
 
 constexpr const char* kJobColumns = "SELECT id, state, lines, open, errors FROM job ";
 
-bool blank(const std::string& line) {
-  return line.find_first_not_of(" \t\r") == std::string::npos;
+bool blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+struct Given {
+  std::int64_t number = 0;
+  std::string_view text;
+};
+
+/// Lines that are not blank; none if there are too many.
+std::optional<std::vector<Given>> lines_of(std::string_view text) {
+  std::vector<Given> lines;
+  for (std::int64_t number = 1; !text.empty(); ++number) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const auto line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (blank(line)) continue;
+    if (lines.size() == JobStore::kMostLines) return std::nullopt;
+    lines.push_back({number, line});
+  }
+  return lines;
 }
 
 }  // namespace
@@ -63,28 +83,27 @@ JobStore::JobStore(const std::filesystem::path& file) try
 
 JobStore::~JobStore() = default;
 
-std::int64_t JobStore::submit(const std::vector<std::string>& lines) {
+std::optional<std::int64_t> JobStore::submit(std::string_view text) {
+  const auto lines = lines_of(text);
+  if (!lines) return std::nullopt;
   const std::lock_guard lock(mutex_);
   SQLite::Transaction transaction(*database_);
   database_->exec("INSERT INTO job (state, lines, open) VALUES ('running', 0, 0)");
   const std::int64_t id = database_->getLastInsertRowid();
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (blank(lines[i])) continue;
+  for (const auto& line : *lines) {
     insert.bind(1, id);
-    insert.bind(2, static_cast<std::int64_t>(i) + 1);
-    insert.bindNoCopy(3, lines[i]);
+    insert.bind(2, line.number);
+    insert.bind(3, std::string(line.text));
     insert.exec();
     insert.reset();
-    ++count;
   }
   SQLite::Statement update(
       *database_,
       "UPDATE job SET lines = ?1, open = ?1, "
       "state = CASE WHEN ?1 = 0 THEN 'done' ELSE state END WHERE id = ?2");
-  update.bind(1, count);
+  update.bind(1, static_cast<std::int64_t>(lines->size()));
   update.bind(2, id);
   update.exec();
   transaction.commit();

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <new>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/document/reader.hpp"
 #include "turnwright/service/batch_line.hpp"
@@ -36,7 +38,7 @@ BatchRecord failed(const std::string& name, const std::string& title,
   return {
       one_line(
           {{"name", name}, {"status", "error"}, {"title", title}, {"detail", detail}}),
-      true};
+      BatchStatus::error};
 }
 
 }  // namespace
@@ -59,18 +61,24 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context) {
   const auto& name = request.row->name;
   try {
     const auto result = answer(*request.row, request.document, context);
-    return {one_line({{"name", name},
-                      {"status", infeasible(result) ? "infeasible" : "ok"},
-                      {"result", result}})};
+    const bool none = infeasible(result);
+    return {
+        one_line(
+            {{"name", name}, {"status", none ? "infeasible" : "ok"}, {"result", result}}),
+        none ? BatchStatus::infeasible : BatchStatus::ok};
   } catch (const InputError& error) {
     return {one_line({{"name", name},
                       {"status", "error"},
                       {"title", "wrong input"},
                       {"errors", problem_list(error)}}),
-            true};
+            BatchStatus::error};
   } catch (const ModelRangeError& error) {
     return failed(name, "outside a model's range", error.what());
-  } catch (const std::domain_error& error) {
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
     return failed(name, "internal error", error.what());
   }
 }
@@ -79,7 +87,7 @@ BatchRecord batch_record(const InputError& error) {
   return {one_line({{"status", "error"},
                     {"title", "wrong line"},
                     {"errors", problem_list(error)}}),
-          true};
+          BatchStatus::error};
 }
 
 std::string numbered(std::int64_t number, const std::string& text) {

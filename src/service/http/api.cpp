@@ -66,16 +66,6 @@ ordered_json to_json(const Job& job) {
           {"errors", job.errors}};
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
 Reply answer_with_result(const Request& row, const nlohmann::json& request,
                          const Context& context) {
   return {200, "application/json", text_of(answer(row, request, context)), {}};
@@ -157,11 +147,14 @@ Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
 
 Reply submit(Batches& batches, const Call& call) {
   if (!has_type(call, "application/jsonl")) return wrong_type(call, "application/jsonl");
-  const auto id = batches.store().submit(lines_of(call.body));
+  const auto id = batches.store().submit(call.body);
+  if (!id)
+    return problem(413, "lines",
+                   fmt::format("expected at most {} lines", JobStore::kMostLines), call);
   batches.wake();
-  Reply reply = job_reply(batches, id, call);
+  Reply reply = job_reply(batches, *id, call);
   reply.status = 202;
-  reply.headers.emplace_back("Location", fmt::format("/v1/batches/{}", id));
+  reply.headers.emplace_back("Location", fmt::format("/v1/batches/{}", *id));
   return reply;
 }
 
@@ -274,7 +267,8 @@ HttpApi::HttpApi(const std::filesystem::path& folder,
     auto& listing = listings_[what];
     auto index = ordered_json::array();
     std::map<std::string, std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / what)) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(folder / what)) {
       if (entry.path().extension() != ".json") continue;
       const auto document = document::parse_file(entry.path());
       const auto id = document.value("id", entry.path().stem().string());

@@ -3,6 +3,7 @@
 #include <ctime>
 #include <optional>
 
+#include "host.hpp"
 #include "keys.hpp"
 #include "state.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -196,6 +197,35 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
   return reply;
 }
 
+/// The answer to a header that is HTTP and yet not to be followed (RFC 9112, 3.2
+/// and 6.1), or that a page from elsewhere had a browser send; none otherwise.
+std::optional<Reply> objection(const ServerState& state, const Parser& parser,
+                               const Call& call) {
+  const auto& message = parser.get();
+  const auto host = text(message[http::field::host]);
+  const auto hosts = message.count(http::field::host);
+  if (hosts > 1 || (hosts == 0 && message.version() >= 11))
+    return problem(400, "host", "expected one Host", call);
+  const auto coding = text(message[http::field::transfer_encoding]);
+  if (!coding.empty() && (!beast::iequals(coding, "chunked") || message.version() < 11))
+    return problem(501, "transfer-coding",
+                   "got '" + coding + "', expected chunked or none", call);
+  const auto encoding = text(message[http::field::content_encoding]);
+  if (!encoding.empty() && !beast::iequals(encoding, "identity"))
+    return problem(415, "content-coding", "got '" + encoding + "', expected none", call);
+  if (!state.options.keys.empty()) return std::nullopt;  // no browser sends one unasked
+  const auto origin = text(message[http::field::origin]);
+  if (!origin.empty() && !origin_is(origin, host))
+    return problem(403, "origin", "pages of " + origin + " may not ask here", call);
+  if (hosts == 1 && !is_local(host))
+    return problem(421, "host",
+                   "got Host '" + host +
+                       "', expected an address or a name without a dot; others need "
+                       "keys (--keys)",
+                   call);
+  return std::nullopt;
+}
+
 /// The answer to what could not be read; none where the client just left.
 std::optional<Reply> refusal(const error_code& ec, const Call& call) {
   const auto megabytes = HttpApi::body_limit(call) / 1'000'000;
@@ -219,10 +249,7 @@ asio::awaitable<error_code> read_call_body(const ServerState& state,
                                            Connection& connection, Parser& parser,
                                            Call& call) {
   error_code ec;
-  const auto limit = HttpApi::body_limit(call);
-  if (parser.content_length() && *parser.content_length() > limit)
-    co_return http::make_error_code(http::error::body_limit);
-  parser.body_limit(limit);
+  parser.body_limit(HttpApi::body_limit(call));
   const Alarm alarm(connection.socket, state.options.body);
   if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
     constexpr char kGo[] = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -257,15 +284,22 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   Parser parser;
   error_code ec = co_await read_call_header(state, connection, parser);
   Call call = call_of(parser, state);
-  if (!ec) ec = co_await read_call_body(state, connection, parser, call);
-  const auto arrived = Clock::now();
   std::optional<Reply> reply;
+  if (!ec && parser.content_length() &&
+      *parser.content_length() > HttpApi::body_limit(call))
+    ec = http::make_error_code(http::error::body_limit);
+  if (!ec) reply = objection(state, parser, call);
+  const bool taken = !ec && !reply;
+  if (taken) ec = co_await read_call_body(state, connection, parser, call);
+  const auto arrived = Clock::now();
   if (ec)
     reply = refusal(ec, call);
-  else if (!(reply = at_once(state, call)))
+  else if (taken && !(reply = at_once(state, call)))
     reply = co_await computed(state, connection, call);
-  const bool keep_alive =
-      !ec && parser.get().keep_alive() && (!state.draining || has_arrived(connection));
+  // A client of HTTP/1.0 would have to be told that it may send more.
+  const bool keep_alive = taken && !ec && parser.get().version() >= 11 &&
+                          parser.get().keep_alive() &&
+                          (!state.draining || has_arrived(connection));
   const int status = reply ? reply->status : 499;
   const std::size_t bytes = reply ? reply->body.size() : 0;
   if (ec && !reply) co_return false;

@@ -3,6 +3,7 @@
 #include <openssl/crypto.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <fstream>
 
 #include "turnwright/service/digest.hpp"
@@ -45,7 +46,7 @@ std::vector<std::string> read_keys(const std::filesystem::path& file) {
 // Digests have one length, so that comparing them tells nothing of the keys'.
 bool authorized(const std::vector<std::string>& keys, std::string_view authorization) {
   constexpr std::string_view kScheme = "Bearer ";
-  const bool scheme = authorization.starts_with(kScheme);
+  const bool scheme = boost::algorithm::istarts_with(authorization, kScheme);
   const auto given =
       sha256_hex(authorization.substr(std::min(kScheme.size(), authorization.size())));
   bool found = false;

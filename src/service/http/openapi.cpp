@@ -1,5 +1,8 @@
 #include "openapi.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "turnwright/document/file.hpp"
 #include "turnwright/service/requests.hpp"
 
@@ -142,12 +145,15 @@ ordered_json get(const std::string& id, const std::string& summary, ordered_json
 }
 
 void add_listing(ordered_json& paths, const std::string& what,
-                 const std::string& schema) {
+                 const std::vector<std::string>& schemas) {
   const auto none = ordered_json::array();
+  auto any = ordered_json::array();
+  for (const auto& schema : schemas) any.push_back(reference(schema));
+  const auto document = any.size() == 1 ? any[0] : ordered_json{{"anyOf", any}};
   paths["/v1/" + what] =
       get("list-" + what, "ids and names", json_content(reference("entries")), none);
   paths["/v1/" + what + "/{id}"] =
-      get("get-" + what, "the document", json_content(reference(schema)),
+      get("get-" + what, "the document", json_content(document),
           {path_parameter("id", {{"type", "string"}})},
           {{"404", problem("no document of this id")}});
 }
@@ -239,13 +245,14 @@ ordered_json openapi(const std::filesystem::path& folder) {
     add_schema(schemas, folder, request_schema(row));
     add_schema(schemas, folder, result_schema(row));
   }
-  const std::pair<const char*, const char*> listings[] = {{"materials", "material"},
-                                                          {"tools", "tool"},
-                                                          {"machines", "lathe"},
-                                                          {"parts", "part"}};
-  for (const auto& [what, schema] : listings) {
-    add_listing(paths, what, schema);
-    add_schema(schemas, folder, std::string(schema) + ".json");
+  const std::pair<const char*, std::vector<std::string>> listings[] = {
+      {"materials", {"material"}},
+      {"tools", {"tool", "fixed-tool", "milling-cutter"}},
+      {"machines", {"lathe"}},
+      {"parts", {"part"}}};
+  for (const auto& [what, documents] : listings) {
+    add_listing(paths, what, documents);
+    for (const auto& schema : documents) add_schema(schemas, folder, schema + ".json");
   }
   add_batches(paths);
   const ordered_json text{{"text/plain", {{"schema", {{"type", "string"}}}}}};

@@ -49,6 +49,7 @@ export interface DrawnSetup {
   hold: 'left' | 'right';
   grip_mm: number;
   jaws_z_mm: number;
+  steady_z_mm?: number;
   clampings: string[];
 }
 
@@ -147,6 +148,18 @@ export interface Price extends Sentence {
   saves_per_part_for_10_percent: number;
 }
 
+export interface Corner {
+  cost_per_part: number;
+  time_per_part_min: number;
+  minute_worth?: number;
+}
+
+export interface WhatIfAnswer extends Sentence {
+  name: string;
+  status: 'ok' | 'infeasible';
+  saves_per_part: number | null;
+}
+
 export interface Plan {
   status: 'ok' | 'infeasible';
   cost_per_part: number | null;
@@ -156,7 +169,9 @@ export interface Plan {
   tolerances: Tolerance[];
   deviations: OnSurface[];
   compensation: OnSurface[];
+  pareto?: Corner[];
   prices: Price[];
+  what_if?: WhatIfAnswer[];
   conflicts: Sentence[];
   relax: Sentence[];
   remedies?: Sentence[];

@@ -1,0 +1,87 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "turnwright/service/batch_chunk.hpp"
+#include "turnwright/service/batch_input.hpp"
+
+/// The folder of a batch:
+///
+///     manifest.json    what is answered: input, data, version; how many lines a chunk
+///     has work/N.jsonl     chunk N (from 0), while the batch is not complete
+///     results.jsonl    every record, in the order of lines; appears at once
+///     summary.json     how many of each kind, length and SHA-256 of results.jsonl
+///
+/// All of it is a function of the input, the data and the version; nothing is changed
+/// once it has its name.  So whoever is killed, cut off or started twice does no harm,
+/// on one machine or on many that share the folder.
+namespace turnwright::service {
+
+struct BatchManifest {
+  BatchInput::Contents input;
+  std::string data_sha256;  ///< of materials, tools and machines
+  std::int64_t chunk_lines = 100;
+
+  std::string text() const;  ///< as in manifest.json, with the version
+  std::int64_t chunks() const { return (input.lines + chunk_lines - 1) / chunk_lines; }
+};
+
+struct BatchSummary {
+  BatchCounts counts;
+  std::int64_t bytes = 0;  ///< of results.jsonl
+  std::string sha256;
+};
+
+/// SHA-256 over names and contents of all that load_catalogue() reads.
+std::string data_sha256(const std::filesystem::path& data_folder);
+
+class BatchFolder {
+ public:
+  /// Begins a batch in the folder, or goes on with it.
+  /// @param chunk_lines  none: as the batch was begun, else BatchManifest's default.
+  /// @throws InputError if the batch was begun with another input, other data, version or
+  ///   chunks, or if the folder holds what no batch has written; OutputError.
+  BatchFolder(std::filesystem::path folder, const BatchInput::Contents& input,
+              const std::string& data_sha256, std::optional<std::int64_t> chunk_lines);
+
+  const std::filesystem::path& path() const { return folder_; }
+  const BatchManifest& manifest() const { return manifest_; }
+  std::filesystem::path work() const { return folder_ / "work"; }
+  std::filesystem::path chunk_file(std::int64_t chunk) const;
+
+  /// A digest that makes the chunk's key when it has got the chunk's lines.
+  Sha256 key_of(std::int64_t chunk) const;
+  /// The key of the chunk whose lines come next; goes behind them.
+  std::string read_key(std::int64_t chunk, BatchInput& input) const;
+
+  /// The summary of a complete batch; none if it is not complete.
+  /// @throws InputError if results.jsonl is not what the batch wrote.
+  std::optional<BatchSummary> complete() const;
+
+  /// Puts the chunks together; `work/` goes.
+  /// @throws OutputError; InputError if a chunk is missing or the input has changed.
+  BatchSummary assemble(BatchInput& input) const;
+
+ private:
+  std::filesystem::path folder_;
+  BatchManifest manifest_;
+  std::string id_;
+};
+
+/// Keeps a second run out of the folder while it lives, also one that was killed.
+class FolderLock {
+ public:
+  /// @throws OutputError if another run holds it.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace turnwright::service

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "turnwright/service/batch_runner.hpp"
+
+/// A batch as job arrays of Slurm, whose tasks are shards of it and share the folder.
+///
+/// Slurm runs a task at least once, and it may forget an array that it has acknowledged.
+/// So what counts is what lies in the folder: whatever is missing when no task is left is
+/// submitted again.
+namespace turnwright::service {
+
+struct SlurmOptions {
+  std::filesystem::path program;   ///< as every node finds it
+  std::filesystem::path data;      ///< the same of materials, tools and machines
+  std::int64_t task_lines = 1000;  ///< more where the array would have over 1000 tasks
+  unsigned jobs = 1;               ///< cores of a task
+};
+
+class SlurmBatch {
+ public:
+  SlurmBatch(BatchInput& input, const BatchFolder& folder, SlurmOptions options);
+
+  /// Submits what is missing as one array; tells its number, "" where nothing is missing.
+  /// @throws OutputError if Slurm refuses or tasks of this batch are in its queue.
+  std::string submit();
+
+  /// Waits until no task is left, submits what is missing, and so on until nothing is.
+  /// @throws OutputError if three arrays in a row bring nothing new, or if Slurm is
+  /// silent
+  ///   for ten minutes.
+  void complete(const std::function<void(const std::string&)>& tell);
+
+ private:
+  std::vector<std::int64_t> missing_tasks();
+  std::string submit(const std::vector<std::int64_t>& tasks);
+  void wait();
+
+  BatchInput& input_;
+  const BatchFolder& folder_;
+  SlurmOptions options_;
+  std::int64_t tasks_;
+  std::string name_;  ///< of the arrays
+};
+
+}  // namespace turnwright::service

@@ -1,0 +1,182 @@
+#include "batch.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/service/batch_runner.hpp"
+#include "turnwright/service/slurm.hpp"
+
+namespace turnwright::app {
+namespace {
+
+namespace fs = std::filesystem;
+using service::BatchProgress;
+using std::chrono::steady_clock;
+
+struct BatchArguments {
+  fs::path lines, folder;
+  std::optional<unsigned> jobs;
+  std::optional<std::int64_t> chunk;
+  std::string shard;
+  std::int64_t task_lines = service::SlurmOptions{}.task_lines;
+  bool slurm = false, reconcile = false;
+};
+
+/// @throws InputError if it is not of the form "2/5".
+service::Shard shard_of(const std::string& text) {
+  service::Shard shard;
+  if (text.empty()) return shard;
+  char slash = 0;
+  std::istringstream in(text);
+  in >> shard.index >> slash >> shard.count;
+  if (!in || slash != '/' || !in.eof() || !(shard.index >= 1) ||
+      !(shard.index <= shard.count))
+    throw InputError("--shard",
+                     {{"", '"' + text + '"', "i/n with 1 <= i <= n", "range"}});
+  return shard;
+}
+
+std::string duration(double seconds) {
+  const auto minutes = static_cast<long>(seconds / 60);
+  if (minutes >= 120) return std::to_string(minutes / 60) + " h";
+  if (minutes >= 2) return std::to_string(minutes) + " min";
+  return std::to_string(static_cast<long>(seconds)) + " s";
+}
+
+/// One line on a terminal that is written over and over; elsewhere nothing.
+class ProgressLine {
+ public:
+  void tell(const BatchProgress& now) {
+    if (!terminal_) return;
+    const auto time = steady_clock::now();
+    if (time - told_ < std::chrono::milliseconds(200)) return;
+    told_ = time;
+    const double rate = static_cast<double>(now.done) /
+                        std::chrono::duration<double>(time - begun_).count();
+    const auto gone = now.found + now.done;
+    std::fprintf(stderr, "\r%lld of %lld lines, %.*f/s, %s left\033[K",
+                 static_cast<long long>(gone), static_cast<long long>(now.lines),
+                 rate < 10 ? 2 : 0, rate,
+                 duration(static_cast<double>(now.lines - gone) / rate).c_str());
+  }
+  ~ProgressLine() {
+    if (terminal_) std::fputs("\r\033[K", stderr);
+  }
+
+ private:
+  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
+  steady_clock::time_point begun_ = steady_clock::now(), told_ = begun_;
+};
+
+void tell(const service::BatchFolder& folder, const service::BatchSummary& summary) {
+  const auto& counts = summary.counts;
+  service::print((folder.path() / "results.jsonl").string() + ": " +
+                 std::to_string(counts.records()) + " records, " +
+                 std::to_string(counts.ok) + " ok, " + std::to_string(counts.infeasible) +
+                 " infeasible, " + std::to_string(counts.errors) + " errors\n");
+}
+
+void run_here(const BatchArguments& arguments, const fs::path& data,
+              service::BatchInput& input, const service::BatchFolder& folder,
+              const service::Shard& shard) {
+  const auto catalogue = document::load_catalogue(data);
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  ProgressLine line;
+  service::run_batch(input, folder, shard, catalogue, arguments.jobs.value_or(cores),
+                     [&line](const BatchProgress& now) { line.tell(now); });
+}
+
+/// Whether the batch can be put together now.
+bool run_on_cluster(const BatchArguments& arguments, const fs::path& data,
+                    service::BatchInput& input, const service::BatchFolder& folder) {
+  service::SlurmBatch cluster(input, folder,
+                              {.program = fs::read_symlink("/proc/self/exe"),
+                               .data = fs::canonical(data),
+                               .task_lines = arguments.task_lines,
+                               .jobs = arguments.jobs.value_or(1)});
+  if (arguments.reconcile) {
+    cluster.complete([](const std::string& text) { service::print(text + '\n'); });
+    return true;
+  }
+  const auto array = cluster.submit();
+  if (array.empty()) return true;
+  service::print("submitted as array " + array + "; --reconcile waits for the results\n");
+  return false;
+}
+
+void run_batch(const BatchArguments& arguments,
+               const std::optional<fs::path>& data_option) {
+  const auto shard = shard_of(arguments.shard);
+  const auto data = document::data_folder(data_option);
+  service::BatchInput input(arguments.lines);
+  const auto contents = input.contents();
+  service::make_folder(arguments.folder);
+  std::optional<service::FolderLock> lock;
+  if (arguments.shard.empty()) lock.emplace(arguments.folder);
+  const service::BatchFolder folder(arguments.folder, contents,
+                                    service::data_sha256(data), arguments.chunk);
+  if (const auto summary = folder.complete()) return tell(folder, *summary);
+  if (arguments.slurm || arguments.reconcile) {
+    if (!run_on_cluster(arguments, data, input, folder)) return;
+  } else {
+    run_here(arguments, data, input, folder, shard);
+  }
+  if (arguments.shard.empty()) return tell(folder, folder.assemble(input));
+  service::print("shard " + arguments.shard + " is done\n");
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app, const std::optional<fs::path>& data,
+               const std::function<void(std::function<void()>)>& chosen) {
+  auto* command = app.add_subcommand("batch", "many requests, one a line, to a folder");
+  auto arguments = std::make_shared<BatchArguments>();
+  command
+      ->add_option("LINES", arguments->lines,
+                   R"(file of lines {"name": "plan", "document": {..}})")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->folder,
+                   "folder of the results; a run that was cut short goes on there")
+      ->required();
+  command->add_option("--jobs", arguments->jobs, "lines at once (default: one a core)")
+      ->check(CLI::Range(1U, 1024U));
+  auto* shard = command->add_option("--shard", arguments->shard,
+                                    "part i/n of the lines; when all are done, a run "
+                                    "without --shard puts them together");
+  command
+      ->add_option("--chunk", arguments->chunk,
+                   "lines that are kept together; a kill costs no more (default: 100)")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
+  auto* slurm = command->add_flag("--slurm", arguments->slurm,
+                                  "submit as an array of Slurm, and return");
+  auto* reconcile =
+      command->add_flag("--reconcile", arguments->reconcile,
+                        "wait for Slurm's tasks, submit what is missing, until all is "
+                        "there; then put it together");
+  slurm->excludes(shard);
+  reconcile->excludes(shard)->excludes(slurm);
+  command
+      ->add_option("--task-lines", arguments->task_lines, "lines of one of Slurm's tasks")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
+      ->capture_default_str();
+  command->footer(
+      "Writes results.jsonl, one record a line, in the order of LINES, and "
+      "summary.json.\n"
+      "Example:\n"
+      R"(  printf '{"name": "multipass", "document": {"dt_mm": %d}}\n' 6 8 > depths.jsonl)"
+      "\n  turnwright batch depths.jsonl -o depths");
+  command->callback([arguments, &data, chosen] {
+    chosen([arguments, &data] { run_batch(*arguments, data); });
+  });
+}
+
+}  // namespace turnwright::app

@@ -1,0 +1,205 @@
+#include "turnwright/milling/cutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "chatter_frequency.hpp"
+#include "contact.hpp"
+#include "delay_map.hpp"
+#include "sheet.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::milling {
+namespace {
+
+using units::kPi;
+
+/// One sheet as a source of patches.
+struct OneSheet {
+  using Patch = Sheet;
+  const Sheet* sheet = nullptr;
+  const Sheet* pick(const Sheet*, const Box&, Complex, std::optional<Sheet>&) const {
+    return sheet;
+  }
+};
+
+// As w rises ln |mu| grows by Im(g_w/g_theta) dw, see unit_circle.cpp.
+double outwards(const Local& g) { return cross(g.g_theta, g.g_w) / std::norm(g.g_theta); }
+
+/// Newton's method on the sheet, then one step to the finer map's multiplier.
+OnCircle polished(const Sheet& sheet, const MultipliersAt& fine, const Box& zero) {
+  constexpr int kSteps = 30;
+  OnCircle at{.w_mm = zero.w, .theta = zero.theta};
+  const bool on_line = at.theta == 0 || at.theta == kPi;
+  Local g;
+  for (int i = 0; i < kSteps; ++i) {
+    const Box point{at.w_mm, 0, at.theta, 0};
+    g = sheet.at(point, point.u());
+    const double det = cross(g.g_w, g.g_theta);
+    const double dw = on_line ? -g.g.real() / g.g_w.real() : -cross(g.g, g.g_theta) / det;
+    if (!on_line) at.theta -= cross(g.g_w, g.g) / det;
+    at.w_mm += dw;
+    if (std::abs(dw) <= 1e-14 * at.w_mm) break;
+  }
+  const double uncertain =
+      sheet.noise() * (on_line ? 1 / std::abs(g.g_w.real())
+                               : std::abs(g.g_theta / cross(g.g_w, g.g_theta)));
+  const Complex right = std::polar(1.0, at.theta);
+  const auto all = fine(at.w_mm);
+  const Complex nearest =
+      *std::ranges::min_element(all, {}, [&](Complex mu) { return modulus(mu - right); });
+  const double step = -std::log(modulus(nearest)) / outwards(g);
+  at.change = (outwards(g) > 0 ? 1 : -1) * (on_line ? 1 : 2);
+  at.relative_error = (std::abs(step) + uncertain) / at.w_mm;
+  at.w_mm += step;
+  return at;
+}
+
+/// Zeros on the circle from 0 up to a depth.
+class Ascent {
+ public:
+  Ascent(const Cutter& cutter, double n_rpm, double ap_max)
+      : coarse_(at_depths(cutter, n_rpm, ap_max, kPlain)),
+        fine_(at_depths(cutter, n_rpm, ap_max, kFiner)),
+        ap_max_(ap_max),
+        tail_(cutter.helix_rad > 0 ? 1e-6 : 1e-9) {
+    double from = 0;
+    std::vector<double> ends = kinks_mm(cutter, n_rpm, ap_max);
+    ends.push_back(ap_max);
+    for (const double to : ends)
+      if (to > from) {
+        climb(from, to);
+        from = to;
+      }
+    std::ranges::sort(zeros_, {}, &OnCircle::w_mm);
+  }
+
+  const std::vector<OnCircle>& zeros() const { return zeros_; }
+
+ private:
+  static MultipliersAt at_depths(const Cutter& cutter, double n_rpm, double deepest,
+                                 const Fineness& fineness) {
+    return [&cutter, n_rpm, deepest, fineness](double w) {
+      return DelayMap(cutter, n_rpm, w, deepest, fineness).multipliers();
+    };
+  }
+
+  void climb(double from, double to) {
+    constexpr double kRough = 1e-5, kNarrow = 1e-2;
+    const bool narrow = to - from < kNarrow * ap_max_;
+    const auto sheet = Sheet::sampled(coarse_, from, to, narrow ? kRough : tail_);
+    if (sheet && enter(*sheet)) return;
+    if (narrow)
+      throw ModelRangeError(
+          "milling: what this cutter does near a depth of " + std::to_string(from) +
+          " mm cannot be told; ask for a smaller ap_max_mm or a higher speed");
+    const double middle = from + 0.49 * (to - from);
+    climb(from, middle);
+    climb(middle, to);
+  }
+
+  /// False if noise hides zeros or those found do not explain the change of the count.
+  bool enter(const Sheet& sheet) {
+    Search<OneSheet> search{OneSheet{&sheet}};
+    try {
+      search.strip(sheet.from_mm(), sheet.to_mm(), nullptr, true);
+    } catch (const ModelRangeError&) {
+      return false;
+    }
+    std::vector<OnCircle> found;
+    int count = sheet.unstable_at_from();
+    for (const Box& zero : search.found()) {
+      const OnCircle at = polished(sheet, fine_, zero);
+      const auto again = [&](const OnCircle& other) {
+        return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
+               std::abs(other.theta - at.theta) < 1e-6;
+      };
+      if (!(at.w_mm > sheet.from_mm() && at.w_mm <= sheet.to_mm()) ||
+          std::ranges::any_of(found, again))
+        continue;
+      found.push_back(at);
+      count += at.change;
+    }
+    if (count != sheet.unstable_at_to()) return false;
+    zeros_.insert(zeros_.end(), found.begin(), found.end());
+    return true;
+  }
+
+  MultipliersAt coarse_, fine_;
+  double ap_max_, tail_;  // a helix leaves kinks that no node knows
+  std::vector<OnCircle> zeros_;
+};
+
+}  // namespace
+
+SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
+                         const std::vector<double>& depths_mm) {
+  const Ascent ascent(cutter, n_rpm, ap_max_mm);
+  const double period = period_s(cutter, n_rpm);
+  SpeedLimits out{.n_rpm = n_rpm, .crossings = {}, .unstable = {}};
+  int count = 0;
+  for (const OnCircle& at : ascent.zeros()) {
+    const bool was_stable = count == 0;
+    count += at.change;
+    if (was_stable == (count == 0)) continue;
+    out.crossings.push_back(
+        {.ap_mm = at.w_mm,
+         .loss = was_stable,
+         .flip = at.flip(),
+         .theta_rad = at.theta,
+         .frequency_Hz = chatter_frequency_Hz(cutter.system, period, at.theta),
+         .relative_error = at.relative_error});
+  }
+  for (const double w : depths_mm) {
+    int unstable = 0;
+    for (const OnCircle& at : ascent.zeros())
+      if (at.w_mm < w) unstable += at.change;
+    out.unstable.push_back(unstable);
+  }
+  return out;
+}
+
+std::vector<Surface> surfaces(const Cutter& cutter, double n_rpm, double ap_mm) {
+  constexpr int kHeights = 21;
+  const DelayMap map(cutter, n_rpm, ap_mm, ap_mm, kFiner);
+  const DelayMap::Forced forced = map.forced();
+  std::vector<Surface> out;
+  for (const bool at_entry : {true, false}) {
+    const double wall = at_entry ? 0 : kPi;
+    if ((at_entry ? cutter.system.entry_rad : cutter.system.exit_rad) != wall) continue;
+    Surface surface{.up_milled = at_entry, .height_mm = {}, .left_mm = {}};
+    for (int i = 0; i < kHeights; ++i) {
+      const double z = ap_mm * i / (kHeights - 1);
+      double left = std::numeric_limits<double>::infinity();
+      for (const Passage& p : map.contact().passages(wall, z)) {
+        const double y = forced.displacement_mm(p.angle_rad)[1];
+        left = std::min(left, (at_entry ? -y : y) - p.offset_mm);
+      }
+      surface.height_mm.push_back(z);
+      surface.left_mm.push_back(left);
+    }
+    out.push_back(std::move(surface));
+  }
+  return out;
+}
+
+Multipliers multipliers(const Cutter& cutter, double n_rpm, double ap_mm) {
+  const auto count = [](const std::vector<Complex>& all) {
+    return static_cast<int>(
+        std::ranges::count_if(all, [](Complex mu) { return modulus(mu) > 1; }));
+  };
+  const auto fine = DelayMap(cutter, n_rpm, ap_mm, ap_mm, kFiner).multipliers(),
+             coarse = DelayMap(cutter, n_rpm, ap_mm, ap_mm, kPlain).multipliers();
+  const double radius = modulus(fine.front());
+  const double differ = std::abs(radius - modulus(coarse.front()));
+  const bool clear = std::ranges::none_of(
+      fine, [&](Complex mu) { return std::abs(modulus(mu) - 1) <= 10 * differ; });
+  if (count(fine) != count(coarse))
+    throw ModelRangeError("milling: a multiplier lies on the circle asked about");
+  return {.unstable = count(fine), .spectral_radius = radius, .certified = clear};
+}
+
+}  // namespace turnwright::milling

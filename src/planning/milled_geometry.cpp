@@ -1,0 +1,75 @@
+#include "milled_geometry.hpp"
+
+#include <algorithm>
+
+#include "feature.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kSlack = 1e-9;  // mm
+
+Engagement engagement(double ae_mm, double dc_mm) {
+  const double immersion = std::min(1.0, ae_mm / dc_mm);
+  return {ae_mm, immersion, cutting::milled_chip(immersion)};
+}
+
+// Elements with their final diameters once a setup is done.
+Finished finished_after(const PartPlan& p, std::size_t setup) {
+  const auto work = assign(p);
+  auto done = nothing_finished(p.drawing);
+  for (std::size_t s = 0; s <= setup; ++s) finish(done, work.setups[s]);
+  return done;
+}
+
+// Largest radius of the part between two places; beyond its ends there is nothing.
+double highest_mm(const PartPlan& p, const Finished& done, double z0, double z1) {
+  double most = 0;
+  for (std::size_t i = 0; i < p.drawing.outer.size(); ++i) {
+    const auto& e = p.drawing.outer[i];
+    const double low = part::left_z_mm(p.drawing, i), high = low + e.length_mm;
+    if (high <= z0 + kSlack || low >= z1 - kSlack) continue;
+    const double D =
+        done.outer[i] ? std::max(e.left_mm, e.right_mm) : p.drawing.stock.outer_mm;
+    most = std::max(most, D / 2);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Engagement> engagements(const Milled& m, const catalogue::MillingCutter& c,
+                                    int lanes) {
+  const double D = c.dc_mm, w = m.width_mm;
+  if (m.kind == MilledKind::flat) return {engagement(w / lanes, D)};
+  if (w - D <= kSlack) return {engagement(D, D)};
+  return {engagement(D, D), engagement((w - D) / 2, D)};
+}
+
+RunOut run_out(const PartPlan& p, std::size_t setup, Clamping clamping, const Milled& m,
+               double D) {
+  const auto done = finished_after(p, setup);
+  const double L = part::length_mm(p.drawing), way = D + kApproach_mm;
+  const double floor = p.drawing.outer[m.element].left_mm / 2 - m.depth_mm;
+  const bool holds_left = p.setups[setup].hold == part::End::left;
+  const double root = root_z_mm(p, setup, clamping);
+  const auto open = [&](double z0, double z1, bool held_side) {
+    if (held_side && (holds_left ? z0 < root : z1 > root)) return false;
+    if (!held_side && has_tailstock(clamping) && (z0 < 0 || z1 > L)) return false;
+    return highest_mm(p, done, z0, z1) <= floor + kSlack;
+  };
+  const double left = m.z_mm, right = m.z_mm + m.length_mm;
+  return {open(left - way, left, holds_left), open(right, right + way, !holds_left)};
+}
+
+double layer_mm(const Milled& m, double D, int lanes, RunOut out) {
+  const int open = (out.left ? 1 : 0) + (out.right ? 1 : 0);
+  const double lane =
+      m.length_mm + (open - 1) * D + (open > 0 ? kApproach_mm : 0);  // Eq. (1)
+  if (m.kind != MilledKind::flat)
+    return m.width_mm - D <= kSlack ? lane
+                                    : lane + 2 * (lane + m.width_mm - D);  // Eq. (2)
+  return lanes * (lane + (open == 0 ? D / 2 + kApproach_mm : 0));          // Eq. (3)
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,66 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "turnwright/milling/lobes.hpp"
+
+/// The cheapest speed and feed of a milled place over every choice of whole numbers.
+namespace turnwright::planning {
+
+/// An upper limit of the feed per tooth: fz <= c n^e.
+struct FeedCap {
+  std::string name;
+  double c = 0, e = 0;
+};
+
+/// One choice of cutter, lanes, passes and range of the spindle; speed n and feed per
+/// tooth fz are open:
+///
+///     t = path/(fz z n),   cost = t (minute + edge/T) + besides,   T = T0 (n0/n)^(1/nT)
+///     (1) W = load fz^-mc <= B(u)   for all u in [n (1 - s), n (1 + s)]
+///     (2)
+///
+/// B are the lobes' first losses, W [N/mm] the depth with its margin times the chip's
+/// stiffness.  Cost and W fall with the feed, so fz is the least of its caps; in ln n its
+/// logarithm is concave and that of the cost convex.
+struct MilledCase {
+  const milling::Lobes* lobes = nullptr;
+  double n_min_rpm = 0, n_max_rpm = 0;
+  std::vector<FeedCap> caps;  ///< at least one
+  double fz_min_mm = 0;
+  double path_mm = 0;
+  int teeth = 1;
+  double minute = 0, edge = 0;  ///< weights of a minute in the cut and of a worn cutter
+  double besides = 0;           ///< cost of what does not depend on n and fz
+  double T0_min = 0, n0_rpm = 0, nT = 0;
+  double load = 0, mc = 0;  ///< W = load fz^-mc [N/mm]
+  double speed_margin = 0;  ///< s, > 0
+};
+
+double feed_mm(const MilledCase& c, double n_rpm);  ///< the least of the caps
+double time_min(const MilledCase& c, double n_rpm);
+double life_min(const MilledCase& c, double n_rpm);
+double cost(const MilledCase& c, double n_rpm);
+double load_N_mm(const MilledCase& c, double fz_mm);  ///< W
+
+struct MilledOptimum {
+  bool found = false;
+  std::size_t index = 0;  ///< of the case
+  double n_rpm = 0, cost = 0;
+  double lower_bound = 0;  ///< of the cost; infinite if there is none
+  bool proved = true;      ///< whether the search came to its end
+  long steps = 0;
+};
+
+/// Best first over the cases.  A speed u at which (2) fails rules out every n within the
+/// margin of u whose W is above B(u): what the speeds found so far leave is a relaxation
+/// of (2), convex on each interval, whose optimum is a bound and the next point to try.
+/// Where (2) holds at speeds a 16th of the margin apart and at the margin's ends, that
+/// point is the case's optimum.  So the bound is as certain as the lobes' losses.
+MilledOptimum cheapest(const std::vector<MilledCase>& cases);
+
+/// Least B within the margin of a speed, `enough` if it is not below.
+double stable_around_N_mm(const milling::Lobes& lobes, double n_rpm, double margin,
+                          double enough);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,172 @@
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "turnwright/document/parse.hpp"
+#include "turnwright/service/batch_runner.hpp"
+#include "turnwright/service/known_answers.hpp"
+
+namespace turnwright::service {
+namespace {
+
+// A line that takes long holds up those behind it only when so many wait for their turn.
+constexpr std::size_t kInFlightPerJob = 64;
+
+// What is found again faster than it is looked up need not be kept.
+constexpr auto kWorthKeeping = std::chrono::milliseconds(1);
+
+/// A line on its way; a blank one has no record.
+struct Item {
+  std::int64_t chunk = 0, number = 0;  ///< the line's number, from 1
+  std::string text;                    ///< the line, then its record
+  BatchStatus status = BatchStatus::ok;
+  std::string key;         ///< of its chunk, with the chunk's last line
+  std::int64_t found = 0;  ///< lines before it that earlier runs have answered
+};
+
+// What BatchInput has cut may have more in it than the blanks that it begins with.
+bool blank(const std::string& line) {
+  return line.size() <= document::ParseLimits{}.bytes &&
+         line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+/// The lines of the chunks that are missing, in order.
+class Missing {
+ public:
+  Missing(BatchInput& input, const BatchFolder& folder, const Shard& shard)
+      : input_(input),
+        folder_(folder),
+        next_(shard.first(folder.manifest().chunks())),
+        end_(shard.end(folder.manifest().chunks())),
+        lines_(lines_before(end_) - lines_before(next_)) {
+    input_.seek(0);
+    for (std::int64_t chunk = 0; chunk < next_; ++chunk) folder_.read_key(chunk, input_);
+  }
+
+  std::int64_t lines() const { return lines_; }
+  std::int64_t found() const { return found_; }
+
+  bool next(Item& item) {
+    if (left_ == 0 && !next_chunk()) return false;
+    item.chunk = next_ - 1;
+    item.number = ++number_;
+    item.found = found_;
+    // A line that is gone meanwhile leaves a chunk that its input's digest refuses.
+    input_.next(key_, &item.text);
+    if (--left_ == 0) item.key = key_.hex();
+    return true;
+  }
+
+ private:
+  std::int64_t lines_before(std::int64_t chunk) const {
+    const auto& manifest = folder_.manifest();
+    return std::min(chunk * manifest.chunk_lines, manifest.input.lines);
+  }
+
+  bool next_chunk() {
+    while (next_ < end_) {
+      const auto chunk = next_++;
+      const auto begin = input_.position();
+      const auto lines = lines_before(chunk + 1) - lines_before(chunk);
+      const auto key = folder_.read_key(chunk, input_);
+      if (read_chunk(folder_.chunk_file(chunk), key)) {
+        found_ += lines;
+        continue;
+      }
+      input_.seek(begin);
+      left_ = lines;
+      number_ = lines_before(chunk);
+      key_ = folder_.key_of(chunk);
+      return true;
+    }
+    return false;
+  }
+
+  BatchInput& input_;
+  const BatchFolder& folder_;
+  std::int64_t next_, end_;  ///< chunks
+  std::int64_t lines_ = 0, found_ = 0;
+  std::int64_t left_ = 0, number_ = 0;  ///< lines of the chunk under way
+  Sha256 key_;
+};
+
+void answer(Item& item, const document::Catalogue& catalogue, KnownAnswers& known) {
+  if (blank(item.text)) return item.text.clear();
+  BatchRecord record;
+  try {
+    const auto request = read_batch_line(item.text);
+    if (auto earlier = known.find(request.digest)) {
+      record = std::move(*earlier);
+    } else {
+      const auto begun = std::chrono::steady_clock::now();
+      record = batch_record(request, {catalogue});
+      if (std::chrono::steady_clock::now() - begun > kWorthKeeping)
+        known.keep(request.digest, record);
+    }
+  } catch (const InputError& error) {
+    record = batch_record(error);
+  }
+  item.text = numbered(item.number, record.text) + '\n';
+  item.status = record.status;
+}
+
+/// Writes the records, which come in the order of their lines.
+class Records {
+ public:
+  explicit Records(const BatchFolder& folder) : folder_(folder) {}
+
+  void add(const Item& item) {
+    if (!writer_) writer_.emplace(folder_.chunk_file(item.chunk));
+    if (!item.text.empty()) writer_->add(item.text, item.status);
+    if (item.key.empty()) return;
+    writer_->publish(item.key);
+    writer_.reset();
+  }
+
+ private:
+  const BatchFolder& folder_;
+  std::optional<ChunkWriter> writer_;
+};
+
+}  // namespace
+
+void run_batch(BatchInput& input, const BatchFolder& folder, const Shard& shard,
+               const document::Catalogue& catalogue, unsigned jobs,
+               const std::function<void(const BatchProgress&)>& tell) {
+  make_folder(folder.work());
+  Missing missing(input, folder, shard);
+  BatchProgress progress{.lines = missing.lines()};
+  KnownAnswers known;
+  Records records(folder);
+
+  const auto read = tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
+                                                 [&](tbb::flow_control& flow) {
+                                                   Item item;
+                                                   if (!missing.next(item)) flow.stop();
+                                                   return item;
+                                                 });
+  const auto work =
+      tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
+        answer(item, catalogue, known);
+        return item;
+      });
+  const auto write = tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
+                                                  [&](const Item& item) {
+                                                    records.add(item);
+                                                    progress.found = item.found;
+                                                    ++progress.done;
+                                                    tell(progress);
+                                                  });
+
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, jobs);
+  tbb::task_arena arena(static_cast<int>(jobs));
+  arena.execute(
+      [&] { tbb::parallel_pipeline(jobs * kInFlightPerJob, read & work & write); });
+  progress.found = missing.found();
+  tell(progress);
+}
+
+}  // namespace turnwright::service

@@ -1,0 +1,15 @@
+#pragma once
+#include <string_view>
+
+/// Who is asked, and on whose behalf.
+namespace turnwright::service {
+
+/// Whether the value of a Host header is an IP address or a name without a dot, with or
+/// without a port.  What a page of some site has a browser send to this machine, by a
+/// name made to lead here (DNS rebinding), has a dotted one.
+bool is_local(std::string_view host);
+
+/// Whether an Origin header's value, "http://name:port", has this Host.
+bool origin_is(std::string_view origin, std::string_view host);
+
+}  // namespace turnwright::service

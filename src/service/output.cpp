@@ -1,0 +1,115 @@
+#include "turnwright/service/output.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <random>
+#include <system_error>
+
+namespace turnwright::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw OutputError(file.string() + ": cannot be written: " + std::strerror(error));
+}
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const auto count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+// No two writers may share it, wherever they run; it is never part of a result.
+fs::path unfinished_name(const fs::path& folder, const fs::path& target) {
+  std::random_device random;
+  std::array<char, 17> suffix{};
+  std::snprintf(suffix.data(), suffix.size(), "%08x%08x", random(), random());
+  return folder / ('.' + target.filename().string() + '.' + suffix.data());
+}
+
+// The name of a new file is on the disk when its folder is.
+bool flush_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool good = ::fsync(descriptor) == 0 || errno == EINVAL;
+  ::close(descriptor);
+  return good;
+}
+
+}  // namespace
+
+NewFile::NewFile(fs::path file, const fs::path& scratch) : file_(std::move(file)) {
+  std::error_code unresolved;
+  target_ = fs::weakly_canonical(file_, unresolved);
+  if (unresolved) target_ = file_;
+  temporary_ =
+      unfinished_name(scratch.empty() ? target_.parent_path() : scratch, target_);
+  struct stat old {};
+  const bool exists = ::stat(target_.c_str(), &old) == 0;
+  const mode_t mode = exists ? old.st_mode & 07777 : 0666;
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  check(descriptor_ >= 0);
+}
+
+NewFile::~NewFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void NewFile::write(std::string_view text) { check(write_all(descriptor_, text)); }
+
+void NewFile::publish() {
+  check(::fsync(descriptor_) == 0);
+  check(std::rename(temporary_.c_str(), target_.c_str()) == 0);
+  temporary_.clear();
+  const auto folder = target_.parent_path();
+  check(flush_folder(folder.empty() ? "." : folder));
+}
+
+void NewFile::check(bool good) const {
+  if (!good) fail(file_, errno);
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+  struct stat old {};
+  if (::stat(file.c_str(), &old) != 0 || S_ISREG(old.st_mode)) {
+    NewFile out(file);
+    out.write(text);
+    return out.publish();
+  }
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const bool good = descriptor >= 0 && write_all(descriptor, text);
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!good) fail(file, error);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) fail(folder, error.value());
+}
+
+void print(const std::string& text) {
+  errno = 0;
+  std::cout << text << std::flush;
+  if (!std::cout)
+    throw OutputError(std::string("standard output cannot be written: ") +
+                      std::strerror(errno));
+}
+
+}  // namespace turnwright::service

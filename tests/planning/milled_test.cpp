@@ -1,0 +1,342 @@
+// Milled places of whole plans, against limits written anew and other methods.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "../../src/planning/fixed.hpp"
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/document/file.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/process_plan.hpp"
+#include "turnwright/milling/checks.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using nlohmann::json;
+
+const document::Catalogue& catalogue() {
+  static const auto kCatalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  return kCatalogue;
+}
+
+json keyed() {
+  return document::parse_file(TURNWRIGHT_SOURCE_DIR "/parts/keyed-shaft.json");
+}
+
+PartPlan load(const json& j, document::Purpose purpose = document::Purpose::plan) {
+  return document::load_part_plan(j, catalogue(), "t", purpose).plan;
+}
+
+// One pin with one place in it, held at the left.
+json pin(const json& place, double diameter_mm = 40) {
+  return {{"format", "turnwright-part/1"},
+          {"name", "pin"},
+          {"material", "C45"},
+          {"stock",
+           {{"kind", "bar"},
+            {"diameter_mm", diameter_mm + 4},
+            {"length_mm", 142},
+            {"left_allowance_mm", 60}}},
+          {"outer",
+           {{{"id", "d1"},
+             {"kind", "cylinder"},
+             {"length_mm", 80},
+             {"diameter_mm", diameter_mm}}}},
+          {"machine", "turn-mill"},
+          {"milling", json::array({place})},
+          {"setups", {{{"hold", "left"}, {"grip_mm", 55}, {"clampings", {"chuck"}}}}},
+          {"objective", "cost"},
+          {"batch", 10},
+          {"rates", {{"machine_per_min", 1.5}}}};
+}
+
+json keyway() {
+  return {{"id", "k1"},      {"kind", "keyway"}, {"on", "d1"},   {"z_mm", 40},
+          {"length_mm", 32}, {"width_mm", 10},   {"depth_mm", 5}};
+}
+
+FixedWork work_of(const PartPlan& p, std::size_t setup = 0) {
+  return fixed_work(p, setup, Clamping::chuck, assign(p).setups[setup],
+                    {p.machine_per_min, 1});
+}
+
+const OperationPlan* milled_in(const FixedWork& work) {
+  for (const auto& o : work.after)
+    if (o.plan.kind == OperationKind::mill) return &o.plan;
+  return nullptr;
+}
+
+// The cuts of an operation as systems, by the issue's own formulas.
+std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
+                                        const OperationPlan& o) {
+  const auto& cut = *o.milled;
+  const auto cutter = *std::find_if(m.cutters.begin(), m.cutters.end(),
+                                    [&](const auto& c) { return c.id == o.tool; });
+  std::vector<double> widths{cut.ae_mm};
+  if (m.kind != MilledKind::flat && m.width_mm > cutter.dc_mm + 1e-6)
+    widths.push_back((m.width_mm - cutter.dc_mm) / 2);
+  std::vector<milling::System> all;
+  for (const double ae : widths) {
+    milling::System s;
+    for (const auto& mode : cutter.modes)
+      s.modes.push_back({mode.along_feed ? milling::Axis::x : milling::Axis::y,
+                         2 * std::numbers::pi * mode.frequency_Hz, mode.damping_ratio,
+                         mode.stiffness_N_mm});
+    s.teeth = cutter.teeth;
+    const double a = std::min(1.0, ae / cutter.dc_mm), arc = std::acos(1 - 2 * a);
+    s.entry_rad = std::numbers::pi - arc;
+    s.exit_rad = std::numbers::pi;
+    const double hm = cut.fz_mm * 2 * a / arc;
+    const double K = p.material.kc.k11_MPa *
+                     (1 - (cutter.gamma_deg - p.material.gamma0_deg) / 100) *
+                     std::pow(hm, -p.material.kc.m);
+    s.force = milling::LinearForce{K, 0.5 * K};
+    all.push_back(s);
+  }
+  return all;
+}
+
+TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
+  const auto p = load(keyed());
+  const auto plan = planning::plan(p);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  int seen = 0;
+  for (const auto& setup : plan.setups)
+    for (const auto& o : setup.operations) {
+      if (!o.milled) continue;
+      ++seen;
+      const auto& m = *std::find_if(p.milled.begin(), p.milled.end(), [&](const auto& x) {
+        return o.on == std::vector{x.id};
+      });
+      const auto& pass = o.passes[0];
+      EXPECT_GE(o.milled->limit_mm, pass.ap_mm * 1.2 * (1 - 1e-9)) << o.id;
+      const double yields = 1 + o.milled->part_share;
+      const auto growth = [&](const milling::System& s, double n, double ap) {
+        return std::abs(milling::simulation(s, n, ap * yields).multiplier);
+      };
+      double least = std::numeric_limits<double>::infinity(), beyond = 0;
+      for (const auto& s : systems_of(p, m, o))
+        for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+          const double n = pass.n_rpm * (1 + 0.02 * u);
+          EXPECT_LT(growth(s, n, 0.97 * 1.2 * pass.ap_mm), 1) << o.id << ' ' << n;
+          const auto loss = milling::speed_limits(s, n, 40 * pass.ap_mm).limit_mm();
+          if (!loss || *loss > least * yields) continue;
+          least = *loss / yields;
+          beyond = growth(s, n, 1.05 * least);
+        }
+      EXPECT_LE(o.milled->limit_mm, std::min(least, o.milled->shown_mm) * (1 + 1e-9));
+      EXPECT_GT(beyond, 1) << o.id;
+      EXPECT_EQ(o.certificate.kind, CertificateKind::global);
+      EXPECT_LE(o.certificate.gap, 1e-4);
+      EXPECT_GE(o.certificate.gap, 0);
+      for (const auto& c : o.constraints) EXPECT_GE(c.margin, -1e-9) << o.id << c.name;
+      ASSERT_EQ(o.milled->n_rpm.size(), o.milled->limits_mm.size());
+      EXPECT_GE(o.milled->n_rpm.size(), 100U);
+    }
+  EXPECT_EQ(seen, 2);
+  EXPECT_EQ(plan.certificate.kind, CertificateKind::global);
+  EXPECT_LE(plan.certificate.gap, 1e-4);
+}
+
+// Every slot drill that fits, every number of passes, speeds and feeds on a lattice, each
+// limit written out.
+TEST(Milled, NothingOnALatticeIsCheaper) {
+  const auto p = load(pin(keyway()));
+  const auto work = work_of(p);
+  ASSERT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
+  const auto* found = milled_in(work);
+  ASSERT_NE(found, nullptr);
+  const auto& driven = *p.machine.driven_tools;
+  const double rho_f = found->constraints[1].value * 1e-6;  // of the part, checked below
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& c : catalogue().cutters) {
+    const double D = c.dc_mm;
+    if (!c.centre_cutting || D > 10 || D < 5 || c.lu_mm < 5) continue;
+    const auto& grade = *c.conditions_in(p.material.group);
+    const double rho = rho_f * c.modes[1].stiffness_N_mm;
+    if (rho > 1) continue;  // refused
+    for (int passes = 1; passes <= 24; ++passes) {
+      const double ap = 5.0 / passes;
+      if (ap > c.ap_mm.upper || ap < c.ap_mm.lower) continue;
+      for (int i = 0; i <= 12; ++i) {
+        const double vc = grade.vc_m_min.lower +
+                          (grade.vc_m_min.upper - grade.vc_m_min.lower) * i / 12.0;
+        const double n = 1000 * vc / (std::numbers::pi * D);
+        if (n > driven.n_max_rpm || n < driven.n_min_rpm) continue;
+        for (const double share : {1.0, 0.8, 0.5}) {
+          const double fz = share * grade.hex_mm.upper;
+          const double lane = 32 - D;
+          double path = passes * (D < 10 ? lane + 2 * (lane + 10 - D) : lane) + 5 / 0.3;
+          const double t = path / (fz * c.teeth * n);
+          const double T = grade.T0_min * std::pow(grade.v0_m_min / vc, 1 / grade.n);
+          const double back = passes * 36 / p.machine.rapid_mm_min;
+          const double cost =
+              1.5 * (t + back + c.change_min * t / T) + c.edge_cost * t / T;
+          if (cost >= least) continue;
+          const double kc11 = 1600 * (1 - (c.gamma_deg - p.material.gamma0_deg) / 100);
+          const double hm = fz * 2 / std::numbers::pi;
+          const double P = kc11 * std::pow(hm, -0.25) * ap * D * fz * c.teeth * n / 60e6;
+          const double most = n <= 1876 ? 28 * n * std::numbers::pi / 30000 : 5.5;
+          if (P > 0.8 * most * 0.999) continue;
+          if (kc11 * ap * std::pow(fz, 0.75) * (c.teeth == 2 ? 1.0 : 2.0) > c.Fc_max_N)
+            continue;
+          OperationPlan o = *found;
+          o.tool = c.id;
+          o.milled->ae_mm = D;
+          o.milled->fz_mm = fz;
+          bool stable = true;
+          for (const auto& s : systems_of(p, p.milled[0], o))
+            for (const double u : {0.98, 1.0, 1.02}) {
+              if (!stable) break;
+              const auto limit =
+                  milling::speed_limits(s, n * u, ap * 1.2 * (1 + rho)).limit_mm();
+              stable = !limit;
+            }
+          if (stable) least = cost;
+        }
+      }
+    }
+  }
+  ASSERT_TRUE(std::isfinite(least));
+  EXPECT_LE(found->cost, least * (1 + 1e-6));
+  EXPECT_GE(found->cost, least * 0.9);  // the lattice is not far off
+  EXPECT_LE(found->certificate.lower_bound, least);
+}
+
+TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
+  auto j = pin(keyway());
+  auto cutter =
+      document::parse_file(TURNWRIGHT_SOURCE_DIR "/tools/milling/KEYWAY-HM-10.json");
+  for (auto& mode : cutter["tool_point"]["modes"]) {
+    mode["stiffness_N_mm"] = 60;
+    mode["damping_ratio"] = 0.005;
+  }
+  cutter["geometry"]["ap_mm"] = {1, 10};
+  j["milling"][0]["tool"] = cutter;
+  const auto plan = planning::plan(load(j));
+  EXPECT_EQ(plan.status, PlanStatus::infeasible);
+  ASSERT_EQ(plan.conflicts.size(), 1U);
+  const auto& c = plan.conflicts[0];
+  EXPECT_EQ(c.limit, "stable depth with its margin");
+  EXPECT_NE(c.sentence.find("k1: it chatters at every speed: 5 passes of 1 mm with "
+                            "KEYWAY-HM-10 come nearest"),
+            std::string::npos)
+      << c.sentence;
+  EXPECT_LT(c.allowed, c.value);
+  EXPECT_NEAR(c.value, 1.2, 1e-9);
+}
+
+TEST(Milled, NoCutterThatFitsIsAConflict) {
+  auto place = keyway();
+  place["width_mm"] = 3;
+  auto plan = planning::plan(load(pin(place)));
+  EXPECT_EQ(plan.status, PlanStatus::infeasible);
+  ASSERT_EQ(plan.conflicts.size(), 1U);
+  EXPECT_EQ(plan.conflicts[0].limit, "cutter");
+  place = keyway();
+  place["tool"] = "ENDMILL-HM-10";
+  plan = planning::plan(load(pin(place)));
+  ASSERT_EQ(plan.conflicts.size(), 1U);
+  EXPECT_EQ(plan.conflicts[0].sentence,
+            "k1: ENDMILL-HM-10 does not cut over its centre, so it cannot plunge");
+}
+
+TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
+  auto j = pin({{"id", "k1"},
+                {"kind", "keyway"},
+                {"on", "d1"},
+                {"z_mm", 250},
+                {"length_mm", 20},
+                {"width_mm", 5},
+                {"depth_mm", 2}},
+               14);
+  j["outer"][0]["length_mm"] = 280;
+  j["stock"]["length_mm"] = 342;
+  const auto work = work_of(load(j));
+  ASSERT_EQ(work.conflicts.size(), 1U);
+  EXPECT_NE(work.conflicts[0].sentence.find("the part yields"), std::string::npos)
+      << work.conflicts[0].sentence;
+}
+
+// What plan chose, given: the same. Twice as fast and deep: told what breaks.
+TEST(Milled, PredictJudgesGivenConditions) {
+  auto j = pin(keyway());
+  const auto p = load(j);
+  const auto first = work_of(p);
+  const auto& o = *milled_in(first);
+  auto& place = j["milling"][0];
+  place["tool"] = o.tool;
+  place["conditions"] = {{"passes", o.passes.size()},
+                         {"n_rpm", o.passes[0].n_rpm},
+                         {"fz_mm", o.milled->fz_mm}};
+  const auto again = work_of(load(j));
+  ASSERT_NE(milled_in(again), nullptr);
+  EXPECT_NEAR(milled_in(again)->cost, o.cost, 1e-9 * o.cost);
+  EXPECT_NEAR(milled_in(again)->milled->limit_mm, o.milled->limit_mm, 1e-9);
+  EXPECT_TRUE(fixed_conflicts(load(j), 0, Clamping::chuck, assign(p).setups[0]).empty());
+  place["conditions"] = {{"passes", 1}, {"n_rpm", o.passes[0].n_rpm}, {"fz_mm", 0.06}};
+  const auto deep = load(j);
+  const auto conflicts = fixed_conflicts(deep, 0, Clamping::chuck, assign(p).setups[0]);
+  EXPECT_TRUE(std::any_of(conflicts.begin(), conflicts.end(), [](const Conflict& c) {
+    return c.limit == "stable depth with its margin";
+  }));
+}
+
+TEST(Milled, WiderMarginsNeverCostLess) {
+  double before = 0;
+  for (const double margin : {0.0, 0.2, 0.5}) {
+    auto place = keyway();
+    place["stability_margin"] = margin;
+    const auto work = work_of(load(pin(place)));
+    const auto* o = milled_in(work);
+    ASSERT_NE(o, nullptr);
+    EXPECT_GE(o->cost, before * (1 - 1e-6));
+    EXPECT_GE(o->milled->limit_mm, o->passes[0].ap_mm * (1 + margin) * (1 - 1e-9));
+    before = o->cost;
+  }
+}
+
+// Whatever is drawn: an operation that keeps its limits, or a conflict; never NaN.
+TEST(Milled, AnyPlaceIsAnsweredOrRefused) {
+  std::mt19937_64 draw(11);
+  std::uniform_real_distribution<double> u(0, 1);
+  const char* const materials[] = {"C45", "AlMgSi", "X5CrNi18-10", "Ti-6Al-4V"};
+  int planned = 0, refused = 0;
+  for (int k = 0; k < 6; ++k) {
+    const double D = 12 + 60 * u(draw), width = 3 + 14 * u(draw);
+    const char* const kind = k % 3 == 0 ? "keyway" : k % 3 == 1 ? "flat" : "slot";
+    json place{{"id", "m"},
+               {"kind", kind},
+               {"on", "d1"},
+               {"z_mm", k % 3 == 2 ? 50 : 20 + 20 * u(draw)},
+               {"length_mm", k % 3 == 2 ? 30 : 6 + 30 * u(draw)},
+               {"depth_mm", 0.2 + 0.3 * D * u(draw)},
+               {"stability_margin", 1.5 * u(draw)},
+               {"speed_margin", 0.01 + 0.05 * u(draw)}};
+    if (k % 3 != 1) place["width_mm"] = width;
+    auto j = pin(place, D);
+    j["material"] = materials[k % 4];
+    try {
+      const auto p = load(j);
+      const auto work = work_of(p);
+      const auto* o = milled_in(work);
+      EXPECT_EQ(o == nullptr, !work.conflicts.empty());
+      (o ? planned : refused)++;
+      if (!o) continue;
+      for (const auto& c : o->constraints) EXPECT_GE(c.margin, -1e-9) << j << c.name;
+      EXPECT_GT(o->cost, 0);
+      EXPECT_LE(o->certificate.gap, 1e-3) << j;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(planned, 0);
+  EXPECT_EQ(planned + refused, 6);
+}
+
+}  // namespace
+}  // namespace turnwright::planning

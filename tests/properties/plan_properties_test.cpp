@@ -1,0 +1,119 @@
+// What holds of the plan of any part.  RC_PARAMS sets how many are tried and the seed.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <future>
+
+#include "random_parts.hpp"
+#include "turnwright/document/process_plan.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using namespace properties;
+
+constexpr double kCertified = 1e-4;  // gap that a certificate may leave
+
+bool made(const ProcessPlan& r) { return r.status == PlanStatus::ok; }
+
+// Every plan is inside its limits, and predicted with its own conditions it is itself.
+RC_GTEST_PROP(AnyPlan, KeepsItsLimitsAsPredicted, (const RandomShaft& shaft)) {
+  const auto d = json_of(shaft);
+  const auto r = plan(part(d));
+  RC_CLASSIFY(made(r));
+  if (!made(r)) {
+    RC_ASSERT(!r.conflicts.empty());
+    return;
+  }
+  RC_ASSERT(r.certificate.lower_bound <= r.cost_per_part * (1 + 1e-9));
+  RC_ASSERT(r.certificate.gap <= 1e-4);
+  auto conditions = as_planned(d, r);
+  auto& operations = conditions["operations"];
+  for (std::size_t k = operations.size(); k-- > 0;)
+    if (operations[k]["kind"] == "fixed") operations.erase(k);
+  const auto again = predict(part_to_predict(conditions));
+  RC_ASSERT(made(again));
+  RC_ASSERT(std::abs(again.cost_per_part - r.cost_per_part) <= 1e-9 * r.cost_per_part);
+  for (std::size_t i = 0; i < r.tolerances.size(); ++i) {
+    RC_ASSERT(again.tolerances[i].verdict != Verdict::not_met);
+    RC_ASSERT(std::abs(again.tolerances[i].margin_mm - r.tolerances[i].margin_mm) <=
+              1e-9);
+  }
+  for (const auto& setup : again.setups)
+    for (const auto& o : setup.operations)
+      for (const auto& c : o.constraints) RC_ASSERT(c.margin >= -1e-9);
+}
+
+// What makes the harder part makes the easier one too; but where only a corrected path
+// made it, an easier part that can do without is planned without, see docs/planning.md.
+void no_dearer(const ProcessPlan& easier, const ProcessPlan& harder) {
+  if (!made(harder) || !harder.compensation.empty()) return;
+  RC_ASSERT(made(easier));
+  RC_ASSERT(easier.cost_per_part <= harder.cost_per_part * (1 + kCertified));
+}
+
+RC_GTEST_PROP(AnyPlan, WithLooserTolerancesIsNoDearer, (const RandomShaft& shaft)) {
+  auto p = part(json_of(shaft));
+  const auto harder = plan(p);
+  for (auto& t : p.drawing.tolerances) {
+    t.value_mm *= 1.5;
+    if (t.limits) {
+      const double more = (t.limits->upper_mm - t.limits->lower_mm) / 4;
+      t.limits->upper_mm += more;
+      t.limits->lower_mm -= more;
+    }
+  }
+  no_dearer(plan(p), harder);
+}
+
+RC_GTEST_PROP(AnyPlan, InAStifferChuckIsNoDearer, (const RandomShaft& shaft)) {
+  auto p = part(json_of(shaft));
+  const auto harder = plan(p);
+  for (catalogue::RootCompliance* c :
+       {&p.machine.chuck.radial, &p.machine.chuck.tangential}) {
+    c->c0_mm_N /= 2;
+    c->c1_rad_N /= 2;
+    c->c2_rad_Nmm /= 2;
+  }
+  no_dearer(plan(p), harder);
+}
+
+// Another currency, the same plan.
+RC_GTEST_PROP(AnyPlan, CostsInAnyCurrencyTheSame, (const RandomShaft& shaft)) {
+  auto p = part(json_of(shaft));
+  const auto r = plan(p);
+  const double rate = *rc::gen::element(0.01, 7.5, 1000.0);
+  p.machine_per_min *= rate;
+  for (auto& t : p.tools) t.edge_cost *= rate;
+  for (auto& t : p.fixed_tools) t.edge_cost *= rate;
+  const auto other = plan(p);
+  RC_ASSERT(made(other) == made(r));
+  RC_ASSERT(std::abs(other.cost_per_part / rate - r.cost_per_part) <=
+            kCertified * r.cost_per_part);
+}
+
+// Seen from the other end it is the same part, held by the other end first.
+RC_GTEST_PROP(AnyPlan, OfTheMirroredPartIsAsGood, (const RandomShaft& shaft)) {
+  RandomShaft one = shaft;
+  one.cylindricity_um = 0;  // of the last cylinder
+  auto d = json_of(mirrored(one));
+  std::swap(d["setups"][0], d["setups"][1]);
+  const auto r = plan(part(json_of(one))), other = plan(part(d));
+  RC_ASSERT(made(other) == made(r));
+  if (made(r))
+    RC_ASSERT(std::abs(other.cost_per_part - r.cost_per_part) <=
+              kCertified * r.cost_per_part);
+}
+
+RC_GTEST_PROP(AnyPlan, IsTheSameOnEveryThread, (const RandomShaft& shaft)) {
+  const auto loaded = [&] {
+    const auto p = part(json_of(shaft));
+    return document::to_json(plan(p), std::vector<document::Assumption>{}).dump();
+  };
+  auto other = std::async(std::launch::async, loaded);
+  const auto here = loaded();
+  RC_ASSERT(here == other.get());
+}
+
+}  // namespace
+}  // namespace turnwright::planning
