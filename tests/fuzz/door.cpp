@@ -8,15 +8,15 @@
 #include "answered.hpp"
 #include "option.hpp"
 
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
+                                        std::size_t most);
+
 namespace turnwright::fuzz {
 namespace {
 
 using nlohmann::json;
 
 const service::Request* door = nullptr;
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
-                                        std::size_t most);
 
 class Mutation {
  public:
@@ -137,11 +137,11 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                                std::size_t most, unsigned seed) {
   auto document = nlohmann::json::parse(data, data + size, nullptr, false);
   if (document.is_discarded() || seed % 50 == 0)
-    return fuzz::LLVMFuzzerMutate(data, size, most);
+    return LLVMFuzzerMutate(data, size, most);
   for (unsigned i = 0; i <= seed % 3; ++i) fuzz::Mutation(document, seed + i).apply();
   const std::string text =
       document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() > most) return fuzz::LLVMFuzzerMutate(data, size, most);
+  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
   std::memcpy(data, text.data(), text.size());
   return text.size();
 }
