@@ -41,6 +41,10 @@ add_test(NAME service.examples COMMAND bash
   ${PROJECT_SOURCE_DIR})
 set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
 
+add_test(NAME guide.commands COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
+  ${PROJECT_SOURCE_DIR})
+
 add_test(NAME package.deb COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/package-test
   -D PART=${PROJECT_SOURCE_DIR}/parts/pump-shaft.json -D SANITIZE=${TURNWRIGHT_SANITIZE}

@@ -109,6 +109,7 @@ if(BUILD_TESTING)
     target_compile_definitions(${program} PRIVATE
       TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   endforeach()
+  tw_quick_to_build(reference_parts_test)
   gtest_discover_tests(reference_parts_test TEST_PREFIX reference_parts.
     PROPERTIES TIMEOUT 600)
 endif()
@@ -119,6 +120,7 @@ if(BUILD_TESTING)
     GTest::gtest_main)
   target_compile_definitions(properties_test PRIVATE
     TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  tw_quick_to_build(properties_test)
   gtest_discover_tests(properties_test TEST_PREFIX properties.
     PROPERTIES TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 endif()
@@ -157,5 +159,6 @@ if(BUILD_TESTING)
   add_dependencies(app_test turnwright faults)
   add_library(faults MODULE tests/app/faults.cpp)  # loaded before the C library
   target_link_libraries(faults PRIVATE tw_dev ${CMAKE_DL_LIBS})
+  tw_quick_to_build(app_test)
   gtest_discover_tests(app_test TEST_PREFIX app. PROPERTIES TIMEOUT 600)
 endif()

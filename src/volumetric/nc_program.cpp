@@ -179,6 +179,7 @@ class Interpreter {
     if (*first == '%') return tape_end(text);
     if (*first == '/') return deleted(text);
     parse(text, block_);
+    require_going();
     require_single();
     before_.clear();
     after_.clear();
@@ -204,6 +205,13 @@ class Interpreter {
     commanded_ = commanded_ || motion;
     append(after_, block_.comments);
     move(motion.has_value());
+  }
+
+  /// Controls differ in what follows the end: another program, or nothing.
+  void require_going() const {
+    if (ended_ && !block_.words.empty())
+      throw Fault{std::string(block_.words[0].text),
+                  "nothing but % and comments after M2 or M30"};
   }
 
   /// G words have their groups, of M words controls take several.
@@ -298,6 +306,7 @@ class Interpreter {
     if (!rest.empty() && rest.front() >= '1' && rest.front() <= '9')
       rest.remove_prefix(1);
     parse(rest, block_);
+    require_going();
     for (const Word& w : block_.words) {
       if (w.letter == 'M') machine_code(w);
       if (std::string_view("NMSF").find(w.letter) == std::string::npos)
@@ -334,6 +343,7 @@ class Interpreter {
           break;
         case 'M':
           append(machine_code(w) ? after_ : before_, w.text);
+          ended_ = ended_ || w.value == 2 || w.value == 30;
           break;
         case 'T':
           if (const int t = whole(w); setup_.lathe && t >= 100) select(t % 100);
@@ -522,6 +532,7 @@ class Interpreter {
   int plane_, motion_ = 0, tool_ = 0;
   bool full_ = false;
   bool commanded_ = false;  // a motion code was read
+  bool ended_ = false;      // by M2 or M30
   bool inch_ = false, incremental_ = false, diameter_;
   Vec3 origin_{}, tip_{};  // tip in program coordinates [mm], X as radius
   std::string before_, after_;

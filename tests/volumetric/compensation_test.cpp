@@ -251,6 +251,21 @@ TEST(NcProgram, AskForWhatTheyDoNotKnow) {
   EXPECT_EQ(p.problems[0].line, 3u);
 }
 
+TEST(NcProgram, EndsOnce) {
+  for (const char* end : {"M2", "N9 M30", "G0 X1 M02"}) {
+    auto p = read_nc({"G0 X1", end, "", "(more)", "%"}, {});
+    EXPECT_TRUE(p.problems.empty()) << end;
+    p = read_nc({"G0 X1", end, "O2", "/M8"}, {});
+    ASSERT_EQ(p.problems.size(), 2u) << end;
+    EXPECT_EQ(p.problems[0].line, 3u);
+    EXPECT_EQ(p.problems[0].got, "O2");
+    EXPECT_EQ(p.problems[0].expected, "nothing but % and comments after M2 or M30");
+    EXPECT_EQ(p.problems[1].got, "M8");
+  }
+  // A block that may be left out ends nothing; M20 is another code.
+  EXPECT_TRUE(read_nc({"/M30", "M20", "G0 X1"}, {}).problems.empty());
+}
+
 TEST(NcProgram, ModesOfOneProgram) {
   const NcSetup setup{.axes = "XZ",
                       .diameter = true,
