@@ -1,4 +1,4 @@
-// libFuzzer target of the readers of text, --kind=: nc and nc-lathe, the program of
+// libFuzzer target of the readers of text, --kind=: program and program-lathe, that of
 // `compensate`; csv-NAME, the table of a door; batch, a line of a batch; json, any text.
 #include <cstdint>
 
@@ -36,7 +36,7 @@ bool find_csv(const json& value, const json::json_pointer& at) {
 
 void choose() {
   if (kind == "json" || kind == "batch") return;
-  const bool csv = kind.starts_with("csv-"), lathe = kind == "nc-lathe";
+  const bool csv = kind.starts_with("csv-"), lathe = kind == "program-lathe";
   door = &row(csv ? kind.substr(4) : "compensate");
   if (csv) {
     const auto schema =
