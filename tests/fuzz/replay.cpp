@@ -1,6 +1,7 @@
 // A fuzzer without libFuzzer, for any compiler and the short run of every test: the kept
 // corpus once, then mutations of it in a fixed order.
-// Usage: replay_door --door=NAME --corpus=FILE.jsonl --runs=N     (other targets: their option)
+// Usage: replay_door --door=NAME --corpus=FILE.jsonl --runs=N     (other targets: their
+// option)
 #include <cstdint>
 #include <fstream>
 #include <iostream>
@@ -31,8 +32,8 @@ std::vector<std::uint8_t> bytes(const std::string& line) {
   const auto text = nlohmann::json::parse(line).get<std::string>();
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto c = static_cast<std::uint8_t>(text[i]);
-    data.push_back(c < 0x80 ? c
-                            : static_cast<std::uint8_t>((c & 3) << 6 | (text[++i] & 0x3f)));
+    data.push_back(
+        c < 0x80 ? c : static_cast<std::uint8_t>((c & 3) << 6 | (text[++i] & 0x3f)));
   }
   return data;
 }
