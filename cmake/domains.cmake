@@ -151,7 +151,7 @@ target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11
 if(BUILD_TESTING)
   add_executable(app_test tests/app/command_line_test.cpp tests/app/batch_test.cpp
     tests/app/killed_server_test.cpp
-    tests/app/readme_test.cpp)
+    tests/app/options_test.cpp tests/app/programs_test.cpp tests/app/readme_test.cpp)
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>" TURNWRIGHT_FAULTS="$<TARGET_FILE:faults>"

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "options.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/service/batch_runner.hpp"
@@ -25,23 +26,28 @@ struct BatchArguments {
   fs::path lines, folder;
   std::optional<unsigned> jobs;
   std::optional<std::int64_t> chunk;
-  std::string shard;
+  std::optional<service::Shard> shard;
   std::int64_t task_lines = service::SlurmOptions{}.task_lines;
   bool slurm = false, reconcile = false;
 };
 
+constexpr Range<std::int64_t> kShards{1, 1'000'000};
+
 /// @throws InputError if it is not of the form "2/5".
 service::Shard shard_of(const std::string& text) {
-  service::Shard shard;
-  if (text.empty()) return shard;
-  char slash = 0;
-  std::istringstream in(text);
-  in >> shard.index >> slash >> shard.count;
-  if (!in || slash != '/' || !in.eof() || !(shard.index >= 1) ||
-      !(shard.index <= shard.count))
-    throw InputError("--shard",
-                     {{"", '"' + text + '"', "i/n with 1 <= i <= n", "range"}});
-  return shard;
+  const auto slash = std::min(text.find('/'), text.size());
+  const auto index = number_in(std::string_view(text).substr(0, slash), kShards);
+  const auto behind = std::min(slash + 1, text.size());
+  const auto count = number_in(std::string_view(text).substr(behind), kShards);
+  if (!index || !count || *index > *count)
+    throw wrong_option("--shard", '"' + text + '"',
+                       "i/n with 1 <= i <= n <= " + std::to_string(kShards.most),
+                       "range");
+  return {*index, *count};
+}
+
+std::string name(const service::Shard& shard) {
+  return std::to_string(shard.index) + '/' + std::to_string(shard.count);
 }
 
 std::string duration(double seconds) {
@@ -85,12 +91,12 @@ void tell(const service::BatchFolder& folder, const service::BatchSummary& summa
 }
 
 void run_here(const BatchArguments& arguments, const fs::path& data,
-              service::BatchInput& input, const service::BatchFolder& folder,
-              const service::Shard& shard) {
+              service::BatchInput& input, const service::BatchFolder& folder) {
   const auto catalogue = document::load_catalogue(data);
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   ProgressLine line;
-  service::run_batch(input, folder, shard, catalogue, arguments.jobs.value_or(cores),
+  service::run_batch(input, folder, arguments.shard.value_or(service::Shard{}), catalogue,
+                     arguments.jobs.value_or(cores),
                      [&line](const BatchProgress& now) { line.tell(now); });
 }
 
@@ -114,23 +120,22 @@ bool run_on_cluster(const BatchArguments& arguments, const fs::path& data,
 
 void run_batch(const BatchArguments& arguments,
                const std::optional<fs::path>& data_option) {
-  const auto shard = shard_of(arguments.shard);
   const auto data = document::data_folder(data_option);
   service::BatchInput input(arguments.lines);
   const auto contents = input.contents();
   service::make_folder(arguments.folder);
   std::optional<service::FolderLock> lock;
-  if (arguments.shard.empty()) lock.emplace(arguments.folder);
+  if (!arguments.shard) lock.emplace(arguments.folder);
   const service::BatchFolder folder(arguments.folder, contents,
                                     service::data_sha256(data), arguments.chunk);
   if (const auto summary = folder.complete()) return tell(folder, *summary);
   if (arguments.slurm || arguments.reconcile) {
     if (!run_on_cluster(arguments, data, input, folder)) return;
   } else {
-    run_here(arguments, data, input, folder, shard);
+    run_here(arguments, data, input, folder);
   }
-  if (arguments.shard.empty()) return tell(folder, folder.assemble(input));
-  service::print("shard " + arguments.shard + " is done\n");
+  if (!arguments.shard) return tell(folder, folder.assemble(input));
+  service::print("shard " + name(*arguments.shard) + " is done\n");
 }
 
 }  // namespace
@@ -143,19 +148,19 @@ void add_batch(CLI::App& app, const std::optional<fs::path>& data,
       ->add_option("LINES", arguments->lines,
                    R"(file of lines {"name": "plan", "document": {..}})")
       ->required();
-  command
-      ->add_option("-o,--output", arguments->folder,
-                   "folder of the results; a run that was cut short goes on there")
+  add_path(*command, "-o,--output", arguments->folder,
+           "folder of the results; a run that was cut short goes on there")
       ->required();
-  command->add_option("--jobs", arguments->jobs, "lines at once (default: one a core)")
-      ->check(CLI::Range(1U, 1024U));
-  auto* shard = command->add_option("--shard", arguments->shard,
-                                    "part i/n of the lines; when all are done, a run "
-                                    "without --shard puts them together");
-  command
-      ->add_option("--chunk", arguments->chunk,
-                   "lines that are kept together; a kill costs no more (default: 100)")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
+  add_number<unsigned>(*command, "--jobs", arguments->jobs, {1, 1024},
+                       "lines at once (default: one a core)");
+  auto* shard = command->add_option_function<std::string>(
+      "--shard",
+      [arguments](const std::string& text) { arguments->shard = shard_of(text); },
+      "part i/n of the lines; when all are done, a run without --shard puts them "
+      "together");
+  add_number<std::int64_t>(
+      *command, "--chunk", arguments->chunk, {1, 1'000'000},
+      "lines that are kept together; a kill costs no more (default: 100)");
   auto* slurm = command->add_flag("--slurm", arguments->slurm,
                                   "submit as an array of Slurm, and return");
   auto* reconcile =
@@ -164,10 +169,8 @@ void add_batch(CLI::App& app, const std::optional<fs::path>& data,
                         "there; then put it together");
   slurm->excludes(shard);
   reconcile->excludes(shard)->excludes(slurm);
-  command
-      ->add_option("--task-lines", arguments->task_lines, "lines of one of Slurm's tasks")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
-      ->capture_default_str();
+  add_number<std::int64_t>(*command, "--task-lines", arguments->task_lines,
+                           {1, 100'000'000}, "lines of one of Slurm's tasks");
   command->footer(
       "Writes results.jsonl, one record a line, in the order of LINES, and "
       "summary.json.\n"

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <iostream>
 #include <iterator>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "batch.hpp"
+#include "options.hpp"
 #include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
@@ -68,15 +70,38 @@ void write_drawings(const std::filesystem::path& folder,
     service::write_file(folder / picture.file, picture.svg);
 }
 
+constexpr auto kControl = nc::Control::linuxcnc;
+constexpr const char* kToolTable = "tools.tbl";
+
+/// Whether write_programs() of some plan gives a file this name.
+bool is_of_programs(std::string_view name) {
+  nc::SetupProgram program;
+  const auto digits = std::min(name.find_first_of("0123456789"), name.size());
+  std::from_chars(name.data() + digits, name.data() + name.size(), program.setup);
+  return name == kToolTable || name == document::file_name(program, kControl);
+}
+
+/// Makes the folder hold the programs of this plan and none of another.
 void write_programs(const std::filesystem::path& folder, const nc::Programs& programs) {
-  constexpr auto kControl = nc::Control::linuxcnc;
-  service::make_folder(folder);
+  std::vector<service::NamedText> files;
   for (const auto& program : programs.setups)
-    service::write_file(folder / document::file_name(program, kControl),
-                        nc::text(program, kControl));
-  if (!programs.setups.empty())
-    service::write_file(folder / "tools.tbl", nc::tool_table(programs.setups));
+    files.push_back(
+        {document::file_name(program, kControl), nc::text(program, kControl)});
+  if (!files.empty()) files.push_back({kToolTable, nc::tool_table(programs.setups)});
+  service::make_folder(folder);
+  for (const auto& name : service::replace_files(folder, files, is_of_programs))
+    std::cerr << "removed " << (folder / name).string() << ", of an earlier plan\n";
   for (const auto& why : programs.cannot) std::cerr << "no NC program: " << why << '\n';
+  if (files.empty() && programs.cannot.empty())
+    std::cerr << "no NC program: there is no feasible plan\n";
+}
+
+/// Of a result, and of the programs if any were asked for.
+Exit exit_code(const service::Drawn& drawn, bool programs) {
+  if (service::infeasible(drawn.result)) return kInfeasible;
+  const bool none = service::not_programmed(drawn.result) ||
+                    (programs && !drawn.programs.cannot.empty());
+  return none ? kRange : kOk;
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {
@@ -85,17 +110,19 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   const auto drawn = answer(row, arguments, request, catalogue);
   const auto& result = drawn.result;
   const std::string json = result.dump(2) + '\n';
-  if (arguments.result_file) service::write_file(*arguments.result_file, json);
+  const bool to_file = arguments.result_file && *arguments.result_file != "-";
+  if (to_file) service::write_file(*arguments.result_file, json);
   if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
   if (arguments.programs) write_programs(*arguments.programs, drawn.programs);
   if (arguments.report_file)
     service::write_file(*arguments.report_file,
                         service::html_report(row, request, drawn));
-  if (row.text && !arguments.json)
+  const bool json_asked = arguments.json || (arguments.result_file && !to_file);
+  if (row.text && !json_asked)
     service::print(row.text(result));
-  else if (arguments.json || !arguments.result_file)
+  else if (json_asked || !to_file)
     service::print(json);
-  return service::infeasible(result) ? kInfeasible : kOk;
+  return exit_code(drawn, arguments.programs.has_value());
 }
 
 std::vector<service::Entry> entries(const Arguments& arguments) {
@@ -126,18 +153,19 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
         ->add_option("REQUEST", arguments.file,
                      "request document; - reads standard input")
         ->required();
-    command->add_option("-o,--output", arguments.result_file,
-                        "write the result (JSON) here");
+    add_path(*command, "-o,--output", arguments.result_file,
+             "write the result (JSON) here; - is standard output",
+             Dash::is_standard_output);
     command->add_flag("--json", arguments.json, "print the result as JSON");
     if (row.drawn)
-      command->add_option("--drawings", arguments.drawings,
-                          "write the result's pictures (SVG) to this folder");
+      add_path(*command, "--drawings", arguments.drawings,
+               "write the result's pictures (SVG) to this folder");
     if (row.drawn && service::request_schema(row) == "part.json")
-      command->add_option("--nc", arguments.programs,
-                          "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
+      add_path(*command, "--nc", arguments.programs,
+               "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
     if (row.html)
-      command->add_option("--report", arguments.report_file,
-                          "write the report (HTML, printable) here");
+      add_path(*command, "--report", arguments.report_file,
+               "write the report (HTML, printable) here");
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
                     " -");
     command->callback([&row, &arguments, &chosen] {
@@ -161,8 +189,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments arguments;
   app.fallthrough();
-  app.add_option("--data", arguments.data,
-                 "folder with materials/, tools/ and machines/");
+  add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
   std::string examples =
       "Examples:\n  turnwright list parts\n  turnwright batch --help\n"
       "  turnwright serve --help\n";
@@ -171,7 +198,7 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 1 no feasible plan, 2 wrong input, 3 outside a model's "
       "range,\n"
-      "70 internal error, 74 result not written.\n" +
+      "or no NC program can be made, 70 internal error, 74 result not written.\n" +
       examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 
+#include "options.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/service/log.hpp"
 #include "turnwright/service/output.hpp"
@@ -34,7 +35,13 @@ fs::path usual_job_file() {
 
 /// The job store; none if nobody asked for one and the usual place cannot be used.
 std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& asked) {
-  if (asked) return std::make_unique<service::JobStore>(*asked);
+  if (asked) try {
+      return std::make_unique<service::JobStore>(*asked);
+    } catch (const std::runtime_error& error) {
+      throw wrong_option("--jobs", error.what(),
+                         "a job store of this version that no other process has open",
+                         "file");
+    }
   const auto file = usual_job_file();
   try {
     fs::create_directories(file.parent_path());
@@ -91,35 +98,26 @@ void add_serve(CLI::App& app, const std::optional<fs::path>& data,
   auto& options = arguments->options;
   command->add_option("--address", options.address, "numeric address to listen on")
       ->capture_default_str();
-  command->add_option("--port", options.port, "port to listen on; 0: any free one")
-      ->capture_default_str();
-  command->add_option("--keys", arguments->keys,
-                      "file of bearer keys, one a line; needed for addresses that other "
-                      "machines reach");
-  command->add_option("--jobs", arguments->jobs,
-                      "file that keeps the batches (default: turnwright/jobs.sqlite in "
-                      "$XDG_STATE_HOME)");
-  command->add_option("--page", arguments->page,
-                      "folder of another page, index.html, read anew for every answer");
-  command->add_option("--threads", options.threads, "threads that compute; 0: one a core")
-      ->capture_default_str();
-  command
-      ->add_option("--batch-threads", arguments->batch_threads,
-                   "threads that work on batches")
-      ->check(CLI::Range(1U, 1024U))
-      ->capture_default_str();
-  command
-      ->add_option("--queue", options.queue,
-                   "calls that may wait for a thread; more are answered 503")
-      ->capture_default_str();
-  command->add_option("--connections", options.connections, "connections open at once")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  command
-      ->add_option("--deadline", arguments->deadline_s,
-                   "seconds a call may be computed; then it is answered 504")
-      ->check(CLI::Range(0.001, 86'400.0))
-      ->capture_default_str();
+  add_number<std::uint16_t>(*command, "--port", options.port, {0, 65'535},
+                            "port to listen on; 0: any free one");
+  add_path(*command, "--keys", arguments->keys,
+           "file of bearer keys, one a line; needed for addresses that other machines "
+           "reach");
+  add_path(*command, "--jobs", arguments->jobs,
+           "file that keeps the batches (default: turnwright/jobs.sqlite in "
+           "$XDG_STATE_HOME)");
+  add_path(*command, "--page", arguments->page,
+           "folder of another page, index.html, read anew for every answer");
+  add_number<unsigned>(*command, "--threads", options.threads, {0, 1024},
+                       "threads that compute; 0: one a core");
+  add_number<unsigned>(*command, "--batch-threads", arguments->batch_threads, {1, 1024},
+                       "threads that work on batches");
+  add_number<std::size_t>(*command, "--queue", options.queue, {0, 1'000'000},
+                          "calls that may wait for a thread; more are answered 503");
+  add_number<std::size_t>(*command, "--connections", options.connections, {1, 1'000'000},
+                          "connections open at once");
+  add_number<double>(*command, "--deadline", arguments->deadline_s, {0.001, 86'400},
+                     "seconds a call may be computed; then it is answered 504");
   command->footer(
       "Stops on SIGTERM or SIGINT, when every call that has arrived is answered.\n"
       "Examples:\n  turnwright serve --port 8080\n"

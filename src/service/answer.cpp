@@ -29,6 +29,11 @@ void sign(nlohmann::ordered_json& result, const Request& row,
   result["request_digest"] = sha256_hex(request.dump());
 }
 
+bool has_status(const nlohmann::ordered_json& result, const char* wanted) {
+  const auto status = result.find("status");
+  return status != result.end() && *status == wanted;
+}
+
 }  // namespace
 
 nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
@@ -56,8 +61,11 @@ std::string html_report(const Request& row, const nlohmann::json& request,
 }
 
 bool infeasible(const nlohmann::ordered_json& result) {
-  const auto status = result.find("status");
-  return status != result.end() && *status == "infeasible";
+  return has_status(result, "infeasible");
+}
+
+bool not_programmed(const nlohmann::ordered_json& result) {
+  return has_status(result, "not-programmed");
 }
 
 }  // namespace turnwright::service

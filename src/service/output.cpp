@@ -4,11 +4,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <iostream>
+#include <iterator>
+#include <list>
 #include <random>
+#include <set>
 #include <system_error>
 
 namespace turnwright::service {
@@ -47,12 +51,23 @@ bool flush_folder(const fs::path& folder) {
   return good;
 }
 
+// What a link leads to.
+fs::path resolved(const fs::path& file) {
+  std::error_code unresolved;
+  const auto target = fs::weakly_canonical(file, unresolved);
+  return unresolved ? file : target;
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw OutputError(file.string() + ": cannot be removed: " + error.message());
+}
+
 }  // namespace
 
-NewFile::NewFile(fs::path file, const fs::path& scratch) : file_(std::move(file)) {
-  std::error_code unresolved;
-  target_ = fs::weakly_canonical(file_, unresolved);
-  if (unresolved) target_ = file_;
+NewFile::NewFile(fs::path file, const fs::path& scratch)
+    : file_(std::move(file)), target_(resolved(file_)) {
   temporary_ =
       unfinished_name(scratch.empty() ? target_.parent_path() : scratch, target_);
   struct stat old {};
@@ -70,8 +85,10 @@ NewFile::~NewFile() {
 
 void NewFile::write(std::string_view text) { check(write_all(descriptor_, text)); }
 
+void NewFile::flush() { check(::fsync(descriptor_) == 0); }
+
 void NewFile::publish() {
-  check(::fsync(descriptor_) == 0);
+  flush();
   check(std::rename(temporary_.c_str(), target_.c_str()) == 0);
   temporary_.clear();
   const auto folder = target_.parent_path();
@@ -94,6 +111,30 @@ void write_file(const fs::path& file, std::string_view text) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!good) fail(file, error);
+}
+
+std::vector<std::string> replace_files(
+    const fs::path& folder, const std::vector<NamedText>& files,
+    const std::function<bool(std::string_view)>& ours) {
+  std::list<NewFile> fresh;
+  std::set<std::string> left, names;
+  for (const auto& file : files) {
+    names.insert(file.name);
+    auto& out = fresh.emplace_back(folder / file.name);
+    out.write(file.text);
+    out.flush();
+  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const auto name = entry.path().filename().string();
+        !entry.is_directory() && ours(name))
+      left.insert(name);
+  std::vector<std::string> gone;
+  std::set_difference(left.begin(), left.end(), names.begin(), names.end(),
+                      std::back_inserter(gone));
+  for (const auto& name : left) remove_file(resolved(folder / name));
+  for (const auto& name : gone) remove_file(folder / name);  // of a link, the link too
+  for (auto& file : fresh) file.publish();
+  return gone;
 }
 
 void make_folder(const fs::path& folder) {

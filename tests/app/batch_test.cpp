@@ -248,9 +248,11 @@ TEST_F(Batch, WrongUseIsTold) {
           ".: document: got no regular file, expected a file with one request a line\n");
   refused("turnwright batch lines.jsonl -o file", 74,
           "file: cannot be written: Not a directory\n");
-  for (const std::string shard : {"0/3", "4/3", "1", "1/", "a/b", "1/3x", "-1/3"})
-    refused("turnwright batch lines.jsonl -o results --shard=" + shard, 2,
-            "--shard: document: got \"" + shard + "\", expected i/n with 1 <= i <= n\n");
+  for (const std::string shard : {"0/3", "4/3", "1", "1/", "a/b", "1/3x", "-1/3", " 1/3",
+                                  "1/1000001", "1/99999999999"})
+    refused("turnwright batch lines.jsonl -o results --shard='" + shard + '\'', 2,
+            "command line: --shard: got \"" + shard +
+                "\", expected i/n with 1 <= i <= n <= 1000000\n");
   for (const std::string wrong :
        {"", "-o results --jobs 0", "-o results --chunk 0",
         "-o results --slurm --shard 1/2", "-o results --slurm --reconcile",

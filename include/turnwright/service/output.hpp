@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace turnwright::service {
 
@@ -26,7 +28,8 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   void write(std::string_view text);
-  /// Flushes to the disk and renames.
+  void flush();  ///< to the disk
+  /// Flushes and renames.
   void publish();
 
  private:
@@ -39,6 +42,20 @@ class NewFile {
 /// Puts `text` into the file whole or not at all.  What is no regular file (/dev/stdout,
 /// a pipe) is written straight.
 void write_file(const std::filesystem::path& file, std::string_view text);
+
+struct NamedText {
+  std::string name, text;
+};
+
+/// Makes the folder hold `files`, and of the names that `ours` knows no others: what an
+/// earlier run left goes.  Everything new is on the disk before the first old file goes,
+/// and every old one is gone before the first new one gets its name: whenever it is cut
+/// short, the folder never shows files of two runs.  Links are followed.
+/// @return the names that are gone, sorted.
+/// @throws OutputError
+std::vector<std::string> replace_files(const std::filesystem::path& folder,
+                                       const std::vector<NamedText>& files,
+                                       const std::function<bool(std::string_view)>& ours);
 
 /// Makes the folder if it is missing, and those above it.
 void make_folder(const std::filesystem::path& folder);

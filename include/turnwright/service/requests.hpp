@@ -74,4 +74,7 @@ std::string html_report(const Request& row, const nlohmann::json& request,
 /// Whether the result says that no plan can meet the request.
 bool infeasible(const nlohmann::ordered_json& result);
 
+/// Whether the result says that there is a plan, and no NC program of it.
+bool not_programmed(const nlohmann::ordered_json& result);
+
 }  // namespace turnwright::service

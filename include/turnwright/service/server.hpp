@@ -36,9 +36,8 @@ struct ServerState;
 class Server {
  public:
   /// Binds, so that clients can connect from here on.  `api` must outlive the server.
-  /// @throws InputError if the address is not of this machine alone and there is no key,
-  /// or
-  ///   is no address; std::runtime_error if it cannot be bound.
+  /// @throws InputError if the address is none, if it is not of this machine alone and
+  ///   there is no key, or if it cannot be bound.
   Server(const ServerOptions& options, const HttpApi& api);
   ~Server();
 

@@ -18,17 +18,37 @@ ServerOptions complete(ServerOptions options) {
   return options;
 }
 
+[[noreturn]] void refuse(const char* option, const std::string& got,
+                         const std::string& expected, const std::string& code) {
+  throw InputError("command line", {{option, got, expected, code}});
+}
+
 asio::ip::address address_of(const ServerOptions& options) {
   boost::system::error_code ec;
   const auto address = asio::ip::make_address(options.address, ec);
-  if (ec)
-    throw InputError("--address",
-                     {{"", options.address, "a numeric IP address", "address"}});
+  if (ec) refuse("--address", options.address, "a numeric IP address", "address");
   if (!address.is_loopback() && options.keys.empty())
-    throw InputError("--address",
-                     {{"", options.address,
-                       "a loopback address, or keys for the callers (--keys)", "keys"}});
+    refuse("--address", options.address,
+           "a loopback address, or keys for the callers (--keys)", "keys");
   return address;
+}
+
+/// Listens from here on.
+void bind(tcp::acceptor& acceptor, const ServerOptions& options) {
+  const tcp::endpoint endpoint(address_of(options), options.port);
+  try {
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+  } catch (const boost::system::system_error& error) {
+    const auto why = ": " + error.code().message();
+    if (error.code() == boost::system::errc::address_in_use ||
+        error.code() == boost::system::errc::permission_denied)
+      refuse("--port", std::to_string(options.port) + why,
+             "a port that is free and that this user may listen on", "port");
+    refuse("--address", options.address + why, "an address of this machine", "address");
+  }
 }
 
 void admit(ServerState& state, tcp::socket socket) {
@@ -92,17 +112,7 @@ std::string process_name() { return fmt::format("{:08x}", std::random_device()()
 
 Server::Server(const ServerOptions& options, const HttpApi& api)
     : state_(std::make_unique<ServerState>(complete(options), api)) {
-  const tcp::endpoint endpoint(address_of(options), options.port);
-  auto& acceptor = state_->acceptor;
-  try {
-    acceptor.open(endpoint.protocol());
-    acceptor.set_option(tcp::acceptor::reuse_address(true));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error(options.address + ":" + std::to_string(options.port) + ": " +
-                             error.code().message());
-  }
+  bind(state_->acceptor, options);
 }
 
 Server::~Server() { state_->pool.join(); }

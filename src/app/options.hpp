@@ -1,0 +1,87 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
+#include "turnwright/base/errors.hpp"
+
+/// What the user may write behind an option: one rule for every number and one for every
+/// file and folder.
+namespace turnwright::app {
+
+/// The command line is the document, the option its place.
+inline InputError wrong_option(const std::string& option, const std::string& got,
+                               const std::string& expected, const std::string& code) {
+  return {"command line", {{option, got, expected, code}}};
+}
+
+template <class Number>
+struct Range {
+  Number least, most;
+};
+
+/// The number that the whole of `text` writes in decimal; none if it is none, or none of
+/// the range.  NaN is of no range.
+template <class Number>
+std::optional<Number> number_in(std::string_view text, const Range<Number>& range) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  const bool good =
+      error == std::errc() && read == end && value >= range.least && value <= range.most;
+  return good ? std::optional(value) : std::nullopt;
+}
+
+/// An option "--name" with a number, put into `value`.
+template <class Number, class Value>
+CLI::Option* add_number(CLI::App& app, const std::string& option, Value& value,
+                        const Range<Number>& range, const std::string& help) {
+  const auto put = [&value, option, range](const std::string& text) {
+    const auto number = number_in(text, range);
+    if (!number) {
+      std::ostringstream expected;
+      expected << (std::is_integral_v<Number> ? "an integer" : "a number") << " from "
+               << range.least << " to " << range.most;
+      throw wrong_option(option, '"' + text + '"', expected.str(), "range");
+    }
+    value = *number;
+  };
+  return app.add_option_function<std::string>(option, put, help)
+      ->type_name(std::is_integral_v<Number> ? "INT" : "NUMBER");
+}
+
+/// The same, with what `value` holds now as the default that the help shows.
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& option, Number& value,
+                        const Range<Number>& range, const std::string& help) {
+  std::ostringstream usual;
+  usual << value;
+  return add_number<Number, Number>(app, option, value, range, help)
+      ->default_str(usual.str());
+}
+
+enum class Dash { is_no_name, is_standard_output };
+
+/// An option with a file or folder.
+/// @param names  "-o,--output": the last one is told when it is wrong.
+template <class Path>
+CLI::Option* add_path(CLI::App& app, const std::string& names, Path& path,
+                      const std::string& help, Dash dash = Dash::is_no_name) {
+  const auto put = [&path, names, dash](const std::string& text) {
+    const auto option = names.substr(names.rfind(',') + 1);
+    if (text.empty() || (text == "-" && dash == Dash::is_no_name))
+      throw wrong_option(option, '"' + text + '"',
+                         "a name in the file system (./- for one that is called -)",
+                         "file");
+    path = std::filesystem::path(text);
+  };
+  return app.add_option_function<std::string>(names, put, help);
+}
+
+}  // namespace turnwright::app

@@ -1,0 +1,149 @@
+#include "command_line.hpp"
+
+// The folder of --nc: whoever carries it to the machine finds programs of one plan.
+namespace turnwright::app {
+namespace {
+
+using nlohmann::json;
+
+class Programs : public CommandLine {
+ protected:
+  Outcome run(const std::string& name, const json& request,
+              const std::string& more = "") const {
+    put(folder_ / "request.json", request.dump());
+    return shell("turnwright " + name + " request.json --nc nc " + more);
+  }
+  /// A plan of two setups, and what does not come from this program.
+  void earlier() const {
+    EXPECT_EQ(run("plan", json::parse(row("plan").example)).code, 0);
+    for (const char* own : {"setup-0.nc", "setup-a.ngc", "setup-.ngc", "setup-00.ngc",
+                            "setup-1.ngc.bak", "notes.txt"})
+      put(folder_ / "nc" / own, "mine");
+  }
+  std::vector<std::string> programs() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "nc")) {
+      if (contents(entry.path()) != "mine") names.push_back(entry.path().filename());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "nc"), {}),
+              static_cast<std::ptrdiff_t>(names.size() + 6));
+    return names;
+  }
+  static json infeasible() {
+    return json::parse(
+        contents(fs::path(TURNWRIGHT_SOURCE_DIR) / "parts/infeasible-as-drawn.json"));
+  }
+  json from_the_chuck() const {
+    auto request = json::parse(row("predict").example);
+    request["operations"][2]["direction"] = "from-chuck";
+    return request;
+  }
+};
+
+using Names = std::vector<std::string>;
+const std::string kRemoved =
+    "removed nc/setup-0.ngc, of an earlier plan\n"
+    "removed nc/setup-1.ngc, of an earlier plan\n"
+    "removed nc/tools.tbl, of an earlier plan\n";
+const std::string kWhy =
+    "no NC program: setup 0, e2: no program is made for turning from the chuck "
+    "outwards\n";
+
+TEST_F(Programs, OfAnEarlierPlanGoWhenThereIsNoPlan) {
+  earlier();
+  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
+  const auto outcome = run("plan", infeasible());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err, kRemoved + "no NC program: there is no feasible plan\n");
+  EXPECT_EQ(programs(), Names{});
+}
+
+TEST_F(Programs, OfAnEarlierPlanGoWhenNoneCanBeMade) {
+  earlier();
+  const auto outcome = run("predict", from_the_chuck());
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.err, kRemoved + kWhy);
+  EXPECT_EQ(programs(), Names{});
+  EXPECT_NE(outcome.out, "");  // the prediction itself stands
+  const auto without = shell("turnwright predict request.json");
+  EXPECT_EQ(without.code, 0);
+  EXPECT_EQ(without.out, outcome.out);
+  EXPECT_EQ(shell("turnwright predict request.json --report report.html").code, 0);
+}
+
+TEST_F(Programs, OfSetupsThatAreNoMoreGo) {
+  earlier();
+  put(folder_ / "nc/setup-2.ngc", "old");
+  put(folder_ / "nc/setup-17.ngc", "old");
+  const auto outcome = run("plan", json::parse(row("plan").example));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err,
+            "removed nc/setup-17.ngc, of an earlier plan\n"
+            "removed nc/setup-2.ngc, of an earlier plan\n");
+  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
+}
+
+TEST_F(Programs, ThatCannotBeWrittenLeaveTheOldOnesWhole) {
+  earlier();
+  const auto old = contents(folder_ / "nc/setup-0.ngc");
+  auto other = json::parse(row("plan").example);
+  other["outer"][1]["diameter_mm"] = 24;
+  put(folder_ / "request.json", other.dump());
+  // The first program fits, a later file does not: half a kilobyte is the shell's block.
+  const auto outcome = shell(
+      "trap '' XFSZ; ulimit -f 1; turnwright plan request.json --nc nc > /dev/null");
+  EXPECT_EQ(outcome.code, 74);
+  EXPECT_NE(outcome.err.find("cannot be written: File too large"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
+  EXPECT_EQ(contents(folder_ / "nc/setup-0.ngc"), old);
+}
+
+TEST_F(Programs, LinksAreFollowed) {
+  fs::create_directories(folder_ / "nc");
+  put(folder_ / "card", "old");
+  put(folder_ / "second card", "old");
+  fs::create_symlink("../card", folder_ / "nc/setup-0.ngc");
+  fs::create_symlink("../second card", folder_ / "nc/setup-5.ngc");
+  const auto outcome = run("plan", json::parse(row("plan").example));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "nc/setup-0.ngc"));
+  EXPECT_NE(contents(folder_ / "card"), "old");
+  EXPECT_FALSE(fs::is_symlink(fs::symlink_status(folder_ / "nc/setup-5.ngc")));
+  EXPECT_FALSE(fs::exists(folder_ / "second card"));
+}
+
+TEST_F(Programs, AreFilesAFolderOfTheirNameStays) {
+  fs::create_directories(folder_ / "nc/setup-3.ngc");
+  const auto outcome = run("plan", json::parse(row("plan").example));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_TRUE(fs::is_directory(folder_ / "nc/setup-3.ngc"));
+}
+
+TEST_F(Programs, OfTheDoorNcEndLikeThoseOfPlan) {
+  const auto nc = [this](const json& part) {
+    put(folder_ / "request.json", json{{"part", part}}.dump());
+    return shell("turnwright nc request.json --json");
+  };
+  EXPECT_EQ(nc(infeasible()).code, 1);
+  auto part = json::parse(
+      contents(fs::path(TURNWRIGHT_SOURCE_DIR) / "parts/threaded-spindle.json"));
+  EXPECT_EQ(nc(part).code, 0);
+  part["outer"][0]["length_mm"] = 20;
+  part["outer"].insert(part["outer"].begin(),
+                       json::parse(R"({"id": "c0", "kind": "cylinder", "length_mm": 5,
+                                       "diameter_mm": 23})"));
+  const auto none = nc(part);
+  EXPECT_EQ(none.code, 3);
+  EXPECT_EQ(json::parse(none.out).at("status"), "not-programmed");
+  const auto plan = run("plan", part);
+  EXPECT_EQ(plan.code, 3);
+  EXPECT_EQ(plan.err,
+            "no NC program: " + json::parse(none.out).at("cannot")[0].get<std::string>() +
+                '\n');
+}
+
+}  // namespace
+}  // namespace turnwright::app
