@@ -1,6 +1,7 @@
 #include "feasibility.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "setup_planner.hpp"
 #include "usable.hpp"
@@ -23,6 +24,11 @@ std::pair<std::string, std::string> tools_of(const FeatureTask& t) {
   return ids;
 }
 
+// Whether limits are opened as far as others, or further.
+bool as_open(const std::vector<double>& these, const std::vector<double>& others) {
+  return std::ranges::equal(these, others, std::greater_equal<>{});
+}
+
 }  // namespace
 
 Feasibility::Feasibility(const PartPlan& plan) : plan_(plan), limits_(limits_of(plan)) {}
@@ -41,18 +47,18 @@ bool Feasibility::made(const PartPlan& p, const FeatureTask& task, const Opening
   if (left_out_.count(surface)) return true;
   const auto [rough, finish] = tools_of(task);
   const auto [setup, clamping, last] = task.making;
-  const Key key{setup,
-                clamping,
-                jaw_force_N(p, setup, clamping, Stage::finishing),
-                surface,
-                rough,
-                finish,
-                state(times, surface)};
-  if (const auto it = known_.find(key); it != known_.end() && !(it->second && found))
-    return it->second;
+  auto& tried =
+      tried_[{setup, clamping, jaw_force_N(p, setup, clamping, Stage::finishing), surface,
+              rough, finish}];
+  const auto asked = state(times, surface);
+  for (const auto& t : tried)
+    if (!(t.made && found) &&
+        (t.made ? as_open(asked, t.times) : as_open(t.times, asked)))
+      return t.made;
   const auto answer = any_answer(task);
   if (answer.feasible && found) found(task, answer);
-  return known_[key] = answer.feasible;
+  tried.push_back({asked, answer.feasible});
+  return answer.feasible;
 }
 
 bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& work,

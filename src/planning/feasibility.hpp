@@ -12,8 +12,9 @@
 /// range, and which limits decide.
 namespace turnwright::planning {
 
-/// A plan's limits, opened this far and that.  Remembers what each surface came to, for
-/// most openings leave most surfaces as they are.
+/// A plan's limits, opened this far and that.  Remembers what each surface came to: what
+/// can be made can be made with its limits opened further, what cannot cannot with them
+/// opened less.
 class Feasibility {
  public:
   /// Called with the task and the answer of a surface that can be made.
@@ -43,14 +44,18 @@ class Feasibility {
   bool setup_made(const PartPlan& plan, std::size_t setup, const SetupWork& work,
                   const Finished& done, const Openings& times, const Found& found);
 
-  // Setup, clamping and the jaws' force at finishing, surface, its tools, and how far its
-  // limits are opened.
-  using Key = std::tuple<std::size_t, Clamping, double, std::string, std::string,
-                         std::string, std::vector<double>>;
+  // Setup, clamping and the jaws' force at finishing, surface, its tools.
+  using Key =
+      std::tuple<std::size_t, Clamping, double, std::string, std::string, std::string>;
+
+  struct Tried {
+    std::vector<double> times;  // how far the surface's limits were opened
+    bool made;
+  };
 
   const PartPlan& plan_;
   std::vector<Openable> limits_;
-  std::map<Key, bool> known_;
+  std::map<Key, std::vector<Tried>> tried_;
   std::set<std::string> failed_, left_out_;
 };
 
