@@ -136,7 +136,7 @@ set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITION
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.cpp
             batch/line.cpp batch/job_store.cpp batch/batches.cpp
             batch/input.cpp batch/chunk.cpp batch/folder.cpp batch/known_answers.cpp batch/runner.cpp batch/slurm.cpp
-            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/keys.cpp http/metrics.cpp http/log.cpp
+            http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/target.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp
           DEPENDS base catalogue planning document report nc
           PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp
@@ -144,7 +144,7 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.
           TESTS answer_test.cpp digest_test.cpp listing_test.cpp http_api_test.cpp
                 malformed_requests_test.cpp
                 batch_input_test.cpp batch_chunk_test.cpp batch_folder_test.cpp known_answers_test.cpp
-                job_store_test.cpp server_test.cpp page_test.cpp)
+                job_store_test.cpp little_memory.cpp server_test.cpp page_test.cpp)
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

@@ -7,6 +7,7 @@
 
 #include "options.hpp"
 #include "turnwright/document/catalogue.hpp"
+#include "turnwright/service/batch_folder.hpp"
 #include "turnwright/service/log.hpp"
 #include "turnwright/service/output.hpp"
 #include "turnwright/service/server.hpp"
@@ -34,9 +35,10 @@ fs::path usual_job_file() {
 }
 
 /// The job store; none if nobody asked for one and the usual place cannot be used.
-std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& asked) {
+std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& asked,
+                                             const std::string& data) {
   if (asked) try {
-      return std::make_unique<service::JobStore>(*asked);
+      return std::make_unique<service::JobStore>(*asked, data);
     } catch (const std::runtime_error& error) {
       throw wrong_option("--jobs", error.what(),
                          "a job store of this version that no other process has open",
@@ -45,7 +47,7 @@ std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& aske
   const auto file = usual_job_file();
   try {
     fs::create_directories(file.parent_path());
-    return std::make_unique<service::JobStore>(file);
+    return std::make_unique<service::JobStore>(file, data);
   } catch (const std::exception& error) {
     service::log_event("no batches",
                        std::string(error.what()) + "; --jobs FILE names another place");
@@ -73,7 +75,8 @@ void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
   service::start_log();
   const auto folder = document::data_folder(data);
   const auto catalogue = document::load_catalogue(folder);
-  const auto jobs = open_jobs(arguments.jobs);
+  const auto jobs = open_jobs(arguments.jobs, service::data_sha256(folder) + ' ' +
+                                                  std::string(service::version()));
   std::optional<service::Batches> batches;
   if (jobs) batches.emplace(*jobs, catalogue, arguments.batch_threads);
   const service::HttpApi api(

@@ -67,10 +67,15 @@ TEST(HttpApi, NoPathLeadsToTheFileSystem) {
   for (const char* target :
        {"/v1/parts/../machines/lathe-small", "/v1/parts/..%2f..%2fREADME.md",
         "/v1/parts//etc/passwd", "/v1/parts/pump-shaft.json", "/../README.md", "//",
-        "xhealthz", "*", "http://127.0.0.1/healthz", "/v1/parts/pump-shaft/"}) {
+        "/v1/parts/pump-shaft/"}) {
     const auto given = reply(call("GET", target));
     EXPECT_EQ(given.status, 404) << target;
     problem_of(given);
+  }
+  for (const char* target : {"xhealthz", "*", "http://127.0.0.1/healthz", ""}) {
+    const auto given = problem_of(reply(call("GET", target)));
+    EXPECT_EQ(given.at("status"), 400) << target;
+    EXPECT_EQ(given.at("detail"), "got '" + std::string(target) + "', expected a path");
   }
 }
 
@@ -89,8 +94,63 @@ TEST(HttpApi, TellsWhatIsWrongWithABody) {
   auto typed = call("POST", "/v1/multipass", "{}");
   typed.content_type = "text/plain";
   EXPECT_EQ(problem_of(reply(typed)).at("status"), 415);
+  typed.content_type = "application/json; charset=latin1";
+  EXPECT_EQ(problem_of(reply(typed)).at("detail"),
+            "got Content-Type 'application/json; charset=latin1', expected "
+            "application/json (UTF-8)");
   typed.content_type = "Application/JSON; charset=utf-8";
   EXPECT_EQ(reply(typed).status, 200);
+}
+
+TEST(HttpApi, DocumentsAreUtf8) {
+  for (const char* yes :
+       {"application/json", " application/JSON ", "application/json;charset=UTF-8",
+        "application/json; Charset=\"utf-8\"",
+        "application/json; profile=x; charset=utf-8", "application/json;"})
+    EXPECT_TRUE(is_type(yes, "application/json")) << yes;
+  for (const char* no : {"", "application/jsonl", "application/json charset=utf-8",
+                         "application/json; charset=utf-16",
+                         "application/json; charset=", "application/json; charset",
+                         "application/json; charset=\"latin1\"",
+                         "application/json; charset=utf-8; charset=latin1",
+                         "application/json;a=1; CHARSET = iso-8859-1"})
+    EXPECT_FALSE(is_type(no, "application/json")) << no;
+}
+
+TEST(HttpApi, AQueryIsWhatThePathTakesOrRefused) {
+  const auto wrong =
+      problem_of(reply(call("GET", "/v1/batches/1/results?form=2&from=1&from=2&=&from")));
+  EXPECT_EQ(wrong.at("status"), 400);
+  EXPECT_EQ(wrong.at("type"), "urn:turnwright:problem:query");
+  EXPECT_EQ(wrong.at("detail"), "wrong in the query: form, from, , from");
+  EXPECT_EQ(wrong.at("errors"), json::parse(R"([
+    {"pointer": "form", "got": "\"2\"", "expected": "no such parameter",
+     "code": "unknown-key"},
+    {"pointer": "from", "got": "\"2\"", "expected": "the parameter once",
+     "code": "duplicate"},
+    {"pointer": "", "got": "\"\"", "expected": "no such parameter",
+     "code": "unknown-key"},
+    {"pointer": "from", "got": "\"\"", "expected": "the parameter once",
+     "code": "duplicate"}])"));
+  for (const char* value :
+       {"", "0", "-1", "1.5", "x", "1x", "%31", "99999999999999999999", "+1"}) {
+    const auto range = problem_of(
+        reply(call("GET", std::string("/v1/batches/1/results?from=") + value)));
+    EXPECT_EQ(range.at("status"), 400) << value;
+    EXPECT_EQ(range.at("errors")[0].at("expected"), "an integer >= 1") << value;
+  }
+  // This server takes no batches: the query was right.
+  EXPECT_EQ(reply(call("GET", "/v1/batches/1/results?from=2")).status, 404);
+  for (const char* target :
+       {"/", "/healthz", "/v1/parts", "/v1/parts/pump-shaft", "/openapi.json", "/readyz",
+        "/metrics", "/v1/batches", "/v1/batches/1"}) {
+    EXPECT_EQ(reply(call("GET", target + std::string("?from=1"))).status, 400) << target;
+    EXPECT_EQ(reply(call("GET", target + std::string("?"))).status,
+              reply(call("GET", target)).status)
+        << target;
+  }
+  EXPECT_EQ(reply(call("POST", "/v1/multipass?fast=1", "{}")).status, 400);
+  EXPECT_EQ(reply(call("OPTIONS", "/v1/multipass?fast=1")).status, 204);
 }
 
 TEST(HttpApi, ThePageIsAtTheRoot) {
@@ -140,6 +200,24 @@ TEST(HttpApi, TellsTheMethodsOfAPath) {
   EXPECT_EQ(options.status, 204);
   EXPECT_EQ(options.headers, (Headers{{"Allow", "GET, HEAD, OPTIONS"}}));
   EXPECT_EQ(reply(call("HEAD", "/v1/parts")).body, reply(call("GET", "/v1/parts")).body);
+  for (const char* own : {"/readyz", "/metrics"})
+    EXPECT_EQ(reply(call("OPTIONS", own)).headers,
+              (Headers{{"Allow", "GET, HEAD, OPTIONS"}}));
+  // What any path of the description takes is what all paths take.
+  std::set<std::string> methods{"HEAD", "OPTIONS"};
+  const auto description = json::parse(reply(call("GET", "/openapi.json")).body);
+  for (const auto& path : description.at("paths"))
+    for (const auto& [method, operation] : path.items()) {
+      std::string name;
+      for (const char c : method) name += static_cast<char>(std::toupper(c));
+      methods.insert(name);
+    }
+  const auto all = reply(call("OPTIONS", "*"));
+  EXPECT_EQ(all.status, 204);
+  EXPECT_EQ(all.headers, (Headers{{"Allow", "GET, HEAD, POST, DELETE, OPTIONS"}}));
+  EXPECT_EQ(methods, (std::set<std::string>{"DELETE", "GET", "HEAD", "OPTIONS", "POST"}));
+  for (const char* unknown : {"BREW", "TRACE", "get", "PROPFIND"})
+    EXPECT_EQ(problem_of(reply(call(unknown, "/v1/parts"))).at("status"), 501) << unknown;
 }
 
 TEST(HttpApi, RoutesHaveFewNames) {

@@ -1,5 +1,6 @@
 #include "turnwright/service/job_store.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "little_memory.hpp"
 #include "temporary_folder.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
@@ -27,7 +29,7 @@ JobStore::Record record(const JobStore::Line& line, std::string text) {
 }
 
 TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
-  JobStore store(file());
+  JobStore store(file(), "data");
   const auto first = *store.submit("a\n\nb");
   const auto second = *store.submit("c\n");
   const auto lines = store.take(2);
@@ -38,11 +40,12 @@ TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   ASSERT_EQ(rest.size(), 1U);
   EXPECT_EQ(rest[0].job, second);
   EXPECT_TRUE(store.take(9).empty());
-  EXPECT_EQ(store.job(first)->lines, 2);
+  EXPECT_EQ(store.job(first)->lines, 3);
+  EXPECT_EQ(store.job(first)->done, 1);  // the blank one
 }
 
 TEST_F(JobStoreTest, TooManyLinesAreNoJobAndEmptyOnesAreNone) {
-  JobStore store(file());
+  JobStore store(file(), "data");
   std::string lines;
   for (std::size_t i = 0; i <= JobStore::kMostLines; ++i) lines += "0\n";
   EXPECT_FALSE(store.submit(lines));
@@ -53,7 +56,7 @@ TEST_F(JobStoreTest, TooManyLinesAreNoJobAndEmptyOnesAreNone) {
 }
 
 TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
-  JobStore store(file());
+  JobStore store(file(), "data");
   const auto id = *store.submit("a\nb\nc");
   const auto lines = store.take(3);
   store.finish(
@@ -70,12 +73,12 @@ TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {
 
 TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
   {
-    JobStore store(file());
+    JobStore store(file(), "data");
     store.submit("a\nb\nc");
     const auto lines = store.take(2);
     store.finish(std::vector{record(lines[0], "{}")});
   }
-  JobStore store(file());
+  JobStore store(file(), "data");
   const auto lines = store.take(9);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].text + lines[1].text, "bc");
@@ -83,7 +86,7 @@ TEST_F(JobStoreTest, WhatWasTakenAndNotFinishedIsTakenAgainAfterARestart) {
 }
 
 TEST_F(JobStoreTest, ARecordOnceStoredStays) {
-  JobStore store(file());
+  JobStore store(file(), "data");
   const auto id = *store.submit("a");
   const auto lines = store.take(1);
   store.finish(
@@ -93,7 +96,7 @@ TEST_F(JobStoreTest, ARecordOnceStoredStays) {
 }
 
 TEST_F(JobStoreTest, CancelledLinesAreLeftAndRemovedJobsForgotten) {
-  JobStore store(file());
+  JobStore store(file(), "data");
   const auto id = *store.submit("a\nb\n");
   const auto lines = store.take(1);
   EXPECT_TRUE(store.cancel(id));
@@ -110,16 +113,131 @@ TEST_F(JobStoreTest, CancelledLinesAreLeftAndRemovedJobsForgotten) {
 }
 
 TEST_F(JobStoreTest, OneProcessAtATimeAndOnlyJobStores) {
-  JobStore store(file());
-  EXPECT_THROW(JobStore{file()}, std::runtime_error);
+  JobStore store(file(), "data");
+  EXPECT_THROW(JobStore(file(), "data"), std::runtime_error);
   std::ofstream(folder_ / "text") << std::string(4096, 'x');
-  EXPECT_THROW(JobStore{folder_ / "text"}, std::runtime_error);
-  EXPECT_THROW(JobStore{folder_ / "missing" / "jobs.sqlite"}, std::runtime_error);
+  EXPECT_THROW(JobStore(folder_ / "text", "data"), std::runtime_error);
+  EXPECT_THROW(JobStore(folder_ / "missing" / "jobs.sqlite", "data"), std::runtime_error);
+}
+
+TEST_F(JobStoreTest, RecordsOfOtherDataAreNotMixed) {
+  std::int64_t begun = 0, fresh = 0, done = 0;
+  {
+    JobStore store(file(), "old");
+    begun = *store.submit("a\nb\n");
+    auto records = std::vector{record(store.take(1)[0], R"({"x":"old"})")};
+    records[0].digest = "d";
+    store.finish(records);
+    EXPECT_TRUE(store.known("d"));
+    done = *store.submit("\n \n");
+    fresh = *store.submit("\nc\n");
+  }
+  {
+    JobStore store(file(), "new");
+    EXPECT_FALSE(store.known("d"));
+    EXPECT_EQ(store.job(begun)->state, "outdated");
+    EXPECT_EQ(store.job(begun)->done, 1);
+    EXPECT_EQ(store.results(begun, 1, 1000).jsonl, "{\"line\":1,\"x\":\"old\"}\n");
+    EXPECT_EQ(store.job(done)->state, "done");
+    EXPECT_EQ(store.job(fresh)->state, "running");
+    const auto lines = store.take(9);  // nothing of the first
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].text, "c");
+    auto records = std::vector{record(lines[0], R"({"x":"new"})")};
+    records[0].digest = "d";
+    store.finish(records);
+    EXPECT_EQ(store.known("d"), R"({"x":"new"})");
+    EXPECT_TRUE(store.cancel(begun));
+    EXPECT_EQ(store.job(begun)->state, "outdated");
+  }
+  JobStore store(file(), "old");  // as it was: still not gone on with
+  EXPECT_EQ(store.job(begun)->state, "outdated");
+  EXPECT_EQ(store.known("d"), R"({"x":"old"})");
+  EXPECT_TRUE(store.take(9).empty());
+}
+
+TEST_F(JobStoreTest, BlankLinesCountAndAreDone) {
+  JobStore store(file(), "data");
+  const auto id = *store.submit("\na\n \t\r\n\nb");
+  EXPECT_EQ(store.job(id)->lines, 5);
+  EXPECT_EQ(store.job(id)->done, 3);
+  const auto lines = store.take(9);
+  EXPECT_EQ(lines.at(0).number, 2);
+  EXPECT_EQ(lines.at(1).number, 5);
+  store.finish(std::vector{record(lines[0], "{}"), record(lines[1], "{}")});
+  EXPECT_EQ(store.job(id)->done, 5);
+  EXPECT_EQ(store.job(id)->state, "done");
+  const auto blank = *store.submit("\n\n");
+  EXPECT_EQ(store.job(blank)->state, "done");
+  EXPECT_EQ(store.job(blank)->lines, 2);
+  const auto none = *store.submit("");
+  EXPECT_EQ(store.job(none)->state, "done");
+  EXPECT_EQ(store.job(none)->lines, 0);
+}
+
+TEST_F(JobStoreTest, ADatabaseOfAnotherProgramIsLeftAlone) {
+  {
+    SQLite::Database other(file().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    other.exec("CREATE TABLE job (mine TEXT)");
+  }
+  const auto bytes = [this] {
+    std::ifstream in(file(), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const auto before = bytes();
+  const auto refusal = [this]() -> std::string {
+    try {
+      const JobStore store(file(), "data");
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(), file().string() + ": a database of another program");
+  EXPECT_EQ(bytes(), before);
+  fs::remove(file());
+  { const JobStore store(file(), "data"); }
+  {
+    SQLite::Database older(file().string(), SQLite::OPEN_READWRITE);
+    older.exec("PRAGMA user_version = 1");
+  }
+  EXPECT_EQ(refusal(),
+            file().string() + ": job store of version 1, this program reads version 2");
+}
+
+// A line that there is no memory for is an error; the others are answered.
+TEST_F(JobStoreTest, ALineWithoutMemoryIsARecord) {
+  const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  JobStore store(file(), "data");
+  const std::string good = R"({"name": "multipass", "document": {"dt_mm": 8}})";
+  std::string large = R"({"name": "multipass", "document": {"dt_mm": [0)";
+  for (int i = 0; i < 20'000; ++i) large += ",0";
+  large += "]}}";
+  const auto id = *store.submit(good + '\n' + large + '\n' + good + '\n');
+  {
+    const LittleMemory little(100'000);
+    Batches batches(store, catalogue, 2);
+    while (store.job(id)->state == "running")
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(store.job(id)->errors, 1);
+  const auto results = store.results(id, 2, 1).jsonl;
+  EXPECT_EQ(results,
+            "{\"line\":2,\"status\":\"error\",\"title\":\"internal error\","
+            "\"detail\":\"not enough memory\"}\n");
+  // With memory it is a request like others: nothing of the shortage is kept.
+  const auto again = *store.submit(large + '\n');
+  {
+    Batches batches(store, catalogue, 1);
+    while (store.job(again)->state == "running")
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_NE(store.results(again, 1, 1).jsonl.find("/dt_mm"), std::string::npos);
 }
 
 TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
-  JobStore store(file());
+  JobStore store(file(), "data");
   const std::string good = R"({"name": "multipass", "document": {"dt_mm": 8}})";
   std::vector<std::string> lines(40, good);
   lines[3] = "no json";

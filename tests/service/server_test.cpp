@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "http_client.hpp"
+#include "little_memory.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::service {
@@ -145,6 +146,12 @@ TEST(Server, RefusesWhatTwoReadersCouldReadDifferently) {
   EXPECT_EQ(status("Content-Length: 2\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 2\r\n", "1.0"), 200);
   EXPECT_EQ(status("Host: x\r\nHost: y\r\nContent-Length: 2\r\n"), 400);
+  for (const std::string twice :
+       {"Content-Type: text/plain",
+        "Content-Encoding: identity\r\nContent-Encoding: gzip",
+        "Authorization: a\r\nAuthorization: b", "Origin: http://x\r\nOrigin: http://y",
+        "Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked"})
+    EXPECT_EQ(status("Host: x\r\n" + twice + "\r\n"), 400) << twice;
   EXPECT_EQ(status("Host: x\r\nTransfer-Encoding: xchunked\r\nContent-Length: 2\r\n"),
             501);
   EXPECT_EQ(status("Host: x\r\nTransfer-Encoding: gzip, chunked\r\n"), 501);
@@ -164,7 +171,13 @@ TEST(Server, AnswersPagesOfItsOwnAlone) {
   for (const char* host :
        {"localhost:8080", "127.0.0.1", "[::1]:8080", "lathe", "10.0.0.7:1"})
     EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 200) << host;
-  EXPECT_EQ(status(open, "Host: rebound.example:8080\r\n"), 421);
+  for (const char* host :
+       {"rebound.example:8080", "rebound.example.", "10.0.0.7.example"})
+    EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 421) << host;
+  for (const char* host : {"[::1].rebound.example", "[", "[::1", "[x]", "a, b", "x:80a",
+                           "a b", "user@x", "x:1:2", "a/b", "127.0.0.1,x"})
+    EXPECT_EQ(status(open, "Host: " + std::string(host) + "\r\n"), 400) << host;
+  EXPECT_EQ(status(open, "Host:\r\n"), 200);  // of a client that has none
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:1\r\n"), 200);
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: http://localhost:2\r\n"), 403);
   EXPECT_EQ(status(open, "Host: localhost:1\r\nOrigin: null\r\n"), 403);
@@ -173,6 +186,79 @@ TEST(Server, AnswersPagesOfItsOwnAlone) {
   const Running locked(options);
   EXPECT_EQ(status(locked, "Host: plans.example\r\nOrigin: https://plans.example\r\n"),
             200);
+}
+
+// RFC 9112, 3.2.2: also who speaks to a proxy is answered, and the target's host counts.
+TEST(Server, TakesTargetsWithTheirHost) {
+  const Running server;
+  const auto ask = [&](const std::string& line, const std::string& header = "Host: x") {
+    auto client = server.client();
+    return client.ask(line + " HTTP/1.1\r\n" + header + "\r\n\r\n");
+  };
+  EXPECT_EQ(body_of(ask("GET http://localhost:8080/healthz")), "ok\n");
+  EXPECT_EQ(body_of(ask("GET HTTPS://10.0.0.7/healthz")), "ok\n");
+  EXPECT_EQ(status_of(ask("GET http://localhost")), 200);
+  EXPECT_EQ(status_of(ask("GET http://localhost?x=1")), 400);
+  EXPECT_EQ(status_of(ask("GET http://localhost/v1/parts/none")), 404);
+  EXPECT_EQ(status_of(ask("GET http://rebound.example/healthz", "Host: localhost")), 421);
+  EXPECT_EQ(body_of(ask("GET http://localhost/healthz", "Host: rebound.example")),
+            "ok\n");
+  EXPECT_EQ(status_of(ask("GET http://localhost:1/healthz",
+                          "Host: localhost:2\r\nOrigin: http://localhost:2")),
+            403);
+  EXPECT_EQ(status_of(ask("GET http://localhost/healthz", "X: no host")), 400);
+  for (const char* none : {"http:///healthz", "http://", "http://:80/healthz",
+                           "http://user@localhost/healthz", "ftp://localhost/healthz",
+                           "localhost/healthz", "localhost:80", "*"})
+    EXPECT_EQ(status_of(ask("GET " + std::string(none))), 400) << none;
+}
+
+TEST(Server, OptionsOfAllAndConnectAreAnswered) {
+  const Running server;
+  auto client = server.client();
+  for (const char* all : {"*", "http://localhost"}) {
+    client.send("OPTIONS " + std::string(all) + " HTTP/1.1\r\nHost: x\r\n\r\n");
+    const auto answer = client.answer();
+    EXPECT_EQ(status_of(answer), 204) << all;
+    EXPECT_NE(answer.find("Allow: GET, HEAD, POST, DELETE, OPTIONS\r\n"),
+              std::string::npos);
+  }
+  // What comes behind CONNECT would be meant for somebody else.
+  client.send("CONNECT localhost:443 HTTP/1.1\r\nHost: localhost:443\r\n\r\n" +
+              get("/healthz"));
+  const auto rest = client.rest();
+  EXPECT_EQ(status_of(rest), 501);
+  EXPECT_EQ(rest.find("HTTP/1.1 200"), std::string::npos);
+  auto other = server.client();
+  EXPECT_EQ(status_of(other.ask("BREW /healthz HTTP/1.1\r\nHost: x\r\n\r\n")), 501);
+  EXPECT_EQ(status_of(other.ask(get("/readyz?x=1"))), 400);
+  EXPECT_EQ(status_of(other.ask(get("/metrics?x=1"))), 400);
+  other.send("OPTIONS /metrics HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_EQ(status_of(other.answer()), 204);
+}
+
+// RFC 9112, 2.2: some clients end a body with a line too many.
+TEST(Server, EmptyLinesBeforeACallAreIgnored) {
+  ServerOptions options;
+  options.idle = 500ms;
+  const Running server(options);
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask("\r\n" + get("/healthz"))), 200);
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", "{}") + "\r\n")), 200);
+  EXPECT_EQ(status_of(client.ask(get("/healthz"))), 200);
+  client.send("\r");
+  std::this_thread::sleep_for(20ms);
+  client.send("\n\r\n\r");
+  std::this_thread::sleep_for(20ms);
+  EXPECT_EQ(status_of(client.ask("\n" + get("/healthz"))), 200);
+  // They are no call: a connection with nothing else is idle.
+  client.send(std::string(100'000, '\r').replace(1, 1, "\n"));
+  EXPECT_EQ(status_of(client.rest()), 400);
+  const auto quiet = server.client();
+  std::string lines;
+  for (int i = 0; i < 100'000; ++i) lines += "\r\n";
+  quiet.send(lines);
+  EXPECT_EQ(quiet.rest(), "");
 }
 
 TEST(Server, TakesChunksAndExpectations) {
@@ -186,6 +272,11 @@ TEST(Server, TakesChunksAndExpectations) {
   client.send(head + "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n");
   EXPECT_EQ(status_of(client.answer()), 100);
   EXPECT_EQ(status_of(client.ask("{}")), 200);
+  // RFC 9110, 10.1.1: a client of HTTP/1.0 would not understand.
+  client.send(
+      "POST /v1/multipass HTTP/1.0\r\nContent-Type: application/json\r\n"
+      "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n{}");
+  EXPECT_EQ(status_of(client.rest()), 200);
 }
 
 TEST(Server, SlowCallersAreCutAndDoNotHoldOthersUp) {
@@ -226,6 +317,20 @@ TEST(Server, AFullQueueSaysSo) {
   EXPECT_NE(answer.find("Retry-After: 1\r\n"), std::string::npos);
   EXPECT_EQ(status_of(second.ask(get("/healthz"))), 200);
   EXPECT_EQ(status_of(first.answer()), 200);
+}
+
+TEST(Server, ACallWithoutMemoryIsAFaultAndTheNextIsAnswered) {
+  std::string large = R"({"dt_mm": [0)";
+  for (int i = 0; i < 20'000; ++i) large += ",0";
+  const Running server;
+  auto client = server.client();
+  {
+    const LittleMemory little(100'000);
+    const auto answer = client.ask(post("/v1/multipass", large + "]}"));
+    EXPECT_EQ(status_of(answer), 500);
+    EXPECT_NE(body_of(answer).find("urn:turnwright:problem:fault"), std::string::npos);
+  }
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", large + "]}"))), 422);
 }
 
 TEST(Server, ADeadlineIsKept) {
@@ -352,6 +457,32 @@ TEST(Server, WantsAKeyWhereThereAreKeys) {
   EXPECT_EQ(status_of(client.ask(get("/metrics"))), 401);
   // The page is no secret: it asks for the key.
   EXPECT_EQ(status_of(client.ask(get("/"))), 200);
+}
+
+// Nobody waits for the body of a call that is refused: who has no key sends it in vain.
+TEST(Server, WhatIsRefusedByItsHeaderIsNotRead) {
+  ServerOptions options;
+  options.keys = {"one-key-of-16-characters"};
+  const Running server(options);
+  const std::string key = "Authorization: Bearer one-key-of-16-characters\r\n";
+  const auto status = [&](const std::string& path, const std::string& header) {
+    const auto client = server.client();
+    client.send("POST " + path + " HTTP/1.1\r\nHost: x\r\n" + header + "\r\n");
+    return status_of(client.rest());  // the body never comes
+  };
+  const std::string large = "Content-Length: 200000000\r\n";
+  EXPECT_EQ(status("/v1/batches", large), 401);
+  EXPECT_EQ(status("/v1/batches", "Transfer-Encoding: chunked\r\n"), 401);
+  EXPECT_EQ(status("/v1/batches?x=1", key + large), 400);
+  EXPECT_EQ(status("/v1/plans", key + "Content-Length: 1900000\r\n"), 404);
+  EXPECT_EQ(status("/v1/parts", key + "Transfer-Encoding: chunked\r\n"), 405);
+  EXPECT_EQ(status("/v1/parts", key + "Expect: 100-continue\r\nContent-Length: 2\r\n"),
+            405);
+  // Small ones are, and the connection goes on.
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask(post("/v1/plans", "{}", key))), 404);
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", "{}"))), 401);
+  EXPECT_EQ(status_of(client.ask(post("/v1/multipass", "{}", key))), 200);
 }
 
 TEST(Server, IsNotOpenToOthersWithoutKeys) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <new>
 #include <string>
 
 #include "turnwright/service/requests.hpp"
@@ -34,6 +35,9 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context);
 
 /// The record of a line that read_batch_line refused.
 BatchRecord batch_record(const InputError& error);
+
+/// The record of a line that there was no memory for.
+BatchRecord batch_record(const std::bad_alloc& error);
 
 /// A record's text as the results show it: {"line": number, ..}.
 std::string numbered(std::int64_t number, const std::string& text);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -16,13 +17,14 @@ namespace turnwright::service {
 ///     POST   /v1/{name}                     every row of the request table
 ///     POST   /v1/{name}/report              as HTML, of rows that have a report
 ///     GET    /v1/materials|tools|machines|parts[/{id}]
-///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, a
-///     job GET    /v1/batches[/{id}[/results?from=n]] POST   /v1/batches/{id}/cancel
+///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, job
+///     GET    /v1/batches[/{id}[/results?from=n]]
+///     POST   /v1/batches/{id}/cancel
 ///     DELETE /v1/batches/{id}
-///     GET    /healthz, /readyz, /openapi.json, /
+///     GET    /healthz, /readyz, /metrics, /openapi.json, /
 ///
-/// HEAD is GET without the body; OPTIONS tells the methods of a path.  Everything wrong
-/// is a problem document.  Safe from several threads.
+/// HEAD is GET without the body; OPTIONS tells the methods of a path, OPTIONS * all there
+/// are.  Everything wrong is a problem document.  Safe from several threads.
 class HttpApi {
  public:
   /// Gives the page at "/"; called for every answer.
@@ -33,7 +35,12 @@ class HttpApi {
   HttpApi(const std::filesystem::path& data_folder, const document::Catalogue& catalogue,
           Batches* batches, Page page = built_in_page);
 
-  /// The answer; `stop` cuts long computations short.
+  /// The answer that takes no computing: to OPTIONS, and to a method, path or query that
+  /// is not of this API; none to other calls.
+  std::optional<Reply> at_once(const Call& call) const;
+
+  /// The answer; `stop` cuts long computations short.  /readyz and /metrics are the
+  /// server's own to answer.
   /// @throws Cancelled if `stop` was asked for.
   Reply reply(const Call& call, std::stop_token stop) const;
 
@@ -50,7 +57,6 @@ class HttpApi {
     std::string index;                             ///< all ids and names, JSON
     std::map<std::string, std::string> documents;  ///< as written, by id
   };
-  const Route* find(const Call& call) const;
   static const std::vector<Route>& routes();
 
   const document::Catalogue& catalogue_;

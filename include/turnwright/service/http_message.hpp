@@ -17,13 +17,17 @@ struct Call {
   std::string authorization;    ///< the header's value
   std::string request_id;       ///< names this call in the log and in errors
   std::string body;
+  std::string host = {};  ///< who is asked: of the target, else of the header
 
   /// The target without its query; "" if it is no path ("*").
   std::string_view path() const;
-  /// Value of a query parameter, "" where it is absent.  Not percent-decoded: no
-  /// parameter of this service needs it.
-  std::string_view query(std::string_view key) const;
+  /// Names and values of the query's parameters.  Not percent-decoded: no parameter of
+  /// this service needs it.
+  std::vector<std::pair<std::string_view, std::string_view>> query() const;
 };
+
+/// Whether a Content-Type (RFC 9110, 8.3) is `type`, and UTF-8 where it names a charset.
+bool is_type(std::string_view content_type, std::string_view type);
 
 struct Reply {
   int status = 200;

@@ -19,14 +19,20 @@ namespace turnwright::service {
 /// A batch as its owner sees it.
 struct Job {
   std::int64_t id = 0;
-  std::string state;  ///< "running", "cancelled" or "done"
-  std::int64_t lines = 0, done = 0, errors = 0;
+  std::string state;  ///< "running", "cancelled", "done", or "outdated": see JobStore
+  std::int64_t lines = 0;  ///< of the sender's file
+  std::int64_t done = 0;   ///< of these: answered, or blank
+  std::int64_t errors = 0;
 };
 
 /// Batches that outlive the process: requests and records in one SQLite file (WAL,
 /// synchronous = FULL).  What submit() or finish() returned from is on disk; a killed
 /// process loses at most the lines it had taken and not finished, and these are taken
 /// again.  Safe from several threads of one process; a second process is refused.
+///
+/// All records of a job, and every one that known() finds, were computed from the same
+/// data: a job that was begun with others is "outdated", its records stay and no more are
+/// added; one that has no record yet is gone on with.
 class JobStore {
  public:
   struct Line {
@@ -44,15 +50,16 @@ class JobStore {
     std::int64_t next = 0;  ///< number of the first line not in `jsonl`
   };
 
+  /// @param data  digest of what answers depend on besides their request.
   /// @throws std::runtime_error if the file cannot be opened, is no job store of this
-  ///   version or is in use.
-  explicit JobStore(const std::filesystem::path& file);
+  ///   version or is in use; it is left as it was.
+  JobStore(const std::filesystem::path& file, std::string data);
   ~JobStore();
 
-  /// A job of lines that end in "\n".  Empty lines are skipped but counted, so that
-  /// numbers are those of the sender's file.
-  /// @return its id; none, and nothing is stored, if there are more lines than
-  /// kMostLines.
+  /// A job of lines that end in "\n".  Blank lines count, so that numbers are those of
+  /// the sender's file, and have no record.
+  /// @return its id; none, and nothing is stored, if more lines than kMostLines are not
+  ///   blank.
   std::optional<std::int64_t> submit(std::string_view text);
   static constexpr std::size_t kMostLines = 1'000'000;
   std::optional<Job> job(std::int64_t id) const;
@@ -64,7 +71,7 @@ class JobStore {
 
   /// Up to `count` lines that nobody has taken, oldest job first.
   std::vector<Line> take(std::size_t count);
-  /// The record of an equal request, if one is stored.
+  /// The record of an equal request, if one is stored that was computed from these data.
   std::optional<std::string> known(const std::string& digest) const;
   void finish(std::span<const Record> records);
 
@@ -74,6 +81,7 @@ class JobStore {
 
  private:
   mutable std::mutex mutex_;
+  std::string data_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::int64_t, std::int64_t> taken_;  ///< last line taken, by job
 };

@@ -32,6 +32,8 @@ JobStore::Record answered(const JobStore& store, const JobStore::Line& line,
     if (!record.error) record.digest = request.digest;
   } catch (const InputError& error) {
     take(batch_record(error));
+  } catch (const std::bad_alloc& error) {
+    take(batch_record(error));
   }
   return record;
 }

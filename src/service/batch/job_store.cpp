@@ -10,11 +10,11 @@
 namespace turnwright::service {
 namespace {
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 constexpr const char* kTables = R"(
 CREATE TABLE job (id INTEGER PRIMARY KEY AUTOINCREMENT, state TEXT NOT NULL,
-                  lines INTEGER NOT NULL, open INTEGER NOT NULL,
+                  data TEXT NOT NULL, lines INTEGER NOT NULL, open INTEGER NOT NULL,
                   errors INTEGER NOT NULL DEFAULT 0);
 CREATE TABLE line (job INTEGER NOT NULL REFERENCES job(id) ON DELETE CASCADE,
                    number INTEGER NOT NULL, request TEXT NOT NULL, digest TEXT,
@@ -22,20 +22,48 @@ CREATE TABLE line (job INTEGER NOT NULL REFERENCES job(id) ON DELETE CASCADE,
 CREATE INDEX line_digest ON line(digest) WHERE digest IS NOT NULL;
 )";
 
-void open_or_make(SQLite::Database& database) {
+// A job is gone on with as long as all its records come from the same data.
+constexpr const char* kAdopt =
+    "UPDATE job SET data = ?1 WHERE state = 'running' AND NOT EXISTS "
+    "(SELECT 1 FROM line WHERE job = id AND record IS NOT NULL)";
+constexpr const char* kOutdate =
+    "UPDATE job SET state = 'outdated' WHERE state = 'running' AND data <> ?1";
+
+int integer(SQLite::Database& database, const char* query) {
+  return database.execAndGet(query).getInt();
+}
+
+/// Whether the file is new.  @throws std::runtime_error if it is another program's.
+bool is_new(SQLite::Database& database) {
+  const int version = integer(database, "PRAGMA user_version");
+  if (version == 0 && integer(database, "SELECT count(*) FROM sqlite_master") == 0)
+    return true;
+  const int own = integer(database,
+                          "SELECT count(*) FROM sqlite_master WHERE name IN "
+                          "('job', 'line', 'line_digest')");
+  if (own != 3) throw std::runtime_error("a database of another program");
+  if (version != kSchemaVersion)
+    throw std::runtime_error("job store of version " + std::to_string(version) +
+                             ", this program reads version " +
+                             std::to_string(kSchemaVersion));
+  return false;
+}
+
+void open_or_make(SQLite::Database& database, const std::string& data) {
   database.setBusyTimeout(1000);
   database.exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON");
+  is_new(database);
   database.exec("PRAGMA journal_mode = WAL");
   database.exec("PRAGMA synchronous = FULL");
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  const int found = database.execAndGet("PRAGMA user_version").getInt();
-  if (found == 0) {
+  if (is_new(database)) {
     database.exec(kTables);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  } else if (found != kSchemaVersion) {
-    throw std::runtime_error("job store of version " + std::to_string(found) +
-                             ", this program reads version " +
-                             std::to_string(kSchemaVersion));
+  }
+  for (const char* change : {kAdopt, kOutdate}) {
+    SQLite::Statement update(database, change);
+    update.bind(1, data);
+    update.exec();
   }
   transaction.commit();
 }
@@ -53,59 +81,65 @@ bool blank(std::string_view line) {
 }
 
 struct Given {
-  std::int64_t number = 0;
-  std::string_view text;
+  struct Line {
+    std::int64_t number = 0;
+    std::string_view text;
+  };
+  std::int64_t lines = 0;
+  std::vector<Line> requests;  ///< those that are not blank
 };
 
-/// Lines that are not blank; none if there are too many.
-std::optional<std::vector<Given>> lines_of(std::string_view text) {
-  std::vector<Given> lines;
-  for (std::int64_t number = 1; !text.empty(); ++number) {
+/// None if there are too many.
+std::optional<Given> given(std::string_view text) {
+  Given all;
+  while (!text.empty()) {
     const auto end = std::min(text.find('\n'), text.size());
     const auto line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
+    ++all.lines;
     if (blank(line)) continue;
-    if (lines.size() == JobStore::kMostLines) return std::nullopt;
-    lines.push_back({number, line});
+    if (all.requests.size() == JobStore::kMostLines) return std::nullopt;
+    all.requests.push_back({all.lines, line});
   }
-  return lines;
+  return all;
 }
 
 }  // namespace
 
-JobStore::JobStore(const std::filesystem::path& file) try
-    : database_(std::make_unique<SQLite::Database>(
+JobStore::JobStore(const std::filesystem::path& file, std::string data) try
+    : data_(std::move(data)),
+      database_(std::make_unique<SQLite::Database>(
           file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)) {
-  open_or_make(*database_);
-} catch (const SQLite::Exception& error) {
+  open_or_make(*database_, data_);
+} catch (const std::runtime_error& error) {
   throw std::runtime_error(file.string() + ": " + error.what());
 }
 
 JobStore::~JobStore() = default;
 
 std::optional<std::int64_t> JobStore::submit(std::string_view text) {
-  const auto lines = lines_of(text);
-  if (!lines) return std::nullopt;
+  const auto all = given(text);
+  if (!all) return std::nullopt;
   const std::lock_guard lock(mutex_);
   SQLite::Transaction transaction(*database_);
-  database_->exec("INSERT INTO job (state, lines, open) VALUES ('running', 0, 0)");
+  const auto open = static_cast<std::int64_t>(all->requests.size());
+  SQLite::Statement job(*database_,
+                        "INSERT INTO job (state, data, lines, open) VALUES (?, ?, ?, ?)");
+  job.bind(1, open == 0 ? "done" : "running");
+  job.bind(2, data_);
+  job.bind(3, all->lines);
+  job.bind(4, open);
+  job.exec();
   const std::int64_t id = database_->getLastInsertRowid();
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
-  for (const auto& line : *lines) {
+  for (const auto& line : all->requests) {
     insert.bind(1, id);
     insert.bind(2, line.number);
     insert.bind(3, std::string(line.text));
     insert.exec();
     insert.reset();
   }
-  SQLite::Statement update(
-      *database_,
-      "UPDATE job SET lines = ?1, open = ?1, "
-      "state = CASE WHEN ?1 = 0 THEN 'done' ELSE state END WHERE id = ?2");
-  update.bind(1, static_cast<std::int64_t>(lines->size()));
-  update.bind(2, id);
-  update.exec();
   transaction.commit();
   return id;
 }
@@ -146,6 +180,7 @@ bool JobStore::remove(std::int64_t id) {
 std::vector<JobStore::Line> JobStore::take(std::size_t count) {
   const std::lock_guard lock(mutex_);
   std::vector<Line> lines;
+  auto taken = taken_;
   SQLite::Statement running(*database_,
                             "SELECT id FROM job WHERE state = 'running' ORDER BY id");
   while (lines.size() < count && running.executeStep()) {
@@ -154,20 +189,24 @@ std::vector<JobStore::Line> JobStore::take(std::size_t count) {
                             "SELECT number, request FROM line WHERE job = ? AND "
                             "number > ? AND record IS NULL ORDER BY number LIMIT ?");
     query.bind(1, id);
-    query.bind(2, taken_[id]);
+    query.bind(2, taken[id]);
     query.bind(3, static_cast<std::int64_t>(count - lines.size()));
     while (query.executeStep()) {
-      taken_[id] = query.getColumn(0);
-      lines.push_back({id, taken_[id], query.getColumn(1).getString()});
+      taken[id] = query.getColumn(0);
+      lines.push_back({id, taken[id], query.getColumn(1).getString()});
     }
   }
+  taken_ = std::move(taken);
   return lines;
 }
 
 std::optional<std::string> JobStore::known(const std::string& digest) const {
   const std::lock_guard lock(mutex_);
-  SQLite::Statement query(*database_, "SELECT record FROM line WHERE digest = ? LIMIT 1");
+  SQLite::Statement query(*database_,
+                          "SELECT record FROM line JOIN job ON job.id = line.job "
+                          "WHERE digest = ? AND data = ? LIMIT 1");
   query.bind(1, digest);
+  query.bind(2, data_);
   if (!query.executeStep()) return std::nullopt;
   return query.getColumn(0).getString();
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <new>
 
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/document/parse.hpp"
@@ -87,6 +86,13 @@ BatchRecord batch_record(const InputError& error) {
   return {one_line({{"status", "error"},
                     {"title", "wrong line"},
                     {"errors", problem_list(error)}}),
+          BatchStatus::error};
+}
+
+BatchRecord batch_record(const std::bad_alloc&) {
+  return {one_line({{"status", "error"},
+                    {"title", "internal error"},
+                    {"detail", "not enough memory"}}),
           BatchStatus::error};
 }
 

@@ -67,9 +67,9 @@ std::optional<std::vector<Queued>> queue(const std::string& name) {
   return tasks;
 }
 
-// A task whose node died is held for two minutes, in case the node comes back.  One that a
-// node refused, or that was requeued too often, is held for good: out of the queue with it,
-// to be submitted anew.
+// A task whose node died is held for two minutes, in case the node comes back.  One that
+// a node refused, or that was requeued too often, is held for good: out of the queue with
+// it, to be submitted anew.
 void release(const Queued& task) {
   if (task.reason == "BeginTime")
     output_of("scontrol update JobId=" + task.task + " StartTime=now 2>/dev/null");

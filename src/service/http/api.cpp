@@ -44,18 +44,11 @@ std::optional<std::int64_t> number(std::string_view text) {
   return value;
 }
 
-bool has_type(const Call& call, std::string_view type) {
-  std::string given(call.content_type, 0, call.content_type.find(';'));
-  while (!given.empty() && given.back() == ' ') given.pop_back();
-  std::transform(given.begin(), given.end(), given.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return given == type;
-}
-
 Reply wrong_type(const Call& call, const std::string& wanted) {
-  return problem(415, "media-type",
-                 "got Content-Type '" + call.content_type + "', expected " + wanted,
-                 call);
+  return problem(
+      415, "media-type",
+      "got Content-Type '" + call.content_type + "', expected " + wanted + " (UTF-8)",
+      call);
 }
 
 ordered_json to_json(const Job& job) {
@@ -84,7 +77,8 @@ using Answer = Reply (*)(const Request& row, const nlohmann::json& request,
 
 Reply answer_request(const Request& row, Answer answer, const Call& call,
                      const Context& context) {
-  if (!has_type(call, "application/json")) return wrong_type(call, "application/json");
+  if (!is_type(call.content_type, "application/json"))
+    return wrong_type(call, "application/json");
   nlohmann::json request;
   try {
     request = document::parse(call.body, row.name);
@@ -115,6 +109,7 @@ struct HttpApi::Route {
   std::string method;
   std::function<Reply(const HttpApi&, const Call&, const Arguments&, std::stop_token)>
       reply;
+  std::string parameter = {};  ///< of its query, an integer >= 1; "": it takes none
 
   /// The arguments, if the path is of this route.
   std::optional<Arguments> match(const std::vector<std::string_view>& given) const {
@@ -139,6 +134,37 @@ Reply missing(const Call& call) {
   return problem(404, "not-found", "nothing is at " + std::string(call.path()), call);
 }
 
+/// What the path is answered as.
+std::string method_of(const Call& call) {
+  return call.method == "HEAD" ? "GET" : call.method;
+}
+
+Reply methods(const std::string& allowed) {
+  return {204, "", "", {{"Allow", allowed + ", OPTIONS"}}};
+}
+
+/// What is wrong with a call's query, if anything; `parameter` may be in it, once.
+std::optional<Reply> wrong_query(const std::string& parameter, const Call& call) {
+  std::vector<Problem> wrong;
+  bool given = false;
+  for (const auto& [name, value] : call.query()) {
+    const auto add = [&, n = name](const std::string& expected, const std::string& code) {
+      wrong.push_back({std::string(n), '"' + std::string(value) + '"', expected, code});
+    };
+    if (name != parameter)
+      add("no such parameter", "unknown-key");
+    else if (std::exchange(given, true))
+      add("the parameter once", "duplicate");
+    else if (!number(value))
+      add("an integer >= 1", "range");
+  }
+  if (wrong.empty()) return std::nullopt;
+  std::string names;
+  for (const auto& problem : wrong)
+    names += (names.empty() ? "" : ", ") + problem.pointer;
+  return problem(400, "query", "wrong in the query: " + names, call, wrong);
+}
+
 Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
   const auto job = batches.store().job(id);
   if (!job) return missing(call);
@@ -146,7 +172,8 @@ Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
 }
 
 Reply submit(Batches& batches, const Call& call) {
-  if (!has_type(call, "application/jsonl")) return wrong_type(call, "application/jsonl");
+  if (!is_type(call.content_type, "application/jsonl"))
+    return wrong_type(call, "application/jsonl");
   const auto id = batches.store().submit(call.body);
   if (!id)
     return problem(413, "lines",
@@ -166,11 +193,8 @@ Reply list_jobs(Batches& batches) {
 
 Reply results(Batches& batches, std::int64_t id, const Call& call) {
   if (!batches.store().job(id)) return missing(call);
-  const auto asked = call.query("from");
-  const auto from = asked.empty() ? 1 : number(asked);
-  if (!from)
-    return problem(422, "wrong-input", "a query parameter is wrong", call,
-                   {{"from", std::string(asked), "an integer >= 1", "range"}});
+  const auto query = call.query();  // known to be right
+  const auto from = query.empty() ? 1 : number(query[0].second);
   auto page = batches.store().results(id, *from, kResultBytes);
   Reply reply{200, "application/jsonl", std::move(page.jsonl), {}};
   reply.headers.emplace_back(
@@ -239,11 +263,16 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
                      b.store().cancel(id);
                      return job_reply(b, id, call);
                    })});
-    all.push_back({"/v1/batches/{id}/results", "GET", of_batches(results)});
+    all.push_back({"/v1/batches/{id}/results", "GET", of_batches(results), "from"});
     all.push_back(
         {"/healthz", "GET", [](const HttpApi&, const Call&, const Arguments&, Stop) {
            return plain("ok\n");
          }});
+    for (const char* own : {"/readyz", "/metrics"})
+      all.push_back(
+          {own, "GET", [](const HttpApi&, const Call& call, const Arguments&, Stop) {
+             return missing(call);
+           }});
     all.push_back(
         {"/", "GET", [](const HttpApi& api, const Call&, const Arguments&, Stop) {
            return page_reply(api.page_());
@@ -291,26 +320,40 @@ std::string HttpApi::route(const Call& call) const {
   return "other";
 }
 
-Reply HttpApi::reply(const Call& call, std::stop_token stop) const {
+std::optional<Reply> HttpApi::at_once(const Call& call) const {
+  const auto known = {"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"};
+  if (std::find(known.begin(), known.end(), call.method) == known.end())
+    return problem(501, "method", call.method + " is not for this server", call);
+  if (call.method == "OPTIONS" && call.target == "*")
+    return methods("GET, HEAD, POST, DELETE");
+  if (!call.target.starts_with('/'))
+    return problem(400, "target", "got '" + call.target + "', expected a path", call);
   const auto given = segments(call.path());
-  const std::string method = call.method == "HEAD" ? "GET" : call.method;
   std::string allowed;
   for (const auto& route : routes()) {
-    const auto arguments = route.match(given);
-    if (!arguments) continue;
-    if (route.method == method) return route.reply(*this, call, *arguments, stop);
+    if (!route.match(given)) continue;
+    if (route.method == method_of(call)) return wrong_query(route.parameter, call);
     allowed += (allowed.empty() ? "" : ", ") + route.method;
     if (route.method == "GET") allowed += ", HEAD";
   }
   if (allowed.empty()) return missing(call);
-  allowed += ", OPTIONS";
-  Reply reply =
-      method == "OPTIONS"
-          ? Reply{204, "", "", {}}
-          : problem(405, "method", call.method + " is not for this path, only " + allowed,
-                    call);
-  reply.headers.emplace_back("Allow", allowed);
+  auto reply = methods(allowed);
+  if (call.method == "OPTIONS") return reply;
+  auto headers = std::move(reply.headers);
+  reply = problem(405, "method",
+                  call.method + " is not for this path, only " + headers[0].second, call);
+  reply.headers = std::move(headers);
   return reply;
+}
+
+Reply HttpApi::reply(const Call& call, std::stop_token stop) const {
+  if (auto reply = at_once(call)) return std::move(*reply);
+  const auto given = segments(call.path());
+  for (const auto& route : routes())
+    if (const auto arguments = route.match(given);
+        arguments && route.method == method_of(call))
+      return route.reply(*this, call, *arguments, stop);
+  return missing(call);
 }
 
 }  // namespace turnwright::service

@@ -6,6 +6,7 @@
 #include "host.hpp"
 #include "keys.hpp"
 #include "state.hpp"
+#include "target.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/log.hpp"
 
@@ -65,13 +66,15 @@ bool is_request_id(beast::string_view id) {
 Call call_of(const Parser& parser, ServerState& state) {
   const auto& message = parser.get();
   const auto id = message["X-Request-Id"];
+  auto target = read_target(text(message.method_string()), text(message.target()));
   return {text(message.method_string()),
-          text(message.target()),
+          std::move(target.path),
           text(message[http::field::content_type]),
           text(message[http::field::accept_encoding]),
           text(message[http::field::authorization]),
           is_request_id(id) ? text(id) : state.name + '-' + std::to_string(++state.calls),
-          {}};
+          {},
+          target.host.empty() ? text(message[http::field::host]) : target.host};
 }
 
 asio::awaitable<bool> write(ServerState& state, Connection& connection, const Call& call,
@@ -120,18 +123,27 @@ struct Pending {
   bool gone = false;  ///< the client left
 };
 
-Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
-  Reply reply;
+/// What is said of a fault of this program, even where there is no memory to say it.
+Reply fault(const Call& call, const char* what) {
   try {
-    reply = api.reply(call, stop);
+    log_fault(call, what);
+    return problem(500, "fault", "a fault of this program; the log has more", call);
+  } catch (const std::exception&) {
+    return {500, "", "", {}};
+  }
+}
+
+/// Nothing is thrown: a thread of the pool has nobody to catch it.
+Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
+  try {
+    Reply reply = api.reply(call, stop);
+    compress_for(call, reply);
+    return reply;
   } catch (const Cancelled&) {
     return {};  // nobody reads it
   } catch (const std::exception& error) {
-    log_fault(call, error.what());
-    reply = problem(500, "fault", "a fault of this program; the log has more", call);
+    return fault(call, error.what());
   }
-  compress_for(call, reply);
-  return reply;
 }
 
 void watch(tcp::socket& socket, const std::shared_ptr<Pending>& pending) {
@@ -174,22 +186,29 @@ asio::awaitable<std::optional<Reply>> computed(ServerState& state, Connection& c
                     call);
 }
 
-/// What needs no computing and must be answered when the pool is busy.
-std::optional<Reply> at_once(const ServerState& state, const Call& call) {
+/// The answer to a call without its key, or to one that is not of the API.
+std::optional<Reply> refused(const ServerState& state, const Call& call) {
   const auto path = call.path();
-  const bool get = call.method == "GET" || call.method == "HEAD";
-  if (get && path == "/readyz")
-    return state.full() || state.draining
-               ? problem(503, "busy", "not ready for calls", call)
-               : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
-  if (get && path == "/healthz") return state.api.reply(call, {});
-  if (!state.options.keys.empty() && path.starts_with("/") && path != "/" &&
+  const bool open = path == "/" || path == "/healthz" || path == "/readyz";
+  if (!state.options.keys.empty() && !open &&
       !authorized(state.options.keys, call.authorization)) {
     Reply reply = problem(401, "key", "expected Authorization: Bearer and a key", call);
     reply.headers.emplace_back("WWW-Authenticate", "Bearer");
     return reply;
   }
-  if (get && path == "/metrics")
+  return state.api.at_once(call);
+}
+
+/// What needs no computing and must be answered when the pool is busy.
+std::optional<Reply> at_once(const ServerState& state, const Call& call) {
+  if (auto reply = refused(state, call)) return reply;
+  const auto path = call.path();
+  if (path == "/healthz") return state.api.reply(call, {});
+  if (path == "/readyz")
+    return state.full() || state.draining
+               ? problem(503, "busy", "not ready for calls", call)
+               : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
+  if (path == "/metrics")
     return Reply{200, "text/plain; version=0.0.4", state.metrics.text(), {}};
   if (!state.full()) return std::nullopt;
   Reply reply = problem(503, "busy", "too many calls wait already", call);
@@ -202,10 +221,19 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
 std::optional<Reply> objection(const ServerState& state, const Parser& parser,
                                const Call& call) {
   const auto& message = parser.get();
-  const auto host = text(message[http::field::host]);
+  if (call.method == "CONNECT")  // what follows would be for somebody else
+    return problem(501, "method", "CONNECT is not for this server", call);
+  for (const auto field :
+       {http::field::host, http::field::content_type, http::field::content_encoding,
+        http::field::transfer_encoding, http::field::authorization, http::field::origin})
+    if (message.count(field) > 1)
+      return problem(400, "header", "expected one " + text(http::to_string(field)), call);
   const auto hosts = message.count(http::field::host);
-  if (hosts > 1 || (hosts == 0 && message.version() >= 11))
+  if (hosts == 0 && message.version() >= 11)
     return problem(400, "host", "expected one Host", call);
+  for (const auto& host : {text(message[http::field::host]), call.host})
+    if (!is_host(host))
+      return problem(400, "host", "got '" + host + "', expected a host", call);
   const auto coding = text(message[http::field::transfer_encoding]);
   if (!coding.empty() && (!beast::iequals(coding, "chunked") || message.version() < 11))
     return problem(501, "transfer-coding",
@@ -215,11 +243,11 @@ std::optional<Reply> objection(const ServerState& state, const Parser& parser,
     return problem(415, "content-coding", "got '" + encoding + "', expected none", call);
   if (!state.options.keys.empty()) return std::nullopt;  // no browser sends one unasked
   const auto origin = text(message[http::field::origin]);
-  if (!origin.empty() && !origin_is(origin, host))
+  if (!origin.empty() && !origin_is(origin, call.host))
     return problem(403, "origin", "pages of " + origin + " may not ask here", call);
-  if (hosts == 1 && !is_local(host))
+  if (!call.host.empty() && !is_local(call.host))
     return problem(421, "host",
-                   "got Host '" + host +
+                   "got Host '" + call.host +
                        "', expected an address or a name without a dot; others need "
                        "keys (--keys)",
                    call);
@@ -251,7 +279,8 @@ asio::awaitable<error_code> read_call_body(const ServerState& state,
   error_code ec;
   parser.body_limit(HttpApi::body_limit(call));
   const Alarm alarm(connection.socket, state.options.body);
-  if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
+  if (parser.get().version() >= 11 &&
+      beast::iequals(parser.get()[http::field::expect], "100-continue")) {
     constexpr char kGo[] = "HTTP/1.1 100 Continue\r\n\r\n";
     co_await asio::async_write(connection.socket, asio::buffer(kGo, sizeof kGo - 1),
                                into(ec));
@@ -273,6 +302,18 @@ asio::awaitable<error_code> read_call_header(const ServerState& state,
   co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
 }
 
+/// The answer to a refused call whose body is not worth waiting for: only its header has
+/// been read, and who has no key cannot fill the memory.
+std::optional<Reply> refused_unread(const ServerState& state, const Parser& parser,
+                                    const Call& call) {
+  constexpr std::uint64_t kReadAnyway = 65'536;  // keeps the connection for more calls
+  const auto length = parser.content_length();
+  const bool expects = parser.get().count(http::field::expect) > 0;
+  if (parser.is_done() || (length && *length <= kReadAnyway && !expects))
+    return std::nullopt;
+  return refused(state, call);
+}
+
 /// Whether a byte of another call has arrived.
 bool has_arrived(const Connection& connection) {
   error_code ec;
@@ -288,7 +329,8 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   if (!ec && parser.content_length() &&
       *parser.content_length() > HttpApi::body_limit(call))
     ec = http::make_error_code(http::error::body_limit);
-  if (!ec) reply = objection(state, parser, call);
+  if (!ec && !(reply = objection(state, parser, call)))
+    reply = refused_unread(state, parser, call);
   const bool taken = !ec && !reply;
   if (taken) ec = co_await read_call_body(state, connection, parser, call);
   const auto arrived = Clock::now();
@@ -314,28 +356,59 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
   co_return again;
 }
 
+/// Drops empty lines before a call (RFC 9112, 2.2).  @return whether a byte of it is
+/// there.
+bool has_begun(beast::flat_buffer& buffer) {
+  const auto seen = [&buffer] {
+    return std::string_view(static_cast<const char*>(buffer.data().data()),
+                            buffer.size());
+  };
+  while (seen().starts_with("\r\n")) buffer.consume(2);
+  return !seen().empty() && seen() != "\r";
+}
+
 /// Whether a byte of another call is there, or comes in time.
 asio::awaitable<bool> next_call(const ServerState& state, Connection& connection) {
-  if (connection.buffer.size() == 0 && !state.draining) {
-    const Alarm alarm(connection.socket, state.options.idle);
-    error_code ec;
+  const Alarm alarm(connection.socket, state.options.idle);
+  error_code ec;
+  while (!has_begun(connection.buffer) && !state.draining && !ec && !alarm.rang()) {
     connection.idle = true;
     const auto bytes = co_await connection.socket.async_read_some(
         connection.buffer.prepare(4096), into(ec));
     connection.idle = false;
     connection.buffer.commit(bytes);
   }
-  co_return connection.buffer.size() > 0 || (state.draining && has_arrived(connection));
+  co_return has_begun(connection.buffer) || (state.draining && has_arrived(connection));
 }
+
+/// A connection among those of the server, as long as it lives.
+class Listed {
+ public:
+  Listed(ServerState& state, Connection& connection)
+      : state_(state), connection_(connection) {
+    state_.connections.insert(&connection_);
+    state_.metrics.connections.Increment();
+  }
+  Listed(const Listed&) = delete;
+  Listed& operator=(const Listed&) = delete;
+  ~Listed() {
+    state_.connections.erase(&connection_);
+    state_.metrics.connections.Decrement();
+    if (state_.draining && state_.connections.empty()) state_.drain.cancel();
+  }
+
+ private:
+  ServerState& state_;
+  Connection& connection_;
+};
 
 }  // namespace
 
 asio::awaitable<void> serve(ServerState& state, tcp::socket socket) {
   Connection connection(std::move(socket));
+  const Listed listed(state, connection);
   error_code ec;
   connection.socket.set_option(tcp::no_delay(true), ec);
-  state.connections.insert(&connection);
-  state.metrics.connections.Increment();
   try {
     bool more = true;
     while (more) {
@@ -345,9 +418,6 @@ asio::awaitable<void> serve(ServerState& state, tcp::socket socket) {
   } catch (const std::exception& error) {
     log_event("connection lost", error.what());
   }
-  state.metrics.connections.Decrement();
-  state.connections.erase(&connection);
-  if (state.draining && state.connections.empty()) state.drain.cancel();
 }
 
 asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket) {

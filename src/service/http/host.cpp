@@ -1,26 +1,47 @@
 #include "host.hpp"
 
+#include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/asio/ip/address.hpp>
+#include <cctype>
+#include <optional>
 #include <string>
 
 namespace turnwright::service {
 namespace {
 
-/// The host without its port; of an IPv6 address without its brackets.
-std::string_view without_port(std::string_view host) {
-  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
-  return host.substr(0, host.find(':'));
+bool is_address(std::string_view name) {
+  boost::system::error_code ec;
+  boost::asio::ip::make_address(std::string(name), ec);
+  return !ec;
+}
+
+bool is_port(std::string_view text) {
+  return text.empty() ||
+         (text[0] == ':' && text.find_first_not_of("0123456789", 1) == text.npos);
+}
+
+/// The name or address without its port; none if it is no host.
+std::optional<std::string_view> name_of(std::string_view host) {
+  const bool literal = host.starts_with('[');
+  const auto end = std::min(host.find(literal ? ']' : ':'), host.size());
+  const auto name = literal ? host.substr(1, end - 1) : host.substr(0, end);
+  const auto port = host.substr(std::min(end + (literal ? 1 : 0), host.size()));
+  const auto is_of_name = [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '.' || c == '_';
+  };
+  const bool good = literal ? end < host.size() && is_address(name)
+                            : std::all_of(name.begin(), name.end(), is_of_name);
+  return good && is_port(port) ? std::optional(name) : std::nullopt;
 }
 
 }  // namespace
 
+bool is_host(std::string_view host) { return name_of(host).has_value(); }
+
 bool is_local(std::string_view host) {
-  const auto name = without_port(host);
-  if (name.find('.') == std::string_view::npos) return true;
-  boost::system::error_code ec;
-  boost::asio::ip::make_address(std::string(name), ec);
-  return !ec;
+  const auto name = name_of(host);
+  return name && (name->find('.') == name->npos || is_address(*name));
 }
 
 bool origin_is(std::string_view origin, std::string_view host) {

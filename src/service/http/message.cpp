@@ -2,6 +2,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -36,6 +37,17 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// What comes before the first `mark`, all of it where there is none.
+std::string_view before(std::string_view text, char mark) {
+  return text.substr(0, text.find(mark));
+}
+
+/// What comes behind the first `mark`, nothing where there is none.
+std::string_view behind(std::string_view text, char mark) {
+  const auto at = text.find(mark);
+  return at == text.npos ? std::string_view() : text.substr(at + 1);
+}
+
 // RFC 9110, 12.5.3: a list of codings, each with an optional weight; weight 0 refuses.
 bool takes_gzip(std::string_view codings) {
   while (!codings.empty()) {
@@ -57,20 +69,27 @@ std::string_view Call::path() const {
   return all.starts_with('/') ? all.substr(0, all.find('?')) : std::string_view();
 }
 
-std::string_view Call::query(std::string_view key) const {
-  std::string_view rest = target;
-  const auto mark = rest.find('?');
-  if (mark == std::string_view::npos) return {};
-  rest.remove_prefix(mark + 1);
-  while (!rest.empty()) {
-    const auto end = std::min(rest.find('&'), rest.size());
-    const auto pair = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    const auto equals = std::min(pair.find('='), pair.size());
-    if (pair.substr(0, equals) == key)
-      return pair.substr(std::min(equals + 1, pair.size()));
+std::vector<std::pair<std::string_view, std::string_view>> Call::query() const {
+  const std::string_view all = target;
+  std::vector<std::pair<std::string_view, std::string_view>> parameters;
+  for (auto rest = behind(all, '?'); !rest.empty(); rest = behind(rest, '&')) {
+    const auto pair = before(rest, '&');
+    if (!pair.empty()) parameters.emplace_back(before(pair, '='), behind(pair, '='));
   }
-  return {};
+  return parameters;
+}
+
+bool is_type(std::string_view content_type, std::string_view type) {
+  using boost::algorithm::iequals;
+  if (!iequals(trimmed(before(content_type, ';')), type)) return false;
+  for (auto rest = behind(content_type, ';'); !rest.empty(); rest = behind(rest, ';')) {
+    const auto parameter = before(rest, ';');
+    const auto value = trimmed(behind(parameter, '='));
+    if (iequals(trimmed(before(parameter, '=')), "charset") && !iequals(value, "utf-8") &&
+        !iequals(value, "\"utf-8\""))
+      return false;
+  }
+  return true;
 }
 
 std::string_view reason(int status) {

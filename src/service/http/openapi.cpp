@@ -92,12 +92,14 @@ ordered_json problem(const std::string& when) {
 /// What every call may be answered with.
 ordered_json common_problems() {
   return {
+      {"400", problem("no HTTP, or a query that this path does not take")},
       {"401", problem("no key, or a wrong one")},
       {"405", problem("a method this path does not take")},
       {"408", problem("the request did not arrive in time")},
       {"414", problem("the request line is too long")},
       {"431", problem("the header is too long")},
       {"500", problem("a fault of this program")},
+      {"501", problem("a method or a transfer coding that this server does not know")},
       {"503", problem("too many calls at once: Retry-After tells when to try again")}};
 }
 
@@ -128,9 +130,10 @@ ordered_json request_path(const Request& row, const std::string& id,
              responses({{"200",
                          {{"description", "the result, infeasible ones too"},
                           {"content", std::move(content)}}},
-                        {"400", problem("the body is no JSON")},
+                        {"400",
+                         problem("the body is no JSON, or no HTTP, or there is a query")},
                         {"413", problem("the body is larger than 2 MB")},
-                        {"415", problem("the body is not application/json")},
+                        {"415", problem("the body is not application/json in UTF-8")},
                         {"422", problem("wrong input, or outside a model's range")},
                         {"504", problem("not done before the deadline")}})}}}};
 }
@@ -172,9 +175,10 @@ void add_batches(ordered_json& paths) {
       {"operationId", "submit-batch"},
       {"summary", "one request per line, {\"name\": .., \"document\": ..} -> a job"},
       {"requestBody", {{"required", true}, {"content", {{"application/jsonl", lines}}}}},
-      {"responses", responses({{"202", job_response("taken; it survives a restart")},
-                               {"413", problem("the body is larger than 256 MB")},
-                               {"415", problem("the body is not application/jsonl")}})}};
+      {"responses",
+       responses({{"202", job_response("taken; it survives a restart")},
+                  {"413", problem("the body is larger than 256 MB")},
+                  {"415", problem("the body is not application/jsonl in UTF-8")}})}};
   paths["/v1/batches/{id}"] = get("get-batch", "state and progress",
                                   json_content(reference("job")), {id}, missing);
   paths["/v1/batches/{id}"]["delete"] = {
@@ -197,7 +201,7 @@ void add_batches(ordered_json& paths) {
           {id,
            {{"name", "from"},
             {"in", "query"},
-            {"description", "number of the first line wanted"},
+            {"description", "number of the first line wanted; given once or not at all"},
             {"schema", {{"type", "integer"}, {"minimum", 1}, {"default", 1}}}}},
           missing);
 }
@@ -215,11 +219,12 @@ void add_own_schemas(ordered_json& schemas) {
     return ordered_json{{"type", "array"}, {"items", std::move(of)}};
   };
   schemas["entries"] = list(object({{"id", text}, {"name", text}}));
-  schemas["job"] = object({{"id", count},
-                           {"state", {{"enum", {"running", "cancelled", "done"}}}},
-                           {"lines", count},
-                           {"done", count},
-                           {"errors", count}});
+  schemas["job"] =
+      object({{"id", count},
+              {"state", {{"enum", {"running", "cancelled", "done", "outdated"}}}},
+              {"lines", count},
+              {"done", count},
+              {"errors", count}});
   schemas["jobs"] = list(reference("job"));
   schemas["problem"] = object({{"type", text},
                                {"title", text},

@@ -53,8 +53,11 @@ void bind(tcp::acceptor& acceptor, const ServerOptions& options) {
 
 void admit(ServerState& state, tcp::socket socket) {
   const bool room = state.connections.size() < state.options.connections;
-  asio::co_spawn(state.io, (room ? serve : turn_away)(state, std::move(socket)),
-                 asio::detached);
+  try {
+    asio::co_spawn(state.io, (room ? serve : turn_away)(state, std::move(socket)),
+                   asio::detached);
+  } catch (const std::bad_alloc&) {  // this one is closed, the next may fare better
+  }
 }
 
 asio::awaitable<void> accept(ServerState& state) {
