@@ -4,6 +4,7 @@
 
 #include "answered.hpp"
 #include "option.hpp"
+#include "turnwright/document/file.hpp"
 #include "turnwright/service/batch_line.hpp"
 
 namespace turnwright::fuzz {
@@ -34,6 +35,11 @@ bool find_csv(const json& value, const json::json_pointer& at) {
   return false;
 }
 
+/// As a document can hold it: in UTF-8.
+json readable(const std::string& text) {
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
 void choose() {
   if (kind == "json" || kind == "batch") return;
   const bool csv = kind.starts_with("csv-"), lathe = kind == "program-lathe";
@@ -43,7 +49,7 @@ void choose() {
         document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/schemas/" +
                              service::request_schema(*door));
     for (const auto& example : schema["examples"])
-      if (find_csv(example, {})) {
+      if (find_csv(example, json::json_pointer())) {
         request = example;
         return;
       }
@@ -76,7 +82,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   if (fuzz::door) {
-    fuzz::request[fuzz::place] = text;
+    fuzz::request[fuzz::place] = fuzz::readable(text);
     fuzz::answered(*fuzz::door, fuzz::request);
     return 0;
   }
