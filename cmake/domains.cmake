@@ -145,6 +145,13 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.
                 malformed_requests_test.cpp
                 batch_input_test.cpp batch_chunk_test.cpp batch_folder_test.cpp known_answers_test.cpp
                 job_store_test.cpp little_memory.cpp server_test.cpp page_test.cpp)
+# clang 14 has coroutines but does not say so, and cannot sanitize them.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
+  target_compile_definitions(turnwright_service PUBLIC __cpp_impl_coroutine=201902L
+    BOOST_ASIO_HAS_CO_AWAIT BOOST_ASIO_HAS_STD_COROUTINE)
+  set_source_files_properties(src/service/http/connection.cpp src/service/http/server.cpp
+    PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+endif()
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/progress_line.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)

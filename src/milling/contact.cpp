@@ -21,7 +21,7 @@ double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) 
 void sort_unique(std::vector<double>& angles) {
   std::ranges::sort(angles);
   const auto same = [](double a, double b) { return b - a < kSame; };
-  angles.erase(std::ranges::unique(angles, same).begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end(), same), angles.end());
 }
 
 /// Integrals over the height of a part of an edge: 1, cos phi, sin phi and their squares.
@@ -225,7 +225,7 @@ std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_m
     }
   std::ranges::sort(out);
   const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
-  out.erase(std::ranges::unique(out, same).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
 }
 

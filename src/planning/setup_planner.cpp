@@ -151,18 +151,18 @@ std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& 
                              Use{ToolUse::boring, "boring, rough", &Tools::bore_rough},
                              Use{ToolUse::boring, "boring, finish", &Tools::bore_finish}};
   std::vector<RejectedTool> out;
-  for (const auto& [use, name, member] : kUses) {
+  for (const Use& u : kUses) {
     const bool needed = std::any_of(all.begin(), all.end(), [&](const Considered& c) {
-      return c.tools.*member != nullptr;
+      return c.tools.*u.tool != nullptr;
     });
     for (const Tool& t : p_.tools) {
-      if (!needed || best.tools.*member == &t ||
-          std::find(t.uses.begin(), t.uses.end(), use) == t.uses.end())
+      if (!needed || best.tools.*u.tool == &t ||
+          std::find(t.uses.begin(), t.uses.end(), u.use) == t.uses.end())
         continue;
       const Considered* least = nullptr;
       for (const auto& c : all)
-        if (c.tools.*member == &t && (!least || c.at_least < least->at_least)) least = &c;
-      out.push_back(rejection(t, name, least, best));
+        if (c.tools.*u.tool == &t && (!least || c.at_least < least->at_least)) least = &c;
+      out.push_back(rejection(t, u.name, least, best));
     }
   }
   return out;

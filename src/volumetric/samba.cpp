@@ -265,7 +265,7 @@ Decomposition decomposed(const Equations& eq, const VectorXd& scale) {
   d.of.condition = s[0] / s[rank - 1];
   const MatrixXd null = d.svd.matrixV().rightCols(A.cols() - rank);
   for (Index j = 0; j < A.cols(); ++j)
-    d.of.identifiable.push_back(null.row(j).norm() < kMoves);
+    d.of.identifiable.push_back(null.cols() == 0 || null.row(j).norm() < kMoves);
   d.of.null_vectors = named(null.transpose(), eq.unknowns);
   return d;
 }

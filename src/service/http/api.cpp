@@ -148,8 +148,10 @@ std::optional<Reply> wrong_query(const std::string& parameter, const Call& call)
   std::vector<Problem> wrong;
   bool given = false;
   for (const auto& [name, value] : call.query()) {
-    const auto add = [&, n = name](const std::string& expected, const std::string& code) {
-      wrong.push_back({std::string(n), '"' + std::string(value) + '"', expected, code});
+    const auto add = [&wrong, n = std::string(name),
+                      got = '"' + std::string(value) + '"'](const char* expected,
+                                                            const char* code) {
+      wrong.push_back({n, got, expected, code});
     };
     if (name != parameter)
       add("no such parameter", "unknown-key");
