@@ -11,12 +11,12 @@ namespace {
 
 service::ServerOptions options() {
   using std::chrono::milliseconds;
-  return {.port = 0,
-          .threads = 1,
-          .idle = milliseconds(20),
-          .header = milliseconds(20),
-          .body = milliseconds(20),
-          .deadline = milliseconds(200)};
+  service::ServerOptions o;
+  o.port = 0;
+  o.threads = 1;
+  o.idle = o.header = o.body = milliseconds(20);
+  o.deadline = milliseconds(200);
+  return o;
 }
 
 /// Of one input: what it left at work is over before the next, and before the end.
