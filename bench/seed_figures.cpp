@@ -3,11 +3,14 @@
 // docs/milling.md.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
 
-#include "../src/report/svg.hpp"
+#include "../src/report/chart.hpp"
 #include "../tests/milling/cutters.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/milling/checks.hpp"
@@ -107,24 +110,56 @@ std::string figure_5(int elements, const std::vector<Cut>& cuts) {
   return report::stability_chart(asked, result);
 }
 
-/// How many of the simulated cuts E elements place on the right side.
-void figure_6(const std::vector<Cut>& cuts) {
+/// How E elements place the simulated cuts.
+struct Placed {
+  int elements = 0;
+  int right = 0;   ///< stable ones called stable, what the seed counts
+  int unsafe = 0;  ///< unstable ones called stable
+};
+
+Placed placed(int elements, const std::vector<Cut>& cuts) {
+  Placed out{.elements = elements};
+  for (const Cut& c : cuts) {
+    const auto found =
+        milling::time_finite_elements(milling::slot_cutter(), c.n_rpm, c.ap_mm, elements);
+    if (std::abs(found.multiplier) < 1) ++(c.stable ? out.right : out.unsafe);
+  }
+  return out;
+}
+
+/// Cuts rightly called stable and wrongly called so, over the number of elements.
+std::string figure_6(const std::vector<Cut>& cuts) {
+  constexpr double kWidth = 190, kHeight = 110;
+  constexpr int kMost = 40;
   const auto stable = std::ranges::count(cuts, true, &Cut::stable);
+  const report::Scale x{0, kMost, 20, 182},
+      y{0, 10 * (2 + std::floor(static_cast<double>(stable) / 10)), 92, 20};
+  std::vector<report::Point> right, unsafe;
   fmt::print(
       "{} cuts, {} of them stable\n\n| E | stable cuts called stable | unstable cuts "
-      "called "
-      "stable (unsafe) |\n| --- | --- | --- |\n",
+      "called stable (unsafe) |\n| --- | --- | --- |\n",
       cuts.size(), stable);
-  for (const int elements : {1, 3, 6, 10, 14, 20, 40}) {
-    int right = 0, unsafe = 0;
-    for (const Cut& c : cuts) {
-      const auto found = milling::time_finite_elements(milling::slot_cutter(), c.n_rpm,
-                                                       c.ap_mm, elements);
-      if (std::abs(found.multiplier) >= 1) continue;
-      ++(c.stable ? right : unsafe);
-    }
-    fmt::print("| {} | {} | {} |\n", elements, right, unsafe);
+  for (int elements = 1; elements <= kMost; ++elements) {
+    const Placed p = placed(elements, cuts);
+    right.push_back({x.place(elements), y.place(p.right)});
+    unsafe.push_back({x.place(elements), y.place(p.unsafe)});
+    if (std::ranges::count(std::array{1, 3, 6, 10, 14, 20, 40}, elements) > 0)
+      fmt::print("| {} | {} | {} |\n", elements, p.right, p.unsafe);
   }
+  report::Svg svg;
+  svg.text({20, 9}, report::Anchor::start,
+           fmt::format("{} cuts placed by E elements", cuts.size()), "title");
+  report::frame(svg, x, y, "elements E", "cuts called stable", 8, 6);
+  svg.line("thin", {x.from, y.place(static_cast<double>(stable))},
+           {x.to, y.place(static_cast<double>(stable))});
+  svg.polyline("path", right);
+  svg.polyline("made", unsafe);
+  svg.text({x.to, y.place(static_cast<double>(stable)) - 1.5}, report::Anchor::end,
+           fmt::format("{} are stable", stable));
+  svg.text({right[8].x, right[8].y + 6}, report::Anchor::start, "rightly", "path");
+  svg.text({unsafe[6].x, unsafe[6].y - 2}, report::Anchor::start, "wrongly: they chatter",
+           "bad");
+  return svg.page(kWidth, kHeight, "Cuts called stable over the number of elements");
 }
 
 /// The most productive cut of machines of unlike speed ranges.
@@ -154,6 +189,6 @@ int main(int argc, char** argv) {
   for (const int elements : {1, 3, 6, 10, 14})
     write(folder / fmt::format("figure-5-{}.svg", elements), figure_5(elements, cuts));
   write(folder / "figure-7.svg", figure_5(0, cuts));
-  figure_6(cuts);
+  write(folder / "figure-6.svg", figure_6(cuts));
   figure_7();
 }

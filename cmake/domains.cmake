@@ -39,14 +39,14 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
                           chatter_frequency.cpp limits.cpp lobes.cpp uncertain.cpp multipliers.cpp collocation.cpp
                           samples.cpp spectrum.cpp semi_discretisation.cpp tfea.cpp
                          contact.cpp delay_map.cpp sheet.cpp cutter.cpp
-                          simulation.cpp scanned_limits.cpp
+                          simulation.cpp scanned_limits.cpp frf.cpp
           DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen
           TESTS limits_test.cpp lobes_test.cpp uncertain_test.cpp multipliers_test.cpp accuracy_test.cpp checks_test.cpp
-                cutter_test.cpp)
+                cutter_test.cpp frf_test.cpp)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE
-                       $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
+                       -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen
@@ -84,7 +84,7 @@ set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFI
 tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp material.cpp tool.cpp fixed_tool.cpp milling_cutter.cpp lathe.cpp
           catalogue.cpp data_folder.cpp references.cpp elements.cpp cuts.cpp stock.cpp bores.cpp tolerances.cpp
           setups.cpp operations.cpp milling.cpp what_if.cpp part_plan.cpp process_plan.cpp drawing.cpp acceptance.cpp budget.cpp
-          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp stability.cpp
+          deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp frequency_response.cpp stability_request.cpp stability.cpp
           machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp nc.cpp
           DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning nc PUBLIC_LIBS nlohmann_json::nlohmann_json
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
@@ -124,10 +124,10 @@ if(BUILD_TESTING)
 endif()
 tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text.cpp material_text.cpp common.cpp plan_words.cpp setup_words.cpp setups.cpp proof.cpp fields.cpp layout.cpp
                            drawing.cpp budget_drawing.cpp window_drawing.cpp milled_drawing.cpp stability_chart.cpp contour.cpp stack.cpp svg.cpp
-                           chart.cpp volumetric_drawing.cpp html.cpp
+                           chart.cpp volumetric_drawing.cpp html_parts.cpp html.cpp stability_html.cpp
           DEPENDS base part volumetric planning PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS text_test.cpp chuck_text_test.cpp thermal_text_test.cpp multipass_text_test.cpp material_text_test.cpp drawing_test.cpp budget_drawing_test.cpp
-                window_drawing_test.cpp milled_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp)
+                window_drawing_test.cpp milled_drawing_test.cpp stability_chart_test.cpp volumetric_drawing_test.cpp html_test.cpp stability_html_test.cpp)
 # Floor 8, 9
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
@@ -144,7 +144,7 @@ tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.
                 batch_input_test.cpp batch_chunk_test.cpp batch_folder_test.cpp known_answers_test.cpp
                 job_store_test.cpp little_memory.cpp server_test.cpp page_test.cpp)
 include(cmake/page.cmake)
-add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/serve.cpp)
+add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/progress_line.cpp src/app/serve.cpp)
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 if(BUILD_TESTING)
   add_executable(app_test tests/app/command_line_test.cpp tests/app/batch_test.cpp

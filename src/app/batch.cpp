@@ -1,15 +1,12 @@
 #include "batch.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <memory>
 #include <thread>
 
 #include "options.hpp"
+#include "progress_line.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/service/batch_runner.hpp"
@@ -20,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using service::BatchProgress;
-using std::chrono::steady_clock;
 
 struct BatchArguments {
   fs::path lines, folder;
@@ -50,38 +46,6 @@ std::string name(const service::Shard& shard) {
   return std::to_string(shard.index) + '/' + std::to_string(shard.count);
 }
 
-std::string duration(double seconds) {
-  const auto minutes = static_cast<long>(seconds / 60);
-  if (minutes >= 120) return std::to_string(minutes / 60) + " h";
-  if (minutes >= 2) return std::to_string(minutes) + " min";
-  return std::to_string(static_cast<long>(seconds)) + " s";
-}
-
-/// One line on a terminal that is written over and over; elsewhere nothing.
-class ProgressLine {
- public:
-  void tell(const BatchProgress& now) {
-    if (!terminal_) return;
-    const auto time = steady_clock::now();
-    if (time - told_ < std::chrono::milliseconds(200)) return;
-    told_ = time;
-    const double rate = static_cast<double>(now.done) /
-                        std::chrono::duration<double>(time - begun_).count();
-    const auto gone = now.found + now.done;
-    std::fprintf(stderr, "\r%lld of %lld lines, %.*f/s, %s left\033[K",
-                 static_cast<long long>(gone), static_cast<long long>(now.lines),
-                 rate < 10 ? 2 : 0, rate,
-                 duration(static_cast<double>(now.lines - gone) / rate).c_str());
-  }
-  ~ProgressLine() {
-    if (terminal_) std::fputs("\r\033[K", stderr);
-  }
-
- private:
-  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
-  steady_clock::time_point begun_ = steady_clock::now(), told_ = begun_;
-};
-
 void tell(const service::BatchFolder& folder, const service::BatchSummary& summary) {
   const auto& counts = summary.counts;
   service::print((folder.path() / "results.jsonl").string() + ": " +
@@ -94,10 +58,11 @@ void run_here(const BatchArguments& arguments, const fs::path& data,
               service::BatchInput& input, const service::BatchFolder& folder) {
   const auto catalogue = document::load_catalogue(data);
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  ProgressLine line;
+  ProgressLine line("lines");
   service::run_batch(input, folder, arguments.shard.value_or(service::Shard{}), catalogue,
-                     arguments.jobs.value_or(cores),
-                     [&line](const BatchProgress& now) { line.tell(now); });
+                     arguments.jobs.value_or(cores), [&line](const BatchProgress& now) {
+                       line.tell(now.found, now.done, now.lines);
+                     });
 }
 
 /// Whether the batch can be put together now.

@@ -10,6 +10,7 @@
 
 #include "batch.hpp"
 #include "options.hpp"
+#include "progress_line.hpp"
 #include "serve.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
@@ -52,10 +53,15 @@ nlohmann::json read_request(const std::string& file) {
 service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request,
                       const document::Catalogue& catalogue) {
+  ProgressLine line("cuts");
+  const service::Context context{
+      catalogue, {}, [&line](std::size_t done, std::size_t all) {
+        line.tell(0, static_cast<std::int64_t>(done), static_cast<std::int64_t>(all));
+      }};
   try {
     if (arguments.drawings || arguments.programs || arguments.report_file)
-      return service::drawn_answer(row, request, {catalogue});
-    return {service::answer(row, request, {catalogue}), {}, {}};
+      return service::drawn_answer(row, request, context);
+    return {service::answer(row, request, context), {}, {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
     const bool piped = arguments.file == "-";

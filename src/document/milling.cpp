@@ -142,7 +142,7 @@ void read_place(Draft& draft, Reader r) {
   m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
   m.corner_mm = r.optional_number("corner_mm", within(0, 250, "mm"));
   if (r.has("tool"))
-    m.cutters = {cutter_of(draft, r.at("tool"))};
+    m.cutters = {cutter_of(draft.catalogue, r.at("tool"))};
   else if (draft.purpose == Purpose::predict)
     r.problem_at("tool", "the id of a milling cutter", "missing");
   else {

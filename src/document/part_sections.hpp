@@ -46,8 +46,9 @@ void read_what_if(Draft& draft);     // the form alone
 /// @throws InputError with those that no setup leaves free.
 void place_milling(Draft& draft);
 
-/// A milling cutter by its id or its document.
-catalogue::MillingCutter cutter_of(const Draft& draft, const Reader& value);
+// By id or as the document itself.
+catalogue::Material material_of(const Catalogue& catalogue, const Reader& value);
+catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value);
 
 /// The changed requests of a document without problems, each read as a whole.
 /// @throws InputError with what is wrong in them.

@@ -87,7 +87,7 @@ void read_tools(Draft& draft) {
       add_once(item, plan.fixed_tools,
                resolve(item, draft.catalogue.fixed_tools, read_fixed_tool, "tool"));
     else if (is_cutter(draft, item))
-      add_once(item, draft.cutters, cutter_of(draft, item));
+      add_once(item, draft.cutters, cutter_of(draft.catalogue, item));
     else
       add_once(item, plan.tools,
                resolve(item, draft.catalogue.tools, read_tool, "tool",
@@ -102,8 +102,12 @@ void read_tools(Draft& draft) {
 
 }  // namespace
 
-catalogue::MillingCutter cutter_of(const Draft& draft, const Reader& value) {
-  return resolve(value, draft.catalogue.cutters, read_milling_cutter, "milling cutter");
+catalogue::Material material_of(const Catalogue& catalogue, const Reader& value) {
+  return resolve(value, catalogue.materials, read_material, "material");
+}
+
+catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value) {
+  return resolve(value, catalogue.cutters, read_milling_cutter, "milling cutter");
 }
 
 std::string expected_reference(const std::string& id,
@@ -131,9 +135,8 @@ void read_catalogue_choices(Draft& draft) {
   constexpr const char* kDefaultMachine = "lathe-medium";
   auto& plan = draft.plan();
   const auto& catalogue = draft.catalogue;
-  plan.material =
-      resolve(draft.root.at("material", "the id of a material or its document"),
-              catalogue.materials, read_material, "material");
+  plan.material = material_of(
+      catalogue, draft.root.at("material", "the id of a material or its document"));
   if (const auto machine = draft.root.find("machine")) {
     plan.machine = resolve(*machine, catalogue.machines, read_lathe, "machine");
   } else {

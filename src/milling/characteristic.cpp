@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -190,6 +191,7 @@ const Propagator& Characteristic::propagator_for(double kappa_abs) const {
 Coefficients Characteristic::at(Complex kappa, double kappa_max) const {
   const Propagator& p = propagator_for(kappa_max);
   const std::size_t m = p.states;
+  leave_if_asked();
   work_ += p.stretches.size() * m * m;
   if (work_ > kWork)
     throw ModelRangeError(

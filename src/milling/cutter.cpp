@@ -29,8 +29,36 @@ struct OneSheet {
 // As w rises ln |mu| grows by Im(g_w/g_theta) dw, see unit_circle.cpp.
 double outwards(const Local& g) { return cross(g.g_theta, g.g_w) / std::norm(g.g_theta); }
 
-/// Newton's method on the sheet, then one step to the finer map's multiplier.
-OnCircle polished(const Sheet& sheet, const MultipliersAt& fine, const Box& zero) {
+/// A step in depth towards |mu| = 1 for the multiplier that is nearest e^(i theta).
+double step_out(const MultipliersAt& multipliers, const OnCircle& at, double outwards) {
+  const Complex right = std::polar(1.0, at.theta);
+  const auto all = multipliers(at.w_mm);
+  const Complex nearest =
+      *std::ranges::min_element(all, {}, [&](Complex mu) { return modulus(mu - right); });
+  return -std::log(modulus(nearest)) / outwards;
+}
+
+/// A step on one map after the other, each finer than the last, until that step is too
+/// small to be the error; `at` comes with what the noise of the sheet may have done.
+void refine(const std::vector<MultipliersAt>& finer, double outwards, OnCircle& at) {
+  constexpr double kLarge = 1e-9;
+  double noise = at.relative_error;
+  for (const MultipliersAt& multipliers : finer) {
+    try {
+      const double step = step_out(multipliers, at, outwards);
+      at.relative_error = std::abs(step) / at.w_mm + std::exchange(noise, 0);
+      at.w_mm += step;
+    } catch (const ModelRangeError&) {  // as fine as there is room for
+      if (noise > 0) throw;
+      return;
+    }
+    if (at.relative_error <= kLarge) return;
+  }
+}
+
+/// Newton's method on the sheet, then steps to the finer maps' multipliers.
+OnCircle polished(const Sheet& sheet, const std::vector<MultipliersAt>& finer,
+                  const Box& zero) {
   constexpr int kSteps = 30;
   OnCircle at{.w_mm = zero.w, .theta = zero.theta};
   const bool on_line = at.theta == 0 || at.theta == kPi;
@@ -47,14 +75,9 @@ OnCircle polished(const Sheet& sheet, const MultipliersAt& fine, const Box& zero
   const double uncertain =
       sheet.noise() * (on_line ? 1 / std::abs(g.g_w.real())
                                : std::abs(g.g_theta / cross(g.g_w, g.g_theta)));
-  const Complex right = std::polar(1.0, at.theta);
-  const auto all = fine(at.w_mm);
-  const Complex nearest =
-      *std::ranges::min_element(all, {}, [&](Complex mu) { return modulus(mu - right); });
-  const double step = -std::log(modulus(nearest)) / outwards(g);
   at.change = (outwards(g) > 0 ? 1 : -1) * (on_line ? 1 : 2);
-  at.relative_error = (std::abs(step) + uncertain) / at.w_mm;
-  at.w_mm += step;
+  at.relative_error = uncertain / at.w_mm;
+  refine(finer, outwards(g), at);
   return at;
 }
 
@@ -63,9 +86,11 @@ class Ascent {
  public:
   Ascent(const Cutter& cutter, double n_rpm, double ap_max)
       : coarse_(at_depths(cutter, n_rpm, ap_max, kPlain)),
-        fine_(at_depths(cutter, n_rpm, ap_max, kFiner)),
+        finer_{at_depths(cutter, n_rpm, ap_max, kFiner)},
         ap_max_(ap_max),
         tail_(cutter.helix_rad > 0 ? 1e-6 : 1e-9) {
+    for (const Fineness& fineness : kFinest)
+      finer_.push_back(at_depths(cutter, n_rpm, ap_max, fineness));
     double from = 0;
     std::vector<double> ends = kinks_mm(cutter, n_rpm, ap_max);
     ends.push_back(ap_max);
@@ -112,7 +137,7 @@ class Ascent {
     std::vector<OnCircle> found;
     int count = sheet.unstable_at_from();
     for (const Box& zero : search.found()) {
-      const OnCircle at = polished(sheet, fine_, zero);
+      const OnCircle at = polished(sheet, finer_, zero);
       const auto again = [&](const OnCircle& other) {
         return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
                std::abs(other.theta - at.theta) < 1e-6;
@@ -128,7 +153,8 @@ class Ascent {
     return true;
   }
 
-  MultipliersAt coarse_, fine_;
+  MultipliersAt coarse_;
+  std::vector<MultipliersAt> finer_;
   double ap_max_, tail_;  // a helix leaves kinks that no node knows
   std::vector<OnCircle> zeros_;
 };

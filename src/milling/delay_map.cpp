@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "free_vibration.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -223,6 +224,7 @@ void DelayMap::assemble() {
 
 std::vector<std::complex<double>> DelayMap::multipliers() const {
   constexpr double kNegligible = 1e-12;
+  leave_if_asked();
   const auto few = static_cast<Index>(delayed_.size());
   Matrix unit = Matrix::Zero(size_, few);
   for (Index i = 0; i < few; ++i) unit(delayed_[static_cast<std::size_t>(i)], i) = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "turnwright/base/units.hpp"
 
@@ -42,6 +43,38 @@ std::vector<Coefficients> samples(const Characteristic& f, const Disc& disc) {
     }
   }
   return out;
+}
+
+/// Binomial coefficients: row k holds (j + k over k), j = 0 .. kSeriesTerms - 1 - k.
+const std::vector<std::array<double, kSeriesTerms>>& pascal() {
+  static const auto kAll = [] {
+    std::vector<std::array<double, kSeriesTerms>> all(kSeriesTerms);
+    all[0].fill(1);
+    for (std::size_t k = 1; k < kSeriesTerms; ++k)
+      for (std::size_t j = 0; j + k < kSeriesTerms; ++j)
+        all[k][j] = (j > 0 ? all[k][j - 1] : 0) + all[k - 1][j];
+    return all;
+  }();
+  return kAll;
+}
+
+/// out_j = sum_k (j + k over k) c_(j+k) at^k: the polynomial about another centre.
+void shift(std::span<const double> c, Complex at, Complex* out) {
+  std::array<double, kSeriesTerms> real, imaginary;
+  const std::size_t n = c.size();
+  std::copy_n(c.data(), n, real.data());
+  std::fill_n(imaginary.data(), n, 0.0);
+  Complex power = at;
+  for (std::size_t k = 1; k < n; ++k, power *= at) {
+    const double* const binomial = pascal()[k].data();
+    const double x = power.real(), y = power.imag();
+    for (std::size_t j = 0; j < n - k; ++j) {
+      const double term = binomial[j] * c[j + k];
+      real[j] += x * term;
+      imaginary[j] += y * term;
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) out[j] = {real[j], imaginary[j]};
 }
 
 }  // namespace
@@ -97,7 +130,6 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   return out;
 }
 
-// (kappa/R)^j about the centre: repeated synthetic division.
 Patch Patch::of(const Series& series, const Disc& disc, double rho) {
   const Complex at = disc.centre / series.radius_mm;
   const double ratio = disc.radius / series.radius_mm, rim = modulus(at) + ratio;
@@ -123,15 +155,13 @@ Patch Patch::of(const Series& series, const Disc& disc, double rho) {
   std::array<double, kSeriesTerms> size{};
   double to_i = 1;
   for (std::size_t i = 0; i < out.powers_; ++i, to_i *= rho) {
-    Complex* p = &out.c_[i * most];
-    const std::size_t terms = std::min(most, series.c[i].size());
-    std::copy_n(series.c[i].begin(), terms, p);
-    for (std::size_t k = 0; k + 1 < terms; ++k)
-      for (std::size_t j = terms - 1; j-- > k;) p[j] += at * p[j + 1];
+    const std::vector<double>& c = series.c[i];
+    const std::size_t terms = std::min(most, c.size());
+    shift({c.data(), terms}, at, &out.c_[i * most]);
     double to_j = to_i;
     for (std::size_t j = 0; j < terms; ++j, to_j *= ratio) {
-      p[j] *= to_j;
-      size[j] += modulus(p[j]);
+      out.c_[i * most + j] *= to_j;
+      size[j] += modulus(out.c_[i * most + j]);
     }
   }
   out.noise_ += tail;
@@ -184,7 +214,7 @@ Patch Patch::shifted(const Disc& disc) const {
       for (std::size_t k = 0; k + 1 < terms_; ++k)  // repeated synthetic division
         for (std::size_t j = terms_ - 1; j-- > k;) p[j] += s * p[j + 1];
     double to_j = 1;
-    for (std::size_t j = 0; j < terms_; ++j, to_j *= ratio) {
+    for (std::size_t j = 0; j < terms_of(i); ++j, to_j *= ratio) {
       p[j] *= to_j;
       size[j] += modulus(p[j]);
     }
@@ -199,7 +229,7 @@ void Patch::bound() {
   const double middle = static_cast<double>(powers_ / 2);
   for (std::size_t i = 0; i < powers_; ++i) {
     double size = 0, T = 0, TT = 0, TTT = 0;
-    for (std::size_t j = 0; j < terms_; ++j) {
+    for (std::size_t j = 0; j < terms_of(i); ++j) {
       const auto b = static_cast<double>(j);
       const double c = modulus(c_[i * terms_ + j]);
       size += c;

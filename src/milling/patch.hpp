@@ -83,6 +83,10 @@ class Patch {
   Point point(Complex z, Complex kappa, double reach, double dz) const;
 
  private:
+  /// The first and the last coefficient of f are constant.
+  std::size_t terms_of(std::size_t i) const {
+    return i == 0 || i + 1 == powers_ ? 1 : terms_;
+  }
   void keep(std::size_t terms);
   /// Leaves out the last terms as far as their sizes add up to less than `most`.
   void drop(std::span<const double> size, double most);

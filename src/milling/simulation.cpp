@@ -6,6 +6,7 @@
 
 #include "free_vibration.hpp"
 #include "spectrum.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/milling/checks.hpp"
 
@@ -103,6 +104,7 @@ Dominant simulation(const System& system, double n_rpm, double ap_mm,
   constexpr int kSeen = 9;
   std::vector<State> seen;
   for (int period = 0; period < options.periods; ++period) {
+    leave_if_asked();
     now[0] = kept(system, u);
     for (std::size_t i = 0; i < size; ++i) {
       const double step = steps.step[i];

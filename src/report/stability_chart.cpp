@@ -60,6 +60,7 @@ class Chart {
     for (const Column& c : columns_)
       for (const auto& at : c.speed->at("crossings")) {
         const double depth = at.at("ap_mm");
+        folds_ = folds_ || at.at("kind") == "fold";
         svg_.line(at.at("kind").get<std::string>(), place(c.from_rpm, depth),
                   place(c.to_rpm, depth));
       }
@@ -129,6 +130,7 @@ class Chart {
     };
     stroke("flip", "flip");
     stroke("hopf", "Hopf");
+    if (folds_) stroke("fold", "fold");
     stroke("", "first limit");
     if (robust) stroke("robust", "robust");
     box("count1", {x, y - 1.5}, {x + 4, y + 1.5});
@@ -208,6 +210,7 @@ class Chart {
   const ordered_json& result_;
   std::vector<Column> columns_;
   double deepest_ = 0;
+  bool folds_ = false;  // among the crossings drawn
   Scale speed_, depth_;
   Svg svg_;
 };

@@ -41,7 +41,8 @@ text.later { fill: #777 }
 .frame { fill: none; stroke: #000; stroke-width: 0.3 }
 .count1 { fill: #fbe0e3 } .count2 { fill: #f5bcc3 } .count3 { fill: #ec929d }
 .count4 { fill: #e06575 } .flip { stroke: #0050b4; stroke-width: 0.5 }
-.hopf { stroke: #c8102e; stroke-width: 0.5 } .robust { stroke: #4a9b57 }
+.hopf { stroke: #c8102e; stroke-width: 0.5 }
+.fold { stroke: #7a3fb0; stroke-width: 0.5 } .robust { stroke: #4a9b57 }
 .stable { fill: #fff; stroke: #000; stroke-width: 0.3 } .best { fill: #0050b4 }
 .outside { fill: #777; fill-opacity: 0.35 }
 </style>

@@ -208,7 +208,8 @@ Drawn drawn_predict(const json& request, const Context& context) {
 }
 
 Drawn drawn_stability(const json& request, const Context& context) {
-  Drawn all{document::stability(request, context.stop), {}};
+  Drawn all{document::stability(request, context.catalogue, context.stop, context.tell),
+            {}};
   if (auto svg = report::stability_chart(request, all.result); !svg.empty())
     all.drawings.push_back({"stability.svg", std::move(svg)});
   return all;
@@ -313,9 +314,10 @@ std::span<const Request> requests() {
       {"stability", "milling or turning dynamics -> limits per speed, verdict per point",
        kStabilityExample,
        [](const json& request, const Context& context) -> ordered_json {
-         return document::stability(request, context.stop);
+         return document::stability(request, context.catalogue, context.stop,
+                                    context.tell);
        },
-       nullptr, drawn_stability},
+       nullptr, drawn_stability, report::stability_html},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

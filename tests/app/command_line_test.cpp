@@ -1,8 +1,11 @@
 #include "command_line.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -236,6 +239,36 @@ TEST_F(CommandLine, AReportIsOneFile) {
     EXPECT_NE(page.find("data:image/svg+xml,"), std::string::npos);
   }
   EXPECT_EQ(shell("turnwright plan request.json --report none/report.html").code, 74);
+}
+
+TEST_F(CommandLine, StabilityHasAChartAndAReport) {
+  put(folder_ / "request.json", row("stability").example);
+  const auto outcome =
+      shell("turnwright stability request.json --drawings new --report report.html");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");  // no progress where nobody looks
+  EXPECT_EQ(contents(folder_ / "new" / "stability.svg").rfind("<svg ", 0), 0u);
+  EXPECT_NE(contents(folder_ / "report.html").find("<h1>Stability of the cut</h1>"),
+            std::string::npos);
+}
+
+// script(1) gives the program a terminal.
+TEST_F(CommandLine, ALongSweepIsToldOnATerminal) {
+  if (std::system("script --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "script is not there";
+  put(folder_ / "sweep.json", R"({
+    "model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200, "direction": "slot",
+    "modes": [
+      {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993},
+      {"axis": "y", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
+    "ap_max_mm": 0.3, "speeds_rpm": {"from": 5000, "to": 25000, "count": 6000}})");
+  const auto outcome =
+      shell("script -qec 'turnwright stability sweep.json -o result.json' typed");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(
+      std::regex_search(contents(folder_ / "typed"),
+                        std::regex("\r\\d+ of 6000 cuts, [0-9.]+/s, \\d+ s left")));
+  EXPECT_TRUE(fs::exists(folder_ / "result.json"));
 }
 
 TEST_F(CommandLine, DrawsMachines) {

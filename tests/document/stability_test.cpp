@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "schema_check.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -21,18 +23,23 @@ const json& example(std::size_t i) {
   return kAll.at(i);
 }
 
+const Catalogue& files() {
+  static const Catalogue kAll = load_catalogue(source_path(""));
+  return kAll;
+}
+
 json answered(const json& request) {
   static const SchemaCheck kRequest("stability.request.json"),
       kResult("stability.result.json");
   EXPECT_EQ(kRequest.fault(request), "") << request;
-  json result = stability(request);
+  json result = stability(request, files());
   EXPECT_EQ(kResult.fault(result), "") << result;
   return result;
 }
 
 std::string refused(const json& request) {
   try {
-    stability(request);
+    stability(request, files());
   } catch (const InputError& e) {
     return e.what();
   }
@@ -56,7 +63,7 @@ TEST(Stability, TellsTheIsland) {
 }
 
 TEST(Stability, ExamplesAreAnswered) {
-  for (std::size_t i = 0; i < 10; ++i) answered(example(i));
+  for (std::size_t i = 0; i < 13; ++i) answered(example(i));
 }
 
 TEST(Stability, SlotIsFullImmersionAndMassIsStiffness) {
@@ -296,7 +303,7 @@ stability: /runout_mm: got [0,0,0], expected a list of 4 entries
 stability: /process_damping/C_N_mm: got nothing, expected a number from 0 to 1000000 N/mm
 stability: /process_damping/friction: got -1, expected a number from 0 to 2
 stability: /diameter_mm: got nothing, expected a diameter, for helix_deg and process_damping
-stability: /method: got "simulation", expected no such key with helix_deg, pitch_deg, runout_mm, feed_mm or process_damping)");
+stability: /method: got "simulation", expected no such key with helix_deg, pitch_deg, runout_mm or process_damping)");
   q = example(8);
   q.erase("feed_mm");
   EXPECT_EQ(refused(q),
@@ -306,16 +313,217 @@ stability: /method: got "simulation", expected no such key with helix_deg, pitch
   EXPECT_EQ(refused(q), "stability: /helix_deg: got 30, expected no such key");
 }
 
+json without(json request, const std::vector<std::string>& keys) {
+  for (const auto& key : keys) request.erase(key);
+  return request;
+}
+
+// The CSV of example 11 was written from these two modes, three decimals of m/s2/N.
+TEST(Stability, FittedModesAreThoseOfTheResponse) {
+  const json r = answered(example(11))["frf"][0];
+  EXPECT_EQ(r["axis"], "x");
+  EXPECT_EQ(r["lines"], 31);
+  EXPECT_EQ(r["from_Hz"], 700);
+  EXPECT_EQ(r["to_Hz"], 1300);
+  ASSERT_EQ(r["modes"].size(), 2u);
+  const double truth[2][3] = {{922, 0.03, 9000}, {1180, 0.025, 16000}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& mode = r["modes"][i];
+    const char* keys[] = {"frequency_Hz", "damping_ratio", "stiffness_N_mm"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double u = mode[std::string("u_") + keys[k]];
+      EXPECT_NEAR(mode[keys[k]], truth[i][k], 4 * u);
+      EXPECT_LT(u, 1e-2 * truth[i][k]);
+    }
+    const double wn = 2 * M_PI * mode["frequency_Hz"].get<double>();
+    EXPECT_NEAR(mode["mass_kg"].get<double>() * wn * wn / 1000 /
+                    mode["stiffness_N_mm"].get<double>(),
+                1, 1e-12);
+  }
+  // Rounding to 0.001 m/s2/N: 0.001/sqrt(12) in each part, over the response's size.
+  EXPECT_GT(r["explained"], 0.9999);
+  EXPECT_LT(r["relative_rest"], 1e-3);
+}
+
+TEST(Stability, LimitsAreThoseOfTheFittedModes) {
+  json asked = example(11);
+  asked["ap_max_mm"] = 20;
+  const json measured = answered(asked);
+  json q = without(asked, {"frf"});
+  for (const json& mode : measured["frf"][0]["modes"])
+    q["modes"].push_back({{"axis", "x"},
+                          {"frequency_Hz", mode["frequency_Hz"]},
+                          {"damping_ratio", mode["damping_ratio"]},
+                          {"stiffness_N_mm", mode["stiffness_N_mm"]}});
+  const json given = answered(q);
+  EXPECT_NEAR(given["speeds"][0]["limit_mm"].get<double>() /
+                  measured["speeds"][0]["limit_mm"].get<double>(),
+              1, 1e-9);
+  EXPECT_FALSE(given.contains("frf"));
+}
+
+TEST(Stability, UnitOfTheResponseScalesIt) {
+  json q = example(12);
+  const json um = answered(q)["frf"][0]["modes"][0];
+  EXPECT_NEAR(um["stiffness_N_mm"], 4000, 5);
+  q["frf"][0]["unit"] = "m/N";
+  EXPECT_NEAR(answered(q)["frf"][0]["modes"][0]["stiffness_N_mm"].get<double>() /
+                  um["stiffness_N_mm"].get<double>(),
+              1e-6, 1e-12);
+  json g = example(11);
+  g["frf"][0]["unit"] = "g/N";
+  EXPECT_NEAR(
+      answered(g)["frf"][0]["modes"][0]["stiffness_N_mm"].get<double>() * 9.80665 /
+          answered(example(11))["frf"][0]["modes"][0]["stiffness_N_mm"].get<double>(),
+      1, 1e-9);
+}
+
+TEST(Stability, TableAsOneTextIsTheSameResponse) {
+  json q = example(12);
+  std::string text = "# tap test\r\n";
+  for (const json& line : q["frf"][0]["csv"]) text += line.get<std::string>() + "\r\n";
+  const json as_lines = answered(q);
+  q["frf"][0]["csv"] = text;
+  EXPECT_EQ(answered(q), as_lines);
+}
+
+TEST(Stability, RefusesResponsesThatHoldNoMode) {
+  const auto with = [](const json& change) {
+    json q = example(12);
+    q["frf"][0].update(change);
+    return q;
+  };
+  json lines = example(12)["frf"][0]["csv"];
+  EXPECT_EQ(refused(with({{"from_Hz", 170}, {"to_Hz", 180}})),
+            "stability: /frf/0/csv: got 3 lines, expected at least 5 of the band, 3 for "
+            "each mode and 2");
+  EXPECT_EQ(refused(with({{"from_Hz", 200}, {"modes", 1}})),
+            "stability: /frf/0/csv#line 20: got no peak, the nearest to one at 180 Hz, "
+            "expected a mode among the lines, damped by less than 0.5");
+  lines[5] = "142,0.5,x";
+  lines[7] = "1;2;3";
+  EXPECT_EQ(
+      refused(with({{"csv", lines}, {"unit", "mm"}})),
+      R"(stability: /frf/0/unit: got "mm", expected "mm/N", "um/N", "m/N", "mm/s/N", "m/s/N", "mm/s2/N", "m/s2/N" or "g/N" (did you mean "mm/N"?)
+stability: /frf/0/csv#line 8: got 1 cells, expected 3 as in the header
+stability: /frf/0/csv#line 6/imaginary: got "x", expected a number from -1000000000000 to 1000000000000
+stability: /frf/0/csv#line 6/frequency_Hz: got 142, expected more than 142 Hz of the line before)");
+}
+
+TEST(Stability, RefusesAResponseOfNegativeMass) {
+  json q = example(12);
+  for (json& line : q["frf"][0]["csv"]) {
+    auto text = line.get<std::string>();
+    for (std::size_t at = 0; (at = text.find(',', at)) != text.npos; ++at)
+      if (text[at + 1] == '-')
+        text.erase(at + 1, 1);
+      else if (std::isdigit(text[at + 1]) != 0)
+        text.insert(at + 1, "-");
+    line = text;
+  }
+  EXPECT_EQ(refused(q),
+            "stability: /frf/0/csv#line 15: got a mode of negative mass at 182 Hz, "
+            "expected the receptance of a drive point under e^(+i w t): imaginary part < "
+            "0 at a peak");
+}
+
+TEST(Stability, ModesResponsesAndCutterDoNotOverlap) {
+  json q = example(11);
+  q["frf"].push_back(q["frf"][0]);
+  EXPECT_EQ(refused(q),
+            "stability: /frf/1/axis: got \"x\", expected an axis without modes");
+  EXPECT_EQ(refused(without(example(11), {"frf", "modes"})),
+            "stability: /modes: got nothing, expected modes, frf or cutter");
+  EXPECT_EQ(refused(without(example(12), {"frf"})),
+            "stability: /modes: got nothing, expected modes or frf");
+  q = example(12);
+  q["modes"] = example(3)["modes"];
+  EXPECT_EQ(refused(q).substr(0, 16), "stability: /frf:");
+}
+
+// kc of C45 at the mean chip, written out; kc1.1, mc and rake as the file has them.
+TEST(Stability, MaterialAndCutterOfTheCatalogue) {
+  const json r = answered(example(10));
+  const json C45 = parse_file(source_path("materials/C45.json")),
+             mill = parse_file(source_path("tools/milling/ENDMILL-HM-10.json"));
+  const json& modes = mill["tool_point"]["modes"];
+  ASSERT_EQ(r["modes"].size(), modes.size());
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    for (const auto& [key, value] : modes[i].items())
+      if (value.is_number())
+        EXPECT_NEAR(r["modes"][i][key], value, 1e-12 * value.get<double>());
+      else
+        EXPECT_EQ(r["modes"][i][key], value);
+  const double hm = 0.05 * 2 * 0.3 / std::acos(1 - 2 * 0.3);
+  EXPECT_NEAR(r["force"]["hm_mm"], hm, 1e-12);
+  const double rake = mill["geometry"]["gamma_deg"].get<double>() -
+                      C45["kienzle"]["rake_deg"].get<double>();
+  const double Kt = C45["kienzle"]["kc11_MPa"].get<double>() *
+                    std::pow(hm, -C45["kienzle"]["mc"].get<double>()) * (1 - rake / 100);
+  EXPECT_NEAR(r["force"]["Kt_MPa"].get<double>() / Kt, 1, 1e-9);
+
+  json q = without(example(10), {"material", "cutter", "feed_mm"});
+  q["teeth"] = mill["geometry"]["zefp"];
+  q["modes"] = r["modes"];
+  q["Kt_MPa"] = r["force"]["Kt_MPa"];
+  q["Kn_MPa"] = r["force"]["Kn_MPa"];
+  const json given = answered(q);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(given["speeds"][i]["limit_mm"].get<double>() /
+                    r["speeds"][i]["limit_mm"].get<double>(),
+                1, 1e-9);
+  EXPECT_TRUE(r["points"][0].contains("walls"));
+  EXPECT_FALSE(given.contains("modes"));
+}
+
+TEST(Stability, MeasuredModesStandInForThoseOfTheCutter) {
+  json q = example(10);
+  q["modes"] = example(11)["modes"];
+  const json r = answered(q);
+  EXPECT_FALSE(r.contains("modes"));
+  EXPECT_NE(r["speeds"], answered(example(10))["speeds"]);
+}
+
+TEST(Stability, RefusesWhatCatalogueIdsTell) {
+  json q = example(10);
+  q["teeth"] = 2;
+  q["diameter_mm"] = 8;
+  q["Kt_MPa"] = 600;
+  q["cutter"] = "ENDMILL-HM-11";
+  q["material"] = "C45E";
+  q.erase("feed_mm");
+  EXPECT_EQ(refused(q),
+            R"(stability: /teeth: got 2, expected no such key beside cutter
+stability: /diameter_mm: got 8, expected no such key beside cutter
+stability: /cutter: got "ENDMILL-HM-11", expected a milling cutter of the catalogue (did you mean "ENDMILL-HM-10"?)
+stability: /Kt_MPa: got 600, expected no such key beside material
+stability: /material: got "C45E", expected a material of the catalogue (did you mean "C45"?)
+stability: /feed_mm: got nothing, expected a number > 0 and <= 10 mm)");
+  q = without(example(10), {"cutter"});
+  q["teeth"] = 4;
+  q["modes"] = example(11)["modes"];
+  EXPECT_EQ(answered(q)["assumed"][0]["pointer"], "/cutter/geometry/gamma_deg");
+}
+
+TEST(Stability, EverySpeedAndPointIsTold) {
+  std::vector<std::size_t> done;
+  stability(example(7), {}, {}, [&](std::size_t now, std::size_t all) {
+    done.push_back(now);
+    EXPECT_EQ(all, 4u);
+  });
+  EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4}));
+}
+
 TEST(Stability, IsLeftSoonAfterAStopWasAskedFor) {
   std::stop_source source;
   source.request_stop();
   for (const std::size_t i : {0, 4, 5}) {
-    EXPECT_THROW(stability(example(i), source.get_token()), Cancelled);
+    EXPECT_THROW(stability(example(i), {}, source.get_token()), Cancelled);
     json points = example(i);
     points.erase("speeds_rpm");
     points.erase("ap_max_mm");
     points["points"] = {{{"n_rpm", 9000}, {"ap_mm", 1}}};
-    EXPECT_THROW(stability(points, source.get_token()), Cancelled);
+    EXPECT_THROW(stability(points, {}, source.get_token()), Cancelled);
   }
 }
 

@@ -1,6 +1,9 @@
 // Programs as ways: what their tools leave is the drawing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "check.hpp"
 
 namespace turnwright::nc {
@@ -80,6 +83,65 @@ TEST(NcPrograms, OfEveryReferencePartMakeItsContour) {
       continue;
     }
     EXPECT_EQ(listed(faults_of(p, all)), "") << name;
+  }
+}
+
+// Two places on one pin: turned first, then a stop for each, with the spindle at rest,
+// the cutter not among the tools and nothing moved.
+TEST(NcPrograms, StopWhereAPlaceIsMilled) {
+  const auto p = planned(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 80, "diameter_mm": 40}],
+    "machine": "turn-mill",
+    "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
+    "milling": [
+      {"id": "k1", "kind": "keyway", "on": "d1", "z_mm": 40, "length_mm": 32,
+       "width_mm": 8, "depth_mm": 4, "tool": "KEYWAY-HM-8"},
+      {"id": "f1", "kind": "flat", "on": "d1", "z_mm": 40, "length_mm": 20,
+       "depth_mm": 1, "angle_deg": 180, "tool": "ENDMILL-HM-10"}],
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto all = programs(p.part, p.plan);
+  EXPECT_TRUE(all.cannot.empty());
+  ASSERT_EQ(all.setups.size(), 1U);
+  const auto& program = all.setups[0];
+
+  std::vector<std::string> milled, stopped;
+  for (const auto& o : p.plan.setups[0].operations)
+    if (o.milled) milled.push_back(o.id + " with " + o.tool);
+  for (const auto& step : program.steps) {
+    if (!step.stop) {
+      EXPECT_TRUE(stopped.empty()) << "turned after it was milled";
+      continue;
+    }
+    ASSERT_EQ(step.comments.size(), 1U);
+    const std::string lead = "stop: not in this program: ";
+    if (step.comments[0].rfind(lead, 0) != 0) continue;
+    EXPECT_TRUE(step.moves.empty());
+    stopped.push_back(
+        step.comments[0].substr(lead.size(), step.comments[0].find(',') - lead.size()));
+  }
+  EXPECT_EQ(milled.size(), 2U);
+  EXPECT_EQ(stopped, milled);
+  for (const auto& tool : program.tools)
+    EXPECT_EQ(tool.id.find("HM-"), std::string::npos);
+
+  for (const auto control : {Control::linuxcnc, Control::fanuc}) {
+    std::istringstream lines(text(program, control));
+    bool turns = false;
+    int stops = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line[0] == '(') continue;
+      if (line.ends_with(" M3")) turns = true;
+      if (line == "M5") turns = false;
+      if (line != "M0") continue;
+      EXPECT_FALSE(turns);
+      ++stops;
+    }
+    EXPECT_EQ(stops, std::ranges::count(program.steps, true, &Step::stop));
+    EXPECT_FALSE(turns);
   }
 }
 

@@ -63,6 +63,14 @@ TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {
   EXPECT_NE(svg.find("best: 3000/min, 5 mm"), std::string::npos);
 }
 
+TEST(StabilityChart, FoldsAreInTheKeyWhereThereAreAny) {
+  ordered_json r = result();
+  EXPECT_EQ(times(stability_chart(kRequest, r), "fold\""), 0);
+  r["speeds"][1]["crossings"][0]["kind"] = "fold";
+  EXPECT_EQ(times(stability_chart(kRequest, r), "<line class=\"fold\""), 2);
+  EXPECT_EQ(times(stability_chart(kRequest, r), ">fold</text>"), 1);
+}
+
 TEST(StabilityChart, CountsDarkenAndChangeAtTheCrossing) {
   ordered_json r = result();
   r["depths_mm"] = {1.5, 3, 5};

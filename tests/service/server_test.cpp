@@ -343,23 +343,45 @@ TEST(Server, ADeadlineIsKept) {
   EXPECT_NE(body_of(answer).find("urn:turnwright:problem:deadline"), std::string::npos);
 }
 
-// The pool's only thread is free again long before the plan would be done.
-TEST(Server, APlanWhoseClientLeavesIsLeft) {
+// The pool's only thread is free again long before the answer would be done.
+void expect_left(const std::string& path, const std::string& body) {
   ServerOptions options;
   options.threads = 1;
   const Running server(options);
   auto other = server.client();
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(status_of(other.ask(post("/v1/plan", long_plan()))), 200);
+  EXPECT_EQ(status_of(other.ask(post(path, body))), 200);
   const auto whole = std::chrono::steady_clock::now() - begin;
   {
     const auto leaving = server.client();
-    leaving.send(post("/v1/plan", long_plan()));
+    leaving.send(post(path, body));
     wait_for_metric(other, "turnwright_calls_waiting 1");
   }
   const auto left = std::chrono::steady_clock::now();
   wait_for_metric(other, "turnwright_calls_waiting 0");
   EXPECT_LT(std::chrono::steady_clock::now() - left, whole / 2);
+}
+
+TEST(Server, APlanWhoseClientLeavesIsLeft) { expect_left("/v1/plan", long_plan()); }
+
+TEST(Server, ASweepWhoseClientLeavesIsLeft) {
+  expect_left("/v1/stability", R"({
+    "model": "milling", "teeth": 2, "Kt_MPa": 600, "Kn_MPa": 200, "direction": "slot",
+    "modes": [
+      {"axis": "x", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993},
+      {"axis": "y", "frequency_Hz": 922, "damping_ratio": 0.011, "mass_kg": 0.03993}],
+    "ap_max_mm": 0.3, "speeds_rpm": {"from": 5000, "to": 25000, "count": 6000}})");
+}
+
+// One speed alone that takes a second or more.
+TEST(Server, ASpeedWhoseClientLeavesIsLeft) {
+  expect_left("/v1/stability", R"({
+    "model": "milling", "teeth": 3, "Kt_MPa": 700, "Kn_MPa": 250, "direction": "up",
+    "radial_immersion": 0.4, "diameter_mm": 12, "helix_deg": 35,
+    "pitch_deg": [110, 121, 129], "modes": [
+      {"axis": "x", "frequency_Hz": 900, "damping_ratio": 0.02, "stiffness_N_mm": 9000},
+      {"axis": "y", "frequency_Hz": 1100, "damping_ratio": 0.02, "stiffness_N_mm": 9000}],
+    "ap_max_mm": 4, "speeds_rpm": [4500]})");
 }
 
 TEST(Server, APlanBeyondItsDeadlineIsLeft) {

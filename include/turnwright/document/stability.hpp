@@ -1,15 +1,25 @@
 #pragma once
+#include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <stop_token>
 
+#include "turnwright/document/catalogue.hpp"
+
 namespace turnwright::document {
 
+/// So many of the speeds and points are done.
+using StabilityProgress = std::function<void(std::size_t done, std::size_t all)>;
+
 /// The door `stability`: dynamics of milling or turning -> limits per speed and verdicts
-/// per point.  Computed by milling/limits.hpp; the documents are described by
-/// schemas/stability.request.json and schemas/stability.result.json.
+/// per point.  Computed by milling/limits.hpp, modes of a measured response by
+/// milling/frf.hpp; the documents are described by schemas/stability.request.json and
+/// schemas/stability.result.json.
 /// @throws InputError with every problem of the request; ModelRangeError if a speed and
 ///   depth would take too long to search; Cancelled soon after `stop` was asked for.
 nlohmann::ordered_json stability(const nlohmann::json& request,
-                                 const std::stop_token& stop = {});
+                                 const Catalogue& catalogue = {},
+                                 const std::stop_token& stop = {},
+                                 const StabilityProgress& tell = {});
 
 }  // namespace turnwright::document

@@ -1,6 +1,10 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "turnwright/report/html.hpp"
 
 namespace turnwright::report {
 
@@ -17,5 +21,11 @@ namespace turnwright::report {
 /// @returns "" of a result without speeds.  Equal results give equal bytes.
 std::string stability_chart(const nlohmann::json& request,
                             const nlohmann::ordered_json& result);
+
+/// The result as one HTML file to print, of the kind of html(): the chart, what the
+/// limits rest on, verdicts, limits - at most 40 rows of each - and what was assumed.
+/// @param figures  with stability.svg.
+std::string stability_html(std::string_view name, const nlohmann::ordered_json& result,
+                           const std::vector<Figure>& figures);
 
 }  // namespace turnwright::report

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stop_token>
@@ -19,6 +21,8 @@ namespace turnwright::service {
 struct Context {
   const document::Catalogue& catalogue;
   std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
+  /// Called by long sweeps after every part of them, from their thread.
+  std::function<void(std::size_t done, std::size_t all)> tell = {};
 };
 
 using Picture = report::Figure;

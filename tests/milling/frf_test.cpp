@@ -1,0 +1,254 @@
+#include "turnwright/milling/frf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/milling/limits.hpp"
+
+namespace turnwright::milling {
+namespace {
+
+using Complex = std::complex<double>;
+using units::kPi;
+
+struct True {
+  double f_Hz, zeta, k_N_mm;
+};
+
+/// Eq. (1) written with moduli and mass: 1/(k - m w^2 + i c w).
+Complex receptance(const std::vector<True>& modes, double w) {
+  Complex H = 0;
+  for (const True& t : modes) {
+    const double wn = 2 * kPi * t.f_Hz, m = t.k_N_mm / (wn * wn);
+    H += 1.0 / Complex(t.k_N_mm - m * w * w, 2 * t.zeta * wn * m * w);
+  }
+  return H;
+}
+
+FrequencyResponse measured(const std::vector<True>& modes, double from_Hz, double to_Hz,
+                           int lines, int derivative = 0) {
+  FrequencyResponse r{.derivative = derivative, .w_rad_s = {}, .value = {}};
+  for (int i = 0; i < lines; ++i) {
+    const double w = 2 * kPi * (from_Hz + (to_Hz - from_Hz) * i / (lines - 1));
+    r.w_rad_s.push_back(w);
+    r.value.push_back(receptance(modes, w) * std::pow(Complex(0, w), derivative));
+  }
+  return r;
+}
+
+/// Errors of a normal distribution in both parts, as large at every line.
+void add_noise(FrequencyResponse& r, double sigma, unsigned seed) {
+  std::mt19937_64 bits(seed);
+  std::normal_distribution<double> error(0, sigma);
+  for (Complex& y : r.value) y += Complex(error(bits), error(bits));
+}
+
+ModalFit fit(const FrequencyResponse& r, std::optional<int> modes = {}) {
+  const auto out = modal_fit(r, modes);
+  if (const auto* no = std::get_if<NoFit>(&out))
+    throw std::runtime_error("no fit: " + std::to_string(static_cast<int>(no->why)) +
+                             " at " + std::to_string(no->w_rad_s / (2 * kPi)) + " Hz");
+  return std::get<ModalFit>(out);
+}
+
+NoFit::Why refused(const FrequencyResponse& r, std::optional<int> modes = {}) {
+  return std::get<NoFit>(modal_fit(r, modes)).why;
+}
+
+void expect_same(const ModalFit& found, const std::vector<True>& modes,
+                 double tolerance) {
+  ASSERT_EQ(found.modes.size(), modes.size());
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const FittedMode& m = found.modes[i];
+    EXPECT_NEAR(m.wn_rad_s.value / (2 * kPi * modes[i].f_Hz), 1, tolerance);
+    EXPECT_NEAR(m.zeta.value / modes[i].zeta, 1, tolerance);
+    EXPECT_NEAR(m.k_N_mm.value / modes[i].k_N_mm, 1, tolerance);
+  }
+}
+
+const std::vector<True> kOne{{922, 0.011, 1340}},
+    kThree{{610, 0.03, 21000}, {940, 0.02, 9000}, {1720, 0.012, 40000}},
+    kClose{{900, 0.02, 8000}, {915, 0.025, 12000}};
+
+TEST(Frf, WithoutNoiseTheModesComeBack) {
+  for (int derivative : {0, 1, 2}) {
+    expect_same(fit(measured(kOne, 300, 2000, 200, derivative)), kOne, 1e-9);
+    expect_same(fit(measured(kThree, 200, 2500, 400, derivative)), kThree, 1e-9);
+  }
+}
+
+TEST(Frf, ModesCloserThanTheirWidthComeBack) {
+  expect_same(fit(measured(kClose, 500, 1400, 300)), kClose, 1e-9);
+  expect_same(fit(measured(kClose, 500, 1400, 300, 2), 2), kClose, 1e-9);
+}
+
+TEST(Frf, RandomModesComeBack) {
+  std::mt19937_64 bits(11);
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(bits);
+  };
+  for (int trial = 0; trial < 12; ++trial) {
+    std::vector<True> modes;
+    double f = between(300, 500);
+    for (int i = 0; i < 1 + trial % 5; ++i, f *= between(1.1, 1.5))
+      modes.push_back({f, between(0.008, 0.04), std::exp(between(8, 11))});
+    SCOPED_TRACE(trial);
+    expect_same(fit(measured(modes, 150, 1.3 * f, 600)), modes, 1e-8);
+  }
+}
+
+// Modes beyond the lines act as c and b.
+TEST(Frf, WhatIsBeyondTheLinesIsTold) {
+  std::vector<True> modes = kOne;
+  modes.push_back({40000, 0.01, 25000});
+  modes.push_back({2, 0.01, 2e-2});  // m = k/wn^2
+  const ModalFit found = fit(measured(modes, 400, 2000, 400), 1);
+  expect_same(found, kOne, 1e-4);
+  EXPECT_NEAR(found.above_mm_N.value * 25000, 1, 2e-3);
+  const double mass = 2e-2 / std::pow(2 * kPi * 2, 2);  // tonnes
+  EXPECT_NEAR(found.below_mm_N_s2.value * mass, 1, 1e-3);
+}
+
+TEST(Frf, ReceptanceOfTheFitIsTheOneMeasured) {
+  const FrequencyResponse r = measured(kThree, 200, 2500, 300);
+  const ModalFit found = fit(r);
+  for (std::size_t i = 0; i < r.w_rad_s.size(); ++i)
+    EXPECT_LT(std::abs(receptance_mm_N(found, r.w_rad_s[i]) - r.value[i]),
+              1e-9 * std::abs(r.value[i]));
+  EXPECT_NEAR(found.explained, 1, 1e-12);
+  EXPECT_LT(found.rms_left, 1e-9 * found.rms_measured);
+}
+
+// With normal errors 68.3 % of the values lie within their standard uncertainty; of the
+// trials a share that a binomial distribution leaves by four standard deviations or less.
+TEST(Frf, UncertaintiesCoverWithNoise) {
+  constexpr int kTrials = 150;
+  const std::vector<True> modes{{800, 0.03, 9000}, {1100, 0.025, 14000}};
+  const FrequencyResponse clean = measured(modes, 400, 1600, 250);
+  constexpr double kSigma = 4e-5;
+  std::array<int, 6> within{};
+  double left = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    FrequencyResponse noisy = clean;
+    add_noise(noisy, kSigma, 1000 + static_cast<unsigned>(trial));
+    const ModalFit found = fit(noisy, 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const FittedMode& m = found.modes[i];
+      const auto covered = [](const Measured& x, double truth) {
+        return std::abs(x.value - truth) <= x.u ? 1 : 0;
+      };
+      within[3 * i] += covered(m.wn_rad_s, 2 * kPi * modes[i].f_Hz);
+      within[3 * i + 1] += covered(m.zeta, modes[i].zeta);
+      within[3 * i + 2] += covered(m.k_N_mm, modes[i].k_N_mm);
+    }
+    left += found.rms_left / kTrials;
+    EXPECT_LT(std::abs(found.correlation), 0.25);
+  }
+  const double spread = std::sqrt(kTrials * 0.683 * 0.317);
+  for (const int count : within) EXPECT_NEAR(count, 0.683 * kTrials, 4 * spread);
+  EXPECT_NEAR(left / (kSigma * std::sqrt(2.0)), 1, 0.03);  // both parts
+}
+
+TEST(Frf, TheNumberOfModesIsFoundInNoise) {
+  FrequencyResponse r = measured(kThree, 200, 2500, 500);
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    FrequencyResponse noisy = r;
+    add_noise(noisy, 1e-5, seed);
+    const ModalFit found = fit(noisy);
+    ASSERT_EQ(found.modes.size(), 3u) << seed;
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT(std::abs(found.modes[i].wn_rad_s.value - 2 * kPi * kThree[i].f_Hz),
+                5 * found.modes[i].wn_rad_s.u);
+  }
+}
+
+TEST(Frf, OneModeForTwoLeavesACorrelatedRest) {
+  const ModalFit found = fit(measured(kThree, 400, 1300, 300), 1);
+  EXPECT_GT(found.correlation, 0.8);
+  EXPECT_LT(found.explained, 0.999);
+}
+
+TEST(Frf, UnitsOfTimeAndForceScale) {
+  FrequencyResponse r = measured(kThree, 200, 2500, 300);
+  add_noise(r, 1e-5, 3);
+  const ModalFit found = fit(r, 3);
+  for (double& w : r.w_rad_s) w *= 10;
+  for (Complex& y : r.value) y /= 7;
+  const ModalFit scaled = fit(r, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FittedMode &a = found.modes[i], &b = scaled.modes[i];
+    EXPECT_NEAR(b.wn_rad_s.value / a.wn_rad_s.value, 10, 1e-8);
+    EXPECT_NEAR(b.zeta.value / a.zeta.value, 1, 1e-8);
+    EXPECT_NEAR(b.k_N_mm.value / a.k_N_mm.value, 7, 1e-7);
+    EXPECT_NEAR(b.k_N_mm.u / a.k_N_mm.u, 7, 1e-5);
+  }
+}
+
+TEST(Frf, ChartOfTheFittedModesIsThatOfTheTrueOnes) {
+  const auto tool = [](const std::vector<Mode>& modes) {
+    const Engagement cut = down_milling(0.1);
+    return System{.modes = modes,
+                  .teeth = 2,
+                  .entry_rad = cut.entry_rad,
+                  .exit_rad = cut.exit_rad,
+                  .force = LinearForce{.Kt_MPa = 600, .Kn_MPa = 200}};
+  };
+  std::vector<Mode> given, found;
+  for (const True& t : kClose)
+    given.push_back({Axis::x, 2 * kPi * t.f_Hz, t.zeta, t.k_N_mm});
+  for (const FittedMode& m : fit(measured(kClose, 500, 1400, 300, 2)).modes)
+    found.push_back({Axis::x, m.wn_rad_s.value, m.zeta.value, m.k_N_mm.value});
+  for (const double n : {6000, 9000, 18000}) {
+    const auto a = speed_limits(tool(given), n, 60), b = speed_limits(tool(found), n, 60);
+    ASSERT_EQ(a.crossings.size(), b.crossings.size());
+    ASSERT_FALSE(a.crossings.empty());
+    for (std::size_t i = 0; i < a.crossings.size(); ++i)
+      EXPECT_NEAR(b.crossings[i].ap_mm / a.crossings[i].ap_mm, 1, 1e-8);
+  }
+}
+
+TEST(Frf, RefusesWhatIsNoMode) {
+  using Why = NoFit::Why;
+  const FrequencyResponse few = measured(kOne, 800, 1000, 4);
+  EXPECT_EQ(refused(few), Why::too_few_lines);
+  EXPECT_EQ(refused(measured(kThree, 200, 2500, 10), 3), Why::too_few_lines);
+  EXPECT_EQ(refused(FrequencyResponse{}), Why::too_few_lines);
+
+  FrequencyResponse noise = measured({}, 200, 2000, 200);
+  EXPECT_EQ(refused(noise), Why::no_peak);  // nothing moves
+  EXPECT_EQ(refused(measured({{1000, 0.9, 5000}}, 200, 2000, 200)), Why::no_peak);
+  EXPECT_EQ(refused(measured({{5000, 0.02, 5000}}, 200, 2000, 200), 1), Why::no_peak);
+
+  FrequencyResponse turned = measured(kOne, 300, 2000, 200);
+  for (Complex& y : turned.value) y = -y;
+  EXPECT_EQ(refused(turned), Why::negative);
+  for (Complex& y : turned.value) y = -std::conj(y);
+  EXPECT_EQ(refused(turned), Why::negative);
+  const std::vector<True> cross{{600, 0.02, 8000}, {900, 0.02, -12000}};
+  EXPECT_EQ(refused(measured(cross, 300, 1500, 300)), Why::negative);
+  EXPECT_EQ(refused(measured(cross, 300, 1500, 300), 2), Why::negative);
+
+  EXPECT_EQ(refused(measured(kOne, 300, 2000, 200), 2), Why::not_told);
+}
+
+TEST(Frf, NoiseIsNoMode) {
+  for (unsigned seed = 0; seed < 15; ++seed) {
+    FrequencyResponse noise = measured({}, 200, 2000, 200);
+    add_noise(noise, 1e-4, seed);
+    EXPECT_TRUE(std::holds_alternative<NoFit>(modal_fit(noise))) << seed;
+    EXPECT_TRUE(std::holds_alternative<NoFit>(modal_fit(noise, 1))) << seed;
+    FrequencyResponse one = measured(kOne, 300, 2000, 200);
+    add_noise(one, 1e-4, seed);
+    EXPECT_TRUE(std::holds_alternative<NoFit>(modal_fit(one, 2))) << seed;
+    EXPECT_EQ(fit(one).modes.size(), 1u) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::milling
