@@ -175,12 +175,12 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
     for (int passes = 1; passes <= 24; ++passes) {
       const double ap = 5.0 / passes;
       if (ap > c.ap_mm.upper || ap < c.ap_mm.lower) continue;
-      for (int i = 0; i <= 8; ++i) {
+      for (int i = 0; i <= 12; ++i) {
         const double vc = grade.vc_m_min.lower +
-                          (grade.vc_m_min.upper - grade.vc_m_min.lower) * i / 8.0;
+                          (grade.vc_m_min.upper - grade.vc_m_min.lower) * i / 12.0;
         const double n = 1000 * vc / (std::numbers::pi * D);
         if (n > driven.n_max_rpm || n < driven.n_min_rpm) continue;
-        for (const double share : {1.0, 0.7}) {
+        for (const double share : {1.0, 0.8, 0.5}) {
           const double fz = share * grade.hex_mm.upper;
           const double lane = 32 - D;
           double path = passes * (D < 10 ? lane + 2 * (lane + 10 - D) : lane) + 5 / 0.3;
@@ -267,6 +267,7 @@ TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
                 {"width_mm", 5},
                 {"depth_mm", 2}},
                14);
+  j.erase("tools");
   j["outer"][0]["length_mm"] = 280;
   j["stock"]["length_mm"] = 342;
   const auto work = work_of(load(j));
