@@ -41,7 +41,7 @@ double step_out(const MultipliersAt& multipliers, const OnCircle& at, double out
 /// A step on one map after the other, each finer than the last, until that step is too
 /// small to be the error; `at` comes with what the noise of the sheet may have done.
 void refine(const std::vector<MultipliersAt>& finer, double outwards, OnCircle& at) {
-  constexpr double kLarge = 1e-9;
+  constexpr double kLarge = 5e-9;
   double noise = at.relative_error;
   for (const MultipliersAt& multipliers : finer) {
     try {

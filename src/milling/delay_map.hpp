@@ -17,7 +17,7 @@ struct Fineness {
 inline constexpr Fineness kPlain{14, 1e-10}, kFiner{12, 1e-13};
 /// Where kinks that no node knows leave an error, see cutter.cpp.
 inline constexpr std::array kFinest{Fineness{9, 1e-14}, Fineness{6.5, 1e-15},
-                                    Fineness{4.5, 1e-16}};
+                                    Fineness{4.5, 1e-16}, Fineness{3.2, 1e-16}};
 
 /// The motion of one period collocated, with several delays and damping.  Unknown are the
 /// state u_0 at the begin of the period and the forces f at Gauss nodes of the pieces

@@ -155,6 +155,63 @@ TEST(Frf, UncertaintiesCoverWithNoise) {
   EXPECT_NEAR(left / (kSigma * std::sqrt(2.0)), 1, 0.03);  // both parts
 }
 
+// With few lines the mean of u^2 is the variance of the values: s^2 counts what is free.
+TEST(Frf, FewLinesHaveTheUncertaintyTheyShow) {
+  constexpr int kTrials = 400;
+  const True mode{900, 0.04, 9000};
+  const FrequencyResponse clean = measured({mode}, 830, 970, 7);
+  double variance = 0, told = 0;
+  for (unsigned seed = 0; seed < kTrials; ++seed) {
+    FrequencyResponse noisy = clean;
+    add_noise(noisy, 2e-6, seed);
+    const Measured wn = fit(noisy, 1).modes[0].wn_rad_s;
+    variance += std::pow(wn.value - 2 * kPi * mode.f_Hz, 2) / kTrials;
+    told += wn.u * wn.u / kTrials;
+  }
+  // 9 degrees of freedom of 14; both means are good to some 7 %.
+  EXPECT_NEAR(told / variance, 1, 0.25);
+}
+
+// A mode whose share of the squares is 90 variances of the noise stands out; so large a
+// gain noise alone has not.
+TEST(Frf, AWeakModeIsFound) {
+  const True weak{1500, 0.02, 4e5};
+  const FrequencyResponse alone = measured({weak}, 300, 2000, 500);
+  double squares = 0;
+  for (const Complex& y : alone.value) squares += std::norm(y);
+  FrequencyResponse both = measured({kOne[0], weak}, 300, 2000, 500);
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    FrequencyResponse noisy = both;
+    add_noise(noisy, std::sqrt(squares / 90), seed);
+    const ModalFit found = fit(noisy);
+    ASSERT_EQ(found.modes.size(), 2u) << seed;
+    EXPECT_NEAR(found.modes[1].wn_rad_s.value / (2 * kPi), 1500, 30);
+  }
+}
+
+// Two modes in one peak: as the noise rises they are refused, never told vaguely.
+TEST(Frf, NothingVagueIsTold) {
+  const FrequencyResponse pair =
+      measured({{900, 0.02, 8000}, {908, 0.03, 8000}}, 700, 1100, 150);
+  int told = 0, refused = 0;
+  for (unsigned seed = 0; seed < 6; ++seed)
+    for (const double sigma : {1e-6, 3e-6, 1e-5, 3e-5, 1e-4}) {
+      FrequencyResponse noisy = pair;
+      add_noise(noisy, sigma, seed);
+      const auto out = modal_fit(noisy, 2);
+      if (std::holds_alternative<NoFit>(out)) {
+        ++refused;
+        continue;
+      }
+      ++told;
+      for (const FittedMode& m : std::get<ModalFit>(out).modes)
+        for (const Measured& x : {m.wn_rad_s, m.zeta, m.k_N_mm})
+          EXPECT_LE(x.u, 0.5 * x.value) << sigma << ' ' << seed;
+    }
+  EXPECT_GE(told, 6);
+  EXPECT_GE(refused, 6);
+}
+
 TEST(Frf, TheNumberOfModesIsFoundInNoise) {
   FrequencyResponse r = measured(kThree, 200, 2500, 500);
   for (unsigned seed = 0; seed < 5; ++seed) {

@@ -60,9 +60,9 @@ TEST(MilledSearch, NothingOnALatticeIsCheaper) {
   std::mt19937_64 draw(7);
   for (const double immersion : {1.0, 0.4, 0.1}) {
     const auto l = lobes(draw, immersion);
-    for (const double slope : {0.0, 1.0, 1.6}) {
+    for (const double slope : {0.0, 1.6}) {
       std::vector<MilledCase> cases;
-      for (const int passes : {1, 2, 3, 5, 8, 14})
+      for (const int passes : {1, 3, 8, 14})
         cases.push_back(some_case(l, passes, slope, 1));
       const auto best = cheapest(cases);
       double least = std::numeric_limits<double>::infinity();

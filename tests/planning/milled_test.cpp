@@ -23,10 +23,6 @@ const document::Catalogue& catalogue() {
   return kCatalogue;
 }
 
-json keyed() {
-  return document::parse_file(TURNWRIGHT_SOURCE_DIR "/parts/keyed-shaft.json");
-}
-
 PartPlan load(const json& j, document::Purpose purpose = document::Purpose::plan) {
   return document::load_part_plan(j, catalogue(), "t", purpose).plan;
 }
@@ -47,6 +43,9 @@ json pin(const json& place, double diameter_mm = 40) {
              {"length_mm", 80},
              {"diameter_mm", diameter_mm}}}},
           {"machine", "turn-mill"},
+          {"tools",
+           {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", "KEYWAY-HM-6", "KEYWAY-HM-8",
+            "KEYWAY-HM-10", "ENDMILL-HM-8", "ENDMILL-HM-10"}},
           {"milling", json::array({place})},
           {"setups", {{{"hold", "left"}, {"grip_mm", 55}, {"clampings", {"chuck"}}}}},
           {"objective", "cost"},
@@ -101,7 +100,21 @@ std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
 }
 
 TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
-  const auto p = load(keyed());
+  auto j = pin({{"id", "k1"},
+                {"kind", "keyway"},
+                {"on", "d1"},
+                {"z_mm", 40},
+                {"length_mm", 32},
+                {"width_mm", 8},
+                {"depth_mm", 4}});
+  j["milling"].push_back({{"id", "f1"},
+                          {"kind", "flat"},
+                          {"on", "d1"},
+                          {"z_mm", 40},
+                          {"length_mm", 20},
+                          {"depth_mm", 1},
+                          {"angle_deg", 180}});
+  const auto p = load(j);
   const auto plan = planning::plan(p);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   int seen = 0;
@@ -120,7 +133,7 @@ TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
       };
       double least = std::numeric_limits<double>::infinity(), beyond = 0;
       for (const auto& s : systems_of(p, m, o))
-        for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+        for (const double u : {-1.0, 0.0, 1.0}) {
           const double n = pass.n_rpm * (1 + 0.02 * u);
           EXPECT_LT(growth(s, n, 0.97 * 1.2 * pass.ap_mm), 1) << o.id << ' ' << n;
           const auto loss = milling::speed_limits(s, n, 40 * pass.ap_mm).limit_mm();
@@ -155,7 +168,7 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& c : catalogue().cutters) {
     const double D = c.dc_mm;
-    if (!c.centre_cutting || D > 10 || D < 5 || c.lu_mm < 5) continue;
+    if (!c.centre_cutting || D > 10 || D < 6 || c.lu_mm < 5) continue;
     const auto& grade = *c.conditions_in(p.material.group);
     const double rho = rho_f * c.modes[1].stiffness_N_mm;
     if (rho > 1) continue;  // refused
@@ -254,6 +267,7 @@ TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
                 {"width_mm", 5},
                 {"depth_mm", 2}},
                14);
+  j.erase("tools");
   j["outer"][0]["length_mm"] = 280;
   j["stock"]["length_mm"] = 342;
   const auto work = work_of(load(j));
@@ -319,6 +333,7 @@ TEST(Milled, AnyPlaceIsAnsweredOrRefused) {
                {"speed_margin", 0.01 + 0.05 * u(draw)}};
     if (k % 3 != 1) place["width_mm"] = width;
     auto j = pin(place, D);
+    j.erase("tools");
     j["material"] = materials[k % 4];
     try {
       const auto p = load(j);

@@ -120,6 +120,25 @@ TEST_P(ReferencePart, HasTheSameBytesWhenPlannedAgain) {
             document::to_json(planning::plan(part.plan), part.assumed).dump());
 }
 
+// One plan for all of it, as milled places take their time; they are planned by the same
+// code in the search, which chooses the turning beside them.
+TEST(ReferencePartWithMilledPlaces, IsCertifiedAndCostsWhatTheSearchFound) {
+  const auto plan = planning::plan(loaded("keyed-shaft").plan);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  int milled = 0;
+  for (const auto& s : plan.setups)
+    for (const auto& o : s.operations) {
+      expect_global(o.certificate, o.id);
+      milled += o.kind == planning::OperationKind::mill;
+      for (const auto& c : o.constraints) EXPECT_GE(c.margin, -kBeyond) << o.id << c.name;
+    }
+  EXPECT_EQ(milled, 2);
+  expect_global(plan.certificate, "plan");
+  const double cost = stored("keyed-shaft").at("cost_per_part");
+  EXPECT_NEAR(plan.cost_per_part, cost, kGap * cost);
+  EXPECT_GE(cost, plan.certificate.lower_bound * (1 - kRounding));
+}
+
 INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
                          testing::Values("gearbox-input-shaft", "piston-rod",
                                          "spindle-nose", "flanged-bush", "motor-shaft",
