@@ -4,14 +4,14 @@ as the characters of their numbers), a folder per target for libFuzzer.
 
 Usage: corpus.py unpack FOLDER   the kept inputs, the schemas' examples and parts/; prints
                                  the targets
-       corpus.py pack FOLDER     keeps what is there, the short ones first, 100 kB per target"""
+       corpus.py pack FOLDER     keeps what is there, the short ones first, 40 kB per target"""
 import json
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 KEPT = pathlib.Path(__file__).resolve().parent / "corpus"
-MOST_BYTES = 100_000
+MOST_BYTES = 40_000
 
 
 def http(method, path, body=""):
