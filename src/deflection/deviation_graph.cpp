@@ -9,6 +9,9 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string>
+
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -245,26 +248,35 @@ MatrixXd powers_of_z(const Graph& g, int degree) {
 
 DeviationGraph described(const Graph& g, int degree, const Places& places) {
   const MatrixXd X = columns(g, degree, places);
-  const VectorXd a = X.householderQr().solve(g.e);
+  const Eigen::HouseholderQR<MatrixXd> qr(X);
+  const VectorXd a = qr.solve(g.e);
   const VectorXd r = g.e - X * a;
   const Index powers = degree + 1;
   DeviationGraph out;
   out.degrees_of_freedom = static_cast<long>(X.rows() - X.cols());
   out.s_mm = std::sqrt(r.squaredNorm() / static_cast<double>(out.degrees_of_freedom));
-  const MatrixXd P = out.s_mm * out.s_mm * (X.transpose() * X).inverse();
+  // Roots of the covariance: what is only rounding apart leaves no negative variance.
+  const MatrixXd L =
+      out.s_mm *
+      MatrixXd(qr.matrixQR().topRows(X.cols()).triangularView<Eigen::Upper>().solve(
+          MatrixXd::Identity(X.cols(), X.cols())));
+  if (!L.allFinite())
+    throw ModelRangeError(
+        "chuck: the graph's places do not tell a polynomial of degree " +
+        std::to_string(degree));
   const MatrixXd T = powers_of_z(g, degree);
   const VectorXd c = T.transpose() * a.head(powers);
-  const MatrixXd Pc = T.transpose() * P.topLeftCorner(powers, powers) * T;
+  const MatrixXd Lc = T.transpose() * L.topRows(powers);
   for (Index j = 0; j < powers; ++j) {
     out.coefficients.push_back(c[j]);
-    out.u_coefficients.push_back(std::sqrt(Pc(j, j)));
+    out.u_coefficients.push_back(Lc.row(j).norm());
   }
   VectorXd straightened = g.e;
   const boost::math::students_t t(static_cast<double>(out.degrees_of_freedom));
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Index place = places[k], j = powers + static_cast<Index>(k);
     straightened -= a[j] * X.col(j);
-    const double u = std::sqrt(P(j, j));
+    const double u = L.row(j).norm();
     const double p = u > 0 ? 2 * cdf(complement(t, std::abs(a[j]) / u)) : 0;
     out.steps.push_back({.after_mm = g.z[place],
                          .before_mm = g.z[place + 1],

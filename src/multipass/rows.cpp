@@ -126,7 +126,7 @@ std::optional<Interval> roughing_depths(const std::vector<Row>& rows,
     else
       lo = std::max(lo, roughing);
   }
-  if (!(lo <= hi * (1 + kFeasibility))) return std::nullopt;
+  if (!(hi > 0 && lo <= hi * (1 + kFeasibility))) return std::nullopt;
   if (!(lo > 0)) lo = kLeastShare * most;
   if (!(hi < most)) hi = (1 - kLeastShare) * most;
   lo = std::min(lo, hi);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/optimise/nnls.hpp"
 
 namespace turnwright::optimise {
@@ -48,6 +49,7 @@ struct Evaluator {
     if (!std::equal(y.begin(), y.end(), x, x + n)) {
       y.assign(x, x + n);
       ++evaluations;
+      leave_if_asked();
       problem->evaluate(y, values);
     }
     return values;

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
 namespace turnwright::volumetric {
@@ -23,6 +25,7 @@ constexpr double kLever = 100;  // of angles against shifts [mm]
 // Above it a null vector moves an unknown.  Directions that are null but for 1e-7 drag
 // all others along by up to 2e-6, what they really move by more than 1e-3.
 constexpr double kMoves = 5e-5;
+constexpr std::size_t kCoefficients = 10'000'000;  // seconds, and 80 MB a matrix
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -128,6 +131,18 @@ struct Equations {
   MatrixXd A;
 };
 
+struct Size {
+  std::size_t equations = 0, unknowns = 0;
+  bool solvable() const { return equations * unknowns <= kCoefficients; }
+};
+
+Size size_of(const SambaStrategy& s, const std::vector<std::string>& parameters) {
+  Size size{1, parameters.size() + 3 * s.balls_mm.size() + 3};
+  for (const Indexation& at : s.indexations)
+    size.equations += s.styli_mm.size() * (3 * at.balls.size() + at.pre_moves.size());
+  return size;
+}
+
 class Builder {
  public:
   Builder(const SambaStrategy& strategy, const std::vector<std::string>& names)
@@ -152,6 +167,13 @@ class Builder {
   }
 
   Equations build() {
+    leave_if_asked();
+    const Size size = size_of(strategy_, names_);
+    if (!size.solvable())
+      throw ModelRangeError("samba: " + std::to_string(size.equations) +
+                            " equations of " + std::to_string(size.unknowns) +
+                            " unknowns, at most " + std::to_string(kCoefficients) +
+                            " coefficients are solved");
     const Vector3d n = vector(strategy_.facet_normal).normalized();
     each_probing(
         strategy_,
@@ -390,6 +412,7 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
   Identifiability best = found;
   std::vector<Remedy> out;
   const auto try_out = [&](std::string what) {
+    if (!size_of(changed, names).solvable()) return;
     Identifiability now = identifiability(changed, names);
     if (now.rank <= best.rank) return;
     Remedy remedy{.what = std::move(what), .rank = now.rank, .gains = {}};

@@ -52,6 +52,8 @@ TEST(Conflict, TooShallowForOnePass) {
   Problem m;
   m.dt_mm = 1.5;
   EXPECT_EQ(names(optimum(m)), (std::vector<std::string>{"rough:d_min", "finish:d_min"}));
+  m.dt_mm = 1;  // the least roughing depth is all there is: nothing is left to finish
+  EXPECT_EQ(names(optimum(m)), std::vector<std::string>{"rough:d_min"});
 }
 
 TEST(Conflict, ALimitThatNothingMeets) {

@@ -10,6 +10,7 @@
 
 #include "little_memory.hpp"
 #include "temporary_folder.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
 
@@ -154,6 +155,16 @@ TEST_F(JobStoreTest, RecordsOfOtherDataAreNotMixed) {
   EXPECT_EQ(store.job(begun)->state, "outdated");
   EXPECT_EQ(store.known("d"), R"({"x":"old"})");
   EXPECT_TRUE(store.take(9).empty());
+}
+
+TEST_F(JobStoreTest, ASubmissionThatIsLeftStoresNothing) {
+  JobStore store(file(), "data");
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(store.submit("a\nb\n", stop.get_token()), Cancelled);
+  EXPECT_TRUE(store.jobs().empty());
+  EXPECT_TRUE(store.take(9).empty());
+  EXPECT_EQ(store.submit("a\n"), 1);
 }
 
 TEST_F(JobStoreTest, BlankLinesCountAndAreDone) {

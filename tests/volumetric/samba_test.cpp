@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <set>
 #include <stdexcept>
 
 #include "machines.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::volumetric {
 namespace {
@@ -246,6 +248,28 @@ TEST(Samba, RefusesValuesOfWhatItCannotKnow) {
       EXPECT_NEAR(fit.value[j], t.errors.at(name), 1e-10) << name;
     }
   }
+}
+
+TEST(Samba, RefusesWhatWouldTakeMinutes) {
+  auto s = strategy();
+  std::vector<std::size_t> seen(100);
+  std::iota(seen.begin(), seen.end(), 0);
+  for (std::size_t i = s.balls_mm.size(); i < seen.size(); ++i)
+    s.balls_mm.push_back({static_cast<double>(i), 10, 20});
+  s.indexations.assign(105, {0, 0, seen, {}});  // 31,501 equations
+  const auto message = [&s](std::size_t parameters) -> std::string {
+    try {
+      samba_fit(s, first(parameters), {}, {});
+    } catch (const ModelRangeError& error) {
+      return error.what();
+    } catch (const std::domain_error&) {  // the readings are not there
+    }
+    return "";
+  };
+  EXPECT_EQ(message(15),
+            "samba: 31501 equations of 318 unknowns, at most 10000000 coefficients are "
+            "solved");
+  EXPECT_EQ(message(14), "");
 }
 
 TEST(Samba, RefusesWhatIsNoStrategy) {

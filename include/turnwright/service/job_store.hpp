@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,9 @@ class JobStore {
   /// the sender's file, and have no record.
   /// @return its id; none, and nothing is stored, if more lines than kMostLines are not
   ///   blank.
-  std::optional<std::int64_t> submit(std::string_view text);
+  /// @throws Cancelled, and nothing is stored, if `stop` is asked for before the end.
+  std::optional<std::int64_t> submit(std::string_view text,
+                                     const std::stop_token& stop = {});
   static constexpr std::size_t kMostLines = 1'000'000;
   std::optional<Job> job(std::int64_t id) const;
   std::vector<Job> jobs() const;

@@ -76,7 +76,8 @@ struct Identifiability {
 /// Source: derived here; the idea is Mayer's (CIRP Annals 61, 2012) as the thesis on the
 /// comparison of ball bar and SAMBA describes it.
 /// @throws std::domain_error for unknown or repeated names, or a ball or stylus that is
-///   not there.
+///   not there; ModelRangeError where equations times unknowns are over 10 million, here
+///   and below.
 Identifiability identifiability(const SambaStrategy& strategy,
                                 const std::vector<std::string>& parameters);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
 
 namespace turnwright::service {
@@ -12,20 +13,23 @@ namespace {
 
 constexpr int kSchemaVersion = 2;
 
+// A key is found by comparing it with others: what may be long stays out of it.
 constexpr const char* kTables = R"(
 CREATE TABLE job (id INTEGER PRIMARY KEY AUTOINCREMENT, state TEXT NOT NULL,
                   data TEXT NOT NULL, lines INTEGER NOT NULL, open INTEGER NOT NULL,
                   errors INTEGER NOT NULL DEFAULT 0);
-CREATE TABLE line (job INTEGER NOT NULL REFERENCES job(id) ON DELETE CASCADE,
+CREATE TABLE line (id INTEGER PRIMARY KEY,
+                   job INTEGER NOT NULL REFERENCES job(id) ON DELETE CASCADE,
                    number INTEGER NOT NULL, request TEXT NOT NULL, digest TEXT,
-                   record TEXT, PRIMARY KEY (job, number)) WITHOUT ROWID;
+                   record TEXT);
+CREATE UNIQUE INDEX line_number ON line(job, number);
 CREATE INDEX line_digest ON line(digest) WHERE digest IS NOT NULL;
 )";
 
 // A job is gone on with as long as all its records come from the same data.
 constexpr const char* kAdopt =
     "UPDATE job SET data = ?1 WHERE state = 'running' AND NOT EXISTS "
-    "(SELECT 1 FROM line WHERE job = id AND record IS NOT NULL)";
+    "(SELECT 1 FROM line WHERE line.job = job.id AND record IS NOT NULL)";
 constexpr const char* kOutdate =
     "UPDATE job SET state = 'outdated' WHERE state = 'running' AND data <> ?1";
 
@@ -117,7 +121,8 @@ JobStore::JobStore(const std::filesystem::path& file, std::string data) try
 
 JobStore::~JobStore() = default;
 
-std::optional<std::int64_t> JobStore::submit(std::string_view text) {
+std::optional<std::int64_t> JobStore::submit(std::string_view text,
+                                             const std::stop_token& stop) {
   const auto all = given(text);
   if (!all) return std::nullopt;
   const std::lock_guard lock(mutex_);
@@ -134,6 +139,7 @@ std::optional<std::int64_t> JobStore::submit(std::string_view text) {
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
   for (const auto& line : all->requests) {
+    leave_if(stop);
     insert.bind(1, id);
     insert.bind(2, line.number);
     insert.bind(3, std::string(line.text));

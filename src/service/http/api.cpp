@@ -171,10 +171,10 @@ Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
   return {200, "application/json", text_of(to_json(*job)), {}};
 }
 
-Reply submit(Batches& batches, const Call& call) {
+Reply submit(Batches& batches, const Call& call, const std::stop_token& stop) {
   if (!is_type(call.content_type, "application/jsonl"))
     return wrong_type(call, "application/jsonl");
-  const auto id = batches.store().submit(call.body);
+  const auto id = batches.store().submit(call.body, stop);
   if (!id)
     return problem(413, "lines",
                    fmt::format("expected at most {} lines", JobStore::kMostLines), call);
@@ -246,9 +246,10 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
                      }});
     }
     all.push_back({"/v1/batches", "POST",
-                   of_batches([](Batches& b, std::int64_t, const Call& call) {
-                     return submit(b, call);
-                   })});
+                   [](const HttpApi& api, const Call& call, const Arguments&, Stop stop) {
+                     return api.batches_ ? submit(*api.batches_, call, stop)
+                                         : missing(call);
+                   }});
     all.push_back(
         {"/v1/batches", "GET",
          of_batches([](Batches& b, std::int64_t, const Call&) { return list_jobs(b); })});
