@@ -132,21 +132,23 @@ TEST(Frf, UncertaintiesCoverWithNoise) {
   const std::vector<True> modes{{800, 0.03, 9000}, {1100, 0.025, 14000}};
   const FrequencyResponse clean = measured(modes, 400, 1600, 250);
   constexpr double kSigma = 4e-5;
-  std::array<int, 6> within{};
+  std::array<int, 8> within{};
   double left = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     FrequencyResponse noisy = clean;
     add_noise(noisy, kSigma, 1000 + static_cast<unsigned>(trial));
     const ModalFit found = fit(noisy, 2);
+    const auto covered = [](const Measured& x, double truth) {
+      return std::abs(x.value - truth) <= x.u ? 1 : 0;
+    };
     for (std::size_t i = 0; i < 2; ++i) {
       const FittedMode& m = found.modes[i];
-      const auto covered = [](const Measured& x, double truth) {
-        return std::abs(x.value - truth) <= x.u ? 1 : 0;
-      };
       within[3 * i] += covered(m.wn_rad_s, 2 * kPi * modes[i].f_Hz);
       within[3 * i + 1] += covered(m.zeta, modes[i].zeta);
       within[3 * i + 2] += covered(m.k_N_mm, modes[i].k_N_mm);
     }
+    within[6] += covered(found.above_mm_N, 0);
+    within[7] += covered(found.below_mm_N_s2, 0);
     left += found.rms_left / kTrials;
     EXPECT_LT(std::abs(found.correlation), 0.25);
   }
