@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "chatter_frequency.hpp"
 #include "contact.hpp"
 #include "delay_map.hpp"
 #include "sheet.hpp"
@@ -171,13 +170,7 @@ SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
     const bool was_stable = count == 0;
     count += at.change;
     if (was_stable == (count == 0)) continue;
-    out.crossings.push_back(
-        {.ap_mm = at.w_mm,
-         .loss = was_stable,
-         .flip = at.flip(),
-         .theta_rad = at.theta,
-         .frequency_Hz = chatter_frequency_Hz(cutter.system, period, at.theta),
-         .relative_error = at.relative_error});
+    out.crossings.push_back(crossing(at, was_stable, cutter.system, period));
   }
   for (const double w : depths_mm) {
     int unstable = 0;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "chatter_frequency.hpp"
 #include "tracking.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
@@ -90,14 +89,7 @@ class Climb {
       levels_.push_back({at.w_mm, count_});
       if (was_stable == (count_ == 0)) continue;
       if (was_stable) entered_ = {at.w_mm * (1 + 1e-6), std::polar(1.0, -at.theta)};
-      const double tau = coarse_.tau_s();
-      crossings_.push_back(
-          {.ap_mm = at.w_mm,
-           .loss = was_stable,
-           .flip = at.flip(),
-           .theta_rad = at.theta,
-           .frequency_Hz = chatter_frequency_Hz(coarse_.system(), tau, at.theta),
-           .relative_error = at.relative_error});
+      crossings_.push_back(crossing(at, was_stable, coarse_.system(), coarse_.tau_s()));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "box_search.hpp"
+#include "chatter_frequency.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -164,6 +165,15 @@ std::vector<OnCircle> sorted(const std::vector<OnCircle>& zeros, double from_mm,
 }  // namespace
 
 bool OnCircle::flip() const { return theta == kPi; }
+
+Crossing crossing(const OnCircle& at, bool loss, const System& system, double tau_s) {
+  return {.ap_mm = at.w_mm,
+          .loss = loss,
+          .flip = at.flip(),
+          .theta_rad = at.theta,
+          .frequency_Hz = chatter_frequency_Hz(system, tau_s, at.theta),
+          .relative_error = at.relative_error};
+}
 
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
                                 double from_mm, double to_mm) {

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "patch.hpp"
+#include "turnwright/milling/limits.hpp"
 
 namespace turnwright::milling {
 
@@ -13,6 +14,9 @@ struct OnCircle {
   double relative_error = 0;  ///< estimated, of w
   bool flip() const;          ///< mu = -1
 };
+
+/// What a depth on the circle is to a chart: a loss of stability, or a gain.
+Crossing crossing(const OnCircle& at, bool loss, const System& system, double tau_s);
 
 /// Every depth in (from, to] at which a multiplier lies on the unit circle, rising.
 ///

@@ -1,8 +1,11 @@
 #pragma once
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
+#include <iostream>
 #include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 #include "turnwright/base/cancelled.hpp"
@@ -18,6 +21,14 @@ namespace turnwright::fuzz {
 inline const document::Catalogue& catalogue() {
   static const auto kCatalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
   return kCatalogue;
+}
+
+/// The row of that name; ends the program if there is none.
+inline const service::Request& door_named(const std::string& name) {
+  for (const auto& row : service::requests())
+    if (row.name == name) return row;
+  std::cerr << "no door " << name << '\n';
+  std::exit(2);
 }
 
 /// Asks for the work's end after some time; most of the work of a plan is no news.

@@ -37,16 +37,10 @@ class Mutation {
         at = other();
         break;
       case 3:
-        grow(at);
-        break;
-      case 4:
         shrink(at);
         break;
       default:
-        if (at.is_number())
-          at = number(at);
-        else
-          grow(at);
+        grow(at);
     }
   }
 
@@ -112,13 +106,7 @@ class Mutation {
 using namespace turnwright;
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  const auto name = fuzz::option(*argc, *argv, "door");
-  for (const auto& row : service::requests())
-    if (row.name == name) fuzz::door = &row;
-  if (!fuzz::door) {
-    std::cerr << "no door " << name << '\n';
-    std::exit(2);
-  }
+  fuzz::door = &fuzz::door_named(fuzz::option(*argc, *argv, "door"));
   return 0;
 }
 

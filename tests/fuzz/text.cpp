@@ -17,13 +17,6 @@ json request;
 json::json_pointer place;
 const service::Request* door = nullptr;
 
-const service::Request& row(const std::string& name) {
-  for (const auto& one : service::requests())
-    if (one.name == name) return one;
-  std::cerr << "no door " << name << '\n';
-  std::exit(2);
-}
-
 /// The first "csv" of the door's examples.
 bool find_csv(const json& value, const json::json_pointer& at) {
   if (!value.is_structured()) return false;
@@ -43,7 +36,7 @@ json readable(const std::string& text) {
 void choose() {
   if (kind == "json" || kind == "batch") return;
   const bool csv = kind.starts_with("csv-"), lathe = kind == "program-lathe";
-  door = &row(csv ? kind.substr(4) : "compensate");
+  door = &door_named(csv ? kind.substr(4) : "compensate");
   if (csv) {
     const auto schema =
         document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/schemas/" +

@@ -1,18 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
-
+#include "constant_factor.hpp"
 #include "cutters.hpp"
 #include "turnwright/milling/limits.hpp"
 
 namespace turnwright::milling {
 namespace {
 
-using Complex = std::complex<double>;
-
-/// One mode under a constant factor: s^2 + 2 zeta wn s + wn^2 (1 + b (1 - e^(-s tau))) =
-/// 0, b = w K/k.
 System turning(double zeta) {
   return {.modes = {{.axis = Axis::x, .wn_rad_s = 600, .zeta = zeta, .k_N_mm = 5000}},
           .teeth = 1,
@@ -21,32 +15,13 @@ System turning(double zeta) {
           .force = ConstantForce{800}};
 }
 
-/// e^(Re s tau) of the rightmost root, by Newton's method from every quarter of a turn.
-double radius(const Mode& m, double b, double tau) {
-  double most = -1e9;
-  for (double turn = 0; turn < 4 * m.wn_rad_s * tau; turn += 0.25) {
-    Complex s(-0.1 / tau, turn / tau);
-    for (int i = 0; i < 100; ++i) {
-      const Complex delayed = m.wn_rad_s * m.wn_rad_s * b * std::exp(-s * tau);
-      const Complex f = s * s + 2 * m.zeta * m.wn_rad_s * s +
-                        m.wn_rad_s * m.wn_rad_s * (1 + b) - delayed;
-      const Complex step = f / (2.0 * s + 2 * m.zeta * m.wn_rad_s + tau * delayed);
-      s -= step;
-      if (std::abs(step) < 1e-13 * std::abs(s)) {
-        most = std::max(most, s.real());
-        break;
-      }
-    }
-  }
-  return std::exp(most * tau);
-}
-
 TEST(Multipliers, OfTurningAreThoseOfItsCharacteristicEquation) {
   for (const double zeta : {0.01, 0.3, 3.0})
     for (const double n_rpm : {60.0, 400.0, 3000.0})
       for (const double ap_mm : {0.02, 0.5, 3.0}) {
         const System s = turning(zeta);
-        const double right = radius(s.modes[0], ap_mm * 800 / 5000, 60 / n_rpm);
+        const double right =
+            radius_under_constant_factor(s.modes[0], ap_mm * 800 / 5000, 60 / n_rpm);
         const Multipliers at = multipliers(s, n_rpm, ap_mm);
         EXPECT_NEAR(at.spectral_radius / right, 1, 1e-8)
             << zeta << " " << n_rpm << " " << ap_mm;
