@@ -114,6 +114,7 @@ TEST(Docs, LinksAndTestsTheyNameExist) {
   int links = 0, named = 0;
   for (const auto& file : files) {
     const auto text = text_of(file);
+    EXPECT_TRUE(found(text, "^(<<<<<<<|>>>>>>>) ").empty()) << file << ": half merged";
     for (const auto& link : found(text, R"(\]\(([^)]+)\))")) {
       if (link.starts_with("http")) continue;
       ++links;
