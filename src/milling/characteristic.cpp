@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kProductGrowth = 6;  // ln of the digits that products may lose
 
-constexpr std::size_t kWork = 80'000'000;  // entries of stretches evaluated: seconds
+constexpr std::size_t kWork = 30'000'000;  // entries of stretches evaluated: seconds
 
 using Matrix = std::vector<Complex>;  // row by row
 
@@ -194,7 +194,7 @@ Coefficients Characteristic::at(Complex kappa, double kappa_max) const {
   leave_if_asked();
   work_ += p.stretches.size() * m * m;
   if (work_ > kWork)
-    throw ModelRangeError(
+    throw TooManyVibrations(
         "milling: the search takes too long; ask for a smaller depth or a higher speed");
   Coefficients out;
   out.c.assign(m + 1, 0);

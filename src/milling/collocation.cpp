@@ -33,7 +33,7 @@ class Map {
     for (const Stretch& stretch : cut.all) {
       size_ += static_cast<Index>(stretch.h.size()) * (cut.used[0] + cut.used[1]);
       if (size_ > static_cast<Index>(kLargest))
-        throw ModelRangeError(
+        throw TooManyVibrations(
             "milling: a tooth period holds too many vibrations for the spectral radius; "
             "ask for a higher speed or a smaller depth");
       steps_.push_back(step(system, cut, stretch, ap_mm));

@@ -10,7 +10,7 @@ namespace {
 
 using units::kPi;
 
-constexpr double kSame = 1e-9;  // rad: rounding of angles
+constexpr double kSame = 1e-11;  // rad: rounding of angles
 
 double remainder_of(double x, double period) {
   return x - period * std::floor(x / period);
@@ -50,11 +50,15 @@ double period_s(const Cutter& cutter, double n_rpm) {
   return cutter.by_revolution() ? 60 / n_rpm : period_s(cutter.system, n_rpm);
 }
 
+double lag_rad_mm(const Cutter& cutter) {
+  if (!(cutter.helix_rad > 0)) return 0;
+  return 2 * std::tan(cutter.helix_rad) / cutter.diameter_mm;
+}
+
 Contact::Contact(const Cutter& cutter, double n_rpm, double ap_mm)
     : cutter_(cutter),
       ap_(ap_mm),
-      lag_(cutter.helix_rad > 0 ? 2 * std::tan(cutter.helix_rad) / cutter.diameter_mm
-                                : 0),
+      lag_(lag_rad_mm(cutter)),
       period_(cutter.by_revolution() ? 2 * kPi : 2 * kPi / cutter.system.teeth) {
   const auto teeth = static_cast<std::size_t>(cutter.system.teeth);
   pitch_ = cutter.pitch_rad;
@@ -211,11 +215,9 @@ std::vector<double> Contact::breaks() const {
 std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_mm) {
   std::vector<double> out;
   if (!(cutter.helix_rad > 0)) return out;
-  const double lag = 2 * std::tan(cutter.helix_rad) / cutter.diameter_mm;
+  const double lag = lag_rad_mm(cutter);
   const Contact contact(cutter, n_rpm, ap_max_mm);
   const std::vector<double> ends = contact.ends();
-  constexpr std::size_t kFew = 4;  // with more the depths lie too close
-  if (ends.size() > kFew) return out;
   for (const double a : ends)
     for (const double b : ends) {
       double apart = remainder_of(a - b, contact.period_rad());
@@ -226,6 +228,8 @@ std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_m
   std::ranges::sort(out);
   const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
   out.erase(std::unique(out.begin(), out.end(), same), out.end());
+  constexpr std::size_t kMost = 40;  // with more the depths lie too close
+  if (out.size() > kMost) out.clear();
   return out;
 }
 

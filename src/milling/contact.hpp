@@ -20,6 +20,9 @@ struct Passage {
   double offset_mm = 0;  ///< of the tooth's radius
 };
 
+/// How far an edge lags behind its tip, over the height [rad/mm].
+double lag_rad_mm(const Cutter& cutter);
+
 /// Where and how the edges of a cutter meet the work at one depth.  Angles are those of
 /// the spindle, from 0 to `period_rad`; over height every integral is in closed form.
 class Contact {

@@ -10,6 +10,7 @@
 #include "sheet.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
+#include "unit_circle.hpp"
 
 namespace turnwright::milling {
 namespace {
@@ -84,12 +85,10 @@ OnCircle polished(const Sheet& sheet, const std::vector<MultipliersAt>& finer,
 class Ascent {
  public:
   Ascent(const Cutter& cutter, double n_rpm, double ap_max)
-      : coarse_(at_depths(cutter, n_rpm, ap_max, kPlain)),
-        finer_{at_depths(cutter, n_rpm, ap_max, kFiner)},
-        ap_max_(ap_max),
-        tail_(cutter.helix_rad > 0 ? 1e-6 : 1e-9) {
+      : cutter_(cutter), n_rpm_(n_rpm), ap_max_(ap_max) {
+    finer_.push_back(at_depths({0, ap_max}, kFiner));
     for (const Fineness& fineness : kFinest)
-      finer_.push_back(at_depths(cutter, n_rpm, ap_max, fineness));
+      finer_.push_back(at_depths({0, ap_max}, fineness));
     double from = 0;
     std::vector<double> ends = kinks_mm(cutter, n_rpm, ap_max);
     ends.push_back(ap_max);
@@ -104,17 +103,25 @@ class Ascent {
   const std::vector<OnCircle>& zeros() const { return zeros_; }
 
  private:
-  static MultipliersAt at_depths(const Cutter& cutter, double n_rpm, double deepest,
-                                 const Fineness& fineness) {
-    return [&cutter, n_rpm, deepest, fineness](double w) {
-      return DelayMap(cutter, n_rpm, w, deepest, fineness).multipliers();
+  MultipliersAt at_depths(const DelayMap::Range& range, const Fineness& fineness) const {
+    return [this, range, fineness](double w) {
+      return DelayMap(cutter_, n_rpm_, w, range, fineness).multipliers();
     };
   }
 
   void climb(double from, double to) {
-    constexpr double kRough = 1e-5, kNarrow = 1e-2;
+    constexpr double kTail = 1e-9, kRough = 1e-5, kNarrow = 1e-2;
+    // At the ends of a range ends of contact may fall together and pieces vanish: the
+    // samples there are taken so far beside them.
+    constexpr double kBeside = 1e-10;  // rad
     const bool narrow = to - from < kNarrow * ap_max_;
-    const auto sheet = Sheet::sampled(coarse_, from, to, narrow ? kRough : tail_);
+    const double lag = lag_rad_mm(cutter_),
+                 least = lag > 0 ? std::min(kBeside / lag, 1e-6 * (to - from)) : 0;
+    const MultipliersAt within = at_depths({from, to}, kPlain);
+    const auto beside = [&](double w) {
+      return within(std::clamp(w, from + least, to - least));
+    };
+    const auto sheet = Sheet::sampled(beside, from, to, narrow ? kRough : kTail);
     if (sheet && enter(*sheet)) return;
     if (narrow)
       throw ModelRangeError(
@@ -152,9 +159,9 @@ class Ascent {
     return true;
   }
 
-  MultipliersAt coarse_;
+  const Cutter& cutter_;
+  double n_rpm_, ap_max_;
   std::vector<MultipliersAt> finer_;
-  double ap_max_, tail_;  // a helix leaves kinks that no node knows
   std::vector<OnCircle> zeros_;
 };
 
@@ -183,7 +190,7 @@ SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
 
 std::vector<Surface> surfaces(const Cutter& cutter, double n_rpm, double ap_mm) {
   constexpr int kHeights = 21;
-  const DelayMap map(cutter, n_rpm, ap_mm, ap_mm, kFiner);
+  const DelayMap map(cutter, n_rpm, ap_mm, kFiner);
   const DelayMap::Forced forced = map.forced();
   std::vector<Surface> out;
   for (const bool at_entry : {true, false}) {
@@ -210,14 +217,13 @@ Multipliers multipliers(const Cutter& cutter, double n_rpm, double ap_mm) {
     return static_cast<int>(
         std::ranges::count_if(all, [](Complex mu) { return modulus(mu) > 1; }));
   };
-  const auto fine = DelayMap(cutter, n_rpm, ap_mm, ap_mm, kFiner).multipliers(),
-             coarse = DelayMap(cutter, n_rpm, ap_mm, ap_mm, kPlain).multipliers();
+  const auto fine = DelayMap(cutter, n_rpm, ap_mm, kFiner).multipliers(),
+             coarse = DelayMap(cutter, n_rpm, ap_mm, kPlain).multipliers();
   const double radius = modulus(fine.front());
   const double differ = std::abs(radius - modulus(coarse.front()));
   const bool clear = std::ranges::none_of(
       fine, [&](Complex mu) { return std::abs(modulus(mu) - 1) <= 10 * differ; });
-  if (count(fine) != count(coarse))
-    throw ModelRangeError("milling: a multiplier lies on the circle asked about");
+  if (count(fine) != count(coarse)) throw ModelRangeError(kOnCircle);
   return {.unstable = count(fine), .spectral_radius = radius, .certified = clear};
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "free_vibration.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -29,7 +30,7 @@ std::size_t nodes_for(double phase, double error) {
 
 }  // namespace
 
-DelayMap::DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, double deepest_mm,
+DelayMap::DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, const Range& range,
                    const Fineness& fineness)
     : cutter_(cutter),
       contact_(cutter, n_rpm, ap_mm),
@@ -42,9 +43,29 @@ DelayMap::DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, double deep
     axis_of_.push_back(static_cast<std::size_t>(row));
     states_ += 2;
   }
-  lay_out(turns(Contact(cutter, n_rpm, deepest_mm)), fineness);
+  const double turning = turns(Contact(cutter, n_rpm, range.to_mm));
+  lay_out(turning, longest(n_rpm, range), fineness);
   connect();
   assemble();
+}
+
+// Between depths at which the order of the ends changes lengths are linear in the depth.
+std::vector<double> DelayMap::longest(double n_rpm, const Range& range) const {
+  constexpr double kInside = 1e-3;  // at a range's ends lengths may vanish
+  const auto lengths = [](const std::vector<double>& breaks) {
+    std::vector<double> out(breaks.size());
+    std::adjacent_difference(breaks.begin(), breaks.end(), out.begin());
+    return out;
+  };
+  std::vector<double> out = lengths(contact_.breaks());
+  for (const double share : {kInside, 1 - kInside}) {
+    const double ap = std::lerp(range.from_mm, range.to_mm, share);
+    const auto there = lengths(Contact(cutter_, n_rpm, ap).breaks());
+    if (there.size() != out.size()) continue;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = std::max(out[i], (1 + 4 * kInside) * there[i]);
+  }
+  return out;
 }
 
 /// How fast the motion turns or decays, for depths up to that of the contact [1/s]: the
@@ -72,7 +93,8 @@ double DelayMap::turns(const Contact& contact) const {
          2 * rad_s_;
 }
 
-void DelayMap::lay_out(double turns, const Fineness& fineness) {
+void DelayMap::lay_out(double turns, const std::vector<double>& longest,
+                       const Fineness& fineness) {
   const std::vector<double> breaks = contact_.breaks();
   size_ = states_;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -81,8 +103,9 @@ void DelayMap::lay_out(double turns, const Fineness& fineness) {
       pieces_.push_back({.begin_s = begin, .length_s = length, .state = {}});
       continue;
     }
-    const double parts = std::ceil(length * turns / (2 * fineness.phase_rad));
-    const std::size_t nodes = nodes_for(length / parts * turns / 2, fineness.error);
+    const double turned = longest[i + 1] / rad_s_ * turns / 2,
+                 parts = std::ceil(turned / fineness.phase_rad);
+    const std::size_t nodes = nodes_for(turned / parts, fineness.error);
     for (double k = 0; k < parts; ++k) {
       pieces_.push_back({.begin_s = begin + length * k / parts,
                          .length_s = length / parts,
@@ -91,7 +114,7 @@ void DelayMap::lay_out(double turns, const Fineness& fineness) {
                          .state = {}});
       size_ += axes_ * static_cast<Index>(nodes);
       if (size_ > kMostUnknowns)
-        throw ModelRangeError(
+        throw TooManyVibrations(
             "milling: a period of this cutter holds too many vibrations; ask for a "
             "higher speed or a smaller depth");
     }

@@ -45,9 +45,17 @@ inline constexpr std::array kFinest{Fineness{9, 1e-14}, Fineness{6.5, 1e-15},
 /// cut into slices.
 class DelayMap {
  public:
+  /// Depths over which the pieces stay the same in number and nodes, so that the
+  /// multipliers of the map, and not only of the motion, are smooth in the depth.
+  struct Range {
+    double from_mm = 0, to_mm = 0;
+  };
+
   /// @throws ModelRangeError if a period needs more than kMostUnknowns.
-  DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, double deepest_mm,
+  DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, const Range& range,
            const Fineness& fineness);
+  DelayMap(const Cutter& cutter, double n_rpm, double ap_mm, const Fineness& fineness)
+      : DelayMap(cutter, n_rpm, ap_mm, {ap_mm, ap_mm}, fineness) {}
 
   const Contact& contact() const { return contact_; }
 
@@ -80,7 +88,10 @@ class DelayMap {
   };
 
   double turns(const Contact& contact) const;
-  void lay_out(double turns, const Fineness& fineness);
+  /// Of the pieces between breaks, over the range [rad]; the first is void.
+  std::vector<double> longest(double n_rpm, const Range& range) const;
+  void lay_out(double turns, const std::vector<double>& longest,
+               const Fineness& fineness);
   void connect();
   void assemble();
   Rows rows_at(const Piece& piece, double offset_s) const;

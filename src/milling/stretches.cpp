@@ -122,7 +122,7 @@ class Stretcher {
     const auto least = arc.root_at_begin && arc.root_at_end ? 2.0 : 1.0;
     const double pieces = std::max(least, std::ceil(length / longest));
     if (!(static_cast<double>(out_.all.size()) + pieces < kStretches))
-      throw ModelRangeError(
+      throw TooManyVibrations(
           "milling: a tooth period holds too many vibrations to follow; ask for a higher "
           "speed or a smaller depth");
     const double piece = length / pieces;

@@ -222,8 +222,7 @@ class Winding {
  private:
   double go(const Box& box, const Patch* above) {
     constexpr double kSmallest = 1e-13;
-    if (box.theta_half < kSmallest || ++boxes_ > kBoxes)
-      throw ModelRangeError("milling: a multiplier lies on the circle asked about");
+    if (box.theta_half < kSmallest || ++boxes_ > kBoxes) throw ModelRangeError(kOnCircle);
     std::optional<Patch> own;
     const Complex u = box.u();
     const Patch* patch = patches_.pick(above, disc(box, u, rho_), own);
@@ -256,8 +255,7 @@ int whole_turns(double angle, std::size_t m) {
   const double turns = static_cast<double>(m / 2) - angle / kPi,
                whole = std::round(turns);
   if (!(std::abs(turns - whole) < 1e-3))
-    throw std::domain_error("multipliers_outside: half turns of " +
-                            std::to_string(turns));
+    throw ModelRangeError(kOnCircle);  // rounding turns the chords
   return static_cast<int>(whole);
 }
 

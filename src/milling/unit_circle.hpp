@@ -6,6 +6,10 @@
 
 namespace turnwright::milling {
 
+inline constexpr const char* kOnCircle =
+    "milling: a multiplier lies on the unit circle to within rounding, so the cut on a "
+    "limit of stability";
+
 /// A depth at which a multiplier e^(i theta) lies on the unit circle.
 struct OnCircle {
   double w_mm = 0;

@@ -262,6 +262,27 @@ TEST(Cutter, CountsAtDepthsAreThoseOfCuts) {
 }
 
 // Four teeth in a slot deep above the limit, where noise first hides zeros.
+// Many vibrations of a tooth period, ends of contact that meet at depths searched.
+TEST(Cutter, HelicesAtLowSpeedAreToldToTheEighthDigit) {
+  Cutter c = mill(4, down_milling(0.1));
+  c.system.modes.pop_back();
+  c.system.force = LinearForce{.Kt_MPa = 2500, .Kn_MPa = 900};
+  int found = 0;
+  for (const double helix_deg : {15, 30, 45})
+    for (const double n : {3000, 5000}) {
+      SCOPED_TRACE(testing::Message() << helix_deg << " deg at " << n);
+      c.helix_rad = helix_deg * kPi / 180;
+      for (const Crossing& at : speed_limits(c, n, 6).crossings) {
+        ++found;
+        EXPECT_LE(at.relative_error, 1e-8);
+        for (const double by : {-1e-7, 1e-7})
+          EXPECT_EQ(multipliers(c, n, (1 + by) * at.ap_mm).unstable > 0,
+                    (by > 0) == at.loss);
+      }
+    }
+  EXPECT_GE(found, 5);
+}
+
 TEST(Cutter, DeepHelicalSlotIsTold) {
   Cutter c = with_pitches(mill(4, {0, kPi}), {84, 96, 85, 95});
   c.helix_rad = kPi / 6;

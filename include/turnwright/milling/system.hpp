@@ -2,6 +2,8 @@
 #include <variant>
 #include <vector>
 
+#include "turnwright/base/errors.hpp"
+
 /// Regenerative vibration of a tool or workpiece that cuts its own waves:
 ///
 ///     eta_i'' + 2 zeta_i wn_i eta_i' + wn_i^2 eta_i = (wn_i^2 / k_i) F_axis(i) (1) F =
@@ -71,6 +73,13 @@ struct Engagement {
 };
 Engagement up_milling(double immersion);    ///< 0 to acos(1 - 2 immersion)
 Engagement down_milling(double immersion);  ///< acos(2 immersion - 1) to pi
+
+/// A period holds so many vibrations that a search would take more than a few seconds;
+/// at slower speeds and greater depths it holds more.
+class TooManyVibrations : public ModelRangeError {
+ public:
+  using ModelRangeError::ModelRangeError;
+};
 
 /// tau of (3) [s].
 double period_s(const System& system, double n_rpm);
