@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iomanip>
+#include <locale>
 #include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -106,9 +109,19 @@ std::string short_Hz(double w_rad_s) {
   return number_text(std::round(hertz(w_rad_s) * 100) / 100) + " Hz";
 }
 
+std::string counted(std::size_t lines) {
+  return lines == 1 ? "1 line" : std::to_string(lines) + " lines";
+}
+
+const char* quantity(int derivative) {
+  return derivative == 0   ? "a receptance"
+         : derivative == 1 ? "a mobility"
+                           : "an accelerance";
+}
+
 /// Tells why there are no modes, at the line nearest to what tells it.
 void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
-            std::optional<long> modes) {
+            std::optional<long> modes, int derivative) {
   const std::string f = short_Hz(no.w_rad_s);
   Problem problem{r.pointer_of("csv"), "", "", "fit"};
   if (no.w_rad_s > 0) {
@@ -119,7 +132,7 @@ void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
   }
   switch (no.why) {
     case NoFit::Why::too_few_lines:
-      problem.got = std::to_string(lines.size()) + " lines";
+      problem.got = counted(lines.size());
       problem.expected = "at least " + std::to_string(3 * modes.value_or(1) + 2) +
                          " of the band, 3 for each mode and 2";
       problem.code = "count";
@@ -132,15 +145,29 @@ void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
       problem.got = "a mode of negative mass at " + f;
       problem.expected =
           "the receptance of a drive point under e^(+i w t): imaginary part < 0 at a "
-          "peak";
+          "peak; is the unit that of the quantity measured?";
       break;
     case NoFit::Why::not_told:
       problem.got = no.w_rad_s > 0 ? "a mode at " + f + " that the lines do not tell"
                                    : "fewer modes";
       problem.expected = "fewer modes asked, more lines or less noise";
       break;
+    case NoFit::Why::other_quantity:
+      problem.pointer = r.pointer_of("unit");
+      problem.got = std::string("the unit of ") + quantity(derivative);
+      problem.expected = std::string("that of ") + quantity(no.derivative) +
+                         ", whose modes explain these lines far better";
+      problem.code = "unit";
+      break;
   }
   r.problems().add(std::move(problem));
+}
+
+std::string three_digits(double x) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(3) << x;
+  return out.str();
 }
 
 void add(ordered_json& out, const std::string& key, double value, double u) {
@@ -158,7 +185,9 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
     out.axis = r.choice<milling::Axis>(
         "axis", {{"x", milling::Axis::x}, {"y", milling::Axis::y}});
   const Unit unit = read_unit(r);
-  const std::vector<Line> lines = in_band(r, read_lines(r));
+  std::vector<Line> all = read_lines(r);
+  const std::size_t given = all.size();
+  const std::vector<Line> lines = in_band(r, std::move(all));
   const auto modes = r.optional_integer("modes", 1, milling::kMostModes);
   r.finish();
   if (lines.size() > kLines)
@@ -169,10 +198,12 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
       milling::modal_fit(response(lines, unit),
                          modes ? std::optional(static_cast<int>(*modes)) : std::nullopt);
   if (const auto* no = std::get_if<NoFit>(&found)) {
-    report(r, lines, *no, modes);
+    report(r, lines, *no, modes, unit.derivative);
     return std::nullopt;
   }
+  out.pointer = r.pointer();
   out.lines = lines.size();
+  out.left_out = given - lines.size();
   out.from_Hz = lines.front().frequency_Hz;
   out.to_Hz = lines.back().frequency_Hz;
   out.fit = std::get<ModalFit>(found);
@@ -192,6 +223,7 @@ ordered_json described(const MeasuredAxis& measured) {
   }
   ordered_json out{{"axis", measured.axis == milling::Axis::x ? "x" : "y"},
                    {"lines", measured.lines},
+                   {"left_out", measured.left_out},
                    {"from_Hz", measured.from_Hz},
                    {"to_Hz", measured.to_Hz},
                    {"modes", std::move(modes)}};
@@ -200,6 +232,28 @@ ordered_json described(const MeasuredAxis& measured) {
   out["explained"] = fit.explained;
   out["relative_rest"] = fit.rms_left / fit.rms_measured;
   out["correlation"] = fit.correlation;
+  out["error_floor"] = fit.error_floor ? ordered_json(*fit.error_floor) : ordered_json();
+  return out;
+}
+
+std::vector<std::string> doubts(const MeasuredAxis& measured) {
+  constexpr double kExplained = 0.9;
+  const Bounds usual = within(100, 1e6, "N/mm");  // of tools, spindles and slender work
+  std::vector<std::string> out;
+  const ModalFit& fit = measured.fit;
+  if (!(fit.explained >= kExplained))
+    out.push_back(
+        measured.pointer + ": the modes explain " +
+        number_text(std::round(1000 * fit.explained) / 10) +
+        " % of the response's squares, less than 90 %: its limits are not to be "
+        "trusted; is the unit right, the band wide enough, the noise low?");
+  const auto weakest = std::ranges::min_element(
+      fit.modes, {}, [](const milling::FittedMode& m) { return m.k_N_mm.value; });
+  const double k = weakest->k_N_mm.value;
+  if (!contains(usual, k))
+    out.push_back(measured.pointer +
+                  "/unit: the most compliant mode has a stiffness of " + three_digits(k) +
+                  ", where " + expected_number(usual) + " is usual; is the unit right?");
   return out;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "turnwright/document/reader.hpp"
 #include "turnwright/milling/frf.hpp"
@@ -11,7 +13,9 @@ namespace turnwright::document {
 /// Modes fitted to a frequency response measured along an axis.
 struct MeasuredAxis {
   milling::Axis axis = milling::Axis::x;
-  std::size_t lines = 0;  ///< used
+  std::string pointer;       ///< of its part of the request
+  std::size_t lines = 0;     ///< used
+  std::size_t left_out = 0;  ///< at 0 Hz, where nothing vibrates, or outside the band
   double from_Hz = 0, to_Hz = 0;
   milling::ModalFit fit;
 };
@@ -25,5 +29,9 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis);
 
 /// As the document of a result has it.
 nlohmann::ordered_json described(const MeasuredAxis& measured);
+
+/// What speaks for a wrong unit or table, though there are modes: less than 0.9 of the
+/// squares explained, the most compliant mode outside 100 to 1e6 N/mm.
+std::vector<std::string> doubts(const MeasuredAxis& measured);
 
 }  // namespace turnwright::document

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,14 +76,61 @@ ordered_json judged(const Request& q, const Point& p, const std::stop_token& sto
   return out;
 }
 
-/// What fails at one speed is told with it.
-template <class F>
-auto at_speed(double n_rpm, F compute) {
-  try {
-    return compute();
-  } catch (const ModelRangeError& e) {
-    throw ModelRangeError("stability: at " + number_text(n_rpm) + " 1/min: " + e.what());
+/// Searches at speeds, or points, one after the other: those outside the method are told
+/// with the reason.
+class Attempts {
+ public:
+  /// What is computed at the i-th of them; none if that is outside the method, or no
+  /// easier than one before that would have taken too long.
+  template <class F>
+  auto at(std::size_t i, const std::string& pointer, const Point& asked, F compute)
+      -> std::optional<decltype(compute())> {
+    for (const Point& p : too_long_)
+      if (asked.n_rpm <= p.n_rpm && asked.ap_mm >= p.ap_mm) {
+        leave_out(i, pointer, asked,
+                  "not tried, as " + number_text(p.n_rpm) + " 1/min would take too long");
+        return std::nullopt;
+      }
+    try {
+      return compute();
+    } catch (const TooManyVibrations& e) {
+      too_long_.push_back(asked);
+      leave_out(i, pointer, asked, e.what());
+    } catch (const ModelRangeError& e) {
+      leave_out(i, pointer, asked, e.what());
+    }
+    return std::nullopt;
   }
+
+  /// In the order asked.
+  const std::map<std::size_t, ordered_json>& undecided() const { return undecided_; }
+
+ private:
+  void leave_out(std::size_t i, const std::string& pointer, const Point& asked,
+                 const std::string& why) {
+    undecided_[i] = {{"pointer", pointer},
+                     {"n_rpm", asked.n_rpm},
+                     {"ap_mm", asked.ap_mm},
+                     {"why", why}};
+  }
+
+  std::vector<Point> too_long_;
+  std::map<std::size_t, ordered_json> undecided_;
+};
+
+/// @throws ModelRangeError if nothing else is told.
+void add_undecided(const Attempts& speeds, const Attempts& points, ordered_json& out) {
+  ordered_json all = ordered_json::array();
+  for (const Attempts* attempts : {&speeds, &points})
+    for (const auto& [i, told] : attempts->undecided()) all.push_back(told);
+  if (all.empty()) return;
+  if (!out.contains("speeds") && !out.contains("points")) {
+    const ordered_json& first = all.front();
+    throw ModelRangeError("stability: " + first.at("pointer").get<std::string>() +
+                          ": at " + number_text(first.at("n_rpm")) +
+                          " 1/min: " + first.at("why").get<std::string>());
+  }
+  out["undecided"] = std::move(all);
 }
 
 ordered_json or_null(const std::optional<double>& value) {
@@ -118,7 +167,8 @@ double stable_mm(const SpeedLimits& speed, double ap_max) {
   return speed.limit_mm().value_or(ap_max);
 }
 
-/// The machine's speed that removes most: n times the depth up to the first loss.
+/// The machine's speed that removes most: n times the depth up to the first loss; null if
+/// it has none of them.
 ordered_json best(const Request& q, const std::vector<SpeedLimits>& speeds) {
   const double ap_max = *q.ap_max_mm;
   const auto volume = [&](const SpeedLimits& s) {
@@ -126,6 +176,7 @@ ordered_json best(const Request& q, const std::vector<SpeedLimits>& speeds) {
     return possible ? s.n_rpm * stable_mm(s, ap_max) : 0;
   };
   const auto at = std::ranges::max_element(speeds, {}, volume);
+  if (!(volume(*at) > 0)) return {};
   return {{"n_rpm", at->n_rpm},
           {"ap_mm", stable_mm(*at, ap_max)},
           {"limited_by", at->limit_mm() ? "chatter" : "ap_max_mm"}};
@@ -186,23 +237,51 @@ class Count {
   const StabilityProgress& tell_;
 };
 
+/// Places in a list of speeds from the highest down: slow ones take longest.
+std::vector<std::size_t> from_the_fastest(const std::vector<double>& speeds_rpm) {
+  std::vector<std::size_t> out(speeds_rpm.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::ranges::stable_sort(out, std::ranges::greater(),
+                           [&](std::size_t i) { return speeds_rpm[i]; });
+  return out;
+}
+
 void add_speeds(const Request& q, const std::stop_token& stop, Count& done,
-                ordered_json& out) {
+                Attempts& attempts, ordered_json& out) {
   const auto systems = q.bands ? drawn(q.system, *q.bands) : std::vector<System>{};
-  std::vector<SpeedLimits> speeds;
-  ordered_json told = ordered_json::array();
-  for (const double n_rpm : q.speeds_rpm) {
-    speeds.push_back(at_speed(n_rpm, [&] { return limits_of(q, n_rpm, stop); }));
-    told.push_back(described(speeds.back()));
-    if (q.bands)
-      told.back()["uncertain"] = described(
-          at_speed(n_rpm, [&] { return uncertain_of(q, systems, n_rpm, stop); }));
+  std::map<std::size_t, std::pair<SpeedLimits, ordered_json>> found;
+  for (const std::size_t i : from_the_fastest(q.speeds_rpm)) {
+    const Point deepest{q.speeds_rpm[i], *q.ap_max_mm};
+    auto speed = attempts.at(i, q.pointer_of_speed(i), deepest, [&] {
+      const SpeedLimits limits = limits_of(q, deepest.n_rpm, stop);
+      ordered_json told = described(limits);
+      if (q.bands)
+        told["uncertain"] = described(uncertain_of(q, systems, deepest.n_rpm, stop));
+      return std::pair(limits, told);
+    });
+    if (speed) found.emplace(i, std::move(*speed));
     done.one();
   }
-  out["speeds"] = std::move(told);
+  if (found.empty()) return;
+  std::vector<SpeedLimits> speeds;
+  for (auto& [i, speed] : found) {
+    speeds.push_back(std::move(speed.first));
+    out["speeds"].push_back(std::move(speed.second));
+  }
   if (!q.depths_mm.empty()) out["depths_mm"] = q.depths_mm;
   out["best"] = best(q, speeds);
   out["magic_speeds"] = magic(speeds, *q.ap_max_mm);
+}
+
+void add_points(const Request& q, const std::stop_token& stop, Count& done,
+                Attempts& attempts, ordered_json& out) {
+  for (std::size_t i = 0; i < q.points.size(); ++i) {
+    const Point& p = q.points[i];
+    if (const auto verdict = attempts.at(i, "/points/" + std::to_string(i), p,
+                                         [&] { return judged(q, p, stop); }))
+      out["points"].push_back(*verdict);
+    done.one();
+  }
 }
 
 }  // namespace
@@ -212,19 +291,17 @@ ordered_json stability(const json& request, const Catalogue& catalogue,
   const Request q = read(request, catalogue);
   ordered_json out{{"format", "turnwright-stability-result/1"}};
   Count done(q, tell);
+  Attempts speeds, points;
   add_basis(q, out);
-  if (!q.speeds_rpm.empty()) add_speeds(q, stop, done, out);
-  if (!q.points.empty()) {
-    ordered_json points = ordered_json::array();
-    for (const Point& p : q.points) {
-      points.push_back(at_speed(p.n_rpm, [&] { return judged(q, p, stop); }));
-      done.one();
-    }
-    out["points"] = std::move(points);
-  }
+  if (!q.speeds_rpm.empty()) add_speeds(q, stop, done, speeds, out);
+  add_points(q, stop, done, points, out);
+  add_undecided(speeds, points, out);
   if (q.model == Model::turning && q.system.modes.size() == 1 && !q.cutter)
     out["absolute_limit_mm"] = absolute_limit_mm(q.system);
   out["assumed"] = q.assumed;
+  out["warnings"] = ordered_json::array();
+  for (const MeasuredAxis& measured : q.measured)
+    for (const std::string& doubt : doubts(measured)) out["warnings"].push_back(doubt);
   return out;
 }
 

@@ -267,20 +267,21 @@ SpeedRange read_range(Reader& r) {
   return range;
 }
 
-std::vector<double> read_speeds(Reader& r) {
-  if (auto found = r.find("speeds_rpm")) {
-    if (!found->is_object()) return found->as_numbers(kSpeed, 1, kSpeeds);
-    const auto [from, to] = read_range(*found);
-    const long count = found->integer("count", 1, kSpeeds);
-    found->finish();
-    std::vector<double> out;
-    for (long i = 0; i < count; ++i)
-      out.push_back(count == 1 ? from
-                               : from + (to - from) * static_cast<double>(i) /
-                                            static_cast<double>(count - 1));
-    return out;
+void read_speeds(Reader& r, Request& q) {
+  auto found = r.find("speeds_rpm");
+  if (!found) return;
+  q.speeds_listed = !found->is_object();
+  if (q.speeds_listed) {
+    q.speeds_rpm = found->as_numbers(kSpeed, 1, kSpeeds);
+    return;
   }
-  return {};
+  const auto [from, to] = read_range(*found);
+  const long count = found->integer("count", 1, kSpeeds);
+  found->finish();
+  for (long i = 0; i < count; ++i)
+    q.speeds_rpm.push_back(count == 1 ? from
+                                      : from + (to - from) * static_cast<double>(i) /
+                                                   static_cast<double>(count - 1));
 }
 
 /// "depths": so many equal steps up to ap_max_mm.
@@ -375,7 +376,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
     if (q.model != Model::power_law) read_cutter(r, named, q);
   }
   read_method(r, q);
-  q.speeds_rpm = read_speeds(r);
+  read_speeds(r, q);
   q.ap_max_mm = r.optional_number("ap_max_mm", kDepth);
   read_depths(r, q);
   read_uncertainty(r, q);

@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "frequency_response.hpp"
@@ -38,6 +39,7 @@ struct Request {
   std::optional<Chip> chip;
   std::optional<double> ap_max_mm;
   std::vector<double> speeds_rpm;
+  bool speeds_listed = false;     // one by one, not as a range
   std::vector<double> depths_mm;  // counted at each speed
   std::optional<milling::Bands> bands;
   std::optional<SpeedRange> machine;
@@ -45,6 +47,10 @@ struct Request {
   Method method = Method::fundamental_matrix;
   int resolution = 0;  // elements or intervals
   nlohmann::ordered_json assumed = nlohmann::ordered_json::array();
+
+  std::string pointer_of_speed(std::size_t i) const {
+    return speeds_listed ? "/speeds_rpm/" + std::to_string(i) : "/speeds_rpm";
+  }
 
   /// Whether depth and delay enter by more than one number, see cutter.hpp.
   bool shaped() const {

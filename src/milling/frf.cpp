@@ -34,14 +34,22 @@ struct Model {
   double left = std::numeric_limits<double>::infinity();  // sum |e|^2
 };
 
-/// The lines as rows: real parts, then imaginary ones.
+/// What errors go like at each line.
+using Sizes = std::vector<double>;
+
+Sizes alike(const FrequencyResponse& r) { return Sizes(r.w_rad_s.size(), 1.0); }
+
+/// The lines as rows: real parts, then imaginary ones, over the sizes of their errors.
 class Lines {
  public:
-  explicit Lines(const FrequencyResponse& r) : w_(r.w_rad_s), y_(2 * rows()) {
+  Lines(const FrequencyResponse& r, const Sizes& sizes) : w_(r.w_rad_s), y_(2 * rows()) {
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      const Complex iw(0, w(i));
-      gain_.push_back(r.derivative == 0 ? 1.0 : r.derivative == 1 ? iw : iw * iw);
-      enter(i, r.value[static_cast<std::size_t>(i)], y_);
+      const auto at = static_cast<std::size_t>(i);
+      const Complex iw(0, w(i)), power = r.derivative == 0   ? 1.0
+                                         : r.derivative == 1 ? iw
+                                                             : iw * iw;
+      gain_.push_back(power / sizes[at]);
+      enter(i, r.value[at] / sizes[at], y_);
     }
   }
 
@@ -285,15 +293,30 @@ std::optional<NoFit> fault(const Lines& lines, const Model& m) {
   return std::nullopt;
 }
 
-/// Whether a mode of negative stiffness stands out.
-bool stands_out(const Model& m) {
-  constexpr double kShare = 0.05;
-  double highest = 0, negative = 0;
-  for (const Peak& p : m.peaks) {
-    highest = std::max(highest, p.height());
-    if (p.a < 0) negative = std::max(negative, p.height());
-  }
-  return negative > kShare * highest;
+double highest(const Model& m) {
+  double out = 0;
+  for (const Peak& p : m.peaks) out = std::max(out, p.height());
+  return out;
+}
+
+/// Whether a mode of negative stiffness stands out of a model that leaves so much less
+/// than another without it.
+bool stands_out(const Model& m, const Model& without) {
+  constexpr double kShare = 0.05, kLeft = 0.25;
+  return m.left < kLeft * without.left &&
+         std::ranges::any_of(m.peaks, [&](const Peak& p) {
+           return p.a < 0 && p.height() > kShare * highest(m);
+         });
+}
+
+/// Too low beside the highest peak to move a limit.
+constexpr double kLow = 1e-3;
+
+Model without_low_peaks(const Lines& lines, Model m) {
+  const double least = kLow * highest(m);
+  std::erase_if(m.peaks, [&](const Peak& p) { return p.height() < least; });
+  m.left = lines.left(m).squaredNorm();
+  return m;
 }
 
 /// The line at which the modes' velocity is highest; its receptance lags behind the
@@ -310,9 +333,24 @@ std::optional<NoFit> wrong_way(const FrequencyResponse& r) {
   return std::nullopt;
 }
 
-ModalFit described(const Lines& lines, Model m) {
+/// Real and imaginary part as two rows apart, squared and added.
+VectorXd squares(const VectorXd& y) {
+  const Eigen::Index L = y.size() / 2;
+  return y.head(L).cwiseAbs2() + y.tail(L).cwiseAbs2();
+}
+
+/// sum e_i e_(i+1) over sum e_i^2, each part by itself.
+double correlation(const VectorXd& e) {
+  double together = 0;
+  for (Eigen::Index k = 0; k < e.size() - 1; ++k)
+    if (k != e.size() / 2 - 1) together += e[k] * e[k + 1];
+  const double all = e.squaredNorm();
+  return all > 0 ? together / all : 0;
+}
+
+ModalFit described(const FrequencyResponse& r, const Lines& lines, Model m) {
   std::ranges::sort(m.peaks, {}, &Peak::ln_wn);
-  const VectorXd u = uncertainties(lines, m), e = lines.left(m);
+  const VectorXd u = uncertainties(lines, m);
   ModalFit out;
   Eigen::Index i = 0;
   for (const Peak& p : m.peaks) {
@@ -323,55 +361,159 @@ ModalFit described(const Lines& lines, Model m) {
   }
   out.above_mm_N = {m.c, u[i]};
   out.below_mm_N_s2 = {m.b, u[i + 1]};
+  const Lines even(r, alike(r));
   const auto L = static_cast<double>(lines.rows());
-  const double all = lines.y().squaredNorm();
-  out.explained = 1 - m.left / all;
+  const double all = even.y().squaredNorm(), left = even.left(m).squaredNorm();
+  out.explained = 1 - left / all;
   out.rms_measured = std::sqrt(all / L);
-  out.rms_left = std::sqrt(m.left / L);
-  double together = 0;
-  for (Eigen::Index k = 0; k < e.size() - 1; ++k)
-    if (k != lines.rows() - 1) together += e[k] * e[k + 1];
-  out.correlation = m.left > 0 ? together / m.left : 0;
+  out.rms_left = std::sqrt(left / L);
+  out.correlation = correlation(lines.left(m));
   return out;
 }
 
 /// Whether there are lines for so many modes.
 bool enough(const Lines& lines, int modes) { return lines.rows() >= 3 * modes + 2; }
 
-std::variant<ModalFit, NoFit> asked(const Lines& lines, int modes) {
+struct Choice {
+  Model model;
+  std::optional<NoFit> no;  // what speaks against it
+};
+
+Choice asked(const Lines& lines, int modes) {
   Model fewer, m = without_peaks(lines);
   for (int n = 0; n < modes; ++n) {
-    if (nothing_left(lines, m)) return NoFit{n == 0 ? Why::no_peak : Why::not_told, 0};
+    if (nothing_left(lines, m)) return {m, NoFit{n == 0 ? Why::no_peak : Why::not_told}};
     fewer = std::exchange(m, with_one_more(lines, m));
   }
-  if (const auto why = fault(lines, m)) return *why;
+  if (const auto why = fault(lines, m)) return {m, why};
+  const auto lowest = std::ranges::min_element(m.peaks, {}, &Peak::height);
+  if (!(lowest->height() >= kLow * highest(m)))
+    return {m, NoFit{Why::not_told, lowest->wn()}};
   if (!(schwarz(lines, m) < schwarz(lines, fewer)))
-    return NoFit{modes == 1 ? Why::no_peak : Why::not_told, m.peaks.back().wn()};
-  return described(lines, std::move(m));
+    return {m, NoFit{modes == 1 ? Why::no_peak : Why::not_told, m.peaks.back().wn()}};
+  return {m, {}};
 }
 
-std::variant<ModalFit, NoFit> chosen(const Lines& lines) {
-  Model m = without_peaks(lines);
-  for (int n = 1; n <= kMostModes && enough(lines, n) && !nothing_left(lines, m); ++n) {
+/// Goes on over a model that does not stand, which modes still missing may cause.
+Choice chosen(const Lines& lines) {
+  constexpr std::size_t kAhead = 3;
+  Model best = without_peaks(lines), m = best;
+  std::optional<NoFit> first;  // what speaks against the first model that does not stand
+  for (int n = 1; n <= kMostModes && enough(lines, n) && !nothing_left(lines, m) &&
+                  m.peaks.size() < best.peaks.size() + kAhead;
+       ++n) {
     Model next = with_one_more(lines, m);
     if (!(schwarz(lines, next) < schwarz(lines, m))) break;
-    const auto why = fault(lines, next);
-    if (why && (n == 1 || (why->why == Why::negative && stands_out(next)))) return *why;
-    if (why) break;
     m = std::move(next);
+    const auto why = fault(lines, m);
+    if (!why) best = m;
+    if (why && !first) first = why;
   }
-  if (m.peaks.empty()) return NoFit{Why::no_peak, 0};
-  return described(lines, std::move(m));
+  if (best.peaks.empty()) return {m, first.value_or(NoFit{Why::no_peak})};
+  if (stands_out(m, best)) {
+    const auto negative = std::ranges::min_element(m.peaks, {}, &Peak::a);
+    return {m, NoFit{Why::negative, negative->wn()}};
+  }
+  return {without_low_peaks(lines, std::move(best)), {}};
+}
+
+/// Eq. (3), with the floor under which what is left by the model is likeliest; none if
+/// errors alike are not clearly less likely.
+std::optional<double> error_floor(const FrequencyResponse& r, const Model& m) {
+  const Lines lines(r, alike(r));
+  const VectorXd e = lines.left(m), left = squares(e), fit = squares(lines.y() - e);
+  const double n = lines.numbers(), top = fit.maxCoeff();
+  std::optional<double> best;
+  double least = n * std::log(e.squaredNorm() / n) - 5 * std::log(n);
+  for (const double floor : {0.1, 0.03, 0.01, 0.003, 0.001}) {
+    const Eigen::ArrayXd variance = fit.array() / top + floor * floor;
+    const double now =
+        n * std::log((left.array() / variance).sum() / n) + 2 * variance.log().sum();
+    if (now < least) {
+      least = now;
+      best = floor;
+    }
+  }
+  return best;
+}
+
+Sizes sizes(const FrequencyResponse& r, const Model& m, double floor) {
+  const Lines lines(r, alike(r));
+  const VectorXd fit = squares(lines.y() - lines.left(m));
+  Sizes out;
+  for (const double square : fit)
+    out.push_back(std::sqrt(square / fit.maxCoeff() + floor * floor));
+  return out;
+}
+
+/// A fit with errors alike, then with those it leaves, until their floor stays.
+std::variant<ModalFit, NoFit> best_fit(const FrequencyResponse& r,
+                                       std::optional<int> modes) {
+  constexpr int kRounds = 3;
+  Sizes errors = alike(r);
+  std::optional<double> floor;
+  for (int round = 1;; ++round) {
+    const Lines lines(r, errors);
+    Choice choice = modes ? asked(lines, *modes) : chosen(lines);
+    const auto next =
+        nothing_left(lines, choice.model) ? floor : error_floor(r, choice.model);
+    if (round == kRounds || next == floor) {
+      if (choice.no) return *choice.no;
+      ModalFit out = described(r, lines, std::move(choice.model));
+      out.error_floor = floor;
+      return out;
+    }
+    floor = next;
+    errors = floor ? sizes(r, choice.model, *floor) : alike(r);
+  }
+}
+
+/// What is left of a response's squares if it is taken for another derivative.
+double left_as(FrequencyResponse r, int derivative) {
+  r.derivative = derivative;
+  const Lines lines(r, alike(r));
+  if (wrong_way(r)) return lines.y().squaredNorm();
+  const Choice choice = chosen(lines);
+  return choice.no ? lines.y().squaredNorm() : choice.model.left;
+}
+
+/// The derivative that leaves far less than `left`, if one does.
+std::optional<NoFit> other_quantity(const FrequencyResponse& r, double left) {
+  constexpr double kFarLess = 0.1;
+  std::optional<NoFit> out;
+  for (const int derivative : {0, 1, 2}) {
+    if (derivative == r.derivative) continue;
+    const double as = left_as(r, derivative);
+    if (!(as < kFarLess * left)) continue;
+    left = as / kFarLess;
+    out = NoFit{Why::other_quantity, 0, derivative};
+  }
+  return out;
+}
+
+/// What a response that moves before its force is: another quantity, or one of the other
+/// sign.
+NoFit turned(const FrequencyResponse& r, const NoFit& negative) {
+  FrequencyResponse other = r;
+  for (Complex& y : other.value) y = -y;
+  return other_quantity(r, left_as(other, r.derivative)).value_or(negative);
 }
 
 }  // namespace
 
 std::variant<ModalFit, NoFit> modal_fit(const FrequencyResponse& response,
                                         std::optional<int> modes) {
-  const Lines lines(response);
-  if (!enough(lines, modes.value_or(1))) return NoFit{Why::too_few_lines, 0};
-  if (const auto why = wrong_way(response)) return *why;
-  return modes ? asked(lines, *modes) : chosen(lines);
+  constexpr double kDoubtful = 0.98;  // of the squares explained
+  const auto lines = static_cast<int>(response.w_rad_s.size());
+  if (lines < 3 * modes.value_or(1) + 2) return NoFit{Why::too_few_lines};
+  if (const auto why = wrong_way(response)) return turned(response, *why);
+  const auto out = best_fit(response, modes);
+  const auto* fit = std::get_if<ModalFit>(&out);
+  if (fit && fit->explained > kDoubtful) return out;
+  const double left = fit ? lines * fit->rms_left * fit->rms_left
+                          : left_as(response, response.derivative);
+  if (const auto why = other_quantity(response, left)) return *why;
+  return out;
 }
 
 Complex receptance_mm_N(const ModalFit& fit, double w) {

@@ -93,6 +93,7 @@ class Chart {
   }
 
   void best() {
+    if (result_.at("best").is_null()) return;
     const double n = result_.at("best").at("n_rpm"),
                  depth = result_.at("best").at("ap_mm");
     const Point at = place(n, depth);

@@ -69,6 +69,19 @@ std::string force(const ordered_json& result) {
                               significant(number(f, "Kn_MPa"))));
 }
 
+/// What is not to be trusted, and what was not told at all.
+std::string warnings(const ordered_json& result) {
+  std::string out;
+  for (const auto& warning : list(result, "warnings"))
+    if (warning.is_string()) out += tag("p", warning.get<std::string>());
+  for (const auto& u : list(result, "undecided"))
+    out += tag("p", fmt::format("Not told: {} 1/min, {} mm ({}): {}.",
+                                significant(number(u, "n_rpm"), 6),
+                                significant(number(u, "ap_mm"), 6), word(u, "pointer"),
+                                word(u, "why")));
+  return out.empty() ? out : tag("h2", "Warnings") + out;
+}
+
 std::string crossings(const ordered_json& speed) {
   std::vector<std::string> all;
   for (const auto& c : list(speed, "crossings"))
@@ -128,8 +141,8 @@ std::string stability_html(std::string_view, const ordered_json& result,
   return page("Stability of the cut",
               header(result) +
                   figure_named(figures, "stability.svg", "Depth over spindle speed") +
-                  force(result) + responses(result) + points(result) + speeds(result) +
-                  assumptions(result));
+                  warnings(result) + force(result) + responses(result) + points(result) +
+                  speeds(result) + assumptions(result));
 }
 
 }  // namespace turnwright::report

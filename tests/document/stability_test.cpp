@@ -400,6 +400,8 @@ TEST(Stability, RefusesResponsesThatHoldNoMode) {
   EXPECT_EQ(refused(with({{"from_Hz", 200}, {"modes", 1}})),
             "stability: /frf/0/csv#line 20: got no peak, the nearest to one at 180 Hz, "
             "expected a mode among the lines, damped by less than 0.5");
+  EXPECT_EQ(refused(with({{"from_Hz", 174}, {"to_Hz", 175}})).substr(0, 43),
+            "stability: /frf/0/csv: got 1 line, expected");
   lines[5] = "142,0.5,x";
   lines[7] = "1;2;3";
   EXPECT_EQ(
@@ -408,6 +410,51 @@ TEST(Stability, RefusesResponsesThatHoldNoMode) {
 stability: /frf/0/csv#line 8: got 1 cells, expected 3 as in the header
 stability: /frf/0/csv#line 6/imaginary: got "x", expected a number from -1000000000000 to 1000000000000
 stability: /frf/0/csv#line 6/frequency_Hz: got 142, expected more than 142 Hz of the line before)");
+}
+
+TEST(Stability, AResponseOfAnotherQuantityIsToldAtItsUnit) {
+  json q = example(12);  // a receptance
+  q["frf"][0]["unit"] = "mm/s/N";
+  EXPECT_EQ(refused(q),
+            "stability: /frf/0/unit: got the unit of a mobility, expected that of a "
+            "receptance, whose modes explain these lines far better");
+  q = example(11);
+  q["frf"][0]["unit"] = "um/N";
+  EXPECT_EQ(refused(q).substr(0, 61),
+            "stability: /frf/0/unit: got the unit of a receptance, expecte");
+}
+
+TEST(Stability, DoubtfulResponsesComeWithAWarning) {
+  EXPECT_EQ(answered(example(12))["warnings"], json::array());
+  json q = example(12);
+  q["frf"][0]["unit"] = "mm/N";  // of um/N
+  const json r = answered(q)["warnings"];
+  ASSERT_EQ(r.size(), 1u);
+  EXPECT_EQ(r[0],
+            "/frf/0/unit: the most compliant mode has a stiffness of 4, where a number "
+            "from 100 to 1000000 N/mm is usual; is the unit right?");
+  q = example(11);
+  q["frf"][0]["modes"] = 1;  // of two
+  const json one = answered(q);
+  EXPECT_LT(one["frf"][0]["explained"], 0.9);
+  ASSERT_EQ(one["warnings"].size(), 1u);
+  EXPECT_EQ(one["warnings"][0].get<std::string>().substr(0, 25),
+            "/frf/0: the modes explain");
+}
+
+TEST(Stability, LinesThatDoNotCountAreTold) {
+  json q = example(12);
+  const std::size_t all = answered(q)["frf"][0]["lines"];
+  EXPECT_EQ(answered(q)["frf"][0]["left_out"], 0);
+  json& csv = q["frf"][0]["csv"];
+  csv.insert(csv.begin() + 1, "0,0.25,0");
+  json r = answered(q)["frf"][0];
+  EXPECT_EQ(r["lines"], all);
+  EXPECT_EQ(r["left_out"], 1);
+  q["frf"][0]["to_Hz"] = 215;
+  r = answered(q)["frf"][0];
+  EXPECT_GT(r["left_out"], 1);
+  EXPECT_EQ(r["lines"].get<std::size_t>() + r["left_out"].get<std::size_t>(), all + 1);
 }
 
 TEST(Stability, RefusesAResponseOfNegativeMass) {
@@ -424,7 +471,7 @@ TEST(Stability, RefusesAResponseOfNegativeMass) {
   EXPECT_EQ(refused(q),
             "stability: /frf/0/csv#line 15: got a mode of negative mass at 182 Hz, "
             "expected the receptance of a drive point under e^(+i w t): imaginary part < "
-            "0 at a peak");
+            "0 at a peak; is the unit that of the quantity measured?");
 }
 
 TEST(Stability, ModesResponsesAndCutterDoNotOverlap) {
@@ -527,17 +574,76 @@ TEST(Stability, IsLeftSoonAfterAStopWasAskedFor) {
   }
 }
 
+std::string out_of_range(const json& request) {
+  try {
+    stability(request);
+  } catch (const ModelRangeError& e) {
+    return e.what();
+  }
+  return "answered";
+}
+
 TEST(Stability, WhatTakesTooLongIsToldWithItsSpeed) {
   json q = example(0);
   q["speeds_rpm"] = {1};
   q["ap_max_mm"] = 1000;
   q.erase("points");
-  try {
-    stability(q);
-    FAIL();
-  } catch (const ModelRangeError& e) {
-    EXPECT_EQ(std::string(e.what()).substr(0, 22), "stability: at 1 1/min:");
+  EXPECT_EQ(out_of_range(q).substr(0, 37), "stability: /speeds_rpm/0: at 1 1/min:");
+  q["speeds_rpm"] = {{"from", 1}, {"to", 1}, {"count", 1}};
+  EXPECT_EQ(out_of_range(q).substr(0, 35), "stability: /speeds_rpm: at 1 1/min:");
+}
+
+TEST(Stability, ASpeedTooSlowDoesNotEndTheOthers) {
+  json q = example(0);
+  q["ap_max_mm"] = 1000;
+  q["speeds_rpm"] = {1, 18000, 1, 17000};
+  q["machine_rpm"] = {{"from", 1}, {"to", 100}};
+  q.erase("points");
+  const json r = answered(q);
+  ASSERT_EQ(r["speeds"].size(), 2u);
+  EXPECT_EQ(r["speeds"][0]["n_rpm"], 18000);
+  EXPECT_EQ(r["speeds"][1]["n_rpm"], 17000);
+  EXPECT_TRUE(r["best"].is_null());  // none of the machine's speeds is told
+  ASSERT_EQ(r["undecided"].size(), 2u);
+  EXPECT_EQ(r["undecided"][0]["pointer"], "/speeds_rpm/0");
+  EXPECT_EQ(r["undecided"][1]["pointer"], "/speeds_rpm/2");
+  EXPECT_EQ(r["undecided"][1]["why"], "not tried, as 1 1/min would take too long");
+}
+
+// At the crossings themselves, in both directions of stability.
+TEST(Stability, APointOnALimitDoesNotEndTheOthers) {
+  json q = example(0);
+  const json crossings = answered(q)["speeds"][0]["crossings"];
+  q.erase("speeds_rpm");
+  q.erase("ap_max_mm");
+  q["points"] = json::array();
+  for (const json& at : crossings)
+    for (const double by : {1.0, 1 + 1e-9})
+      q["points"].push_back(
+          {{"n_rpm", 18000}, {"ap_mm", at["ap_mm"].get<double>() * by}});
+  const json r = answered(q);
+  ASSERT_EQ(r["undecided"].size(), 3u);
+  ASSERT_EQ(r["points"].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(r["undecided"][i]["pointer"], "/points/" + std::to_string(2 * i));
+    EXPECT_EQ(r["undecided"][i]["ap_mm"], crossings[i]["ap_mm"]);
+    EXPECT_EQ(r["points"][i]["stable"], crossings[i]["sense"] == "regain");
   }
+  q["points"] = {q["points"][2]};
+  EXPECT_EQ(
+      out_of_range(q),
+      "stability: /points/0: at 18000 1/min: milling: a multiplier lies on the unit "
+      "circle to within rounding, so the cut on a limit of stability");
+}
+
+TEST(Stability, SpeedsOutOfBoundsAreToldWithTheirPlace) {
+  json q = example(0);
+  q["points"][0]["n_rpm"] = 0.001;
+  q["speeds_rpm"] = {18000, 0.001};
+  EXPECT_EQ(refused(q),
+            "stability: /speeds_rpm/1: got 0.001, expected a number from 1 to 1000000 "
+            "1/min\nstability: /points/0/n_rpm: got 0.001, expected a number from 1 to "
+            "1000000 1/min");
 }
 
 }  // namespace

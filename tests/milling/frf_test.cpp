@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -294,6 +295,118 @@ TEST(Frf, RefusesWhatIsNoMode) {
   EXPECT_EQ(refused(measured(cross, 300, 1500, 300), 2), Why::negative);
 
   EXPECT_EQ(refused(measured(kOne, 300, 2000, 200), 2), Why::not_told);
+}
+
+/// Modes apart by more than their width.
+std::vector<True> random_modes(int count, std::mt19937_64& bits) {
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(bits);
+  };
+  std::vector<True> modes;
+  double f = between(300, 500);
+  for (int i = 0; i < count; ++i, f *= between(1.15, 1.4))
+    modes.push_back({f, between(0.01, 0.04), std::exp(between(8, 10.5))});
+  return modes;
+}
+
+// Errors in proportion to the response are largest at the peaks.
+TEST(Frf, ErrorsThatGrowWithTheResponseHideNoMode) {
+  for (int trial = 0; trial < 15; ++trial) {
+    SCOPED_TRACE(trial);
+    std::mt19937_64 bits(100 + static_cast<unsigned>(trial));
+    const auto modes = random_modes(1 + trial % 5, bits);
+    const double sigma = trial % 2 == 0 ? 0.05 : 0.1;
+    FrequencyResponse r = measured(modes, 150, 1.3 * modes.back().f_Hz, 400, trial % 3);
+    std::normal_distribution<double> error(0, sigma / std::sqrt(2.0));
+    for (Complex& y : r.value) y *= 1.0 + Complex(error(bits), error(bits));
+    const ModalFit found = fit(r);
+    EXPECT_LE(found.error_floor.value_or(1), 0.1);
+    EXPECT_GT(found.explained, 1 - 4 * sigma * sigma);
+    ASSERT_EQ(found.modes.size(), modes.size());
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      const FittedMode& m = found.modes[i];
+      EXPECT_NEAR(m.wn_rad_s.value, 2 * kPi * modes[i].f_Hz, 5 * m.wn_rad_s.u);
+      EXPECT_NEAR(m.zeta.value, modes[i].zeta, 5 * m.zeta.u);
+      EXPECT_NEAR(m.k_N_mm.value, modes[i].k_N_mm, 5 * m.k_N_mm.u);
+      EXPECT_LT(m.k_N_mm.u, 0.1 * m.k_N_mm.value);
+    }
+  }
+}
+
+TEST(Frf, ErrorsAlikeAreToldAsSuch) {
+  FrequencyResponse r = measured(kThree, 200, 2500, 500);
+  add_noise(r, 1e-5, 1);
+  EXPECT_FALSE(fit(r).error_floor.has_value());
+}
+
+double printed(double x, int digits) {
+  const double step = std::pow(10, std::floor(std::log10(std::abs(x))) + 1 - digits);
+  return x == 0 ? 0 : std::round(x / step) * step;
+}
+
+TEST(Frf, RoundingOfPrintedValuesIsNoMode) {
+  for (int trial = 0; trial < 8; ++trial)
+    for (const int digits : {3, 6}) {
+      SCOPED_TRACE(testing::Message() << trial << ", digits " << digits);
+      std::mt19937_64 bits(200 + static_cast<unsigned>(trial));
+      const auto modes = random_modes(1 + trial % 5, bits);
+      FrequencyResponse r = measured(modes, 150, 1.3 * modes.back().f_Hz, 400, trial % 3);
+      for (Complex& y : r.value)
+        y = {printed(y.real(), digits), printed(y.imag(), digits)};
+      expect_same(fit(r), modes, 5 * std::pow(10, -digits));
+    }
+}
+
+// A peak of 3e-4 of the other's moves no limit, whoever asks.
+TEST(Frf, AModeTooLowToMatterIsLeftOut) {
+  const std::vector<True> both{{900, 0.02, 8000}, {1500, 0.02, 2.7e7}};
+  const FrequencyResponse r = measured(both, 300, 2000, 400);
+  expect_same(fit(r), {both[0]}, 1e-9);
+  EXPECT_EQ(refused(r, 2), NoFit::Why::not_told);
+  const std::vector<True> higher{both[0], {1500, 0.02, 6e6}};
+  expect_same(fit(measured(higher, 300, 2000, 400)), higher, 1e-9);
+}
+
+// A fit of fewer modes than there are may need one of negative stiffness at first.
+TEST(Frf, CoarseLinesOfManyModes) {
+  for (int trial = 0; trial < 10; ++trial) {
+    SCOPED_TRACE(trial);
+    std::mt19937_64 bits(300 + static_cast<unsigned>(trial));
+    const auto modes = random_modes(5, bits);
+    expect_same(fit(measured(modes, 150, 1.3 * modes.back().f_Hz, 60, trial % 3)), modes,
+                1e-8);
+  }
+}
+
+TEST(Frf, AnotherQuantityIsTold) {
+  for (const int is : {0, 1, 2})
+    for (const int named : {0, 1, 2}) {
+      if (is == named) continue;
+      SCOPED_TRACE(testing::Message() << is << " named " << named);
+      for (const auto& modes : {kOne, kThree, kClose})
+        for (const double sigma : {0.0, 0.02}) {
+          FrequencyResponse r = measured(modes, 300, 2500, 120, is);
+          double highest = 0;
+          for (const Complex& y : r.value) highest = std::max(highest, std::abs(y));
+          add_noise(r, sigma * highest, 5);
+          r.derivative = named;
+          const auto out = modal_fit(r);
+          ASSERT_TRUE(std::holds_alternative<NoFit>(out));
+          const NoFit& no = std::get<NoFit>(out);
+          if (no.why == NoFit::Why::negative && sigma > 0) continue;  // noise hides which
+          EXPECT_EQ(no.why, NoFit::Why::other_quantity);
+          EXPECT_EQ(no.derivative, is);
+        }
+    }
+}
+
+TEST(Frf, AResponseAcrossAxesIsRefusedInNoiseToo) {
+  const std::vector<True> cross{{600, 0.02, 8000}, {900, 0.02, -12000}};
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    FrequencyResponse r = measured(cross, 300, 1500, 300);
+    add_noise(r, 5e-5, seed);  // of a highest peak of 3e-3
+    EXPECT_EQ(refused(r), NoFit::Why::negative);
+  }
 }
 
 TEST(Frf, NoiseIsNoMode) {

@@ -41,6 +41,17 @@ TEST(StabilityHtml, SaysTheNumbersOfTheDocument) {
   EXPECT_EQ(page.find("<b"), page.find("<body"));  // nothing unescaped
 }
 
+TEST(StabilityHtml, SaysWhatIsNotToBeTrustedOrNotTold) {
+  auto r = result();
+  r["warnings"] = {"/frf/0: the modes explain 62 % < 90 %"};
+  r["undecided"] = {
+      {{"pointer", "/points/1"}, {"n_rpm", 8000}, {"ap_mm", 1.5}, {"why", "on a limit"}}};
+  const auto page = stability_html("part", r, {});
+  EXPECT_NE(page.find("explain 62 % &lt; 90 %"), std::string::npos);
+  EXPECT_NE(page.find("Not told: 8000 1/min, 1.5"), std::string::npos);
+  EXPECT_NE(page.find("(/points/1): on a limit."), std::string::npos);
+}
+
 TEST(StabilityHtml, LongTablesAreCutAndSaySo) {
   auto r = result();
   const auto speed = r["speeds"][0], point = r["points"][0];
