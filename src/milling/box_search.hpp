@@ -101,7 +101,7 @@ class Search {
           "more than " +
           std::to_string(kBoxes) +
           " boxes; ask for a smaller ap_max_mm or a higher speed");
-    constexpr double kInflation = 1.1;  // so that zeros on the borders of boxes are met
+    constexpr double kInflation = 1.01;  // so that zeros on the borders of boxes are met
     Box wide = box;
     wide.w_half *= kInflation;
     wide.theta_half *= kInflation;

@@ -32,7 +32,7 @@ class Patches {
   }
   const Patch* pick(const Patch* above, const Disc& inner,
                     std::optional<Patch>& own) const {
-    constexpr double kFar = 6;  // from here on bounds of third order are too wide
+    constexpr double kFar = 24;  // from here on bounds of third order are too wide
     if (above && holds(above->disc(), inner)) {
       if (kFar * inner.radius > above->disc().radius) return above;
       const double room =
