@@ -47,6 +47,7 @@ tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches
 # sums keep their order.
 target_compile_options(turnwright_milling PRIVATE
                        -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
+set_target_properties(turnwright_milling PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # other flags
 tw_domain(multipass SOURCES problem.cpp rows.cpp relaxation.cpp conflict.cpp local_problem.cpp
           optimum.cpp single_pass.cpp
   DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen

@@ -59,9 +59,9 @@ std::vector<std::string> read_program(const Reader& r) {
               "at most " + std::to_string(kLines) + " lines", "count");
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto fault = [&](const std::string& got, const char* expected) {
-      const auto at =
-          r.is_array() ? "/" + std::to_string(i) : "#line " + std::to_string(i + 1);
-      r.problems().add({r.pointer() + at, got, expected, "range"});
+      const auto at = r.is_array() ? r.pointer() + "/" + std::to_string(i)
+                                   : r.pointer() + "#line " + std::to_string(i + 1);
+      r.problems().add({at, got, expected, "range"});
     };
     if (out[i].size() > kLineBytes)
       fault(std::to_string(out[i].size()) + " bytes", "a line of at most 1000 bytes");

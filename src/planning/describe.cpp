@@ -1,5 +1,7 @@
 #include "describe.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -100,7 +102,7 @@ namespace {
 // "s0-face-d3-d4": an id that a request may carry.
 std::string own_id(std::size_t setup, OperationKind kind, std::string surface) {
   std::replace(surface.begin(), surface.end(), '|', '-');
-  return "s" + std::to_string(setup) + "-" + name(kind) + "-" + surface;
+  return fmt::format("s{}-{}-{}", setup, name(kind), surface);
 }
 
 OperationKind kind_of(const Feature& feature, bool rough) {

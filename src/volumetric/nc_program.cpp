@@ -238,7 +238,8 @@ class Interpreter {
     if (g == 49) select(0);
     if (g == 80) motion_ = kNoMotion;
     if (g >= 54 && g <= 59) {
-      const std::string name = "G" + std::to_string(g);
+      std::string name = std::to_string(g);
+      name.insert(name.begin(), 'G');
       const auto at = offset(name);
       if (!at && g != 54) throw Fault{name, "a work offset that is given"};
       shift(at.value_or(Vec3{}));
@@ -339,7 +340,8 @@ class Interpreter {
         case 'R':
           break;
         case 'N':
-          before_ = std::string(w.text) + (before_.empty() ? "" : " ") + before_;
+          if (!before_.empty()) before_.insert(0, 1, ' ');
+          before_.insert(0, w.text);
           break;
         case 'M':
           append(machine_code(w) ? after_ : before_, w.text);

@@ -43,7 +43,8 @@ std::string ranges(const std::vector<std::int64_t>& numbers) {
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t last = i;
     while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    text += (text.empty() ? "" : ",") + std::to_string(numbers[i]);
+    if (!text.empty()) text += ',';
+    text += std::to_string(numbers[i]);
     if (last > i) text += '-' + std::to_string(numbers[last]);
     i = last + 1;
   }
