@@ -63,7 +63,7 @@ tw_domain(tolerance SOURCES iso286.cpp general.cpp piecewise.cpp acceptance.cpp 
 # Floor 5
 tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp allowance.cpp machine_share.cpp demand.cpp
           chain.cpp chebyshev.cpp bar_tip.cpp feature.cpp chatter.cpp
-          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp milled_geometry.cpp milled_places.cpp milled_search.cpp milled.cpp setup_planner.cpp
+          recipe_model.cpp exchange.cpp feature_optimiser.cpp recipes.cpp fixed.cpp milled_geometry.cpp milled_places.cpp milled_search.cpp milled_choice.cpp milled.cpp setup_planner.cpp
           describe.cpp window.cpp
           tolerance_results.cpp limits.cpp first_order.cpp prices.cpp openable.cpp feasibility.cpp
           conflict_sets.cpp openings.cpp conflicts.cpp obstacle.cpp remedies.cpp outcome.cpp

@@ -15,7 +15,8 @@ using planning::MilledKind;
 
 constexpr std::size_t kPlaces = 100;
 constexpr double kDepthMargin = 0.2, kSpeedMargin = 0.02;
-constexpr double kSlack = 1e-9;  // mm
+constexpr double kSlack = 1e-9;     // mm
+constexpr double kToldBelow = 0.9;  // of a section's stiffness
 
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
@@ -40,6 +41,22 @@ double hole_mm(const part::Drawing& d, const Milled& m) {
       most = std::max({most, d.inner[i].left_mm / 2, d.inner[i].right_mm / 2});
   }
   return most;
+}
+
+// What the section keeps of its stiffness in bending, the softest way, where a place is
+// and others beside it.
+double stiffness_left(const planning::PartPlan& p, const Milled& m) {
+  const double D = p.drawing.outer[m.element].left_mm;
+  const auto whole = deflection::round_section(D, 2 * hole_mm(p.drawing, m));
+  auto s = whole;
+  for (const auto& x : p.milled)
+    if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
+        m.z_mm < x.z_mm + x.length_mm)
+      s = deflection::without_slot(s, D, slot_of(x, D));
+  const double xx = s.xx_mm4 - s.sx_mm3 * s.sx_mm3 / s.area_mm2;
+  const double yy = s.yy_mm4 - s.sy_mm3 * s.sy_mm3 / s.area_mm2;
+  const double xy = s.xy_mm4 - s.sx_mm3 * s.sy_mm3 / s.area_mm2;
+  return ((xx + yy) / 2 - std::hypot((xx - yy) / 2, xy)) / whole.xx_mm4;
 }
 
 // On the element, below its rim, above its hole.
@@ -95,6 +112,13 @@ void check_others(const Draft& draft, Reader& r, const Milled& m) {
   }
 }
 
+// Of the driven spindle, where the machine has one.
+Bounds speeds(const Draft& draft) {
+  const auto& driven = draft.loaded.plan.machine.driven_tools;
+  return driven ? within(driven->n_min_rpm, driven->n_max_rpm, "1/min")
+                : above_up_to(0, 1e5, "1/min");
+}
+
 void read_given(const Draft& draft, Reader& r, Milled& m) {
   const bool whole = draft.purpose == Purpose::predict;
   if (!whole && !r.has("conditions")) return;
@@ -104,7 +128,7 @@ void read_given(const Draft& draft, Reader& r, Milled& m) {
   if (m.kind == MilledKind::flat)
     if (const auto n = given.optional_integer("lanes", 1, 1000))
       m.lanes = static_cast<int>(*n);
-  m.n_rpm = given.optional_number("n_rpm", above_up_to(0, 1e5, "1/min"));
+  m.n_rpm = given.optional_number("n_rpm", speeds(draft));
   m.fz_mm = given.optional_number("fz_mm", above_up_to(0, 5, "mm"));
   given.finish();
   if (!whole || given.broken()) return;
@@ -218,6 +242,11 @@ void place_milling(Draft& draft) {
     if (const auto later = planning::gripped_later(plan, m))
       draft.assume(r.pointer_of("angle_deg"), m.angle_deg,
                    "no jaw of setup " + std::to_string(*later) + " stands on it");
+    if (const double left = stiffness_left(plan, m); left < kToldBelow)
+      draft.assume(r.pointer_of("depth_mm"), m.depth_mm,
+                   "the section keeps " +
+                       std::to_string(static_cast<int>(std::floor(100 * left))) +
+                       " % of its stiffness here, which later cuts do not count");
     m.ways = planning::milled_ways(plan, m);
     for (const auto& cutter : m.cutters)
       if (!plan.machine.driven_tools->modes.count(cutter.id) && m.cutters.size() == 1)

@@ -18,14 +18,17 @@ double first_guess(const std::vector<System>& systems) {
 }
 
 // A search that ends with a multiplier on the circle, to within rounding, goes a little
-// deeper.
-std::optional<double> first_loss(const System& system, double n_rpm, double& depth) {
-  try {
-    return speed_limits(system, n_rpm, depth).limit_mm();
-  } catch (const ModelRangeError&) {
-    depth *= 1.05;
-    return speed_limits(system, n_rpm, depth).limit_mm();
+// deeper.  What cannot be told counts as lost beyond what was searched before.
+std::optional<double> first_loss(const System& system, double n_rpm, double before,
+                                 double& depth) {
+  for (const double deeper : {1.0, 1.05}) {
+    depth *= deeper;
+    try {
+      return speed_limits(system, n_rpm, depth).limit_mm();
+    } catch (const ModelRangeError&) {
+    }
   }
+  return before;
 }
 
 }  // namespace
@@ -38,8 +41,10 @@ Lobes::Lobes(std::vector<System> systems)
 Lobes::Known Lobes::search(const System& system, double n_rpm, Known k,
                            double enough) const {
   while (!k.lost && k.searched < enough) {
-    k.searched = k.searched > 0 ? 2 * k.searched : first_;
-    if (const auto loss = first_loss(system, n_rpm, k.searched)) k = {*loss, true};
+    const double before = k.searched;
+    k.searched = before > 0 ? 2 * before : first_;
+    if (const auto loss = first_loss(system, n_rpm, before, k.searched))
+      k = {*loss, true};
   }
   return k;
 }

@@ -14,14 +14,12 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kSlack = 1e-9;  // mm
-
 bool jaws_cover(const PartPlan& p, std::size_t setup, Clamping clamping, double z0,
                 double z1) {
   if (clamping == Clamping::between_centres) return false;
   const double root = root_z_mm(p, setup, clamping);
-  return p.setups[setup].hold == part::End::left ? z0 < root - kSlack
-                                                 : z1 > root + kSlack;
+  return p.setups[setup].hold == part::End::left ? z0 < root - kSlack_mm
+                                                 : z1 > root + kSlack_mm;
 }
 
 milling::System system_of(const std::vector<catalogue::TipMode>& modes, int teeth,
@@ -40,24 +38,65 @@ milling::System system_of(const std::vector<catalogue::TipMode>& modes, int teet
 }
 
 // Of unit force where the widest cut is; others have thinner chips and so more.
-std::shared_ptr<const milling::Lobes> lobes_of(const PartPlan& p, const Milled& m,
-                                               const catalogue::MillingCutter& cutter,
-                                               int lanes) {
-  const auto kc = cutting::kienzle_at(p.material, cutter.gamma_deg);
-  const auto all = engagements(m, cutter, lanes);
-  const double thick = cutter.conditions_in(p.material.group)->hex_mm.upper;
-  const auto hm = [&](const Engagement& e) {
-    return thick * e.chip.hm_over_fz / all[0].chip.hex_over_fz;
-  };
-  const auto K = [&](const Engagement& e) {
-    return cutting::chip_stiffness(kc, p.material, hm(e));
-  };
-  std::vector<milling::System> systems;
-  for (const auto& e : all)
-    systems.push_back(system_of(tip_modes(p, cutter), cutter.teeth, e,
-                                K(e).Kt_MPa / K(all[0]).Kt_MPa,
-                                K(e).Kn_MPa / K(e).Kt_MPa));
-  return std::make_shared<const milling::Lobes>(std::move(systems));
+struct Forces {
+  const PartPlan& p;
+  const catalogue::MillingCutter& cutter;
+  Engagement widest;
+  std::vector<double> feeds_mm;
+
+  cutting::ChipStiffness at(const Engagement& e, double fz) const {
+    return cutting::chip_stiffness(cutting::kienzle_at(p.material, cutter.gamma_deg),
+                                   p.material, fz * e.chip.hm_over_fz);
+  }
+  double ratio(const Engagement& e, double fz) const {
+    return at(e, fz).Kn_MPa / at(e, fz).Kt_MPa;
+  }
+  std::shared_ptr<const milling::Lobes> lobes(const std::vector<Engagement>& cuts) const {
+    std::vector<milling::System> systems;
+    for (const double fz : feeds_mm)
+      for (const auto& e : cuts)
+        systems.push_back(system_of(tip_modes(p, cutter), cutter.teeth, e,
+                                    at(e, fz).Kt_MPa / at(widest, fz).Kt_MPa,
+                                    ratio(e, fz)));
+    if (systems.empty()) return nullptr;
+    return std::make_shared<const milling::Lobes>(std::move(systems));
+  }
+};
+
+MilledWay way_of(const PartPlan& p, const Milled& m, std::size_t index, int lanes,
+                 double fz_from, double fz_to) {
+  const auto& cutter = m.cutters[index];
+  const auto cuts = engagements(m, cutter, lanes);
+  Forces forces{p, cutter, cuts[0], {fz_to}};
+  if (p.material.kf && p.material.kf->m != p.material.kc.m && fz_from < fz_to)
+    forces.feeds_mm.push_back(fz_from);
+  MilledWay way{index,
+                lanes,
+                fz_from,
+                fz_to,
+                0,
+                forces.lobes(cuts),
+                forces.lobes(engagements_between(m, cutter, lanes))};
+  for (const double fz : forces.feeds_mm)
+    for (const auto& e : cuts) way.normal = std::max(way.normal, forces.ratio(e, fz));
+  return way;
+}
+
+// A cutter's ways with so many lanes, one for each stretch of feeds.
+void add_ways(const PartPlan& p, const Milled& m, std::size_t index, int lanes,
+              std::vector<MilledWay>& ways) {
+  const auto& cutter = m.cutters[index];
+  const auto& hex = cutter.conditions_in(p.material.group)->hex_mm;
+  const double per_fz = engagements(m, cutter, lanes)[0].chip.hex_over_fz;
+  const double lo = m.fz_mm.value_or(hex.lower / per_fz);
+  const double hi = m.fz_mm.value_or(hex.upper / per_fz);
+  const auto& kf = p.material.kf;
+  const double changes = kf ? std::abs((p.material.kc.m - kf->m) * std::log(hi / lo)) : 0;
+  const int n =
+      std::max(1, static_cast<int>(std::ceil(changes / std::log1p(kRatioStep))));
+  for (int k = 0; k < n; ++k)
+    ways.push_back(way_of(p, m, index, lanes, lo * std::pow(hi / lo, 1.0 * k / n),
+                          lo * std::pow(hi / lo, (k + 1.0) / n)));
 }
 
 }  // namespace
@@ -80,8 +119,9 @@ std::string milled_obstacle(const PartPlan& p, const Assignment& work, const Mil
     return fmt::format("the jaws hold the part up to z = {:g} mm",
                        root_z_mm(p, setup, clamping));
   const double steady = p.setups[setup].steady_z_mm;
-  if (clamping == Clamping::chuck_steady && steady + kSteadyWidth_mm / 2 > z0 + kSlack &&
-      steady - kSteadyWidth_mm / 2 < z1 - kSlack)
+  if (clamping == Clamping::chuck_steady &&
+      steady + kSteadyWidth_mm / 2 > z0 + kSlack_mm &&
+      steady - kSteadyWidth_mm / 2 < z1 - kSlack_mm)
     return fmt::format("the steady rest stands at z = {:g} mm", steady);
   return {};
 }
@@ -106,24 +146,24 @@ std::string does_not_fit(const PartPlan& p, const Milled& m,
   const double D = c.dc_mm, w = m.width_mm;
   if (!c.conditions_in(p.material.group))
     return fmt::format("has no conditions for {}", p.material.name);
-  if (c.lu_mm < m.depth_mm - kSlack)
+  if (c.lu_mm < m.depth_mm - kSlack_mm)
     return fmt::format("reaches {:g} mm deep, not {:g} mm", c.lu_mm, m.depth_mm);
-  if (c.re_mm > m.corner_mm.value_or(INFINITY) + kSlack)
+  if (c.re_mm > m.corner_mm.value_or(INFINITY) + kSlack_mm)
     return fmt::format("has a corner of {:g} mm where {:g} mm is allowed", c.re_mm,
                        *m.corner_mm);
-  if (c.ap_mm.lower > m.depth_mm + kSlack)
+  if (c.ap_mm.lower > m.depth_mm + kSlack_mm)
     return fmt::format("takes {:g} mm at least, which is deeper than {:g} mm",
                        c.ap_mm.lower, m.depth_mm);
   if (m.kind == MilledKind::flat)
-    return m.lanes && w / *m.lanes > D + kSlack
+    return m.lanes && w / *m.lanes > D + kSlack_mm
                ? fmt::format("is {:g} mm wide, a lane {:.4g} mm", D, w / *m.lanes)
                : "";
-  if (D > w + kSlack) return fmt::format("is {:g} mm wide, the place {:g} mm", D, w);
-  if (2 * D < w - kSlack)
+  if (D > w + kSlack_mm) return fmt::format("is {:g} mm wide, the place {:g} mm", D, w);
+  if (2 * D < w - kSlack_mm)
     return fmt::format("of {:g} mm is less than half as wide as the place, {:g} mm", D,
                        w);
   if (m.kind == MilledKind::slot) return {};
-  if (D > m.length_mm - kSlack)
+  if (D > m.length_mm - kSlack_mm)
     return fmt::format("of {:g} mm does not go into {:g} mm of length", D, m.length_mm);
   return c.centre_cutting ? "" : "does not cut over its centre, so it cannot plunge";
 }
@@ -133,18 +173,13 @@ std::vector<MilledWay> milled_ways(const PartPlan& p, const Milled& m) {
   for (std::size_t i = 0; i < m.cutters.size(); ++i) {
     const auto& c = m.cutters[i];
     if (!does_not_fit(p, m, c).empty()) continue;
-    if (m.kind != MilledKind::flat) {
-      ways.push_back({i, 1, lobes_of(p, m, c, 1)});
-      continue;
-    }
-    if (m.lanes) {
-      ways.push_back({i, *m.lanes, lobes_of(p, m, c, *m.lanes)});
-      continue;
-    }
     const int fewest =
-        static_cast<int>(std::ceil(m.width_mm / (kLaneStep * c.dc_mm) - kSlack));
-    for (const int times : {1, 2})  // Eq. (2)
-      ways.push_back({i, fewest * times, lobes_of(p, m, c, fewest * times)});
+        m.kind == MilledKind::flat
+            ? static_cast<int>(std::ceil(m.width_mm / (kLaneStep * c.dc_mm) - kSlack_mm))
+            : 1;
+    add_ways(p, m, i, m.lanes.value_or(fewest), ways);
+    if (m.kind == MilledKind::flat && !m.lanes)
+      add_ways(p, m, i, 2 * fewest, ways);  // Eq. (2)
   }
   return ways;
 }

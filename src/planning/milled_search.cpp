@@ -136,11 +136,11 @@ std::vector<double> speeds_about(double n_rpm, double margin, double parts) {
 
 // The losses at some speeds within the margin of another that break (2) there, each
 // brought to within kBracket of where it begins to.
-std::vector<Lost> losses_at(const MilledCase& c, double n_rpm,
-                            const std::vector<double>& u) {
+std::vector<Lost> losses_at(const MilledCase& c, const milling::Lobes& lobes,
+                            double n_rpm, const std::vector<double>& u) {
   const double W = load_N_mm(c, feed_mm(c, n_rpm));
   std::vector<double> stable;
-  for (const double n : u) stable.push_back(c.lobes->stable_to_N_mm(n, W));
+  for (const double n : u) stable.push_back(lobes.stable_to_N_mm(n, W));
   std::vector<Lost> all;
   for (std::size_t k = 0; k < u.size(); ++k) {
     if (stable[k] < W) all.push_back({u[k], stable[k]});
@@ -150,7 +150,7 @@ std::vector<Lost> losses_at(const MilledCase& c, double n_rpm,
     if (stable[k - 1] < W) bad = {u[k - 1], stable[k - 1]}, good = u[k];
     while (std::abs(std::log(good / bad.n_rpm)) > kBracket) {
       const double middle = std::sqrt(good * bad.n_rpm);
-      const double B = c.lobes->stable_to_N_mm(middle, W);
+      const double B = lobes.stable_to_N_mm(middle, W);
       if (B < W)
         bad = {middle, B};
       else
@@ -159,6 +159,18 @@ std::vector<Lost> losses_at(const MilledCase& c, double n_rpm,
     all.push_back(bad);
   }
   return all;
+}
+
+// Those of some lobes that stand against a speed: at the margin's ends, then between.
+std::vector<Lost> losses_about(const MilledCase& c, const milling::Lobes* lobes,
+                               double n) {
+  if (!lobes) return {};
+  const double s = c.speed_margin, low = n * (1 - s), high = n * (1 + s);
+  auto found = losses_at(c, *lobes, n, {low, n});
+  if (found.empty()) found = losses_at(c, *lobes, n, {n, high});
+  for (const double parts : {kCoarse, kFine})
+    if (found.empty()) found = losses_at(c, *lobes, n, speeds_about(n, s, parts));
+  return found;
 }
 
 }  // namespace
@@ -183,11 +195,15 @@ double cost(const MilledCase& c, double n) {
 
 double load_N_mm(const MilledCase& c, double fz) { return c.load * std::pow(fz, -c.mc); }
 
-double stable_around_N_mm(const milling::Lobes& lobes, double n_rpm, double margin,
-                          double enough) {
+double stable_to_N_mm(const MilledCase& c, double n, double enough) {
+  const double stable = c.lobes->stable_to_N_mm(n, enough);
+  return c.between ? c.between->stable_to_N_mm(n, stable) : stable;
+}
+
+double stable_around_N_mm(const MilledCase& c, double n_rpm, double enough) {
   double least = enough;
-  for (const double n : speeds_about(n_rpm, margin, kFine))
-    least = std::min(least, lobes.stable_to_N_mm(n, least));
+  for (const double n : speeds_about(n_rpm, c.speed_margin, kFine))
+    least = std::min(least, stable_to_N_mm(c, n, least));
   return least;
 }
 
@@ -217,13 +233,8 @@ MilledOptimum cheapest(const std::vector<MilledCase>& cases) {
       continue;
     }
     ++best.steps;
-    const double s = c.speed_margin;
-    const double low = now.n_rpm * (1 - s), high = now.n_rpm * (1 + s);
-    auto found = losses_at(c, now.n_rpm, {low, now.n_rpm});
-    if (found.empty()) found = losses_at(c, now.n_rpm, {now.n_rpm, high});
-    for (const double parts : {kCoarse, kFine})
-      if (found.empty())
-        found = losses_at(c, now.n_rpm, speeds_about(now.n_rpm, s, parts));
+    auto found = losses_about(c, c.lobes, now.n_rpm);
+    if (found.empty()) found = losses_about(c, c.between, now.n_rpm);
     known.insert(known.end(), found.begin(), found.end());
     if (!found.empty()) {
       open.emplace(bound, i);

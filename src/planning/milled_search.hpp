@@ -1,5 +1,4 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "turnwright/milling/lobes.hpp"
@@ -9,7 +8,6 @@ namespace turnwright::planning {
 
 /// An upper limit of the feed per tooth: fz <= c n^e.
 struct FeedCap {
-  std::string name;
   double c = 0, e = 0;
 };
 
@@ -25,6 +23,7 @@ struct FeedCap {
 /// logarithm is concave and that of the cost convex.
 struct MilledCase {
   const milling::Lobes* lobes = nullptr;
+  const milling::Lobes* between = nullptr;  ///< that B must be the least of, if any
   double n_min_rpm = 0, n_max_rpm = 0;
   std::vector<FeedCap> caps;  ///< at least one
   double fz_min_mm = 0;
@@ -59,8 +58,8 @@ struct MilledOptimum {
 /// point is the case's optimum.  So the bound is as certain as the lobes' losses.
 MilledOptimum cheapest(const std::vector<MilledCase>& cases);
 
-/// Least B within the margin of a speed, `enough` if it is not below.
-double stable_around_N_mm(const milling::Lobes& lobes, double n_rpm, double margin,
-                          double enough);
+/// B at a speed, and the least within the margin of it; `enough` if that is not below.
+double stable_to_N_mm(const MilledCase& c, double n_rpm, double enough);
+double stable_around_N_mm(const MilledCase& c, double n_rpm, double enough);
 
 }  // namespace turnwright::planning

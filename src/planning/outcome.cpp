@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "milled.hpp"
@@ -81,16 +83,24 @@ void add_used_up(const PartPlan& p, const std::vector<std::size_t>& tolerances,
 
 void add_fixed_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    std::vector<Conflict> first;
-    for (const Clamping c : p.setups[s].clampings) {
-      auto conflicts = fixed_conflicts(p, s, c, work.setups[s]);
-      if (conflicts.empty()) {
-        first.clear();
-        break;
-      }
-      if (first.empty()) first = std::move(conflicts);
+    std::vector<std::pair<Clamping, Conflict>> all;
+    const auto& clampings = p.setups[s].clampings;
+    const bool stuck = std::ranges::all_of(clampings, [&](Clamping c) {
+      const auto conflicts = fixed_conflicts(p, s, c, work.setups[s]);
+      for (const auto& one : conflicts) all.emplace_back(c, one);
+      return !conflicts.empty();
+    });
+    if (!stuck) continue;
+    std::map<std::string, std::size_t> times;
+    for (const auto& [c, one] : all) ++times[one.sentence];
+    for (auto& [c, one] : all) {
+      const auto count = times[one.sentence];
+      if (count == 0) continue;  // told
+      times[one.sentence] = 0;
+      if (count < clampings.size())
+        one.sentence = fmt::format("{}: {}", name(c), one.sentence);
+      result.conflicts.push_back(std::move(one));
     }
-    result.conflicts.insert(result.conflicts.end(), first.begin(), first.end());
   }
 }
 

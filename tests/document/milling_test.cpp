@@ -1,6 +1,9 @@
 // Milled places of a part document.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "schema_check.hpp"
 #include "slips.hpp"
 #include "turnwright/document/file.hpp"
@@ -87,8 +90,14 @@ TEST(Milling, EveryKeyIsRead) {
   EXPECT_EQ(f.kind, planning::MilledKind::flat);
   EXPECT_NEAR(f.width_mm, 2 * std::sqrt(23.0 * 23 - 21 * 21), 1e-12);
   EXPECT_EQ(f.lanes, 3);
-  ASSERT_EQ(f.ways.size(), 1U);
-  EXPECT_EQ(f.ways[0].lanes, 3);
+  ASSERT_GT(f.ways.size(), 1U);  // mf is not mc
+  for (std::size_t i = 0; i < f.ways.size(); ++i) {
+    EXPECT_EQ(f.ways[i].lanes, 3);
+    EXPECT_LT(f.ways[i].fz_from_mm, f.ways[i].fz_to_mm);
+    if (i > 0) {
+      EXPECT_NEAR(f.ways[i].fz_from_mm, f.ways[i - 1].fz_to_mm, 1e-12);
+    }
+  }
   EXPECT_EQ(plan.milled[2].kind, planning::MilledKind::slot);
 }
 
@@ -110,7 +119,35 @@ TEST(Milling, WhatIsLeftOutIsAssumed) {
   EXPECT_EQ(loaded.plan.milled[2].setup, 1U);
 }
 
+// Flats on both sides count together.
+TEST(Milling, WeakenedSectionsAreTold) {
+  const auto told = [](double depth_mm) {
+    auto j = part();
+    auto flat = j["milling"][1];
+    flat["depth_mm"] = depth_mm;
+    j["milling"] = json::array({flat});
+    flat["id"] = "other", flat["angle_deg"] = 180 + flat.value("angle_deg", 0.0);
+    j["milling"].push_back(flat);
+    std::string all;
+    for (const auto& a : load(j).assumed)
+      if (a.pointer.ends_with("depth_mm")) all += a.why + "\n";
+    return all;
+  };
+  EXPECT_EQ(told(0.5), "");
+  const double R = 23, h = 17, a = std::acos(h / R);
+  const double I = std::numbers::pi * std::pow(R, 4) / 4;
+  const double segment = std::pow(R, 4) / 4 * (a - std::sin(4 * a) / 4);  // int x^2 dA
+  const double left = 1 - 2 * segment / I;
+  const auto sentence = "the section keeps " +
+                        std::to_string(static_cast<int>(100 * left)) +
+                        " % of its stiffness here, which later cuts do not count\n";
+  EXPECT_EQ(told(R - h), sentence + sentence);
+}
+
 TEST(Milling, ShapesThatCannotBeAreRefused) {
+  EXPECT_EQ(refused_with("/milling/0/conditions/n_rpm", 0.001),
+            "/milling/0/conditions/n_rpm: got 0.001, expected a number from 45 to 5500 "
+            "1/min\n");
   EXPECT_EQ(refused_with("/milling/0/z_mm", 95),
             "/milling/0/z_mm: got 95, expected a place on d3, from 100 mm to 150 mm\n");
   EXPECT_EQ(refused_with("/milling/0/length_mm", 41),

@@ -57,5 +57,12 @@ TEST(Lobes, TheLeastOfSeveralCutsCounts) {
               std::min(first.stable_to_N_mm(n, 1e6), second.stable_to_N_mm(n, 1e6)));
 }
 
+// A tooth period of hundreds of thousands of vibrations: no depth is called stable.
+TEST(Lobes, WhatCannotBeToldIsNotStable) {
+  const Lobes lobes({cutter(0.5, 1, 0.3)});
+  EXPECT_LT(lobes.stable_to_N_mm(0.05, 1e6), 1e6);
+  EXPECT_EQ(lobes.stable_to_N_mm(0.05, 1e6), lobes.stable_to_N_mm(0.05, 2e6));
+}
+
 }  // namespace
 }  // namespace turnwright::milling

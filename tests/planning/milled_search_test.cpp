@@ -30,7 +30,7 @@ MilledCase some_case(const milling::Lobes& l, int passes, double slope, double l
   c.lobes = &l;
   c.n_min_rpm = 1500;
   c.n_max_rpm = 6000;
-  c.caps = {{"chip", 0.06, 0}, {"power", limit / passes * std::pow(3000, slope), -slope}};
+  c.caps = {{0.06, 0}, {limit / passes * std::pow(3000, slope), -slope}};
   c.caps[1].c *= 0.06 * 5;
   c.fz_min_mm = 0.01;
   c.path_mm = 40.0 * passes;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "../../src/planning/fixed.hpp"
 #include "turnwright/document/catalogue.hpp"
@@ -12,6 +13,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/milling/checks.hpp"
+#include "turnwright/milling/lobes.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -75,9 +77,12 @@ std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
   const auto& cut = *o.milled;
   const auto cutter = *std::find_if(m.cutters.begin(), m.cutters.end(),
                                     [&](const auto& c) { return c.id == o.tool; });
+  // Outer lanes of flats are narrower, corners of wide keyways wider than the sides.
+  const double side = m.kind == MilledKind::flat ? 0 : (m.width_mm - cutter.dc_mm) / 2;
   std::vector<double> widths{cut.ae_mm};
-  if (m.kind != MilledKind::flat && m.width_mm > cutter.dc_mm + 1e-6)
-    widths.push_back((m.width_mm - cutter.dc_mm) / 2);
+  if (m.kind == MilledKind::flat || side > 1e-6)
+    for (const double share : {0.75, 0.5, 0.25, 0.0})
+      if (side + share > 0) widths.push_back(side + share * (cut.ae_mm - side));
   std::vector<milling::System> all;
   for (const double ae : widths) {
     milling::System s;
@@ -93,7 +98,8 @@ std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
     const double K = p.material.kc.k11_MPa *
                      (1 - (cutter.gamma_deg - p.material.gamma0_deg) / 100) *
                      std::pow(hm, -p.material.kc.m);
-    s.force = milling::LinearForce{K, 0.5 * K};
+    const auto& kf = p.material.kf;
+    s.force = milling::LinearForce{K, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.5 * K};
     all.push_back(s);
   }
   return all;
@@ -220,6 +226,37 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
   EXPECT_LE(found->certificate.lower_bound, least);
 }
 
+// Kn/Kt changes with the feed: what is chosen is stable with the one at its own feed, on
+// a machine too weak for the largest chip too.
+TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
+  for (const auto& [mf, efficiency] : {std::pair{0.1, 0.8}, std::pair{0.45, 0.05}}) {
+    auto j = pin(keyway());
+    j["material"] = document::parse_file(TURNWRIGHT_SOURCE_DIR "/materials/C45.json");
+    j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", mf},
+                                     {"kp11_MPa", 250},       {"mp", 0.3},
+                                     {"uncertainty_pct", 15}, {"source", "a test"}};
+    auto p = load(j);
+    p.machine.driven_tools->efficiency = efficiency;
+    const auto work = work_of(p);
+    ASSERT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
+    const auto& o = *milled_in(work);
+    const auto& pass = o.passes[0];
+    const double yields = 1 + o.milled->part_share;
+    const double asked = 1.2 * pass.ap_mm * yields;
+    for (auto s : systems_of(p, p.milled[0], o)) {
+      const auto [Kt, Kn] = std::get<milling::LinearForce>(s.force);
+      s.force = milling::LinearForce{1, Kn / Kt};
+      const milling::Lobes lobes({s});
+      for (const double u : {0.98, 0.99, 1.0, 1.01, 1.02})
+        EXPECT_GE(lobes.stable_to_N_mm(pass.n_rpm * u, asked * Kt),
+                  asked * Kt * (1 - 1e-6))
+            << mf << ' ' << efficiency;
+    }
+    const double hm = o.milled->hm_mm;
+    EXPECT_NEAR(o.milled->Kn_MPa, 350 * std::pow(hm, -mf), 1e-9 * o.milled->Kn_MPa);
+  }
+}
+
 TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
   auto j = pin(keyway());
   auto cutter =
@@ -258,11 +295,51 @@ TEST(Milled, NoCutterThatFitsIsAConflict) {
             "k1: ENDMILL-HM-10 does not cut over its centre, so it cannot plunge");
 }
 
-TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
+// The floor lies 5 mm below d1 and 33 mm below the flange beside it.
+TEST(Milled, TheHolderClearsWhatStandsBeside) {
+  auto j = pin(keyway());
+  j["outer"].push_back(
+      {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 20}, {"diameter_mm", 96}});
+  j["outer"][0]["length_mm"] = 75;
+  j["stock"] = {{"kind", "bar"},
+                {"diameter_mm", 100},
+                {"length_mm", 100},
+                {"left_allowance_mm", 2}};
+  j["setups"] = json::array();
+  for (const char* hold : {"left", "right"})
+    j["setups"].push_back({{"hold", hold}, {"grip_mm", 15}, {"clampings", {"chuck"}}});
+  j["milling"][0]["z_mm"] = 40, j["milling"][0]["tool"] = "KEYWAY-HM-10";
+  const auto setup = load(j).milled[0].setup;
+  auto work = work_of(load(j), setup);
+  ASSERT_EQ(work.conflicts.size(), 1U);
+  EXPECT_NE(work.conflicts[0].sentence.find("holder would meet what stands 33 mm above"),
+            std::string::npos)
+      << work.conflicts[0].sentence;
+  j["milling"][0]["z_mm"] = 12;  // its holder ends 13 mm beside the flange
+  work = work_of(load(j), setup);
+  EXPECT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
+}
+
+TEST(Milled, GivenSpeedsAndFeedsOutsideTheCuttersAreNamed) {
+  auto place = keyway();
+  place["conditions"] = {{"n_rpm", 300}};
+  auto work = work_of(load(pin(place)));
+  ASSERT_EQ(work.conflicts.size(), 1U);
+  EXPECT_EQ(work.conflicts[0].limit, "spindle speed");
+  EXPECT_NE(work.conflicts[0].sentence.find("300 1/min is given, "), std::string::npos);
+  EXPECT_GT(work.conflicts[0].allowed, 1000);
+  place["conditions"] = {{"fz_mm", 0.5}};
+  work = work_of(load(pin(place)));
+  ASSERT_EQ(work.conflicts.size(), 1U);
+  EXPECT_EQ(work.conflicts[0].limit, "feed per tooth");
+  EXPECT_LT(work.conflicts[0].allowed, 0.2);
+}
+
+json slender_pin(double z_mm) {
   auto j = pin({{"id", "k1"},
                 {"kind", "keyway"},
                 {"on", "d1"},
-                {"z_mm", 250},
+                {"z_mm", z_mm},
                 {"length_mm", 20},
                 {"width_mm", 5},
                 {"depth_mm", 2}},
@@ -270,10 +347,31 @@ TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
   j.erase("tools");
   j["outer"][0]["length_mm"] = 280;
   j["stock"]["length_mm"] = 342;
-  const auto work = work_of(load(j));
+  return j;
+}
+
+TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
+  const auto work = work_of(load(slender_pin(250)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_NE(work.conflicts[0].sentence.find("the part yields"), std::string::npos)
       << work.conflicts[0].sentence;
+}
+
+TEST(Milled, WhatStandsAgainstEachClampingIsToldWhateverTheirOrder) {
+  auto j = slender_pin(140);
+  std::set<std::string> told;
+  for (const json& order :
+       {json{"chuck", "chuck-tailstock"}, json{"chuck-tailstock", "chuck"}}) {
+    j["setups"][0]["clampings"] = order;
+    const auto plan = planning::plan(load(j));
+    EXPECT_EQ(plan.status, PlanStatus::infeasible);
+    ASSERT_EQ(plan.conflicts.size(), 2U);
+    for (const auto& c : plan.conflicts) told.insert(c.sentence);
+  }
+  EXPECT_EQ(told.size(), 2U);
+  EXPECT_EQ(told.begin()->find("chuck-tailstock: k1: no cutter does: the part yields"),
+            0U);
+  EXPECT_EQ(told.rbegin()->find("chuck: k1: no cutter does: the part yields"), 0U);
 }
 
 // What plan chose, given: the same. Twice as fast and deep: told what breaks.

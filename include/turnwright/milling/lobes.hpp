@@ -23,8 +23,8 @@ class Lobes {
   ///   them, the least counts.
   explicit Lobes(std::vector<System> systems);
 
-  /// The first loss [N/mm], `enough` if there is none up to it.
-  /// @throws ModelRangeError as speed_limits.
+  /// The first loss [N/mm], `enough` if there is none up to it.  Where limits cannot be
+  /// told (ModelRangeError of speed_limits) it is a depth up to which they were.
   double stable_to_N_mm(double n_rpm, double enough) const;
 
   const std::vector<System>& systems() const { return systems_; }

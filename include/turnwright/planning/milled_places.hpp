@@ -34,7 +34,13 @@ inline constexpr double kLaneStep = 0.7;
 /// corner than the place allows, is shorter across than a closed place is long, and cuts
 /// over its centre where it must plunge.  Tool points are those measured on the machine,
 /// else the cutter's.
+///
+/// Kn/Kt changes with the feed where the material's mf is not its mc.  The feeds are then
+/// split into ways over each of which it changes by kRatioStep at most, their lobes the
+/// least of those at both ends.
 std::vector<MilledWay> milled_ways(const PartPlan& plan, const Milled& place);
+
+inline constexpr double kRatioStep = 0.05;
 
 /// Why a cutter does not fit; empty if it does.
 std::string does_not_fit(const PartPlan& plan, const Milled& place,

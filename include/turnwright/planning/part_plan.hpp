@@ -98,11 +98,15 @@ enum class MilledKind {
 };
 const char* name(MilledKind kind);
 
-/// A way of milling a place: cutter, lanes side by side, and what they bear.
+/// A way of milling a place: cutter, lanes side by side, and what they bear at feeds per
+/// tooth of which none changes the ratio of the forces by much.
 struct MilledWay {
   std::size_t cutter = 0;  ///< of Milled::cutters
   int lanes = 1;
+  double fz_from_mm = 0, fz_to_mm = 0;
+  double normal = 0;  ///< largest Kn/Kt of its cuts and feeds
   std::shared_ptr<const milling::Lobes> lobes;
+  std::shared_ptr<const milling::Lobes> between;  ///< of cuts on the way, if any
 };
 
 /// A place milled into an outer cylinder once that is turned, by a driven tool whose axis
