@@ -20,15 +20,17 @@ constexpr int kShades = 4;
 /// One speed with the width it stands for.
 struct Column {
   double n_rpm = 0, from_rpm = 0, to_rpm = 0;
-  const ordered_json* speed = nullptr;
+  const ordered_json* speed = nullptr;  ///< none of a speed that is undecided
 };
 
-std::vector<Column> columns(const ordered_json& speeds) {
+std::vector<Column> columns(const ordered_json& result) {
   std::vector<Column> out;
-  for (const auto& s : speeds) {
-    const double n = s.at("n_rpm");
-    out.push_back({n, n, n, &s});
-  }
+  const auto add = [&](double n, const ordered_json* s) { out.push_back({n, n, n, s}); };
+  for (const auto& s : result.at("speeds")) add(s.at("n_rpm"), &s);
+  if (result.contains("undecided"))
+    for (const auto& u : result.at("undecided"))
+      if (u.at("pointer").get_ref<const std::string&>().starts_with("/speeds_rpm"))
+        add(u.at("n_rpm"), nullptr);
   std::ranges::stable_sort(out, {}, &Column::n_rpm);
   for (std::size_t i = 0; i + 1 < out.size(); ++i)
     out[i].to_rpm = out[i + 1].from_rpm = (out[i].n_rpm + out[i + 1].n_rpm) / 2;
@@ -42,14 +44,16 @@ std::vector<Column> columns(const ordered_json& speeds) {
 class Chart {
  public:
   Chart(const ordered_json& result, double deepest_mm)
-      : result_(result), columns_(columns(result.at("speeds"))), deepest_(deepest_mm) {
+      : result_(result), columns_(columns(result)), deepest_(deepest_mm) {
     speed_ = {columns_.front().from_rpm, columns_.back().to_rpm, kLeft, kRight};
     depth_ = {0, deepest_, kBottom, kTop};
   }
 
   void fill() {
     for (const Column& c : columns_) {
-      if (c.speed->contains("unstable_multipliers"))
+      if (!c.speed)
+        box("outside", place(c.from_rpm, deepest_), place(c.to_rpm, 0));
+      else if (c.speed->contains("unstable_multipliers"))
         fill_counts(c);
       else
         fill_between_crossings(c);
@@ -57,24 +61,35 @@ class Chart {
   }
 
   void crossings() {
-    for (const Column& c : columns_)
+    for (const Column& c : columns_) {
+      if (!c.speed) continue;
       for (const auto& at : c.speed->at("crossings")) {
         const double depth = at.at("ap_mm");
         folds_ = folds_ || at.at("kind") == "fold";
         svg_.line(at.at("kind").get<std::string>(), place(c.from_rpm, depth),
                   place(c.to_rpm, depth));
       }
+    }
   }
 
-  /// The line of a depth of every speed; null is the deepest.
+  /// The line of a depth of every speed, broken where one is undecided; null is the
+  /// deepest.
   template <class F>
   void limit_line(const std::string& css_class, F depth_of) {
     std::vector<Point> line;
+    const auto draw = [&] {
+      if (line.size() > 1) svg_.polyline(css_class, line);
+      line.clear();
+    };
     for (const Column& c : columns_) {
+      if (!c.speed) {
+        draw();
+        continue;
+      }
       const ordered_json depth = depth_of(*c.speed);
       line.push_back(place(c.n_rpm, depth.is_null() ? deepest_ : depth.get<double>()));
     }
-    if (line.size() > 1) svg_.polyline(css_class, line);
+    draw();
   }
 
   void points() {
@@ -138,7 +153,9 @@ class Chart {
     box("count" + std::to_string(kShades), {x + 4, y - 1.5}, {x + 8, y + 1.5});
     svg_.text({x + 9.5, y + 1}, Anchor::start, "unstable; more multipliers");
     svg_.text({kLeft, 9}, Anchor::start, "Stability of the cut", "title");
-    svg_.text({kRight, kTop - 3}, Anchor::end, "ticks: magic speeds");
+    const bool untold = std::ranges::count(columns_, nullptr, &Column::speed) > 0;
+    svg_.text({kRight, kTop - 3}, Anchor::end,
+              untold ? "ticks: magic speeds; shaded: not told" : "ticks: magic speeds");
   }
 
   std::string page() const {

@@ -50,6 +50,24 @@ TEST(StabilityChart, FillsWhatIsUnstableBetweenHalfWayNeighbours) {
             std::string::npos);
 }
 
+// Its neighbours do not stand for it, and no line of limits passes over it.
+TEST(StabilityChart, ShadesASpeedThatIsUndecided) {
+  auto told = result();
+  told["speeds"].erase(2);
+  told["undecided"] = {{{"pointer", "/speeds_rpm"}, {"n_rpm", 2000}, {"ap_mm", 5}},
+                       {{"pointer", "/points/0"}, {"n_rpm", 1400}, {"ap_mm", 5}}};
+  const std::string svg = stability_chart(kRequest, told);
+  EXPECT_EQ(times(svg, "<polygon class=\"outside\""), 1);
+  EXPECT_NE(svg.find("<polygon class=\"outside\" points=\"60.500,20.000 141.500,20.000 "
+                     "141.500,104.000 60.500,104.000\"/>"),
+            std::string::npos)
+      << svg;
+  EXPECT_NE(svg.find("shaded: not told"), std::string::npos);
+  const std::string all_told = stability_chart(kRequest, result());
+  EXPECT_EQ(times(svg, "<polyline"), times(all_told, "<polyline") - 1);
+  EXPECT_EQ(all_told.find("not told"), std::string::npos);
+}
+
 TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {
   const std::string svg = stability_chart(kRequest, result());
   EXPECT_EQ(times(svg, "<line class=\"flip\""), 3);  // one of them in the key
