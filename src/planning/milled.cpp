@@ -31,15 +31,11 @@ void refuse(const MilledSite& s, const std::string& name, double value, double a
                            allowed, unit, fmt::format("{}: {}", s.m.id, why)});
 }
 
-// The first few reasons, each once.
+// The first reason; the others are much like it.
 std::string listed(const std::vector<std::string>& reasons) {
-  constexpr std::size_t kTold = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kTold, reasons.size()); ++i)
-    text += (i ? "; " : "") + reasons[i];
-  if (reasons.size() > kTold)
-    text += fmt::format("; and {} more", reasons.size() - kTold);
-  return text;
+  return reasons.size() == 1
+             ? reasons[0]
+             : fmt::format("no cutter does: {}; {} more", reasons[0], reasons.size() - 1);
 }
 
 void add_once(std::vector<std::string>& all, std::string one) {
@@ -219,9 +215,7 @@ void add(const PartPlan& p, const Milled& m, std::size_t setup, Clamping clampin
       choices.back().passes = passes;
     }
   }
-  if (choices.empty())
-    return refuse(s, "cutter", 0, 0, "",
-                  (reasons.size() > 1 ? "no cutter does: " : "") + listed(reasons), out);
+  if (choices.empty()) return refuse(s, "cutter", 0, 0, "", listed(reasons), out);
   if (whole) return take(s, choices.front(), out);
   if (!refused_outright(s, choices, out)) choose(s, choices, out);
 }

@@ -131,7 +131,7 @@ std::string origin(const ordered_json& result) {
 }
 
 std::string assumptions(const ordered_json& result) {
-  constexpr std::size_t kMost = 160;
+  constexpr std::size_t kMost = 64;  // a line of the paper; the result has it whole
   std::string rows;
   for (const auto& a : list(result, "assumed")) {
     const auto found = a.find("value");

@@ -257,6 +257,55 @@ TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
   }
 }
 
+// The stretches of feeds join; the lobes of each are those of the ratios Kn/Kt at its
+// ends, for the lane as wide as it is and for narrower ones.
+TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
+  auto j = pin({{"id", "f1"},
+                {"kind", "flat"},
+                {"on", "d1"},
+                {"z_mm", 40},
+                {"length_mm", 20},
+                {"depth_mm", 1},
+                {"tool", "ENDMILL-HM-10"},
+                {"conditions", {{"lanes", 2}}}});
+  j["material"] = document::parse_file(TURNWRIGHT_SOURCE_DIR "/materials/C45.json");
+  j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", 0.4},
+                                   {"kp11_MPa", 250},       {"mp", 0.3},
+                                   {"uncertainty_pct", 15}, {"source", "a test"}};
+  const auto p = load(j);
+  const auto& m = p.milled[0];
+  const auto& c = m.cutters[0];
+  const auto& kc = p.material.kc;
+  const double k11 = kc.k11_MPa * (1 - (c.gamma_deg - p.material.gamma0_deg) / 100);
+  ASSERT_GT(m.ways.size(), 1U);
+  const auto check = [&](const milling::System& s, double share, double fz) {
+    const double a = share * m.width_mm / 2 / c.dc_mm, arc = std::acos(1 - 2 * a);
+    EXPECT_NEAR(s.exit_rad - s.entry_rad, arc, 1e-12);
+    const auto& force = std::get<milling::LinearForce>(s.force);
+    const double hm = fz * 2 * a / arc;
+    EXPECT_NEAR(force.Kn_MPa / force.Kt_MPa,
+                350 * std::pow(hm, -0.4) / (k11 * std::pow(hm, -kc.m)), 1e-12);
+  };
+  double from = m.ways.front().fz_from_mm;
+  for (const auto& way : m.ways) {
+    EXPECT_NEAR(way.fz_from_mm, from, 1e-12);
+    from = way.fz_to_mm;
+    EXPECT_LE((kc.m - 0.4) * std::log(way.fz_from_mm / way.fz_to_mm), std::log1p(0.05));
+    const auto& wide = way.lobes->systems();
+    ASSERT_EQ(wide.size(), 2U);
+    check(wide[0], 1, way.fz_to_mm);
+    check(wide[1], 1, way.fz_from_mm);
+    const auto& narrow = way.between->systems();
+    ASSERT_EQ(narrow.size(), 6U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      check(narrow[k], 0.75 - 0.25 * static_cast<double>(k), way.fz_to_mm);
+      check(narrow[3 + k], 0.75 - 0.25 * static_cast<double>(k), way.fz_from_mm);
+    }
+  }
+  const auto& hex = c.conditions_in(p.material.group)->hex_mm;
+  EXPECT_NEAR(m.ways.front().fz_from_mm / from, hex.lower / hex.upper, 1e-12);
+}
+
 TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
   auto j = pin(keyway());
   auto cutter =
