@@ -183,13 +183,17 @@ ordered_json best(const Request& q, const std::vector<SpeedLimits>& speeds) {
 }
 
 /// Local maxima of the limit over the speeds in rising order.
-ordered_json magic(std::vector<SpeedLimits> speeds, double ap_max) {
-  std::ranges::sort(speeds, {}, &SpeedLimits::n_rpm);
+/// A speed, and to which depth it is stable, if that is told.
+using StableAt = std::pair<double, std::optional<double>>;
+
+ordered_json magic(std::vector<StableAt> all) {
+  std::ranges::sort(all);
   ordered_json out = ordered_json::array();
-  for (std::size_t i = 1; i + 1 < speeds.size(); ++i) {
-    const double at = stable_mm(speeds[i], ap_max);
-    if (at > stable_mm(speeds[i - 1], ap_max) && at >= stable_mm(speeds[i + 1], ap_max))
-      out.push_back({{"n_rpm", speeds[i].n_rpm}, {"ap_mm", at}});
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    const auto &below = all[i - 1].second, &at = all[i].second,
+               &above = all[i + 1].second;
+    if (below && at && above && *at > *below && *at >= *above)
+      out.push_back({{"n_rpm", all[i].first}, {"ap_mm", *at}});
   }
   return out;
 }
@@ -264,13 +268,16 @@ void add_speeds(const Request& q, const std::stop_token& stop, Count& done,
   }
   if (found.empty()) return;
   std::vector<SpeedLimits> speeds;
+  std::vector<StableAt> stable;
+  for (const double n : q.speeds_rpm) stable.emplace_back(n, std::nullopt);
   for (auto& [i, speed] : found) {
+    stable[i].second = stable_mm(speed.first, *q.ap_max_mm);
     speeds.push_back(std::move(speed.first));
     out["speeds"].push_back(std::move(speed.second));
   }
   if (!q.depths_mm.empty()) out["depths_mm"] = q.depths_mm;
   out["best"] = best(q, speeds);
-  out["magic_speeds"] = magic(speeds, *q.ap_max_mm);
+  out["magic_speeds"] = magic(std::move(stable));
 }
 
 void add_points(const Request& q, const std::stop_token& stop, Count& done,

@@ -96,7 +96,7 @@ class Search {
           "milling: multipliers that meet on the circle cannot be told apart; ask for "
           "another speed");
     if (++boxes_ > kBoxes)
-      throw TooManyVibrations(
+      throw ModelRangeError(
           "milling: the search for stability limits at a speed needs "
           "more than " +
           std::to_string(kBoxes) +

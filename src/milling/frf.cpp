@@ -319,17 +319,19 @@ Model without_low_peaks(const Lines& lines, Model m) {
   return m;
 }
 
-/// The line at which the modes' velocity is highest; its receptance lags behind the
-/// force.
+/// A drive point takes in power at every line: what is in quadrature with the force, the
+/// receptance's lag, has one sign.  Summed over the lines, so that noise of one does not
+/// tell; the line that speaks loudest against it.
 std::optional<NoFit> wrong_way(const FrequencyResponse& r) {
-  std::size_t top = 0;
-  const auto speed = [&](std::size_t i) {
-    return std::abs(r.value[i]) * std::pow(r.w_rad_s[i], 1 - r.derivative);
-  };
-  for (std::size_t i = 1; i < r.w_rad_s.size(); ++i)
-    if (speed(i) > speed(top)) top = i;
-  const Complex H = r.value[top] / std::pow(Complex(0, r.w_rad_s[top]), r.derivative);
-  if (H.imag() > 0.5 * std::abs(H)) return NoFit{Why::negative, r.w_rad_s[top]};
+  constexpr std::array<Complex, 3> kTurn{Complex(1, 0), Complex(0, -1), Complex(-1, 0)};
+  double taken = 0, all = 0, worst = 0, at = 0;
+  for (std::size_t i = 0; i < r.w_rad_s.size(); ++i) {
+    const Complex H = r.value[i] * kTurn[static_cast<std::size_t>(r.derivative)];
+    taken -= H.imag() * std::abs(H.imag());
+    all += H.imag() * H.imag();
+    if (H.imag() > worst) worst = H.imag(), at = r.w_rad_s[i];
+  }
+  if (taken < -0.5 * all) return NoFit{Why::negative, at};
   return std::nullopt;
 }
 

@@ -469,7 +469,7 @@ TEST(Stability, RefusesAResponseOfNegativeMass) {
     line = text;
   }
   EXPECT_EQ(refused(q),
-            "stability: /frf/0/csv#line 15: got a mode of negative mass at 182 Hz, "
+            "stability: /frf/0/csv#line 14: got a mode of negative mass at 178 Hz, "
             "expected the receptance of a drive point under e^(+i w t): imaginary part < "
             "0 at a peak; is the unit that of the quantity measured?");
 }

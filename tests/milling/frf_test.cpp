@@ -400,6 +400,22 @@ TEST(Frf, AnotherQuantityIsTold) {
     }
 }
 
+// An impact test from 2 Hz on: at its lowest lines the accelerance is noise alone, whose
+// receptance is far larger than the mode's.
+TEST(Frf, NoiseAtTheLowestLinesDoesNotTurnTheSign) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    auto r = measured({{1200, 0.03, 20000}}, 2, 3200, 1600, 2);
+    double sum = 0;
+    for (const Complex& y : r.value) sum += std::norm(y);
+    add_noise(r, 0.01 * std::sqrt(sum / 1600), seed);
+    const auto f = fit(r);
+    ASSERT_EQ(f.modes.size(), 1U) << seed;
+    EXPECT_NEAR(f.modes[0].k_N_mm.value, 20000, 400) << seed;
+    for (Complex& y : r.value) y = std::conj(y);
+    EXPECT_EQ(std::get<NoFit>(modal_fit(r)).why, NoFit::Why::negative) << seed;
+  }
+}
+
 TEST(Frf, AResponseAcrossAxesIsRefusedInNoiseToo) {
   const std::vector<True> cross{{600, 0.02, 8000}, {900, 0.02, -12000}};
   for (unsigned seed = 0; seed < 5; ++seed) {
