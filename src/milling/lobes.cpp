@@ -25,6 +25,8 @@ std::optional<double> first_loss(const System& system, double n_rpm, double befo
     depth *= deeper;
     try {
       return speed_limits(system, n_rpm, depth).limit_mm();
+    } catch (const TooManyVibrations&) {
+      return before;
     } catch (const ModelRangeError&) {
     }
   }

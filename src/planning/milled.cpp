@@ -22,7 +22,8 @@ std::pair<int, int> pass_counts(const Milled& m, const catalogue::MillingCutter&
   const int fewest =
       std::max(1, static_cast<int>(std::ceil(m.depth_mm / c.ap_mm.upper - kSlack_mm)));
   const double most = std::floor(m.depth_mm / c.ap_mm.lower + kSlack_mm);
-  return {fewest, static_cast<int>(std::min(most, fewest + kPassCounts))};
+  return {fewest,
+          std::max(fewest, static_cast<int>(std::min(most, fewest + kPassCounts)))};
 }
 
 void refuse(const MilledSite& s, const std::string& name, double value, double allowed,
@@ -42,16 +43,40 @@ void add_once(std::vector<std::string>& all, std::string one) {
   if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(std::move(one));
 }
 
+// Least and most of what choices have.
+template <class F>
+catalogue::Range span(const std::vector<MilledChoice>& choices, F range_of) {
+  catalogue::Range all{INFINITY, 0};
+  for (const auto& c : choices) {
+    const catalogue::Range r = range_of(c);
+    all = {std::min(all.lower, r.lower), std::max(all.upper, r.upper)};
+  }
+  return all;
+}
+
 // A given speed or feed that no choice has, or cutters and spindle without a common
 // speed.
 bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choices,
                       FixedWork& out) {
-  catalogue::Range n{INFINITY, 0}, fz{INFINITY, 0};
-  for (const auto& c : choices) {
-    const auto speeds = speeds_rpm(s.p, *c.cutter);
-    n = {std::min(n.lower, speeds.lower), std::max(n.upper, speeds.upper)};
-    fz = {std::min(fz.lower, c.grade->hex_mm.lower / c.hex_over_fz),
-          std::max(fz.upper, c.grade->hex_mm.upper / c.hex_over_fz)};
+  const auto& driven = *s.p.machine.driven_tools;
+  const bool meet = std::ranges::any_of(choices, [&](const MilledChoice& c) {
+    const auto n = speeds_rpm(s.p, *c.cutter);
+    return n.lower <= n.upper;
+  });
+  if (!meet) {
+    const auto own = span(choices, [](const MilledChoice& c) {
+      return catalogue::Range{
+          units::spindle_rpm(c.grade->vc_m_min.lower, c.cutter->dc_mm),
+          units::spindle_rpm(c.grade->vc_m_min.upper, c.cutter->dc_mm)};
+    });
+    const bool slow = driven.n_max_rpm < own.lower;
+    refuse(s, "spindle speed", slow ? own.lower : own.upper,
+           slow ? driven.n_max_rpm : driven.n_min_rpm, "1/min",
+           fmt::format("cutters turn at {:.4g} to {:.4g} 1/min, the driven spindle at "
+                       "{:.4g} to {:.4g} 1/min: no speed is in common",
+                       own.lower, own.upper, driven.n_min_rpm, driven.n_max_rpm),
+           out);
+    return true;
   }
   const auto outside = [&](const char* name, const std::optional<double>& given,
                            const catalogue::Range& r, const char* unit) {
@@ -65,26 +90,24 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
            out);
     return true;
   };
-  if (!(n.lower <= n.upper)) {
-    refuse(s, "spindle speed", n.lower, n.upper, "1/min",
-           fmt::format("the cutters turn at {:.0f} 1/min at least, the driven spindle at "
-                       "{:.0f} 1/min at most",
-                       n.lower, n.upper),
-           out);
-    return true;
-  }
+  const auto n =
+      span(choices, [&](const MilledChoice& c) { return speeds_rpm(s.p, *c.cutter); });
+  const auto fz = span(choices, [](const MilledChoice& c) {
+    return catalogue::Range{c.grade->hex_mm.lower / c.hex_over_fz,
+                            c.grade->hex_mm.upper / c.hex_over_fz};
+  });
   return outside("spindle speed", s.m.n_rpm, n, "1/min") ||
          outside("feed per tooth", s.m.fz_mm, fz, "mm");
 }
 
-// Why none of the choices keeps everything: what stands against the shallowest cut of
-// the way that comes nearest, at speeds a margin apart.
+// Why none of the choices was found to keep everything: what stands against the
+// shallowest cut looked at of the way that comes nearest, at speeds a margin apart.
 void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
              const std::vector<MilledCase>& cases, FixedWork& out) {
   std::map<const MilledWay*, int> shallowest;
   for (const auto& c : choices) shallowest[c.way] = std::max(shallowest[c.way], c.passes);
   std::size_t nearest = cases.size();
-  double most = 0, at = 0;
+  double most = -1, at = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto& k = cases[i];
     if (choices[i].passes < shallowest[choices[i].way]) continue;
@@ -108,16 +131,22 @@ void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
     return;
   }
   const auto& c = choices[nearest];
+  const auto& k = cases[nearest];
   const double ap = c.ap_mm(s.m), asked = ap * (1 + s.m.depth_margin);
+  const double W = load_N_mm(k, feed_mm(k, at));
+  most = stable_around_N_mm(k, at, W) / W;
+  const std::string help =
+      most > 0 ? fmt::format("a tool point {:.3g} times as stiff would do", 1 / most)
+               : "the limits of stability cannot be told there";
   refuse(
       s, "stable depth with its margin", asked, asked * most, "mm",
       fmt::format("it chatters at {}: {} of {:.4g} mm with {} come{} nearest, at {:.0f} "
                   "1/min, where {:.4g} mm are stable but {:.4g} mm asked for with the "
-                  "margin; a tool point {:.3g} times as stiff would do{}",
+                  "margin; {}{}",
                   s.m.n_rpm ? "the speed given" : "every speed",
                   c.passes == 1 ? "1 pass" : fmt::format("{} passes", c.passes), ap,
-                  c.cutter->id, c.passes == 1 ? "s" : "", at, asked * most, asked,
-                  1 / most, s.m.passes ? ", or more passes" : ""),
+                  c.cutter->id, c.passes == 1 ? "s" : "", at, asked * most, asked, help,
+                  s.m.passes ? ", or more passes" : ""),
       out);
 }
 
@@ -244,13 +273,18 @@ void add_lobes(const PartPlan& p, OperationPlan& o) {
   MilledCase k;
   k.lobes = way->lobes.get();
   k.between = way->between.get();
-  for (std::size_t i = 0; i <= kDrawn; ++i) {
+  // From the fastest down: where limits cannot be told, slower ones cannot either.
+  bool told = true;
+  for (std::size_t i = kDrawn + 1; i-- > 0;) {
     const double speed = low + (high - low) * static_cast<double>(i) / kDrawn;
-    const double stable = stable_to_N_mm(k, speed, enough);
+    const double stable = told ? stable_to_N_mm(k, speed, enough) : 0;
+    told = stable > 0;
     cut.n_rpm.push_back(speed);
     cut.limits_mm.push_back(stable < enough ? std::optional(stable / per_mm)
                                             : std::nullopt);
   }
+  std::ranges::reverse(cut.n_rpm);
+  std::ranges::reverse(cut.limits_mm);
 }
 
 }  // namespace turnwright::planning

@@ -136,9 +136,10 @@ double part_mm_N(const PartPlan& p, const Milled& m, std::size_t setup,
 }
 
 double tip_mm_N(const std::vector<catalogue::TipMode>& modes) {
-  double across = 0, along = 0;
-  for (const auto& m : modes) (m.along_feed ? along : across) += 1 / m.stiffness_N_mm;
-  return across > 0 ? across : along;
+  double across = 0;
+  for (const auto& m : modes)
+    if (!m.along_feed) across += 1 / m.stiffness_N_mm;
+  return across;
 }
 
 MilledChoice milled_choice(const MilledSite& s, const MilledWay& way, int passes) {

@@ -49,7 +49,7 @@ MilledChoice milled_choice(const MilledSite& site, const MilledWay& way, int pas
 /// places.
 double part_mm_N(const PartPlan& plan, const Milled& place, std::size_t setup,
                  Clamping clamping);
-/// Of a tool point, across the feed if it has modes there.
+/// Of a tool point, across the feed.
 double tip_mm_N(const std::vector<catalogue::TipMode>& modes);
 
 /// Speeds that cutter and driven spindle have in common; none if lower > upper.

@@ -67,18 +67,15 @@ MilledWay way_of(const PartPlan& p, const Milled& m, std::size_t index, int lane
                  double fz_from, double fz_to) {
   const auto& cutter = m.cutters[index];
   const auto cuts = engagements(m, cutter, lanes);
+  const auto between = engagements_between(m, cutter, lanes);
   Forces forces{p, cutter, cuts[0], {fz_to}};
   if (p.material.kf && p.material.kf->m != p.material.kc.m && fz_from < fz_to)
     forces.feeds_mm.push_back(fz_from);
-  MilledWay way{index,
-                lanes,
-                fz_from,
-                fz_to,
-                0,
-                forces.lobes(cuts),
-                forces.lobes(engagements_between(m, cutter, lanes))};
-  for (const double fz : forces.feeds_mm)
-    for (const auto& e : cuts) way.normal = std::max(way.normal, forces.ratio(e, fz));
+  MilledWay way{
+      index, lanes, fz_from, fz_to, 0, forces.lobes(cuts), forces.lobes(between)};
+  for (const auto& list : {cuts, between})
+    for (const double fz : forces.feeds_mm)
+      for (const auto& e : list) way.normal = std::max(way.normal, forces.ratio(e, fz));
   return way;
 }
 
@@ -146,6 +143,10 @@ std::string does_not_fit(const PartPlan& p, const Milled& m,
   const double D = c.dc_mm, w = m.width_mm;
   if (!c.conditions_in(p.material.group))
     return fmt::format("has no conditions for {}", p.material.name);
+  const auto& modes = tip_modes(p, c);
+  if (std::ranges::all_of(modes, &catalogue::TipMode::along_feed))
+    return "has no mode across the feed (axis y) at its tool point, where the part "
+           "yields with it";
   if (c.lu_mm < m.depth_mm - kSlack_mm)
     return fmt::format("reaches {:g} mm deep, not {:g} mm", c.lu_mm, m.depth_mm);
   if (c.re_mm > m.corner_mm.value_or(INFINITY) + kSlack_mm)

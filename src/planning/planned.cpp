@@ -120,7 +120,8 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why w
   add_fixed_obstacles(p, work, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
-    result.certificate.reason = "proved: no condition or tool changes the conflicts told";
+    result.certificate.reason =
+        "the conflicts told do not depend on the conditions of turning and boring";
     return result;
   }
   const auto a = best_attempt(p, work);

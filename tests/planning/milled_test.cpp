@@ -369,6 +369,69 @@ TEST(Milled, TheHolderClearsWhatStandsBeside) {
   EXPECT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
 }
 
+json slot_drill() {
+  return document::parse_file(TURNWRIGHT_SOURCE_DIR "/tools/milling/KEYWAY-HM-10.json");
+}
+
+std::string told_of(const json& place) {
+  const auto work = work_of(load(pin(place)));
+  return work.conflicts.empty() ? "" : work.conflicts[0].sentence;
+}
+
+// The part yields across the feed: modes along it do not tell what that does.
+TEST(Milled, AToolPointWithoutAModeAcrossTheFeedIsRefused) {
+  auto place = keyway();
+  place["tool"] = slot_drill();
+  place["tool"]["tool_point"]["modes"].erase(1);
+  EXPECT_EQ(told_of(place),
+            "k1: KEYWAY-HM-10 has no mode across the feed (axis y) at its tool point, "
+            "where the part yields with it");
+}
+
+TEST(Milled, ADepthAtTheLeastOfTheCutterIsOnePass) {
+  json place{{"id", "f1"},
+             {"kind", "flat"},
+             {"on", "d1"},
+             {"z_mm", 40},
+             {"length_mm", 25},
+             {"depth_mm", 0.2 - 5e-10},
+             {"tool", "KEYWAY-HM-10"}};
+  const auto work = work_of(load(pin(place)));
+  ASSERT_NE(milled_in(work), nullptr);
+  EXPECT_EQ(milled_in(work)->passes.size(), 1U);
+}
+
+TEST(Milled, CuttersAndSpindleWithoutACommonSpeedAreTold) {
+  auto place = keyway();
+  place["z_mm"] = 10;
+  place["tool"] = slot_drill();
+  for (auto& c : place["tool"]["conditions"]) c["vc_m_min"] = {0.5, 1.0};
+  EXPECT_EQ(told_of(place),
+            "k1: cutters turn at 15.92 to 31.83 1/min, the driven spindle at 40 to 6000 "
+            "1/min: no speed is in common");
+}
+
+// Without an operation on the right end the bar goes on beyond it: a slot cannot run out.
+TEST(Milled, AnEndThatStaysAsStockIsNotAir) {
+  auto j = pin({{"id", "s1"},
+                {"kind", "slot"},
+                {"on", "d1"},
+                {"z_mm", 60},
+                {"length_mm", 20},
+                {"width_mm", 10},
+                {"depth_mm", 4}});
+  EXPECT_TRUE(work_of(load(j)).conflicts.empty());
+  j["operations"] = {{{"id", "o1"},
+                      {"setup", 0},
+                      {"kind", "finish"},
+                      {"on", {"d1"}},
+                      {"tool", "PDJNL-DNMG150604-PF"}}};
+  const auto work = work_of(load(j));
+  ASSERT_EQ(work.conflicts.size(), 1U);
+  EXPECT_NE(work.conflicts[0].sentence.find("runs out at neither end"), std::string::npos)
+      << work.conflicts[0].sentence;
+}
+
 TEST(Milled, GivenSpeedsAndFeedsOutsideTheCuttersAreNamed) {
   auto place = keyway();
   place["conditions"] = {{"n_rpm", 300}};

@@ -28,12 +28,12 @@ inline constexpr double kLaneStep = 0.7;
 ///     keyway, slot:  D <= w <= 2 D, one lane of ae = D; if D < w both sides after it,
 ///                    down-milled, ae = (w - D)/2                                   (1)
 ///     flat:          lanes of equal ae <= kLaneStep D across the chord, down-milled;
-///                    also twice as many                             (2)
+///                    also twice as many                                           (2)
 ///
 /// A cutter fits if it has conditions for the material, reaches the floor, has no larger
 /// corner than the place allows, is shorter across than a closed place is long, and cuts
-/// over its centre where it must plunge.  Tool points are those measured on the machine,
-/// else the cutter's.
+/// over its centre where it must plunge, and its tool point yields across the feed, as
+/// the part does.  Tool points are those measured on the machine, else the cutter's.
 ///
 /// Kn/Kt changes with the feed where the material's mf is not its mc.  The feeds are then
 /// split into ways over each of which it changes by kRatioStep at most, their lobes the
