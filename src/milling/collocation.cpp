@@ -1,13 +1,13 @@
 #include "collocation.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "spectrum.hpp"
 #include "stretches.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -15,7 +15,6 @@ namespace turnwright::milling {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -117,23 +116,21 @@ Spectrum of_all(const Map& map) {
   MatrixXd dense(map.size(), map.size());
   for (Index i = 0; i < map.size(); ++i)
     dense.col(i) = map(VectorXd::Unit(map.size(), i));
-  const Eigen::ArrayXd moduli =
-      Eigen::EigenSolver<MatrixXd>(dense, false).eigenvalues().cwiseAbs();
+  const Eigen::ArrayXd moduli = eigenvalues(dense).cwiseAbs();
   return {.radius = moduli.maxCoeff(), .outside = static_cast<int>((moduli > 1).count())};
 }
 
 /// The same of Ritz values; how far the least settled of those asked for still moves,
 /// relative to the largest, is |next| times its vector's last entry in the basis.
 std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
-  const Eigen::EigenSolver<MatrixXd> ritz(h);
-  const Eigen::ArrayXd moduli = ritz.eigenvalues().cwiseAbs();
+  const Eigenpairs ritz = eigenpairs(h);
+  const Eigen::ArrayXd moduli = ritz.values.cwiseAbs();
   const Spectrum out{.radius = moduli.maxCoeff(),
                      .outside = static_cast<int>((moduli > 1).count())};
   double moves = 0;
-  const MatrixXcd vectors = ritz.eigenvectors();
   for (Index i = 0; i < moduli.size(); ++i)
     if (moduli(i) > 1 || moduli(i) == out.radius)
-      moves = std::max(moves, next * std::abs(vectors.col(i).normalized()(h.rows() - 1)));
+      moves = std::max(moves, next * std::abs(ritz.vectors(h.rows() - 1, i)));
   return {out, moves / out.radius};
 }
 

@@ -1,11 +1,12 @@
 #include "delay_map.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "free_vibration.hpp"
+#include "spectrum.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
@@ -253,7 +254,7 @@ std::vector<std::complex<double>> DelayMap::multipliers() const {
   for (Index i = 0; i < few; ++i) unit(delayed_[static_cast<std::size_t>(i)], i) = 1;
   const Matrix inverse = m0_.partialPivLu().solve(unit);
   const Matrix map = -m1_(delayed_, Eigen::all) * inverse;  // Eq. (3)
-  const auto all = Eigen::EigenSolver<Matrix>(map, false).eigenvalues();
+  const auto all = eigenvalues(map);
   std::vector<std::complex<double>> out;
   for (const std::complex<double>& mu : all)
     if (std::abs(mu) > kNegligible) out.push_back(mu);

@@ -5,6 +5,15 @@
 
 namespace turnwright::milling {
 
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// With the vectors as columns, of length 1.
+struct Eigenpairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+Eigenpairs eigenpairs(const Eigen::MatrixXd& matrix);
+
 /// Largest eigenvalue, and how many lie outside the unit circle.
 Dominant dominant(const Eigen::MatrixXd& monodromy);
 
