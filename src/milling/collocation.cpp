@@ -116,8 +116,8 @@ Spectrum of_all(const Map& map) {
   MatrixXd dense(map.size(), map.size());
   for (Index i = 0; i < map.size(); ++i)
     dense.col(i) = map(VectorXd::Unit(map.size(), i));
-  const Eigen::ArrayXd moduli = eigenvalues(dense).cwiseAbs();
-  return {.radius = moduli.maxCoeff(), .outside = static_cast<int>((moduli > 1).count())};
+  const Dominant all = dominant(dense);
+  return {.radius = std::abs(all.multiplier), .outside = *all.unstable};
 }
 
 /// The same of Ritz values; how far the least settled of those asked for still moves,

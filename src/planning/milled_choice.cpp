@@ -115,7 +115,7 @@ MilledCut cut_at(const MilledSite& s, const MilledChoice& c, const MilledCase& k
 
 double part_mm_N(const PartPlan& p, const Milled& m, std::size_t setup,
                  Clamping clamping) {
-  const SetupBody body(p, setup, clamping, finished_after(p, setup));
+  const SetupBody body(p, setup, clamping, finished_after(p, assign(p), setup));
   const auto shaft = body.shaft();
   const auto supports = planes(p.machine, clamping).tangential;
   const deflection::Beam beam(shaft);

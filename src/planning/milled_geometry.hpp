@@ -33,9 +33,6 @@ struct RunOut {
 RunOut run_out(const PartPlan& plan, std::size_t setup, Clamping clamping,
                const Milled& place, double dc_mm);
 
-/// Elements with their final diameters once a setup is done.
-Finished finished_after(const PartPlan& plan, std::size_t setup);
-
 /// How deep below what stands beside the place its floor lies [mm], as far from the
 /// cutter's way as its holder reaches: kHolder_mm.
 double depth_beside_mm(const PartPlan& plan, std::size_t setup, const Milled& place,

@@ -14,8 +14,9 @@ struct FeedCap {
 /// One choice of cutter, lanes, passes and range of the spindle; speed n and feed per
 /// tooth fz are open:
 ///
-///     t = path/(fz z n),  cost = t (minute + edge/T) + besides,  T = T0 (n0/n)^(1/nT)
-///     (1) W = load fz^-mc <= B(u)   for all u in [n (1 - s), n (1 + s)] (2)
+///     t = path/(fz z n),   cost = t (minute + edge/T) + besides                      (1)
+///     T = T0 (n0/n)^(1/nT)
+///     W = load fz^-mc <= B(u)   for all u in [n (1 - s), n (1 + s)]                  (2)
 ///
 /// B are the lobes' first losses, W [N/mm] the depth with its margin times the chip's
 /// stiffness.  Cost and W fall with the feed, so fz is the least of its caps; in ln n its

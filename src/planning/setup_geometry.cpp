@@ -133,6 +133,12 @@ void finish(Finished& finished, const SetupWork& work) {
   for (const std::size_t i : work.bores) finished.inner[i] = true;
 }
 
+Finished finished_after(const PartPlan& p, const Assignment& work, std::size_t setup) {
+  auto done = nothing_finished(p.drawing);
+  for (std::size_t s = 0; s <= setup; ++s) finish(done, work.setups[s]);
+  return done;
+}
+
 std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
 }
@@ -142,6 +148,12 @@ double face_stock_mm(const PartPlan& p, part::End end) {
   if (stock.parted_mm && p.setups.front().hold == end) return *stock.parted_mm;
   return end == End::left ? stock.left_allowance_mm
                           : part::right_allowance_mm(drawing(p));
+}
+
+double face_stock_after_mm(const PartPlan& p, const Assignment& work, std::size_t setup,
+                           part::End end) {
+  const auto faced = setup_of(p, work, end == part::End::left ? "left" : "right");
+  return faced && *faced <= setup ? 0 : face_stock_mm(p, end);
 }
 
 const char* free_face(const PartPlan& p, std::size_t s) {

@@ -42,12 +42,6 @@ Runs runs(const Element& e, double z) {
   return {{z, z + e.length_mm, ends.left_mm / 2, ends.right_mm / 2}};
 }
 
-bool faced(const PartPlan& p, const Assignment& work, std::size_t setup, End end) {
-  for (std::size_t s = 0; s <= setup; ++s)
-    if (work.setups[s].end_face && p.setups[s].hold != end) return true;
-  return false;
-}
-
 // A stub beyond the last element is cut with it.
 void add_stubs(Runs& outer, double left_z, double right_z, double L) {
   const Run first = outer.front(), last = outer.back();
@@ -87,14 +81,10 @@ Runs inner_runs(const part::Drawing& d, std::size_t i) {
 
 Contour contour_after(const PartPlan& p, const Assignment& work, std::size_t setup) {
   const auto& d = p.drawing;
-  auto finished = planning::nothing_finished(d);
-  for (std::size_t s = 0; s <= setup; ++s) planning::finish(finished, work.setups[s]);
+  const auto finished = planning::finished_after(p, work, setup);
   const double L = part::length_mm(d), stock = d.stock.outer_mm / 2;
-  const double left_z =
-      faced(p, work, setup, End::left) ? 0 : -planning::face_stock_mm(p, End::left);
-  const double right_z =
-      L +
-      (faced(p, work, setup, End::right) ? 0 : planning::face_stock_mm(p, End::right));
+  const double left_z = 0 - planning::face_stock_after_mm(p, work, setup, End::left);
+  const double right_z = L + planning::face_stock_after_mm(p, work, setup, End::right);
   Contour c;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     for (auto run : outer_runs(d, i)) {

@@ -59,9 +59,15 @@ double face_z_mm(const part::Drawing& drawing, const std::string& face);
 /// "left" or "right": the end that a setup leaves free.
 const char* free_face(const PartPlan& plan, std::size_t setup);
 
+/// Elements with their final diameters once a setup is done.
+Finished finished_after(const PartPlan& plan, const Assignment& work, std::size_t setup);
+
 /// Material [mm] before the finished face of an end once it is free: what parting off
 /// leaves at the first setup's held end, else the stock's allowance.
 double face_stock_mm(const PartPlan& plan, part::End end);
+/// The same once a setup is done: none if the end was faced by then.
+double face_stock_after_mm(const PartPlan& plan, const Assignment& work,
+                           std::size_t setup, part::End end);
 
 /// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
 /// the plan's drills that leaves 0.5 mm on the radius of the narrowest and reaches their
