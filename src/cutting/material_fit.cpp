@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "turnwright/base/least_squares.hpp"
+
 namespace turnwright::cutting {
 namespace {
 
@@ -31,9 +33,9 @@ struct Regression {
   int degrees = 0;
 
   Regression(const MatrixXd& X, const VectorXd& y) {
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(X);
-    c = qr.solve(y);
-    inverse = (X.transpose() * X).inverse();
+    const auto solved = least_squares(X, y);
+    c = solved.x;
+    inverse = solved.root * solved.root.transpose();
     residual = y - X * c;
     leverage = (X * inverse).cwiseProduct(X).rowwise().sum();
     degrees = static_cast<int>(X.rows() - X.cols());
@@ -89,7 +91,7 @@ Regression robust(const MatrixXd& X, const VectorXd& y, double p, Evidence& e) {
 
 /// What is left of a column after a constant and the columns before it: rms.
 double spread(const MatrixXd& before, const VectorXd& column) {
-  const VectorXd c = before.colPivHouseholderQr().solve(column);
+  const VectorXd c = least_squares(before, column).x;
   return std::sqrt((column - before * c).squaredNorm() /
                    static_cast<double>(column.size()));
 }

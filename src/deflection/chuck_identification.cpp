@@ -11,6 +11,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "turnwright/base/least_squares.hpp"
+
 namespace turnwright::deflection {
 namespace {
 
@@ -138,7 +140,7 @@ struct Fit {
 
 Fit least_squares(const Design& d, const VectorXd& w) {
   const Centred c = centred(d, w);
-  const Vector3d theta = c.X.colPivHouseholderQr().solve(c.y);
+  const Vector3d theta = turnwright::least_squares(c.X, c.y).x;
   return {theta, residuals(d, c.mean, theta)};
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -248,22 +249,18 @@ MatrixXd powers_of_z(const Graph& g, int degree) {
 
 DeviationGraph described(const Graph& g, int degree, const Places& places) {
   const MatrixXd X = columns(g, degree, places);
-  const Eigen::HouseholderQR<MatrixXd> qr(X);
-  const VectorXd a = qr.solve(g.e);
+  const auto [rank, a, root] = least_squares(X, g.e);
+  if (rank < X.cols())
+    throw ModelRangeError(
+        "chuck: the graph's places do not tell a polynomial of degree " +
+        std::to_string(degree));
   const VectorXd r = g.e - X * a;
   const Index powers = degree + 1;
   DeviationGraph out;
   out.degrees_of_freedom = static_cast<long>(X.rows() - X.cols());
   out.s_mm = std::sqrt(r.squaredNorm() / static_cast<double>(out.degrees_of_freedom));
   // Roots of the covariance: what is only rounding apart leaves no negative variance.
-  const MatrixXd L =
-      out.s_mm *
-      MatrixXd(qr.matrixQR().topRows(X.cols()).triangularView<Eigen::Upper>().solve(
-          MatrixXd::Identity(X.cols(), X.cols())));
-  if (!L.allFinite())
-    throw ModelRangeError(
-        "chuck: the graph's places do not tell a polynomial of degree " +
-        std::to_string(degree));
+  const MatrixXd L = out.s_mm * root;
   const MatrixXd T = powers_of_z(g, degree);
   const VectorXd c = T.transpose() * a.head(powers);
   const MatrixXd Lc = T.transpose() * L.topRows(powers);

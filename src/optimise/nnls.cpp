@@ -1,7 +1,8 @@
 #include "turnwright/optimise/nnls.hpp"
 
-#include <Eigen/QR>
 #include <vector>
+
+#include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::optimise {
 namespace {
@@ -11,7 +12,7 @@ using Eigen::Index;
 // Least squares over the passive columns, zero elsewhere.
 Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                       const std::vector<Index>& passive) {
-  const Eigen::VectorXd z = A(Eigen::all, passive).colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd z = least_squares(A(Eigen::all, passive), b).x;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(A.cols());
   for (std::size_t k = 0; k < passive.size(); ++k)
     x[passive[k]] = z[static_cast<Index>(k)];

@@ -9,6 +9,7 @@
 
 #include "response.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/least_squares.hpp"
 #include "turnwright/optimise/local.hpp"
 
 namespace turnwright::thermal {
@@ -107,7 +108,7 @@ Solved solve(const Task& task, std::span<const double> theta) {
     for (MatrixXd& d : at.D) d = MatrixXd(d(task.rows, Eigen::all));
   }
   const VectorXd e = task.error_um(task.rows);
-  VectorXd k = at.A.colPivHouseholderQr().solve(e);
+  VectorXd k = least_squares(at.A, e).x;
   VectorXd r = e - at.A * k;
   return {std::move(at), std::move(k), std::move(r)};
 }
@@ -244,35 +245,30 @@ std::vector<Parameter> named(const Shape& s, const FitOptions& o, const Bounds& 
 
 // Eq. (5), for the parameters inside their bounds; what depends on others stays 0.
 void add_uncertainty(const MatrixXd& J, double factor, LagFit& fit) {
-  std::vector<Index> free;
+  std::vector<std::size_t> free;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.parameters[i].found == Found::inside) free.push_back(static_cast<Index>(i));
+    if (fit.parameters[i].found == Found::inside) free.push_back(i);
   MatrixXd F = J(Eigen::all, free);
   const VectorXd norm = F.colwise().norm();
   for (Index j = 0; j < F.cols(); ++j)
     if (norm[j] > 0) F.col(j) /= norm[j];
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  qr.setThreshold(kDependent);
-  qr.compute(F);
-  const Index rank = qr.rank();
-  const MatrixXd inverse = qr.matrixR()
-                               .topLeftCorner(rank, rank)
-                               .triangularView<Eigen::Upper>()
-                               .solve(MatrixXd::Identity(rank, rank));
-  const MatrixXd C = factor * inverse * inverse.transpose();
-  const auto& order = qr.colsPermutation().indices();
+  const MatrixXd root = least_squares(F, VectorXd::Zero(F.rows()), kDependent).root;
+  const MatrixXd C = factor * root * root.transpose();
   const auto m = fit.parameters.size();
   fit.covariance.assign(m * m, 0.0);
-  for (Index i = 0; i < rank; ++i)
-    for (Index j = 0; j < rank; ++j) {
-      const Index row = order[i], column = order[j];
-      fit.covariance[static_cast<std::size_t>(free[static_cast<std::size_t>(row)]) * m +
-                     static_cast<std::size_t>(free[static_cast<std::size_t>(column)])] =
-          C(i, j) / (norm[row] * norm[column]);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    if (!(root.row(row).squaredNorm() > 0)) {
+      fit.parameters[free[i]].found = Found::unknown;
+      continue;
     }
-  for (Index i = rank; i < F.cols(); ++i)
-    fit.parameters[static_cast<std::size_t>(free[static_cast<std::size_t>(order[i])])]
-        .found = Found::unknown;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const auto column = static_cast<Index>(j);
+      if (C(column, column) > 0)
+        fit.covariance[free[i] * m + free[j]] =
+            C(row, column) / (norm[row] * norm[column]);
+    }
+  }
   for (std::size_t i = 0; i < m; ++i) {
     Parameter& q = fit.parameters[i];
     q.u = std::sqrt(fit.covariance[i * m + i]);

@@ -1,9 +1,10 @@
 #include "turnwright/volumetric/axis_table.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+
+#include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::volumetric {
 
@@ -32,18 +33,14 @@ AxisFit fit_axis(const AxisTable& table, double Q, int degree) {
       v[row] = readings[i];
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
-  const Eigen::VectorXd x = qr.solve(v);
+  const auto [rank, x, root] = least_squares(A, v);
   AxisFit fit;
   if (n > columns)
     fit.s = std::sqrt((v - A * x).squaredNorm() / static_cast<double>(n - columns));
-  const Eigen::MatrixXd inverse =
-      qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd::Identity(columns, columns));
   for (Eigen::Index k = 0; k < columns; ++k) {
     const bool reversal = k > degree;
     (reversal ? fit.error.b : fit.error.c[static_cast<std::size_t>(k)]) = x[k];
-    fit.u[reversal ? 4 : static_cast<std::size_t>(k)] = fit.s * inverse.row(k).norm();
+    fit.u[reversal ? 4 : static_cast<std::size_t>(k)] = fit.s * root.row(k).norm();
   }
   return fit;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/least_squares.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 #include "turnwright/volumetric/minimum_zone.hpp"
 
@@ -48,7 +49,7 @@ double narrowest(const std::vector<double>& theta, const std::vector<double>& pa
 double own_range(const MatrixXd& A, const VectorXd& path) {
   MatrixXd whole(A.rows(), 3);
   whole << VectorXd::Ones(A.rows()), A;
-  return range(path - whole * whole.colPivHouseholderQr().solve(path));
+  return range(path - whole * least_squares(whole, path).x);
 }
 
 /// Terms of (2) that both paths see alike, and those that change sign with dir.
@@ -85,14 +86,10 @@ Part solved(const MatrixXd& A, const VectorXd& v) {
   const Index m = A.cols();
   const VectorXd norms = A.colwise().norm();
   if (!(norms.minCoeff() > 0)) return {};
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A * norms.cwiseInverse().asDiagonal());
-  if (qr.rank() < m) return {.rank = qr.rank(), .x = {}, .inverse = {}};
-  const VectorXd x = qr.solve(v).cwiseQuotient(norms);
-  // (A^T A)^-1 = P R^-1 R^-T P^T: its diagonal by the rows of P R^-1.
-  const MatrixXd root =
-      qr.colsPermutation() * qr.matrixR().topRows(m).triangularView<Eigen::Upper>().solve(
-                                 MatrixXd::Identity(m, m));
-  return {m, x, root.rowwise().squaredNorm().cwiseQuotient(norms.cwiseAbs2()),
+  const auto unit = least_squares(A * norms.cwiseInverse().asDiagonal(), v);
+  if (unit.rank < m) return {.rank = unit.rank, .x = {}, .inverse = {}};
+  const VectorXd x = unit.x.cwiseQuotient(norms);
+  return {m, x, unit.root.rowwise().squaredNorm().cwiseQuotient(norms.cwiseAbs2()),
           (v - A * x).squaredNorm()};
 }
 
@@ -179,7 +176,7 @@ Iso230_4 iso230_4(const Trace& t) {
   both << VectorXd::Ones(2 * n), A.replicate(2, 1);
   VectorXd v(2 * n);
   v << vector(t.ccw_mm), vector(t.cw_mm);
-  const Eigen::Vector3d common = both.colPivHouseholderQr().solve(v);
+  const Eigen::Vector3d common = least_squares(both, v).x;
   const VectorXd F = v - both.rightCols(2) * common.tail(2);
   return {.G_ccw_mm = own_range(A, vector(t.ccw_mm)),
           .G_cw_mm = own_range(A, vector(t.cw_mm)),

@@ -9,6 +9,7 @@
 
 #include "nc_writer.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/least_squares.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
 namespace turnwright::volumetric {
@@ -225,9 +226,9 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
           s.command[static_cast<std::size_t>(k)] - s.target[static_cast<std::size_t>(k)];
     }
   }
-  // Complete: points in a plane leave the slope across it open, here zero.
-  const Eigen::MatrixXd fit =
-      A * Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(e);
+  // Points in a plane leave the slope across it open: no matter in that plane.
+  Eigen::MatrixXd fit(n, 3);
+  for (Eigen::Index k = 0; k < 3; ++k) fit.col(k) = A * least_squares(A, e.col(k)).x;
   for (Eigen::Index i = 0; i < n; ++i) {
     Stop& s = *moving[static_cast<std::size_t>(i)];
     s.command = s.target + Vec3{fit(i, 0), fit(i, 1), fit(i, 2)};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "turnwright/base/least_squares.hpp"
+
 namespace turnwright::volumetric {
 namespace {
 
@@ -145,14 +147,14 @@ Zone least_squares_zone(std::span<const double> basis, std::size_t columns,
                         std::span<const double> values) {
   const Model m = model_of(basis, columns, values);
   const Eigen::Map<const VectorXd> v(values.data(), m.A.rows());
-  return zone(m, m.A.householderQr().solve(v), v);
+  return zone(m, least_squares(m.A, v).x, v);
 }
 
 Zone minimum_zone(std::span<const double> basis, std::size_t columns,
                   std::span<const double> values) {
   const Model m = model_of(basis, columns, values);
   const Eigen::Map<const VectorXd> v(values.data(), m.A.rows());
-  const Zone squares = zone(m, m.A.householderQr().solve(v), v);
+  const Zone squares = zone(m, least_squares(m.A, v).x, v);
   if (m.A.rows() <= m.A.cols()) return squares;
   const Zone narrow = zone(m, best_uniform(m.A, v), v);
   return narrow.width <= squares.width ? narrow : squares;
