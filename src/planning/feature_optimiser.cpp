@@ -1,6 +1,7 @@
 #include "feature_optimiser.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -57,11 +58,15 @@ double root_bound(const FeatureTask& task, const Recipe& recipe) {
   return optimise::branch_and_bound(one, kInfinity, {.max_nodes = 1}).lower_bound;
 }
 
+std::array<std::vector<double>, 2> starts(const RecipeModel& m) {
+  return {m.start(0.2, 0.2), m.start(0.6, 0.5)};
+}
+
 optimise::Solution least_violation(const RecipeModel& m) {
   optimise::Solution best;
   best.f = kInfinity;
-  for (const auto& [feed, depth] : {std::pair{0.2, 0.2}, {0.6, 0.5}}) {
-    auto s = optimise::least_violation(m.problem(), m.start(feed, depth), -1.0);
+  for (const auto& start : starts(m)) {
+    auto s = optimise::least_violation(m.problem(), start, -1.0);
     if (s.f < best.f) best = std::move(s);
   }
   return best;
@@ -395,6 +400,21 @@ FeatureAnswer nearest(const FeatureTask& task) {
   return a.model ? with_profile(task, std::move(a)) : a;
 }
 
+// Conditions that keep every limit of a recipe, `spare` if others nearby are to do as
+// well.
+std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool spare) {
+  if (!spare)
+    for (const auto& start : starts(m)) {
+      auto choice = m.choice(start);
+      if (m.feasible_value(choice) < kInfinity) return m.point(choice);
+    }
+  for (const auto& start : starts(m)) {
+    auto s = optimise::least_violation(m.problem(), start, -1.0);
+    if (s.f <= kKept) return std::move(s.y);
+  }
+  return {};
+}
+
 FeatureAnswer any_answer(const FeatureTask& task) {
   FeatureAnswer a;
   if (used_up(task.demands)) return a;
@@ -406,9 +426,9 @@ FeatureAnswer any_answer(const FeatureTask& task) {
       chain->functionals = exchange.functionals();
       task.feature.limit_chatter(*chain);
       a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
-      const auto s = least_violation(*a.model);
-      if (!(s.f <= kKept)) break;
-      a.choice = a.model->choice(s.y);
+      const auto y = kept_conditions(*a.model, round > 0);
+      if (!y) break;
+      a.choice = a.model->choice(*y);
       a.feasible = !exchange.add_violated(recipe, task.economy, a.choice);
       if (a.feasible) return a;
     }

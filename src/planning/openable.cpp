@@ -12,9 +12,6 @@ namespace {
 
 using Kind = Openable::Kind;
 
-// A limit so far off counts as none.
-constexpr double kFar = 1e4;
-
 template <class Plan, class F>
 void for_every_roughness(Plan& p, const F& f) {
   for (auto& e : p.drawing.outer) f(e);

@@ -50,6 +50,8 @@ std::vector<Openable> limits_of(const PartPlan& plan);
 /// How often each limit is opened: 1 as it is, infinity without it.
 using Openings = std::vector<double>;
 inline constexpr double kWithout = std::numeric_limits<double>::infinity();
+/// A limit of a machine or tool so far off counts as none.
+inline constexpr double kFar = 1e4;
 
 /// The plan with its limits opened: upper ones times as large, lower ones times as small,
 /// sizes about their middle, the grip by friction and lighter jaws, so that tubes keep

@@ -7,23 +7,81 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kFarOpen = 1e9;
+using Kind = Openable::Kind;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Least share of what the cut may use of a tolerance, from conditions that keep every
-// limit: one variable more, t, with value/limit - 1 <= t.
-double least_share(const FeatureTask& task, const FeatureAnswer& a,
-                   std::size_t tolerance) {
-  const auto& m = *a.model;
-  const auto& full = m.problem();
-  const auto mine = [&](std::size_t i) {
-    const auto& r = m.rows()[i];
+// Whether a limit opens by scaling rows of a model and nothing else.
+bool scales_rows(Kind k) {
+  return k != Kind::grip && k != Kind::spindle_max && k != Kind::spindle_min;
+}
+
+bool is_of(Kind k, Check c) {
+  switch (k) {
+    case Kind::Ra:
+      return c == Check::Ra;
+    case Kind::Rz:
+      return c == Check::Rz;
+    case Kind::power:
+      return c == Check::power || c == Check::torque;
+    case Kind::feed_force:
+      return c == Check::feed_force;
+    case Kind::tool_force:
+      return c == Check::force;
+    case Kind::life_min:
+      return c == Check::life_min;
+    case Kind::life_max:
+      return c == Check::life_max;
+    case Kind::chatter:
+      return c == Check::chatter;
+    default:
+      return false;
+  }
+}
+
+// How far a limit opens: machines and tools no further than kFar.
+double farthest(Kind k) {
+  return k == Kind::tolerance || k == Kind::Ra || k == Kind::Rz ? 1e9 : kFar;
+}
+
+// One limit of the plan as it is opened: a tolerance by its place there.
+struct Asked {
+  Kind kind;
+  std::size_t tolerance = 0;
+
+  bool has(const RecipeModel& m, std::size_t row) const {
+    const auto& r = m.rows()[row];
+    if (kind != Kind::tolerance) return is_of(kind, r.check);
     return r.check == Check::tolerance &&
            m.chain().functionals[r.operation].tolerance == tolerance;
-  };
+  }
+
+  // What conditions take of it.
+  double share(const FeatureTask& task, const RecipeModel& m,
+               const Choice<double>& choice) const {
+    double most = 0;
+    if (kind == Kind::chatter) return task.feature.chatter_share(m.chain(), choice);
+    if (kind == Kind::tolerance) {
+      const auto e = task.feature.profile(m.recipe(), task.economy, choice);
+      for (const auto& d : task.demands)
+        if (d.tolerance == tolerance) return 1 + worst_excess({d}, e);
+      return 1;
+    }
+    for (const auto& v : m.values(choice))
+      if (is_of(kind, v.row.check)) most = std::max(most, v.value / v.limit);
+    return most;
+  }
+};
+
+// Least share of a limit that conditions which keep every limit take: one variable more,
+// t, with g <= t.
+double least_share(const FeatureTask& task, const FeatureAnswer& a, const Asked& asked) {
+  constexpr double kLeast = -20;  // of ln(share), and of share - 1
+  const auto& m = *a.model;
+  const auto& full = m.problem();
   const auto n = full.lower.size();
   optimise::Problem p{full.lower, full.upper, full.constraints, {}};
-  p.lower.push_back(-1);
+  p.lower.push_back(kLeast);
   p.upper.push_back(0.1);
   p.evaluate = [&](std::span<const double> y, optimise::Values& out) {
     optimise::Values v{0, std::vector<double>(n), std::vector<double>(full.constraints),
@@ -33,10 +91,11 @@ double least_share(const FeatureTask& task, const FeatureAnswer& a,
     std::fill(out.df.begin(), out.df.end(), 0.0);
     out.df[n] = 1;
     for (std::size_t i = 0; i < full.constraints; ++i) {
-      out.g[i] = v.g[i] - (mine(i) ? y[n] : 0);
+      const bool mine = asked.has(m, i);
+      out.g[i] = v.g[i] - (mine ? y[n] : 0);
       std::copy_n(v.dg.begin() + static_cast<long>(i * n), n,
                   out.dg.begin() + static_cast<long>(i * (n + 1)));
-      out.dg[i * (n + 1) + n] = mine(i) ? -1 : 0;
+      out.dg[i * (n + 1) + n] = mine ? -1 : 0;
     }
   };
   auto y = m.point(a.choice);
@@ -45,34 +104,35 @@ double least_share(const FeatureTask& task, const FeatureAnswer& a,
   auto choice = a.choice;
   if (s.status != optimise::Status::no_feasible_point_met)
     choice = m.choice({s.y.begin(), s.y.end() - 1});
-  const auto e = task.feature.profile(m.recipe(), task.economy, choice);
-  for (const auto& d : task.demands)
-    if (d.tolerance == tolerance) return std::min(1.0, 1 + worst_excess({d}, e));
-  return 1;
+  return std::min(1.0, asked.share(task, m, choice));
 }
 
 // Where a tolerance stands once those before it are left out.
 std::size_t place_of(const Feasibility& part, std::size_t limit, const Openings& times) {
   std::size_t place = 0;
   for (std::size_t i = 0; i < limit; ++i)
-    place += part.limits()[i].kind == Openable::Kind::tolerance && times[i] != kWithout;
+    place += part.limits()[i].kind == Kind::tolerance && times[i] != kWithout;
   return place;
 }
 
 // Tries an opening; if it suffices, how far it might have been less by what was found.
 double reached(Feasibility& part, std::size_t limit, Openings times, double opening) {
+  const auto& l = part.limits()[limit];
   times[limit] = opening;
-  if (part.limits()[limit].kind != Openable::Kind::tolerance)
-    return part.with(times) ? opening : kInfinity;
-  const auto place = place_of(part, limit, times);
-  const double now = name_of(part.plan(), part.limits()[limit]).now;
+  if (!scales_rows(l.kind)) return part.with(times) ? opening : kInfinity;
+  const Asked asked{l.kind, place_of(part, limit, times)};
+  const double now = name_of(part.plan(), l).now;
   double least = 0;  // the surface that asks for most
+  const auto ask = [&](double opened_share) { least = std::max(least, opened_share); };
   const bool kept = part.with(times, [&](const FeatureTask& t, const FeatureAnswer& a) {
-    for (const auto& d : t.demands)
-      if (d.tolerance == place && d.shape != Demand::Shape::none) {
-        const double left = now * opening - d.taken_mm;
-        least = std::max(least, (d.taken_mm + left * least_share(t, a, place)) / now);
-      }
+    if (l.kind == Kind::tolerance) {
+      for (const auto& d : t.demands)
+        if (d.tolerance == asked.tolerance && d.shape != Demand::Shape::none)
+          ask((d.taken_mm + (now * opening - d.taken_mm) * least_share(t, a, asked)) /
+              now);
+    } else if (bears_on(part.plan(), l, t.feature.surface())) {
+      ask(opening * least_share(t, a, asked));
+    }
   });
   if (!kept) return kInfinity;
   return least > 1 ? std::min(least, opening) : opening;
@@ -99,14 +159,14 @@ std::optional<double> least_opening(Feasibility& part, std::size_t limit,
   const auto& l = part.limits()[limit];
   times[limit] = kWithout;
   if (!part.with(times)) return {};
-  if (is_given(l) || l.kind >= Openable::Kind::depth_min) return kWithout;
-  double low = 1, enough = reached(part, limit, times, kFarOpen);
+  if (is_given(l) || l.kind >= Kind::depth_min) return kWithout;
+  double low = 1, enough = reached(part, limit, times, farthest(l.kind));
   if (enough == kInfinity) return {};
   // Down in growing steps from what a local search reached to one that is refuted, and
   // by halving where none has searched.
   double step = kOpening;
   while (enough > low * kOpening) {
-    const bool halve = l.kind != Openable::Kind::tolerance || !(enough / step > low);
+    const bool halve = !scales_rows(l.kind) || !(enough / step > low);
     const double next = halve ? std::sqrt(enough * low) : enough / step;
     const double at = reached(part, limit, times, next);
     if (at < kInfinity) {
