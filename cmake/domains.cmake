@@ -71,7 +71,7 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
           planned.cpp robust.cpp pareto.cpp what_if.cpp plan.cpp predict.cpp
           DEPENDS base part catalogue optimise deflection cutting volumetric milling tolerance
           PRIVATE_LIBS Eigen3::Eigen fmt::fmt
-          TESTS allowance_test.cpp machine_share_test.cpp chatter_test.cpp chip_breaker_test.cpp
+          TESTS allowance_test.cpp chebyshev_test.cpp machine_share_test.cpp chatter_test.cpp chip_breaker_test.cpp
                 recipe_model_test.cpp window_test.cpp plan_test.cpp
                 prices_test.cpp conflicts_test.cpp fixed_test.cpp milled_search_test.cpp milled_test.cpp
           TEST_DEPENDS document)

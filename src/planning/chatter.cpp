@@ -162,15 +162,11 @@ void Feature::limit_chatter(Chain& chain, std::optional<double> a_mm) const {
     }
     for (std::size_t k = 0; k < places.size(); ++k)
       if (near[k]) some.push_back(places[k]);
-    const auto u = chebyshev(kNodes);
-    Eigen::MatrixXd values(static_cast<Eigen::Index>(kNodes),
-                           static_cast<Eigen::Index>(some.size()));
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const auto c = last_yields(o, centre + half * u[i], some);
-      for (std::size_t k = 0; k < c.size(); ++k)
-        values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = c[k];
-    }
-    const Eigen::MatrixXd c = through(u, values);
+    const Eigen::MatrixXd c = following([&](double u) {
+      const auto all = last_yields(o, centre + half * u, some);
+      return Eigen::VectorXd(
+          Eigen::VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size())));
+    });
     for (std::size_t k = 0; k < some.size(); ++k)
       add_place(some[k], polynomial(c.col(static_cast<Eigen::Index>(k)), centre, half),
                 o);

@@ -444,20 +444,18 @@ void Feature::add_laws(Chain& chain, std::optional<double> a_mm) const {
   if (chain.stations.empty()) return;
   const double lower = a_mm.value_or(chain.a.lower), upper = a_mm.value_or(chain.a.upper);
   const bool open = lower < upper;
-  const auto u = open ? chebyshev(kNodes) : std::vector<double>{0};
   const double centre = (lower + upper) / 2, half = open ? (upper - lower) / 2 : 1;
   std::size_t passes = 0;
   for (const auto& o : chain.operations) passes += o.passes.size();
-  const auto columns = static_cast<Eigen::Index>(4 * passes * chain.stations.size());
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(u.size()), columns);
-  for (std::size_t i = 0; i < u.size(); ++i) {
+  const auto laws = [&](double u) {
+    Eigen::VectorXd all(static_cast<Eigen::Index>(4 * passes * chain.stations.size()));
     Eigen::Index column = 0;
-    for (const auto& station : laws_at(chain, centre + half * u[i]))
+    for (const auto& station : laws_at(chain, centre + half * u))
       for (const auto& v : station)
-        for (const double value : {v.p, v.q, v.s, v.r})
-          values(static_cast<Eigen::Index>(i), column++) = value;
-  }
-  const Eigen::MatrixXd c = open ? through(u, values) : values;
+        for (const double value : {v.p, v.q, v.s, v.r}) all[column++] = value;
+    return all;
+  };
+  const Eigen::MatrixXd c = open ? following(laws) : Eigen::MatrixXd(laws(0).transpose());
   Eigen::Index column = 0;
   const auto next = [&] { return polynomial(c.col(column++), centre, half); };
   for (auto& station : chain.stations)

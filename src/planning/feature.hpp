@@ -78,9 +78,8 @@ class Feature {
   Holding holding() const;
 
   /// The chain of a recipe without functionals; stations at the given places.  Over an
-  /// open finishing depth the laws are polynomials in it, fitted at 11 Chebyshev points
-  /// (the body changes by a few per cent over the range: the last coefficients are
-  /// rounding).  Nothing if the recipe leaves no depth to choose.
+  /// open finishing depth the laws are polynomials in it that follow them to rounding
+  /// (chebyshev.hpp).  Nothing if the recipe leaves no depth to choose.
   std::optional<Chain> chain(const Recipe& recipe, const Economy& economy,
                              const std::vector<double>& stations,
                              std::optional<double> a_mm = {}) const;

@@ -657,6 +657,33 @@ TEST(Predict, PassesThatDoNotAddUpAreTold) {
             "d2: the given passes do not add up to the 5 mm to take off");
 }
 
+// Four millimetres off a radius of eight more than double what it yields: polynomials in
+// the depth have to follow that to the last 5e-10 of a tolerance.
+TEST(Plan, AThinShaftOfDeepCutsIsPlanned) {
+  auto d = nlohmann::json::parse(R"({
+      "format": "turnwright-part/1", "name": "thin", "material": "CuZn39Pb3",
+      "stock": {"kind": "bar", "diameter_mm": 32, "length_mm": 146,
+                "left_allowance_mm": 2},
+      "outer": [
+        {"id": "d1", "kind": "cylinder", "length_mm": 20, "diameter_mm": 21},
+        {"id": "d2", "kind": "cylinder", "length_mm": 30, "diameter_mm": 26},
+        {"id": "d3", "kind": "cylinder", "length_mm": 54, "diameter_mm": 16,
+         "fit": "k6", "Ra_um": 1.6},
+        {"id": "d4", "kind": "cylinder", "length_mm": 38, "diameter_mm": 13}],
+      "setups": [
+        {"hold": "left", "grip_mm": 19,
+         "clampings": ["chuck", "chuck-tailstock", "between-centres"]},
+        {"hold": "right", "grip_mm": 30,
+         "clampings": ["chuck", "chuck-tailstock", "between-centres"]}],
+      "machine": "lathe-medium", "batch": 100})");
+  for (const char* fit : {"k6", "k7", "h7", "h6"}) {
+    d["outer"][2]["fit"] = fit;
+    const auto r = planned(d);
+    EXPECT_EQ(r.status, PlanStatus::ok) << fit;
+    EXPECT_LE(r.certificate.gap, 1e-4) << fit;
+  }
+}
+
 TEST(Plan, SameRequestSameBytes) {
   const auto document = reference_part("spindle-nose");
   const auto once = document::to_json(planned(document), {}).dump();
