@@ -1,22 +1,13 @@
-// libFuzzer target of the document doors: --door=NAME, one of the request table.  Inputs
-// are mutated as JSON, so that most of them get past the parser.
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <random>
 
 #include "answered.hpp"
-#include "option.hpp"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
-                                        std::size_t most);
+#include "targets.hpp"
 
 namespace turnwright::fuzz {
 namespace {
 
 using nlohmann::json;
-
-const service::Request* door = nullptr;
 
 class Mutation {
  public:
@@ -101,35 +92,25 @@ class Mutation {
 };
 
 }  // namespace
+
+Target door_target(const std::string& name) {
+  return [&door = door_named(name)](std::string_view input) {
+    json request;
+    try {
+      request = document::parse(input, "fuzz");
+    } catch (const InputError&) {
+      return;
+    }
+    answered(door, request);
+  };
+}
+
+bool mutate_json(std::string& text, unsigned seed) {
+  auto document = json::parse(text, nullptr, false);
+  if (document.is_discarded()) return false;
+  for (unsigned i = 0; i <= seed % 3; ++i) Mutation(document, seed + i).apply();
+  text = document.dump(-1, ' ', false, json::error_handler_t::replace);
+  return true;
+}
+
 }  // namespace turnwright::fuzz
-
-using namespace turnwright;
-
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  fuzz::door = &fuzz::door_named(fuzz::option(*argc, *argv, "door"));
-  return 0;
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  nlohmann::json request;
-  try {
-    request = document::parse({reinterpret_cast<const char*>(data), size}, "fuzz");
-  } catch (const InputError&) {
-    return 0;
-  }
-  fuzz::answered(*fuzz::door, request);
-  return 0;
-}
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
-  auto document = nlohmann::json::parse(data, data + size, nullptr, false);
-  if (document.is_discarded() || seed % 50 == 0)
-    return LLVMFuzzerMutate(data, size, most);
-  for (unsigned i = 0; i <= seed % 3; ++i) fuzz::Mutation(document, seed + i).apply();
-  const std::string text =
-      document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
-  std::memcpy(data, text.data(), text.size());
-  return text.size();
-}

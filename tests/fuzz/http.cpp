@@ -1,9 +1,8 @@
-// libFuzzer target of the HTTP server: bytes as a client sends them.  Whatever they are,
-// the server closes, and answers the next.
 #include <thread>
 
 #include "../service/http_client.hpp"
 #include "answered.hpp"
+#include "targets.hpp"
 #include "turnwright/service/server.hpp"
 
 namespace turnwright::fuzz {
@@ -33,14 +32,15 @@ class Running {
 };
 
 }  // namespace
-}  // namespace turnwright::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace turnwright;
-  static service::HttpApi api(TURNWRIGHT_SOURCE_DIR, fuzz::catalogue(), nullptr);
-  const fuzz::Running server(api);
-  const service::RawClient client(server.port());
-  client.send({reinterpret_cast<const char*>(data), size});
-  (void)client.rest();
-  return 0;
+Target http_target() {
+  return [](std::string_view input) {
+    static service::HttpApi api(TURNWRIGHT_SOURCE_DIR, catalogue(), nullptr);
+    const Running server(api);
+    const service::RawClient client(server.port());
+    client.send(std::string(input));
+    (void)client.rest();
+  };
 }
+
+}  // namespace turnwright::fuzz

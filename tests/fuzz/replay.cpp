@@ -1,7 +1,6 @@
 // A fuzzer without libFuzzer, for any compiler and the short run of every test: the kept
 // corpus once, then mutations of it in a fixed order.
-// Usage: replay_door --door=NAME --corpus=FILE.jsonl --runs=N     (other targets: their
-// option)
+// Usage: fuzz --target=NAME --corpus=FILE.jsonl --runs=N
 #include <cstdint>
 #include <fstream>
 #include <iostream>
@@ -12,12 +11,10 @@
 
 #include "option.hpp"
 
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-extern "C" __attribute__((weak)) int LLVMFuzzerInitialize(int* argc, char*** argv);
-extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data,
-                                                                     std::size_t size,
-                                                                     std::size_t most,
-                                                                     unsigned seed);
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed);
 
 namespace {
 
@@ -63,7 +60,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
 
 int main(int argc, char** argv) {
   using turnwright::fuzz::option;
-  if (LLVMFuzzerInitialize) LLVMFuzzerInitialize(&argc, &argv);
+  LLVMFuzzerInitialize(&argc, &argv);
   std::ifstream file(option(argc, argv, "corpus"));
   std::vector<std::vector<std::uint8_t>> corpus;
   for (std::string line; std::getline(file, line);) corpus.push_back(bytes(line));
@@ -77,10 +74,8 @@ int main(int argc, char** argv) {
     auto input = corpus[below(corpus.size())];
     std::size_t size = input.size();
     input.resize(std::max(size, kLongest));
-    size = LLVMFuzzerCustomMutator
-               ? LLVMFuzzerCustomMutator(input.data(), size, input.size(),
-                                         static_cast<unsigned>(random_number()))
-               : LLVMFuzzerMutate(input.data(), size, input.size());
+    size = LLVMFuzzerCustomMutator(input.data(), size, input.size(),
+                                   static_cast<unsigned>(random_number()));
     input.resize(size);
     run(input);
   }

@@ -1,9 +1,7 @@
-// libFuzzer target of the readers of text, --kind=: program and program-lathe, that of
-// `compensate`; csv-NAME, the table of a door; batch, a line of a batch; json, any text.
-#include <cstdint>
+#include <optional>
 
 #include "answered.hpp"
-#include "option.hpp"
+#include "targets.hpp"
 #include "turnwright/document/file.hpp"
 #include "turnwright/service/batch_line.hpp"
 
@@ -12,79 +10,83 @@ namespace {
 
 using nlohmann::json;
 
-std::string kind;
-json request;
-json::json_pointer place;
-const service::Request* door = nullptr;
+/// A request with a text at some place.
+struct Text {
+  json request;
+  json::json_pointer place;
+};
 
-/// The first "csv" of the door's examples.
-bool find_csv(const json& value, const json::json_pointer& at) {
-  if (!value.is_structured()) return false;
+/// The place of the first "csv", if there is one.
+std::optional<json::json_pointer> find_csv(const json& value,
+                                           const json::json_pointer& at) {
+  if (!value.is_structured()) return {};
   for (const auto& [key, member] : value.items()) {
     const auto pointer = value.is_array() ? at / std::stoul(key) : at / key;
-    if (key == "csv") place = pointer;
-    if (key == "csv" || find_csv(member, pointer)) return true;
+    if (key == "csv") return pointer;
+    if (const auto inside = find_csv(member, pointer)) return inside;
   }
-  return false;
+  return {};
 }
 
 /// As a document can hold it: in UTF-8.
-json readable(const std::string& text) {
+json readable(std::string_view text) {
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-void choose() {
-  if (kind == "json" || kind == "batch") return;
-  const bool csv = kind.starts_with("csv-"), lathe = kind == "program-lathe";
-  door = &door_named(csv ? kind.substr(4) : "compensate");
-  if (csv) {
-    const auto schema =
-        document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/schemas/" +
-                             service::request_schema(*door));
-    for (const auto& example : schema["examples"])
-      if (find_csv(example, json::json_pointer())) {
-        request = example;
-        return;
-      }
-    std::cerr << "no table in the examples of " << door->name << '\n';
-    std::exit(2);
-  }
-  request = {{"chain", lathe ? "wCfZXt" : "wfXYZt"}, {"axes", json::array()}};
+Text table_of(const service::Request& door) {
+  const auto schema = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
+                                           "/schemas/" + service::request_schema(door));
+  for (const auto& example : schema["examples"])
+    if (const auto place = find_csv(example, json::json_pointer()))
+      return {example, *place};
+  std::cerr << "no table in the examples of " << door.name << '\n';
+  std::exit(2);
+}
+
+Text program(const std::string& chain) {
+  json request{{"chain", chain}, {"axes", json::array()}};
   for (const char* axis : {"C", "Z", "X", "Y"})
-    if (request["chain"].get<std::string>().find(axis) != std::string::npos)
+    if (chain.find(axis) != std::string::npos)
       request["axes"].push_back({{"name", axis}});
   for (json& axis : request["axes"])
     if (axis["name"] == "X")
       axis["err"] = {{"EXX", {{"c", {0, 1e-3, 2e-3, 0}}, {"b", -2e-3}}}};
   request["tool_offsets_mm"] = {{"1", {0, 0, 50}}};
   request["work_offsets_mm"] = {{"G55", {1, 0, 2}}};
-  place = json::json_pointer("/program");
+  return {request, json::json_pointer("/program")};
+}
+
+Target in_request(const std::string& door, Text text) {
+  return [&row = door_named(door), text](std::string_view input) {
+    auto request = text.request;
+    request[text.place] = readable(input);
+    answered(row, request);
+  };
+}
+
+template <class Read>
+Target refused_or_read(const Read& read) {
+  return [read](std::string_view input) {
+    try {
+      read(input);
+    } catch (const InputError&) {
+    }
+  };
 }
 
 }  // namespace
+
+Target text_target(const std::string& name) {
+  if (name == "batch")
+    return refused_or_read(
+        [](std::string_view line) { (void)service::read_batch_line(std::string(line)); });
+  if (name == "json")
+    return refused_or_read(
+        [](std::string_view text) { (void)document::parse(text, "fuzz"); });
+  if (name == "program") return in_request("compensate", program("wfXYZt"));
+  if (name == "program-lathe") return in_request("compensate", program("wCfZXt"));
+  if (!name.starts_with("csv-")) return {};
+  return in_request(name.substr(4), table_of(door_named(name.substr(4))));
+}
+
 }  // namespace turnwright::fuzz
-
-using namespace turnwright;
-
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  fuzz::kind = fuzz::option(*argc, *argv, "kind");
-  fuzz::choose();
-  return 0;
-}
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string text(reinterpret_cast<const char*>(data), size);
-  if (fuzz::door) {
-    fuzz::request[fuzz::place] = fuzz::readable(text);
-    fuzz::answered(*fuzz::door, fuzz::request);
-    return 0;
-  }
-  try {
-    if (fuzz::kind == "batch")
-      (void)service::read_batch_line(text);
-    else
-      (void)document::parse(text, "fuzz");
-  } catch (const InputError&) {
-  }
-  return 0;
-}

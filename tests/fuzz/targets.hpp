@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+/// What is fuzzed, by name: each takes one input.
+namespace turnwright::fuzz {
+
+using Target = std::function<void(std::string_view input)>;
+
+/// Bytes as a client sends them to the HTTP server: whatever they are, it closes, and
+/// answers the next.
+Target http_target();
+
+/// Readers of text: program and program-lathe, that of `compensate`; csv-NAME, the table
+/// of a door; batch, a line of a batch; json, any text.  Empty for other names.
+Target text_target(const std::string& name);
+
+/// A document door of the request table; ends the program if there is none.
+Target door_target(const std::string& name);
+
+/// One to three changes of a document's values; false if `text` is no JSON.
+bool mutate_json(std::string& text, unsigned seed);
+
+}  // namespace turnwright::fuzz
