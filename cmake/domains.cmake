@@ -152,7 +152,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION
   target_compile_definitions(turnwright_service PUBLIC __cpp_impl_coroutine=201902L
     BOOST_ASIO_HAS_CO_AWAIT BOOST_ASIO_HAS_STD_COROUTINE)
   set_source_files_properties(src/service/http/connection.cpp src/service/http/server.cpp
-    PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+    PROPERTIES COMPILE_OPTIONS -fno-sanitize=all SKIP_PRECOMPILE_HEADERS ON)
 endif()
 include(cmake/page.cmake)
 add_executable(turnwright src/app/main.cpp src/app/batch.cpp src/app/progress_line.cpp src/app/serve.cpp)
