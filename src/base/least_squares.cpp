@@ -11,13 +11,15 @@ LeastSquares least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& v,
   Eigen::ColPivHouseholderQR<MatrixXd> qr(A.rows(), A.cols());
   if (dependent > 0) qr.setThreshold(dependent);
   qr.compute(A);
-  LeastSquares out{qr.rank(), qr.solve(v), {}};
+  LeastSquares out{qr.rank(), {}, {}};
   MatrixXd inverse = MatrixXd::Zero(A.cols(), out.rank);
   inverse.topRows(out.rank) = qr.matrixR()
                                   .topLeftCorner(out.rank, out.rank)
                                   .triangularView<Eigen::Upper>()
                                   .solve(MatrixXd::Identity(out.rank, out.rank));
   out.root = qr.colsPermutation() * inverse;
+  const Eigen::VectorXd along = qr.householderQ().adjoint() * v;
+  out.x = out.root * along.head(out.rank);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
 
 namespace turnwright::cutting {
@@ -34,6 +35,8 @@ struct Regression {
 
   Regression(const MatrixXd& X, const VectorXd& y) {
     const auto solved = least_squares(X, y);
+    if (solved.rank < X.cols())
+      throw ModelRangeError("material_fit: the cuts do not tell the exponents apart");
     c = solved.x;
     inverse = solved.root * solved.root.transpose();
     residual = y - X * c;

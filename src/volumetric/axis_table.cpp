@@ -1,6 +1,7 @@
 #include "turnwright/volumetric/axis_table.hpp"
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -35,6 +36,10 @@ AxisFit fit_axis(const AxisTable& table, double Q, int degree) {
   }
   const auto [rank, x, root] = least_squares(A, v);
   AxisFit fit;
+  if (rank < columns) {
+    fit.u.fill(std::numeric_limits<double>::infinity());
+    return fit;
+  }
   if (n > columns)
     fit.s = std::sqrt((v - A * x).squaredNorm() / static_cast<double>(n - columns));
   for (Eigen::Index k = 0; k < columns; ++k) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -50,6 +51,12 @@ TEST(AxisTable, UncertaintyIsTheScatterOfRepeatedFits) {
     }
   }
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(square[k] / u[k], 1, 0.15) << k;
+}
+
+TEST(AxisTable, PlacesThatAreOneToRoundingTellNothing) {
+  const AxisFit fit = fit_axis({{0, 1e-300, 2e-300, 3e-300}, {1, 2, 3, 4}, {}}, 100, 1);
+  for (const double u : fit.u) EXPECT_TRUE(std::isinf(u));
+  EXPECT_EQ(fit.error.c[0], 0);
 }
 
 TEST(AxisTable, RefusesTooLittle) {

@@ -54,7 +54,8 @@ struct KienzleFit {
 /// out while that is less likely than outlier_p over the number of measurements
 /// (Bonferroni), up to a fifth of them, never below three beyond the unknowns.
 /// Source: regression as in any textbook; derived here, material_fit_test covers.
-/// @throws std::domain_error if a number is not positive and finite.
+/// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
+///   the measurements do not tell the exponents apart.
 KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& options = {});
 
 struct LifePoint {
@@ -80,7 +81,8 @@ struct TaylorFit {
 /// normal errors.  Not identifiable: n and C, where the speed hardly moved or the life
 /// does not fall with it beyond doubt. Source: Fieller (1954) for ratios; derived here
 /// from (2), material_fit_test covers.
-/// @throws std::domain_error if a number is not positive and finite.
+/// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
+///   the measurements do not tell the exponents apart.
 TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double given_b,
                      const FitOptions& options = {});
 

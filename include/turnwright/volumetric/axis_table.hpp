@@ -20,7 +20,8 @@ struct AxisFit {
 
 /// Least squares of c0 + .. + c_degree t^degree + b s over all readings, t = q/Q; b is
 /// half the difference of the two approaches, 0 if there is only one.  Uncertainties from
-/// the residuals, 0 if they leave no degree of freedom.
+/// the residuals, 0 if they leave no degree of freedom, infinite, of an error left 0, if
+/// the positions differ by rounding alone.
 /// @throws std::domain_error if columns differ in length, degree is not 0 to 3, or fewer
 ///   than degree + 1 positions differ.
 AxisFit fit_axis(const AxisTable& table, double Q, int degree = 3);
