@@ -330,6 +330,21 @@ class FeatureSearch {
   std::string unfinished_;
 };
 
+// Conditions that keep every limit of a recipe, `spare` if others nearby are to do as
+// well.
+std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool spare) {
+  if (!spare)
+    for (const auto& start : starts(m)) {
+      auto choice = m.choice(start);
+      if (m.feasible_value(choice) < kInfinity) return m.point(choice);
+    }
+  for (const auto& start : starts(m)) {
+    auto s = optimise::least_violation(m.problem(), start, -1.0);
+    if (s.f <= kKept) return std::move(s.y);
+  }
+  return {};
+}
+
 }  // namespace
 
 double least_objective(const FeatureTask& task) {
@@ -398,21 +413,6 @@ FeatureAnswer nearest(const FeatureTask& task) {
       break;
   }
   return a.model ? with_profile(task, std::move(a)) : a;
-}
-
-// Conditions that keep every limit of a recipe, `spare` if others nearby are to do as
-// well.
-std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool spare) {
-  if (!spare)
-    for (const auto& start : starts(m)) {
-      auto choice = m.choice(start);
-      if (m.feasible_value(choice) < kInfinity) return m.point(choice);
-    }
-  for (const auto& start : starts(m)) {
-    auto s = optimise::least_violation(m.problem(), start, -1.0);
-    if (s.f <= kKept) return std::move(s.y);
-  }
-  return {};
 }
 
 FeatureAnswer any_answer(const FeatureTask& task) {

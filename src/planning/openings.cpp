@@ -11,7 +11,8 @@ using Kind = Openable::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Whether a limit opens by scaling rows of a model and nothing else.
+// Whether a limit opens by scaling rows of a model; tolerances set the jaws' force
+// besides.
 bool scales_rows(Kind k) {
   return k != Kind::grip && k != Kind::spindle_max && k != Kind::spindle_min;
 }
@@ -44,6 +45,8 @@ double farthest(Kind k) {
   return k == Kind::tolerance || k == Kind::Ra || k == Kind::Rz ? 1e9 : kFar;
 }
 
+constexpr double kSpare = 1.0002;  // more than a local search needs
+
 // One limit of the plan as it is opened: a tolerance by its place there.
 struct Asked {
   Kind kind;
@@ -59,7 +62,6 @@ struct Asked {
   // What conditions take of it.
   double share(const FeatureTask& task, const RecipeModel& m,
                const Choice<double>& choice) const {
-    double most = 0;
     if (kind == Kind::chatter) return task.feature.chatter_share(m.chain(), choice);
     if (kind == Kind::tolerance) {
       const auto e = task.feature.profile(m.recipe(), task.economy, choice);
@@ -67,6 +69,7 @@ struct Asked {
         if (d.tolerance == tolerance) return 1 + worst_excess({d}, e);
       return 1;
     }
+    double most = 0;
     for (const auto& v : m.values(choice))
       if (is_of(kind, v.row.check)) most = std::max(most, v.value / v.limit);
     return most;
@@ -160,21 +163,20 @@ std::optional<double> least_opening(Feasibility& part, std::size_t limit,
   times[limit] = kWithout;
   if (!part.with(times)) return {};
   if (is_given(l) || l.kind >= Kind::depth_min) return kWithout;
-  double low = 1, enough = reached(part, limit, times, farthest(l.kind));
-  if (enough == kInfinity) return {};
-  // Down in growing steps from what a local search reached to one that is refuted, and
-  // by halving where none has searched.
-  double step = kOpening;
-  while (enough > low * kOpening) {
-    const bool halve = !scales_rows(l.kind) || !(enough / step > low);
-    const double next = halve ? std::sqrt(enough * low) : enough / step;
+  double low = 1, enough = farthest(l.kind), might = reached(part, limit, times, enough);
+  if (might == kInfinity) return {};
+  // Each opening is tried before it counts: what a local search needs, then the least
+  // that is worth it; by halving where nothing is known.
+  while (enough / low > kOpening + 1e-9) {
+    const bool known = low < might && might < enough;
+    double next = known ? enough / kOpening : std::sqrt(enough * low);
+    if (known && kSpare * might < enough / kSpare) next = kSpare * might;
     const double at = reached(part, limit, times, next);
     if (at < kInfinity) {
-      enough = at;
-      step *= step;
+      enough = next;
+      might = at;
     } else {
       low = next;
-      step = kOpening;
     }
   }
   const auto name = name_of(part.plan(), l);
@@ -182,7 +184,7 @@ std::optional<double> least_opening(Feasibility& part, std::size_t limit,
     times[limit] = as_told(name, enough * more);
     if (part.with(times)) return times[limit];
   }
-  return {};
+  return enough;
 }
 
 }  // namespace turnwright::planning

@@ -325,6 +325,43 @@ TEST(Conflicts, ALimitFarOutOfReachIsToldWithWhatIsInReach) {
   EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
 }
 
+// Jaws grip harder where a tolerance is wider, so what the cut alone needs is not enough.
+TEST(Conflicts, AToleranceThatSetsTheJawsForceIsToldAsFarAsItHasToOpen) {
+  auto d = reference_part("aluminium-tube");
+  d["machine_share_um"] = 0;
+  auto& value = d["tolerances"][0]["value_mm"];
+  value = 0.001;
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.relax.size(), 1u);
+  EXPECT_EQ(r.relax[0].limit, "t1 cylindricity of b1");
+  value = r.relax[0].needed;
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+  value = 0.98 * r.relax[0].needed;
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::infeasible);
+}
+
+class MachineLimit : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(MachineLimit, OpensAsFarAsToldAndNoLess) {
+  const auto [limit, factor] = GetParam();
+  auto d = inlined(pin());
+  scale_machine(d, limit, factor);
+  const auto r = planned(d);
+  ASSERT_EQ(r.relax.size(), 1u) << d.dump();
+  auto c = opening(r.relax[0]);
+  EXPECT_EQ(c.limit, limit);
+  EXPECT_TRUE(feasible(changed(d, c)));
+  c.to = *c.to * (*c.to > c.now ? 0.98 : 1.02);
+  EXPECT_FALSE(feasible(changed(d, c)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Conflicts, MachineLimit,
+                         testing::Values(std::pair{"power", 0.01},
+                                         std::pair{"feed force", 0.01},
+                                         std::pair{"cutting force", 0.01},
+                                         std::pair{"least tool life", 1e-4},
+                                         std::pair{"grip of the chuck", 0.01}));
+
 class OverConstrained : public testing::TestWithParam<unsigned> {};
 
 TEST_P(OverConstrained, SetsAreIrreducibleAndWhatIsToldMakesThePartFeasible) {
