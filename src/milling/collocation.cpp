@@ -9,6 +9,7 @@
 
 #include "spectrum.hpp"
 #include "stretches.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::milling {
@@ -145,6 +146,7 @@ Spectrum by_arnoldi(const Map& map) {
   basis.col(0).normalize();
   Index look = 30;  // at which size of the basis
   for (Index k = 0; k < most; ++k) {
+    leave_if_asked();
     VectorXd next = map(basis.col(k));
     for (int twice = 0; twice < 2; ++twice) {
       const VectorXd part = basis.leftCols(k + 1).transpose() * next;
