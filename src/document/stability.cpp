@@ -182,10 +182,10 @@ ordered_json best(const Request& q, const std::vector<SpeedLimits>& speeds) {
           {"limited_by", at->limit_mm() ? "chatter" : "ap_max_mm"}};
 }
 
-/// Local maxima of the limit over the speeds in rising order.
 /// A speed, and to which depth it is stable, if that is told.
 using StableAt = std::pair<double, std::optional<double>>;
 
+/// Local maxima of the limit over the speeds in rising order.
 ordered_json magic(std::vector<StableAt> all) {
   std::ranges::sort(all);
   ordered_json out = ordered_json::array();

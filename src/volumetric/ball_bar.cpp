@@ -41,15 +41,12 @@ MatrixXd circle(const std::vector<double>& theta) {
   return A;
 }
 
-double narrowest(const std::vector<double>& theta, const std::vector<double>& path) {
+/// Between two circles about the centre that `zone` finds: minimum_zone or
+/// least_squares_zone.
+double width(decltype(minimum_zone) zone, const std::vector<double>& theta,
+             const std::vector<double>& path) {
   const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> A = circle(theta);
-  return minimum_zone({A.data(), static_cast<std::size_t>(A.size())}, 2, path).width;
-}
-
-double own_range(const MatrixXd& A, const VectorXd& path) {
-  MatrixXd whole(A.rows(), 3);
-  whole << VectorXd::Ones(A.rows()), A;
-  return range(path - whole * least_squares(whole, path).x);
+  return zone({A.data(), static_cast<std::size_t>(A.size())}, 2, path).width;
 }
 
 /// Terms of (2) that both paths see alike, and those that change sign with dir.
@@ -178,10 +175,10 @@ Iso230_4 iso230_4(const Trace& t) {
   v << vector(t.ccw_mm), vector(t.cw_mm);
   const Eigen::Vector3d common = least_squares(both, v).x;
   const VectorXd F = v - both.rightCols(2) * common.tail(2);
-  return {.G_ccw_mm = own_range(A, vector(t.ccw_mm)),
-          .G_cw_mm = own_range(A, vector(t.cw_mm)),
-          .G_ccw_mz_mm = narrowest(t.theta_rad, t.ccw_mm),
-          .G_cw_mz_mm = narrowest(t.theta_rad, t.cw_mm),
+  return {.G_ccw_mm = width(least_squares_zone, t.theta_rad, t.ccw_mm),
+          .G_cw_mm = width(least_squares_zone, t.theta_rad, t.cw_mm),
+          .G_ccw_mz_mm = width(minimum_zone, t.theta_rad, t.ccw_mm),
+          .G_cw_mz_mm = width(minimum_zone, t.theta_rad, t.cw_mm),
           .G_bi_mm = range(F),
           .H_mm = (vector(t.ccw_mm) - vector(t.cw_mm)).cwiseAbs().maxCoeff(),
           .F_max_mm = F.maxCoeff(),
