@@ -119,7 +119,10 @@ Estimate ratio(const Regression& r, Index i, Index j, double t) {
 }
 
 Estimate exponential(const Estimate& e) {
-  return {std::exp(e.value), std::exp(e.lower), std::exp(e.upper)};
+  const Estimate out{std::exp(e.value), std::exp(e.lower), std::exp(e.upper)};
+  if (!std::isfinite(out.upper))
+    throw ModelRangeError("material_fit: the cuts scatter beyond every bound");
+  return out;
 }
 
 }  // namespace

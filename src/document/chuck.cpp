@@ -185,6 +185,9 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
 
 /// The plane identified; a problem with the cuts that are missing where it cannot be.
 PlaneAnswer answer(PlaneAnswer out, const Request& q, Problems& problems) {
+  for (const PlaneTest& t : out.tests)
+    if (!std::isfinite(t.y_mm))
+      throw ModelRangeError("chuck: the shaft bends beyond what a number holds");
   out.can = identifiability(out.tests, out.plane);
   if (!q.measured) return out;
   const auto refuse = [&](const std::string& got, std::string expected) {

@@ -125,7 +125,7 @@ Calibration read_calibration(Reader r) {
   // Of b where B = -2 b, the lost motion, is written down.
   const double reversal =
       r.choice_or<double>("reversal", {{"half", 1}, {"full", -0.5}}, 1);
-  const auto length = r.optional_number("length_mm", above_up_to(0, 1e5, "mm"));
+  const auto length = r.optional_number("length_mm", within(1, 1e5, "mm"));
   if (r.has("csv")) {
     c.rows = read_table(r.at("csv"));
     if (r.has("parameters"))

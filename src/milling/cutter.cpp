@@ -8,6 +8,7 @@
 #include "contact.hpp"
 #include "delay_map.hpp"
 #include "sheet.hpp"
+#include "turning.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "unit_circle.hpp"
@@ -168,24 +169,11 @@ class Ascent {
 }  // namespace
 
 SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
-                         const std::vector<double>& depths_mm) {
-  const Ascent ascent(cutter, n_rpm, ap_max_mm);
-  const double period = period_s(cutter, n_rpm);
-  SpeedLimits out{.n_rpm = n_rpm, .crossings = {}, .unstable = {}};
-  int count = 0;
-  for (const OnCircle& at : ascent.zeros()) {
-    const bool was_stable = count == 0;
-    count += at.change;
-    if (was_stable == (count == 0)) continue;
-    out.crossings.push_back(crossing(at, was_stable, cutter.system, period));
-  }
-  for (const double w : depths_mm) {
-    int unstable = 0;
-    for (const OnCircle& at : ascent.zeros())
-      if (at.w_mm < w) unstable += at.change;
-    out.unstable.push_back(unstable);
-  }
-  return out;
+                         std::span<const double> depths_mm) {
+  const auto zeros = std::holds_alternative<ConstantForce>(cutter.system.force)
+                         ? turning_on_circle(cutter, n_rpm, ap_max_mm)
+                         : Ascent(cutter, n_rpm, ap_max_mm).zeros();
+  return charted(zeros, cutter.system, n_rpm, period_s(cutter, n_rpm), depths_mm);
 }
 
 std::vector<Surface> surfaces(const Cutter& cutter, double n_rpm, double ap_mm) {

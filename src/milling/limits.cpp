@@ -7,6 +7,7 @@
 #include "tracking.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/milling/cutter.hpp"
 #include "unit_circle.hpp"
 
 namespace turnwright::milling {
@@ -137,6 +138,8 @@ std::optional<double> SpeedLimits::limit_mm() const {
 
 SpeedLimits speed_limits(const System& system, double n_rpm, double ap_max_mm,
                          std::span<const double> depths_mm) {
+  if (std::holds_alternative<ConstantForce>(system.force))
+    return speed_limits(Cutter{.system = system}, n_rpm, ap_max_mm, depths_mm);
   Climb climb(system, n_rpm);
   climb.to(ap_max_mm);
   SpeedLimits out{.n_rpm = n_rpm, .crossings = climb.crossings(), .unstable = {}};

@@ -171,8 +171,28 @@ Crossing crossing(const OnCircle& at, bool loss, const System& system, double ta
           .loss = loss,
           .flip = at.flip(),
           .theta_rad = at.theta,
-          .frequency_Hz = chatter_frequency_Hz(system, tau_s, at.theta),
+          .frequency_Hz = at.frequency_Hz ? *at.frequency_Hz
+                                          : chatter_frequency_Hz(system, tau_s, at.theta),
           .relative_error = at.relative_error};
+}
+
+SpeedLimits charted(const std::vector<OnCircle>& zeros, const System& system,
+                    double n_rpm, double tau_s, std::span<const double> depths_mm) {
+  SpeedLimits out{.n_rpm = n_rpm, .crossings = {}, .unstable = {}};
+  int count = 0;
+  for (const OnCircle& at : zeros) {
+    const bool was_stable = count == 0;
+    count += at.change;
+    if (was_stable == (count == 0)) continue;
+    out.crossings.push_back(crossing(at, was_stable, system, tau_s));
+  }
+  for (const double w : depths_mm) {
+    int unstable = 0;
+    for (const OnCircle& at : zeros)
+      if (at.w_mm < w) unstable += at.change;
+    out.unstable.push_back(unstable);
+  }
+  return out;
 }
 
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "patch.hpp"
@@ -15,12 +17,17 @@ struct OnCircle {
   double w_mm = 0;
   double theta = 0;  ///< of mu, in (0, pi]
   int change = 0;    ///< of the number of unstable multipliers as w rises past it
-  double relative_error = 0;  ///< estimated, of w
-  bool flip() const;          ///< mu = -1
+  double relative_error = 0;                ///< estimated, of w
+  std::optional<double> frequency_Hz = {};  ///< where more is known than theta
+  bool flip() const;                        ///< mu = -1
 };
 
 /// What a depth on the circle is to a chart: a loss of stability, or a gain.
 Crossing crossing(const OnCircle& at, bool loss, const System& system, double tau_s);
+
+/// The crossings among all rising depths on the circle, and counts at `depths_mm`.
+SpeedLimits charted(const std::vector<OnCircle>& zeros, const System& system,
+                    double n_rpm, double tau_s, std::span<const double> depths_mm);
 
 /// Every depth in (from, to] at which a multiplier lies on the unit circle, rising.
 ///

@@ -68,7 +68,8 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
   for (const Clamping c : clampings) {
     auto why = unusable(p, setup, c, work, done);
     if (why.empty())
-      for (const auto& fixed : fixed_conflicts(p, setup, c, work)) why = fixed.sentence;
+      for (const auto& fixed : fixed_conflicts(p, setup, c, work))
+        why += (why.empty() ? "" : "; ") + fixed.sentence;
     if (!why.empty())
       result.rejected.push_back({c, why, {}});
     else

@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "pareto.hpp"
 #include "planned.hpp"
 #include "what_if.hpp"
@@ -16,6 +18,8 @@ std::optional<Robustness> robustness(PartPlan p) {
 }  // namespace
 
 ProcessPlan plan(const PartPlan& p, const std::vector<WhatIf>& what_if) {
+  if (p.objective == Objective::profit && !p.price)
+    throw std::domain_error("plan: the most profitable plan needs a price");
   auto result = conforming(p, what_if);
   answer(p, what_if, result);
   if (result.status != PlanStatus::ok) return result;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "setup_planner.hpp"
@@ -143,9 +144,24 @@ std::vector<SolvedSetup> with_corrections(const PartPlan& p, const Assignment& w
   return surfaces.empty() ? plain : solved(p, work, surfaces);
 }
 
+void require(bool holds, const std::string& rule) {
+  if (!holds) throw std::domain_error("predict: " + rule);
+}
+
+void require_given(const PartPlan& p) {
+  for (const auto& setup : p.setups)
+    require(!setup.clampings.empty(), "each setup needs a clamping");
+  require(p.operations.has_value(), "the operations must be given");
+  for (const auto& o : *p.operations)
+    require(o.kind == OperationKind::fixed || o.kind == OperationKind::mill ||
+                (o.conditions.vc_m_min && o.conditions.f_mm_rev),
+            o.id + " must have speed and feed");
+}
+
 }  // namespace
 
 ProcessPlan predict(const PartPlan& p) {
+  require_given(p);
   ProcessPlan result;
   const auto work = assign(p);
   add_unreachable(work, result);

@@ -350,7 +350,8 @@ std::optional<OperatingWindow> operating_window(const PartPlan& plan,
   std::optional<Chain> chain;
   Feeds feeds;
   double most = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  bool more = true;
+  for (int round = 0; more && round < kRounds; ++round) {
     chain =
         task.feature.chain(recipe, task.economy, exchange.stations(), answer.choice.a);
     if (!chain) return {};
@@ -362,12 +363,11 @@ std::optional<OperatingWindow> operating_window(const PartPlan& plan,
         s.cost(answer.choice.v[i], answer.choice.f[i]) * (1 + plan.window_percent / 100);
     if (!s.holds(answer.choice.f[i], most)) return {};
     feeds = {s.furthest(s.o().f.lower, most), s.furthest(s.o().f.upper, most)};
-    bool more = false;
+    more = false;
     for (const double f : {feeds.low, feeds.high})
       more = exchange.add_violated(recipe, task.economy, s.with(f)) || more;
-    if (!more) break;
   }
-  if (!(feeds.high > feeds.low * (1 + kMeets))) return {};
+  if (more || !(feeds.high > feeds.low * (1 + kMeets))) return {};
   const Slice s{plan, *chain, answer.choice, i};
   auto w = polygon(s, feeds, plan.window_percent, most);
   if (!(area(w) > 0)) return {};

@@ -74,6 +74,21 @@ TEST_F(BatchFolderTest, AnInputThatChangesUnderTheRunIsNotedWhateverTheChunksSay
   EXPECT_FALSE(fs::exists(folder_ / "results/results.jsonl"));
 }
 
+TEST_F(BatchFolderTest, ALockTellsWhyItIsNotHad) {
+  const auto told = [](const fs::path& folder) {
+    try {
+      const FolderLock lock(folder);
+    } catch (const OutputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told(folder_), "");
+  const FolderLock lock(folder_);
+  EXPECT_NE(told(folder_).find("another run"), std::string::npos);
+  EXPECT_NE(told(folder_ / "none").find("No such file"), std::string::npos);
+}
+
 TEST(Shards, AreConsecutiveAndCoverEveryChunkOnce) {
   for (const std::int64_t chunks : {0, 1, 7, 1000})
     for (const std::int64_t count : {1, 2, 7, 13}) {

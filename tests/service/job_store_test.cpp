@@ -279,5 +279,38 @@ TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   EXPECT_EQ(all[5].at("errors").at(0).at("pointer"), "/dt_mm");
 }
 
+// A small job too is shared, and its cancel leaves what has not begun.
+TEST_F(JobStoreTest, WorkersTakeALineAtATime) {
+  const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  JobStore store(file(), "data");
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    const json cut{{"model", "milling"},
+                   {"teeth", 2},
+                   {"Kt_MPa", 600},
+                   {"Kn_MPa", 200},
+                   {"radial_immersion", 0.5},
+                   {"direction", "down"},
+                   {"modes",
+                    {{{"axis", "x"},
+                      {"frequency_Hz", 500 + i},
+                      {"damping_ratio", 0.02},
+                      {"stiffness_N_mm", 5000}}}},
+                   {"ap_max_mm", 2},
+                   {"speeds_rpm", {{"from", 3000}, {"to", 9000}, {"count", 200}}}};
+    text += json{{"name", "stability"}, {"document", cut}}.dump() + '\n';
+  }
+  const auto id = *store.submit(text);
+  {
+    Batches batches(store, catalogue, 1);
+    while (store.job(id)->done == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(store.cancel(id));
+    EXPECT_TRUE(store.take(1).empty());
+  }
+  EXPECT_EQ(store.job(id)->errors, 0);
+  EXPECT_LT(store.job(id)->done, 40);
+}
+
 }  // namespace
 }  // namespace turnwright::service

@@ -229,6 +229,16 @@ async function cancelled() {
   await page.keyboard.press('Control+Enter');
   await page.getByText('The server does not answer').waitFor();
   await look(page, '10-no-answer');
+  await page.unroute('**/v1/plan');
+  // Two problems of one place, of one kind.
+  await choose(page, 'threaded-spindle');
+  await page.locator('#source').evaluate((source) => { source.open = true; });
+  const part = JSON.parse(await page.getByLabel(/^Paste a part/).inputValue());
+  Object.assign(part.outer.find((element) => element.kind === 'groove'), { fit: 'h11', limits_mm: [-25, 0] });
+  await page.getByLabel(/^Paste a part/).fill(JSON.stringify(part));
+  await page.keyboard.press('Control+Enter');
+  await page.getByText('fit or limits_mm, not both').first().waitFor();
+  await page.getByText('limits that leave a diameter > 0 mm').first().waitFor();
   await page.context().close();
 }
 

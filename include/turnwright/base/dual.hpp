@@ -139,6 +139,18 @@ Dual<V, N> sqrt(const Dual<V, N>& x) {
   return detail::chain(s, V(0.5) / s, x);
 }
 template <class V, int N>
+Dual<V, N> sin(const Dual<V, N>& x) {
+  using std::cos;
+  using std::sin;
+  return detail::chain(V(sin(x.v)), V(cos(x.v)), x);
+}
+template <class V, int N>
+Dual<V, N> cos(const Dual<V, N>& x) {
+  using std::cos;
+  using std::sin;
+  return detail::chain(V(cos(x.v)), -V(sin(x.v)), x);
+}
+template <class V, int N>
 Dual<V, N> acos(const Dual<V, N>& x) {
   using std::acos;
   using std::sqrt;

@@ -69,6 +69,19 @@ inline Interval sqrt(const Interval& x) {
 inline Interval acos(const Interval& x) {
   return {std::acos(std::clamp(x.hi, -1.0, 1.0)), std::acos(std::clamp(x.lo, -1.0, 1.0))};
 }
+inline Interval cos(const Interval& x) {
+  constexpr double kPi = 3.14159265358979323846;
+  const double first = std::ceil(x.lo / kPi), last = std::floor(x.hi / kPi);
+  if (!(last - first < 1)) return {-1, 1};
+  const double a = std::cos(x.lo), b = std::cos(x.hi);
+  const Interval ends{std::min(a, b), std::max(a, b)};
+  if (first > last) return ends;  // no extremum inside
+  return std::fmod(first, 2) == 0 ? Interval{ends.lo, 1} : Interval{-1, ends.hi};
+}
+inline Interval sin(const Interval& x) {
+  constexpr double kQuarter = 1.57079632679489661923;
+  return cos(Interval{x.lo - kQuarter, x.hi - kQuarter});
+}
 /// x^p for x >= 0.
 inline Interval pow(const Interval& x, double p) {
   const double a = std::pow(std::max(x.lo, 0.0), p), b = std::pow(std::max(x.hi, 0.0), p);

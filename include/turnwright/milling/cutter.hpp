@@ -1,5 +1,6 @@
 #pragma once
 #include <complex>
+#include <span>
 #include <vector>
 
 #include "turnwright/milling/limits.hpp"
@@ -52,10 +53,11 @@ double period_s(const Cutter& cutter, double n_rpm);
 /// noise, see src/milling/sheet.hpp.  What is searched for crossings is that function, so
 /// that islands are not missed.
 ///
-/// With teeth that differ a multiplier may be 1: `fold`.
+/// With teeth that differ a multiplier may be 1: `fold`.  Turning, with indentation or
+/// without, is told in closed form, see src/milling/turning.hpp.
 /// @throws ModelRangeError as its namesake, and if a period needs too many nodes.
 SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
-                         const std::vector<double>& depths_mm = {});
+                         std::span<const double> depths_mm = {});
 
 /// `unstable` is what collocation counts, with two finenesses of nodes alike; `certified`
 /// says that no multiplier is nearer the circle than ten times what their spectral radii

@@ -40,7 +40,8 @@ struct SpeedLimits {
 ///
 ///     (k +- theta / 2 pi) / tau,   k = 0, 1, ..                                     (1)
 ///
-/// the one nearest a natural frequency is given.
+/// the one nearest a natural frequency is given; of turning, which cuts at every angle
+/// alike and needs no Phi (src/milling/turning.hpp), the true one.
 ///
 /// Valid for any number of modes and teeth; the work grows with wn tau and with the depth
 /// over the first limit.

@@ -247,11 +247,14 @@ struct ProcessPlan {
 };
 
 /// Certified cheapest process plan of a part, and of changed requests what they save.
+/// @throws std::domain_error if profit is the objective and no price is given.
 ProcessPlan plan(const PartPlan& request, const std::vector<WhatIf>& what_if = {});
 
 /// Deviations, margins, time and cost of a part whose operations are given whole, in the
 /// first clamping of each setup.  Nothing is optimised; limits that are not kept are
 /// `conflicts`, and the tolerances are judged all the same.
+/// @throws std::domain_error if a setup has no clamping, or a turning operation no speed
+///   or feed.
 ProcessPlan predict(const PartPlan& request);
 
 }  // namespace turnwright::planning

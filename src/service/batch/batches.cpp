@@ -12,7 +12,7 @@ namespace turnwright::service {
 namespace {
 
 // Few lines are lost with the process, yet short lines share a write to the disk.
-constexpr std::size_t kTaken = 64;
+constexpr std::size_t kTogether = 64;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(200);
 constexpr int kNice = 5;
 
@@ -75,15 +75,20 @@ void Batches::work(const std::stop_token& stop) {
   }
 }
 
+// Line by line, so that threads share a small job and a cancelled one ends soon.
 bool Batches::work_some(const std::stop_token& stop) {
-  const auto lines = store_.take(kTaken);
   std::vector<JobStore::Record> ready;
   auto written = std::chrono::steady_clock::now();
+  bool worked = false;
+  const auto next = [&] {
+    return stop.stop_requested() ? std::vector<JobStore::Line>() : store_.take(1);
+  };
   try {
-    for (const auto& line : lines) {
-      ready.push_back(answered(store_, line, {catalogue_, stop}));
+    for (auto lines = next(); !lines.empty(); lines = next()) {
+      worked = true;
+      ready.push_back(answered(store_, lines.front(), {catalogue_, stop}));
       const auto now = std::chrono::steady_clock::now();
-      if (now - written < kBetweenWrites) continue;
+      if (ready.size() < kTogether && now - written < kBetweenWrites) continue;
       store_.finish(ready);
       ready.clear();
       written = now;
@@ -91,7 +96,7 @@ bool Batches::work_some(const std::stop_token& stop) {
   } catch (const Cancelled&) {
   }
   store_.finish(ready);
-  return !lines.empty();
+  return worked;
 }
 
 }  // namespace turnwright::service

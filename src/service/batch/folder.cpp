@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <vector>
@@ -223,9 +225,11 @@ BatchSummary BatchFolder::assemble(BatchInput& input) const {
 
 FolderLock::FolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  ::close(descriptor_);
-  throw OutputError(folder.string() + ": another run is at work on this batch");
+  if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  const std::string why = errno == EWOULDBLOCK ? "another run is at work on this batch"
+                                               : std::strerror(errno);
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw OutputError(folder.string() + ": " + why);
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }
