@@ -90,6 +90,7 @@ struct Stop {
   Vec3 error{};                    // at the target, uncorrected, moving as asked
   bool first = true, last = true;  // of its move's
   bool stays = false;              // an axis, see Run::approach
+  bool takes_up = false;           // play, before a feed move
   Vec3 command{};
 };
 
@@ -253,39 +254,98 @@ class Run {
     approach(s, signs(s.from, s.target, sign_, o_.at_rest));
   }
 
-  /// Before a feed move: the stop that takes up play, if there is any to take up.
-  std::optional<Stop> take_up(const Stop& s) const {
-    if (s.move->rapid || s.sign == sign_) return {};
-    Stop t = s;
-    t.target = s.from;
-    t.last = false;
-    t.asked = s.sign;
-    t.error = field_.error(*t.tool, t.target, t.asked, t.target);
-    approach(t, t.asked);
-    const Vec3 way = t.command - t.tool->point - q_;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (std::abs(way[k]) > writer_.step_mm(*t.move, k)) return t;
-    return {};
+  /// Before a feed move on which an axis turns back: the stops that take up play, so that
+  /// all of it lies from the start where the feed leaves it.  `s` gets its command anew.
+  /// Axes go to the start in the feed's own direction; one that would have to go against
+  /// it goes beyond and comes again, or, for a rounding's worth, stays.
+  std::vector<Stop> take_up(Stop& s) const {
+    if (s.move->rapid || (s.sign == sign_ && !s.stays)) return {};
+    Stop start = s;
+    settle(s, start);
+    std::vector<Stop> out;
+    Stop beyond = start;
+    bool goes = false, beyond_any = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double step = writer_.step_mm(*s.move, k), at = q_[k] + s.tool->point[k],
+                   way = start.command[k] - at, along = way * s.sign[k];
+      goes = goes || std::abs(way) > step;
+      if (!follows_ || along >= -0.5 * step) continue;
+      if (along < -kRounding * step) {
+        beyond_any = true;
+        beyond.sign[k] = -s.sign[k];
+        beyond.target[k] -= 2 * kRounding * step * s.sign[k];
+      } else {
+        start.command[k] = at;
+        start.stays = s.stays = true;
+        if ((s.command[k] - at) * s.sign[k] < 0) s.command[k] = at;
+      }
+    }
+    if (beyond_any) out.push_back(gone_beyond(start, beyond));
+    if (goes) out.push_back(start);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].first = s.first && i == 0;
+      out[i].last = false;
+    }
+    if (!out.empty()) s.first = false;
+    return out;
   }
 
-  /// Goes to a command as written; the stop's signs become those of the motions made.
+  /// Goes to a command as written; the stop's signs become those of the motions made, or
+  /// where play is taken up those of the feed to come.
   void go(Stop& s) {
-    if (follows_) s.sign = made(s);
-    sign_ = s.sign;
+    sign_ = follows_ ? made(s) : s.sign;
+    if (!s.takes_up) s.sign = sign_;
     q_ = s.command - s.tool->point;
   }
 
  private:
-  Vec3 made(const Stop& s) const {
-    Vec3 out{};
+  static constexpr double kRounding = 1.5;  // steps of the last decimal
+
+  /// Axes whose sign is not the start's go to the target, and farther if those that
+  /// overshoot their turns could not come from there; the others to the start.
+  Stop gone_beyond(const Stop& start, Stop s) const {
+    s.error = field_.error(*s.tool, s.target, s.sign, s.target);
+    correct(field_, o_.passes, s.error, s);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double way = s.command[k] - s.tool->point[k] - q_[k];
-      if (std::abs(way) > 0.500001 * writer_.step_mm(*s.move, k))
-        out[k] = way > 0 ? 1 : -1;
-      else
-        out[k] = sign_[k];
+      const double least = kRounding * writer_.step_mm(*s.move, k),
+                   ahead = (start.command[k] - s.command[k]) * start.sign[k];
+      if (s.sign[k] == start.sign[k])
+        s.command[k] = start.command[k];
+      else if (ahead < least)
+        s.command[k] = start.command[k] - least * start.sign[k];
     }
+    return s;
+  }
+
+  Vec3 made(const Stop& s) const { return motion(s, s.command - s.tool->point - q_); }
+
+  Vec3 motion(const Stop& s, const Vec3& way) const {
+    Vec3 out = sign_;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(way[k]) > 0.500001 * writer_.step_mm(*s.move, k))
+        out[k] = way[k] > 0 ? 1 : -1;
     return out;
+  }
+
+  /// The commands of a feed move's two ends with the signs of the motion between them.
+  void settle(Stop& s, Stop& start) const {
+    constexpr int kRounds = 4;
+    start.target = s.from;
+    start.takes_up = true;
+    s.stays = false;
+    s.sign = signs(s.from, s.target, sign_, o_.at_rest);
+    for (int round = 0; round < kRounds; ++round) {
+      start.sign = s.sign;
+      start.error = field_.error(*s.tool, s.from, s.sign, s.from);
+      correct(field_, o_.passes, start.error, start);
+      correct(field_, o_.passes, field_.error(*s.tool, s.target, s.sign, s.target), s);
+      if (!follows_) return;
+      start.command = writer_.written(*s.move, start.command);
+      s.command = writer_.written(*s.move, s.command);
+      const Vec3 is = motion(s, s.command - start.command);
+      if (is == s.sign) return;
+      s.sign = is;
+    }
   }
 
   void approach(Stop& s, Vec3 sign) const {
@@ -376,11 +436,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
       out.lines.push_back(s.move->before);
     } else {
       run.approach(s);
-      if (auto before_it = run.take_up(s)) {
-        write(*before_it);
-        s.first = false;
-        run.approach(s);
-      }
+      for (Stop& before_it : run.take_up(s)) write(before_it);
       write(s);
     }
   });

@@ -32,6 +32,16 @@ double NcWriter::step_mm(const NcMove& move, std::size_t axis) const {
   return unit_mm(move, axis) / power(decimals_of(move));
 }
 
+Vec3 NcWriter::written(const NcMove& move, const Vec3& tip_mm) const {
+  Vec3 out = tip_mm;
+  for (const std::size_t k : axes_) {
+    const double step = step_mm(move, k);
+    out[k] =
+        std::round((tip_mm[k] - move.origin_mm[k]) / step) * step + move.origin_mm[k];
+  }
+  return out;
+}
+
 std::string NcWriter::block(const NcMove& move, Vec3& tip_mm, bool first, bool last) {
   line_ = first ? move.before : "";
   if (!line_.empty()) line_ += ' ';

@@ -18,6 +18,9 @@ class NcWriter {
   /// @throws ModelRangeError if a coordinate is too far to be written.
   std::string block(const NcMove& move, Vec3& tip_mm, bool first, bool last);
 
+  /// What a block would write of `tip_mm`.
+  Vec3 written(const NcMove& move, const Vec3& tip_mm) const;
+
   /// One in the last decimal of a coordinate [mm].
   double step_mm(const NcMove& move, std::size_t axis) const;
 

@@ -53,8 +53,9 @@ struct Compensated {
 /// out.  Only axes the machine has are corrected and counted (tangential errors of a
 /// lathe act by y^2/2R).  Signs are those of the corrected motions, down to half the last
 /// decimal written: an axis that stands in the source and follows a bow has them too.
-/// Where an axis turns back in a feed move, its play is taken up first by a move of its
-/// own; one that overshoots its turn (b against the motion) stays where it is.
+/// Where an axis turns back in a feed move, play is taken up first by moves of its own, so
+/// that all axes start on the side on which the feed keeps them: those which would have to
+/// go there against it go beyond and come again; for one of the last decimal they stay.
 /// @throws std::domain_error as Kinematics; ModelRangeError if (1) leaves more than
 ///   half of an error, errors changing by as much as the way.
 Compensated compensate(const NcProgram& program, const Machine& machine,
