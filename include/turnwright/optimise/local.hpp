@@ -68,8 +68,9 @@ std::vector<double> multipliers_at(const Problem& problem, std::span<const doubl
 
 /// Lower bound of f over every feasible y of the box, for convex f and g:
 ///
-///     f(y) >= f* + sum lambda_i g_i* + sum_j min(r_j (lower_j - y*_j), r_j (upper_j -
-///     y*_j)) r = df* + sum lambda_i dg_i* (1)
+///     f(y) >= f* + sum lambda_i g_i*
+///             + sum_j min(r_j (lower_j - y*_j), r_j (upper_j - y*_j))                (1)
+///     r = df* + sum lambda_i dg_i*
 ///
 /// Valid for any lambda >= 0; tight at an optimum.  Source: convexity of the Lagrangian,
 /// derived here.

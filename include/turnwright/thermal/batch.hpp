@@ -16,8 +16,8 @@ struct Batch {
 
 /// What the drift leaves on the parts, for the budget of a tolerance.
 ///
-///     range          = max e - min e over all the parts                              (7)
-///     between_offsets = the largest of (7) within one offset's parts (8)
+///     range           = max e - min e over all the parts                             (7)
+///     between_offsets = the largest of (7) within one offset's parts                 (8)
 ///
 /// e is along the direction of the probe: of a radius its own measure, of a diameter
 /// half.

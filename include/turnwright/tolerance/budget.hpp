@@ -164,8 +164,7 @@ struct Budget {
 
 /// The budget of a tolerance that leaves the sources this room.
 /// @throws std::domain_error as rising_sum_um(), or if the wanted conformance or U is out
-/// of
-///   range or `room` has an end that is NaN.
+///   of range or `room` has an end that is NaN.
 Budget budget(const BudgetDemand& demand, const Span& room);
 
 }  // namespace turnwright::tolerance
