@@ -47,8 +47,8 @@ struct Solution {
 /// `start` (clamped into the box).  Every constraint is evaluated again at the answer:
 /// NLopt's codes do not prove feasibility.  An exception of `evaluate` comes out
 /// unchanged.
-/// @throws std::invalid_argument if sizes disagree, a bound is not finite or a start is
-/// NaN.
+/// @throws std::domain_error if sizes disagree, bounds are not in order, or a bound or
+///   start is not finite.
 Solution local_minimum(const Problem& problem, std::span<const double> start,
                        const Options& options = {});
 

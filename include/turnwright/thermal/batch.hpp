@@ -30,7 +30,7 @@ struct BatchDrift {
 };
 
 /// Of a model driven by `inputs`, which must cover the batch.  One part drifts by 0.
-/// @throws std::invalid_argument if the batch is empty, its cycle is not positive or it
+/// @throws std::domain_error if the batch is empty, its cycle is not positive or it
 ///   leaves the inputs.
 BatchDrift batch_drift(const LagModel& model, const Inputs& inputs, const Batch& batch);
 
