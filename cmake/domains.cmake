@@ -1,6 +1,6 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp least_squares.cpp PRIVATE_LIBS Eigen3::Eigen
-          TESTS least_squares_test.cpp log_dual_test.cpp)
+          TESTS least_squares_test.cpp log_dual_test.cpp random_test.cpp)
 # Floor 2
 tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
           relaxation_search.cpp
