@@ -1,6 +1,6 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp least_squares.cpp PRIVATE_LIBS Eigen3::Eigen
-          TESTS interval_test.cpp least_squares_test.cpp log_dual_test.cpp)
+          TESTS interval_test.cpp least_squares_test.cpp log_dual_test.cpp random_test.cpp)
 # Floor 2
 tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
           relaxation_search.cpp
@@ -20,7 +20,7 @@ tw_domain(deflection SOURCES beam.cpp beam_piece.cpp boring_bar.cpp chuck_identi
                              copying.cpp face.cpp feedback.cpp ovality.cpp response.cpp
                              rest.cpp ring.cpp shop_errors.cpp shoulder.cpp thrust.cpp
                              workpiece.cpp
-          DEPENDS base part PRIVATE_LIBS Eigen3::Eigen
+          DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt
           TESTS beam_test.cpp boring_bar_test.cpp chuck_identification_test.cpp
                 deviation_graph_test.cpp
                 envelope_test.cpp face_test.cpp
@@ -32,7 +32,7 @@ tw_domain(thermal SOURCES batch.cpp lag_fit.cpp lag_model.cpp network.cpp respon
   TESTS batch_test.cpp lag_fit_test.cpp lag_model_test.cpp network_test.cpp)
 tw_domain(volumetric SOURCES agreement.cpp axis_table.cpp ball_bar.cpp compensation.cpp
           kinematics.cpp lathe_part.cpp minimum_zone.cpp nc_program.cpp nc_writer.cpp samba.cpp
-  DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers
+  DEPENDS base catalogue PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt
   TESTS agreement_test.cpp axis_table_test.cpp ball_bar_test.cpp compensation_test.cpp
         kinematics_test.cpp lathe_part_test.cpp linuxcnc_test.cpp minimum_zone_test.cpp samba_test.cpp)
 tw_domain(milling SOURCES system.cpp free_vibration.cpp quadrature.cpp stretches.cpp propagator.cpp
@@ -93,7 +93,7 @@ tw_domain(document SOURCES parse.cpp reader.cpp file.cpp finite.cpp fields.cpp m
           setups.cpp operations.cpp milling.cpp what_if.cpp part_plan.cpp process_plan.cpp drawing.cpp acceptance.cpp budget.cpp
           deflection.cpp shaft_fields.cpp milled_shaft.cpp csv.cpp chuck.cpp thermal.cpp multipass.cpp calibrate_material.cpp frequency_response.cpp stability_request.cpp stability.cpp
           machine_fields.cpp calibrated_machine.cpp turned.cpp geometry.cpp ball_bar.cpp samba.cpp compare.cpp compensate.cpp nc.cpp
-          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning nc PUBLIC_LIBS nlohmann_json::nlohmann_json
+          DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric tolerance planning nc PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
           TESTS schema_check.cpp acceptance_test.cpp chuck_test.cpp csv_test.cpp thermal_test.cpp stability_test.cpp deflection_test.cpp parse_test.cpp reader_test.cpp catalogue_test.cpp calibrate_material_test.cpp multipass_test.cpp
                 malformed_test.cpp milling_test.cpp machine_errors_test.cpp geometry_test.cpp ball_bar_test.cpp samba_test.cpp compare_test.cpp compensate_test.cpp nc_test.cpp schema_test.cpp part_plan_test.cpp process_plan_test.cpp drawing_test.cpp)
 if(BUILD_TESTING)

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "turnwright/base/least_squares.hpp"
+#include "turnwright/base/random.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -189,21 +190,13 @@ Trimmed trimmed(const VectorXd& r, Eigen::Index h) {
   return t;
 }
 
-/// The k-th of a fixed sequence of integers without pattern (Vigna's splitmix64: handbook
-/// value), so that the same cuts give the same answer.
-std::uint64_t scattered(std::uint64_t k) {
-  std::uint64_t x = (k + 1) * 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
 /// As many cuts as there are unknowns, one of each setup and three more, have weight 1.
+/// A fixed sequence chooses them, so that the same cuts give the same answer.
 VectorXd elemental(const Design& d, std::uint64_t start) {
   std::vector<std::size_t> order(d.tests());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = order.size() - 1; i > 0; --i)
-    std::swap(order[i], order[scattered(start * d.tests() + i) % (i + 1)]);
+    std::swap(order[i], order[splitmix64(0, start * d.tests() + i) % (i + 1)]);
   VectorXd w = VectorXd::Zero(d.rows());
   std::vector<bool> seen(d.names.size(), false);
   int others = 0;

@@ -1,5 +1,7 @@
 #include "turnwright/deflection/feedback.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -29,9 +31,9 @@ double above(const Balance& g) {
   while (!(g.value(h) >= 0)) {
     h *= 1.05;
     if (!(h <= 100 * g.ap))
-      throw ModelRangeError(
-          "the feed force pulls the part into the tool without end: loop gain " +
-          std::to_string(g.A * g.c * g.x * std::pow(g.ap, g.x - 1)));
+      throw ModelRangeError(fmt::format(
+          "the feed force pulls the part into the tool without end: loop gain {:f}",
+          g.A * g.c * g.x * std::pow(g.ap, g.x - 1)));
   }
   return h;
 }

@@ -1,5 +1,7 @@
 #include "turnwright/document/calibrate_material.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -265,11 +267,7 @@ json range(const Request& q, const Fitted<Fit>& f, const Value& value) {
   return {lo, hi};
 }
 
-std::string rounded(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", x);
-  return text.data();
-}
+std::string rounded(double x) { return fmt::format("{:.4g}", x); }
 std::string told(const char* key, const Estimate& e) {
   return std::string(key) + ' ' + rounded(e.lower) + " to " + rounded(e.upper);
 }

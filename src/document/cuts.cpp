@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -55,6 +56,13 @@ struct Size {
   double P_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Digits that the pattern below has found, with a point in any locale.
+double number(const std::ssub_match& digits) {
+  double x = 0;
+  std::from_chars(&*digits.first, &*digits.first + digits.length(), x);
+  return x;
+}
+
 // "M30x1.5", or "M30" of the coarse series.
 Size read_designation(Reader& r) {
   static const std::regex kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
@@ -69,10 +77,10 @@ Size read_designation(Reader& r) {
                  "choice");
     return {};
   }
-  Size s{std::stod(m[1]), 0};
+  Size s{number(m[1]), 0};
   const auto coarse = coarse_pitch_mm(s.d_mm);
   if (m[2].matched) {
-    s.P_mm = std::stod(m[2]);
+    s.P_mm = number(m[2]);
   } else if (coarse) {
     s.P_mm = *coarse;
   } else {

@@ -20,12 +20,13 @@ using Vec = std::vector<double>;
 void check(const Problem& p, std::span<const double> start) {
   const auto n = p.lower.size();
   if (n == 0 || p.upper.size() != n || start.size() != n)
-    throw std::invalid_argument("local_minimum: start, lower and upper differ in size");
+    throw std::domain_error(
+        "local_minimum: start, lower and upper must have the same size, at least 1");
   for (std::size_t i = 0; i < n; ++i)
     if (!(p.lower[i] <= p.upper[i] && std::isfinite(p.lower[i]) &&
           std::isfinite(p.upper[i]) && std::isfinite(start[i])))
-      throw std::invalid_argument("local_minimum: bounds or start of variable " +
-                                  std::to_string(i) + " are not finite and ordered");
+      throw std::domain_error("local_minimum: bounds and start of variable " +
+                              std::to_string(i) + " must be finite, lower <= upper");
 }
 
 void resize(Values& v, std::size_t n, std::size_t m) {

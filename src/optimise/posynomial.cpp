@@ -30,7 +30,9 @@ void check(const Posynomial& p) {
     good = p.lower[j] <= p.upper[j] && std::isfinite(p.lower[j]) &&
            std::isfinite(p.upper[j]);
   if (!good)
-    throw std::invalid_argument("posynomial: sizes differ or bounds are not in order");
+    throw std::domain_error(
+        "minimise: problem must have terms and limits of as many variables as lower and "
+        "upper, and finite bounds with lower <= upper");
 }
 
 /// f and its derivatives at y.

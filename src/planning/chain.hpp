@@ -393,8 +393,8 @@ Signed<T> law_mm(const Coefficients<Signed<T>>& c, const cutting::Forces<T>& for
 
 /// Depth-of-cut feedback: the surface that yields by e is cut less deep by e,
 ///
-///     e = law(forces at depth ap + e_before - e),  e_before the error the pass before
-///     left (2)
+///     e = law(forces at depth ap + e_before - e),                                    (2)
+///         e_before the error the pass before left
 ///
 /// Source: derived here; the loop gain is d law/d depth.
 double yielding_mm(const Coefficients<double>& law, const cutting::Cut& cut, double ap,

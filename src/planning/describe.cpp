@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace turnwright::planning {
 namespace {
@@ -195,6 +196,14 @@ ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
       most = std::max(most, place(choice.a));
     return chatter({chain, choice, forces(chain, choice)}, r.row.operation, 1 / most);
   }
+  c.binding = c.margin < kBinding;
+  return c;
+}
+
+ConstraintValue constraint(std::string name, std::string unit, double value, double limit,
+                           bool at_most) {
+  ConstraintValue c{std::move(name), std::move(unit), value, limit, at_most};
+  c.margin = (at_most ? -1 : 1) * std::log(value / limit);
   c.binding = c.margin < kBinding;
   return c;
 }

@@ -39,6 +39,10 @@ std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row);
 ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& row);
 
+/// A value against its limit; the margin is in ln.
+ConstraintValue constraint(std::string name, std::string unit, double value, double limit,
+                           bool at_most = true);
+
 /// Minutes, edge cost and money of the answer's operations, approach included.
 struct Spent {
   double minutes = 0, edges_cost = 0, change_min = 0;

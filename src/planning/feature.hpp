@@ -86,8 +86,8 @@ class Feature {
 
   /// Largest chatter stiffness [N/mm] that each operation bears at a finishing depth:
   ///
-  ///     K <= 1/C,  C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
-  ///     (1)
+  ///     K <= 1/C,                                                                    (1)
+  ///     C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
   ///
   /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
   /// (3) of chain.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the

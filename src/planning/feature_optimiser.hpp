@@ -28,7 +28,7 @@ struct FeatureTask {
   Economy economy;
   Making making;
   bool explain = false;  ///< if nothing is feasible, compare every recipe to say why
-  long boxes = 30000;    ///< past them the certificate says `local`
+  long boxes = 20'000;   ///< past them the certificate says `local`
   std::shared_ptr<Unasked> unasked = std::make_shared<Unasked>();
 };
 

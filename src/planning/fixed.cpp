@@ -9,6 +9,7 @@
 
 #include "milled.hpp"
 #include "outcome.hpp"
+#include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 
@@ -23,10 +24,7 @@ constexpr double kCentreShare = 0.35;     // of the end's diameter
 constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
 constexpr int kLeastInfeeds = 4;          // of a thread
 constexpr double kRunIn = 3;              // of a thread, in pitches
-constexpr double kBinding = 1e-6;         // ln: closer than any machine can tell
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
-
-double sqr(double x) { return x * x; }
 
 struct Site {
   const PartPlan& p;
@@ -113,14 +111,6 @@ double n_cap_rpm(const Site& s) {
                    clamping_rpm(s.p, s.clamping), grip_loss_rpm(s.p, s.clamping, force)});
 }
 
-ConstraintValue limit(const char* name, const char* unit, double value, double limit_,
-                      bool at_most = true) {
-  ConstraintValue c{name, unit, value, limit_, at_most, 0, false, 0};
-  c.margin = (at_most ? -1 : 1) * std::log(value / limit_);
-  c.binding = c.margin < kBinding;
-  return c;
-}
-
 // A pass at one end of its diameters: what it needs of the spindle there.
 struct Duty {
   Load load;
@@ -147,22 +137,22 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
     const double n =
         std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
     const auto& [Fc, Ff, M] = d.load;
-    tighten(all, limit("feed force", "N", Ff, m.feed_force_max_N));
-    tighten(all, limit("power", "kW", units::shaft_power_kW(M, n),
-                       cutting::available_kW(ranges, n, false)));
-    tighten(all,
-            limit("torque", "Nm", M,
-                  cutting::available_kW(ranges, n, true) / units::shaft_power_kW(1, n)));
-    tighten(all, limit("least spindle speed", "1/min", d.n_rpm, m.n_min_rpm, false));
-    if (tool.Fc_max_N) tighten(all, limit("cutting force", "N", Fc, *tool.Fc_max_N));
+    tighten(all, constraint("feed force", "N", Ff, m.feed_force_max_N));
+    tighten(all, constraint("power", "kW", units::shaft_power_kW(M, n),
+                            cutting::available_kW(ranges, n, false)));
+    tighten(all, constraint("torque", "Nm", M,
+                            cutting::available_kW(ranges, n, true) /
+                                units::shaft_power_kW(1, n)));
+    tighten(all, constraint("least spindle speed", "1/min", d.n_rpm, m.n_min_rpm, false));
+    if (tool.Fc_max_N) tighten(all, constraint("cutting force", "N", Fc, *tool.Fc_max_N));
     if (s.clamping == Clamping::between_centres) continue;
     const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
     const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
                              grip_diameter_mm(s.p, s.setup, s.clamping)};
     const double needed =
         cutting::grip_needed_N(grip, 2000 * M / d.D_mm, d.radial ? 0.0 : Ff, d.D_mm);
-    tighten(all, limit("grip of the chuck", "N",
-                       needed + cutting::grip_loss_N(grip, d.n_rpm), force));
+    tighten(all, constraint("grip of the chuck", "N",
+                            needed + cutting::grip_loss_N(grip, d.n_rpm), force));
   }
   return all;
 }

@@ -30,13 +30,13 @@ struct FixedWork {
 
 /// What a setup does so, in order; milled places come before parting off.
 ///
-///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P (1) centre,
-///     drill:  t = (depth + D/2/tan(sigma/2) + 2)/(f n),  f = k D               (2)
+///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P           (1)
+///     centre, drill:  t = (depth + D/2/tan(sigma/2) + 2)/(f n),  f = k D             (2)
 ///     groove, part:  plunges = ceil(width/blade), each pi (r0^2 - r1^2)/(1000 vc f),
-///                    with the spindle's limit as spindle.hpp (3) (3)
-///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each (l + 3 P)/(P n) (4) arc:
-///     passes = ceil(depth/ap) along its path at the blank's largest diameter     (5)
-///     minutes = sum t + 2 passes (way + 2)/rapid + change t/T,  edges = edge t/T (6)
+///                    with the spindle's limit as spindle.hpp (3)                     (3)
+///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each (l + 3 P)/(P n)         (4)
+///     arc:  passes = ceil(depth/ap) along its path at the blank's largest diameter   (5)
+///     minutes = sum t + 2 passes (way + 2)/rapid + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "outcome.hpp"
+#include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 #include "turnwright/deflection/rest.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr double kBinding = 1e-4;   // ln: the search stays so far inside a lobe
 constexpr double kLeast_mm = 1e-6;  // of a depth that is told
-
-double sqr(double x) { return x * x; }
 
 double force_N(const MilledSite& s, const MilledChoice& c, double fz) {
   return c.kc.k11_MPa * c.ap_mm(s.m) * std::pow(fz, 1 - c.kc.m) * c.teeth;  // Eq. (3)
@@ -44,14 +43,6 @@ double grip_N(const MilledSite& s, double normal) {
          cutting::grip_needed_N(grip, F, F, s.p.drawing.outer[s.m.element].left_mm);
 }
 
-ConstraintValue limit(const std::string& name, const char* unit, double value,
-                      double limit_, bool at_most = true) {
-  ConstraintValue c{name, unit, value, limit_, at_most, 0, false, 0};
-  c.margin = (at_most ? -1 : 1) * std::log(value / limit_);
-  c.binding = c.margin < kBinding;
-  return c;
-}
-
 // What the choice keeps and by how much, evaluated anew at speed and feed.
 std::vector<ConstraintValue> limits(const MilledSite& s, const MilledChoice& c, double n,
                                     double fz, double stable_mm) {
@@ -63,28 +54,30 @@ std::vector<ConstraintValue> limits(const MilledSite& s, const MilledChoice& c, 
   const double P = power_kW(s, c, n, fz), M = P / units::shaft_power_kW(1, n);
   const double F = force_N(s, c, fz);
   std::vector<ConstraintValue> all{
-      limit("stable depth with its margin", "mm", ap * (1 + s.m.depth_margin),
-            std::max(stable_mm, kLeast_mm)),
-      limit("compliance of the part", "nm/N", 1e6 * s.part_mm_N,
-            1e6 * tip_mm_N(tip_modes(s.p, cutter))),
-      limit("depth of cut", "mm", ap, cutter.ap_mm.upper),
-      limit("least depth of cut", "mm", ap, cutter.ap_mm.lower, false),
-      limit("chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.upper),
-      limit("least chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.lower,
-            false),
-      limit("cutting speed", "m/min", vc, c.grade->vc_m_min.upper),
-      limit("least cutting speed", "m/min", vc, c.grade->vc_m_min.lower, false),
-      limit("spindle speed", "1/min", n, ranges.back().n_max_rpm),
-      limit("least spindle speed", "1/min", n, ranges.front().n_min_rpm, false),
-      limit("feed speed", "mm/min", fz * cutter.teeth * n, driven.feed_max_mm_min),
-      limit("power", "kW", P, cutting::available_kW(ranges, held, false)),
-      limit("torque", "Nm", M,
-            cutting::available_kW(ranges, held, true) / units::shaft_power_kW(1, held)),
-      limit("cutting force", "N", F, cutter.Fc_max_N)};
+      constraint("stable depth with its margin", "mm", ap * (1 + s.m.depth_margin),
+                 std::max(stable_mm, kLeast_mm)),
+      constraint("compliance of the part", "nm/N", 1e6 * s.part_mm_N,
+                 1e6 * tip_mm_N(tip_modes(s.p, cutter))),
+      constraint("depth of cut", "mm", ap, cutter.ap_mm.upper),
+      constraint("least depth of cut", "mm", ap, cutter.ap_mm.lower, false),
+      constraint("chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.upper),
+      constraint("least chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.lower,
+                 false),
+      constraint("cutting speed", "m/min", vc, c.grade->vc_m_min.upper),
+      constraint("least cutting speed", "m/min", vc, c.grade->vc_m_min.lower, false),
+      constraint("spindle speed", "1/min", n, ranges.back().n_max_rpm),
+      constraint("least spindle speed", "1/min", n, ranges.front().n_min_rpm, false),
+      constraint("feed speed", "mm/min", fz * cutter.teeth * n, driven.feed_max_mm_min),
+      constraint("power", "kW", P, cutting::available_kW(ranges, held, false)),
+      constraint(
+          "torque", "Nm", M,
+          cutting::available_kW(ranges, held, true) / units::shaft_power_kW(1, held)),
+      constraint("cutting force", "N", F, cutter.Fc_max_N)};
   if (std::isfinite(c.grip_N)) {
     const double force = jaw_force_N(s.p, s.setup, s.clamping, Stage::finishing);
-    all.push_back(limit("grip of the chuck", "N", F / c.grip_N * force, force));
+    all.push_back(constraint("grip of the chuck", "N", F / c.grip_N * force, force));
   }
+  for (auto& limit : all) limit.binding = limit.margin < kBinding;
   return all;
 }
 

@@ -17,9 +17,9 @@ using catalogue::Tool;
 using catalogue::ToolUse;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Boxes that a setup in one clamping may take, and those that every search has: to refute
-// what is far too slender takes thousands for each pass count and tool.
-constexpr long kBoxes = 20000, kLeastBoxes = 300;
+// Every search has these, though a setup in one clamping shares the boxes of a task: to
+// refute what is far too slender takes thousands for each pass count and tool.
+constexpr long kLeastBoxes = 300;
 constexpr double kGap = 9e-5;  // what engine 2 may leave open, in ln(objective)
 
 RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
@@ -300,7 +300,7 @@ const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
   };
   const auto attempt = [&](Offset offset) {
     auto t = task(j, tools, offset);
-    t.boxes = std::clamp(kBoxes - boxes_, kLeastBoxes, t.boxes);
+    t.boxes = std::max(t.boxes - boxes_, kLeastBoxes);
     auto answer = optimise_feature(t, kGap, most);
     boxes_ += answer.certificate.nodes;
     return SolvedFeature{std::move(t), std::move(answer), offset == Offset::free,

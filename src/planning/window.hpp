@@ -8,8 +8,8 @@ namespace turnwright::planning {
 /// The window of operation i of a solved surface (process_plan.hpp): with the finishing
 /// depth, the passes and the other operation as chosen,
 ///
-///     { (v, f): every limit is kept, cost(v, f) <= (1 + percent/100) cost of the optimum
-///     }
+///     { (v, f): every limit is kept,
+///               cost(v, f) <= (1 + percent/100) cost of the optimum }
 ///
 /// where cost is the operation's own part of the objective.  For each feed the speeds are
 /// one interval, for the cost falls and then rises with the speed and every limit of the

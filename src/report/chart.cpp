@@ -22,7 +22,7 @@ double step_of(const Scale& s, int count) {
 double round_below(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)));
   for (const double factor : {5.0, 2.0})
-    if (factor * power <= x) return factor * power;
+    if (factor * power <= x * (1 + 1e-12)) return factor * power;
   return power;
 }
 

@@ -16,7 +16,8 @@ struct Scale {
   }
 };
 
-/// The largest of 1, 2, 5, 10, .. times any power of ten that is at most x > 0.
+/// The largest of 1, 2, 5, 10, .. times any power of ten that is at most x > 0, but
+/// for rounding.
 double round_below(double x);
 
 /// Multiples of a round step inside the scale, some `count` of them.

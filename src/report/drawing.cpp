@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "chart.hpp"
 #include "contour.hpp"
 #include "layout.hpp"
 #include "svg.hpp"
@@ -29,14 +30,6 @@ constexpr double kWords = 70;       // of the legend
 constexpr double kLeft = 4, kRight = kWidth - 2;  // of what is spread
 constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;
 constexpr std::size_t kNameLength = 60, kIdLength = 24;
-
-/// The largest of 1, 2, 5, 10, .. (and 0.5, 0.2, ..) that is not above `limit`.
-double round_below(double limit) {
-  const double power = std::pow(10, std::floor(std::log10(limit)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= limit * (1 + 1e-12)) return digit * power;
-  return power;
-}
 
 /// What a deviation is of: its surface as drawn; none for a face.
 std::optional<Run> surface_of(const part::Drawing& d, const std::string& id) {

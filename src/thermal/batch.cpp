@@ -22,7 +22,8 @@ BatchDrift batch_drift(const LagModel& model, const Inputs& inputs, const Batch&
   if (out.time_s.empty() || !(batch.cycle_s > 0) || inputs.time_s.empty() ||
       !(batch.first_s >= inputs.time_s.front()) ||
       !(out.time_s.back() <= inputs.time_s.back()))
-    throw std::invalid_argument("batch_drift: the inputs do not cover the parts");
+    throw std::domain_error(
+        "batch_drift: batch must have parts, cycle_s > 0 and lie within inputs.time_s");
 
   const Inputs rows = with_rows_at(inputs, out.time_s);
   const auto e = drift_um(model, rows);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 
 #include "response.hpp"
 #include "turnwright/base/errors.hpp"
@@ -358,9 +359,10 @@ Task first_rows(const DriftLog& log, const Inputs& inputs, const FitOptions& o) 
 }  // namespace
 
 Choice fit_lags(const DriftLog& log, std::size_t rows, const FitOptions& options) {
-  check(log.inputs);
+  check(log.inputs, "fit_lags: log.inputs");
   if (log.error_um.size() != log.inputs.time_s.size() || rows > log.error_um.size())
-    throw std::invalid_argument("fit_lags: more rows asked for than the log has");
+    throw std::domain_error(
+        "fit_lags: log must have one error_um for each time_s, rows at most as many");
   if (rows < kLeastRows)
     throw ModelRangeError("thermal: " + std::to_string(rows) + " rows to fit, " +
                           std::to_string(kLeastRows) + " at least are needed");
@@ -396,7 +398,7 @@ Choice fit_lags(const DriftLog& log, std::size_t rows, const FitOptions& options
 }
 
 std::vector<double> drift_uncertainty_um(const LagFit& fit, const Inputs& inputs) {
-  check(inputs);
+  check(inputs, "drift_uncertainty_um: inputs");
   const LagModel& m = fit.model;
   const Shape s{.lags = static_cast<Index>(m.lags.size())};
   std::vector<double> theta;

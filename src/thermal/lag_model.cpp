@@ -7,7 +7,7 @@
 namespace turnwright::thermal {
 
 std::vector<double> drift_um(const LagModel& model, const Inputs& inputs) {
-  check(inputs);
+  check(inputs, "drift_um: inputs");
   const Heat h = heat(inputs.rpm, model.n_max_rpm, model.p);
   std::vector<double> e(inputs.time_s.size());
   Eigen::Map<Eigen::VectorXd> sum(e.data(), static_cast<Eigen::Index>(e.size()));
@@ -21,7 +21,7 @@ std::vector<double> drift_um(const LagModel& model, const Inputs& inputs) {
 }
 
 Inputs with_rows_at(const Inputs& inputs, std::span<const double> times_s) {
-  check(inputs);
+  check(inputs, "with_rows_at: inputs");
   std::vector<double> times(inputs.time_s);
   for (const double t : times_s)
     if (t > inputs.time_s.front() && t < inputs.time_s.back()) times.push_back(t);
@@ -43,8 +43,8 @@ Inputs with_rows_at(const Inputs& inputs, std::span<const double> times_s) {
 }
 
 Inputs joined(const Inputs& first, const Inputs& later) {
-  check(first);
-  check(later);
+  check(first, "joined: first");
+  check(later, "joined: later");
   Inputs out = first;
   const double end = first.time_s.back(), begin = later.time_s.front();
   out.rpm.back() = later.rpm.front();

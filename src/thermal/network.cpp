@@ -115,7 +115,8 @@ Network train(std::span<const Row> rows, std::span<const double> error_um,
               const NetworkOptions& options) {
   if (rows.empty() || rows.size() != error_um.size() || options.hidden == 0 ||
       options.starts == 0)
-    throw std::invalid_argument("train: no rows, or not one error for each");
+    throw std::domain_error(
+        "train: rows must be one or more, error_um one for each, hidden and starts > 0");
   const auto n = static_cast<Index>(rows.size());
   Network net{.hidden = options.hidden, .least = rows[0], .largest = rows[0]};
   for (std::size_t i = 0; i < kInputs; ++i) {

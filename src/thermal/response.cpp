@@ -12,13 +12,15 @@ double at(std::span<const double> v, Index i) { return v[static_cast<std::size_t
 
 }  // namespace
 
-void check(const Inputs& inputs) {
+void check(const Inputs& inputs, const std::string& argument) {
   const auto rows = inputs.time_s.size();
   if (rows == 0 || inputs.rpm.size() != rows || inputs.ambient_degC.size() != rows)
-    throw std::invalid_argument("thermal: time, rpm and ambient differ in length");
+    throw std::domain_error(argument +
+                            ": time_s, rpm and ambient_degC must have as many rows, at "
+                            "least one");
   for (std::size_t i = 1; i < rows; ++i)
     if (!(inputs.time_s[i] > inputs.time_s[i - 1]))
-      throw std::invalid_argument("thermal: the times do not rise");
+      throw std::domain_error(argument + ": time_s must rise");
 }
 
 Heat heat(std::span<const double> rpm, double n_max_rpm, double p) {

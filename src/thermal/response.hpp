@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <span>
+#include <string>
 
 #include "turnwright/thermal/lag_model.hpp"
 
@@ -19,8 +20,9 @@ struct Heat {
   Eigen::VectorXd h, by_p;
 };
 
-/// @throws std::invalid_argument if the inputs differ in length or the times do not rise.
-void check(const Inputs& inputs);
+/// @param argument whose inputs these are, "function: argument".
+/// @throws std::domain_error if the inputs differ in length or the times do not rise.
+void check(const Inputs& inputs, const std::string& argument);
 
 Heat heat(std::span<const double> rpm, double n_max_rpm, double p);
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "turnwright/base/random.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::tolerance {
@@ -63,11 +64,11 @@ void check(std::span<const Source> sources) {
   }
 }
 
-/// X of value 1 from two numbers in (0, 1).
+/// X of value 1 from two numbers in (0, 1].
 double unit_draw(Distribution d, double u, double w) {
   switch (d) {
     case Distribution::normal:
-      return std::sqrt(-2 * std::log(u)) * std::cos(2 * units::kPi * w);
+      return normal_draw(u, w);
     case Distribution::uniform:
       return 2 * u - 1;
     case Distribution::triangular:
@@ -85,17 +86,14 @@ double unit_draw(Distribution d, double u, double w) {
 /// Eq. (1) for the draws first .. first + sums.size() - 1.
 void add_draws(std::span<const Source> sources, std::uint64_t seed, std::size_t first,
                std::span<double> sums) {
-  const auto number = [](std::uint64_t bits) {
-    return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
-  };
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Source& s = sources[i];
     const double scale = s.sensitivity * s.value_um;
     const std::uint64_t state = splitmix64(splitmix64(seed, 0), i);
     for (std::size_t j = 0; j < sums.size(); ++j) {
       const std::uint64_t k = 2 * static_cast<std::uint64_t>(first + j);
-      sums[j] += scale * unit_draw(s.distribution, number(splitmix64(state, k)),
-                                   number(splitmix64(state, k + 1)));
+      sums[j] += scale * unit_draw(s.distribution, uniform_draw(splitmix64(state, k)),
+                                   uniform_draw(splitmix64(state, k + 1)));
     }
   }
 }
@@ -146,13 +144,6 @@ std::optional<double> index(const Budget& b) {
 
 Span room_um(const Verdict& v) {
   return {units::um_from_mm(v.room_mm.min_mm), units::um_from_mm(v.room_mm.max_mm)};
-}
-
-std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k) {
-  std::uint64_t z = state + (k + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
 }
 
 std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -179,12 +178,8 @@ Asked read(double nominal_mm, std::string_view text) {
           .letter = {},
           .bore = false,
           .grade = Grade::IT01};
-  const auto is_letter = [](char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) != 0;
-  };
-  const auto is_upper = [](char c) {
-    return std::isupper(static_cast<unsigned char>(c)) != 0;
-  };
+  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const auto is_letter = [&](char c) { return is_upper(c) || (c >= 'a' && c <= 'z'); };
   const std::string_view letters = text.substr(
       0,
       static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin()));
@@ -195,7 +190,7 @@ Asked read(double nominal_mm, std::string_view text) {
   for (const char c : letters) {
     if (is_upper(c) != a.bore)
       refuse(text, "capitals are bores and small letters are shafts, they do not mix");
-    a.letter += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    a.letter += static_cast<char>(a.bore ? c - 'A' + 'a' : c);
   }
   static constexpr std::array<std::string_view, kGrades> kNames{
       "01", "0",  "1",  "2",  "3",  "4",  "5",  "6",  "7",  "8",

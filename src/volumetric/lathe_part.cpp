@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
+#include "turnwright/base/random.hpp"
 #include "turnwright/volumetric/minimum_zone.hpp"
 
 namespace turnwright::volumetric {
@@ -245,13 +245,14 @@ FormDistribution form_distribution(std::span<const FormSource> sources, std::siz
       throw std::domain_error("form_distribution: fields of one length");
     out.worst_mm += s.bound * range(s.field_mm);
   }
-  std::mt19937_64 random(seed);
-  std::normal_distribution<> gauss;
+  std::uint64_t k = 0;
+  const auto uniform = [&] { return uniform_draw(splitmix64(seed, k++)); };
   std::vector<double> e(n), widths(draws);
   for (double& width : widths) {
     std::ranges::fill(e, 0.0);
     for (const FormSource& s : sources) {
-      const double x = std::clamp(s.u * gauss(random), -s.bound, s.bound);
+      const double u = uniform(), w = uniform();
+      const double x = std::clamp(s.u * normal_draw(u, w), -s.bound, s.bound);
       for (std::size_t i = 0; i < n; ++i) e[i] += x * s.field_mm[i];
     }
     width = range(e);

@@ -1,10 +1,11 @@
 #include "turnwright/volumetric/samba.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "turnwright/base/cancelled.hpp"
@@ -429,10 +430,8 @@ std::vector<Remedy> remedies(const SambaStrategy& strategy,
     if (at.balls.empty() || !at.pre_moves.empty()) continue;
     turn += kGolden;
     at.C_rad = std::remainder(turn, 2 * units::kPi);
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%s%.1f (%zu)", turned.empty() ? "" : ", ",
-                  units::deg_from_rad(at.C_rad), i + 1);
-    turned += text.data();
+    turned += fmt::format("{}{:.1f} ({})", turned.empty() ? "" : ", ",
+                          units::deg_from_rad(at.C_rad), i + 1);
   }
   try_out("decouple C from B: C at, deg (indexation), " + turned);
   const Vec3 tip = strategy.styli_mm.front();

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "schema_check.hpp"
-#include "turnwright/base/errors.hpp"
+#include "slips.hpp"
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/document/file.hpp"
 
@@ -35,12 +34,8 @@ json answered(const json& request) {
 }
 
 std::string refused(const json& request) {
-  try {
-    calibrate_material(request, catalogue());
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return input_refusal([](const json& r) { calibrate_material(r, catalogue()); },
+                       request);
 }
 
 json tool() {

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "schema_check.hpp"
-#include "turnwright/base/errors.hpp"
+#include "slips.hpp"
 #include "turnwright/document/file.hpp"
 
 namespace turnwright::document {
@@ -24,14 +23,7 @@ json answered(const json& request) {
   return result;
 }
 
-std::string refused(const json& request) {
-  try {
-    multipass(request);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
-}
+std::string refused(const json& request) { return input_refusal(multipass, request); }
 
 TEST(Multipass, AnswersTheLiterature) {
   const json r = answered(json::object());

@@ -10,17 +10,25 @@
 
 namespace turnwright::document {
 
-/// What a door's InputError says to a request, "" if it takes it.
+/// What a door's InputError says to a request, "" if it answers it.
 template <class Door>
-std::string refusal(Door door, const nlohmann::json& request) {
+std::string input_refusal(Door door, const nlohmann::json& request) {
   try {
     door(request);
   } catch (const InputError& e) {
     return e.what();
-  } catch (const ModelRangeError&) {
-    return "";  // well formed, but beyond the model
   }
   return "";
+}
+
+/// The same, "" also for what is well formed but beyond the model.
+template <class Door>
+std::string refusal(Door door, const nlohmann::json& request) {
+  try {
+    return input_refusal(door, request);
+  } catch (const ModelRangeError&) {
+    return "";
+  }
 }
 
 /// Every key of `good` left out, and every value replaced, one at a time: the schema

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "schema_check.hpp"
+#include "slips.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/file.hpp"
@@ -38,12 +38,7 @@ json answered(const json& request) {
 }
 
 std::string refused(const json& request) {
-  try {
-    stability(request, files());
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return input_refusal([](const json& r) { stability(r, files()); }, request);
 }
 
 TEST(Stability, TellsTheIsland) {

@@ -122,12 +122,11 @@ TEST(LocalMinimum, RefusesBoundsThatAreNone) {
   auto p = geometric(1);
   const std::vector<double> start{0, 0};
   p.lower[0] = std::nan("");
-  EXPECT_THROW(local_minimum(p, start), std::invalid_argument);
+  EXPECT_THROW(local_minimum(p, start), std::domain_error);
   p = geometric(1);
   p.lower[0] = 30;
-  EXPECT_THROW(local_minimum(p, start), std::invalid_argument);
-  EXPECT_THROW(local_minimum(geometric(1), std::vector<double>{0}),
-               std::invalid_argument);
+  EXPECT_THROW(local_minimum(p, start), std::domain_error);
+  EXPECT_THROW(local_minimum(geometric(1), std::vector<double>{0}), std::domain_error);
 }
 
 TEST(LogCurvature, KnowsPosynomialsAndClaimsNothingElse) {

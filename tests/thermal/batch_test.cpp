@@ -49,13 +49,13 @@ TEST(Batch, OnePartDoesNotDriftAndOneForEachOffsetNeither) {
 
 TEST(Batch, RefusesPartsBeyondTheInputs) {
   EXPECT_THROW(batch_drift(kModel, kWarmUp, {.first_s = 0, .cycle_s = 100, .parts = 102}),
-               std::invalid_argument);
+               std::domain_error);
   EXPECT_THROW(batch_drift(kModel, kWarmUp, {.first_s = -1, .cycle_s = 100, .parts = 2}),
-               std::invalid_argument);
+               std::domain_error);
   EXPECT_THROW(batch_drift(kModel, kWarmUp, {.first_s = 0, .cycle_s = 100, .parts = 0}),
-               std::invalid_argument);
+               std::domain_error);
   EXPECT_THROW(batch_drift(kModel, kWarmUp, {.first_s = 0, .cycle_s = 0, .parts = 2}),
-               std::invalid_argument);
+               std::domain_error);
 }
 
 }  // namespace

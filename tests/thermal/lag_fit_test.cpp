@@ -179,7 +179,7 @@ TEST(LagFit, SaysWhatTheLogCannotTell) {
 TEST(LagFit, RefusesWhatCannotBeFitted) {
   auto log = log_of(one_lag());
   EXPECT_THROW(fit_lags(log, kLeastRows - 1), ModelRangeError);
-  EXPECT_THROW(fit_lags(log, log.error_um.size() + 1), std::invalid_argument);
+  EXPECT_THROW(fit_lags(log, log.error_um.size() + 1), std::domain_error);
   EXPECT_THROW(fit_lags(log, 100, {.tau_min_s = 1000, .tau_max_s = 900}),
                ModelRangeError);
   std::ranges::fill(log.inputs.rpm, 0);

@@ -111,10 +111,9 @@ TEST(LagModel, TheShiftsFirstRowTakesThePlaceOfTheLogsLast) {
 TEST(LagModel, RefusesTimesThatDoNotRise) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double second : {0.0, -1.0, nan})
-    EXPECT_THROW(drift_um(one_lag(), {{0, second}, {0, 0}, {20, 20}}),
-                 std::invalid_argument);
-  EXPECT_THROW(drift_um(one_lag(), {{0, 1}, {0}, {20, 20}}), std::invalid_argument);
-  EXPECT_THROW(drift_um(one_lag(), {}), std::invalid_argument);
+    EXPECT_THROW(drift_um(one_lag(), {{0, second}, {0, 0}, {20, 20}}), std::domain_error);
+  EXPECT_THROW(drift_um(one_lag(), {{0, 1}, {0}, {20, 20}}), std::domain_error);
+  EXPECT_THROW(drift_um(one_lag(), {}), std::domain_error);
 }
 
 }  // namespace

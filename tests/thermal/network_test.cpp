@@ -88,8 +88,8 @@ TEST(Network, SaysWhereItKnowsNothing) {
 
 TEST(Network, RefusesRowsWithoutErrors) {
   const auto d = grid();
-  EXPECT_THROW(train(d.rows, {}), std::invalid_argument);
-  EXPECT_THROW(train({}, {}), std::invalid_argument);
+  EXPECT_THROW(train(d.rows, {}), std::domain_error);
+  EXPECT_THROW(train({}, {}), std::domain_error);
 }
 
 }  // namespace

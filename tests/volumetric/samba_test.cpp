@@ -37,7 +37,7 @@ SambaStrategy strategy() {
   return s;
 }
 
-// Names of volumetric.hpp's groups, counted here.
+// The first of samba_parameters(), whose groups are counted here.
 std::vector<std::string> first(std::size_t count) {
   const auto& all = samba_parameters();
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)};

@@ -10,15 +10,14 @@ namespace turnwright {
 /// Encloses a positive quantity over a box of logarithms y: ln of its value, and its
 /// elasticities d ln(value)/dy.
 ///
-///     (u v)' = u' + v',   (u^p)' = p u',   (u + v)' = u' + w (v' - u'),  w = v/(u + v)
-///     (1)
+///     (u v)' = u' + v',  (u^p)' = p u',  (u + v)' = u' + w (v' - u'),  w = v/(u + v) (1)
 ///
 /// so a product of powers is enclosed without error on any box, and a sum by shares of
 /// what its terms are: the gradient of a cost or a force stays within the hull of its
 /// exponents where Dual<Interval> would multiply and divide the widths of its values.
 /// With the value at the middle of the box, `centre`, every result is also
 ///
-///     ln v in centre + sum_j (elasticity_j) [-h_j, h_j],  h the box's half widths (2)
+///     ln v in centre + sum_j (elasticity_j) [-h_j, h_j],  h the box's half widths    (2)
 ///
 /// Rounding as in Interval.  Zero is ln v = -infinity and the neutral element of +.
 /// Source: derived here; log_dual_test samples boxes.

@@ -34,8 +34,7 @@ struct Harmonic {
 ///
 /// t = q/Q with the axis' reference travel Q; q the programmed value [mm or rad]; s = +1,
 /// -1 the sign of the programmed motion dq/dt, 0 where it is unknown or at rest; h = 1,
-/// 2,
-/// .., rotary axes only.  b is half the reversal: lost motion B = -2 b.
+/// 2, .., rotary axes only.  b is half the reversal: lost motion B = -2 b.
 struct ErrorFunction {
   std::array<double, 4> c{};
   double b = 0;

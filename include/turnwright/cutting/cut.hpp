@@ -247,8 +247,7 @@ T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& a
 
 /// Roughness depth Rz [um] of the corner radius, with Brammertz' floor:
 ///
-///     Rt = f^2/(8 r) + (hmin/2)(1 + r hmin/f^2),   least value hmin at f = sqrt(2 r
-///     hmin)
+///     Rt = f^2/(8 r) + (hmin/2)(1 + r hmin/f^2),  least value hmin at f = sqrt(2 r hmin)
 ///
 /// times the wiper factor.  Exact for f <= 2 r sin(kappa'); beyond, the straight minor
 /// edge lies below the arc's continuation and shaves the ridge, so the formula stays

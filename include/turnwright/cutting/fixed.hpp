@@ -19,8 +19,8 @@ struct Load {
 
 /// Drill of two edges into the solid, D its diameter, sigma the point angle:
 ///
-///     h = (f/2) sin(sigma/2),  kc = kc1.1 h^-mc (1) Fc = kc f D/2,  M = Fc D/4,  Ff =
-///     0.5 kc f (D/2) sin(sigma/2)                   (2)
+///     h = (f/2) sin(sigma/2),  kc = kc1.1 h^-mc                                      (1)
+///     Fc = kc f D/2,  M = Fc D/4,  Ff = 0.5 kc f (D/2) sin(sigma/2)                  (2)
 ///
 /// Each edge cuts D/2 wide and f/2 deep and its force acts at D/4.  The thrust counts the
 /// chisel edge within its 0.5, +-30 %.
@@ -29,7 +29,7 @@ Load drill(const catalogue::Kienzle& kc, double D_mm, double f_mm_rev, double po
 
 /// Straight edge of width b fed into the work, at diameter D:
 ///
-///     Fc = kc1.1 b f^(1-mc),  Ff = 0.5 Fc,  M = Fc D/2 (3)
+///     Fc = kc1.1 b f^(1-mc),  Ff = 0.5 Fc,  M = Fc D/2                               (3)
 ///
 /// Ff is that of cut.hpp (5) for kappa = 90 deg, +-30 %.  For blades (feed to the axis)
 /// and profiling passes (b = depth).
@@ -43,8 +43,8 @@ struct Infeed {
 
 /// Infeeds of equal chip area into a 60 deg vee of depth h, in n passes:
 ///
-///     a_k = h sqrt(k/n),  A = tan(30 deg) h^2/n (4) L_k = 2 a_k/cos(30 deg),  Fc_k =
-///     kc1.1 L_k^mc A^(1-mc)                          (5)
+///     a_k = h sqrt(k/n),  A = tan(30 deg) h^2/n                                      (4)
+///     L_k = 2 a_k/cos(30 deg),  Fc_k = kc1.1 L_k^mc A^(1-mc)                         (5)
 ///
 /// L_k are both flanks, A/L_k the equivalent chip thickness; the last pass has the most.
 /// Ff is radial, 0.5 Fc.  Source: derived here from the vee.

@@ -83,9 +83,9 @@ T power_share(const PowerLine& l, const T& Fc_N, const Sweep<T>& s, const T& vc_
 
 /// Grip of a three-jaw chuck on the outside, after VDI 3106:
 ///
-///     Fsp(n) = Fsp0 - sum(m r) (pi n/30)^2 >= Sz F/mu,  Sz = 1.5 (2) F = hypot(Fc
-///     d_cut/d_grip, Ff): what friction must carry around and along centrifugal loss <=
-///     0.67 Fsp0
+///     Fsp(n) = Fsp0 - sum(m r) (pi n/30)^2 >= Sz F/mu,  Sz = 1.5                     (2)
+///     F = hypot(Fc d_cut/d_grip, Ff): what friction must carry around and along
+///     centrifugal loss <= 0.67 Fsp0
 ///
 /// The tilting moment of the passive force is not part of this model.
 struct Grip {
@@ -130,9 +130,9 @@ struct Duty {
 /// Along the path dt = ds/(f n), n = min(n_cap, 1000 v/(pi D)), and an edge wears at the
 /// rate 1/T of the speed it meets, v_eff = pi D n/1000, T ~ v^(-1/n_T):
 ///
-///     time  = (l/(f dD)) [ (D_s - D_1)/n_cap + pi (D_2^2 - D_s^2)/(2000 v) ] (3) edges =
-///     (l/(f dD T(v))) [ (D_s (D_s/D_c)^q - D_1 (D_1/D_c)^q)/((q + 1) n_cap)
-///                               + pi (D_2^2 - D_s^2)/(2000 v) ],  q = 1/n_T (4)
+///     time  = (l/(f dD)) [ (D_s - D_1)/n_cap + pi (D_2^2 - D_s^2)/(2000 v) ]         (3)
+///     edges = (l/(f dD T(v))) [ (D_s (D_s/D_c)^q - D_1 (D_1/D_c)^q)/((q + 1) n_cap)
+///                               + pi (D_2^2 - D_s^2)/(2000 v) ],  q = 1/n_T          (4)
 ///     D_c = 1000 v/(pi n_cap),  D_s = D_c held in [D_1, D_2]
 ///
 /// Cylinder: time = pi D l/(1000 v f), edges = time/T; its v must not ask for more than

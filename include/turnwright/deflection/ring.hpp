@@ -12,7 +12,7 @@ namespace turnwright::deflection {
 ///
 ///     w = F R^3/(2 E I) (phi sin(phi)/(2 sin(alpha)) - 1/alpha
 ///                        + cos(phi) (sin(alpha) + alpha cos(alpha))/(2 sin^2(alpha)))
-///                        (2)
+///                                                                                  (2)
 ///
 /// From jaw to middle, three jaws: 0.0302 F R^3/(E I).  Turned round under the jaws and
 /// let go, the surface keeps these lobes the other way round: high where it had been

@@ -38,8 +38,7 @@ catalogue::Lathe read_lathe(Reader document);
 /// The *.json files in materials/, tools/, tools/fixed/, tools/milling/ and machines/ of
 /// `folder`.
 /// @throws InputError with all problems over all files; their pointers start with the
-/// file,
-///   "materials/C45.json#/kienzle/mc".
+///   file, "materials/C45.json#/kienzle/mc".
 Catalogue load_catalogue(const std::filesystem::path& folder);
 
 /// Where the catalogue lies: `given`, else the environment's TURNWRIGHT_DATA, else

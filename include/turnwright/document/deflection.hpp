@@ -9,8 +9,7 @@ namespace turnwright::document {
 /// the documents are described by schemas/deflection.request.json and
 /// schemas/deflection.result.json.
 /// @throws InputError with every problem of the request; ModelRangeError where a force
-/// law
-///   has no equilibrium or a result is beyond what a double holds.
+///   law has no equilibrium or a result is beyond what a double holds.
 nlohmann::json deflection(const nlohmann::json& request);
 
 }  // namespace turnwright::document

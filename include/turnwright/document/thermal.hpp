@@ -8,8 +8,7 @@ namespace turnwright::document {
 /// the drift over a planned shift and batch.  Computed by thermal/; the documents are
 /// described by schemas/thermal.request.json and schemas/thermal.result.json.
 /// @throws InputError with every problem of the request; ModelRangeError if the log
-/// cannot
-///   tell the model: too few rows, or a spindle that never turns.
+///   cannot tell the model: too few rows, or a spindle that never turns.
 nlohmann::json thermal(const nlohmann::json& request);
 
 }  // namespace turnwright::document

@@ -6,9 +6,9 @@
 
 /// Regenerative vibration of a tool or workpiece that cuts its own waves:
 ///
-///     eta_i'' + 2 zeta_i wn_i eta_i' + wn_i^2 eta_i = (wn_i^2 / k_i) F_axis(i) (1) F =
-///     -w sum_j g_j h(phi_j) (q(t) - q(t - tau)),   q_a = sum of eta_i on axis a     (2)
-///     tau = 60 / (N n),   phi_j = 2 pi n t / 60 + 2 pi j / N (3)
+///     eta_i'' + 2 zeta_i wn_i eta_i' + wn_i^2 eta_i = (wn_i^2 / k_i) F_axis(i)      (1)
+///     F = -w sum_j g_j h(phi_j) (q(t) - q(t - tau)),   q_a = sum of eta_i on axis a (2)
+///     tau = 60 / (N n),   phi_j = 2 pi n t / 60 + 2 pi j / N                        (3)
 ///
 /// eta_i displacement of mode i [mm], wn_i its natural frequency [rad/s], zeta_i its
 /// damping ratio, k_i its stiffness [N/mm]; q displacement at the cut along x (feed) and
@@ -31,8 +31,8 @@ struct Mode {
 
 /// Forces proportional to the chip thickness, with s = sin phi, c = cos phi:
 ///
-///     h_xx = (Kt c + Kn s) s     h_xy = (Kt c + Kn s) c (4) h_yx = (-Kt s + Kn c) s h_yy
-///     = (-Kt s + Kn c) c
+///     h_xx = (Kt c + Kn s) s     h_xy = (Kt c + Kn s) c                             (4)
+///     h_yx = (-Kt s + Kn c) s    h_yy = (-Kt s + Kn c) c
 struct LinearForce {
   double Kt_MPa = 0;  ///< tangential, > 0
   double Kn_MPa = 0;  ///< normal, towards the tooth's centre, >= 0
@@ -41,7 +41,7 @@ struct LinearForce {
 /// A power law of the chip thickness, linearised about the feed per tooth v tau, along x:
 ///
 ///     h = C gamma (v tau)^(gamma - 1) sin^gamma(phi) (normal_ratio sin(phi) + cos(phi))
-///     (5)
+///                                                                                   (5)
 ///
 /// Source: Ozoegwu, Omenyi, Ofochebe, "Time Finite Element Chatter Stability
 /// Characterization of a Three Tooth Plastic End-Milling CNC Machine", Eq. (3), whose

@@ -18,20 +18,17 @@
 /// their own:
 ///
 ///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), that at feed; a
-///     pass that would start in what an element before still
-///                 carries starts before that element
+///                 pass that would start in what an element before still carries starts
+///                 before that element
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
-///     pass
-///                 ends r + 0.2 mm behind an edge that falls, unless jaws are nearer
+///                 pass ends r + 0.2 mm behind an edge that falls, unless jaws are nearer
 ///     cones       are roughed parallel to themselves
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
-///     runs
-///                 out along the smaller element to where turning ended
+///                 runs out along the smaller element to where turning ended
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm
 ///     grooves     plunges side by side between the walls, the first at the chuck's
 ///     threads     radial infeeds, each from 3 pitches before; where the part rises
-///     behind
-///                 without a groove the thread ends one pitch early
+///                 behind without a groove the thread ends one pitch early
 ///     parting     the blade's side towards the part at the face's allowance
 ///     tool change X and Z 50 mm clear of the stock
 ///

@@ -47,8 +47,8 @@ struct Solution {
 /// `start` (clamped into the box).  Every constraint is evaluated again at the answer:
 /// NLopt's codes do not prove feasibility.  An exception of `evaluate` comes out
 /// unchanged.
-/// @throws std::invalid_argument if sizes disagree, a bound is not finite or a start is
-/// NaN.
+/// @throws std::domain_error if sizes disagree, bounds are not in order, or a bound or
+///   start is not finite.
 Solution local_minimum(const Problem& problem, std::span<const double> start,
                        const Options& options = {});
 
@@ -68,8 +68,9 @@ std::vector<double> multipliers_at(const Problem& problem, std::span<const doubl
 
 /// Lower bound of f over every feasible y of the box, for convex f and g:
 ///
-///     f(y) >= f* + sum lambda_i g_i* + sum_j min(r_j (lower_j - y*_j), r_j (upper_j -
-///     y*_j)) r = df* + sum lambda_i dg_i* (1)
+///     f(y) >= f* + sum lambda_i g_i*
+///             + sum_j min(r_j (lower_j - y*_j), r_j (upper_j - y*_j))                (1)
+///     r = df* + sum lambda_i dg_i*
 ///
 /// Valid for any lambda >= 0; tight at an optimum.  Source: convexity of the Lagrangian,
 /// derived here.

@@ -48,7 +48,7 @@ struct PosynomialOptimum {
 /// multipliers, of which the bound is made.
 /// Source: Boyd and Vandenberghe, "Convex Optimization" (2004), sections 4.5 (geometric
 /// programs) and 11.7 (primal-dual method); (1) is their 11.4, as one problem.
-/// @throws std::invalid_argument if sizes disagree or a bound is not finite and ordered.
+/// @throws std::domain_error if sizes disagree or a bound is not finite and ordered.
 PosynomialOptimum minimise(const Posynomial& problem,
                            const PosynomialOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace turnwright::planning {
 /// Every surface is cut by the machine as calibrated (volumetric/lathe_part.hpp), where
 /// it stands in its setup,
 ///
-///     z_machine = jaws_z + |z - z_root| (1)
+///     z_machine = jaws_z + |z - z_root|                                              (1)
 ///
 /// z_root where the jaws end (between centres: the held end), the free end in +Z
 /// whichever end of the part it is; outside surfaces with X coming from outside, bores
@@ -34,7 +34,7 @@ namespace turnwright::planning {
 /// later setup stands on its held end H; the faces A, B it has from two setups are apart
 /// by
 ///
-///     d = (e_B - e_H) - (e_H - e_A) in the setups of B and of A (2)
+///     d = (e_B - e_H) - (e_H - e_A) in the setups of B and of A                      (2)
 ///
 /// with the sign of A's place.  A datum of another setup lies off the spindle there by
 /// its own offset and tilt, at an unknown angle to the toleranced surface: twice the

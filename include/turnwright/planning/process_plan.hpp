@@ -6,7 +6,7 @@
 
 #include "turnwright/planning/part_plan.hpp"
 
-/// The answer of `plan`: the fields of the result document (interface.md), one to one.
+/// The answer of `plan`: the fields of schemas/plan.result.json, one to one.
 namespace turnwright::planning {
 
 enum class CertificateKind { global, local, none };

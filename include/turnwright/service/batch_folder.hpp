@@ -10,8 +10,8 @@
 
 /// The folder of a batch:
 ///
-///     manifest.json    what is answered: input, data, version; how many lines a chunk
-///     has work/N.jsonl     chunk N (from 0), while the batch is not complete
+///     manifest.json    what is answered: input, data, version; lines a chunk has
+///     work/N.jsonl     chunk N (from 0), while the batch is not complete
 ///     results.jsonl    every record, in the order of lines; appears at once
 ///     summary.json     how many of each kind, length and SHA-256 of results.jsonl
 ///

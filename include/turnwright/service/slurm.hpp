@@ -29,8 +29,7 @@ class SlurmBatch {
 
   /// Waits until no task is left, submits what is missing, and so on until nothing is.
   /// @throws OutputError if three arrays in a row bring nothing new, or if Slurm is
-  /// silent
-  ///   for ten minutes.
+  ///   silent for ten minutes.
   void complete(const std::function<void(const std::string&)>& tell);
 
  private:

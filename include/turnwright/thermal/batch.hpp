@@ -16,8 +16,8 @@ struct Batch {
 
 /// What the drift leaves on the parts, for the budget of a tolerance.
 ///
-///     range          = max e - min e over all the parts                              (7)
-///     between_offsets = the largest of (7) within one offset's parts (8)
+///     range           = max e - min e over all the parts                             (7)
+///     between_offsets = the largest of (7) within one offset's parts                 (8)
 ///
 /// e is along the direction of the probe: of a radius its own measure, of a diameter
 /// half.
@@ -30,7 +30,7 @@ struct BatchDrift {
 };
 
 /// Of a model driven by `inputs`, which must cover the batch.  One part drifts by 0.
-/// @throws std::invalid_argument if the batch is empty, its cycle is not positive or it
+/// @throws std::domain_error if the batch is empty, its cycle is not positive or it
 ///   leaves the inputs.
 BatchDrift batch_drift(const LagModel& model, const Inputs& inputs, const Batch& batch);
 

@@ -87,8 +87,9 @@ struct Choice {
 /// the blocks left out by more than kEarned.
 ///
 /// Source: derived here; (4) is known as variable projection.
-/// @throws std::invalid_argument as drift_um; ModelRangeError if the rows are fewer than
-///   kLeastRows, or the spindle never turns in them.
+/// @throws std::domain_error as drift_um, or if errors are not as many as times or rows
+///   are more; ModelRangeError if the rows are fewer than kLeastRows, or the spindle never
+///   turns in them.
 Choice fit_lags(const DriftLog& log, std::size_t rows, const FitOptions& options = {});
 
 inline constexpr std::size_t kLeastRows = 20;

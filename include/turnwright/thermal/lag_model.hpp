@@ -50,7 +50,7 @@ struct LagModel {
 
 /// e [um] at every row.  Exact: between rows (2) and (3) have closed forms, so the step
 /// does not matter.
-/// @throws std::invalid_argument if the inputs differ in length or the times do not rise.
+/// @throws std::domain_error if the inputs differ in length or the times do not rise.
 std::vector<double> drift_um(const LagModel& model, const Inputs& inputs);
 
 /// The same inputs with rows at `times_s` too, those outside the inputs left out.

@@ -45,7 +45,8 @@ struct Network {
 /// network.
 ///
 /// Source: derived here; the inputs are those of Valiño et al. (2008), section II.B.
-/// @throws std::invalid_argument if rows and errors differ in number or there are none.
+/// @throws std::domain_error if rows and errors differ in number or there are none, or
+///   without hidden neurons or starts.
 Network train(std::span<const Row> rows, std::span<const double> error_um,
               const NetworkOptions& options = {});
 

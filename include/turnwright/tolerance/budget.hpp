@@ -75,10 +75,6 @@ struct Span {
 /// How far S may go: (5).
 Span room_um(const Verdict& v);
 
-/// Number k = 0, 1, .. of SplitMix64 started at `state`, without those before it.
-/// Source: Rosetta Code, "Pseudo-random numbers/Splitmix64", which lists the first five.
-std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k);
-
 struct Draws {
   std::uint64_t seed = 1;
   std::size_t count = 100'000;  ///< > 0; P's error falls with its square root
@@ -164,8 +160,7 @@ struct Budget {
 
 /// The budget of a tolerance that leaves the sources this room.
 /// @throws std::domain_error as rising_sum_um(), or if the wanted conformance or U is out
-/// of
-///   range or `room` has an end that is NaN.
+///   of range or `room` has an end that is NaN.
 Budget budget(const BudgetDemand& demand, const Span& room);
 
 }  // namespace turnwright::tolerance

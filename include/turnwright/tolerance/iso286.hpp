@@ -47,9 +47,10 @@ double it_um(double nominal_mm, Grade grade);
 ///
 ///     shafts  a..h, cd, ef, fg: es = -d(D), ei = es - IT     j, k..zc: ei, es = ei + IT
 ///     bores   A..H: EI = +d(D), ES = EI + IT                 J: ES, EI = ES - IT
-///             K, M, N to IT8 and P..ZC to IT7: ES = -ei + Delta,   Delta = IT(n) -
-///             IT(n-1) coarser grades: M, P..ZC  ES = -ei;  K (to 3 mm) and N (above 3
-///             mm)  ES = 0
+///             K, M, N to IT8 and P..ZC to IT7: ES = -ei + Delta,
+///               Delta = IT(n) - IT(n-1)
+///             coarser grades: M, P..ZC  ES = -ei;
+///               K (to 3 mm) and N (above 3 mm)  ES = 0
 ///     js, JS  +- IT/2, not rounded
 ///
 /// ei is the shaft's of the same letter; k is the tabulated ei for IT4..IT7, 0 otherwise.

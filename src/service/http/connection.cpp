@@ -1,5 +1,8 @@
+#include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <array>
 #include <ctime>
 #include <optional>
 
@@ -46,20 +49,23 @@ auto into(error_code& ec) { return asio::redirect_error(asio::use_awaitable, ec)
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
-/// Date header's form (RFC 9110, 5.6.7).
+/// Date header's form (RFC 9110, 5.6.7), English in any locale.
 std::string date() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
-  char out[40];
-  return {out, std::strftime(out, sizeof out, "%a, %d %b %Y %H:%M:%S GMT", &utc)};
+  static constexpr std::array kDays = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+  static constexpr std::array kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                         "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  return fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT",
+                     kDays[static_cast<std::size_t>(utc.tm_wday)], utc.tm_mday,
+                     kMonths[static_cast<std::size_t>(utc.tm_mon)], utc.tm_year + 1900,
+                     utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
 bool is_request_id(beast::string_view id) {
   if (id.empty() || id.size() > 64) return false;
-  return std::all_of(id.begin(), id.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '-' || c == '_' || c == '.';
-  });
+  return std::all_of(id.begin(), id.end(), is_of_name);
 }
 
 /// The call as far as its header tells; the caller's own id is kept where it has one.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/asio/ip/address.hpp>
-#include <cctype>
 #include <optional>
 #include <string>
 
@@ -27,15 +26,17 @@ std::optional<std::string_view> name_of(std::string_view host) {
   const auto end = std::min(host.find(literal ? ']' : ':'), host.size());
   const auto name = literal ? host.substr(1, end - 1) : host.substr(0, end);
   const auto port = host.substr(std::min(end + (literal ? 1 : 0), host.size()));
-  const auto is_of_name = [](unsigned char c) {
-    return std::isalnum(c) || c == '-' || c == '.' || c == '_';
-  };
   const bool good = literal ? end < host.size() && is_address(name)
                             : std::all_of(name.begin(), name.end(), is_of_name);
   return good && is_port(port) ? std::optional(name) : std::nullopt;
 }
 
 }  // namespace
+
+bool is_of_name(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+         c == '-' || c == '.' || c == '_';
+}
 
 bool is_host(std::string_view host) { return name_of(host).has_value(); }
 

@@ -4,6 +4,9 @@
 /// Who is asked, and on whose behalf.
 namespace turnwright::service {
 
+/// A letter or digit of ASCII, "-", "." or "_".
+bool is_of_name(char c);
+
 /// Whether this is a host, with or without a port, or nothing: a name of letters, digits,
 /// "-", "." and "_", an IPv4 address, an IPv6 address in brackets.
 bool is_host(std::string_view host);
