@@ -62,6 +62,14 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// What is too small for its squares and quotients to be numbers is 0, and so is a length
+// that no shape has.
+double size_of(double x, const Bounds& bounds) {
+  constexpr double kLeast = 1e-100, kLeast_mm = 1e-9;
+  const bool length = bounds.unit == "mm" && bounds.lower >= 0;
+  return std::abs(x) < (length ? kLeast_mm : kLeast) ? 0 : x;
+}
+
 }  // namespace
 
 void Problems::add(Problem problem) {
@@ -174,7 +182,7 @@ double Reader::as_number(const Bounds& bounds) const {
     problem(expected_number(bounds), "type");
     return kNaN;
   }
-  const double x = value_->get<double>();
+  const double x = size_of(value_->get<double>(), bounds);
   if (!contains(bounds, x)) {
     problem(expected_number(bounds), "range");
     return kNaN;

@@ -52,15 +52,16 @@ double default_grip_mm(const part::Drawing& drawing, std::size_t setup, part::En
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
 void check_setup(const Draft& draft, const Reader& at, std::size_t i,
-                 const planning::SetupRequest& setup) {
+                 const planning::SetupRequest& setup, bool grip_given) {
   const auto& drawing = draft.loaded.plan.drawing;
   const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
   const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
   if (readable && setup.grip_mm >= length_mm)
-    at.problem("a grip of " + text(setup.grip_mm),
-               "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
-                   text(length_mm),
-               "conflict");
+    at.problem(
+        (grip_given ? "a grip of " : "no grip_mm, by default ") + text(setup.grip_mm),
+        "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
+            text(length_mm),
+        "conflict");
   const bool jaws =
       std::any_of(setup.clampings.begin(), setup.clampings.end(),
                   [](Clamping c) { return c != Clamping::between_centres; });
@@ -128,7 +129,8 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   planning::SetupRequest setup;
   r = r.as_object();
   setup.hold = r.choice("hold", ends());
-  if (r.has("grip_mm")) {
+  const bool grip_given = r.has("grip_mm");
+  if (grip_given) {
     setup.grip_mm = r.number("grip_mm", above_up_to(0, 20000, "mm"));
   } else {
     setup.grip_mm = default_grip_mm(draft.drawing(), i, setup.hold);
@@ -144,7 +146,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "the first: predict compares none");
   }
   r.finish();
-  check_setup(draft, r, i, setup);
+  check_setup(draft, r, i, setup, grip_given);
   return setup;
 }
 
@@ -158,7 +160,7 @@ void assume_setups(Draft& draft) {
     setups.push_back({.hold = end,
                       .grip_mm = default_grip_mm(draft.drawing(), i, end),
                       .clampings = all_clampings(draft)});
-    check_setup(draft, at, i, setups.back());
+    check_setup(draft, at, i, setups.back(), false);
     echoed.push_back({{"hold", word},
                       {"grip_mm", setups.back().grip_mm},
                       {"clampings", words(setups.back().clampings)}});

@@ -37,13 +37,16 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
                  "conflict");
 }
 
-void check_length(Reader& r, const Draft& draft, const part::Drawing& drawing) {
-  const double finished_mm = part::length_mm(drawing);
-  if (drawing.stock.length_mm < finished_mm + drawing.stock.left_allowance_mm)
+void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
+  constexpr double kSum_mm = 1e-9;  // what summing lengths may be off by
+  const double least_mm = part::length_mm(drawing) + drawing.stock.left_allowance_mm;
+  if (drawing.stock.length_mm < least_mm - kSum_mm)
     r.problem_at("length_mm",
                  "at least the finished length and left_allowance_mm, " +
-                     number_text(finished_mm + drawing.stock.left_allowance_mm) + " mm",
+                     number_text(least_mm) + " mm",
                  "conflict");
+  else
+    drawing.stock.length_mm = std::max(drawing.stock.length_mm, least_mm);
   const auto& machine = draft.loaded.plan.machine;
   if (machine.between_centres_mm > 0 &&
       drawing.stock.length_mm > machine.between_centres_mm)

@@ -85,7 +85,7 @@ TEST(Thrust, MirroredBetweenCentresItIsTheSameAndSplitsChangeNothing) {
   const Supports s{Method::between_centres, {}, 1e-5, 1e-5};
   const double P = critical_thrust_N(part, s);
   EXPECT_NEAR(critical_thrust_N(image, s) / P, 1, 1e-9);
-  EXPECT_NEAR(critical_thrust_N(pieces, s) / P, 1, 1e-3);
+  EXPECT_NEAR(critical_thrust_N(pieces, s) / P, 1, 1e-4);
 }
 
 TEST(Thrust, RefusesWhatTakesNoThrust) {

@@ -314,6 +314,29 @@ TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 15);
 }
 
+// 18.8 + 152.9 is more than 171.7 by a rounding.
+TEST(PartPlan, StockMayBeAsLongAsThePart) {
+  auto document = smallest();
+  document["stock"]["length_mm"] = 171.7;
+  document["stock"]["left_allowance_mm"] = 0;
+  document["outer"] = {
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 18.8}, {"diameter_mm", 30}},
+      {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 152.9}, {"diameter_mm", 20}}};
+  const auto drawing = load(document).plan.drawing;
+  EXPECT_EQ(drawing.stock.length_mm, part::length_mm(drawing));
+}
+
+TEST(PartPlan, AGripThatNobodyGaveIsToldAsTheDefault) {
+  auto document = smallest();
+  document["stock"]["diameter_mm"] = 100;
+  document["stock"]["length_mm"] = 44;
+  document["outer"] = {
+      {{"id", "d"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 96}}};
+  const auto problems = refusal(document);
+  EXPECT_NE(problems.find("got no grip_mm, by default 50 mm"), std::string::npos)
+      << problems;
+}
+
 // A shaft of 50 mm stock with what is cut at fixed conditions, tools of the catalogue.
 json with_cuts() {
   json document = {

@@ -45,9 +45,9 @@ class Mutation {
   }
 
   json number(const json& at) {
-    static const std::array kNumbers{0.0,   -1.0, 1.0,  0.5,   1e-300, 1e-9,  1e-3,
-                                     1e3,   1e6,  1e9,  1e300, -1e300, 1e-15, 2.0,
-                                     360.0, 90.0, 1e12, 7.0,   100.0,  -0.0,  3.0};
+    static const std::array kNumbers{
+        0.0, -1.0,  1.0,    5e-324, 1e-310, 1e-14, 0.5,  1e-300, 1e-9, 1e-3,  1e3,  1e6,
+        1e9, 1e300, -1e300, 1e-15,  2.0,    360.0, 90.0, 1e12,   7.0,  100.0, -0.0, 3.0};
     if (at.is_number() && below(2))
       return at.get<double>() * std::array{0.5, 2.0, -1.0, 0.99, 1.01, 10.0}[below(6)];
     const double x = kNumbers[below(kNumbers.size())];

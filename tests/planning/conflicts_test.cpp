@@ -285,7 +285,7 @@ void expect_irreducible(const json& d, const std::vector<Conflict>& set) {
     EXPECT_TRUE(feasible(only(d, less(set, i)))) << "without " << set[i].sentence;
 }
 
-// One of every set; all choices, and each a little less than told.
+// One of every set, whichever.
 void expect_resolving(const json& d, const ProcessPlan& r) {
   std::map<std::size_t, std::vector<Relaxation>> of_set;
   for (const auto& x : r.relax) of_set[x.set].push_back(x);
