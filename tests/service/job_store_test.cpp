@@ -279,6 +279,40 @@ TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   EXPECT_EQ(all[5].at("errors").at(0).at("pointer"), "/dt_mm");
 }
 
+/// A line that is computed for minutes.
+std::string long_line() {
+  const json cut = json::parse(R"({
+    "model": "milling", "teeth": 3, "Kt_MPa": 700, "Kn_MPa": 250, "direction": "up",
+    "radial_immersion": 0.4, "diameter_mm": 12, "helix_deg": 35,
+    "pitch_deg": [110, 121, 129], "modes": [
+      {"axis": "x", "frequency_Hz": 900, "damping_ratio": 0.02, "stiffness_N_mm": 9000},
+      {"axis": "y", "frequency_Hz": 1100, "damping_ratio": 0.02, "stiffness_N_mm": 9000}],
+    "ap_max_mm": 4, "speeds_rpm": {"from": 3000, "to": 6000, "count": 500}})");
+  return json{{"name", "stability"}, {"document", cut}}.dump() + '\n';
+}
+
+TEST_F(JobStoreTest, ALineUnderWayEndsWithItsJob) {
+  using namespace std::chrono_literals;
+  const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  JobStore store(file(), "data");
+  const std::string good = R"({"name": "multipass", "document": {"dt_mm": 8}})";
+  const auto cancelled = *store.submit(good + '\n' + long_line() + good);
+  const auto removed = *store.submit(long_line());
+  const auto last = *store.submit(good);
+  Batches batches(store, catalogue, 1);
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(batches.cancel(cancelled));
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(batches.remove(removed));
+  EXPECT_FALSE(batches.remove(removed));
+  for (int i = 0; i < 1000 && store.job(last)->state == "running"; ++i)
+    std::this_thread::sleep_for(10ms);
+  EXPECT_EQ(store.job(last)->state, "done");
+  EXPECT_EQ(store.job(cancelled)->state, "cancelled");
+  EXPECT_LE(store.job(cancelled)->done, 1);  // no record of what was stopped
+  EXPECT_EQ(store.job(cancelled)->errors, 0);
+}
+
 // A small job too is shared, and its cancel leaves what has not begun.
 TEST_F(JobStoreTest, WorkersTakeALineAtATime) {
   const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
