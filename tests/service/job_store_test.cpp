@@ -2,7 +2,11 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +17,7 @@
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
+#include "turnwright/service/fatal_lines.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -214,6 +219,48 @@ TEST_F(JobStoreTest, ADatabaseOfAnotherProgramIsLeftAlone) {
   }
   EXPECT_EQ(refusal(),
             file().string() + ": job store of version 1, this program reads version 2");
+}
+
+// Ends in an overflow of the stack long before that of the depth.
+int out_of_stack(int depth) {
+  volatile char frame[1000];
+  frame[0] = 1;
+  return depth < 0 ? 0 : out_of_stack(depth + 1) + frame[0];
+}
+
+TEST_F(JobStoreTest, ALineThatEndsTheProcessIsAnErrorOfTheNextOne) {
+  JobStore(file(), "data").submit("a\nb\nc\n");
+  const auto die = [this](void (*fault)()) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      JobStore store(file(), "data");
+      const auto line = store.take(1)[0];
+      const FatalLines lines(store.fatal_file());
+      const FatalLines::Computing computing({line.job, line.number});
+      fault();
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_NE(status, 0);
+  };
+  const auto next = [this] { return JobStore(file(), "data").take(1).at(0).text; };
+  die([] { out_of_stack(0); });
+  EXPECT_EQ(next(), "b");
+  die([] { std::abort(); });
+  EXPECT_EQ(next(), "c");
+  // What another thread or somebody else does says nothing about the line.
+  die([] { std::thread(std::abort).join(); });
+  EXPECT_EQ(next(), "c");
+  die([] { ::kill(::getpid(), SIGABRT); });
+  EXPECT_EQ(next(), "c");
+  die([] { ::kill(::getpid(), SIGKILL); });
+  EXPECT_EQ(next(), "c");
+  const JobStore store(file(), "data");
+  EXPECT_EQ(store.job(1)->errors, 2);
+  EXPECT_EQ(store.results(1, 1, 1).jsonl,
+            "{\"line\":1,\"status\":\"error\",\"title\":\"internal error\","
+            "\"detail\":\"the process ended while this line was computed\"}\n");
 }
 
 // A line that there is no memory for is an error; the others are answered.

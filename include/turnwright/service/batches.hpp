@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "turnwright/service/fatal_lines.hpp"
 #include "turnwright/service/job_store.hpp"
 #include "turnwright/service/requests.hpp"
 
@@ -42,6 +43,7 @@ class Batches {
 
   JobStore& store_;
   const document::Catalogue& catalogue_;
+  const FatalLines fatal_lines_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::uint64_t wakes_ = 0;

@@ -41,7 +41,10 @@ JobStore::Record answered(const JobStore& store, const JobStore::Line& line,
 }  // namespace
 
 Batches::Batches(JobStore& store, const document::Catalogue& catalogue, unsigned threads)
-    : store_(store), catalogue_(catalogue), under_way_(threads) {
+    : store_(store),
+      catalogue_(catalogue),
+      fatal_lines_(store.fatal_file()),
+      under_way_(threads) {
   for (auto& own : under_way_)
     workers_.emplace_back([this, &own](const std::stop_token& stop) { work(stop, own); });
 }
@@ -114,6 +117,7 @@ bool Batches::work_some(const std::stop_token& stop, UnderWay& own) {
     if (!line) break;
     worked = true;
     const std::stop_callback leave(stop, [&own] { own.stop.request_stop(); });
+    const FatalLines::Computing computing({line->job, line->number});
     try {
       ready.push_back(answered(store_, *line, {catalogue_, own.stop.get_token()}));
     } catch (const Cancelled&) {
