@@ -141,7 +141,7 @@ tw_domain(report SOURCES text.cpp chuck_text.cpp thermal_text.cpp multipass_text
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
 tw_domain(service SOURCES requests.cpp answer.cpp digest.cpp listing.cpp output.cpp
-            batch/line.cpp batch/job_store.cpp batch/batches.cpp
+            batch/line.cpp batch/fatal_lines.cpp batch/job_store.cpp batch/batches.cpp
             batch/input.cpp batch/chunk.cpp batch/folder.cpp batch/known_answers.cpp batch/runner.cpp batch/slurm.cpp
             http/message.cpp http/openapi.cpp http/api.cpp http/host.cpp http/target.cpp http/keys.cpp http/metrics.cpp http/log.cpp
             http/connection.cpp http/server.cpp http/page.cpp

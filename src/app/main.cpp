@@ -1,11 +1,18 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <csignal>
+#include <cstring>
 #include <functional>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "batch.hpp"
@@ -16,12 +23,15 @@
 #include "turnwright/document/file.hpp"
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/parse.hpp"
+#include "turnwright/document/reader.hpp"
 #include "turnwright/service/listing.hpp"
 #include "turnwright/service/output.hpp"
 #include "turnwright/service/requests.hpp"
 
 namespace turnwright::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 enum Exit {
   kOk = 0,
@@ -34,18 +44,24 @@ enum Exit {
 
 /// What the user wrote behind `turnwright`.
 struct Arguments {
-  std::optional<std::filesystem::path> data;
+  std::optional<fs::path> data;
   std::string file;
-  std::optional<std::filesystem::path> result_file;
-  std::optional<std::filesystem::path> drawings;
-  std::optional<std::filesystem::path> programs;
-  std::optional<std::filesystem::path> report_file;
+  std::optional<fs::path> result_file;
+  std::optional<fs::path> drawings;
+  std::optional<fs::path> programs;
+  std::optional<fs::path> report_file;
   bool json = false;
   std::string listed;
 };
 
 nlohmann::json read_request(const std::string& file) {
   if (file != "-") return document::parse_file(file);
+  char none = 0;
+  if (::read(STDIN_FILENO, &none, 0) < 0)  // a folder, or closed
+    throw InputError(
+        "standard input",
+        {{"", std::string("nothing: it cannot be read: ") + std::strerror(errno),
+          "a JSON document", "file"}});
   return document::parse(std::cin, "standard input", document::kLocalLimits);
 }
 
@@ -69,7 +85,7 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
   }
 }
 
-void write_drawings(const std::filesystem::path& folder,
+void write_drawings(const fs::path& folder,
                     const std::vector<service::Picture>& drawings) {
   service::make_folder(folder);
   for (const auto& picture : drawings)
@@ -88,7 +104,7 @@ bool is_of_programs(std::string_view name) {
 }
 
 /// Makes the folder hold the programs of this plan and none of another.
-void write_programs(const std::filesystem::path& folder, const nc::Programs& programs) {
+void write_programs(const fs::path& folder, const nc::Programs& programs) {
   std::vector<service::NamedText> files;
   for (const auto& program : programs.setups)
     files.push_back(
@@ -102,6 +118,65 @@ void write_programs(const std::filesystem::path& folder, const nc::Programs& pro
     std::cerr << "no NC program: there is no feasible plan\n";
 }
 
+/// Where an option has output written.
+struct Output {
+  const char* option;
+  fs::path path;
+  bool (*makes)(const std::string& name);  ///< of a folder: whether it gets such a file
+};
+
+std::vector<Output> outputs(const Arguments& arguments) {
+  std::vector<Output> all;
+  const auto add = [&all](const char* option, const std::optional<fs::path>& path,
+                          bool (*makes)(const std::string&)) {
+    std::error_code error;
+    // A pipe or a device takes more than one output.
+    if (!path || *path == "-" || fs::is_other(*path, error)) return;
+    auto resolved = fs::weakly_canonical(fs::absolute(*path), error);
+    if (!resolved.has_filename()) resolved = resolved.parent_path();  // "folder/"
+    all.push_back({option, std::move(resolved), makes});
+  };
+  add("--output", arguments.result_file, nullptr);
+  add("--report", arguments.report_file, nullptr);
+  add("--drawings", arguments.drawings,
+      [](const std::string& name) { return name.ends_with(".svg"); });
+  add("--nc", arguments.programs,
+      [](const std::string& name) { return is_of_programs(name); });
+  return all;
+}
+
+/// Whether both would write the same file; two folders may be one.
+bool collide(const Output& a, const Output& b) {
+  if (b.makes && !a.makes && a.path.parent_path() == b.path)
+    return b.makes(a.path.filename().string());
+  return a.path == b.path && !(a.makes && b.makes);
+}
+
+/// @throws OutputError if the folder can be none.
+void require_folder(const fs::path& folder) {
+  std::error_code error;
+  for (auto at = fs::absolute(folder); !fs::is_directory(at, error);
+       at = at.parent_path())
+    if (fs::exists(at, error))
+      throw service::OutputError(
+          folder.string() + ": cannot be written: " +
+          std::make_error_code(std::errc::not_a_directory).message());
+}
+
+/// Told before anything is computed.
+/// @throws InputError if two outputs have one place, OutputError.
+void require_places(const Arguments& arguments) {
+  const auto all = outputs(arguments);
+  for (auto b = all.begin(); b != all.end(); ++b)
+    for (auto a = all.begin(); a != b; ++a)
+      if (collide(*a, *b))
+        throw wrong_option(b->option, b->path.string(),
+                           std::string("another place than that of ") + a->option,
+                           "file");
+  for (const auto& folder : {arguments.drawings, arguments.programs})
+    if (folder) require_folder(*folder);
+}
+
 /// Of a result, and of the programs if any were asked for.
 Exit exit_code(const service::Drawn& drawn, bool programs) {
   if (service::infeasible(drawn.result)) return kInfeasible;
@@ -111,6 +186,7 @@ Exit exit_code(const service::Drawn& drawn, bool programs) {
 }
 
 Exit run_request(const service::Request& row, const Arguments& arguments) {
+  require_places(arguments);
   const auto request = read_request(arguments.file);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
   const auto drawn = answer(row, arguments, request, catalogue);
@@ -187,6 +263,22 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
 }
 
+/// What stands where a command should.
+/// @throws InputError if there is anything.
+void refuse_unknown(const CLI::App& app) {
+  for (const auto& word : app.remaining()) {
+    if (word.starts_with('-')) continue;
+    std::vector<std::string> commands;
+    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      commands.push_back(command->get_name());
+    const auto near = document::nearest(word, commands);
+    throw wrong_option("COMMAND", '"' + word + '"',
+                       near.empty() ? "a command; turnwright --help names all"
+                                    : "a command (did you mean \"" + near + "\"?)",
+                       "choice");
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Plans turned parts: certified cheapest conditions inside every tolerance.",
@@ -219,6 +311,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
+    if (app.get_subcommands().empty()) refuse_unknown(app);
     return app.exit(e) == 0 ? kOk : kInput;
   }
   return chosen();
@@ -229,6 +322,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace turnwright;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk is
   try {
     return app::run(argc, argv);
   } catch (const InputError& e) {

@@ -1,6 +1,8 @@
 #include "turnwright/document/parse.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,31 @@ std::string reason(const std::string& what) {
            text.substr(end);
   }
   return printable(text);
+}
+
+// What number_word() finds is no JSON, though other languages write it.
+constexpr std::array<std::string_view, 3> kNoNumbers{"nan", "inf", "infinity"};
+
+/// "NaN", "-Infinity" or the like, if the byte before `end` is in such a word.
+std::string number_word(std::string_view text, std::size_t end) {
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)); };
+  std::size_t from = std::min(end, text.size()), to = from;
+  while (from > 0 && letter(text[from - 1])) --from;
+  while (to < text.size() && letter(text[to])) ++to;
+  std::string word(text.substr(from, to - from));
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (std::find(kNoNumbers.begin(), kNoNumbers.end(), word) == kNoNumbers.end())
+    return {};
+  if (from > 0 && (text[from - 1] == '-' || text[from - 1] == '+')) --from;
+  return std::string(text.substr(from, to - from));
+}
+
+// A byte order mark of another encoding, or a NUL beside the first character.
+bool is_utf16(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) ||
+         (text.size() > 3 && (text[0] == '\0') != (text[1] == '\0'));
 }
 
 bool nonzero(const std::string& digits) {
@@ -103,6 +130,9 @@ class Builder : public nlohmann::json_sax<json> {
     if (dynamic_cast<const json::out_of_range*>(&error))
       return report(pointer(), "a number too large (" + place(text_, position) + ")",
                     "a number that a double can hold", "number");
+    if (const auto word = number_word(text_, position); !word.empty())
+      return report(pointer(), "broken JSON at " + place(text_, position) + ": " + word,
+                    "a number; JSON knows no " + word, "syntax");
     const std::string why = reason(error.what());
     const auto split = why.rfind("; expected ");
     return report(
@@ -198,6 +228,10 @@ json parse(std::string_view text, const std::string& document,
   }
   if (text.find_first_not_of(" \t\r\n") == text.npos) {
     problems.add({"", "an empty document", "a JSON document", "syntax"});
+    problems.throw_if_any();
+  }
+  if (is_utf16(text)) {
+    problems.add({"", "UTF-16 or UTF-32", "JSON in UTF-8", "syntax"});
     problems.throw_if_any();
   }
   Builder builder(text, problems, limits);

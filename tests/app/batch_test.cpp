@@ -213,6 +213,60 @@ TEST_F(Batch, AnotherInputIsRefused) {
   EXPECT_EQ(batch().code, 0);
 }
 
+TEST_F(Batch, AFolderWithSomethingOfABatchsNamesIsRefused) {
+  put(folder_ / "lines.jsonl", acceptance(1));
+  fs::create_directories(folder_ / "elsewhere");
+  put(folder_ / "elsewhere/0.jsonl", "precious");
+  const std::vector<std::pair<std::string, std::string>> strangers{
+      {"work", "mkdir work; echo precious > work/thesis.txt"},
+      {"work", "mkdir work; echo precious > work/0.jsonl"},
+      {"work", "ln -s ../elsewhere work"},
+      {"work", "ln -s nowhere work"},
+      {"work", "echo precious > work"},
+      {"results.jsonl", "echo precious > results.jsonl"},
+      {"summary.json", "echo precious > summary.json"}};
+  for (const auto& [name, how] : strangers) {
+    SCOPED_TRACE(how);
+    fs::remove_all(folder_ / "results");
+    EXPECT_EQ(shell("mkdir results && cd results && { " + how + "; }").code, 0);
+    const auto before = shell("ls -lR results elsewhere").out;
+    const auto run = batch();
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(run.err, "results/" + name +
+                           ": document: got something of no batch: there is no "
+                           "manifest.json, expected a folder without results.jsonl, "
+                           "summary.json and work, or one that a batch was begun in\n");
+    EXPECT_EQ(shell("ls -lR results elsewhere").out, before);
+  }
+  // What is not in the way stays, and so does what a run left that ended at its
+  // beginning.
+  fs::remove_all(folder_ / "results");
+  fs::create_directories(folder_ / "results/work");
+  put(folder_ / "results/work/.manifest.json.0123456789abcdef", "{");
+  put(folder_ / "results/notes.txt", "mine");
+  EXPECT_EQ(batch().code, 0);
+  EXPECT_EQ(contents(folder_ / "results/notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists(folder_ / "results/work"));
+}
+
+TEST_F(Batch, OnlyItsOwnFilesAreRemovedAtTheEnd) {
+  put(folder_ / "lines.jsonl", acceptance(1));
+  EXPECT_EQ(batch("--shard 1/1").code, 0);
+  fs::create_directories(folder_ / "elsewhere");
+  put(folder_ / "elsewhere/0.jsonl", "precious");
+  fs::create_directory_symlink("../../elsewhere", folder_ / "results/work/1.jsonl");
+  put(folder_ / "results/work/notes.txt", "mine");
+  EXPECT_EQ(batch().code, 0);
+  EXPECT_EQ(contents(folder_ / "results/work/notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists(folder_ / "results/work/0.jsonl"));
+  EXPECT_EQ(contents(folder_ / "elsewhere/0.jsonl"), "precious");
+  // A folder that became a link after the beginning is not followed.
+  fs::remove_all(folder_ / "results/work");
+  fs::create_directory_symlink("../elsewhere", folder_ / "results/work");
+  EXPECT_EQ(batch().code, 0);
+  EXPECT_EQ(contents(folder_ / "elsewhere/0.jsonl"), "precious");
+}
+
 TEST_F(Batch, OtherDataAreRefused) {
   put(folder_ / "lines.jsonl", acceptance(1));
   EXPECT_EQ(batch("--shard 1/1").code, 0);
@@ -261,9 +315,11 @@ TEST_F(Batch, WrongUseIsTold) {
   EXPECT_EQ(files(), (std::vector<std::string>{"file", "lines.jsonl"}));
   fs::create_directory(folder_ / "mine");
   put(folder_ / "mine/results.jsonl", "mine");
-  refused("turnwright batch lines.jsonl -o mine", 2,
-          "mine/results.jsonl: document: got a file of no batch: there is no "
-          "manifest.json, expected an empty folder, or one that a batch was begun in\n");
+  refused(
+      "turnwright batch lines.jsonl -o mine", 2,
+      "mine/results.jsonl: document: got something of no batch: there is no "
+      "manifest.json, expected a folder without results.jsonl, summary.json and work, "
+      "or one that a batch was begun in\n");
   EXPECT_EQ(contents(folder_ / "mine/results.jsonl"), "mine");
 }
 
@@ -384,8 +440,8 @@ INSTANTIATE_TEST_SUITE_P(OfTheDisk, Faults,
 TEST_F(Batch, AFileThatMayNotGrowIsTold) {
   put(folder_ / "lines.jsonl", mixed_lines(60, multipass));
   const auto whole = undisturbed("--chunk 40");
-  const auto run = shell(
-      "trap '' XFSZ; ulimit -f 8; turnwright batch lines.jsonl -o results --chunk 40");
+  const auto run =
+      shell("ulimit -f 8; turnwright batch lines.jsonl -o results --chunk 40");
   EXPECT_EQ(run.code, 74);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, "results/work/0.jsonl: cannot be written: File too large\n");
@@ -488,6 +544,7 @@ TEST_F(Batch, ADamagedManifestOrSummaryIsToldAndCanBeRemoved) {
       EXPECT_EQ(run.err.rfind("results/" + file + ": ", 0), 0U) << run.err;
       EXPECT_EQ(contents(damaged), before);
       fs::remove(damaged);
+      if (file == "manifest.json") fs::remove_all(folder_ / "results/work");
       EXPECT_EQ(batch().code, 0);
       EXPECT_EQ(files_of(folder_ / "results"), whole);
     }

@@ -94,6 +94,17 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnowOnStandardError) {
   }
 }
 
+TEST_F(CommandLine, NamesAnUnknownCommandAndTheNearest) {
+  EXPECT_EQ(shell("turnwright plane part.json").err,
+            "command line: COMMAND: got \"plane\", expected a command (did you mean "
+            "\"plan\"?)\n");
+  const auto strange = shell("turnwright --data . quadrature");
+  EXPECT_EQ(strange.code, 2);
+  EXPECT_EQ(strange.err,
+            "command line: COMMAND: got \"quadrature\", expected a command; turnwright "
+            "--help names all\n");
+}
+
 TEST_F(CommandLine, ListsWhatRequestsMayReferTo) {
   EXPECT_NE(shell("turnwright list materials").out.find("\nC45 "), std::string::npos);
   EXPECT_NE(shell("turnwright list machines").out.find("lathe-medium "),
@@ -164,8 +175,8 @@ TEST_F(CommandLine, AFullDiskLeavesTheOldResult) {
     request["cases"][i]["id"] = std::to_string(i);
   put(folder_ / "request.json", request.dump());
   put(folder_ / "result.json", "old");
-  const auto outcome = shell(
-      "trap '' XFSZ; ulimit -f 1; turnwright acceptance request.json -o result.json");
+  const auto outcome =
+      shell("ulimit -f 1; turnwright acceptance request.json -o result.json");
   EXPECT_EQ(outcome.code, 74);
   EXPECT_EQ(outcome.err.rfind("result.json: cannot be written: ", 0), 0u) << outcome.err;
   EXPECT_EQ(contents(folder_ / "result.json"), "old");
@@ -198,6 +209,41 @@ TEST_F(CommandLine, FilesThatAreNoDocumentsAreNamed) {
   }
   EXPECT_EQ(shell("turnwright acceptance - < /dev/null").err.rfind("standard input:", 0),
             0u);
+  for (const auto& [from, why] :
+       {std::pair{"< .", "Is a directory"}, std::pair{"<&-", "Bad file descriptor"}}) {
+    const auto outcome = shell(std::string("turnwright acceptance - ") + from);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, std::string("standard input: document: got nothing: it cannot "
+                                       "be read: ") +
+                               why + ", expected a JSON document\n");
+  }
+}
+
+TEST_F(CommandLine, TwoOutputsHaveTwoPlaces) {
+  put(folder_ / "request.json", row("plan").example);
+  put(folder_ / "one", "old");
+  fs::create_symlink("one", folder_ / "link");
+  for (const auto& [outputs, told] :
+       {std::pair{"--report one -o one", "--report"},
+        std::pair{"-o one --report ./link", "--report"},
+        std::pair{"-o none --report \"$PWD/none\"", "--report"},
+        std::pair{"-o one --drawings one", "--drawings"},
+        std::pair{"--report one --nc one", "--nc"},
+        std::pair{"-o new/setup-0.svg --drawings new/", "--drawings"},
+        std::pair{"--report new/tools.tbl --nc new", "--nc"}}) {
+    SCOPED_TRACE(outputs);
+    const auto outcome = shell(std::string("turnwright plan request.json ") + outputs);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err.rfind(std::string("command line: ") + told + ": got ", 0), 0U)
+        << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"link", "one", "request.json"}));
+  EXPECT_EQ(contents(folder_ / "one"), "old");
+  EXPECT_EQ(shell("mkdir new && turnwright plan request.json -o new/plan.json --report "
+                  "/dev/null --drawings new --nc new")
+                .code,
+            0);
 }
 
 TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
@@ -301,9 +347,11 @@ TEST_F(CommandLine, DrawingsThatCannotBeWrittenAreTold) {
   put(folder_ / "request.json", row("predict").example);
   put(folder_ / "file", "old");
   for (const std::string target : {"file", "file/below"}) {
-    const auto outcome = shell("turnwright predict request.json --drawings " + target);
+    const auto outcome =
+        shell("turnwright predict request.json -o result.json --drawings " + target);
     EXPECT_EQ(outcome.code, 74);
-    EXPECT_EQ(outcome.err.rfind(target + ": cannot be written: ", 0), 0u) << outcome.err;
+    EXPECT_EQ(outcome.err, target + ": cannot be written: Not a directory\n");
+    EXPECT_FALSE(fs::exists(folder_ / "result.json"));
   }
   EXPECT_EQ(contents(folder_ / "file"), "old");
   EXPECT_EQ(shell("turnwright acceptance request.json --drawings new").code, 2);

@@ -131,6 +131,11 @@ TEST_F(Options, AddressesThatAreNotThisMachinesAreTold) {
       "the callers (--keys)\n");
 }
 
+TEST_F(Options, AFolderIsNoFileOfKeys) {
+  refused("turnwright serve --port 0 --jobs jobs --keys .",
+          ".: document: got no regular file, expected a file of keys\n");
+}
+
 TEST_F(Options, AJobStoreThatIsNoneIsTold) {
   const std::string wanted =
       ", expected a job store of this version that no other process has open\n";

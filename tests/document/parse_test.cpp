@@ -57,6 +57,23 @@ TEST(Parse, PointsAtTheFirstByteThatIsNoJson) {
             "t: document: got an empty document, expected a JSON document");
 }
 
+TEST(Parse, NamesNumbersThatJsonDoesNotKnow) {
+  EXPECT_EQ(refusal("NaN"),
+            "t: document: got broken JSON at line 1, column 1: NaN, expected a number; "
+            "JSON knows no NaN");
+  EXPECT_EQ(refusal("{\"a\": [1,\n -Infinity]}"),
+            "t: /a/1: got broken JSON at line 2, column 3: -Infinity, expected a number; "
+            "JSON knows no "
+            "-Infinity");
+  EXPECT_NE(refusal("[nano]").find("broken JSON"), std::string::npos);
+}
+
+TEST(Parse, SaysThatUtf8IsWanted) {
+  using namespace std::string_view_literals;
+  for (const auto text : {"\xff\xfe{\0}\0"sv, "\xfe\xff\0{\0}"sv, "{\0}\0"sv, "\0{\0}"sv})
+    EXPECT_EQ(refusal(text), "t: document: got UTF-16 or UTF-32, expected JSON in UTF-8");
+}
+
 TEST(Parse, ReadsOnBehindANul) {
   using namespace std::string_view_literals;
   for (const auto text : {"{}\0"sv, "{}\0{}"sv, "[1,\n2]\0 x"sv})

@@ -279,6 +279,15 @@ TEST(HttpApi, TheDescriptionThatIsKeptIsTheOneServed) {
       << "docs/openapi.json is old: curl http://127.0.0.1:8080/openapi.json";
 }
 
+TEST(HttpApi, TheDescriptionHasEveryStatusOfEveryCall) {
+  const auto document = json::parse(reply(call("GET", "/openapi.json")).body);
+  for (const auto& [path, methods] : document.at("paths").items())
+    for (const auto& [method, operation] : methods.items())
+      for (const char* status : {"400", "401", "403", "405", "408", "413", "414", "415",
+                                 "421", "431", "500", "501", "503"})
+        EXPECT_TRUE(operation.at("responses").contains(status)) << path << ' ' << status;
+}
+
 // Draft 7's words for tuples and for members that need others mean nothing in 2020-12.
 void expect_2020_12(const json& schema, const std::string& where) {
   if (schema.is_array())

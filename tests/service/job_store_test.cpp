@@ -2,7 +2,11 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +17,7 @@
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"
+#include "turnwright/service/fatal_lines.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -216,6 +221,48 @@ TEST_F(JobStoreTest, ADatabaseOfAnotherProgramIsLeftAlone) {
             file().string() + ": job store of version 1, this program reads version 2");
 }
 
+// Ends in an overflow of the stack long before that of the depth.
+int out_of_stack(int depth) {
+  volatile char frame[1000];
+  frame[0] = 1;
+  return depth < 0 ? 0 : out_of_stack(depth + 1) + frame[0];
+}
+
+TEST_F(JobStoreTest, ALineThatEndsTheProcessIsAnErrorOfTheNextOne) {
+  JobStore(file(), "data").submit("a\nb\nc\n");
+  const auto die = [this](void (*fault)()) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      JobStore store(file(), "data");
+      const auto line = store.take(1)[0];
+      const FatalLines lines(store.fatal_file());
+      const FatalLines::Computing computing({line.job, line.number});
+      fault();
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_NE(status, 0);
+  };
+  const auto next = [this] { return JobStore(file(), "data").take(1).at(0).text; };
+  die([] { out_of_stack(0); });
+  EXPECT_EQ(next(), "b");
+  die([] { std::abort(); });
+  EXPECT_EQ(next(), "c");
+  // What another thread or somebody else does says nothing about the line.
+  die([] { std::thread(std::abort).join(); });
+  EXPECT_EQ(next(), "c");
+  die([] { ::kill(::getpid(), SIGABRT); });
+  EXPECT_EQ(next(), "c");
+  die([] { ::kill(::getpid(), SIGKILL); });
+  EXPECT_EQ(next(), "c");
+  const JobStore store(file(), "data");
+  EXPECT_EQ(store.job(1)->errors, 2);
+  EXPECT_EQ(store.results(1, 1, 1).jsonl,
+            "{\"line\":1,\"status\":\"error\",\"title\":\"internal error\","
+            "\"detail\":\"the process ended while this line was computed\"}\n");
+}
+
 // A line that there is no memory for is an error; the others are answered.
 TEST_F(JobStoreTest, ALineWithoutMemoryIsARecord) {
   const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
@@ -277,6 +324,40 @@ TEST_F(JobStoreTest, BatchesAnswerEveryLineAndEqualOnesAlike) {
   EXPECT_EQ(all[0].at("result"), all[39].at("result"));
   EXPECT_EQ(all[4].at("errors").at(0).at("pointer"), "/name");
   EXPECT_EQ(all[5].at("errors").at(0).at("pointer"), "/dt_mm");
+}
+
+/// A line that is computed for minutes.
+std::string long_line() {
+  const json cut = json::parse(R"({
+    "model": "milling", "teeth": 3, "Kt_MPa": 700, "Kn_MPa": 250, "direction": "up",
+    "radial_immersion": 0.4, "diameter_mm": 12, "helix_deg": 35,
+    "pitch_deg": [110, 121, 129], "modes": [
+      {"axis": "x", "frequency_Hz": 900, "damping_ratio": 0.02, "stiffness_N_mm": 9000},
+      {"axis": "y", "frequency_Hz": 1100, "damping_ratio": 0.02, "stiffness_N_mm": 9000}],
+    "ap_max_mm": 4, "speeds_rpm": {"from": 3000, "to": 6000, "count": 500}})");
+  return json{{"name", "stability"}, {"document", cut}}.dump() + '\n';
+}
+
+TEST_F(JobStoreTest, ALineUnderWayEndsWithItsJob) {
+  using namespace std::chrono_literals;
+  const auto catalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
+  JobStore store(file(), "data");
+  const std::string good = R"({"name": "multipass", "document": {"dt_mm": 8}})";
+  const auto cancelled = *store.submit(good + '\n' + long_line() + good);
+  const auto removed = *store.submit(long_line());
+  const auto last = *store.submit(good);
+  Batches batches(store, catalogue, 1);
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(batches.cancel(cancelled));
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(batches.remove(removed));
+  EXPECT_FALSE(batches.remove(removed));
+  for (int i = 0; i < 1000 && store.job(last)->state == "running"; ++i)
+    std::this_thread::sleep_for(10ms);
+  EXPECT_EQ(store.job(last)->state, "done");
+  EXPECT_EQ(store.job(cancelled)->state, "cancelled");
+  EXPECT_LE(store.job(cancelled)->done, 1);  // no record of what was stopped
+  EXPECT_EQ(store.job(cancelled)->errors, 0);
 }
 
 // A small job too is shared, and its cancel leaves what has not begun.

@@ -143,6 +143,8 @@ TEST(Server, RefusesWhatTwoReadersCouldReadDifferently) {
     return status_of(client.rest());
   };
   EXPECT_EQ(status("Host: x\r\nContent-Length: 2\r\n"), 200);
+  EXPECT_EQ(status("Host: x\r\nContent-Length: 2\r\nContent-Length: 2\r\n"), 200);
+  EXPECT_EQ(status("Host: x\r\nContent-Length: 2\r\nContent-Length: 3\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 2\r\n"), 400);
   EXPECT_EQ(status("Content-Length: 2\r\n", "1.0"), 200);
   EXPECT_EQ(status("Host: x\r\nHost: y\r\nContent-Length: 2\r\n"), 400);

@@ -43,7 +43,8 @@ class BatchFolder {
   /// Begins a batch in the folder, or goes on with it.
   /// @param chunk_lines  none: as the batch was begun, else BatchManifest's default.
   /// @throws InputError if the batch was begun with another input, other data, version or
-  ///   chunks, or if the folder holds what no batch has written; OutputError.
+  ///   chunks, or if the folder holds one of a batch's names and no manifest;
+  ///   OutputError.
   BatchFolder(std::filesystem::path folder, const BatchInput::Contents& input,
               const std::string& data_sha256, std::optional<std::int64_t> chunk_lines);
 
@@ -61,7 +62,7 @@ class BatchFolder {
   /// @throws InputError if results.jsonl is not what the batch wrote.
   std::optional<BatchSummary> complete() const;
 
-  /// Puts the chunks together; `work/` goes.
+  /// Puts the chunks together; what the batch wrote into `work/` goes.
   /// @throws OutputError; InputError if a chunk is missing or the input has changed.
   BatchSummary assemble(BatchInput& input) const;
 

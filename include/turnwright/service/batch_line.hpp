@@ -39,6 +39,9 @@ BatchRecord batch_record(const InputError& error);
 /// The record of a line that there was no memory for.
 BatchRecord batch_record(const std::bad_alloc& error);
 
+/// The record of a line that ended the process.
+BatchRecord fatal_record();
+
 /// A record's text as the results show it: {"line": number, ..}.
 std::string numbered(std::int64_t number, const std::string& text);
 

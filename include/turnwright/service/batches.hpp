@@ -1,10 +1,13 @@
 #pragma once
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
+#include "turnwright/service/fatal_lines.hpp"
 #include "turnwright/service/job_store.hpp"
 #include "turnwright/service/requests.hpp"
 
@@ -19,18 +22,32 @@ class Batches {
   ~Batches();
 
   JobStore& store() { return store_; }
+  /// As of the store; lines of the job that are being computed are stopped, without a
+  /// record.
+  bool cancel(std::int64_t id);
+  bool remove(std::int64_t id);
   /// Tells the workers that there are new lines.
   void wake();
 
  private:
-  void work(const std::stop_token& stop);
-  bool work_some(const std::stop_token& stop);
+  /// What a worker computes, or has computed last.
+  struct UnderWay {
+    std::int64_t job = 0;
+    std::stop_source stop{std::nostopstate};
+  };
+
+  void work(const std::stop_token& stop, UnderWay& own);
+  bool work_some(const std::stop_token& stop, UnderWay& own);
+  std::optional<JobStore::Line> next(UnderWay& own);
+  void stop_lines(std::int64_t id);
 
   JobStore& store_;
   const document::Catalogue& catalogue_;
+  const FatalLines fatal_lines_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::uint64_t wakes_ = 0;
+  std::vector<UnderWay> under_way_;  ///< one a worker
   std::vector<std::jthread> workers_;
 };
 

@@ -29,7 +29,8 @@ struct Job {
 /// Batches that outlive the process: requests and records in one SQLite file (WAL,
 /// synchronous = FULL).  What submit() or finish() returned from is on disk; a killed
 /// process loses at most the lines it had taken and not finished, and these are taken
-/// again.  Safe from several threads of one process; a second process is refused.
+/// again, but for one that ended the process itself (FatalLines): it is an error.  Safe
+/// from several threads of one process; a second process is refused.
 ///
 /// All records of a job, and every one that known() finds, were computed from the same
 /// data: a job that was begun with others is "outdated", its records stay and no more are
@@ -57,6 +58,9 @@ class JobStore {
   JobStore(const std::filesystem::path& file, std::string data);
   ~JobStore();
 
+  /// Where lines that end the process are noted for the next one.
+  const std::filesystem::path& fatal_file() const { return fatal_file_; }
+
   /// A job of lines that end in "\n".  Blank lines count, so that numbers are those of
   /// the sender's file, and have no record.
   /// @return its id; none, and nothing is stored, if more lines than kMostLines are not
@@ -83,7 +87,10 @@ class JobStore {
   Results results(std::int64_t id, std::int64_t from, std::size_t bytes) const;
 
  private:
+  void finish_fatal_lines();
+
   mutable std::mutex mutex_;
+  std::filesystem::path fatal_file_;
   std::string data_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::int64_t, std::int64_t> taken_;  ///< last line taken, by job

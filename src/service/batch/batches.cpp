@@ -41,9 +41,12 @@ JobStore::Record answered(const JobStore& store, const JobStore::Line& line,
 }  // namespace
 
 Batches::Batches(JobStore& store, const document::Catalogue& catalogue, unsigned threads)
-    : store_(store), catalogue_(catalogue) {
-  for (unsigned i = 0; i < threads; ++i)
-    workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    : store_(store),
+      catalogue_(catalogue),
+      fatal_lines_(store.fatal_file()),
+      under_way_(threads) {
+  for (auto& own : under_way_)
+    workers_.emplace_back([this, &own](const std::stop_token& stop) { work(stop, own); });
 }
 
 Batches::~Batches() = default;  // the threads are asked to stop, then joined
@@ -56,7 +59,36 @@ void Batches::wake() {
   changed_.notify_all();
 }
 
-void Batches::work(const std::stop_token& stop) {
+bool Batches::cancel(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  const bool found = store_.cancel(id);
+  stop_lines(id);
+  return found;
+}
+
+bool Batches::remove(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  const bool found = store_.remove(id);
+  stop_lines(id);
+  return found;
+}
+
+void Batches::stop_lines(std::int64_t id) {
+  for (auto& line : under_way_)
+    if (line.job == id) line.stop.request_stop();
+}
+
+// Under the lock: a job cannot be cancelled between the taking of its line and the note
+// of what stops it.
+std::optional<JobStore::Line> Batches::next(UnderWay& own) {
+  const std::lock_guard lock(mutex_);
+  auto lines = store_.take(1);
+  if (lines.empty()) return std::nullopt;
+  own = {lines[0].job, std::stop_source()};
+  return std::move(lines[0]);
+}
+
+void Batches::work(const std::stop_token& stop, UnderWay& own) {
   // On Linux the priority of a process id 0 is that of the calling thread.
   setpriority(PRIO_PROCESS, 0, kNice);
   std::uint64_t seen = 0;
@@ -66,7 +98,7 @@ void Batches::work(const std::stop_token& stop) {
       seen = wakes_;
     }
     try {
-      if (work_some(stop)) continue;
+      if (work_some(stop, own)) continue;
     } catch (const std::exception& error) {  // a full disk; what was taken stays open
       log_event("batches wait for a wake", error.what());
     }
@@ -76,24 +108,26 @@ void Batches::work(const std::stop_token& stop) {
 }
 
 // Line by line, so that threads share a small job and a cancelled one ends soon.
-bool Batches::work_some(const std::stop_token& stop) {
+bool Batches::work_some(const std::stop_token& stop, UnderWay& own) {
   std::vector<JobStore::Record> ready;
   auto written = std::chrono::steady_clock::now();
   bool worked = false;
-  const auto next = [&] {
-    return stop.stop_requested() ? std::vector<JobStore::Line>() : store_.take(1);
-  };
-  try {
-    for (auto lines = next(); !lines.empty(); lines = next()) {
-      worked = true;
-      ready.push_back(answered(store_, lines.front(), {catalogue_, stop}));
-      const auto now = std::chrono::steady_clock::now();
-      if (ready.size() < kTogether && now - written < kBetweenWrites) continue;
-      store_.finish(ready);
-      ready.clear();
-      written = now;
+  while (!stop.stop_requested()) {
+    const auto line = next(own);
+    if (!line) break;
+    worked = true;
+    const std::stop_callback leave(stop, [&own] { own.stop.request_stop(); });
+    const FatalLines::Computing computing({line->job, line->number});
+    try {
+      ready.push_back(answered(store_, *line, {catalogue_, own.stop.get_token()}));
+    } catch (const Cancelled&) {
+      continue;  // the job has ended, or the worker
     }
-  } catch (const Cancelled&) {
+    const auto now = std::chrono::steady_clock::now();
+    if (ready.size() < kTogether && now - written < kBetweenWrites) continue;
+    store_.finish(ready);
+    ready.clear();
+    written = now;
   }
   store_.finish(ready);
   return worked;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <vector>
 
 #include "turnwright/document/file.hpp"
@@ -103,10 +104,48 @@ BatchSummary read_summary(const fs::path& file) {
   return summary;
 }
 
-// What stays is found again by the next run.
-void remove_quietly(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+// Under a name with a dot and a number lies what is not complete yet (NewFile).
+bool is_of_work(const std::string& name) {
+  static const std::regex kNames(
+      R"(\d+\.jsonl|slurm\.sh|slurm-\d+\.log|\.(\d+\.jsonl|slurm\.sh|manifest\.json|)"
+      R"(results\.jsonl|summary\.json)\.[0-9a-f]{16})");
+  return std::regex_match(name, kNames);
+}
+
+/// Removes the batch's own files in its folder `work`, and the folder if it is empty
+/// then. Follows no link.  What stays is found again by the next run.
+void remove_work(const fs::path& work) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(work, error))) return;
+  for (const auto& entry : fs::directory_iterator(work, error))
+    if (fs::is_regular_file(entry.symlink_status(error)) &&
+        is_of_work(entry.path().filename().string()))
+      fs::remove(entry.path(), error);
+  fs::remove(work, error);
+}
+
+/// Whether a run left this folder `work` that ended before its manifest was there.
+bool is_before_manifest(const fs::path& work) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(work, error))) return false;
+  return std::all_of(
+      fs::directory_iterator(work, error), fs::directory_iterator(),
+      [](const auto& entry) {
+        return entry.path().filename().string().starts_with(".manifest.json.");
+      });
+}
+
+/// A file or folder of a name that a batch uses, and of no batch if there is no manifest.
+std::optional<fs::path> stranger(const fs::path& folder) {
+  const auto there = [](const fs::path& file) {
+    std::error_code error;
+    return fs::exists(fs::symlink_status(file, error));
+  };
+  for (const char* name : {"results.jsonl", "summary.json"})
+    if (there(folder / name)) return folder / name;
+  const auto work = folder / "work";
+  if (there(work) && !is_before_manifest(work)) return work;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -147,15 +186,17 @@ BatchFolder::BatchFolder(fs::path folder, const BatchInput::Contents& input,
   manifest_.data_sha256 = data_sha256;
   if (chunk_lines) manifest_.chunk_lines = *chunk_lines;
   const auto file = folder_ / "manifest.json";
+  // Looked for before the manifest: another shard may begin the batch meanwhile.
+  const auto strange = stranger(folder_);
   if (fs::exists(file)) {
     const Stored begun = read_manifest(file);
     if (!chunk_lines) manifest_.chunk_lines = begun.manifest.chunk_lines;
     require_same(file, begun, manifest_);
   } else {
-    for (const char* result : {"results.jsonl", "summary.json"})
-      if (fs::exists(folder_ / result))
-        refuse(folder_ / result, "a file of no batch: there is no manifest.json",
-               "an empty folder, or one that a batch was begun in");
+    if (strange)
+      refuse(*strange, "something of no batch: there is no manifest.json",
+             "a folder without results.jsonl, summary.json and work, or one that a batch "
+             "was begun in");
     make_folder(work());
     NewFile out(file, work());
     out.write(manifest_.text());
@@ -190,7 +231,7 @@ std::optional<BatchSummary> BatchFolder::complete() const {
     refuse(file, std::to_string(found.bytes) + " bytes, SHA-256 " + found.sha256,
            std::to_string(summary.bytes) + " bytes, SHA-256 " + summary.sha256 +
                ", as this batch wrote it; without the file it is made anew");
-  remove_quietly(work());
+  remove_work(work());
   return summary;
 }
 
@@ -219,7 +260,7 @@ BatchSummary BatchFolder::assemble(BatchInput& input) const {
   NewFile told(folder_ / "summary.json", work());
   told.write(text_of(summary));
   told.publish();
-  remove_quietly(work());
+  remove_work(work());
   return summary;
 }
 

@@ -7,6 +7,7 @@
 
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
+#include "turnwright/service/fatal_lines.hpp"
 
 namespace turnwright::service {
 namespace {
@@ -111,15 +112,26 @@ std::optional<Given> given(std::string_view text) {
 }  // namespace
 
 JobStore::JobStore(const std::filesystem::path& file, std::string data) try
-    : data_(std::move(data)),
+    : fatal_file_(file.string() + "-fatal"),
+      data_(std::move(data)),
       database_(std::make_unique<SQLite::Database>(
           file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)) {
   open_or_make(*database_, data_);
+  finish_fatal_lines();
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(file.string() + ": " + error.what());
 }
 
 JobStore::~JobStore() = default;
+
+void JobStore::finish_fatal_lines() {
+  std::vector<Record> records;
+  for (const auto& [id, number] : FatalLines::noted(fatal_file_))
+    if (const auto found = job(id); found && found->state == "running")
+      records.push_back({id, number, {}, fatal_record().text, true});
+  finish(records);
+  std::filesystem::remove(fatal_file_);
+}
 
 std::optional<std::int64_t> JobStore::submit(std::string_view text,
                                              const std::stop_token& stop) {

@@ -40,6 +40,12 @@ BatchRecord failed(const std::string& name, const std::string& title,
       BatchStatus::error};
 }
 
+BatchRecord internal_error(const char* detail) {
+  return {
+      one_line({{"status", "error"}, {"title", "internal error"}, {"detail", detail}}),
+      BatchStatus::error};
+}
+
 }  // namespace
 
 BatchRequest read_batch_line(const std::string& line) {
@@ -90,10 +96,11 @@ BatchRecord batch_record(const InputError& error) {
 }
 
 BatchRecord batch_record(const std::bad_alloc&) {
-  return {one_line({{"status", "error"},
-                    {"title", "internal error"},
-                    {"detail", "not enough memory"}}),
-          BatchStatus::error};
+  return internal_error("not enough memory");
+}
+
+BatchRecord fatal_record() {
+  return internal_error("the process ended while this line was computed");
 }
 
 std::string numbered(std::int64_t number, const std::string& text) {

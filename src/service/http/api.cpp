@@ -258,12 +258,12 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
     all.push_back({"/v1/batches/{id}", "GET", of_batches(job_reply)});
     all.push_back({"/v1/batches/{id}", "DELETE",
                    of_batches([](Batches& b, std::int64_t id, const Call& call) -> Reply {
-                     if (!b.store().remove(id)) return missing(call);
+                     if (!b.remove(id)) return missing(call);
                      return {204, "", "", {}};
                    })});
     all.push_back({"/v1/batches/{id}/cancel", "POST",
                    of_batches([](Batches& b, std::int64_t id, const Call& call) {
-                     b.store().cancel(id);
+                     b.cancel(id);
                      return job_reply(b, id, call);
                    })});
     all.push_back({"/v1/batches/{id}/results", "GET", of_batches(results), "from"});

@@ -21,6 +21,8 @@ bool is_key(const std::string& line) {
 }  // namespace
 
 std::vector<std::string> read_keys(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(file.string(), {{"", "no regular file", "a file of keys", "file"}});
   std::ifstream in(file);
   if (!in)
     throw InputError(file.string(), {{"", "nothing readable", "a file of keys", "file"}});

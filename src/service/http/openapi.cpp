@@ -94,9 +94,13 @@ ordered_json common_problems() {
   return {
       {"400", problem("no HTTP, or a query that this path does not take")},
       {"401", problem("no key, or a wrong one")},
+      {"403", problem("no keys are set, and a page from elsewhere asks (Origin)")},
       {"405", problem("a method this path does not take")},
       {"408", problem("the request did not arrive in time")},
+      {"413", problem("a body larger than this path takes")},
       {"414", problem("the request line is too long")},
+      {"415", problem("a body with a Content-Encoding")},
+      {"421", problem("no keys are set, and the Host is a dotted name, no address")},
       {"431", problem("the header is too long")},
       {"500", problem("a fault of this program")},
       {"501", problem("a method or a transfer coding that this server does not know")},
@@ -117,25 +121,26 @@ ordered_json path_parameter(const std::string& name, ordered_json schema) {
 /// What a row answers with, as its result or its report.
 ordered_json request_path(const Request& row, const std::string& id,
                           const std::string& summary, ordered_json content) {
-  return {{"post",
-           {{"operationId", id},
-            {"summary", summary},
-            {"requestBody",
-             {{"required", true},
-              {"content",
-               {{"application/json",
-                 {{"schema", reference(component(request_schema(row)))},
-                  {"example", ordered_json::parse(row.example)}}}}}}},
-            {"responses",
-             responses({{"200",
-                         {{"description", "the result, infeasible ones too"},
-                          {"content", std::move(content)}}},
-                        {"400",
-                         problem("the body is no JSON, or no HTTP, or there is a query")},
-                        {"413", problem("the body is larger than 2 MB")},
-                        {"415", problem("the body is not application/json in UTF-8")},
-                        {"422", problem("wrong input, or outside a model's range")},
-                        {"504", problem("not done before the deadline")}})}}}};
+  return {
+      {"post",
+       {{"operationId", id},
+        {"summary", summary},
+        {"requestBody",
+         {{"required", true},
+          {"content",
+           {{"application/json",
+             {{"schema", reference(component(request_schema(row)))},
+              {"example", ordered_json::parse(row.example)}}}}}}},
+        {"responses",
+         responses(
+             {{"200",
+               {{"description", "the result, infeasible ones too"},
+                {"content", std::move(content)}}},
+              {"400", problem("the body is no JSON, or no HTTP, or there is a query")},
+              {"413", problem("the body is larger than 2 MB")},
+              {"415", problem("the body is not application/json in UTF-8, or encoded")},
+              {"422", problem("wrong input, or outside a model's range")},
+              {"504", problem("not done before the deadline")}})}}}};
 }
 
 ordered_json get(const std::string& id, const std::string& summary, ordered_json content,
@@ -177,19 +182,22 @@ void add_batches(ordered_json& paths) {
       {"requestBody", {{"required", true}, {"content", {{"application/jsonl", lines}}}}},
       {"responses",
        responses({{"202", job_response("taken; it survives a restart")},
-                  {"413", problem("the body is larger than 256 MB")},
-                  {"415", problem("the body is not application/jsonl in UTF-8")}})}};
+                  {"413",
+                   problem("the body is larger than 256 MB or has over a million lines")},
+                  {"415",
+                   problem("the body is not application/jsonl in UTF-8, or encoded")}})}};
   paths["/v1/batches/{id}"] = get("get-batch", "state and progress",
                                   json_content(reference("job")), {id}, missing);
   paths["/v1/batches/{id}"]["delete"] = {
       {"operationId", "remove-batch"},
-      {"summary", "forgets the job and its results"},
+      {"summary", "stops the job and forgets it and its results"},
       {"parameters", {id}},
       {"responses", responses({{"204", {{"description", "removed"}}},
                                {"404", problem("no such job")}})}};
   paths["/v1/batches/{id}/cancel"]["post"] = {
       {"operationId", "cancel-batch"},
-      {"summary", "leaves the lines that have not begun; results stay"},
+      {"summary",
+       "leaves the lines without a record, also those under way; results stay"},
       {"parameters", {id}},
       {"responses",
        responses({{"200", job_response("the job")}, {"404", problem("no such job")}})}};
