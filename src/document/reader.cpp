@@ -66,8 +66,9 @@ std::size_t edits(std::string_view a, std::string_view b) {
 // that no shape has.
 double size_of(double x, const Bounds& bounds) {
   constexpr double kLeast = 1e-100, kLeast_mm = 1e-9;
-  const bool length = bounds.unit == "mm" && bounds.lower >= 0;
-  return std::abs(x) < (length ? kLeast_mm : kLeast) ? 0 : x;
+  if (!(bounds.lower >= 0)) return x;
+  const bool length = bounds.unit == "mm" && bounds.lower_open;
+  return x < (length ? kLeast_mm : kLeast) ? std::min(x, 0.0) : x;
 }
 
 }  // namespace

@@ -565,8 +565,13 @@ deflection: /in_process: got an object, expected nothing: a boring bar is not tu
 
 TEST(Deflection, ResultsBeyondADoubleAreOutsideTheModel) {
   json q = request();
-  for (const char* key : {"outer_left_mm", "outer_right_mm"})
-    q["shaft"]["segments"][0][key] = 1e-90;
+  q["shaft"]["E_MPa"] = 1e-99;
+  for (json& segment : q["shaft"]["segments"]) {
+    segment["length_mm"] = 1e6;
+    segment["outer_left_mm"] = segment["outer_right_mm"] = 2e-9;
+    segment["inner_left_mm"] = segment["inner_right_mm"] = 0;
+  }
+  q["positions_mm"] = {1e6};
   EXPECT_THROW(deflection(q), ModelRangeError);
 }
 

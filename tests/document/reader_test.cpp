@@ -91,16 +91,17 @@ TEST(Reader, ARangeEndsWhereItsSignSays) {
 // Lengths that no shape has, and what overflows once it is divided by.
 TEST(Reader, WhatIsTooSmallToComputeWithIsZero) {
   const auto json = parse(R"({"a_mm": 1e-10, "b_mm": 1e-8, "c_mm": 1e-10, "d_mm": -1e-10,
-                              "e": 5e-324, "f": 1e-99})",
+                              "e": 5e-324, "f": 1e-99, "g": 5e-324})",
                           "test");
   Problems problems;
   Reader r(json, problems);
   r.number("a_mm", above(0, "mm"));
   EXPECT_EQ(r.number("b_mm", above(0, "mm")), 1e-8);
-  EXPECT_EQ(r.number("c_mm", at_least(0, "mm")), 0);
+  EXPECT_EQ(r.number("c_mm", at_least(0, "mm")), 1e-10);
   EXPECT_EQ(r.number("d_mm", within(-1, 1, "mm")), -1e-10);
   r.number("e", above(0));
   EXPECT_EQ(r.number("f", above(0)), 1e-99);
+  EXPECT_EQ(r.number("g", at_least(0)), 0);
   EXPECT_EQ(told(problems),
             "/a_mm: got 1e-10, expected a number > 0 mm [range]\n"
             "/e: got 5e-324, expected a number > 0 [range]\n");
