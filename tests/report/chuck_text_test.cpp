@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "turnwright/report/text.hpp"
+#include "words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -28,10 +29,6 @@ ordered_json fitted() {
        "radius_error_mm": 0.01235, "u_radius_error_mm": 0.00051}],
     "identifiability": {"radial": {"rank": 3}},
     "warnings": ["radial: look again"]})");
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
 }
 
 /// The words of the first line that begins with `word`.

@@ -1,21 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "turnwright/report/text.hpp"
+#include "words.hpp"
 
 namespace turnwright::report {
 namespace {
 
 using nlohmann::ordered_json;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
-}
-/// Blanks as one, so that widths do not matter.
-std::string flat(const std::string& text) {
-  return std::regex_replace(text, std::regex("[ ]+"), " ");
-}
 
 // Keys as in schemas/multipass.result.json.
 ordered_json answered() {

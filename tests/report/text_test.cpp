@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "words.hpp"
+
 namespace turnwright::report {
 namespace {
 
@@ -107,10 +109,6 @@ std::vector<std::string> lines(const std::string& text) {
 bool has_line(const std::string& text, const std::string& line) {
   const auto all = lines(text);
   return std::find(all.begin(), all.end(), line) != all.end();
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 // Every run of blanks and line ends as one blank.

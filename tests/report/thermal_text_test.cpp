@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <sstream>
 
 #include "turnwright/report/text.hpp"
+#include "words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -30,15 +30,6 @@ ordered_json answered() {
     "network": {"rms_um": 1.62, "held_out": {"rows": 851, "rms_um": 15.3, "mean_um": 2,
                 "largest_um": 40}, "held_out_inside": {"rows": 0}},
     "warnings": ["p: nothing in the log depends on it"]})");
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != text.npos;
-}
-
-/// Blanks as one, so that widths do not matter.
-std::string flat(const std::string& text) {
-  return std::regex_replace(text, std::regex("[ ]+"), " ");
 }
 
 TEST(ThermalText, ParametersHaveTheirStanding) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "turnwright/base/errors.hpp"
+#include "words.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -32,10 +33,6 @@ std::vector<std::vector<Dot>> polylines(const std::string& svg, const std::strin
     for (Dot d; in >> d.x >> comma >> d.y;) out.back().push_back(d);
   }
   return out;
-}
-
-bool has(const std::string& svg, const std::string& text) {
-  return svg.find(text) != std::string::npos;
 }
 
 Trace trace(auto ccw, auto cw) {
