@@ -104,9 +104,15 @@ class Ascent {
   const std::vector<OnCircle>& zeros() const { return zeros_; }
 
  private:
-  MultipliersAt at_depths(const DelayMap::Range& range, const Fineness& fineness) const {
+  MultipliersAt at_depths(const DelayMap::Range& range, const Fineness& fineness) {
     return [this, range, fineness](double w) {
-      return DelayMap(cutter_, n_rpm_, w, range, fineness).multipliers();
+      const DelayMap map(cutter_, n_rpm_, w, range, fineness);
+      work_ += map.work();
+      if (work_ > kWork)
+        throw TooManyVibrations(
+            "milling: the search takes too long; ask for a smaller ap_max_mm or a higher "
+            "speed");
+      return map.multipliers();
     };
   }
 
@@ -161,7 +167,8 @@ class Ascent {
   }
 
   const Cutter& cutter_;
-  double n_rpm_, ap_max_;
+  static constexpr double kWork = 2e11;  // half a minute
+  double n_rpm_, ap_max_, work_ = 0;
   std::vector<MultipliersAt> finer_;
   std::vector<OnCircle> zeros_;
 };

@@ -246,6 +246,12 @@ void DelayMap::assemble() {
   }
 }
 
+// Elimination of all unknowns, and the eigenvalues of the few that are delayed.
+double DelayMap::work() const {
+  const auto all = static_cast<double>(size_), few = static_cast<double>(delayed_.size());
+  return all * all * (2 * all / 3 + 2 * few) + 2 * all * few * few + 25 * few * few * few;
+}
+
 std::vector<std::complex<double>> DelayMap::multipliers() const {
   constexpr double kNegligible = 1e-12;
   leave_if_asked();

@@ -59,6 +59,9 @@ class DelayMap {
 
   const Contact& contact() const { return contact_; }
 
+  /// Operations that the multipliers take, about.
+  double work() const;
+
   /// By falling modulus; those below 1e-12 left out.
   std::vector<std::complex<double>> multipliers() const;
 
