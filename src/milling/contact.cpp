@@ -55,6 +55,11 @@ double lag_rad_mm(const Cutter& cutter) {
   return 2 * std::tan(cutter.helix_rad) / cutter.diameter_mm;
 }
 
+double flank_damping_N_s_mm2(const Cutter& cutter, double n_rpm) {
+  if (!(cutter.indentation_N_mm > 0)) return 0;
+  return cutter.indentation_N_mm / (kPi * cutter.diameter_mm * n_rpm / 60);
+}
+
 Contact::Contact(const Cutter& cutter, double n_rpm, double ap_mm)
     : cutter_(cutter),
       ap_(ap_mm),
@@ -65,11 +70,8 @@ Contact::Contact(const Cutter& cutter, double n_rpm, double ap_mm)
   if (pitch_.empty()) pitch_.assign(teeth, 2 * kPi / cutter.system.teeth);
   place_.assign(teeth, 0);
   for (std::size_t j = 1; j < teeth; ++j) place_[j] = place_[j - 1] - pitch_[j];
-  if (cutter.indentation_N_mm > 0) {
-    const double normal =
-        cutter.indentation_N_mm / (kPi * cutter.diameter_mm * n_rpm / 60);
-    damping_ = {.Kt_MPa = cutter.friction * normal, .Kn_MPa = normal};
-  }
+  const double normal = flank_damping_N_s_mm2(cutter, n_rpm);
+  damping_ = {.Kt_MPa = cutter.friction * normal, .Kn_MPa = normal};
   for (std::size_t j = 0; j < teeth; ++j) enter_segments(j);
 }
 

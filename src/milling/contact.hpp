@@ -23,6 +23,9 @@ struct Passage {
 /// How far an edge lags behind its tip, over the height [rad/mm].
 double lag_rad_mm(const Cutter& cutter);
 
+/// C/v of cutter.hpp (1), a depth [N s/mm2]; 0 without indentation.
+double flank_damping_N_s_mm2(const Cutter& cutter, double n_rpm);
+
 /// Where and how the edges of a cutter meet the work at one depth.  Angles are those of
 /// the spindle, from 0 to `period_rad`; over height every integral is in closed form.
 class Contact {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "contact.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
@@ -13,7 +14,6 @@
 namespace turnwright::milling {
 namespace {
 
-using Slope = Dual<double, 1>;
 using Enclosure = Dual<Interval, 1>;
 
 /// Real and imaginary part.
@@ -26,9 +26,8 @@ class Loop {
  public:
   Loop(const Cutter& cutter, double n_rpm)
       : K_(std::get<ConstantForce>(cutter.system.force).K_MPa),
-        tau_s_(period_s(cutter, n_rpm)) {
-    if (cutter.indentation_N_mm > 0)
-      damping_ = cutter.indentation_N_mm / (units::kPi * cutter.diameter_mm * n_rpm / 60);
+        tau_s_(period_s(cutter, n_rpm)),
+        damping_(flank_damping_N_s_mm2(cutter, n_rpm)) {
     for (const Mode& m : cutter.system.modes)
       if (m.axis == Axis::x) modes_.push_back(m);
   }
@@ -83,7 +82,7 @@ class Loop {
 
  private:
   std::vector<Mode> modes_;
-  double K_, tau_s_, damping_ = 0;
+  double K_, tau_s_, damping_;
 };
 
 /// A range of frequencies, and the signs of Im D at its ends.
