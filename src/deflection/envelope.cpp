@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::deflection {
@@ -16,6 +17,7 @@ constexpr std::size_t kPoints = 17;     // every second one belongs to the coars
 constexpr double kResolved = 1e-6;      // parts of the largest |e|
 constexpr double kBetweenPoints = 1.5;  // above 1/cos(8 pi/(2 16)) = 1.42
 constexpr int kDeepest = 30;  // halvings; only a jump inside a segment gets there
+constexpr std::size_t kPanels = 10'000;
 
 struct Panel {
   std::size_t segment;
@@ -84,6 +86,10 @@ Envelope envelope(std::span<const double> ends_mm, const ErrorOnSegment& error) 
     }
     panels.swap(finer);
     if (!halved) break;
+    if (panels.size() > kPanels + ends_mm.size())
+      throw ModelRangeError(
+          "the error changes too quickly along the part for its largest value to be "
+          "found");
     for (const Panel& p : panels) sampled = std::max(sampled, largest(p));
   }
 

@@ -257,9 +257,10 @@ class Run {
   /// Before a feed move on which an axis turns back: the stops that take up play, so that
   /// all of it lies from the start where the feed leaves it.  `s` gets its command anew.
   /// Axes go to the start in the feed's own direction; one that would have to go against
-  /// it goes beyond and comes again, or, for a rounding's worth, stays.
+  /// it, or not far enough to be through its play, goes beyond and comes again, or, for a
+  /// rounding's worth, stays.
   std::vector<Stop> take_up(Stop& s) const {
-    if (s.move->rapid || (s.sign == sign_ && !s.stays)) return {};
+    if (s.move->rapid || (s.sign == sign_ && !s.stays && !slack(*s.move))) return {};
     Stop start = s;
     settle(s, start);
     std::vector<Stop> out;
@@ -269,8 +270,10 @@ class Run {
       const double step = writer_.step_mm(*s.move, k), at = q_[k] + s.tool->point[k],
                    way = start.command[k] - at, along = way * s.sign[k];
       goes = goes || std::abs(way) > step;
-      if (!follows_ || along >= -0.5 * step) continue;
-      if (along < -kRounding * step) {
+      if (!follows_) continue;
+      const bool through = along >= play_to_go_mm(start, k) - kWritten * step;
+      if (through && along >= -0.5 * step) continue;
+      if (!through) {
         beyond_any = true;
         beyond.sign[k] = -s.sign[k];
         beyond.target[k] -= 2 * kRounding * step * s.sign[k];
@@ -281,7 +284,7 @@ class Run {
       }
     }
     if (beyond_any) out.push_back(gone_beyond(start, beyond));
-    if (goes) out.push_back(start);
+    if (goes || beyond_any) out.push_back(start);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].first = s.first && i == 0;
       out[i].last = false;
@@ -293,34 +296,72 @@ class Run {
   /// Goes to a command as written; the stop's signs become those of the motions made, or
   /// where play is taken up those of the feed to come.
   void go(Stop& s) {
-    sign_ = follows_ ? made(s) : s.sign;
+    const Vec3 to = s.command - s.tool->point;
+    if (follows_) {
+      const Vec3 sign = made(s);
+      Stop as_made = s;
+      as_made.sign = sign;
+      for (std::size_t k = 0; k < 3; ++k)
+        slack_mm_[k] = std::max(play_to_go_mm(as_made, k) - std::abs(to[k] - q_[k]), 0.0);
+      sign_ = sign;
+    } else {
+      sign_ = s.sign;
+    }
     if (!s.takes_up) s.sign = sign_;
-    q_ = s.command - s.tool->point;
+    q_ = to;
   }
 
  private:
-  static constexpr double kRounding = 1.5;  // steps of the last decimal
+  // Steps of the last decimal: ends of a way, as written; and what is not worth a way.
+  static constexpr double kWritten = 1.01, kRounding = 1.5;
 
-  /// Axes whose sign is not the start's go to the target, and farther if those that
-  /// overshoot their turns could not come from there; the others to the start.
+  /// Whether the last motions left play to go through.
+  bool slack(const NcMove& move) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (slack_mm_[k] > kWritten * writer_.step_mm(move, k)) return true;
+    return false;
+  }
+
+  /// How the error at a stop changes as an axis that had a sign gets the stop's.
+  Vec3 turn_mm(const Stop& s, std::size_t k, double from) const {
+    Vec3 before = s.sign;
+    before[k] = from;
+    return field_.error(*s.tool, s.target, before, s.target) -
+           field_.error(*s.tool, s.target, s.sign, s.target);
+  }
+
+  /// Way of an axis in the direction it has at a stop until the tip follows.  One that
+  /// overshoots its turns has no play.
+  double play_to_go_mm(const Stop& s, std::size_t k) const {
+    if (s.sign[k] == sign_[k]) return slack_mm_[k];
+    return std::max(turn_mm(s, k, sign_[k])[k] * s.sign[k], 0.0);
+  }
+
+  /// Axes whose sign is not the start's go to the target, and farther if they could not
+  /// come from there through their play; the others to the start.
   Stop gone_beyond(const Stop& start, Stop s) const {
     s.error = field_.error(*s.tool, s.target, s.sign, s.target);
     correct(field_, o_.passes, s.error, s);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double least = kRounding * writer_.step_mm(*s.move, k),
-                   ahead = (start.command[k] - s.command[k]) * start.sign[k];
-      if (s.sign[k] == start.sign[k])
+      if (s.sign[k] == start.sign[k]) {
         s.command[k] = start.command[k];
-      else if (ahead < least)
-        s.command[k] = start.command[k] - least * start.sign[k];
+        continue;
+      }
+      const double play = turn_mm(start, k, s.sign[k])[k] * start.sign[k],
+                   least = std::max(play, 0.0) + kRounding * writer_.step_mm(*s.move, k),
+                   ahead = (start.command[k] - s.command[k]) * start.sign[k];
+      if (ahead < least) s.command[k] = start.command[k] - least * start.sign[k];
     }
     return s;
   }
 
-  Vec3 made(const Stop& s) const { return motion(s, s.command - s.tool->point - q_); }
+  Vec3 made(const Stop& s) const {
+    return motion(s, s.command - s.tool->point - q_, sign_);
+  }
 
-  Vec3 motion(const Stop& s, const Vec3& way) const {
-    Vec3 out = sign_;
+  /// The signs of a way; those of axes that rest.
+  Vec3 motion(const Stop& s, const Vec3& way, const Vec3& at_rest) const {
+    Vec3 out = at_rest;
     for (std::size_t k = 0; k < 3; ++k)
       if (std::abs(way[k]) > 0.500001 * writer_.step_mm(*s.move, k))
         out[k] = way[k] > 0 ? 1 : -1;
@@ -342,8 +383,8 @@ class Run {
       if (!follows_) return;
       start.command = writer_.written(*s.move, start.command);
       s.command = writer_.written(*s.move, s.command);
-      const Vec3 is = motion(s, s.command - start.command);
-      if (is == s.sign) return;
+      const Vec3 is = motion(s, s.command - start.command, s.sign);
+      if (is == s.sign || round + 1 == kRounds) return;
       s.sign = is;
     }
   }
@@ -376,6 +417,7 @@ class Run {
   const CompensationOptions& o_;
   const bool follows_;  // the play; else signs are the source's
   Vec3 q_, sign_{};
+  Vec3 slack_mm_{};  // play left in the direction of the last motion
 };
 
 /// Greatest and root mean square of distances.
@@ -418,7 +460,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
     // A rounded coordinate is off by 0.5e-3 mm at most.
-    if (full && !s.stays && !(left <= is / 2 + 1e-3))
+    if (full && !s.stays && !s.takes_up && !(left <= is / 2 + 1e-3))
       throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
                             ": errors too large to be corrected by iteration");
     out.largest_correction_mm =

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "random_shafts.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/base/random.hpp"
 #include "turnwright/deflection/response.hpp"
 
 namespace turnwright::deflection {
@@ -99,6 +102,13 @@ TEST(Envelope, ProppedBarHasItsPeakAtTwoMinusRootTwo) {
       envelope(wire.ends_mm(), radius_error(wire, {centres, centres}, {1e-6, 0, 0}));
   EXPECT_NEAR(c.at_mm / L, 0.5, 1e-6);
   EXPECT_NEAR(c.max_mm / (1e-6 * L * L * L / (48 * EI)), 1, 1e-7);
+}
+
+TEST(Envelope, NoiseIsRefused) {
+  const auto noise = [](std::size_t, double a) {
+    return static_cast<double>(splitmix64(std::bit_cast<std::uint64_t>(a), 0));
+  };
+  EXPECT_THROW(of({0, 1}, noise), ModelRangeError);
 }
 
 TEST(Envelope, NoDenseSamplingFindsMore) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "turnwright/base/units.hpp"
+
 namespace turnwright {
 
 /// Closed interval [lo, hi]: arithmetic on it encloses the arithmetic of every pair of
@@ -70,8 +72,7 @@ inline Interval acos(const Interval& x) {
   return {std::acos(std::clamp(x.hi, -1.0, 1.0)), std::acos(std::clamp(x.lo, -1.0, 1.0))};
 }
 inline Interval cos(const Interval& x) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double first = std::ceil(x.lo / kPi), last = std::floor(x.hi / kPi);
+  const double first = std::ceil(x.lo / units::kPi), last = std::floor(x.hi / units::kPi);
   if (!(last - first < 1)) return {-1, 1};
   const double a = std::cos(x.lo), b = std::cos(x.hi);
   const Interval ends{std::min(a, b), std::max(a, b)};
@@ -79,7 +80,7 @@ inline Interval cos(const Interval& x) {
   return std::fmod(first, 2) == 0 ? Interval{ends.lo, 1} : Interval{-1, ends.hi};
 }
 inline Interval sin(const Interval& x) {
-  constexpr double kQuarter = 1.57079632679489661923;
+  constexpr double kQuarter = units::kPi / 2;
   return cos(Interval{x.lo - kQuarter, x.hi - kQuarter});
 }
 /// x^p for x >= 0.

@@ -27,6 +27,8 @@ using ErrorOnSegment = std::function<void(
 /// the largest sample, and no other, has to be refined (Brent) on e itself.
 /// Good to rounding for every e that is smooth on the segments; of equal peaks the
 /// leftmost is told.
+/// @throws ModelRangeError if ten thousand parts of segments do not do, as where nothing
+///   but rounding is left of e.
 /// Source: derived here, checked in envelope_test.
 Envelope envelope(std::span<const double> ends_mm, const ErrorOnSegment& error);
 
