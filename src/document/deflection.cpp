@@ -18,6 +18,7 @@
 #include "turnwright/deflection/face.hpp"
 #include "turnwright/deflection/feedback.hpp"
 #include "turnwright/deflection/response.hpp"
+#include "turnwright/document/finite.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -439,13 +440,6 @@ json warnings(const Request& q) {
   return list;
 }
 
-void require_finite(const json& value) {
-  if (value.is_number_float() && !std::isfinite(value.get<double>()))
-    throw ModelRangeError("deflection: a result is beyond what a number holds");
-  if (value.is_structured())
-    for (const json& member : value) require_finite(member);
-}
-
 }  // namespace
 
 json deflection(const json& request) {
@@ -465,7 +459,7 @@ json deflection(const json& request) {
     result["envelope"] = largest_error(part, held, q);
   }
   if (q.face) result["face"] = face(held, q);
-  require_finite(result);
+  require_finite(result, "deflection");
   return result;
 }
 

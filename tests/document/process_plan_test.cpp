@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "schema_check.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -166,14 +167,14 @@ TEST(ProcessPlan, ANumberThatIsNoneIsABrokenPromise) {
   try {
     to_json(plan, {});
     FAIL() << "written";
-  } catch (const std::domain_error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "process plan/setups/0/operations/0/passes/0/T_min: not a finite number");
+  } catch (const ModelRangeError& error) {
+    EXPECT_STREQ(error.what(),
+                 "process plan/setups/0/operations/0/passes/0/T_min: the result is "
+                 "beyond what a number holds");
   }
   plan = every_field();
   plan.tolerances[1].predicted_mm = {std::nan("")};
-  EXPECT_THROW(to_json(plan, {}), std::domain_error);
+  EXPECT_THROW(to_json(plan, {}), ModelRangeError);
 }
 
 }  // namespace

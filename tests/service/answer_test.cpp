@@ -2,8 +2,8 @@
 
 #include <limits>
 #include <set>
-#include <stdexcept>
 
+#include "turnwright/base/errors.hpp"
 #include "turnwright/document/parse.hpp"
 #include "turnwright/service/requests.hpp"
 
@@ -55,8 +55,8 @@ TEST(Answer, RefusesNumbersJsonCannotHold) {
   try {
     answer(row, json::object(), {kNothing});
     FAIL() << "NaN went out";
-  } catch (const std::domain_error& e) {
-    EXPECT_STREQ(e.what(), "broken/list/1/x: not a finite number");
+  } catch (const ModelRangeError& e) {
+    EXPECT_STREQ(e.what(), "broken/list/1/x: the result is beyond what a number holds");
   }
 }
 

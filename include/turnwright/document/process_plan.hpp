@@ -8,7 +8,7 @@
 namespace turnwright::document {
 
 /// The result of `plan` (schemas/plan.result.json), keys in the order of the schema.
-/// @throws std::domain_error naming the pointer if a number is not finite: JSON would
+/// @throws ModelRangeError naming the pointer if a number is not finite: JSON would
 ///   turn it into null.
 nlohmann::ordered_json to_json(const planning::ProcessPlan& plan,
                                const std::vector<Assumption>& assumed);

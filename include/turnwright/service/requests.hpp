@@ -60,8 +60,8 @@ std::string_view version();
 /// The row's result for a request document, with `format`, `turnwright_version` and
 /// `request_digest` (SHA-256 of the request's dump: sorted keys, no spaces), so that a
 /// stored result can be traced.
-/// @throws InputError, ModelRangeError as the row does; std::domain_error if a number of
-///   the result is not finite.
+/// @throws InputError, ModelRangeError as the row does; ModelRangeError if a number of the
+///   result is not finite.
 nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
                               const Context& context);
 
