@@ -1,6 +1,7 @@
 # Floor 1
 tw_domain(base SOURCES errors.cpp least_squares.cpp PRIVATE_LIBS Eigen3::Eigen
-          TESTS interval_test.cpp least_squares_test.cpp log_dual_test.cpp random_test.cpp)
+          TESTS interval_test.cpp least_squares_test.cpp log_dual_test.cpp random_test.cpp
+                root_test.cpp)
 # Floor 2
 tw_domain(optimise SOURCES local.cpp nnls.cpp branch_and_bound.cpp posynomial.cpp
           relaxation_search.cpp

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/root.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -38,20 +40,14 @@ double above(const Balance& g) {
   return h;
 }
 
+// Newton needs about five steps.
 double depth(const Balance& g) {
-  double low = 0, high = above(g), h = high;
-  // Bisection alone halves the bracket every second step, so 2200 steps reach any double;
-  // Newton needs about five.
-  for (int step = 0; step < 2200; ++step) {
-    const double value = g.value(h);
-    if (value == 0) return h;
-    (value < 0 ? low : high) = h;
-    double next = h - value / g.slope(h);
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (std::abs(next - h) <= std::numeric_limits<double>::epsilon() * h) return next;
-    h = next;
-  }
-  return h;
+  const double high = above(g);
+  const auto value_and_slope = [&g](double h) {
+    return std::pair{g.value(h), g.slope(h)};
+  };
+  return bracketed_root(value_and_slope, 0, high, high,
+                        std::numeric_limits<double>::epsilon());
 }
 
 Balance balance(double D_mm, const Flexibility& radial, const Flexibility& tangential,

@@ -1,7 +1,12 @@
 #include "chain.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
+
+#include "turnwright/base/root.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -129,6 +134,23 @@ Dual<double, 1> along_depth(const Point& law, const cutting::Cut& cut, double de
   return law_mm<D>({law.p, law.q, law.s, law.r},
                    cutting::forces_N(cut, variable<double, 1>(depth, 0), D(f)));
 }
+
+constexpr double kDigits = 0x1p-29;  // of the last step; the root has twice as many
+constexpr double kWithoutEnd = 100;  // depths: no tolerance allows that
+
+// A root inside the bracket if Newton's steps go straight to it.
+template <class G>
+std::optional<double> newton(const G& g, double lower, double upper, double at) {
+  double before = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const auto [value, slope] = g(at);
+    const double step = value / slope, next = at - step;
+    if (!(next >= lower && next <= upper && std::abs(step) < before / 2)) return {};
+    if (std::abs(step) <= kDigits * std::abs(next)) return next;
+    before = std::abs(step);
+    at = next;
+  }
+}
 }  // namespace
 
 double loop_gain(const Point& law, const cutting::Cut& cut, double depth, double f) {
@@ -138,20 +160,20 @@ double loop_gain(const Point& law, const cutting::Cut& cut, double depth, double
 double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double f,
                    double e_before) {
   const double full = ap + e_before;
-  // G(e) = e - law(full - e) rises (the force grows with the depth), is <= 0 at the lower
-  // and >= 0 at the upper end; near full depth nothing is cut, so e stays below it.
+  if (!(full > 0)) return full;  // a tool that meets nothing leaves what is there
   const auto G = [&](double e) {
     const auto l = along_depth(law, cut, std::max(full - e, 1e-9 * full), f);
     return std::pair{e - l.v, 1 + l.d[0]};
   };
   const auto [value, slope] = G(0);
   const double first = -value;
-  const double lower = 2 * std::min(0.0, first),
-               upper = std::min(2 * std::max(0.0, first), full);
-  if (lower == upper) return 0;
-  std::uintmax_t steps = 50;
-  return boost::math::tools::newton_raphson_iterate(G, first / std::max(1.0, slope),
-                                                    lower, upper, 30, steps);
+  if (first == 0) return 0;
+  const double lower = 2 * std::min(0.0, first), upper = first > 0 ? full : 0;
+  const double start = std::min(first / std::max(1.0, slope), full);
+  if (const auto e = newton(G, lower, upper, start)) return *e;
+  // Where the law has terms of both signs, G need not rise between its ends.
+  if (G(lower).first > 0) return -kWithoutEnd * full;
+  return bracketed_root(G, lower, upper, start, kDigits);
 }
 
 LastPass last_pass(const Chain& chain, const Station& station, const Choice<double>& c) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -396,6 +395,7 @@ Signed<T> law_mm(const Coefficients<Signed<T>>& c, const cutting::Forces<T>& for
 ///     e = law(forces at depth ap + e_before - e),                                    (2)
 ///         e_before the error the pass before left
 ///
+/// Where the part is pulled into the tool without end: a hundred depths too deep.
 /// Source: derived here; the loop gain is d law/d depth.
 double yielding_mm(const Coefficients<double>& law, const cutting::Cut& cut, double ap,
                    double f, double e_before);
@@ -411,8 +411,10 @@ Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
                             const Dual<double, N>& f, const Dual<double, N>& e_before) {
   const auto c = at(law, a);
   const Coefficients<double> point{c.p.v, c.q.v, c.s.v, c.r.v};
+  const auto full = ap + e_before;
+  if (!(full.v > 0)) return full;
   const double e = yielding_mm(point, cut, ap.v, f.v, e_before.v);
-  const Dual<double, N> depth = ap + e_before - e;
+  const Dual<double, N> depth = full - e;
   const auto direct = law_mm<Dual<double, N>>(c, cutting::forces_N(cut, depth, f));
   Dual<double, N> r = direct * (1 / (1 + loop_gain(point, cut, depth.v, f.v)));
   r.v = e;
@@ -470,14 +472,6 @@ double corrected_error_mm(const LastPass& pass, double s_mm);
 inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap,
                           double f, double e_before) {
   return yielding_mm(at(law, a), cut, ap, f, e_before);
-}
-
-inline optimise::LogCurvature yielding_mm(const Law&, const cutting::Cut&,
-                                          const optimise::LogCurvature&,
-                                          const optimise::LogCurvature&,
-                                          const optimise::LogCurvature&,
-                                          const optimise::LogCurvature&) {
-  return {};
 }
 
 /// Error of the finished surface at a station after all passes.  On faces there is no

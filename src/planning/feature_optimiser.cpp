@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -198,7 +197,7 @@ class FeatureSearch {
     }
   }
 
-  // Settles what is left, by curvature or by boxes; may find better points on the way.
+  // Settles what is left by boxes; may find better points on the way.
   void certify() {
     std::vector<optimise::Piece> pieces;
     bound_ = kInfinity;
@@ -208,19 +207,9 @@ class FeatureSearch {
         bound_ = std::min(bound_, c.bound);
         continue;
       }
-      if (c.local && model(k)->convex()) {
-        ++nodes_;
-        c.bound = std::max(c.bound, convex_bound(*c.model, *c.local));
-        if (c.bound >= cut()) {
-          engines_.insert("convex");
-          bound_ = std::min(bound_, c.bound);
-          continue;
-        }
-      }
       pieces.push_back(with_points(k, with_multipliers(k)));
     }
     if (!pieces.empty()) {
-      engines_.insert("branch-and-bound");
       const auto r = optimise::branch_and_bound(pieces, best_.f,
                                                 {.gap = gap_, .max_nodes = task_.boxes});
       bound_ = std::min(bound_, r.lower_bound);
@@ -240,11 +229,6 @@ class FeatureSearch {
     if (nearest.f > 0) return m->piece(0, nearest.multipliers);
     local_search(k, {nearest.y}, {.insist = true});
     return c.local ? m->piece(1, c.local->multipliers) : m->piece();
-  }
-
-  static double convex_bound(const RecipeModel& m, const optimise::Solution& s) {
-    const auto v = values_at(m.problem(), s.y);
-    return optimise::convex_lower_bound(m.problem(), s.y, v, s.multipliers);
   }
 
   static optimise::Values values_at(const optimise::Problem& p,
@@ -282,8 +266,7 @@ class FeatureSearch {
     c.kind = unfinished_.empty() ? CertificateKind::global : CertificateKind::local;
     c.reason = unfinished_;
     c.nodes = nodes_;
-    for (const auto& e : engines_) c.engine += (c.engine.empty() ? "" : " and ") + e;
-    if (c.engine.empty()) c.engine = "branch-and-bound";
+    c.engine = "branch-and-bound";
     return c;
   }
 
@@ -326,7 +309,6 @@ class FeatureSearch {
   Best best_;
   double bound_ = kInfinity;
   long nodes_ = 0;
-  std::set<std::string> engines_;
   std::string unfinished_;
 };
 

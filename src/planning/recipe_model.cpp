@@ -210,17 +210,4 @@ optimise::Piece RecipeModel::piece(double weight,
   return p;
 }
 
-bool RecipeModel::convex() const {
-  using optimise::LogCurvature;
-  Choice<LogCurvature> c;
-  for (std::size_t i = 0; i < 2; ++i) c.v[i] = c.f[i] = LogCurvature::variable();
-  c.a = LogCurvature::variable();
-  bool all = true;
-  const auto f = planning::evaluate(
-      chain_, c,
-      [&](std::size_t, Check, bool, const LogCurvature& value,
-          const LogCurvature& limit) { all = all && (value / limit).convex(); });
-  return all && f.convex();
-}
-
 }  // namespace turnwright::planning

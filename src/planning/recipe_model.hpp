@@ -48,8 +48,6 @@ class RecipeModel {
   /// With the Lagrangian (weight 1) or refutation (weight 0) that multipliers of the full
   /// problem make.
   optimise::Piece piece(double weight, const std::vector<double>& multipliers) const;
-  /// True if curvature proves objective and all checks log-convex.
-  bool convex() const;
 
   /// Conditions at a point of the full problem, and back.
   Choice<double> choice(const std::vector<double>& y) const;

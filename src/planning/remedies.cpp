@@ -8,6 +8,7 @@
 #include "feasibility.hpp"
 #include "planned.hpp"
 #include "recipes.hpp"
+#include "usable.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -83,6 +84,11 @@ void add_grip(const PartPlan& p, std::size_t s, const SetupWork& work,
   v.plan.setups[s].grip_mm = grip;
   v.remedy.sentence = fmt::format("gripping {} instead of {} mm in setup {}",
                                   readable(grip), readable(p.setups[s].grip_mm), s);
+  auto& clampings = v.plan.setups[s].clampings;
+  if (!rest_stands_free(v.plan, s) && std::erase(clampings, Clamping::chuck_steady)) {
+    if (clampings.empty()) return;
+    v.remedy.sentence += ", without the steady rest,";
+  }
   all.push_back(std::move(v));
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "turnwright/deflection/thrust.hpp"
 
 namespace turnwright::planning {
@@ -16,6 +18,9 @@ std::string in_the_way(const PartPlan& p, std::size_t setup, Clamping c,
                               : fmt::format("the centre stands where bore {} is cut",
                                             d.inner[work.bores.front()].id);
   const double z = p.setups[setup].steady_z_mm;
+  if (!rest_stands_free(p, setup))
+    return fmt::format(
+        "the steady rest at z = {:g} mm does not stand between jaws and free end", z);
   for (const std::size_t i : work.elements) {
     const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
     if (z + kSteadyWidth_mm / 2 > z0 && z - kSteadyWidth_mm / 2 < z1)
@@ -45,6 +50,13 @@ std::string buckles(const PartPlan& p, std::size_t setup, Clamping c,
 }
 
 }  // namespace
+
+bool rest_stands_free(const PartPlan& p, std::size_t setup) {
+  const double z = p.setups[setup].steady_z_mm;
+  const auto [low, high] =
+      std::minmax({root_z_mm(p, setup, Clamping::chuck_steady), free_z_mm(p, setup)});
+  return z > low && z < high;
+}
 
 std::string unusable(const PartPlan& p, std::size_t setup, Clamping c,
                      const SetupWork& work, const Finished& done) {

@@ -235,26 +235,5 @@ TEST(Cut, BoxesHoldValuesAndElasticities) {
   }
 }
 
-TEST(Cut, ForceIsProvedLogConvexAndChipFlowIsNot) {
-  using optimise::LogCurvature;
-  const auto x = LogCurvature::variable();
-  EXPECT_TRUE(forces_N(steel(), x, x).Fc_N.convex());
-  EXPECT_FALSE(forces_N(steel(), x, x).Fp_N.convex());
-  EXPECT_TRUE(Rz_um(steel(), x).convex());
-  EXPECT_TRUE(tool_life_min(steel(), x, x, x).affine());
-  // The claim for the edge, checked: ln L has no concave stretch over (ln ap, ln f).
-  std::mt19937 seed(9);
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < 20000; ++i) {
-    const auto c = steel(30 + 90 * unit(seed), 0.1 + 1.5 * unit(seed));
-    const double a = -4 + 6 * unit(seed), b = -4 + 6 * unit(seed);
-    const double p = -4 + 4 * unit(seed), q = -4 + 4 * unit(seed);
-    const auto ln = [&](double s, double t) {
-      return std::log(engaged_edge_mm(c, std::exp(s), std::exp(t)));
-    };
-    EXPECT_LE(ln((a + b) / 2, (p + q) / 2), (ln(a, p) + ln(b, q)) / 2 + 1e-12);
-  }
-}
-
 }  // namespace
 }  // namespace turnwright::cutting

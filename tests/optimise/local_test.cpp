@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "turnwright/base/dual.hpp"
-#include "turnwright/optimise/curvature.hpp"
 
 namespace turnwright::optimise {
 namespace {
@@ -127,22 +126,6 @@ TEST(LocalMinimum, RefusesBoundsThatAreNone) {
   p.lower[0] = 30;
   EXPECT_THROW(local_minimum(p, start), std::domain_error);
   EXPECT_THROW(local_minimum(geometric(1), std::vector<double>{0}), std::domain_error);
-}
-
-TEST(LogCurvature, KnowsPosynomialsAndClaimsNothingElse) {
-  const auto x = LogCurvature::variable(), y = LogCurvature::variable();
-  using Kind = LogCurvature::Kind;
-  EXPECT_EQ((3.0 * x * pow(y, -2.5)).kind(), Kind::affine);
-  EXPECT_EQ(cost(x, y).kind(), Kind::convex);
-  EXPECT_EQ(pow(x + y, 0.3).kind(), Kind::convex);
-  EXPECT_EQ(((x + y) / x).kind(), Kind::convex);
-  EXPECT_EQ(max(x, y).kind(), Kind::convex);
-  EXPECT_EQ((x / (x + y)).kind(), Kind::unknown);
-  EXPECT_EQ((x - y).kind(), Kind::unknown);
-  EXPECT_EQ(pow(x + y, -1.0).kind(), Kind::unknown);
-  EXPECT_EQ(min(x, y).kind(), Kind::unknown);
-  EXPECT_EQ((-2.0 * x).kind(), Kind::unknown);
-  EXPECT_EQ(((x - y) * x + x).kind(), Kind::unknown);
 }
 
 }  // namespace

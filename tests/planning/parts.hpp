@@ -15,9 +15,12 @@ inline const document::Catalogue& shop() {
 inline PartPlan part(const nlohmann::json& document) {
   return document::load_part_plan(document, shop(), "part").plan;
 }
+inline nlohmann::json file(const std::string& name) {
+  return document::parse_file(TURNWRIGHT_SOURCE_DIR "/" + name);
+}
+
 inline nlohmann::json reference_part(const std::string& name) {
-  return document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/parts/" + name +
-                              ".json");
+  return file("parts/" + name + ".json");
 }
 
 /// A short pin of two cylinders, turned round once in the chuck.

@@ -487,6 +487,23 @@ TEST(Plan, ASteadyRestHoldsWhereNoCentreCan) {
   EXPECT_TRUE(told);
 }
 
+// The law of yielding is no multiple of one force then; jaws that reach over the rest
+// leave no room for it.
+TEST(Plan, MaterialsWithMeasuredFeedAndPassiveForces) {
+  auto d = reference_part("roller-tube");
+  auto material = file("materials/" + d["material"].get<std::string>() + ".json");
+  material["feed_passive"] =
+      file("tests/data/catalogue/materials/test-steel.json")["feed_passive"];
+  d["material"] = material;
+  const auto r = planned(d);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  EXPECT_FALSE(r.remedies.empty());
+  for (const auto& remedy : r.remedies)
+    EXPECT_EQ(remedy.grip_mm >= d["setups"][1]["steady_mm"].get<double>(),
+              remedy.sentence.find("without the steady rest") != std::string::npos)
+        << remedy.sentence;
+}
+
 TEST(Plan, WhatNoOperationMakesIsAConflict) {
   auto d = given_pin("to-chuck");
   d["operations"].erase(1);

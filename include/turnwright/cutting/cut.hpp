@@ -4,11 +4,10 @@
 #include "turnwright/base/log_dual.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
-#include "turnwright/optimise/curvature.hpp"
 
 /// One tool in one material: chip, forces, tool life, surface.  Functions are written
-/// over a scalar type, so that the same line gives the number, its gradient, its
-/// enclosure over a box and its curvature.
+/// over a scalar type, so that the same line gives the number, its gradient and
+/// its enclosure over a box.
 namespace turnwright::cutting {
 
 using catalogue::Kienzle;
@@ -75,14 +74,6 @@ T engaged_edge_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   return branch(ap_mm, c.corner.depth_mm, arc, straight) + 0.5 * f_mm_rev;
 }
 
-/// L is log-convex: (1) is sqrt(2 r ap) times a power series with positive coefficients,
-/// (2) a posynomial, and the slope d ln L/d ln ap does not fall where they meet.
-inline optimise::LogCurvature engaged_edge_mm(const Cut&,
-                                              const optimise::LogCurvature& ap,
-                                              const optimise::LogCurvature& f) {
-  return ap.affine() && f.affine() ? ap + f : optimise::LogCurvature();
-}
-
 /// Forces on the tool: cutting, feed and passive force [N].
 template <class T>
 struct Forces {
@@ -122,10 +113,6 @@ T flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
     return cotangent < 0 ? T(u - T(-cotangent)) : T(u + cotangent);
   };
   return r > 0 ? branch(ap_mm, c.corner.depth_mm, arc, straight) : straight(ap_mm);
-}
-inline optimise::LogCurvature flow_cotangent(const Cut&, const optimise::LogCurvature&,
-                                             const optimise::LogCurvature&) {
-  return {};
 }
 
 /// Eq. (5) below.
