@@ -32,6 +32,37 @@ Point tip(const Point& p, const Normal& m, const Normal& n, double r) {
   return tip(p, {(m.h + n.h) * k, (m.z + n.z) * k}, r);  // Eq. (2)
 }
 
+Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n,
+                double r) {
+  const auto above = [](const Point& p, const Point& from, const Normal& of) {
+    return of.h * (p.h_mm - from.h_mm) + of.z * (p.z_mm - from.z_mm);
+  };
+  const auto moved = [](const Point& p, const Normal& by, double way) {
+    return Point{p.h_mm + by.h * way, p.z_mm + by.z * way};
+  };
+  const auto along = [](const Normal& of) { return Normal{of.z, -of.h}; };
+  const double step = above(b, a, m);
+  if (std::abs(step) <= kRounding) return {tip(a, m, n, r), tip(b, m, n, r)};
+  const auto &edge = step > 0 ? b : a, &other = step > 0 ? a : b;
+  const auto &low = step > 0 ? m : n, &high = step > 0 ? n : m;
+  const double side = step > 0 ? 1 : -1;  // of the higher line, seen from the edge
+  const double angle = above({n.h, n.z}, {0, 0}, along(m));
+  if (angle < -kRounding) {  // an inner corner, if the corner comes down to both lines
+    const auto both = tip(moved(a, along(m), above(b, a, n) / angle), m, n, r);
+    const Point centre{both.h_mm + r, both.z_mm + r};
+    if (side * above(centre, edge, along(high)) >= 0) return {both, both};
+  }
+  // The corner stands on the lower line and touches the edge of the higher.
+  const double height = std::min(r, above(edge, other, low));
+  const auto below =
+      tip(moved(moved(edge, low, -height), along(low), -side * beside(r, r - height)),
+          low, r);
+  const auto up =
+      moved(below, low,
+            above(tip(edge, high, r), below, high) / (high.h * low.h + high.z * low.z));
+  return step > 0 ? Crossing{below, up} : Crossing{up, below};
+}
+
 std::vector<Point> tips(const std::vector<Point>& contour, double r) {
   std::vector<Point> all;
   for (std::size_t i = 0; i < contour.size(); ++i) {

@@ -197,16 +197,16 @@ std::vector<Point> way_of(const Pass& p) {
   auto way = tips(c, p.re_mm);
   if (p.from_before()) {
     const auto before = corrected(p.site, p.side, p.side.items[p.k - 1]);
-    way.front() = tip(c[0], normal(before[before.size() - 2], before.back()),
-                      normal(c[0], c[1]), p.re_mm);
+    const auto n = normal(before[before.size() - 2], before.back());
+    way.front() = across(before.back(), n, c[0], normal(c[0], c[1]), p.re_mm).meet;
   } else {
     lead_in(p, c, way);
     start_clear(p, way);
   }
   if (p.goes_on()) {
     const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
-    way.back() = tip(c.back(), normal(c[c.size() - 2], c.back()),
-                     normal(after[0], after[1]), p.re_mm);
+    const auto n = normal(c[c.size() - 2], c.back());
+    way.back() = across(c.back(), n, after[0], normal(after[0], after[1]), p.re_mm).leave;
   }
   lead_out(p, way);
   return way;

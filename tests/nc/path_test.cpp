@@ -58,6 +58,46 @@ TEST(Tips, KeepTheCornerTangentToEveryLine) {
   }
 }
 
+// The corner's circle at every place of its way stays off both lines' material, and
+// touches both.
+TEST(Across, CutsNeitherLineAndTouchesBoth) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const double r = 0.6 + 0.4 * unit(random), step = 0.03 * unit(random);
+    const Point a0{10 + unit(random), 5}, a{10, 0}, b{10 + step, 0},
+        b1{10 + step + unit(random), -5};
+    const auto m = normal(a0, a), n = normal(b, b1);
+    const auto [leave, meet] = across(a, m, b, n, r);
+    const auto off = [r](const Point& tip, const Point& p, const Normal& by) {
+      return by.h * (tip.h_mm + r - p.h_mm) + by.z * (tip.z_mm + r - p.z_mm) - r;
+    };
+    EXPECT_NEAR(off(leave, a, m), 0, 1e-12);
+    EXPECT_NEAR(off(meet, b, n), 0, 1e-12);
+    const Point edge = step > 0 ? b : a;
+    for (const double u : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+      const Point c{std::lerp(leave.h_mm, meet.h_mm, u) + r,
+                    std::lerp(leave.z_mm, meet.z_mm, u) + r};
+      EXPECT_GE(std::hypot(c.h_mm - edge.h_mm, c.z_mm - edge.z_mm), r - 1e-9) << i;
+      const auto along = [&c](const Point& p, const Normal& by) {
+        return (c.h_mm - p.h_mm) * by.z - (c.z_mm - p.z_mm) * by.h;
+      };
+      const Point now{c.h_mm - r, c.z_mm - r};
+      if (along(a, m) <= 0) {
+        EXPECT_GE(off(now, a, m), -1e-9) << i;
+      }
+      if (along(b, n) >= 0) {
+        EXPECT_GE(off(now, b, n), -1e-9) << i;
+      }
+    }
+    // The lower line is left or met no farther from the edge than the corner needs to.
+    const auto& low = step > 0 ? leave : meet;
+    const auto foot = tip(edge, step > 0 ? m : n, r);
+    EXPECT_LE(std::hypot(low.h_mm - foot.h_mm, low.z_mm - foot.z_mm),
+              std::sqrt(2 * r * std::abs(step)) + 0.3 * r + std::abs(step));
+  }
+}
+
 TEST(ArcThrough, HasItsEndsAtItsRadius) {
   for (const bool convex : {true, false}) {
     const auto a = arc_through({14, 0}, {20, -6}, 6, convex);

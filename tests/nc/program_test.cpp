@@ -86,6 +86,69 @@ TEST(NcPrograms, OfEveryReferencePartMakeItsContour) {
   }
 }
 
+/// A correction for each finished element, another bow for each.
+void correct_all(Planned& p, double bow) {
+  const auto& d = p.part.drawing;
+  const auto add = [&](const std::string& on, std::size_t setup, double z0, double z1) {
+    planning::Compensation c{on, setup, {}};
+    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0})
+      c.table_mm.push_back({std::lerp(z0, z1, u), bow * (u * u - 0.3)});
+    p.plan.compensation.push_back(c);
+    bow = -0.9 * bow;
+  };
+  for (std::size_t s = 0; s < p.plan.setups.size(); ++s)
+    for (const auto& o : p.plan.setups[s].operations) {
+      for (std::size_t i = 0; i < d.outer.size(); ++i) {
+        const double z = part::left_z_mm(d, i);
+        if (o.kind == planning::OperationKind::finish && o.on[0] == d.outer[i].id &&
+            !d.outer[i].cut)
+          add(o.on[0], s, z, z + d.outer[i].length_mm);
+      }
+      for (std::size_t i = 0; i < d.inner.size(); ++i) {
+        const double z = part::inner_left_z_mm(d, i);
+        if (o.kind == planning::OperationKind::bore_finish && o.on[0] == d.inner[i].id)
+          add(o.on[0], s, z, z + d.inner[i].length_mm);
+      }
+    }
+}
+
+// Finished by one tool one after the other: an inner corner, an edge, a straight line.
+Planned joined_surfaces() {
+  return planned(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 20, "diameter_mm": 40},
+              {"id": "d2", "kind": "cylinder", "length_mm": 20, "diameter_mm": 30},
+              {"id": "d3", "kind": "cylinder", "length_mm": 20, "diameter_mm": 30},
+              {"id": "c1", "kind": "cone", "length_mm": 10, "left_mm": 30, "right_mm": 26},
+              {"id": "d4", "kind": "cylinder", "length_mm": 10, "diameter_mm": 26}],
+    "machine": "lathe-medium",
+    "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+}
+
+TEST(NcPrograms, LeaveTheStepsBetweenCorrections) {
+  for (const double bow : {0.02, -0.02}) {
+    auto p = joined_surfaces();
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    correct_all(p, bow);
+    ASSERT_EQ(p.plan.compensation.size(), 5U);
+    EXPECT_EQ(listed(faults_of(p, programs(p.part, p.plan))), "") << bow;
+  }
+}
+
+TEST(NcPrograms, FollowTheCorrectionsOfThePlan) {
+  for (const auto* name : {"bearing-seat", "iron-hub", "motor-shaft", "titanium-pin"}) {
+    auto p = planned_reference(name);
+    correct_all(p, 0.02);
+    ASSERT_GE(p.plan.compensation.size(), 2U) << name;
+    const auto all = programs(p.part, p.plan);
+    EXPECT_TRUE(all.cannot.empty()) << name;
+    EXPECT_EQ(listed(faults_of(p, all)), "") << name;
+  }
+}
+
 // Two places on one pin: turned first, then a stop for each, with the spindle at rest,
 // the cutter not among the tools and nothing moved.
 TEST(NcPrograms, StopWhereAPlaceIsMilled) {

@@ -361,5 +361,65 @@ TEST(Given, PassesThatAreTooFewAreTold) {
   EXPECT_EQ(r.conflicts[0].sentence, "groove g1: 1 passes of 2 mm are too few");
 }
 
+// What is told of a part once its tools of a use have no conditions for its material.
+std::string told_without(const json& d, catalogue::FixedUse use) {
+  auto p = part(d);
+  for (auto& t : p.fixed_tools)
+    if (t.use == use) t.conditions.clear();
+  const auto r = plan(p);
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  std::string all;
+  for (const auto& c : r.conflicts) all += c.sentence + "\n";
+  return all;
+}
+
+TEST(Refused, OperationsWithoutAToolSayWhatItWouldHaveToBe) {
+  using enum catalogue::FixedUse;
+  const auto spindle = reference_part("threaded-spindle");
+  const auto says = [](const std::string& text, const std::string& what) {
+    return text.find(what) != std::string::npos ? "" : text;
+  };
+  EXPECT_EQ(
+      says(told_without(bush(), drilling), "drill b1: no drill of the tools is for "),
+      "");
+  EXPECT_EQ(says(told_without(bush(), parting),
+                 "reaches 25 mm deep and fits between jaws and part, "),
+            "");
+  EXPECT_EQ(says(told_without(spindle, grooving),
+                 "groove g1: no blade of the tools is for C45 heat-treatable steel, at "
+                 "most 4 mm wide and "),
+            "");
+  EXPECT_EQ(says(told_without(spindle, threading),
+                 "thread th1: no threading tool of the tools is for C45 heat-treatable "
+                 "steel and "
+                 "a pitch of 1.5 mm\n"),
+            "");
+  EXPECT_EQ(
+      says(told_without(spindle, profiling),
+           "arc a1: no profiling tool of the tools is for C45 heat-treatable steel\n"),
+      "");
+  auto centred = pin();
+  centred["setups"][0]["clampings"] = {"chuck-tailstock"};
+  EXPECT_EQ(
+      says(told_without(centred, centring),
+           "no centre drill of the tools is for C45 heat-treatable steel and an end of "
+           "32 mm"),
+      "");
+}
+
+TEST(Given, ConditionsThatCannotBeAreTold) {
+  const auto told = [](std::size_t operation, const json& conditions) {
+    auto d = given_groove();
+    d["outer"][2]["length_mm"] = 8;
+    d["stock"]["length_mm"] = 120;
+    d["operations"][operation]["conditions"] = conditions;
+    const auto r = plan(part(d));
+    return r.conflicts.empty() ? "" : r.conflicts[0].sentence;
+  };
+  EXPECT_EQ(told(6, {{"f_mm_rev", 1.4}}), "thread th1: its feed is its pitch, 1.5 mm");
+  EXPECT_EQ(told(5, {{"passes", 1}}),
+            "groove g1: 1 plunges of a blade of 6 mm are less than its width, 8 mm");
+}
+
 }  // namespace
 }  // namespace turnwright::planning

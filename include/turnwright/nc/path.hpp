@@ -38,6 +38,16 @@ Point tip(const Point& touched, const Normal& n, double re_mm);
 /// In an inner corner the fillet of the corner's radius stays, an outer one is sharp.
 Point tip(const Point& corner, const Normal& m, const Normal& n, double re_mm);
 
+/// Tips with which a corner of radius r leaves a line that ends at `a` and meets the next,
+/// which begins at `b` a little above or below.  In an inner corner, and where nothing is
+/// between the two, one place that touches both lines; else two, one above the other, that
+/// touch the edge of the higher line and cut into neither.
+struct Crossing {
+  Point leave, meet;
+};
+Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n,
+                double re_mm);
+
 /// Tips at the points of a straight-lined contour; by (1) at its ends, (2) between.
 std::vector<Point> tips(const std::vector<Point>& contour, double re_mm);
 
