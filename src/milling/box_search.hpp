@@ -90,8 +90,9 @@ class Search {
 
  private:
   void go(const Box& box, Line line, const Patch* above) {
-    constexpr double kSmallest = 1e-13;
-    if (box.theta_half < kSmallest && box.w_half < kSmallest * box.w)
+    constexpr double kSmallest = 1e-13, kNothing = 1e-30;  // halved one way without end
+    if ((box.theta_half < kSmallest && box.w_half < kSmallest * box.w) ||
+        box.theta_half < kNothing || box.w_half < kNothing * box.w)
       throw ModelRangeError(
           "milling: multipliers that meet on the circle cannot be told apart; ask for "
           "another speed");
