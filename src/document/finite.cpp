@@ -6,13 +6,25 @@
 #include "turnwright/document/parse.hpp"
 
 namespace turnwright::document {
+namespace {
 
-void require_finite(const nlohmann::ordered_json& value, const std::string& where) {
-  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+template <class Json>
+void require(const Json& value, const std::string& where) {
+  if (value.is_number_float() && !std::isfinite(value.template get<double>()))
     throw ModelRangeError(where + ": the result is beyond what a number holds");
   if (!value.is_structured()) return;
   for (const auto& [key, member] : value.items())
-    require_finite(member, child_pointer(where, key));
+    require(member, child_pointer(where, key));
+}
+
+}  // namespace
+
+void require_finite(const nlohmann::json& value, const std::string& where) {
+  require(value, where);
+}
+
+void require_finite(const nlohmann::ordered_json& value, const std::string& where) {
+  require(value, where);
 }
 
 }  // namespace turnwright::document

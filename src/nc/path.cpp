@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upright
 
+double dot(const Normal& a, const Normal& b) { return a.h * b.h + a.z * b.z; }
+
 // Along the axis from a centre to where a circle has a height, or the other way round.
 double beside(double radius_mm, double across_mm) {
   return std::sqrt(std::max(0.0, radius_mm * radius_mm - across_mm * across_mm));
@@ -28,14 +30,14 @@ Point tip(const Point& p, const Normal& n, double r) {
 }
 
 Point tip(const Point& p, const Normal& m, const Normal& n, double r) {
-  const double k = 1 / (1 + m.h * n.h + m.z * n.z);
+  const double k = 1 / (1 + dot(m, n));
   return tip(p, {(m.h + n.h) * k, (m.z + n.z) * k}, r);  // Eq. (2)
 }
 
 Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n,
                 double r) {
   const auto above = [](const Point& p, const Point& from, const Normal& of) {
-    return of.h * (p.h_mm - from.h_mm) + of.z * (p.z_mm - from.z_mm);
+    return dot({p.h_mm - from.h_mm, p.z_mm - from.z_mm}, of);
   };
   const auto moved = [](const Point& p, const Normal& by, double way) {
     return Point{p.h_mm + by.h * way, p.z_mm + by.z * way};
@@ -46,7 +48,7 @@ Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n
   const auto &edge = step > 0 ? b : a, &other = step > 0 ? a : b;
   const auto &low = step > 0 ? m : n, &high = step > 0 ? n : m;
   const double side = step > 0 ? 1 : -1;  // of the higher line, seen from the edge
-  const double angle = above({n.h, n.z}, {0, 0}, along(m));
+  const double angle = dot(n, along(m));
   if (angle < -kRounding) {  // an inner corner, if the corner comes down to both lines
     const auto both = tip(moved(a, along(m), above(b, a, n) / angle), m, n, r);
     const Point centre{both.h_mm + r, both.z_mm + r};
@@ -58,8 +60,7 @@ Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n
       tip(moved(moved(edge, low, -height), along(low), -side * beside(r, r - height)),
           low, r);
   const auto up =
-      moved(below, low,
-            above(tip(edge, high, r), below, high) / (high.h * low.h + high.z * low.z));
+      moved(below, low, above(tip(edge, high, r), below, high) / dot(high, low));
   return step > 0 ? Crossing{below, up} : Crossing{up, below};
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -137,20 +136,6 @@ Dual<double, 1> along_depth(const Point& law, const cutting::Cut& cut, double de
 
 constexpr double kDigits = 0x1p-29;  // of the last step; the root has twice as many
 constexpr double kWithoutEnd = 100;  // depths: no tolerance allows that
-
-// A root inside the bracket if Newton's steps go straight to it.
-template <class G>
-std::optional<double> newton(const G& g, double lower, double upper, double at) {
-  double before = std::numeric_limits<double>::infinity();
-  for (;;) {
-    const auto [value, slope] = g(at);
-    const double step = value / slope, next = at - step;
-    if (!(next >= lower && next <= upper && std::abs(step) < before / 2)) return {};
-    if (std::abs(step) <= kDigits * std::abs(next)) return next;
-    before = std::abs(step);
-    at = next;
-  }
-}
 }  // namespace
 
 double loop_gain(const Point& law, const cutting::Cut& cut, double depth, double f) {
@@ -170,9 +155,8 @@ double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double 
   if (first == 0) return 0;
   const double lower = 2 * std::min(0.0, first), upper = first > 0 ? full : 0;
   const double start = std::min(first / std::max(1.0, slope), full);
-  if (const auto e = newton(G, lower, upper, start)) return *e;
   // Where the law has terms of both signs, G need not rise between its ends.
-  if (G(lower).first > 0) return -kWithoutEnd * full;
+  if (first < 0 && G(lower).first > 0) return -kWithoutEnd * full;
   return bracketed_root(G, lower, upper, start, kDigits);
 }
 

@@ -53,9 +53,9 @@ double least_objective(const FeatureTask& task);
 /// the surface: the worst places of each optimum are added until none is violated
 /// (exchange); a bound proved with some places holds with all.
 ///
-/// Engine 1 certifies recipes whose curvature proves them convex, engine 2 the others;
-/// `gap` is what engine 2 may leave open, in ln(objective).  With a finite `most` the
-/// search is for answers cheaper than that: none is an answer too, and a quick one.
+/// `gap` is what the branch and bound may leave open, in ln(objective).  With a finite
+/// `most` the search is for answers cheaper than that: none is an answer too, and a quick
+/// one.
 /// @throws std::runtime_error if the exchange does not end (40 rounds).
 FeatureAnswer optimise_feature(const FeatureTask& task, double gap, double most);
 

@@ -271,10 +271,10 @@ class Run {
                    way = start.command[k] - at, along = way * s.sign[k];
       goes = goes || std::abs(way) > step;
       if (!follows_) continue;
-      const bool through = along >= play_to_go_mm(start, k) - kWritten * step;
+      const bool through = along >= play_to_go_mm(start, start.sign, k) - kWritten * step;
       if (through && along >= -0.5 * step) continue;
       if (!through) {
-        beyond_any = true;
+        goes = beyond_any = true;
         beyond.sign[k] = -s.sign[k];
         beyond.target[k] -= 2 * kRounding * step * s.sign[k];
       } else {
@@ -284,7 +284,7 @@ class Run {
       }
     }
     if (beyond_any) out.push_back(gone_beyond(start, beyond));
-    if (goes || beyond_any) out.push_back(start);
+    if (goes) out.push_back(start);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].first = s.first && i == 0;
       out[i].last = false;
@@ -299,10 +299,8 @@ class Run {
     const Vec3 to = s.command - s.tool->point;
     if (follows_) {
       const Vec3 sign = made(s);
-      Stop as_made = s;
-      as_made.sign = sign;
       for (std::size_t k = 0; k < 3; ++k)
-        slack_mm_[k] = std::max(play_to_go_mm(as_made, k) - std::abs(to[k] - q_[k]), 0.0);
+        slack_mm_[k] = std::max(play_to_go_mm(s, sign, k) - std::abs(to[k] - q_[k]), 0.0);
       sign_ = sign;
     } else {
       sign_ = s.sign;
@@ -322,19 +320,19 @@ class Run {
     return false;
   }
 
-  /// How the error at a stop changes as an axis that had a sign gets the stop's.
-  Vec3 turn_mm(const Stop& s, std::size_t k, double from) const {
-    Vec3 before = s.sign;
+  /// Way of an axis in a direction until the tip follows, after one with the sign `from`.
+  /// An axis that overshoots its turns has no play.
+  double play_mm(const Stop& s, const Vec3& sign, std::size_t k, double from) const {
+    Vec3 before = sign;
     before[k] = from;
-    return field_.error(*s.tool, s.target, before, s.target) -
-           field_.error(*s.tool, s.target, s.sign, s.target);
+    const Vec3 turn = field_.error(*s.tool, s.target, before, s.target) -
+                      field_.error(*s.tool, s.target, sign, s.target);
+    return std::max(turn[k] * sign[k], 0.0);
   }
 
-  /// Way of an axis in the direction it has at a stop until the tip follows.  One that
-  /// overshoots its turns has no play.
-  double play_to_go_mm(const Stop& s, std::size_t k) const {
-    if (s.sign[k] == sign_[k]) return slack_mm_[k];
-    return std::max(turn_mm(s, k, sign_[k])[k] * s.sign[k], 0.0);
+  /// As much of it as the motions made have left.
+  double play_to_go_mm(const Stop& s, const Vec3& sign, std::size_t k) const {
+    return sign[k] == sign_[k] ? slack_mm_[k] : play_mm(s, sign, k, sign_[k]);
   }
 
   /// Axes whose sign is not the start's go to the target, and farther if they could not
@@ -347,8 +345,8 @@ class Run {
         s.command[k] = start.command[k];
         continue;
       }
-      const double play = turn_mm(start, k, s.sign[k])[k] * start.sign[k],
-                   least = std::max(play, 0.0) + kRounding * writer_.step_mm(*s.move, k),
+      const double least = play_mm(start, start.sign, k, s.sign[k]) +
+                           kRounding * writer_.step_mm(*s.move, k),
                    ahead = (start.command[k] - s.command[k]) * start.sign[k];
       if (ahead < least) s.command[k] = start.command[k] - least * start.sign[k];
     }

@@ -478,8 +478,7 @@ TEST(Robust, PlansConformAsAskedAndCostNoLess) {
 TEST(Tailstock, ItsThrustAddsToTheDeflection) {
   const auto slender = [](double thrust_N) {
     auto d = pin();
-    d["machine"] = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                                        "/machines/lathe-medium.json");
+    d["machine"] = file("machines/lathe-medium.json");
     d["machine"]["stiffness"]["tail_thrust_N"] = thrust_N;
     d["damping_ratio"] = 0.5;
     d["stock"] = {{"kind", "bar"}, {"diameter_mm", 22}, {"length_mm", 404}};
@@ -522,8 +521,7 @@ TEST(Tailstock, ItsThrustAddsToTheDeflection) {
 TEST(FollowRest, HoldsWhatIsTooSlenderForTheTailstockAlone) {
   const auto slender = [](const char* clamping) {
     auto d = pin();
-    d["machine"] = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                                        "/machines/lathe-medium.json");
+    d["machine"] = file("machines/lathe-medium.json");
     d["machine"]["clampings"].push_back("tailstock-follow");
     d["machine"]["times"]["follow_min"] = 0.7;
     d["machine"]["stiffness"]["follow_rest"] = {{"radial_mm_N", 3e-5},

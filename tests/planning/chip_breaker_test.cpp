@@ -10,10 +10,7 @@
 namespace turnwright::planning {
 namespace {
 
-nlohmann::json rougher() {
-  return document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                              "/tests/data/heavy-rougher.json");
-}
+nlohmann::json rougher() { return file("tests/data/heavy-rougher.json"); }
 
 // The pin with stock enough for one deep pass, roughed by that tool.
 nlohmann::json pin_with(const nlohmann::json& tool) {

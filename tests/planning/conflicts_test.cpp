@@ -16,8 +16,7 @@ namespace {
 using nlohmann::json;
 
 json source_document(const std::string& folder, const std::string& id) {
-  return document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/" + folder + "/" +
-                              id + ".json");
+  return file(folder + "/" + id + ".json");
 }
 
 constexpr double kEnough = 50;  // times what a machine or tool bears: no limit any more

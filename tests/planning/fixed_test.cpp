@@ -98,8 +98,7 @@ TEST(Thread, TurnsItsLengthAndRunInPitchByPitch) {
 
 TEST(Thread, CarriageLimitsTheSpindle) {
   auto d = grooved();
-  auto machine = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                                      "/machines/lathe-medium.json");
+  auto machine = file("machines/lathe-medium.json");
   machine["feed"]["rapid_mm_min"] = 1000;
   d["machine"] = machine;
   const auto o = operation(plan(part(d)), "s0-thread-th1");
@@ -220,8 +219,7 @@ TEST(Drilling, OperationsStandInTheOrderOfTheShop) {
 
 TEST(Limits, WeakFeedDriveIsNamed) {
   auto d = bush();
-  auto machine = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                                      "/machines/lathe-medium.json");
+  auto machine = file("machines/lathe-medium.json");
   machine["feed"]["feed_force_max_N"] = 900;
   d["machine"] = machine;
   const auto r = plan(part(d));

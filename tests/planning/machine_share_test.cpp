@@ -34,8 +34,7 @@ json tube() {
 }
 
 json lathe(json axes, double jaws_z_mm = 20) {
-  auto m = document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) +
-                                "/machines/lathe-medium.json");
+  auto m = file("machines/lathe-medium.json");
   json all = json::array();
   for (const std::string name : {"X", "Z", "C"}) {
     json axis = axes.value(name, json::object());

@@ -8,9 +8,7 @@
 #include <set>
 
 #include "../../src/planning/fixed.hpp"
-#include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "parts.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/milling/checks.hpp"
 #include "turnwright/milling/lobes.hpp"
@@ -19,15 +17,6 @@ namespace turnwright::planning {
 namespace {
 
 using nlohmann::json;
-
-const document::Catalogue& catalogue() {
-  static const auto kCatalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
-  return kCatalogue;
-}
-
-PartPlan load(const json& j, document::Purpose purpose = document::Purpose::plan) {
-  return document::load_part_plan(j, catalogue(), "t", purpose).plan;
-}
 
 // One pin with one place in it, held at the left.
 json pin(const json& place, double diameter_mm = 40) {
@@ -120,7 +109,7 @@ TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
                           {"length_mm", 20},
                           {"depth_mm", 1},
                           {"angle_deg", 180}});
-  const auto p = load(j);
+  const auto p = part(j);
   const auto plan = planning::plan(p);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   int seen = 0;
@@ -164,7 +153,7 @@ TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
 // Every slot drill that fits, every number of passes, speeds and feeds on a lattice, each
 // limit written out.
 TEST(Milled, NothingOnALatticeIsCheaper) {
-  const auto p = load(pin(keyway()));
+  const auto p = part(pin(keyway()));
   const auto work = work_of(p);
   ASSERT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
   const auto* found = milled_in(work);
@@ -172,7 +161,7 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
   const auto& driven = *p.machine.driven_tools;
   const double rho_f = found->constraints[1].value * 1e-6;  // of the part, checked below
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& c : catalogue().cutters) {
+  for (const auto& c : shop().cutters) {
     const double D = c.dc_mm;
     if (!c.centre_cutting || D > 10 || D < 6 || c.lu_mm < 5) continue;
     const auto& grade = *c.conditions_in(p.material.group);
@@ -231,11 +220,11 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
 TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
   for (const auto& [mf, efficiency] : {std::pair{0.1, 0.8}, std::pair{0.45, 0.05}}) {
     auto j = pin(keyway());
-    j["material"] = document::parse_file(TURNWRIGHT_SOURCE_DIR "/materials/C45.json");
+    j["material"] = file("materials/C45.json");
     j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", mf},
                                      {"kp11_MPa", 250},       {"mp", 0.3},
                                      {"uncertainty_pct", 15}, {"source", "a test"}};
-    auto p = load(j);
+    auto p = part(j);
     p.machine.driven_tools->efficiency = efficiency;
     const auto work = work_of(p);
     ASSERT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
@@ -268,11 +257,11 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
                 {"depth_mm", 1},
                 {"tool", "ENDMILL-HM-10"},
                 {"conditions", {{"lanes", 2}}}});
-  j["material"] = document::parse_file(TURNWRIGHT_SOURCE_DIR "/materials/C45.json");
+  j["material"] = file("materials/C45.json");
   j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", 0.4},
                                    {"kp11_MPa", 250},       {"mp", 0.3},
                                    {"uncertainty_pct", 15}, {"source", "a test"}};
-  const auto p = load(j);
+  const auto p = part(j);
   const auto& m = p.milled[0];
   const auto& c = m.cutters[0];
   const auto& kc = p.material.kc;
@@ -308,15 +297,14 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
 
 TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
   auto j = pin(keyway());
-  auto cutter =
-      document::parse_file(TURNWRIGHT_SOURCE_DIR "/tools/milling/KEYWAY-HM-10.json");
+  auto cutter = file("tools/milling/KEYWAY-HM-10.json");
   for (auto& mode : cutter["tool_point"]["modes"]) {
     mode["stiffness_N_mm"] = 60;
     mode["damping_ratio"] = 0.005;
   }
   cutter["geometry"]["ap_mm"] = {1, 10};
   j["milling"][0]["tool"] = cutter;
-  const auto plan = planning::plan(load(j));
+  const auto plan = planning::plan(part(j));
   EXPECT_EQ(plan.status, PlanStatus::infeasible);
   ASSERT_EQ(plan.conflicts.size(), 1U);
   const auto& c = plan.conflicts[0];
@@ -332,13 +320,13 @@ TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
 TEST(Milled, NoCutterThatFitsIsAConflict) {
   auto place = keyway();
   place["width_mm"] = 3;
-  auto plan = planning::plan(load(pin(place)));
+  auto plan = planning::plan(part(pin(place)));
   EXPECT_EQ(plan.status, PlanStatus::infeasible);
   ASSERT_EQ(plan.conflicts.size(), 1U);
   EXPECT_EQ(plan.conflicts[0].limit, "cutter");
   place = keyway();
   place["tool"] = "ENDMILL-HM-10";
-  plan = planning::plan(load(pin(place)));
+  plan = planning::plan(part(pin(place)));
   ASSERT_EQ(plan.conflicts.size(), 1U);
   EXPECT_EQ(plan.conflicts[0].sentence,
             "k1: ENDMILL-HM-10 does not cut over its centre, so it cannot plunge");
@@ -358,23 +346,21 @@ TEST(Milled, TheHolderClearsWhatStandsBeside) {
   for (const char* hold : {"left", "right"})
     j["setups"].push_back({{"hold", hold}, {"grip_mm", 15}, {"clampings", {"chuck"}}});
   j["milling"][0]["z_mm"] = 40, j["milling"][0]["tool"] = "KEYWAY-HM-10";
-  const auto setup = load(j).milled[0].setup;
-  auto work = work_of(load(j), setup);
+  const auto setup = part(j).milled[0].setup;
+  auto work = work_of(part(j), setup);
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_NE(work.conflicts[0].sentence.find("holder would meet what stands 33 mm above"),
             std::string::npos)
       << work.conflicts[0].sentence;
   j["milling"][0]["z_mm"] = 12;  // its holder ends 13 mm beside the flange
-  work = work_of(load(j), setup);
+  work = work_of(part(j), setup);
   EXPECT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
 }
 
-json slot_drill() {
-  return document::parse_file(TURNWRIGHT_SOURCE_DIR "/tools/milling/KEYWAY-HM-10.json");
-}
+json slot_drill() { return file("tools/milling/KEYWAY-HM-10.json"); }
 
 std::string told_of(const json& place) {
-  const auto work = work_of(load(pin(place)));
+  const auto work = work_of(part(pin(place)));
   return work.conflicts.empty() ? "" : work.conflicts[0].sentence;
 }
 
@@ -396,7 +382,7 @@ TEST(Milled, ADepthAtTheLeastOfTheCutterIsOnePass) {
              {"length_mm", 25},
              {"depth_mm", 0.2 - 5e-10},
              {"tool", "KEYWAY-HM-10"}};
-  const auto work = work_of(load(pin(place)));
+  const auto work = work_of(part(pin(place)));
   ASSERT_NE(milled_in(work), nullptr);
   EXPECT_EQ(milled_in(work)->passes.size(), 1U);
 }
@@ -420,13 +406,13 @@ TEST(Milled, AnEndThatStaysAsStockIsNotAir) {
                 {"length_mm", 20},
                 {"width_mm", 10},
                 {"depth_mm", 4}});
-  EXPECT_TRUE(work_of(load(j)).conflicts.empty());
+  EXPECT_TRUE(work_of(part(j)).conflicts.empty());
   j["operations"] = {{{"id", "o1"},
                       {"setup", 0},
                       {"kind", "finish"},
                       {"on", {"d1"}},
                       {"tool", "PDJNL-DNMG150604-PF"}}};
-  const auto work = work_of(load(j));
+  const auto work = work_of(part(j));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_NE(work.conflicts[0].sentence.find("runs out at neither end"), std::string::npos)
       << work.conflicts[0].sentence;
@@ -435,13 +421,13 @@ TEST(Milled, AnEndThatStaysAsStockIsNotAir) {
 TEST(Milled, GivenSpeedsAndFeedsOutsideTheCuttersAreNamed) {
   auto place = keyway();
   place["conditions"] = {{"n_rpm", 300}};
-  auto work = work_of(load(pin(place)));
+  auto work = work_of(part(pin(place)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_EQ(work.conflicts[0].limit, "spindle speed");
   EXPECT_NE(work.conflicts[0].sentence.find("300 1/min is given, "), std::string::npos);
   EXPECT_GT(work.conflicts[0].allowed, 1000);
   place["conditions"] = {{"fz_mm", 0.5}};
-  work = work_of(load(pin(place)));
+  work = work_of(part(pin(place)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_EQ(work.conflicts[0].limit, "feed per tooth");
   EXPECT_LT(work.conflicts[0].allowed, 0.2);
@@ -463,7 +449,7 @@ json slender_pin(double z_mm) {
 }
 
 TEST(Milled, ASlenderPinIsRefusedNotGuessed) {
-  const auto work = work_of(load(slender_pin(250)));
+  const auto work = work_of(part(slender_pin(250)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_NE(work.conflicts[0].sentence.find("the part yields"), std::string::npos)
       << work.conflicts[0].sentence;
@@ -475,7 +461,7 @@ TEST(Milled, WhatStandsAgainstEachClampingIsToldWhateverTheirOrder) {
   for (const json& order :
        {json{"chuck", "chuck-tailstock"}, json{"chuck-tailstock", "chuck"}}) {
     j["setups"][0]["clampings"] = order;
-    const auto plan = planning::plan(load(j));
+    const auto plan = planning::plan(part(j));
     EXPECT_EQ(plan.status, PlanStatus::infeasible);
     ASSERT_EQ(plan.conflicts.size(), 2U);
     for (const auto& c : plan.conflicts) told.insert(c.sentence);
@@ -489,7 +475,7 @@ TEST(Milled, WhatStandsAgainstEachClampingIsToldWhateverTheirOrder) {
 // What plan chose, given: the same. Twice as fast and deep: told what breaks.
 TEST(Milled, PredictJudgesGivenConditions) {
   auto j = pin(keyway());
-  const auto p = load(j);
+  const auto p = part(j);
   const auto first = work_of(p);
   const auto& o = *milled_in(first);
   auto& place = j["milling"][0];
@@ -497,13 +483,13 @@ TEST(Milled, PredictJudgesGivenConditions) {
   place["conditions"] = {{"passes", o.passes.size()},
                          {"n_rpm", o.passes[0].n_rpm},
                          {"fz_mm", o.milled->fz_mm}};
-  const auto again = work_of(load(j));
+  const auto again = work_of(part(j));
   ASSERT_NE(milled_in(again), nullptr);
   EXPECT_NEAR(milled_in(again)->cost, o.cost, 1e-9 * o.cost);
   EXPECT_NEAR(milled_in(again)->milled->limit_mm, o.milled->limit_mm, 1e-9);
-  EXPECT_TRUE(fixed_conflicts(load(j), 0, Clamping::chuck, assign(p).setups[0]).empty());
+  EXPECT_TRUE(fixed_conflicts(part(j), 0, Clamping::chuck, assign(p).setups[0]).empty());
   place["conditions"] = {{"passes", 1}, {"n_rpm", o.passes[0].n_rpm}, {"fz_mm", 0.06}};
-  const auto deep = load(j);
+  const auto deep = part(j);
   const auto conflicts = fixed_conflicts(deep, 0, Clamping::chuck, assign(p).setups[0]);
   EXPECT_TRUE(std::any_of(conflicts.begin(), conflicts.end(), [](const Conflict& c) {
     return c.limit == "stable depth with its margin";
@@ -515,7 +501,7 @@ TEST(Milled, WiderMarginsNeverCostLess) {
   for (const double margin : {0.0, 0.2, 0.5}) {
     auto place = keyway();
     place["stability_margin"] = margin;
-    const auto work = work_of(load(pin(place)));
+    const auto work = work_of(part(pin(place)));
     const auto* o = milled_in(work);
     ASSERT_NE(o, nullptr);
     EXPECT_GE(o->cost, before * (1 - 1e-6));
@@ -546,7 +532,7 @@ TEST(Milled, AnyPlaceIsAnsweredOrRefused) {
     j.erase("tools");
     j["material"] = materials[k % 4];
     try {
-      const auto p = load(j);
+      const auto p = part(j);
       const auto work = work_of(p);
       const auto* o = milled_in(work);
       EXPECT_EQ(o == nullptr, !work.conflicts.empty());

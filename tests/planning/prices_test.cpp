@@ -19,14 +19,10 @@ using nlohmann::json;
 // moved.
 json written_out(json d) {
   const auto p = part(d);
-  const auto file = [](const std::string& path) {
-    return document::parse_file(std::string(TURNWRIGHT_SOURCE_DIR) + "/" + path +
-                                ".json");
-  };
   if (!d.contains("machine") || d["machine"].is_string())
-    d["machine"] = file("machines/" + p.machine.id);
+    d["machine"] = file("machines/" + p.machine.id + ".json");
   auto tools = json::array();
-  for (const auto& t : p.tools) tools.push_back(file("tools/" + t.id));
+  for (const auto& t : p.tools) tools.push_back(file("tools/" + t.id + ".json"));
   d["tools"] = tools;
   const double full = p.machine.chuck.grip_force_N;
   d["machine"]["chuck"]["grip_force_N"] = 2 * full;  // setups take no more than that

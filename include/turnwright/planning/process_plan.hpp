@@ -16,7 +16,7 @@ struct Certificate {
   double lower_bound = 0;  ///< no feasible choice has a smaller objective
   double gap = 0;          ///< (objective - lower_bound) / objective
   long nodes = 0;          ///< boxes bounded
-  std::string engine;      ///< "convex" or "branch-and-bound"
+  std::string engine;      ///< method of the proof
   std::string reason;      ///< why not global, else empty
 };
 
