@@ -123,14 +123,28 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
   const auto drawn =
       arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
-  const double before = p.k > 0 ? p.side.items[p.k - 1].h1 : 0;
-  const double wall = rises_behind(p, second) ? s.z1 : -INFINITY;
+  const auto& items = p.side.items;
+  // Behind it the blank's passes have taken off what a corner needs.
+  const double after = p.k + 1 < items.size() ? items[p.k + 1].h0 : 0;
+  const Beside beside{p.k > 0 ? items[p.k - 1].h1 : 0, after,
+                      after > second + kSame_mm ? s.z1 : -INFINITY};
+  if ((mirrored ? cut.falls_to_right_rad : cut.falls_to_left_rad) >
+      part::kProfilingClears_rad) {
+    site.cannot.push_back(fmt::format(
+        "setup {}, {}: arc {} falls towards the chuck by more than the {:.4g} "
+        "deg that profiling tools are taken to clear",
+        site.setup, o.id, s.id, units::deg_from_rad(part::kProfilingClears_rad)));
+    return;
+  }
+  const auto begins = arc_normal(drawn, drawn.from);
+  // Level, or along an arc that falls: what is before it is no higher than that.
+  const Normal before = begins.z < 0 ? begins : Normal{1, 0};
   double left = cut.depth_mm;
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, tool.re_mm, before, wall);
+    const auto way = tip_arc(raised, tool.re_mm, beside);
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
@@ -138,7 +152,10 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    site.approach(p.side, {way->from.h_mm, way->from.z_mm + kBefore_mm}, kAbove_mm);
+    site.approach(
+        p.side,
+        {way->from.h_mm - before.z * kBefore_mm, way->from.z_mm + before.h * kBefore_mm},
+        kAbove_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});

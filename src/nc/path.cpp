@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upri
 double dot(const Normal& a, const Normal& b) { return a.h * b.h + a.z * b.z; }
 
 // Along the axis from a centre to where a circle has a height, or the other way round.
-double beside(double radius_mm, double across_mm) {
+double half_chord(double radius_mm, double across_mm) {
   return std::sqrt(std::max(0.0, radius_mm * radius_mm - across_mm * across_mm));
 }
 
@@ -57,7 +57,7 @@ Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n
   // The corner stands on the lower line and touches the edge of the higher.
   const double height = std::min(r, above(edge, other, low));
   const auto below =
-      tip(moved(moved(edge, low, -height), along(low), -side * beside(r, r - height)),
+      tip(moved(moved(edge, low, -height), along(low), -side * half_chord(r, r - height)),
           low, r);
   const auto up =
       moved(below, low, above(tip(edge, high, r), below, high) / dot(high, low));
@@ -81,7 +81,7 @@ Arc arc_through(const Point& from, const Point& to, double R, bool convex) {
   if (!(R >= c / 2 * (1 - kRounding)) || !(c > 0))
     throw std::domain_error("arc_through: a radius of at least half the chord");
   const auto n = normal(from, to);
-  const double side = (convex ? -1 : 1) * beside(R, c / 2);
+  const double side = (convex ? -1 : 1) * half_chord(R, c / 2);
   return {
       from,
       to,
@@ -89,23 +89,29 @@ Arc arc_through(const Point& from, const Point& to, double R, bool convex) {
       convex};
 }
 
-std::optional<Arc> tip_arc(const Arc& a, double r, double floor_mm, double wall_z_mm) {
+Normal arc_normal(const Arc& a, const Point& at) {
+  const double h = at.h_mm - a.centre.h_mm, z = at.z_mm - a.centre.z_mm;
+  const double R = (a.convex ? 1 : -1) * std::hypot(h, z);
+  return {h / R, z / R};
+}
+
+std::optional<Arc> tip_arc(const Arc& a, double r, const Beside& beside) {
   const double R = std::hypot(a.from.h_mm - a.centre.h_mm, a.from.z_mm - a.centre.z_mm);
   const double rho = a.convex ? R + r : R - r;
   if (!(rho > -kRounding * R)) return std::nullopt;
   const double outwards = a.convex ? 1 : -1;
-  const auto tip_at = [&](const Point& p) {
-    return tip(p,
-               {outwards * (p.h_mm - a.centre.h_mm) / R,
-                outwards * (p.z_mm - a.centre.z_mm) / R},
-               r);
-  };
   const Point centre{a.centre.h_mm - r, a.centre.z_mm - r};
-  Arc t{tip_at(a.from), tip_at(a.to), centre, a.convex};
-  if (t.from.h_mm < floor_mm)
-    t.from = {floor_mm, centre.z_mm + outwards * beside(rho, floor_mm - centre.h_mm)};
-  if (t.to.z_mm < wall_z_mm)
-    t.to = {centre.h_mm + outwards * beside(rho, wall_z_mm - centre.z_mm), wall_z_mm};
+  const auto n_from = arc_normal(a, a.from), n_to = arc_normal(a, a.to);
+  Arc t{tip(a.from, n_from, r), tip(a.to, n_to, r), centre, a.convex};
+  const auto at_height = [&](double h, double side) {
+    return Point{h, centre.z_mm + side * outwards * half_chord(rho, h - centre.h_mm)};
+  };
+  if (n_from.z >= 0 && t.from.h_mm < beside.before_mm)
+    t.from = at_height(beside.before_mm, 1);
+  if (n_to.z < 0 && t.to.h_mm < beside.after_mm) t.to = at_height(beside.after_mm, -1);
+  if (t.to.z_mm < beside.wall_z_mm)
+    t.to = {centre.h_mm + outwards * half_chord(rho, beside.wall_z_mm - centre.z_mm),
+            beside.wall_z_mm};
   if (!(t.from.z_mm >= t.to.z_mm)) return std::nullopt;
   return t;
 }

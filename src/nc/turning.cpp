@@ -45,11 +45,12 @@ std::size_t place(const Side& side, const std::string& id) {
       side.items.begin());
 }
 
-// The plan's correction of a surface; empty: none is proposed.
+// The plan's correction of a surface, in the setup that finishes it; empty: none is
+// proposed.
 const Table& correction(const Site& site, const std::string& surface) {
   static const Table none;
   for (const auto& c : site.plan.compensation)
-    if (c.on == surface && c.setup == site.setup) return c.table_mm;
+    if (c.on == surface) return c.table_mm;
   return none;
 }
 
@@ -156,14 +157,17 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   if (from > z) way.insert(way.begin(), {h, from});
 }
 
-// z of the first place behind an element where the finished part is higher than it is.
+// z of the first place behind an element where the finished part is higher than it is, if
+// only by its correction.
 std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
   const double h = side.items[k].h1 + kSame_mm;
+  const double own = corrected(site, side, side.items[k]).back().h_mm + kSame_mm;
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
     if (s.z0 < z - kSame_mm) break;  // between bores from both ends
-    if (std::max(s.h0, s.h1) > h) return s.z0;
+    if (std::max(s.h0, s.h1) > h || corrected(site, side, s).front().h_mm > own)
+      return s.z0;
     z = s.z1;
   }
   const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;

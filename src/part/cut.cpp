@@ -52,6 +52,9 @@ Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {
   const double most = convex && turns ? rc + R : std::max(rl, rr);
   const double least = !convex && turns ? rc - R : std::min(rl, rr);
   if (!(least > 0)) throw std::domain_error("an arc that does not meet the axis");
+  const auto slope = [R](double dz) {  // Eq. (6)
+    return dz > 0 ? std::asin(std::min(1.0, dz / R)) : 0;
+  };
   Shaped s{{2 * most, 2 * most},
            {.kind = CutKind::arc,
             .drawn = ends,
@@ -59,7 +62,9 @@ Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {
             .depth_mm = most - std::min(rl, rr),  // Eq. (3)
             .radius_mm = R,
             .convex = convex,
-            .path_mm = 2 * R * std::asin(std::min(1.0, c / (2 * R)))}};  // Eq. (5)
+            .path_mm = 2 * R * std::asin(std::min(1.0, c / (2 * R))),  // Eq. (5)
+            .falls_to_left_rad = slope(convex ? zc : l - zc),
+            .falls_to_right_rad = slope(convex ? l - zc : zc)}};
   if (convex) return s;
   s.blank = ends;
   s.cut.core = {2 * least, 2 * least};

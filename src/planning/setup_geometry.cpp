@@ -39,6 +39,14 @@ bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   return true;
 }
 
+// Whether a profiling tool that comes from the free end clears an arc.
+bool cleared(const PartPlan& p, std::size_t s, std::size_t i) {
+  const auto& cut = drawing(p).outer[i].cut;
+  if (!cut) return true;
+  return (holds_left(p, s) ? cut->falls_to_left_rad : cut->falls_to_right_rad) <=
+         part::kProfilingClears_rad;
+}
+
 // A bore opens to the free end and narrows inwards, itself and with all before it.
 bool bore_reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   const auto& inner = drawing(p).inner;
@@ -164,11 +172,18 @@ Assignment assign(const PartPlan& p) {
   Assignment a;
   a.setups.resize(p.setups.size());
   const auto& outer = drawing(p).outer;
-  for (std::size_t i = 0; i < outer.size(); ++i)
-    if (const auto s = place(
-            p, outer[i].id, "it lies in the jaws, or behind a larger diameter",
-            [&](std::size_t k) { return reachable(p, k, i); }, a))
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    bool clear = false;  // an arc that no setup clears is planned, not programmed
+    for (std::size_t s = 0; s < p.setups.size(); ++s)
+      clear = clear ||
+              (wanted_in(p, s, outer[i].id) && reachable(p, s, i) && cleared(p, s, i));
+    const auto can = [&](std::size_t s) {
+      return reachable(p, s, i) && (!clear || cleared(p, s, i));
+    };
+    if (const auto s = place(p, outer[i].id,
+                             "it lies in the jaws, or behind a larger diameter", can, a))
       a.setups[*s].elements.push_back(i);
+  }
   const auto& inner = drawing(p).inner;
   for (std::size_t i = 0; i < inner.size(); ++i)
     if (const auto s = place(

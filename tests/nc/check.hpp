@@ -58,7 +58,7 @@ class Check {
   const Faults& faults() const { return faults_; }
 
  private:
-  static constexpr double kBeside = 3, kTolerance = 1e-4;
+  static constexpr double kBeside = 3, kTolerance = 1e-4, kArcs = 5e-3, kArcs_mm = 0.3;
 
   double length() const { return part::length_mm(p_.part.drawing); }
   void fault(const std::string& text) {
@@ -104,7 +104,7 @@ class Check {
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
       if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};
-      return {{t.re_mm, 0.5, 0, 4}, inner, false, false, 0, 0};
+      return {{t.re_mm, part::kProfilingClears_rad, 0, 4}, inner, false, false, 0, 0};
     }
     return {};
   }
@@ -229,17 +229,25 @@ class Check {
     return rc + out * std::sqrt(std::max(0.0, R * R - dz * dz));
   }
 
-  // Whether the contour rises beyond an end of an element, at a place z: a fillet stays.
+  // Whether the contour rises beyond an end of an element, at a place z, or less steeply
+  // falls than it did: in such an inner corner a fillet stays.
   template <class Element>
   bool rises(const std::vector<Element>& all, double sign, double own, double z) const {
+    constexpr double kNear = 1e-4;
+    double slope = 0;  // out of the corner, on both sides
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double z0 = begin(all[k], k), z1 = z0 + all[k].length_mm;
-      if (std::abs(z - z0) > 1e-9 && std::abs(z - z1) > 1e-9) continue;
-      for (const double u : {0.0, 1.0})
-        if (sign * (drawn(all[k], u) + correction(all[k].id, std::lerp(z0, z1, u))) >
-            own + 1e-9)
-          return true;
+      const bool starts = std::abs(z - z0) < 1e-9;
+      if (!starts && std::abs(z - z1) > 1e-9) continue;
+      const double u = starts ? 0 : 1, L = all[k].length_mm,
+                   near = starts ? kNear / L : 1 - kNear / L;
+      const auto h = [&](double at) {
+        return sign * (drawn(all[k], at) + correction(all[k].id, std::lerp(z0, z1, at)));
+      };
+      if (h(u) > own + 1e-9) return true;
+      slope += (h(near) - h(u)) / kNear;
     }
+    if (slope > 1e-3) return true;
     return sign < 0 && z > 1e-9 && z < length() - 1e-9;  // the hole goes on
   }
   double begin(const part::OuterElement&, std::size_t k) const {
@@ -258,6 +266,11 @@ class Check {
                  right = drawn(e, 1) + correction(e.id, left_z + L);
     const bool left_rises = rises(all, sign, sign * left, left_z);
     const bool right_rises = rises(all, sign, sign * right, left_z + L);
+    // The blank of an arc, its chord, leaves a fillet of its own.
+    const auto arc = [&](std::size_t i) {
+      return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::arc;
+    };
+    const bool left_arc = arc(k) || arc(k - 1), right_arc = arc(k) || arc(k + 1);
     double low = 0, high = 0;
     for (std::size_t i = 0; i < m.size(); ++i) {
       const double z = m.z(i) - left_z;
@@ -273,6 +286,8 @@ class Check {
       double fillet = 0;
       if (left_rises) fillet = std::max(fillet, fillet_mm(z));
       if (right_rises) fillet = std::max(fillet, fillet_mm(L - z));
+      if ((left_arc && z < kArcs_mm) || (right_arc && L - z < kArcs_mm))
+        fillet = std::max(fillet, kArcs);
       high = std::max(high, error - fillet);
     }
     // Radii of corrections are rounded to half the last decimal of a diameter.

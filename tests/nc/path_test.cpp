@@ -114,7 +114,7 @@ TEST(TipArc, KeepsTheCornerTangentToTheArc) {
   for (const bool convex : {true, false})
     for (const double r : {0.0, 0.4, 1.2}) {
       const auto a = arc_through({14, 0}, {19, -7}, 9, convex);
-      const auto t = tip_arc(a, r, -1e9, -1e9);
+      const auto t = tip_arc(a, r, {-1e9, -1e9, -1e9});
       ASSERT_TRUE(t);
       for (const auto& end : {t->from, t->to}) {
         const auto c = centre_of(end, r);
@@ -131,7 +131,7 @@ TEST(TipArc, KeepsTheCornerTangentToTheArc) {
 
 TEST(TipArc, StaysOffWhatIsBeforeAndAfter) {
   const auto a = arc_through({14, 0}, {19, -7}, 9, false);
-  const auto t = tip_arc(a, 0.8, 14, -7);
+  const auto t = tip_arc(a, 0.8, {14, 0, -7});
   ASSERT_TRUE(t);
   EXPECT_GE(t->from.h_mm, 14 - kRounding);
   EXPECT_GE(t->to.z_mm, -7 - kRounding);
@@ -140,9 +140,49 @@ TEST(TipArc, StaysOffWhatIsBeforeAndAfter) {
                 1e-9);
 }
 
+// Whether a corner lies inside a height over a range of z, by points of its circle.
+bool cuts_below(const Point& tip_at, double r, double h, double z0, double z1) {
+  const auto c = centre_of(tip_at, r);
+  for (int i = 0; i < 3600; ++i) {
+    const double a = i * std::numbers::pi / 1800;
+    const double z = c.z_mm + r * std::cos(a);
+    if (z > z0 && z < z1 && c.h_mm + r * std::sin(a) < h - 1e-9) return true;
+  }
+  return false;
+}
+
+TEST(TipArc, ReachesEndsThatFallAndSparesWhatIsLevelWithThem) {
+  const double r = 0.8;
+  // A throat: its corner is over the arc at both ends, as deep as they are drawn.
+  const auto throat = arc_through({20, 0}, {20, -8}, 20, false);
+  const auto in = tip_arc(throat, r, {20, 20, -1e9});
+  ASSERT_TRUE(in);
+  EXPECT_LT(in->from.h_mm, 20 - 0.01);
+  for (const auto& [tip_at, end] :
+       {std::pair{in->from, throat.from}, {in->to, throat.to}}) {
+    const auto c = centre_of(tip_at, r);
+    EXPECT_NEAR(std::hypot(c.h_mm - end.h_mm, c.z_mm - end.z_mm), r, 1e-9);
+  }
+  EXPECT_FALSE(cuts_below(in->from, r, 20, 0, 10));
+  EXPECT_FALSE(cuts_below(in->to, r, 20, -20, -8));
+  // A crown: the corner would reach beyond both ends.
+  const auto over = tip_arc(arc_through({20, 0}, {20, -8}, 20, true), r, {20, 20, -1e9});
+  ASSERT_TRUE(over);
+  EXPECT_NEAR(over->from.h_mm, 20, 1e-12);
+  EXPECT_NEAR(over->to.h_mm, 20, 1e-12);
+  EXPECT_FALSE(cuts_below(over->from, r, 20, 0, 10));
+  EXPECT_FALSE(cuts_below(over->to, r, 20, -20, -8));
+  EXPECT_NEAR(over->from.z_mm + over->to.z_mm, -8 - 2 * r, 1e-9);  // alike
+  const auto c = centre_of(over->to, r);
+  EXPECT_NEAR(
+      std::hypot(c.h_mm - (over->centre.h_mm + r), c.z_mm - (over->centre.z_mm + r)),
+      20 + r, 1e-9);
+}
+
 TEST(TipArc, RefusesACornerThatDoesNotFit) {
-  EXPECT_FALSE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, false), 0.8, 0, -100));
-  EXPECT_TRUE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, true), 0.8, 0, -100));
+  EXPECT_FALSE(
+      tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, false), 0.8, {0, 0, -100}));
+  EXPECT_TRUE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, true), 0.8, {0, 0, -100}));
 }
 
 }  // namespace

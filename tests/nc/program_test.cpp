@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "check.hpp"
+#include "random_parts.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -147,6 +148,83 @@ TEST(NcPrograms, FollowTheCorrectionsOfThePlan) {
     EXPECT_TRUE(all.cannot.empty()) << name;
     EXPECT_EQ(listed(faults_of(p, all)), "") << name;
   }
+}
+
+// Corrections where neighbours are turned in one pass or stand apart: a groove's blank has
+// none, and an arc and a bore from the other end may lose the step.
+bool neighbours_follow(const Planned& p) {
+  const auto cut = [](const auto& e) {
+    return e.cut && e.cut->kind != part::CutKind::thread;
+  };
+  const auto& d = p.part.drawing;
+  return d.inner.empty() && std::none_of(d.outer.begin(), d.outer.end(), cut);
+}
+
+TEST(NcPrograms, OfRandomPartsMakeTheirContours) {
+  int made = 0, corrected = 0;
+  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+    const auto document = RandomPart(seed).document();
+    auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    if (neighbours_follow(p)) {
+      correct_all(p, seed % 2 ? 0.02 : -0.02);
+      ++corrected;
+    }
+    const auto all = programs(p.part, p.plan);
+    if (!all.cannot.empty()) continue;
+    ++made;
+    EXPECT_EQ(listed(faults_of(p, all)), "") << document;
+  }
+  EXPECT_GT(made, 20);
+  EXPECT_GT(corrected, 3);
+}
+
+// Between two cylinders, made from the right.
+Planned with_arc(double left_mm, double right_mm, double length_mm, double radius_mm,
+                 const char* bulge, double grip_mm) {
+  auto d = nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 60, "length_mm": 82, "left_allowance_mm": 1},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30},
+              {"id": "a1", "kind": "arc"},
+              {"id": "d2", "kind": "cylinder"}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "clampings": ["chuck"]},
+               {"hold": "right", "grip_mm": 15, "clampings": ["chuck"]}]})");
+  d["outer"][0]["diameter_mm"] = left_mm;
+  d["outer"][1].update({{"length_mm", length_mm},
+                        {"left_mm", left_mm},
+                        {"right_mm", right_mm},
+                        {"radius_mm", radius_mm},
+                        {"bulge", bulge}});
+  d["outer"][2].update({{"length_mm", 50 - length_mm}, {"diameter_mm", right_mm}});
+  d["setups"][0]["grip_mm"] = grip_mm;
+  return planned(d);
+}
+
+TEST(NcPrograms, FollowArcsThatFall) {
+  for (const auto& p : {with_arc(46, 46, 8, 20, "concave", 15),   // a throat
+                        with_arc(44, 44, 8, 20, "convex", 15),    // a crown
+                        with_arc(42, 38, 7, 9, "concave", 15),    // undercuts its end
+                        with_arc(46, 48, 10, 12, "convex", 15),   // over the top
+                        with_arc(36, 46, 7, 9.5, "convex", 15)})  // from the left alone
+  {
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    const auto all = programs(p.part, p.plan);
+    EXPECT_EQ(listed(all.cannot), "");
+    EXPECT_EQ(listed(faults_of(p, all)), "");
+  }
+}
+
+TEST(NcPrograms, AnArcThatFallsTooSteeplyIsNone) {
+  const auto p = with_arc(44, 44, 10, 7, "convex", 15);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto all = programs(p.part, p.plan);
+  ASSERT_EQ(all.cannot.size(), 1U);
+  EXPECT_EQ(all.cannot[0],
+            "setup 0, s0-arc-a1: arc a1 falls towards the chuck by more than the 30 deg "
+            "that profiling tools are taken to clear");
+  EXPECT_TRUE(all.setups.empty());
 }
 
 // Two places on one pin: turned first, then a stop for each, with the spindle at rest,

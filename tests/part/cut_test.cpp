@@ -89,6 +89,28 @@ TEST(Arc, IsWhatItsCircleMeasures) {
   }
 }
 
+TEST(Arc, FallsAsItsSlopesAre) {
+  struct Case {
+    double l;
+    Ends ends;
+    double R;
+    bool convex;
+  };
+  for (const auto& c : {Case{8, {40, 40}, 20, true}, Case{8, {40, 40}, 20, false},
+                        Case{20, {30, 40}, 40, true}, Case{7, {38, 42}, 9, false},
+                        Case{7, {42, 38}, 9, true}}) {
+    const auto cut = arc(c.l, c.ends, c.R, c.convex).cut;
+    const double chord = (c.ends.right_mm - c.ends.left_mm) / 2;
+    const double a = std::atan2(chord, c.l);
+    // The tangents at the ends lie as far from the chord as half of the arc's angle.
+    const double half = std::asin(std::hypot(chord, c.l) / 2 / c.R);
+    const double at_left = a + (c.convex ? half : -half);
+    const double at_right = a - (c.convex ? half : -half);
+    EXPECT_NEAR(cut.falls_to_left_rad, std::max({at_left, at_right, 0.0}), 1e-12);
+    EXPECT_NEAR(cut.falls_to_right_rad, std::max({-at_left, -at_right, 0.0}), 1e-12);
+  }
+}
+
 // A corner rounded by a quarter circle: nothing but the square that is left of it.
 TEST(Arc, QuarterCircleIsTakenWhole) {
   const auto s = arc(5, {20, 30}, 5, true);

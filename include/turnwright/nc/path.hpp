@@ -6,8 +6,8 @@
 ///
 /// The contour lies in a plane of height h and place z: h points out of the material into
 /// the air (h = radius outside, h = -radius in a bore), z along the axis towards the free
-/// end.  The tool cuts towards the chuck, so a contour runs with falling z and does not
-/// fall in h.
+/// end.  The tool cuts towards the chuck, so a contour runs with falling z; h falls on arcs
+/// alone.
 namespace turnwright::nc {
 
 struct Point {
@@ -60,11 +60,20 @@ struct Arc {
 /// @throws std::domain_error unless R is at least half the chord (1e-9 R is forgiven).
 Arc arc_through(const Point& from, const Point& to, double radius_mm, bool convex);
 
+/// At a point of an arc.
+Normal arc_normal(const Arc& arc, const Point& at);
+
+/// What an arc lies between: heights of what comes before and after it, and where that
+/// rises beyond its end.
+struct Beside {
+  double before_mm, after_mm, wall_z_mm;
+};
+
 /// The tip's way along an arc: an arc of radius R + r (convex) or R - r about a centre
-/// shifted by (-r, -r).  It begins no lower than `floor_mm` and goes no farther than
-/// `wall_z_mm`, so that the corner cuts neither what lies before nor after the arc.
-/// Nothing if the corner does not fit into the arc.
-std::optional<Arc> tip_arc(const Arc& contour, double re_mm, double floor_mm,
-                           double wall_z_mm);
+/// shifted by (-r, -r).  Where the arc rises from its beginning, or falls to its end, the
+/// corner reaches beyond it: there it stays as high as what is `beside`, and before the
+/// wall, if there is one, so that it cuts into neither.  Nothing if the corner does not fit
+/// into the arc.
+std::optional<Arc> tip_arc(const Arc& contour, double re_mm, const Beside& beside);
 
 }  // namespace turnwright::nc

@@ -1,4 +1,5 @@
 #pragma once
+#include <numbers>
 
 /// What is cut at fixed conditions into an element once it is turned or bored: the
 /// element itself is then the blank.
@@ -20,7 +21,13 @@ struct Cut {
   double radius_mm = 0;  ///< of an arc
   bool convex = true;    ///< an arc bulges outwards
   double path_mm = 0;    ///< length of an arc
+  /// Slope at which an arc falls at most on the way to an end: 0 if it only rises.
+  double falls_to_left_rad = 0, falls_to_right_rad = 0;
 };
+
+/// Slope that a profiling tool is taken to clear behind its corner: a 35 deg insert in
+/// any of the usual holders does.
+inline constexpr double kProfilingClears_rad = std::numbers::pi / 6;
 
 /// A blank with its cut.
 struct Shaped {
@@ -49,6 +56,7 @@ Shaped thread(double d_mm, double pitch_mm, Where where);
 ///     concave: turned to the chord, depth s c/length; a cylinder of its least
 ///              diameter is the core (4)
 ///     path = 2 R asin(c/(2 R)) (5)
+///     slope where it is steepest, at an end: asin(distance from the centre / R) (6)
 ///
 /// Source: derived here, cut_test measures points on the circle.
 /// @throws std::domain_error naming what cannot be: R below half the chord, an arc that

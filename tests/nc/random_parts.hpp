@@ -1,0 +1,152 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+/// Parts as nobody would draw them on purpose: steps, cones, arcs, grooves and threads in
+/// any order outside, bores from either end inside.
+namespace turnwright::nc::test {
+
+class RandomPart {
+ public:
+  explicit RandomPart(std::uint32_t seed) : random_(seed), tube_(below(3) == 0) {}
+
+  nlohmann::json document() {
+    outer();
+    const int left = below(3), right = below(3);
+    const double stock_mm = most_mm_ + 1 + below(6);
+    json stock{{"length_mm", length_mm_ + left + right}, {"left_allowance_mm", left}};
+    if (tube_)
+      stock.update({{"kind", "tube"}, {"outer_mm", stock_mm}, {"inner_mm", kHole_mm}});
+    else
+      stock.update({{"kind", "bar"}, {"diameter_mm", stock_mm}});
+    json d{{"format", "turnwright-part/1"},
+           {"name", "Random part"},
+           {"material", "C45"},
+           {"stock", stock},
+           {"outer", outer_},
+           {"machine", "lathe-medium"},
+           {"setups",
+            {{{"hold", "left"}, {"grip_mm", 12}, {"clampings", {"chuck"}}},
+             {{"hold", "right"}, {"grip_mm", 12}, {"clampings", {"chuck"}}}}},
+           {"damping_ratio", 0.4}};
+    if (tube_) d["inner"] = inner();
+    if (below(2)) d["faces"] = faces();
+    return d;
+  }
+
+ private:
+  using json = nlohmann::json;
+  struct Body {
+    bool thread;
+    double D_mm;
+  };
+  static constexpr int kHole_mm = 30;
+
+  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+
+  void add(const char* kind, int length_mm, const json& more) {
+    json e{{"id", "e" + std::to_string(outer_.size() + 1)},
+           {"kind", kind},
+           {"length_mm", length_mm}};
+    e.update(more);
+    outer_.push_back(e);
+    length_mm_ += length_mm;
+  }
+
+  Body body() {
+    if (below(5) == 0) return {true, tube_ ? 56.0 : below(2) ? 30.0 : 36.0};
+    return {false, (tube_ ? 50.0 : 26.0) + 2 * below(14)};
+  }
+
+  // Cylinders and threads with something or nothing between them, most of them rising
+  // towards one place.
+  void outer() {
+    std::vector<Body> bodies(static_cast<std::size_t>(2 + below(4)));
+    for (auto& b : bodies) b = body();
+    const auto smaller = [](const Body& a, const Body& b) { return a.D_mm < b.D_mm; };
+    if (below(4)) {
+      const auto top = bodies.begin() + below(static_cast<int>(bodies.size()));
+      std::sort(bodies.begin(), top, smaller);
+      std::sort(top, bodies.end(),
+                [&](const Body& a, const Body& b) { return smaller(b, a); });
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const auto& b = bodies[i];
+      most_mm_ = std::max(most_mm_, b.D_mm);
+      if (i > 0) between(bodies[i - 1].D_mm, b.D_mm);
+      json e{{"diameter_mm", b.D_mm}};
+      if (b.thread) e["pitch_mm"] = 1 + 0.5 * below(3);
+      if (!b.thread && below(2)) e["fit"] = "h9";
+      if (!b.thread && below(2)) e["Ra_um"] = 3.2;
+      add(b.thread ? "thread" : "cylinder", 14 + below(22), e);
+    }
+  }
+
+  void between(double a, double b) {
+    const int kind = below(5);
+    if (kind == 0) {
+      add("groove", 4, {{"diameter_mm", std::min(a, b) - 2 - below(3)}});
+    } else if (kind == 1 && a != b) {
+      add("cone", 4 + below(20), {{"left_mm", a}, {"right_mm", b}});
+    } else if (kind == 2 || kind == 3) {
+      const int length = 3 + below(8);
+      const double h = std::abs(a - b) / 2, l = length;
+      // From a quarter of a circle, or as much as there is, to nearly straight.
+      const double least = (l * l + h * h) / (2 * std::min(std::max(h, 0.2 * l), l));
+      const bool convex = below(2) == 1;
+      const double R = std::ceil(10 * least) / 10 + 0.5 * below(8);
+      if (convex) most_mm_ = std::max(most_mm_, std::max(a, b) + l / 2);
+      add("arc", length,
+          {{"left_mm", a},
+           {"right_mm", b},
+           {"radius_mm", R},
+           {"bulge", convex ? "convex" : "concave"}});
+    }
+  }
+
+  // A through hole, stepped from its ends towards the inside.
+  json inner() {
+    json all = json::array();
+    const auto add = [&](const char* from, int length_mm, int D_mm) {
+      json b{{"id", "b" + std::to_string(all.size() + 1)},
+             {"kind", "cylinder"},
+             {"from", from},
+             {"length_mm", length_mm},
+             {"diameter_mm", D_mm}};
+      if (below(2)) b["fit"] = "H9";
+      all.push_back(b);
+    };
+    const int left = below(2) ? 10 + below(10) : 0, rest = length_mm_ - left;
+    const int D = 33 + below(4);
+    add("right", rest / 2, D);
+    add("right", rest - rest / 2, D - below(3));
+    if (left) add("left", left, D - below(3));
+    return all;
+  }
+
+  json faces() {
+    json all{{{"id", "left"}, {"Ra_um", 3.2}}, {{"id", "right"}, {"Ra_um", 3.2}}};
+    for (std::size_t i = 0; i + 1 < outer_.size(); ++i) {
+      const auto &a = outer_[i], &b = outer_[i + 1];
+      if (a["kind"] == "cylinder" && b["kind"] == "cylinder" &&
+          a["diameter_mm"] != b["diameter_mm"] && below(2))
+        all.push_back(
+            {{"id", a["id"].get<std::string>() + "|" + b["id"].get<std::string>()},
+             {"Ra_um", 3.2}});
+    }
+    return all;
+  }
+
+  std::mt19937 random_;
+  bool tube_;
+  json outer_ = json::array();
+  int length_mm_ = 0;
+  double most_mm_ = 0;
+};
+
+}  // namespace turnwright::nc::test
