@@ -58,11 +58,17 @@ bool readable(const part::Drawing& d) {
 
 void check_hole(const Reader& list, const part::Drawing& d) {
   const auto items = list.as_items(0, d.inner.size());
-  for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (std::min(d.inner[i].left_mm, d.inner[i].right_mm) < d.stock.inner_mm)
+  const auto hole = number_text(d.stock.inner_mm) + " mm";
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const auto [low, high] = std::minmax(d.inner[i].left_mm, d.inner[i].right_mm);
+    if (low < d.stock.inner_mm)
       items[i].problem("a bore narrower than the tube's hole",
-                       "diameters of at least " + number_text(d.stock.inner_mm) + " mm",
+                       "diameters of at least " + hole, "conflict");
+    else if (high == d.stock.inner_mm)
+      items[i].problem("a bore that is the tube's hole",
+                       "a diameter above " + hole + ", or no bore: nothing is cut there",
                        "conflict");
+  }
 }
 
 }  // namespace

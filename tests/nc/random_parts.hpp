@@ -112,20 +112,22 @@ class RandomPart {
   // A through hole, stepped from its ends towards the inside.
   json inner() {
     json all = json::array();
-    const auto add = [&](const char* from, int length_mm, int D_mm) {
+    const auto add = [&](const char* from, const char* kind, int length_mm, int D_mm) {
       json b{{"id", "b" + std::to_string(all.size() + 1)},
-             {"kind", "cylinder"},
+             {"kind", kind},
              {"from", from},
              {"length_mm", length_mm},
              {"diameter_mm", D_mm}};
-      if (below(2)) b["fit"] = "H9";
+      if (b["kind"] == "thread") b["pitch_mm"] = 1.5;
+      if (b["kind"] == "cylinder" && below(2)) b["fit"] = "H9";
       all.push_back(b);
     };
     const int left = below(2) ? 10 + below(10) : 0, rest = length_mm_ - left;
-    const int D = 33 + below(4);
-    add("right", rest / 2, D);
-    add("right", rest - rest / 2, D - below(3));
-    if (left) add("left", left, D - below(3));
+    const int D = kHole_mm + 4 + below(3), groove = below(2) ? 3 : 0;
+    add("right", below(3) ? "cylinder" : "thread", rest / 2, D);
+    if (groove) add("right", "groove", groove, D + 2);
+    add("right", "cylinder", rest - rest / 2 - groove, D - 2 - below(2));
+    if (left) add("left", "cylinder", left, D - below(3));
     return all;
   }
 
