@@ -115,6 +115,15 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
+// Of an arc that ends at a height: behind it the blank's passes have taken off what a
+// corner needs.
+Beside beside(const Place& p, double end_mm) {
+  const auto& items = p.side.items;
+  const double before = p.k > 0 ? items[p.k - 1].h1 : 0;
+  const double after = p.k + 1 < items.size() ? items[p.k + 1].h0 : 0;
+  return {before, after, after > end_mm + kSame_mm ? p.surface().z1 : -INFINITY};
+}
+
 void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   auto& s = p.surface();
   const auto& cut = cut_of(site, s);
@@ -123,11 +132,6 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
   const auto drawn =
       arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
-  const auto& items = p.side.items;
-  // Behind it the blank's passes have taken off what a corner needs.
-  const double after = p.k + 1 < items.size() ? items[p.k + 1].h0 : 0;
-  const Beside beside{p.k > 0 ? items[p.k - 1].h1 : 0, after,
-                      after > second + kSame_mm ? s.z1 : -INFINITY};
   if ((mirrored ? cut.falls_to_right_rad : cut.falls_to_left_rad) >
       part::kProfilingClears_rad) {
     site.cannot.push_back(fmt::format(
@@ -144,7 +148,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, tool.re_mm, beside);
+    const auto way = tip_arc(raised, tool.re_mm, beside(p, second));
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "

@@ -63,13 +63,14 @@ Measured measured(double l, const Ends& ends, double R, bool convex, const Ends&
   return m;
 }
 
+struct Case {
+  double l;
+  Ends ends;
+  double R;
+  bool convex;
+};
+
 TEST(Arc, IsWhatItsCircleMeasures) {
-  struct Case {
-    double l;
-    Ends ends;
-    double R;
-    bool convex;
-  };
   for (const auto& c : {Case{20, {30, 40}, 40, true}, Case{20, {40, 30}, 40, false},
                         Case{30, {40, 40}, 25, true}, Case{30, {40, 40}, 25, false},
                         Case{8, {20, 30}, 8.5, false}, Case{50, {30, 31}, 200, true}}) {
@@ -90,12 +91,6 @@ TEST(Arc, IsWhatItsCircleMeasures) {
 }
 
 TEST(Arc, FallsAsItsSlopesAre) {
-  struct Case {
-    double l;
-    Ends ends;
-    double R;
-    bool convex;
-  };
   for (const auto& c : {Case{8, {40, 40}, 20, true}, Case{8, {40, 40}, 20, false},
                         Case{20, {30, 40}, 40, true}, Case{7, {38, 42}, 9, false},
                         Case{7, {42, 38}, 9, true}}) {
