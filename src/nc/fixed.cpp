@@ -132,23 +132,23 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
   const auto drawn =
       arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
-  if ((mirrored ? cut.falls_to_right_rad : cut.falls_to_left_rad) >
-      part::kProfilingClears_rad) {
+  if (!planning::cleared(site.part, site.setup, s.index)) {
     site.cannot.push_back(fmt::format(
         "setup {}, {}: arc {} falls towards the chuck by more than the {:.4g} "
         "deg that profiling tools are taken to clear",
         site.setup, o.id, s.id, units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
+  const auto ends = beside(p, second);
   const auto begins = arc_normal(drawn, drawn.from);
   // Level, or along an arc that falls: what is before it is no higher than that.
-  const Normal before = begins.z < 0 ? begins : Normal{1, 0};
+  const Normal comes_in = begins.z < 0 ? begins : Normal{1, 0};
   double left = cut.depth_mm;
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, tool.re_mm, beside(p, second));
+    const auto way = tip_arc(raised, tool.re_mm, ends);
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
@@ -156,10 +156,10 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    site.approach(
-        p.side,
-        {way->from.h_mm - before.z * kBefore_mm, way->from.z_mm + before.h * kBefore_mm},
-        kAbove_mm);
+    site.approach(p.side,
+                  {way->from.h_mm - comes_in.z * kBefore_mm,
+                   way->from.z_mm + comes_in.h * kBefore_mm},
+                  kAbove_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});

@@ -39,14 +39,6 @@ bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   return true;
 }
 
-// Whether a profiling tool that comes from the free end clears an arc.
-bool cleared(const PartPlan& p, std::size_t s, std::size_t i) {
-  const auto& cut = drawing(p).outer[i].cut;
-  if (!cut) return true;
-  return (holds_left(p, s) ? cut->falls_to_left_rad : cut->falls_to_right_rad) <=
-         part::kProfilingClears_rad;
-}
-
 // A bore opens to the free end and narrows inwards, itself and with all before it.
 bool bore_reachable(const PartPlan& p, std::size_t s, std::size_t i) {
   const auto& inner = drawing(p).inner;
@@ -162,6 +154,13 @@ double face_stock_after_mm(const PartPlan& p, const Assignment& work, std::size_
                            part::End end) {
   const auto faced = setup_of(p, work, end == part::End::left ? "left" : "right");
   return faced && *faced <= setup ? 0 : face_stock_mm(p, end);
+}
+
+bool cleared(const PartPlan& p, std::size_t s, std::size_t i) {
+  const auto& cut = drawing(p).outer[i].cut;
+  if (!cut) return true;
+  return (holds_left(p, s) ? cut->falls_to_left_rad : cut->falls_to_right_rad) <=
+         part::kProfilingClears_rad;
 }
 
 const char* free_face(const PartPlan& p, std::size_t s) {

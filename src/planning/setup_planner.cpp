@@ -20,8 +20,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Every search has these, though a setup in one clamping shares the boxes of a task: to
 // refute what is far too slender takes thousands for each pass count and tool.
 constexpr long kLeastBoxes = 300;
-constexpr double kGap =
-    9e-5;  // what the branch and bound may leave open, in ln(objective)
+// What the branch and bound may leave open, in ln(objective).
+constexpr double kGap = 9e-5;
 
 RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
                        const Considered& best) {

@@ -266,11 +266,11 @@ class Check {
                  right = drawn(e, 1) + correction(e.id, left_z + L);
     const bool left_rises = rises(all, sign, sign * left, left_z);
     const bool right_rises = rises(all, sign, sign * right, left_z + L);
-    // The blank of an arc, its chord, leaves a fillet of its own.
+    // The blank of an arc, its chord, leaves a fillet of its own on what is beside it.
     const auto arc = [&](std::size_t i) {
       return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::arc;
     };
-    const bool left_arc = arc(k) || arc(k - 1), right_arc = arc(k) || arc(k + 1);
+    const bool left_arc = arc(k - 1), right_arc = arc(k + 1);
     double low = 0, high = 0;
     for (std::size_t i = 0; i < m.size(); ++i) {
       const double z = m.z(i) - left_z;

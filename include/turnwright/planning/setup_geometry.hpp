@@ -56,6 +56,9 @@ std::optional<std::size_t> setup_of(const PartPlan& plan, const Assignment& work
                                     const std::string& surface);
 /// z [mm] of "left", "right" or a shoulder.
 double face_z_mm(const part::Drawing& drawing, const std::string& face);
+/// Whether a profiling tool that comes from the end a setup leaves free clears an outer
+/// element: true but of arcs that fall more than `part::kProfilingClears_rad`.
+bool cleared(const PartPlan& plan, std::size_t setup, std::size_t element);
 /// "left" or "right": the end that a setup leaves free.
 const char* free_face(const PartPlan& plan, std::size_t setup);
 
