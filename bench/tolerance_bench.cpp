@@ -1,3 +1,5 @@
+// The budget of a whole part: ten tolerances, ten sources each, 1e5 draws.  Wanted: 2 s at
+// most, with one thread or two (elapsed time).
 #include <benchmark/benchmark.h>
 
 #include <limits>
@@ -5,8 +7,6 @@
 
 #include "turnwright/tolerance/budget.hpp"
 
-// The budget of a whole part: ten tolerances, ten sources each, 1e5 draws.  Wanted: 2 s
-// at most, with one thread or two.
 namespace turnwright::tolerance {
 namespace {
 
@@ -24,7 +24,7 @@ std::vector<Source> sources() {
           {.name = "measurement", .value_um = 0.7}};
 }
 
-void BM_TenTolerances(benchmark::State& state) {
+void ten_tolerances(benchmark::State& state) {
   BudgetDemand demand{.sources = sources(), .measurement_U_um = 1.4};
   demand.draws.threads = static_cast<unsigned>(state.range(0));
   for (auto _ : state)
@@ -34,7 +34,12 @@ void BM_TenTolerances(benchmark::State& state) {
       benchmark::DoNotOptimize(budget(demand, {down, 20}));
     }
 }
-BENCHMARK(BM_TenTolerances)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(ten_tolerances)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace turnwright::tolerance

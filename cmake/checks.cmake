@@ -41,6 +41,7 @@ add_test(NAME service.examples COMMAND bash
   ${PROJECT_SOURCE_DIR})
 set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
 
+add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
   ${PROJECT_SOURCE_DIR})

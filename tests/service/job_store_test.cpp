@@ -46,6 +46,10 @@ TEST_F(JobStoreTest, LinesAreTakenOnceInOrderOldestJobFirst) {
   ASSERT_EQ(rest.size(), 1U);
   EXPECT_EQ(rest[0].job, second);
   EXPECT_TRUE(store.take(9).empty());
+  store.submit("d");
+  store.submit("e\nf");
+  EXPECT_EQ(store.take(2).size(), 2U);  // of both
+  EXPECT_EQ(store.take(2).size(), 1U);
   EXPECT_EQ(store.job(first)->lines, 3);
   EXPECT_EQ(store.job(first)->done, 1);  // the blank one
 }
@@ -116,6 +120,25 @@ TEST_F(JobStoreTest, CancelledLinesAreLeftAndRemovedJobsForgotten) {
   EXPECT_FALSE(store.cancel(id));
   store.finish(std::vector{record(lines[0], "{}")});  // too late: no harm
   EXPECT_TRUE(store.jobs().empty());
+}
+
+TEST_F(JobStoreTest, ACancelledJobWhoseLastLineWasUnderWayStaysCancelled) {
+  JobStore store(file(), "data");
+  const auto id = *store.submit("a");
+  const auto line = store.take(1).at(0);
+  EXPECT_TRUE(store.cancel(id));
+  store.finish(std::vector{record(line, "{}")});
+  EXPECT_EQ(store.job(id)->state, "cancelled");
+  EXPECT_EQ(store.job(id)->done, 1);
+}
+
+TEST_F(JobStoreTest, OfARemovedJobNothingIsKept) {
+  {
+    JobStore store(file(), "data");
+    store.remove(*store.submit("a\nb"));
+  }
+  SQLite::Database database(file().string());
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM line").getInt(), 0);
 }
 
 TEST_F(JobStoreTest, OneProcessAtATimeAndOnlyJobStores) {
@@ -230,11 +253,12 @@ int out_of_stack(int depth) {
 
 TEST_F(JobStoreTest, ALineThatEndsTheProcessIsAnErrorOfTheNextOne) {
   JobStore(file(), "data").submit("a\nb\nc\n");
-  const auto die = [this](void (*fault)()) {
+  const auto die = [this](void (*fault)(), bool cancelled = false) {
     const pid_t child = ::fork();
     if (child == 0) {
       JobStore store(file(), "data");
       const auto line = store.take(1)[0];
+      if (cancelled) store.cancel(line.job);
       const FatalLines lines(store.fatal_file());
       const FatalLines::Computing computing({line.job, line.number});
       fault();
@@ -256,8 +280,11 @@ TEST_F(JobStoreTest, ALineThatEndsTheProcessIsAnErrorOfTheNextOne) {
   EXPECT_EQ(next(), "c");
   die([] { ::kill(::getpid(), SIGKILL); });
   EXPECT_EQ(next(), "c");
+  die([] { std::abort(); }, true);  // nobody waits for it
   const JobStore store(file(), "data");
   EXPECT_EQ(store.job(1)->errors, 2);
+  EXPECT_EQ(store.job(1)->done, 2);
+  EXPECT_FALSE(fs::exists(store.fatal_file()));
   EXPECT_EQ(store.results(1, 1, 1).jsonl,
             "{\"line\":1,\"status\":\"error\",\"title\":\"internal error\","
             "\"detail\":\"the process ended while this line was computed\"}\n");
