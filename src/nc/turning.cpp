@@ -9,7 +9,7 @@ namespace {
 using planning::OperationKind;
 using planning::OperationPlan;
 using Kind = Move::Kind;
-using Table = std::vector<std::pair<double, double>>;
+using Table = planning::Compensation::Table;
 
 constexpr double kStands_mm = 0.01;  // more than corrections differ
 constexpr double kFlat = 0.01;       // slope below which an element is no cone
@@ -241,11 +241,11 @@ void face_pass(Site& site, const std::vector<Point>& contact, double re) {
 // Contact points of a face at z between two radii, the last pass by the correction.
 std::vector<Point> face_contour(const Site& site, const std::string& id, double z,
                                 double from, double to, bool last) {
-  std::vector<Point> all{{from, z}};
-  if (last)
-    for (const auto& [rho, dz] : correction(site, id))
-      if (rho > from && rho < to) all.push_back({rho, z + dz});
-  all.front().z_mm = all.size() > 1 ? all[1].z_mm : z;
+  const auto& table = correction(site, id);
+  if (!last || table.empty()) return {{from, z}, {to, z}};
+  std::vector<Point> all{{from, z + planning::interpolated(table, from)}};
+  for (const auto& [rho, dz] : table)
+    if (rho > from && rho < to) all.push_back({rho, z + dz});
   all.push_back({to, all.back().z_mm});
   return all;
 }

@@ -16,14 +16,6 @@ namespace {
 
 constexpr int kTable = 11;  // places of a correction
 
-double interpolated(const Feature::Table& table, double at) {
-  std::size_t k = 0;
-  while (k + 2 < table.size() && at > table[k + 1].first) ++k;
-  const auto& [z0, dr0] = table[k];
-  const auto& [z1, dr1] = table[k + 1];
-  return dr0 + (dr1 - dr0) * (at - z0) / (z1 - z0);
-}
-
 // Pieces of equal length through exact values at Chebyshev points.
 tolerance::PiecewisePolynomial through_exact(
     double low, double high, int pieces, std::size_t points,
@@ -480,13 +472,13 @@ std::vector<double> Feature::errors(const Recipe& recipe, const Economy& economy
   return e;
 }
 
-Feature::Table Feature::corrections(const Recipe& recipe, const Economy& economy,
-                                    const Choice<double>& choice) const {
+Compensation::Table Feature::corrections(const Recipe& recipe, const Economy& economy,
+                                         const Choice<double>& choice) const {
   std::vector<double> places;
   for (int k = 0; k < kTable; ++k)
     places.push_back(low_ + (high_ - low_) * k / (kTable - 1));
   const auto c = *chain(recipe, economy, places, choice.a);
-  Table table;
+  Compensation::Table table;
   for (const auto& station : c.stations)
     table.emplace_back(station.at_mm,
                        -sign() * correction_mm(last_pass(c, station, choice)));
@@ -496,7 +488,7 @@ Feature::Table Feature::corrections(const Recipe& recipe, const Economy& economy
 std::vector<double> Feature::corrected(const Recipe& recipe, const Economy& economy,
                                        const Choice<double>& choice,
                                        const std::vector<double>& places,
-                                       const Table& table) const {
+                                       const Compensation::Table& table) const {
   const auto c = *chain(recipe, economy, places, choice.a);
   std::vector<double> e;
   for (const auto& station : c.stations) {
@@ -517,10 +509,9 @@ tolerance::PiecewisePolynomial Feature::profile(const Recipe& recipe,
                        });
 }
 
-tolerance::PiecewisePolynomial Feature::corrected_profile(const Recipe& recipe,
-                                                          const Economy& economy,
-                                                          const Choice<double>& choice,
-                                                          const Table& table) const {
+tolerance::PiecewisePolynomial Feature::corrected_profile(
+    const Recipe& recipe, const Economy& economy, const Choice<double>& choice,
+    const Compensation::Table& table) const {
   return through_exact(low_, high_, kTable - 1, 5,
                        [&](const std::vector<double>& places) {
                          return corrected(recipe, economy, choice, places, table);

@@ -5,6 +5,7 @@
 
 #include "chain.hpp"
 #include "demand.hpp"
+#include "turnwright/planning/process_plan.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 #include "turnwright/tolerance/piecewise.hpp"
 
@@ -118,20 +119,18 @@ class Feature {
 
   /// (z or rho, dr): what to add to the radius (of a face: the length) of the last pass
   /// for nothing to be left or taken too much at these places, linear between them.
-  using Table = std::vector<std::pair<double, double>>;
-  Table corrections(const Recipe& recipe, const Economy& economy,
-                    const Choice<double>& choice) const;
+  Compensation::Table corrections(const Recipe& recipe, const Economy& economy,
+                                  const Choice<double>& choice) const;
   /// As `profile`, with the path of the last pass corrected.
-  tolerance::PiecewisePolynomial corrected_profile(const Recipe& recipe,
-                                                   const Economy& economy,
-                                                   const Choice<double>& choice,
-                                                   const Table& table) const;
+  tolerance::PiecewisePolynomial corrected_profile(
+      const Recipe& recipe, const Economy& economy, const Choice<double>& choice,
+      const Compensation::Table& table) const;
 
   /// And at given places.
   std::vector<double> corrected(const Recipe& recipe, const Economy& economy,
                                 const Choice<double>& choice,
                                 const std::vector<double>& places,
-                                const Table& table) const;
+                                const Compensation::Table& table) const;
 
  private:
   Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,

@@ -264,6 +264,14 @@ std::vector<Deviation> deviations(const PartPlan& p,
   return all;
 }
 
+double interpolated(const Compensation::Table& table, double at) {
+  std::size_t k = 0;
+  while (k + 2 < table.size() && at > table[k + 1].first) ++k;
+  const auto& [z0, dr0] = table[k];
+  const auto& [z1, dr1] = table[k + 1];
+  return dr0 + (dr1 - dr0) * (std::clamp(at, z0, z1) - z0) / (z1 - z0);
+}
+
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups) {
   std::vector<Compensation> all;
   for (const auto& s : setups)

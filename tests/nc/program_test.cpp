@@ -114,8 +114,8 @@ void correct_all(Planned& p, double bow) {
 }
 
 // Finished by one tool one after the other: an inner corner, an edge, a straight line.
-Planned joined_surfaces() {
-  return planned(nlohmann::json::parse(R"({
+nlohmann::json joined_surfaces_document() {
+  return nlohmann::json::parse(R"({
     "format": "turnwright-part/1", "name": "pin", "material": "C45",
     "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
               "left_allowance_mm": 60},
@@ -126,16 +126,142 @@ Planned joined_surfaces() {
               {"id": "d4", "kind": "cylinder", "length_mm": 10, "diameter_mm": 26}],
     "machine": "lathe-medium",
     "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
-    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})");
 }
 
 TEST(NcPrograms, LeaveTheStepsBetweenCorrections) {
   for (const double bow : {0.02, -0.02}) {
-    auto p = joined_surfaces();
+    auto p = planned(joined_surfaces_document());
     ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
     correct_all(p, bow);
     ASSERT_EQ(p.plan.compensation.size(), 5U);
     EXPECT_EQ(listed(faults_of(p, programs(p.part, p.plan))), "") << bow;
+  }
+}
+
+/// How far along the axis an operation's passes with a corner of `re_mm` have gone at a
+/// radius.
+double faced_to(const std::vector<Way>& ways, const std::string& operation, double re_mm,
+                double rho_mm) {
+  double lowest = INFINITY;
+  for (const auto& w : ways) {
+    if (w.rapid || w.operation != operation) continue;
+    const int n = 1 + static_cast<int>(std::hypot(w.x1 - w.x0, w.z1 - w.z0) / 0.005);
+    for (int i = 0; i <= n; ++i) {
+      const double u = static_cast<double>(i) / n;
+      const double s = rho_mm - std::lerp(w.x0, w.x1, u) - re_mm;
+      if (std::abs(s) > re_mm) continue;
+      lowest = std::min(
+          lowest, std::lerp(w.z0, w.z1, u) + re_mm - std::sqrt(re_mm * re_mm - s * s));
+    }
+  }
+  return lowest;
+}
+
+TEST(NcPrograms, FollowTheCorrectionsOfFaces) {
+  auto document = joined_surfaces_document();
+  document["faces"] = {{{"id", "right"}, {"Ra_um", 3.2}},
+                       {{"id", "d1|d2"}, {"Ra_um", 3.2}}};
+  auto p = planned(document);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  struct Face {
+    const char* id;
+    double z_mm, from_mm, to_mm;
+  };
+  constexpr Face kRight{"right", 0, 0, 13}, kShoulder{"d1|d2", -60, 15, 20};
+  const auto dz = [](double u) { return 0.02 * (u * u - 0.3) + 0.01 * u; };
+  for (const auto& f : {kRight, kShoulder}) {
+    planning::Compensation c{f.id, 0, {}};
+    for (int i = 0; i <= 100; ++i)
+      c.table_mm.emplace_back(std::lerp(f.from_mm, f.to_mm, i / 100.0), dz(i / 100.0));
+    p.plan.compensation.push_back(c);
+  }
+  const auto all = programs(p.part, p.plan);
+  ASSERT_TRUE(all.cannot.empty());
+  const auto ways = ways_of(all.setups.at(0), p.plan.setups[0]);
+  for (const auto& f : {kRight, kShoulder}) {
+    const auto& o = *std::find_if(
+        p.plan.setups[0].operations.begin(), p.plan.setups[0].operations.end(),
+        [&](const planning::OperationPlan& each) { return each.on[0] == f.id; });
+    const auto tool = std::find_if(p.part.tools.begin(), p.part.tools.end(),
+                                   [&](const auto& t) { return t.id == o.tool; });
+    const double re = tool->re_mm, foot = f.from_mm > 0 ? f.from_mm + re : 0;
+    for (double rho = foot; rho <= f.to_mm; rho += 0.05)
+      EXPECT_NEAR(faced_to(ways, o.id, re, rho),
+                  f.z_mm + dz((rho - f.from_mm) / (f.to_mm - f.from_mm)), 1e-4)
+          << f.id << " at " << rho;
+  }
+  EXPECT_EQ(listed(faults_of(p, all)), "");
+}
+
+// The middle is between the jaws in the first two.
+TEST(NcPrograms, OfAThirdSetupMakeTheRest) {
+  const auto p = planned(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 92, "left_allowance_mm": 1},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 30},
+              {"id": "d2", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40},
+              {"id": "d3", "kind": "cylinder", "length_mm": 30, "diameter_mm": 36}],
+    "faces": [{"id": "left", "Ra_um": 3.2}, {"id": "right", "Ra_um": 3.2}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 50, "clampings": ["chuck"]},
+               {"hold": "right", "grip_mm": 50, "clampings": ["chuck"]},
+               {"hold": "left", "grip_mm": 20, "clampings": ["chuck"]}]})"));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  ASSERT_FALSE(p.plan.setups.at(2).operations.empty());
+  const auto all = programs(p.part, p.plan);
+  EXPECT_EQ(listed(all.cannot), "");
+  EXPECT_EQ(listed(faults_of(p, all)), "");
+}
+
+/// A thread behind a cylinder as large as it is, with a groove between or without.
+Planned behind_a_cylinder(double groove_mm, double pitch_mm) {
+  auto d = nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40},
+              {"id": "t1", "kind": "thread", "length_mm": 20, "diameter_mm": 36}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})");
+  d["outer"][1]["pitch_mm"] = pitch_mm;
+  if (groove_mm > 0)
+    d["outer"].push_back({{"id", "g1"},
+                          {"kind", "groove"},
+                          {"length_mm", groove_mm},
+                          {"diameter_mm", 30}});
+  d["outer"].push_back({{"id", "d2"},
+                        {"kind", "cylinder"},
+                        {"length_mm", 30 - groove_mm},
+                        {"diameter_mm", 36}});
+  return planned(d);
+}
+
+TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
+  const auto p = behind_a_cylinder(4, 1.5);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto all = programs(p.part, p.plan);
+  EXPECT_EQ(listed(all.cannot), "");
+  EXPECT_EQ(listed(faults_of(p, all)), "");
+  double first = -INFINITY, last = INFINITY;  // of what is cut
+  for (const auto& w : ways_of(all.setups.at(0), p.plan.setups[0]))
+    if (w.thread) {
+      first = std::max(first, w.z0);
+      last = std::min(last, w.z1);
+    }
+  EXPECT_NEAR(first, -30 + 4 - 0.75, 1e-9);  // half a pitch clear of the cylinder
+  EXPECT_NEAR(last, -50, 1e-9);              // a shoulder is behind it
+
+  for (const auto& [groove_mm, pitch_mm] : {std::pair{0.0, 1.5}, {3.0, 2.5}}) {
+    const auto tight = behind_a_cylinder(groove_mm, pitch_mm);
+    ASSERT_EQ(tight.plan.status, planning::PlanStatus::ok);
+    const auto none = programs(tight.part, tight.plan);
+    EXPECT_TRUE(none.setups.empty());
+    ASSERT_EQ(none.cannot.size(), 1U);
+    EXPECT_TRUE(none.cannot[0].ends_with(
+        "thread t1 begins behind a larger diameter with less than one pitch of room for "
+        "the tool to come in"))
+        << none.cannot[0];
   }
 }
 

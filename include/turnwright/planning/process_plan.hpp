@@ -131,11 +131,15 @@ struct ToleranceResult {
 };
 
 struct Compensation {
+  /// (z, or rho of a face; what to add to the tool path's radius, or along the axis).
+  using Table = std::vector<std::pair<double, double>>;
+
   std::string on;
   std::size_t setup = 0;
-  std::vector<std::pair<double, double>>
-      table_mm;  ///< (z, dr): add dr to the tool path radius
+  Table table_mm;
 };
+/// Of a correction at a place; beyond its ends as at the nearest.
+double interpolated(const Compensation::Table& table, double at);
 
 /// Error of a surface as it is made, corrected path included.
 struct Deviation {
