@@ -230,9 +230,11 @@ void pass(const Pass& p) {
   p.surface().left = p.left_mm;
 }
 
-// A facing pass over contact points from the axis outwards, tool coming from outside.
+// A facing pass over contact points from the axis outwards, tool coming from outside; its
+// corner goes a radius beyond the first, whatever the slope there.
 void face_pass(Site& site, const std::vector<Point>& contact, double re) {
   auto way = tips(contact, re);
+  way.front() = at_h(way[0], way[1], contact.front().h_mm - re);
   std::reverse(way.begin(), way.end());
   site.approach(site.outer, way.front(), 0);
   for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);

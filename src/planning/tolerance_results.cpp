@@ -12,7 +12,7 @@ using part::ToleranceKind;
 
 constexpr double kOver = 1e-9;  // of a tolerance: what an optimum may be over its limit
 
-Feature::Table correction(const SolvedFeature& f) {
+Compensation::Table correction(const SolvedFeature& f) {
   return f.task.feature.corrections(f.answer.model->recipe(), f.task.economy,
                                     f.answer.choice);
 }

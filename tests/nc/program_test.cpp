@@ -250,7 +250,7 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
       last = std::min(last, w.z1);
     }
   EXPECT_NEAR(first, -30 + 4 - 0.75, 1e-9);  // half a pitch clear of the cylinder
-  EXPECT_NEAR(last, -50, 1e-9);              // a shoulder is behind it
+  EXPECT_NEAR(last, -50 + 1.5, 1e-9);        // a pitch before a shoulder
 
   for (const auto& [groove_mm, pitch_mm] : {std::pair{0.0, 1.5}, {3.0, 2.5}}) {
     const auto tight = behind_a_cylinder(groove_mm, pitch_mm);
