@@ -212,6 +212,8 @@ TEST(NcPrograms, OfAThirdSetupMakeTheRest) {
   const auto all = programs(p.part, p.plan);
   EXPECT_EQ(listed(all.cannot), "");
   EXPECT_EQ(listed(faults_of(p, all)), "");
+  for (const auto& w : ways_of(all.setups.at(2), p.plan.setups[2]))
+    EXPECT_TRUE(w.rapid || w.z0 < -25) << "over what is finished, from Z" << w.z0;
 }
 
 /// A thread behind a cylinder as large as it is, with a groove between or without.
