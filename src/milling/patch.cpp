@@ -252,20 +252,23 @@ void Patch::bound() {
   }
 }
 
+inline Patch::Coefficient Patch::coefficient(std::size_t i, Complex t) const {
+  const Complex* p = &c_[i * terms_];
+  const std::size_t terms = terms_of(i);
+  Coefficient c{p[terms - 1], 0, 0};
+  for (std::size_t j = terms - 1; j-- > 0;) {
+    c.curve = c.curve * t + c.slope;
+    c.slope = c.slope * t + c.value;
+    c.value = c.value * t + p[j];
+  }
+  return c;
+}
+
 Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) const {
   const Complex u = z / rho_, t = (kappa - disc_.centre) / disc_.radius;
   Complex f, f_u, f_t, tt, tu, uu;  // tt and uu: half of the derivative
   for (std::size_t i = powers_; i-- > 0;) {
-    const Complex* p = &c_[i * terms_];
-    Complex value = p[0], slope = 0, curve = 0;
-    if (i > 0 && i + 1 < powers_) {
-      value = p[terms_ - 1];
-      for (std::size_t j = terms_ - 1; j-- > 0;) {
-        curve = curve * t + slope;
-        slope = slope * t + value;
-        value = value * t + p[j];
-      }
-    }
+    const auto [value, slope, curve] = coefficient(i, t);
     uu = uu * u + f_u;
     tu = tu * u + f_t;
     tt = tt * u + curve;
@@ -299,16 +302,7 @@ Local Patch::at(const Box& box, Complex u) const {
   const double middle = static_cast<double>(powers_ / 2);
   Complex F, F_t, F_tt, E, E_t, E2;
   for (std::size_t i = powers_; i-- > 0;) {
-    const Complex* p = &c_[i * terms_];
-    Complex value = p[0], slope = 0, curve = 0;
-    if (i > 0 && i + 1 < powers_) {
-      value = p[terms_ - 1];
-      for (std::size_t j = terms_ - 1; j-- > 0;) {
-        curve = curve * t + slope;
-        slope = slope * t + value;
-        value = value * t + p[j];
-      }
-    }
+    const auto [value, slope, curve] = coefficient(i, t);
     const double e = static_cast<double>(i) - middle;
     F = F * u + value;
     F_t = F_t * u + slope;

@@ -87,6 +87,11 @@ class Patch {
   std::size_t terms_of(std::size_t i) const {
     return i == 0 || i + 1 == powers_ ? 1 : terms_;
   }
+  /// c_i at t, its derivative, and half of its second one.
+  struct Coefficient {
+    Complex value, slope, curve;
+  };
+  Coefficient coefficient(std::size_t i, Complex t) const;
   void keep(std::size_t terms);
   /// Leaves out the last terms as far as their sizes add up to less than `most`.
   void drop(std::span<const double> size, double most);

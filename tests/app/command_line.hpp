@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../temporary_folder.hpp"
 #include "turnwright/service/requests.hpp"
 
 // Runs the program itself, as a shell would.
@@ -33,15 +34,8 @@ struct Outcome {
 };
 
 /// Each test has a folder of its own, which is also the working directory.
-class CommandLine : public testing::Test {
+class CommandLine : public TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Outcome shell(const std::string& command, const fs::path& where) const {
     const fs::path program = TURNWRIGHT_PROGRAM;
     const std::string line = "cd '" + where.string() + "' && PATH='" +
@@ -70,8 +64,6 @@ class CommandLine : public testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-
-  fs::path folder_;
 };
 
 }  // namespace turnwright::app

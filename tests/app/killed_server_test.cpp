@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "../service/http_client.hpp"
+#include "../temporary_folder.hpp"
 
 namespace turnwright::app {
 namespace {
@@ -106,16 +107,7 @@ std::string results(const Serving& server, int count) {
   return all;
 }
 
-class KilledServer : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
-};
+using KilledServer = TemporaryFolder;
 
 TEST_F(KilledServer, GoesOnWithItsBatchAndGivesEveryLineOnceAndTheSame) {
   constexpr int kLines = 180;

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "temporary_folder.hpp"
+#include "../temporary_folder.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "temporary_folder.hpp"
+#include "../temporary_folder.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/service/batch_runner.hpp"
 
@@ -103,23 +103,21 @@ TEST(Shards, AreConsecutiveAndCoverEveryChunkOnce) {
     }
 }
 
-TEST(DataDigest, ChangesWithEveryFileAndName) {
-  std::string name = (fs::temp_directory_path() / "turnwright-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
-  const fs::path folder = name;
-  fs::create_directories(folder / "materials");
-  fs::create_directories(folder / "tools/fixed");
-  std::ofstream(folder / "materials/a.json") << "1";
-  const auto first = data_sha256(folder);
-  std::ofstream(folder / "tools/fixed/b.json") << "2";
-  const auto second = data_sha256(folder);
-  fs::rename(folder / "tools/fixed/b.json", folder / "tools/fixed/c.json");
-  const auto third = data_sha256(folder);
-  std::ofstream(folder / "materials/readme.txt") << "3";
-  EXPECT_EQ(data_sha256(folder), third);
+using DataDigest = TemporaryFolder;
+
+TEST_F(DataDigest, ChangesWithEveryFileAndName) {
+  fs::create_directories(folder_ / "materials");
+  fs::create_directories(folder_ / "tools/fixed");
+  std::ofstream(folder_ / "materials/a.json") << "1";
+  const auto first = data_sha256(folder_);
+  std::ofstream(folder_ / "tools/fixed/b.json") << "2";
+  const auto second = data_sha256(folder_);
+  fs::rename(folder_ / "tools/fixed/b.json", folder_ / "tools/fixed/c.json");
+  const auto third = data_sha256(folder_);
+  std::ofstream(folder_ / "materials/readme.txt") << "3";
+  EXPECT_EQ(data_sha256(folder_), third);
   EXPECT_NE(first, second);
   EXPECT_NE(second, third);
-  fs::remove_all(folder);
 }
 
 }  // namespace

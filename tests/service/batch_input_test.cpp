@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "temporary_folder.hpp"
+#include "../temporary_folder.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {

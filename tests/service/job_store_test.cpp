@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../temporary_folder.hpp"
 #include "little_memory.hpp"
-#include "temporary_folder.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/batches.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace turnwright::service {
+namespace turnwright {
 
 /// A folder for each test, empty and of its own.
 class TemporaryFolder : public testing::Test {
@@ -21,4 +21,4 @@ class TemporaryFolder : public testing::Test {
   std::filesystem::path folder_;
 };
 
-}  // namespace turnwright::service
+}  // namespace turnwright
