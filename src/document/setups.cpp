@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -107,20 +108,23 @@ void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& set
 }
 
 // Where the steady rest stands: needed by its clamping and by no other.
-void read_steady(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
+void read_steady(Reader& r, planning::SetupRequest& setup) {
   const bool wanted = std::find(setup.clampings.begin(), setup.clampings.end(),
                                 Clamping::chuck_steady) != setup.clampings.end();
-  const double length_mm = part::length_mm(draft.loaded.plan.drawing);
   if (wanted)
     setup.steady_z_mm = r.number("steady_mm", above_up_to(0, 20000, "mm"));
   else if (r.has("steady_mm"))
     r.problem_at("steady_mm", "nothing: no clamping here is \"chuck-steady\"",
                  "conflict");
-  if (!wanted || !(length_mm > 0)) return;
-  const double from_jaws_mm = setup.hold == part::End::left
-                                  ? setup.steady_z_mm - setup.grip_mm
-                                  : length_mm - setup.grip_mm - setup.steady_z_mm;
-  if (setup.steady_z_mm >= length_mm || from_jaws_mm <= 0)
+}
+
+void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
+  const auto& plan = draft.loaded.plan;
+  const double z = plan.setups[i].steady_z_mm, length_mm = part::length_mm(plan.drawing);
+  if (!(z > 0) || !(length_mm > 0)) return;
+  const double jaws_mm = planning::root_z_mm(plan, i, Clamping::chuck_steady);
+  const bool beside = plan.setups[i].hold == part::End::left ? z > jaws_mm : z < jaws_mm;
+  if (!beside || z >= length_mm)
     r.problem_at("steady_mm", "a place on the part beside the jaws, z from its left end",
                  "conflict");
 }
@@ -139,7 +143,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   }
   read_clampings(draft, r, setup);
   read_grip_forces(draft, r, setup);
-  read_steady(draft, r, setup);
+  read_steady(r, setup);
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};
     draft.assume(r.pointer_of("clampings"), words(setup.clampings),
@@ -175,8 +179,10 @@ void assume_setups(Draft& draft) {
 void read_setups(Draft& draft) {
   if (!draft.root.has("setups")) return assume_setups(draft);
   auto& setups = draft.plan().setups;
-  for (const auto& item : draft.root.items("setups", 1, kSetups))
+  for (const auto& item : draft.root.items("setups", 1, kSetups)) {
     setups.push_back(read_setup(draft, item, setups.size()));
+    check_steady(draft, item, setups.size() - 1);
+  }
 }
 
 }  // namespace turnwright::document

@@ -199,6 +199,33 @@ TEST(PartPlan, JawForcesAreThoseGivenOrTheChucks) {
   EXPECT_EQ(loaded.plan.setups[0].finishing_grip_force_N, 8000);
 }
 
+// Jaws hold the stock where it is longer than the part; 162 mm are drawn.
+TEST(PartPlan, ASteadyRestStandsBesideTheJaws) {
+  struct Case {
+    const char* hold;
+    double grip_mm, left_allowance_mm, steady_mm;
+    bool beside;
+  };
+  for (const auto& c : {Case{"left", 50, 40, 11, true}, Case{"left", 50, 40, 9, false},
+                        Case{"left", 50, 0, 49, false}, Case{"left", 50, 40, 162, false},
+                        Case{"right", 50, 0, 151, true}, Case{"right", 50, 0, 153, false},
+                        Case{"right", 50, 40, 111, true}}) {
+    auto document = smallest();
+    document["machine"] = "lathe-medium";
+    document["stock"]["length_mm"] = 202;
+    document["stock"]["left_allowance_mm"] = c.left_allowance_mm;
+    document["setups"] = {{{"hold", c.hold},
+                           {"grip_mm", c.grip_mm},
+                           {"clampings", {"chuck-steady"}},
+                           {"steady_mm", c.steady_mm}}};
+    const auto said = refusal(document);
+    const bool refused = said.find("/setups/0/steady_mm: got ") != std::string::npos &&
+                         said.find("beside the jaws") != std::string::npos;
+    EXPECT_NE(refused, c.beside) << document["setups"] << said;
+    EXPECT_TRUE(refused || said.find("steady_mm") == std::string::npos) << said;
+  }
+}
+
 TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   auto document = full();
   document["budget"] = {
