@@ -82,7 +82,7 @@ tw_domain(planning SOURCES names.cpp setup_geometry.cpp usable.cpp attempt.cpp a
                 prices_test.cpp conflicts_test.cpp fixed_test.cpp milled_search_test.cpp milled_test.cpp
           TEST_DEPENDS document)
 # Floor 6
-tw_domain(nc SOURCES path.cpp site.cpp turning.cpp fixed.cpp program.cpp text.cpp
+tw_domain(nc SOURCES path.cpp site.cpp contour.cpp turning.cpp fixed.cpp program.cpp text.cpp
           DEPENDS base part catalogue cutting planning PRIVATE_LIBS fmt::fmt
           TESTS path_test.cpp program_test.cpp linuxcnc_test.cpp TEST_DEPENDS document)
 # Floor 7

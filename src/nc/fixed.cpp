@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "contour.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -54,11 +56,6 @@ Place place_of(Site& site, const std::string& id) {
     for (std::size_t k = 0; k < side->items.size(); ++k)
       if (side->items[k].id == id) return {*side, k};
   throw std::domain_error("nc: no element " + id);
-}
-
-const part::Cut& cut_of(const Site& site, const Surface& s) {
-  const auto& d = site.part.drawing;
-  return *(s.inner ? d.inner[s.index].cut : d.outer[s.index].cut);
 }
 
 bool rises_behind(const Place& p, double h) {
@@ -115,23 +112,22 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-// Of an arc that ends at a height: behind it the blank's passes have taken off what a
-// corner needs.
-Beside beside(const Place& p, double end_mm) {
-  const auto& items = p.side.items;
-  const double before = p.k > 0 ? items[p.k - 1].h1 : 0;
-  const double after = p.k + 1 < items.size() ? items[p.k + 1].h0 : 0;
-  return {before, after, after > end_mm + kSame_mm ? p.surface().z1 : -INFINITY};
+// The part of an arc's way on which the corner stays off what is before and behind it.
+std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
+                           const std::vector<Piece>& behind, double re_mm) {
+  const auto course = around(way);
+  const double L = course.length_mm;
+  const Course second{L / 2, [&](double s) { return course.at(L / 2 + s); }};
+  const Course first{L / 2, [&](double s) { return course.at(L / 2 - s); }};
+  const double to = free_mm(second, behind, re_mm), from = free_mm(first, before, re_mm);
+  if (!(to + from > 0)) return std::nullopt;
+  return Arc{first.at(from), second.at(to), way.centre, way.convex};
 }
 
 void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
-  auto& s = p.surface();
+  const auto& s = p.surface();
   const auto& cut = cut_of(site, s);
-  const bool mirrored = site.sign < 0;
-  const double first = (mirrored ? cut.drawn.left_mm : cut.drawn.right_mm) / 2;
-  const double second = (mirrored ? cut.drawn.right_mm : cut.drawn.left_mm) / 2;
-  const auto drawn =
-      arc_through({first, s.z0}, {second, s.z1}, cut.radius_mm, cut.convex);
+  const auto drawn = drawn_arc(site, s);
   if (!planning::cleared(site.part, site.setup, s.index)) {
     site.cannot.push_back(fmt::format(
         "setup {}, {}: arc {} falls towards the chuck by more than the {:.4g} "
@@ -139,16 +135,15 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
         site.setup, o.id, s.id, units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
-  const auto ends = beside(p, second);
-  const auto begins = arc_normal(drawn, drawn.from);
-  // Level, or along an arc that falls: what is before it is no higher than that.
-  const Normal comes_in = begins.z < 0 ? begins : Normal{1, 0};
+  const auto before = drawn_before(site, p.side, p.k);
+  const auto behind = drawn_behind(site, p.side, p.k);
   double left = cut.depth_mm;
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto way = tip_arc(raised, tool.re_mm, ends);
+    const auto whole = tip_arc(raised, tool.re_mm);
+    const auto way = whole ? between(*whole, before, behind, tool.re_mm) : std::nullopt;
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
@@ -156,18 +151,21 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    site.approach(p.side,
-                  {way->from.h_mm - comes_in.z * kBefore_mm,
-                   way->from.z_mm + comes_in.h * kBefore_mm},
-                  kAbove_mm);
+    // Along an arc that falls, else level.
+    const auto begins = arc_normal(drawn, drawn.from);
+    auto from = level(way->from, before, tool.re_mm);
+    if (begins.z < 0)
+      from = Point{way->from.h_mm - begins.z * kBefore_mm,
+                   way->from.z_mm + begins.h * kBefore_mm};
+    site.approach(p.side, from.value_or(way->from), kAbove_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});
     site.at = way->to;
     site.lift(p.side);
   }
-  s.h0 = first;
-  s.h1 = second;
+  p.surface().h0 = drawn.from.h_mm;
+  p.surface().h1 = drawn.to.h_mm;
 }
 
 void part_off(Site& site, const OperationPlan& o) {

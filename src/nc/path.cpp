@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace turnwright::nc {
@@ -14,6 +15,20 @@ double dot(const Normal& a, const Normal& b) { return a.h * b.h + a.z * b.z; }
 // Along the axis from a centre to where a circle has a height, or the other way round.
 double half_chord(double radius_mm, double across_mm) {
   return std::sqrt(std::max(0.0, radius_mm * radius_mm - across_mm * across_mm));
+}
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+double apart(const Point& a, const Point& b) {
+  return std::hypot(a.h_mm - b.h_mm, a.z_mm - b.z_mm);
+}
+
+// Angle about a centre from one point to another, the shorter way round.
+double turn(const Point& centre, const Point& a, const Point& b) {
+  const auto angle = [&](const Point& p) {
+    return std::atan2(p.h_mm - centre.h_mm, p.z_mm - centre.z_mm);
+  };
+  return std::remainder(angle(b) - angle(a), kTurn);
 }
 
 }  // namespace
@@ -95,25 +110,89 @@ Normal arc_normal(const Arc& a, const Point& at) {
   return {h / R, z / R};
 }
 
-std::optional<Arc> tip_arc(const Arc& a, double r, const Beside& beside) {
+std::optional<Arc> tip_arc(const Arc& a, double r) {
   const double R = std::hypot(a.from.h_mm - a.centre.h_mm, a.from.z_mm - a.centre.z_mm);
-  const double rho = a.convex ? R + r : R - r;
-  if (!(rho > -kRounding * R)) return std::nullopt;
-  const double outwards = a.convex ? 1 : -1;
-  const Point centre{a.centre.h_mm - r, a.centre.z_mm - r};
-  const auto n_from = arc_normal(a, a.from), n_to = arc_normal(a, a.to);
-  Arc t{tip(a.from, n_from, r), tip(a.to, n_to, r), centre, a.convex};
-  const auto at_height = [&](double h, double side) {
-    return Point{h, centre.z_mm + side * outwards * half_chord(rho, h - centre.h_mm)};
+  if (!a.convex && !(R - r > -kRounding * R)) return std::nullopt;
+  return Arc{tip(a.from, arc_normal(a, a.from), r),
+             tip(a.to, arc_normal(a, a.to), r),
+             {a.centre.h_mm - r, a.centre.z_mm - r},
+             a.convex};
+}
+
+double distance_mm(const Piece& piece, const Point& p) {
+  const auto &a = piece.from, &b = piece.to;
+  const double to_ends = std::min(apart(p, a), apart(p, b));
+  if (piece.arc) {
+    const auto& m = piece.arc->centre;
+    const double half = turn(m, a, b) / 2, from_middle = turn(m, a, p) - half;
+    const bool beside = std::abs(std::remainder(from_middle, kTurn)) > std::abs(half);
+    return beside ? to_ends : std::abs(apart(p, m) - apart(a, m));
+  }
+  const double l = apart(a, b);
+  if (!(l > 0)) return to_ends;
+  const Normal way{(b.h_mm - a.h_mm) / l, (b.z_mm - a.z_mm) / l};
+  const Normal to{p.h_mm - a.h_mm, p.z_mm - a.z_mm};
+  const double s = dot(to, way);
+  return s <= 0 || s >= l ? to_ends : std::abs(to.h * way.z - to.z * way.h);
+}
+
+Course along(std::vector<Point> way) {
+  std::vector<double> reached{0};
+  for (std::size_t i = 1; i < way.size(); ++i)
+    reached.push_back(reached.back() + apart(way[i - 1], way[i]));
+  const double length = reached.back();
+  return {length, [way = std::move(way), reached = std::move(reached)](double s) {
+            const auto next = std::upper_bound(reached.begin(), reached.end(), s);
+            if (next == reached.end()) return way.back();
+            const auto i = static_cast<std::size_t>(next - reached.begin());
+            const double u = (s - reached[i - 1]) / (reached[i] - reached[i - 1]);
+            return Point{std::lerp(way[i - 1].h_mm, way[i].h_mm, u),
+                         std::lerp(way[i - 1].z_mm, way[i].z_mm, u)};
+          }};
+}
+
+Course around(const Arc& arc) {
+  const double R = apart(arc.from, arc.centre), all = turn(arc.centre, arc.from, arc.to);
+  const double begin =
+      std::atan2(arc.from.h_mm - arc.centre.h_mm, arc.from.z_mm - arc.centre.z_mm);
+  const double length = R * std::abs(all);
+  return {length, [=, centre = arc.centre](double s) {
+            const double a = begin + (length > 0 ? all * s / length : 0);
+            return Point{centre.h_mm + R * std::sin(a), centre.z_mm + R * std::cos(a)};
+          }};
+}
+
+Course backwards(Course course) {
+  const double length = course.length_mm;
+  return {length,
+          [length, at = std::move(course.at)](double s) { return at(length - s); }};
+}
+
+double free_mm(const Course& tip, std::span<const Piece> pieces, double r) {
+  constexpr double kTouch = 1e-6;  // mm
+  constexpr double kStep = 1e-3;   // cuts off less than 1e-6 mm where an edge is grazed
+  const auto room = [&](double s) {
+    const auto p = tip.at(s);
+    double least = INFINITY;
+    for (const auto& piece : pieces)
+      least = std::min(least, distance_mm(piece, {p.h_mm + r, p.z_mm + r}));
+    return least - (r - kTouch);
   };
-  if (n_from.z >= 0 && t.from.h_mm < beside.before_mm)
-    t.from = at_height(beside.before_mm, 1);
-  if (n_to.z < 0 && t.to.h_mm < beside.after_mm) t.to = at_height(beside.after_mm, -1);
-  if (t.to.z_mm < beside.wall_z_mm)
-    t.to = {centre.h_mm + outwards * half_chord(rho, beside.wall_z_mm - centre.z_mm),
-            beside.wall_z_mm};
-  if (!(t.from.z_mm >= t.to.z_mm)) return std::nullopt;
-  return t;
+  double free = 0, now = room(0);
+  if (!(now > 0)) return 0;
+  while (free < tip.length_mm) {
+    const double next = std::min(free + std::max(now, kStep), tip.length_mm);
+    now = room(next);
+    if (now > 0) {
+      free = next;
+      continue;
+    }
+    double low = free, high = next;
+    for (int i = 0; i < 40; ++i)
+      (room((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+    return low;
+  }
+  return tip.length_mm;
 }
 
 }  // namespace turnwright::nc

@@ -253,7 +253,8 @@ SetupProgram program(Site& site, Numbers& numbers) {
     site.moves.clear();
     way(site, i);
     const bool tool_stays = i + 1 < operations.size() && changes[i + 1].empty() &&
-                            operations[i + 1].tool == o.tool;
+                            operations[i + 1].kind != OperationKind::mill &&
+                            numbers.tool(site, operations[i + 1]).number == tool.number;
     if (!tool_stays) site.home(tool.orientation != 3);
     step.moves = site.moves;
     p.steps.push_back(std::move(step));

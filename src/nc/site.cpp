@@ -39,6 +39,9 @@ Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
       const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
       side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0}
                                  : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0});
+      if (auto& s = side.items.back();
+          done[i] && e.cut && e.cut->kind == part::CutKind::groove)
+        s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
     }
     std::sort(side.items.begin(), side.items.end(),
               [](const Surface& x, const Surface& y) { return x.z0 > y.z0; });

@@ -16,7 +16,7 @@ constexpr std::size_t kLine = 200;  // controls read about 250 characters a line
 std::string comment(const std::string& text) {
   std::string out = "(";
   for (const char c : text.substr(0, kLine)) {
-    const bool plain = c >= ' ' && c <= '~' && c != '(' && c != ')';
+    const bool plain = c >= ' ' && c <= '~' && c != '(' && c != ')' && c != '%';
     out += plain ? c : (c == '(' ? '[' : c == ')' ? ']' : '?');
   }
   return out + ")\n";
@@ -38,21 +38,30 @@ std::string at_most(double value, int decimals) {
   return number(std::floor(value * scale * (1 + 1e-12)) / scale, decimals);
 }
 
+// As a control reads it: Fanuc may count what has no point in steps of its own.
+std::string pointed(std::string number, Control control) {
+  const bool whole = number.find('.') == number.npos;
+  return control == Control::fanuc && whole ? number + '.' : number;
+}
+
 // Writes only the words that change.
 class Moves {
  public:
   Moves(std::string& out, Control control, double f_mm_rev)
-      : out_(out), control_(control), f_(at_most(f_mm_rev, 4)) {}
+      : out_(out), control_(control), f_(pointed(at_most(f_mm_rev, 4), control)) {}
 
   void write(const Move& m) {
-    const auto x = number(2 * m.x_mm, 4), z = number(m.z_mm, 4);
+    const auto written = [this](double mm, int decimals) {
+      return pointed(number(mm, decimals), control_);
+    };
+    const auto x = written(2 * m.x_mm, 4), z = written(m.z_mm, 4);
     std::string words;
     if (x != x_) words += " X" + x;
     if (z != z_) words += " Z" + z;
     if (words.empty()) return;
     if (m.kind == Move::Kind::arc) {
-      words = " X" + x + " Z" + z + " I" + number(m.centre.h_mm - at_.x_mm, 5) + " K" +
-              number(m.centre.z_mm - at_.z_mm, 5);
+      words = " X" + x + " Z" + z + " I" + written(m.centre.h_mm - at_.x_mm, 5) + " K" +
+              written(m.centre.z_mm - at_.z_mm, 5);
     }
     out_ += code(m) + words + feed(m) + '\n';
     x_ = x;
@@ -91,7 +100,9 @@ class Moves {
 };
 
 std::string spindle(const Step& s, Control control) {
-  const auto S = at_most(s.S, 2), n = at_most(s.n_max_rpm, 0);
+  // Fanuc takes no decimals of S.
+  const auto S = at_most(s.S, control == Control::fanuc ? 0 : 2),
+             n = at_most(s.n_max_rpm, 0);
   if (!s.constant_surface_speed) return "G97 S" + S + " M3\n";
   if (control == Control::linuxcnc) return "G96 D" + n + " S" + S + " M3\n";
   return "G50 S" + n + "\nG96 S" + S + " M3\n";

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contour.hpp"
+
 namespace turnwright::nc {
 namespace {
 
 using planning::OperationKind;
 using planning::OperationPlan;
 using Kind = Move::Kind;
-using Table = planning::Compensation::Table;
 
 constexpr double kStands_mm = 0.01;  // more than corrections differ
-constexpr double kFlat = 0.01;       // slope below which an element is no cone
 
 double depth_mm(const OperationPlan& o) {
   double sum = 0;
@@ -45,31 +45,6 @@ std::size_t place(const Side& side, const std::string& id) {
       side.items.begin());
 }
 
-// The plan's correction of a surface, in the setup that finishes it; empty: none is
-// proposed.
-const Table& correction(const Site& site, const std::string& surface) {
-  static const Table none;
-  for (const auto& c : site.plan.compensation)
-    if (c.on == surface) return c.table_mm;
-  return none;
-}
-
-// The finished element with the plan's correction.
-std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
-  std::vector<Point> all{{s.h0, s.z0}, {s.h1, s.z1}};
-  const auto& table = correction(site, s.id);
-  if (table.empty()) return all;
-  all.clear();
-  for (const auto& [part_z, dr] : table) {
-    const double z = std::clamp(site.z(part_z), s.z1, s.z0);
-    const double u = (s.z0 - z) / (s.z0 - s.z1);
-    all.push_back({s.h0 + (s.h1 - s.h0) * u + side.sign * dr, z});
-  }
-  std::sort(all.begin(), all.end(),
-            [](const Point& a, const Point& b) { return a.z_mm > b.z_mm; });
-  return all;
-}
-
 // What roughing and finishing leave before a shoulder that is faced later.
 double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& side,
                          std::size_t k) {
@@ -77,6 +52,23 @@ double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& si
   const auto &a = side.items[k].id, &b = side.items[k + 1].id;
   return std::max(later_mm(site, operation, a + "|" + b),
                   later_mm(site, operation, b + "|" + a));
+}
+
+// Ends a way where the corner touches a piece.  Whether it does.
+bool clip(std::vector<Point>& way, std::span<const Piece> pieces, double re_mm) {
+  const auto course = along(way);
+  const double free = free_mm(course, pieces, re_mm);
+  if (!(free < course.length_mm)) return false;
+  double length = course.length_mm;
+  while (way.size() > 1 && length > free) {
+    length -= along({way[way.size() - 2], way.back()}).length_mm;
+    way.pop_back();
+  }
+  if (free > 0)
+    way.push_back(course.at(free));
+  else
+    way.clear();
+  return true;
 }
 
 // Points on the straight line through two others.
@@ -108,14 +100,8 @@ std::vector<Point> contour(const Pass& p) {
   return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
 }
 
-// What the corner must not go below before the element.
-double floor_mm(const Pass& p) {
-  if (p.k > 0) return corrected(p.site, p.side, p.side.items[p.k - 1]).back().h_mm;
-  return p.side.sign > 0 ? 0 : -INFINITY;
-}
-
-// Comes in along the element's own line, or what can be had of it above the floor;
-// roughing comes in along the axis.
+// Comes in along the element's own line from as far as what is before it lets the corner,
+// and if that is not far, level; roughing comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
@@ -127,15 +113,14 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
       way.front().z_mm += far;
     return;
   }
-  const Point on = way.front(), start{on.h_mm - n.z * far, on.z_mm + n.h * far};
-  const double floor = floor_mm(p);
-  if (start.h_mm >= floor || !(n.z > kFlat)) {
-    way.front() = start;
-    return;
-  }
-  while (way.size() > 2 && way[1].h_mm < floor) way.erase(way.begin());
-  way.front() = at_h(way[0], way[1], floor);
-  way.insert(way.begin(), {floor, way.front().z_mm + kBefore_mm});
+  way.front() = {way.front().h_mm - n.z * far, way.front().z_mm + n.h * far};
+  const auto pieces = drawn_before(p.site, p.side, p.k);
+  way = {way.rbegin(), way.rend()};
+  const bool stopped = clip(way, pieces, p.re_mm);
+  way = {way.rbegin(), way.rend()};
+  if (!stopped || way.empty()) return;
+  if (const auto from = level(way.front(), pieces, p.re_mm))
+    way.insert(way.begin(), *from);
 }
 
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
@@ -157,17 +142,14 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   if (from > z) way.insert(way.begin(), {h, from});
 }
 
-// z of the first place behind an element where the finished part is higher than it is, if
-// only by its correction.
+// Where roughing ends: what is behind the element stands higher, or the hole goes on.
 std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
   const double h = side.items[k].h1 + kSame_mm;
-  const double own = corrected(site, side, side.items[k]).back().h_mm + kSame_mm;
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
     if (s.z0 < z - kSame_mm) break;  // between bores from both ends
-    if (std::max(s.h0, s.h1) > h || corrected(site, side, s).front().h_mm > own)
-      return s.z0;
+    if (std::max(s.h0, s.h1) > h) return s.z0;
     z = s.z1;
   }
   const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
@@ -175,25 +157,31 @@ std::optional<double> wall_behind(const Site& site, const Side& side, std::size_
   return std::nullopt;
 }
 
-// Ends at a wall, or behind an edge that falls.
+// What ends a pass of element k.
+std::vector<Piece> ends(const Pass& p, std::size_t k) {
+  std::vector<Piece> all;
+  if (p.last) {
+    all = drawn_behind(p.site, p.side, k);
+  } else {
+    if (p.side.sign > 0) all.push_back(wall(p.site.root_z));
+    if (const auto z = wall_behind(p.site, p.side, k)) all.push_back(wall(*z));
+  }
+  const double stock = shoulder_stock_mm(p.site, p.operation, p.side, k);
+  if (stock > 0) all.push_back(wall(p.side.items[k].z1 + stock));
+  return all;
+}
+
+// Ends where the corner meets something, or behind an edge that falls.
 void lead_out(const Pass& p, std::vector<Point>& way) {
   auto o = p.operation;
   auto k = p.k;
   for (; p.last && joined(p.site, o); ++o) ++k;
-  double end = p.side.sign > 0 ? p.site.root_z : -INFINITY;
-  if (const auto wall = wall_behind(p.site, p.side, k))
-    end = std::max(end, *wall + shoulder_stock_mm(p.site, p.operation, p.side, k));
   if (!p.goes_on()) {
     auto& last = way.back();
     const double corner = p.side.sign > 0 ? p.site.r_most : p.re_mm;
     last = at_z(way[way.size() - 2], last, last.z_mm - corner - kBehind_mm);
   }
-  while (way.size() > 1 && way[way.size() - 2].z_mm <= end) way.pop_back();
-  if (way.back().z_mm >= end) return;
-  if (way.size() < 2)
-    way.clear();
-  else
-    way.back() = at_z(way[way.size() - 2], way.back(), end);
+  clip(way, ends(p, k), p.re_mm);
 }
 
 std::vector<Point> way_of(const Pass& p) {
@@ -218,7 +206,7 @@ std::vector<Point> way_of(const Pass& p) {
 
 void pass(const Pass& p) {
   const auto way = way_of(p);
-  if (!way.empty()) {
+  if (way.size() > 1) {
     if (p.from_before())
       p.site.to(Kind::feed, p.side, way.front());
     else
@@ -310,6 +298,32 @@ void face(Site& site, std::size_t operation) {
   }
 }
 
+namespace {
+
+// What stands where the tool for a shoulder before element k comes in: neighbours too that
+// are no longer than what is left before their own shoulders.
+double highest(const Site& site, std::size_t operation, std::size_t k) {
+  const auto& side = site.outer;
+  double top = side.top0(side.items[k]);
+  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
+    const double stock = shoulder_stock_mm(site, operation, side, j - 1);
+    if (!(side.items[j].z0 + stock >= side.items[k].z0 - kSame_mm)) break;
+    top = std::max(top, side.top0(side.items[j]));
+  }
+  return top;
+}
+
+// Along the element before a shoulder to where turning has ended.
+void run_out(Site& site, const std::vector<Point>& way, double to_z) {
+  if (!(to_z > site.at.z_mm)) return;
+  std::size_t i = way.size() - 1;
+  for (; i > 1 && way[i - 1].z_mm < to_z; --i)
+    if (way[i - 1].z_mm > site.at.z_mm) site.to(Kind::feed, site.outer, way[i - 1]);
+  site.to(Kind::feed, site.outer, at_z(way[i - 1], way[i], to_z));
+}
+
+}  // namespace
+
 void face_shoulder(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   const auto& id = o.on[0];
@@ -320,20 +334,21 @@ void face_shoulder(Site& site, std::size_t operation) {
     ++k;
   const auto& small = items[k];
   const double re = corner_mm(site, o), z = small.z1;
-  const double foot = corrected(site, site.outer, small).back().h_mm;
-  const double outside = site.outer.top0(items[k + 1]) + kAbove_mm + re;
+  const auto line = corrected(site, site.outer, small);
+  const auto n = normal(line[line.size() - 2], line.back());
+  const double outside = highest(site, operation, k + 1) + kAbove_mm + re;
   const double stock = later_mm(site, operation, id) + depth_mm(o);
   double left = stock;
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     const bool last = left < kSame_mm;
-    face_pass(site,
-              face_contour(site, id, z + (last ? 0 : left),
-                           foot + re + (last ? 0 : kBehind_mm), outside, last),
-              re);
-    const double turned_to = z + stock + site.r_most - re;
-    if (last && turned_to > site.at.z_mm)
-      site.to(Kind::feed, site.outer, {foot, turned_to});
+    face_pass(
+        site,
+        face_contour(site, id, z + (last ? 0 : left),
+                     tip(line.back(), n, {0, 1}, re).h_mm + re + (last ? 0 : kBehind_mm),
+                     outside, last),
+        re);
+    if (last) run_out(site, tips(line, re), z + stock + site.r_most - re);
     site.lift(site.outer);
   }
 }

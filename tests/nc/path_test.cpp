@@ -114,7 +114,7 @@ TEST(TipArc, KeepsTheCornerTangentToTheArc) {
   for (const bool convex : {true, false})
     for (const double r : {0.0, 0.4, 1.2}) {
       const auto a = arc_through({14, 0}, {19, -7}, 9, convex);
-      const auto t = tip_arc(a, r, {-1e9, -1e9, -1e9});
+      const auto t = tip_arc(a, r);
       ASSERT_TRUE(t);
       for (const auto& end : {t->from, t->to}) {
         const auto c = centre_of(end, r);
@@ -124,65 +124,72 @@ TEST(TipArc, KeepsTheCornerTangentToTheArc) {
                     convex ? 9 + r : 9 - r, 1e-9);
       }
       // The corner touches the drawn ends.
-      const auto c = centre_of(t->to, r);
-      EXPECT_NEAR(std::hypot(c.h_mm - a.to.h_mm, c.z_mm - a.to.z_mm), r, 1e-9);
+      for (const auto& [tip_at, end] : {std::pair{t->from, a.from}, {t->to, a.to}}) {
+        const auto c = centre_of(tip_at, r);
+        EXPECT_NEAR(std::hypot(c.h_mm - end.h_mm, c.z_mm - end.z_mm), r, 1e-9);
+      }
     }
 }
 
-TEST(TipArc, StaysOffWhatIsBeforeAndAfter) {
-  const auto a = arc_through({14, 0}, {19, -7}, 9, false);
-  const auto t = tip_arc(a, 0.8, {14, 0, -7});
-  ASSERT_TRUE(t);
-  EXPECT_GE(t->from.h_mm, 14 - kRounding);
-  EXPECT_GE(t->to.z_mm, -7 - kRounding);
-  for (const auto& end : {t->from, t->to})  // still on the tip's circle
-    EXPECT_NEAR(std::hypot(end.h_mm - t->centre.h_mm, end.z_mm - t->centre.z_mm), 8.2,
-                1e-9);
-}
-
-// Whether a corner lies inside a height over a range of z, by points of its circle.
-bool cuts_below(const Point& tip_at, double r, double h, double z0, double z1) {
-  const auto c = centre_of(tip_at, r);
-  for (int i = 0; i < 3600; ++i) {
-    const double a = i * std::numbers::pi / 1800;
-    const double z = c.z_mm + r * std::cos(a);
-    if (z > z0 && z < z1 && c.h_mm + r * std::sin(a) < h - 1e-9) return true;
-  }
-  return false;
-}
-
-TEST(TipArc, ReachesEndsThatFallAndSparesWhatIsLevelWithThem) {
-  const double r = 0.8;
-  // A throat: its corner is over the arc at both ends, as deep as they are drawn.
-  const auto throat = arc_through({20, 0}, {20, -8}, 20, false);
-  const auto in = tip_arc(throat, r, {20, 20, -1e9});
-  ASSERT_TRUE(in);
-  EXPECT_LT(in->from.h_mm, 20 - 0.01);
-  for (const auto& [tip_at, end] :
-       {std::pair{in->from, throat.from}, {in->to, throat.to}}) {
-    const auto c = centre_of(tip_at, r);
-    EXPECT_NEAR(std::hypot(c.h_mm - end.h_mm, c.z_mm - end.z_mm), r, 1e-9);
-  }
-  EXPECT_FALSE(cuts_below(in->from, r, 20, 0, 10));
-  EXPECT_FALSE(cuts_below(in->to, r, 20, -20, -8));
-  // A crown: the corner would reach beyond both ends.
-  const auto over = tip_arc(arc_through({20, 0}, {20, -8}, 20, true), r, {20, 20, -1e9});
-  ASSERT_TRUE(over);
-  EXPECT_NEAR(over->from.h_mm, 20, 1e-12);
-  EXPECT_NEAR(over->to.h_mm, 20, 1e-12);
-  EXPECT_FALSE(cuts_below(over->from, r, 20, 0, 10));
-  EXPECT_FALSE(cuts_below(over->to, r, 20, -20, -8));
-  EXPECT_NEAR(over->from.z_mm + over->to.z_mm, -8 - 2 * r, 1e-9);  // alike
-  const auto c = centre_of(over->to, r);
-  EXPECT_NEAR(
-      std::hypot(c.h_mm - (over->centre.h_mm + r), c.z_mm - (over->centre.z_mm + r)),
-      20 + r, 1e-9);
-}
-
 TEST(TipArc, RefusesACornerThatDoesNotFit) {
-  EXPECT_FALSE(
-      tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, false), 0.8, {0, 0, -100}));
-  EXPECT_TRUE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, true), 0.8, {0, 0, -100}));
+  EXPECT_FALSE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, false), 0.8));
+  EXPECT_TRUE(tip_arc(arc_through({14, 0}, {14.5, -0.5}, 0.5, true), 0.8));
+}
+
+Piece line(const Point& a, const Point& b) { return {a, b, {}}; }
+Piece piece(const Arc& a) { return {a.from, a.to, a}; }
+
+TEST(Distance, IsThatOfTheNearestPoint) {
+  const auto step = line({2, 0}, {5, 4});
+  EXPECT_NEAR(distance_mm(step, {2 + 1.5 - 0.8, 2 + 0.6}), 1, 1e-12);
+  EXPECT_NEAR(distance_mm(step, {2, -1}), 1, 1e-12);
+  EXPECT_NEAR(distance_mm(step, {5, 6}), 2, 1e-12);
+  EXPECT_NEAR(distance_mm(line({2, 0}, {2, 0}), {5, 4}), 5, 1e-12);
+  for (const bool convex : {true, false}) {
+    const auto a = arc_through({14, 0}, {19, -7}, 9, convex);
+    const auto course = around(a);
+    for (const auto& p : {Point{30, 0}, {14, 3}, {21, -9}, {5, -3}, {16, -3}, {20, -1}}) {
+      double nearest = INFINITY;
+      for (int i = 0; i <= 100'000; ++i) {
+        const auto q = course.at(course.length_mm * i / 1e5);
+        nearest = std::min(nearest, std::hypot(p.h_mm - q.h_mm, p.z_mm - q.z_mm));
+      }
+      EXPECT_NEAR(distance_mm(piece(a), p), nearest, 1e-8);
+    }
+  }
+}
+
+TEST(Course, GoesItsLengthFromEndToEnd) {
+  const auto bent = along({{0, 0}, {3, 4}, {3, 4}, {3, -2}});
+  EXPECT_NEAR(bent.length_mm, 11, 1e-12);
+  EXPECT_NEAR(bent.at(7).z_mm, 2, 1e-12);
+  EXPECT_NEAR(backwards(bent).at(8.5).h_mm, 1.5, 1e-12);
+  const auto a = arc_through({14, 0}, {20, -6}, 6, true);
+  const auto round = around(a);
+  EXPECT_NEAR(round.length_mm, 3 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(round.at(0).h_mm, 14, 1e-9);
+  EXPECT_NEAR(round.at(round.length_mm).z_mm, -6, 1e-9);
+  const auto middle = round.at(round.length_mm / 2);
+  EXPECT_NEAR(middle.h_mm - a.centre.h_mm, 6 * std::sqrt(0.5), 1e-9);
+}
+
+// Along a cylinder: to a wall, an edge just higher, a cone, a crown, and past an edge.
+TEST(FreeWay, EndsWhereTheCornerTouches) {
+  const double r = 0.8;
+  const auto course = along({{20, 5}, {20, -5}});  // of the tip: its centre is r before
+  const auto free = [&](const Piece& p) { return free_mm(course, {{p}}, r); };
+  EXPECT_NEAR(free(line({20, -3}, {30, -3})), 8, 1e-5);
+  EXPECT_NEAR(free(line({20.01, -3}, {20.01, -9})),
+              8 + r - std::sqrt(r * r - (r - 0.01) * (r - 0.01)), 1e-4);
+  EXPECT_NEAR(free(line({20, -3}, {23, -6})), 8 + r - r * std::tan(std::numbers::pi / 8),
+              1e-5);
+  const auto crown = arc_through({20, -3}, {20, -9}, 20, true);
+  const double s = free(piece(crown));
+  EXPECT_NEAR(std::hypot(20 + r - crown.centre.h_mm, 5 - s + r - crown.centre.z_mm),
+              20 + r, 2e-6);
+  EXPECT_EQ(free(line({20, -3}, {17, -6})), 10);
+  EXPECT_EQ(free(line({20, -3}, {10, -3})), 10);
+  EXPECT_EQ(free(line({21, 5}, {21, 9})), 0);  // not even at its beginning
 }
 
 }  // namespace

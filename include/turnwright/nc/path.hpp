@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 /// Ways of a turning tool over a contour.
@@ -63,17 +65,30 @@ Arc arc_through(const Point& from, const Point& to, double radius_mm, bool conve
 /// At a point of an arc.
 Normal arc_normal(const Arc& arc, const Point& at);
 
-/// What an arc lies between: heights of what comes before and after it, and where that
-/// rises beyond its end.
-struct Beside {
-  double before_mm, after_mm, wall_z_mm;
-};
-
 /// The tip's way along an arc: an arc of radius R + r (convex) or R - r about a centre
-/// shifted by (-r, -r).  Where the arc rises from its beginning, or falls to its end, the
-/// corner reaches beyond it: there it stays as high as what is `beside`, and before the
-/// wall, if there is one, so that it cuts into neither.  Nothing if the corner does not fit
-/// into the arc.
-std::optional<Arc> tip_arc(const Arc& contour, double re_mm, const Beside& beside);
+/// shifted by (-r, -r), from where the corner touches one end to where it touches the other.
+/// Nothing if the corner does not fit into the arc.
+std::optional<Arc> tip_arc(const Arc& contour, double re_mm);
+
+/// A straight or circular piece of a contour.
+struct Piece {
+  Point from, to;
+  std::optional<Arc> arc;
+};
+double distance_mm(const Piece& piece, const Point& p);
+
+/// A way of a length: its place after s, no faster than s.
+struct Course {
+  double length_mm = 0;
+  std::function<Point(double)> at;
+};
+Course along(std::vector<Point> way);
+/// The shorter way round its centre.
+Course around(const Arc& arc);
+Course backwards(Course course);
+
+/// How far a tip gets along a course before its corner is nearer to a piece than its radius,
+/// but for 1e-6 mm: an edge that it passes over does not stop it.
+double free_mm(const Course& tip, std::span<const Piece> pieces, double re_mm);
 
 }  // namespace turnwright::nc

@@ -1,0 +1,120 @@
+#include "contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace turnwright::nc {
+namespace {
+
+constexpr double kFar_mm = 1e4;
+
+// An element as it is drawn.
+std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
+  const auto& d = site.part.drawing;
+  const auto& cut = s.inner ? d.inner[s.index].cut : d.outer[s.index].cut;
+  if (cut && cut->kind == part::CutKind::arc) {
+    const auto arc = drawn_arc(site, s);
+    return {{arc.from, arc.to, arc}};
+  }
+  auto line = corrected(site, side, s);
+  if (cut && cut->kind == part::CutKind::groove) {
+    const double floor = side.sign * cut->drawn.left_mm / 2;
+    line = {{floor, s.z0}, {floor, s.z1}};
+  }
+  std::vector<Piece> all;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    all.push_back({line[i], line[i + 1], {}});
+  return all;
+}
+
+// Adds pieces, and the step up or down to them.
+void append(std::vector<Piece>& all, const std::vector<Piece>& more) {
+  if (!all.empty() && !more.empty())
+    all.push_back({all.back().to, more.front().from, {}});
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+const planning::Compensation::Table& correction(const Site& site,
+                                                const std::string& surface) {
+  static const planning::Compensation::Table none;
+  for (const auto& c : site.plan.compensation)
+    if (c.on == surface) return c.table_mm;
+  return none;
+}
+
+std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
+  std::vector<Point> all{{s.h0, s.z0}, {s.h1, s.z1}};
+  const auto& table = correction(site, s.id);
+  if (table.empty()) return all;
+  all.clear();
+  for (const auto& [part_z, dr] : table) {
+    const double z = std::clamp(site.z(part_z), s.z1, s.z0);
+    const double u = (s.z0 - z) / (s.z0 - s.z1);
+    all.push_back({s.h0 + (s.h1 - s.h0) * u + side.sign * dr, z});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Point& a, const Point& b) { return a.z_mm > b.z_mm; });
+  return all;
+}
+
+const part::Cut& cut_of(const Site& site, const Surface& s) {
+  const auto& d = site.part.drawing;
+  return *(s.inner ? d.inner[s.index].cut : d.outer[s.index].cut);
+}
+
+Arc drawn_arc(const Site& site, const Surface& s) {
+  const auto& cut = cut_of(site, s);
+  const bool mirrored = site.sign < 0;
+  const double first = mirrored ? cut.drawn.left_mm : cut.drawn.right_mm;
+  const double second = mirrored ? cut.drawn.right_mm : cut.drawn.left_mm;
+  return arc_through({first / 2, s.z0}, {second / 2, s.z1}, cut.radius_mm, cut.convex);
+}
+
+Piece wall(double z_mm) { return {{kFar_mm, z_mm}, {-kFar_mm, z_mm}, {}}; }
+
+std::optional<Point> level(const Point& tip, const std::vector<Piece>& before,
+                           double re_mm) {
+  constexpr double kTouching_mm = 2e-6;
+  const Point from{tip.h_mm + kTouching_mm, tip.z_mm + kBefore_mm};
+  const auto course = along({{tip.h_mm + kTouching_mm, tip.z_mm}, from});
+  if (free_mm(course, before, re_mm) < course.length_mm) return std::nullopt;
+  return Point{tip.h_mm, from.z_mm};
+}
+
+std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k) {
+  std::vector<Piece> all;
+  for (std::size_t j = 0; j <= k; ++j) {
+    auto more = pieces(site, side, side.items[j]);
+    if (j == k) {  // its beginning alone
+      more.resize(1);
+      more[0] = {more[0].from, more[0].from, {}};
+    }
+    append(all, more);
+  }
+  if (side.sign > 0)
+    all.push_back({{0, side.items[0].z0}, {0, side.items[0].z0 + kFar_mm}, {}});
+  return all;
+}
+
+std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k) {
+  const auto own = pieces(site, side, side.items[k]);
+  std::vector<Piece> all{{own.back().to, own.back().to, {}}};
+  double z = side.items[k].z1;
+  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
+    const auto& s = side.items[j];
+    if (s.z0 < z - kSame_mm) break;  // between bores from both ends
+    append(all, pieces(site, side, s));
+    z = s.z1;
+  }
+  const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
+  if (side.sign > 0)
+    all.push_back(wall(site.root_z));
+  else if (!at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
+    append(all, {{{side.stock_h, z}, {side.stock_h, z - kFar_mm}, {}}});
+  return all;
+}
+
+}  // namespace turnwright::nc
