@@ -1,5 +1,7 @@
 #include "contour.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +10,8 @@ namespace turnwright::nc {
 namespace {
 
 constexpr double kFar_mm = 1e4;
+constexpr double kTouch_mm = 1e-5;   // more than free_mm goes too far
+constexpr double kStands_mm = 0.01;  // more than corrections differ
 
 // An element as it is drawn.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
@@ -110,11 +114,25 @@ std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t 
     z = s.z1;
   }
   const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
-  if (side.sign > 0)
-    all.push_back(wall(site.root_z));
-  else if (!at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
+  if (side.sign < 0 && !at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
     append(all, {{{side.stock_h, z}, {side.stock_h, z - kFar_mm}, {}}});
   return all;
+}
+
+void tell_jaws(Site& site, std::size_t k, const std::string& operation, double needed_z) {
+  if (needed_z >= site.root_z - kTouch_mm) return;
+  const auto& s = site.outer.items[k];
+  const auto own = pieces(site, site.outer, s).back();
+  const auto behind = drawn_behind(site, site.outer, k);
+  // What is level behind is turned from the other end, and the pass goes on to here.
+  const auto level = [&](const Piece& piece) {
+    return !piece.arc && std::abs(piece.to.h_mm - own.to.h_mm) < kStands_mm;
+  };
+  if (!own.arc && behind.size() > 2 && level(behind[1]) && level(behind[2])) return;
+  site.cannot.push_back(
+      fmt::format("setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
+                  "needs {:.3g} mm",
+                  site.setup, operation, s.id, s.z1 - site.root_z, s.z1 - needed_z));
 }
 
 }  // namespace turnwright::nc

@@ -22,11 +22,15 @@ Arc drawn_arc(const Site& site, const Surface& s);
 /// What is drawn from the free end to the beginning of element k; outside the axis is the
 /// lowest.
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k);
-/// What is drawn behind element k: elements as far as they follow on each other, what is
-/// left of the hole, or the jaws.
+/// What is drawn behind element k: elements as far as they follow on each other, and what
+/// is left of the hole.
 std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k);
 /// Nothing goes beyond a place.
 Piece wall(double z_mm);
+/// Tells in `site.cannot` if the jaws keep a tip from going as far as the end of element k
+/// needs, and no other setup takes off what is left there.
+void tell_jaws(Site& site, std::size_t k, const std::string& operation,
+               double needed_z_mm);
 
 /// From where a tip comes level to the beginning of its way, if what is drawn before lets
 /// it.

@@ -19,25 +19,68 @@ using planning::OperationPlan;
 using Kind = Move::Kind;
 
 constexpr double kRunIn = 3;  // of a thread, in pitches
+constexpr int kPlaces = 20;   // looked at along an arc
 
 const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
   return *std::find_if(site.part.fixed_tools.begin(), site.part.fixed_tools.end(),
                        [&](const FixedTool& t) { return t.id == o.tool; });
 }
 
-double bored_mm(const Site& site) {
-  const auto end = site.sign > 0 ? part::End::right : part::End::left;
+double point_mm(const FixedTool& drill, double D_mm) {
+  return D_mm / 2 / std::tan(units::rad_from_deg(drill.point_deg / 2));
+}
+
+double bored_mm(const part::Drawing& d, part::End end) {
   double depth = 0;
-  for (const auto& e : site.part.drawing.inner)
+  for (const auto& e : d.inner)
     if (e.from == end) depth += e.length_mm;
   return depth;
+}
+
+// How far the points of the drills for the bores of an end go beyond those.
+double drilled_beyond_mm(const Site& site, part::End end) {
+  double point = 0;
+  for (std::size_t s = 0; s < site.plan.setups.size(); ++s) {
+    if (site.part.setups[s].hold == end) continue;
+    for (const auto& o : site.plan.setups[s].operations)
+      if (o.kind == planning::OperationKind::fixed &&
+          tool_of(site, o).use == FixedUse::drilling)
+        point = std::max(point, point_mm(tool_of(site, o), 2 * o.passes[0].ap_mm));
+  }
+  return point;
+}
+
+// Whether a drill's point leaves what is drawn behind a bore; if not, that is told.
+bool spared(Site& site, const OperationPlan& o, double depth, double point, double D) {
+  const auto& d = site.part.drawing;
+  const auto other = site.sign > 0 ? part::End::left : part::End::right;
+  const double rest = part::length_mm(d) - depth - bored_mm(d, other);
+  if (rest < kSame_mm) {  // through, into the other end's bores or into the open
+    double narrowest = INFINITY;
+    for (const auto& e : d.inner)
+      if (e.from == other) narrowest = std::min({narrowest, e.left_mm, e.right_mm});
+    if (narrowest >= D - kSame_mm) return true;
+    site.cannot.push_back(fmt::format(
+        "setup {}, {}: the point of the {:g} mm drill goes {:.3g} mm into the "
+        "bore of {:g} mm behind",
+        site.setup, o.id, D, point, narrowest));
+    return false;
+  }
+  if (point + drilled_beyond_mm(site, other) < rest - kSame_mm) return true;
+  site.cannot.push_back(fmt::format(
+      "setup {}, {}: the point of the {:g} mm drill goes through the {:.3g} mm "
+      "behind the bore",
+      site.setup, o.id, D, rest));
+  return false;
 }
 
 void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   const double D = 2 * o.passes[0].ap_mm;
   const bool centre = tool.use == FixedUse::centring;
-  const double depth = centre ? tool.reach * D : bored_mm(site);
-  const double point = D / 2 / std::tan(units::rad_from_deg(tool.point_deg / 2));
+  const auto end = site.sign > 0 ? part::End::right : part::End::left;
+  const double depth = centre ? tool.reach * D : bored_mm(site.part.drawing, end);
+  const double point = point_mm(tool, D);
+  if (!centre && !spared(site, o, depth, point, D)) return;
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);
   site.to(Kind::feed, site.outer, {0, -(depth + point)});
@@ -56,6 +99,17 @@ Place place_of(Site& site, const std::string& id) {
     for (std::size_t k = 0; k < side->items.size(); ++k)
       if (side->items[k].id == id) return {*side, k};
   throw std::domain_error("nc: no element " + id);
+}
+
+// Whether material before the free end is in the way of what begins at a place; that is
+// told.
+bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
+  if (!(site.front > 0 && z > 0)) return false;
+  site.cannot.push_back(
+      fmt::format("setup {}, {}: the end that {} begins at is not faced, {:.3g} mm stand "
+                  "before it",
+                  site.setup, o.id, s.id, site.front));
+  return true;
 }
 
 bool rises_behind(const Place& p, double h) {
@@ -99,6 +153,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
                     site.setup, o.id, s.id));
     return;
   }
+  if (unfaced(site, o, s, s.z0 + run_in)) return;
   const double end = s.z1 + (rises_behind(p, root) ? P : 0);
   const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
   site.approach(p.side, before, 0);
@@ -124,6 +179,46 @@ std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
   return Arc{first.at(from), second.at(to), way.centre, way.convex};
 }
 
+// Whether a corner comes down to a place and goes a way from there, past what is drawn.
+bool comes(const std::vector<Point>& way, const std::vector<Piece>& before,
+           const std::vector<Piece>& behind, double re_mm) {
+  constexpr double kTouching_mm = 2e-6, kHigh_mm = 1e3;
+  std::vector<Point> raised{{way[0].h_mm + kHigh_mm, way[0].z_mm}};
+  for (const auto& p : way) raised.push_back({p.h_mm + kTouching_mm, p.z_mm});
+  const auto course = along(raised);
+  return free_mm(course, before, re_mm) >= course.length_mm &&
+         free_mm(course, behind, re_mm) >= course.length_mm &&
+         clears_behind(way[0], before, re_mm, part::kProfilingClears_rad);
+}
+
+// Where the way of an arc begins: along an arc that falls, level, or from above, as what is
+// drawn lets it.
+std::optional<Point> comes_in(const Arc& drawn, const Arc& way,
+                              const std::vector<Piece>& before,
+                              const std::vector<Piece>& behind, double re_mm) {
+  const auto course = around(way);
+  for (int i = 0; i <= kPlaces; ++i)
+    if (!clears_behind(course.at(course.length_mm * i / kPlaces), before, re_mm,
+                       part::kProfilingClears_rad))
+      return std::nullopt;
+  const auto n = arc_normal(drawn, drawn.from);
+  const Point along_arc{way.from.h_mm - n.z * kBefore_mm,
+                        way.from.z_mm + n.h * kBefore_mm};
+  const Point level{way.from.h_mm, way.from.z_mm + kBefore_mm};
+  if (n.z < 0 && comes({along_arc, way.from}, before, behind, re_mm)) return along_arc;
+  if (comes({level, way.from}, before, behind, re_mm)) return level;
+  if (comes({way.from}, before, behind, re_mm)) return way.from;
+  return std::nullopt;
+}
+
+// Of what stands over a stretch of the axis.
+double highest(const Place& p, double from_z, double to_z) {
+  double top = -INFINITY;
+  for (const auto& s : p.side.items)
+    if (s.z0 > from_z && s.z1 < to_z) top = std::max(top, p.side.top(s));
+  return top;
+}
+
 void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   const auto& s = p.surface();
   const auto& cut = cut_of(site, s);
@@ -136,7 +231,11 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     return;
   }
   const auto before = drawn_before(site, p.side, p.k);
-  const auto behind = drawn_behind(site, p.side, p.k);
+  auto behind = drawn_behind(site, p.side, p.k);
+  if (const auto whole = tip_arc(drawn, tool.re_mm))
+    if (const auto way = between(*whole, before, behind, tool.re_mm))
+      tell_jaws(site, p.k, o.id, way->to.z_mm);
+  behind.push_back(wall(site.root_z));
   double left = cut.depth_mm;
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
@@ -151,13 +250,16 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    // Along an arc that falls, else level.
-    const auto begins = arc_normal(drawn, drawn.from);
-    auto from = level(way->from, before, tool.re_mm);
-    if (begins.z < 0)
-      from = Point{way->from.h_mm - begins.z * kBefore_mm,
-                   way->from.z_mm + begins.h * kBefore_mm};
-    site.approach(p.side, from.value_or(way->from), kAbove_mm);
+    const auto from = comes_in(raised, *way, before, behind, tool.re_mm);
+    if (!from) {
+      site.cannot.push_back(fmt::format(
+          "setup {}, {}: no tool gets to the beginning of arc {} past what is before it",
+          site.setup, o.id, s.id));
+      return;
+    }
+    if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;
+    const double above = highest(p, from->z_mm, from->z_mm + 2 * tool.re_mm);
+    site.approach(p.side, *from, std::max(above - from->h_mm, 0.0) + kAbove_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});

@@ -18,6 +18,7 @@ double half_chord(double radius_mm, double across_mm) {
 }
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr int kPoints = 64;  // looked at along an arc
 
 double apart(const Point& a, const Point& b) {
   return std::hypot(a.h_mm - b.h_mm, a.z_mm - b.z_mm);
@@ -134,6 +135,26 @@ double distance_mm(const Piece& piece, const Point& p) {
   const Normal to{p.h_mm - a.h_mm, p.z_mm - a.z_mm};
   const double s = dot(to, way);
   return s <= 0 || s >= l ? to_ends : std::abs(to.h * way.z - to.z * way.h);
+}
+
+bool clears_behind(const Point& tip, std::span<const Piece> pieces, double r,
+                   double rises_rad) {
+  constexpr double kTouch = 2e-6;
+  const Normal n{-std::cos(rises_rad), std::sin(rises_rad)};  // of the edge, outwards
+  const Point centre{tip.h_mm + r, tip.z_mm + r};
+  const auto inside = [&](const Point& p) {
+    const Normal to{p.h_mm - centre.h_mm, p.z_mm - centre.z_mm};
+    const bool behind = to.z * std::cos(rises_rad) + to.h * std::sin(rises_rad) > 0;
+    return behind && dot(to, n) < r - kTouch;
+  };
+  for (const auto& piece : pieces) {
+    if (inside(piece.from) || inside(piece.to)) return false;
+    if (!piece.arc) continue;
+    const auto course = around(*piece.arc);
+    for (int i = 1; i < kPoints; ++i)
+      if (inside(course.at(course.length_mm * i / kPoints))) return false;
+  }
+  return true;
 }
 
 Course along(std::vector<Point> way) {

@@ -160,15 +160,19 @@ std::optional<double> wall_behind(const Site& site, const Side& side, std::size_
 // What ends a pass of element k.
 std::vector<Piece> ends(const Pass& p, std::size_t k) {
   std::vector<Piece> all;
-  if (p.last) {
+  if (p.last)
     all = drawn_behind(p.site, p.side, k);
-  } else {
-    if (p.side.sign > 0) all.push_back(wall(p.site.root_z));
-    if (const auto z = wall_behind(p.site, p.side, k)) all.push_back(wall(*z));
-  }
+  else if (const auto z = wall_behind(p.site, p.side, k))
+    all.push_back(wall(*z));
   const double stock = shoulder_stock_mm(p.site, p.operation, p.side, k);
   if (stock > 0) all.push_back(wall(p.side.items[k].z1 + stock));
   return all;
+}
+
+bool cut_later(const Site& site, const Surface& s) {
+  const auto& d = site.part.drawing;
+  const auto& cut = s.inner ? d.inner[s.index].cut : d.outer[s.index].cut;
+  return cut && cut->kind != part::CutKind::thread;
 }
 
 // Ends where the corner meets something, or behind an edge that falls.
@@ -182,6 +186,11 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
     last = at_z(way[way.size() - 2], last, last.z_mm - corner - kBehind_mm);
   }
   clip(way, ends(p, k), p.re_mm);
+  if (way.size() < 2 || p.side.sign < 0) return;
+  if (p.last && !p.goes_on() && !cut_later(p.site, p.surface()))
+    tell_jaws(p.site, p.k, p.site.answer().operations[p.operation].id,
+              std::max(way.back().z_mm, p.surface().z1 - p.re_mm));
+  clip(way, {{wall(p.site.root_z)}}, p.re_mm);
 }
 
 std::vector<Point> way_of(const Pass& p) {
@@ -193,6 +202,7 @@ std::vector<Point> way_of(const Pass& p) {
     way.front() = across(before.back(), n, c[0], normal(c[0], c[1]), p.re_mm).meet;
   } else {
     lead_in(p, c, way);
+    if (way.size() < 2) return {};
     start_clear(p, way);
   }
   if (p.goes_on()) {
@@ -262,8 +272,13 @@ bool joined(const Site& site, std::size_t i) {
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);
   if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
+  // A shorter one may lie whole in the fillets at its ends.
+  const auto takes_the_corner = [&](const Surface& s) {
+    return std::hypot(s.h1 - s.h0, s.z1 - s.z0) >= 2 * corner_mm(site, a);
+  };
   const auto &s = side.items[k], &t = side.items[k + 1];
-  return std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm;
+  return std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
+         takes_the_corner(s) && takes_the_corner(t);
 }
 
 void turn(Site& site, std::size_t operation) {

@@ -77,6 +77,11 @@ struct Piece {
 };
 double distance_mm(const Piece& piece, const Point& p);
 
+/// Whether no piece reaches into what a tool takes behind its corner, towards the free end:
+/// all above a minor edge that rises at an angle.
+bool clears_behind(const Point& tip, std::span<const Piece> pieces, double re_mm,
+                   double rises_rad);
+
 /// A way of a length: its place after s, no faster than s.
 struct Course {
   double length_mm = 0;
