@@ -124,15 +124,17 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   const auto& s = site.outer.items[k];
   const auto own = pieces(site, site.outer, s).back();
   const auto behind = drawn_behind(site, site.outer, k);
-  // What is level behind is turned from the other end, and the pass goes on to here.
+  // What is level behind is turned later from the other end, and its pass goes on to here.
   const auto level = [&](const Piece& piece) {
     return !piece.arc && std::abs(piece.to.h_mm - own.to.h_mm) < kStands_mm;
   };
-  if (!own.arc && behind.size() > 2 && level(behind[1]) && level(behind[2])) return;
-  site.cannot.push_back(
-      fmt::format("setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
-                  "needs {:.3g} mm",
-                  site.setup, operation, s.id, s.z1 - site.root_z, s.z1 - needed_z));
+  if (!own.arc && behind.size() > 2 && level(behind[1]) && level(behind[2]) &&
+      site.outer.items[k + 1].stock)
+    return;
+  site.cannot.push_back(fmt::format(
+      "setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
+      "needs {:.3g} mm",
+      site.setup, operation, s.id, std::max(s.z1 - site.root_z, 0.0), s.z1 - needed_z));
 }
 
 }  // namespace turnwright::nc

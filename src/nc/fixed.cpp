@@ -128,7 +128,7 @@ void groove(Site& site, const OperationPlan& o, const Place& p) {
   for (std::size_t i = 0; i < n; ++i) {
     const double z = s.z1 + static_cast<double>(i) * step;
     const double beside = i == 0 && rises_behind(p, s.h1) ? kBehind_mm : 0;
-    site.approach(p.side, {above, z + beside}, 0);
+    site.approach(p.side, {above, z + beside});
     site.to(Kind::feed, p.side, {above, z});
     site.to(Kind::feed, p.side, {floor, z});
     site.rapid(p.side.sign * above, z);
@@ -156,7 +156,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   if (unfaced(site, o, s, s.z0 + run_in)) return;
   const double end = s.z1 + (rises_behind(p, root) ? P : 0);
   const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
-  site.approach(p.side, before, 0);
+  site.approach(p.side, before);
   double h = s.h0;
   for (const auto& pass : o.passes) {
     h -= pass.ap_mm;
@@ -211,14 +211,6 @@ std::optional<Point> comes_in(const Arc& drawn, const Arc& way,
   return std::nullopt;
 }
 
-// Of what stands over a stretch of the axis.
-double highest(const Place& p, double from_z, double to_z) {
-  double top = -INFINITY;
-  for (const auto& s : p.side.items)
-    if (s.z0 > from_z && s.z1 < to_z) top = std::max(top, p.side.top(s));
-  return top;
-}
-
 void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   const auto& s = p.surface();
   const auto& cut = cut_of(site, s);
@@ -258,8 +250,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
       return;
     }
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;
-    const double above = highest(p, from->z_mm, from->z_mm + 2 * tool.re_mm);
-    site.approach(p.side, *from, std::max(above - from->h_mm, 0.0) + kAbove_mm);
+    site.approach(p.side, *from, tool.re_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});
@@ -273,7 +264,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
 void part_off(Site& site, const OperationPlan& o) {
   const double L = part::length_mm(site.part.drawing), w = o.passes[0].ap_mm;
   const double z = -L - *site.part.drawing.stock.parted_mm - w;
-  site.approach(site.outer, {site.outer.stock_h + kAbove_mm, z}, 0);
+  site.approach(site.outer, {site.outer.stock_h + kAbove_mm, z});
   site.to(Kind::feed, site.outer, {site.part.drawing.stock.inner_mm / 2, z});
   site.rapid(site.outer.stock_h + kClear_mm, z);
 }

@@ -9,6 +9,13 @@ using planning::SetupWork;
 
 double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
 
+double Side::highest(double from_z, double to_z) const {
+  double h = -INFINITY;
+  for (const auto& s : items)
+    if (s.z0 > from_z && s.z1 < to_z) h = std::max(h, top(s));
+  return h;
+}
+
 Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
            std::size_t setup_)
     : part(part_),
@@ -67,8 +74,14 @@ void Site::to(Move::Kind kind, const Side& side, const Point& p) {
   at = {side.sign * p.h_mm, p.z_mm};
 }
 
-void Site::approach(const Side& side, const Point& p, double above_mm) {
-  const double x = side.sign * (p.h_mm + above_mm);
+void Site::approach(const Side& side, const Point& p, double re_mm) {
+  const double stands = std::max(side.highest(p.z_mm, p.z_mm + 2 * re_mm), p.h_mm);
+  approach(side, {stands + above(side), p.z_mm});
+  to(Move::Kind::feed, side, p);
+}
+
+void Site::approach(const Side& side, const Point& p) {
+  const double x = side.sign * p.h_mm;
   if (side.sign > 0) {
     rapid(std::max(at.h_mm, outer.stock_h + kClear_mm), at.z_mm);
     rapid(at.h_mm, p.z_mm);
@@ -78,7 +91,6 @@ void Site::approach(const Side& side, const Point& p, double above_mm) {
     rapid(x, at.z_mm);
     rapid(x, p.z_mm);
   }
-  to(Move::Kind::feed, side, p);
 }
 
 void Site::lift(const Side& side) {

@@ -37,6 +37,8 @@ struct Side {
   double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
   double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
   double top(const Surface& s) const;
+  /// Of what stands over a stretch of the axis.
+  double highest(double from_z, double to_z) const;
 };
 
 class Site {
@@ -64,8 +66,11 @@ class Site {
   Point at;  ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
-  /// From wherever it is to `above` over a point, then at feed onto it.
-  void approach(const Side& side, const Point& p, double above_mm);
+  /// From wherever it is to a point over what stands there, its own corner clear, then at
+  /// feed onto it.
+  void approach(const Side& side, const Point& p, double re_mm);
+  /// From wherever it is to a point in the air.
+  void approach(const Side& side, const Point& p);
   /// Off a surface and out of a corner.
   void lift(const Side& side);
   /// To the place of tool change.

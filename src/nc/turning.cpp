@@ -124,18 +124,20 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
 }
 
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
-// material before the free end.
+// material before the free end; not where a blank before is higher than the pass.
 void start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
+  const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
   double from = z;
   bool first = p.k == 0;
-  for (std::size_t j = 0; j < p.k; ++j) {
+  for (std::size_t j = p.k; j-- > 0;) {
     auto& s = p.side.items[j];
+    if (blank(s) > h + kStands_mm) break;
     if (!(p.side.top(s) > h + kStands_mm)) continue;
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
-    s.left = h - std::max(s.h0, s.h1);
+    s.left = h - blank(s);
   }
   if (first && from < p.site.front + kBefore_mm && p.site.front > 0)
     from = p.site.front + kBefore_mm;
@@ -220,7 +222,7 @@ void pass(const Pass& p) {
     if (p.from_before())
       p.site.to(Kind::feed, p.side, way.front());
     else
-      p.site.approach(p.side, way.front(), p.site.above(p.side));
+      p.site.approach(p.side, way.front(), p.re_mm);
     for (std::size_t i = 1; i < way.size(); ++i) p.site.to(Kind::feed, p.side, way[i]);
   }
   if (!p.goes_on()) p.site.lift(p.side);
@@ -234,7 +236,7 @@ void face_pass(Site& site, const std::vector<Point>& contact, double re) {
   auto way = tips(contact, re);
   way.front() = at_h(way[0], way[1], contact.front().h_mm - re);
   std::reverse(way.begin(), way.end());
-  site.approach(site.outer, way.front(), 0);
+  site.approach(site.outer, way.front());
   for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
 }
 
