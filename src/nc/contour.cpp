@@ -79,15 +79,6 @@ Arc drawn_arc(const Site& site, const Surface& s) {
 
 Piece wall(double z_mm) { return {{kFar_mm, z_mm}, {-kFar_mm, z_mm}, {}}; }
 
-std::optional<Point> level(const Point& tip, const std::vector<Piece>& before,
-                           double re_mm) {
-  constexpr double kTouching_mm = 2e-6;
-  const Point from{tip.h_mm + kTouching_mm, tip.z_mm + kBefore_mm};
-  const auto course = along({{tip.h_mm + kTouching_mm, tip.z_mm}, from});
-  if (free_mm(course, before, re_mm) < course.length_mm) return std::nullopt;
-  return Point{tip.h_mm, from.z_mm};
-}
-
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k) {
   std::vector<Piece> all;
   for (std::size_t j = 0; j <= k; ++j) {
@@ -109,11 +100,11 @@ std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t 
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
-    if (s.z0 < z - kSame_mm) break;  // between bores from both ends
+    if (s.z0 < z - kGap_mm) break;  // between bores from both ends
     append(all, pieces(site, side, s));
     z = s.z1;
   }
-  const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
+  const bool at_end = z + part::length_mm(site.part.drawing) < kGap_mm;
   if (side.sign < 0 && !at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
     append(all, {{{side.stock_h, z}, {side.stock_h, z - kFar_mm}, {}}});
   return all;
@@ -126,15 +117,25 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   const auto behind = drawn_behind(site, site.outer, k);
   // What is level behind is turned later from the other end, and its pass goes on to here.
   const auto level = [&](const Piece& piece) {
-    return !piece.arc && std::abs(piece.to.h_mm - own.to.h_mm) < kStands_mm;
+    return !piece.arc && std::abs(piece.from.h_mm - own.to.h_mm) < kStands_mm &&
+           std::abs(piece.to.h_mm - own.to.h_mm) < kStands_mm;
   };
-  if (!own.arc && behind.size() > 2 && level(behind[1]) && level(behind[2]) &&
+  if (level(own) && behind.size() > 2 && level(behind[1]) && level(behind[2]) &&
       site.outer.items[k + 1].stock)
     return;
   site.cannot.push_back(fmt::format(
       "setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
       "needs {:.3g} mm",
       site.setup, operation, s.id, std::max(s.z1 - site.root_z, 0.0), s.z1 - needed_z));
+}
+
+bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
+              const Corner& corner) {
+  constexpr double kTouching_mm = 2e-6, kHigh_mm = 1e3;
+  std::vector<Point> raised{{way[0].h_mm + kHigh_mm, way[0].z_mm}};
+  for (const auto& p : way) raised.push_back({p.h_mm + kTouching_mm, p.z_mm});
+  const auto course = along(raised);
+  return free_mm(course, pieces, corner) >= course.length_mm;
 }
 
 }  // namespace turnwright::nc

@@ -32,9 +32,9 @@ Piece wall(double z_mm);
 void tell_jaws(Site& site, std::size_t k, const std::string& operation,
                double needed_z_mm);
 
-/// From where a tip comes level to the beginning of its way, if what is drawn before lets
-/// it.
-std::optional<Point> level(const Point& tip, const std::vector<Piece>& before,
-                           double re_mm);
+/// Whether a tool comes down to the beginning of a way and goes along it, past what is
+/// drawn.
+bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
+              const Corner& corner);
 
 }  // namespace turnwright::nc

@@ -19,7 +19,6 @@ using planning::OperationPlan;
 using Kind = Move::Kind;
 
 constexpr double kRunIn = 3;  // of a thread, in pitches
-constexpr int kPlaces = 20;   // looked at along an arc
 
 const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
   return *std::find_if(site.part.fixed_tools.begin(), site.part.fixed_tools.end(),
@@ -167,47 +166,29 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-// The part of an arc's way on which the corner stays off what is before and behind it.
+// The part of an arc's way on which a tool stays off what is before and behind it.
 std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
-                           const std::vector<Piece>& behind, double re_mm) {
+                           const std::vector<Piece>& behind, const Corner& corner) {
   const auto course = around(way);
   const double L = course.length_mm;
   const Course second{L / 2, [&](double s) { return course.at(L / 2 + s); }};
   const Course first{L / 2, [&](double s) { return course.at(L / 2 - s); }};
-  const double to = free_mm(second, behind, re_mm), from = free_mm(first, before, re_mm);
+  const double to = free_mm(second, behind, corner),
+               from = free_mm(first, before, corner);
   if (!(to + from > 0)) return std::nullopt;
   return Arc{first.at(from), second.at(to), way.centre, way.convex};
 }
 
-// Whether a corner comes down to a place and goes a way from there, past what is drawn.
-bool comes(const std::vector<Point>& way, const std::vector<Piece>& before,
-           const std::vector<Piece>& behind, double re_mm) {
-  constexpr double kTouching_mm = 2e-6, kHigh_mm = 1e3;
-  std::vector<Point> raised{{way[0].h_mm + kHigh_mm, way[0].z_mm}};
-  for (const auto& p : way) raised.push_back({p.h_mm + kTouching_mm, p.z_mm});
-  const auto course = along(raised);
-  return free_mm(course, before, re_mm) >= course.length_mm &&
-         free_mm(course, behind, re_mm) >= course.length_mm &&
-         clears_behind(way[0], before, re_mm, part::kProfilingClears_rad);
-}
-
 // Where the way of an arc begins: along an arc that falls, level, or from above, as what is
 // drawn lets it.
-std::optional<Point> comes_in(const Arc& drawn, const Arc& way,
-                              const std::vector<Piece>& before,
-                              const std::vector<Piece>& behind, double re_mm) {
-  const auto course = around(way);
-  for (int i = 0; i <= kPlaces; ++i)
-    if (!clears_behind(course.at(course.length_mm * i / kPlaces), before, re_mm,
-                       part::kProfilingClears_rad))
-      return std::nullopt;
+std::optional<Point> beginning(const Arc& drawn, const Point& to,
+                               const std::vector<Piece>& pieces, const Corner& corner) {
   const auto n = arc_normal(drawn, drawn.from);
-  const Point along_arc{way.from.h_mm - n.z * kBefore_mm,
-                        way.from.z_mm + n.h * kBefore_mm};
-  const Point level{way.from.h_mm, way.from.z_mm + kBefore_mm};
-  if (n.z < 0 && comes({along_arc, way.from}, before, behind, re_mm)) return along_arc;
-  if (comes({level, way.from}, before, behind, re_mm)) return level;
-  if (comes({way.from}, before, behind, re_mm)) return way.from;
+  const Point along_arc{to.h_mm - n.z * kBefore_mm, to.z_mm + n.h * kBefore_mm};
+  const Point level{to.h_mm, to.z_mm + kBefore_mm};
+  if (n.z < 0 && comes_in({along_arc, to}, pieces, corner)) return along_arc;
+  if (comes_in({level, to}, pieces, corner)) return level;
+  if (comes_in({to}, pieces, corner)) return to;
   return std::nullopt;
 }
 
@@ -222,19 +203,22 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
         site.setup, o.id, s.id, units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
+  const Corner corner{tool.re_mm, part::kProfilingClears_rad};
   const auto before = drawn_before(site, p.side, p.k);
   auto behind = drawn_behind(site, p.side, p.k);
   if (const auto whole = tip_arc(drawn, tool.re_mm))
-    if (const auto way = between(*whole, before, behind, tool.re_mm))
+    if (const auto way = between(*whole, before, behind, corner))
       tell_jaws(site, p.k, o.id, way->to.z_mm);
   behind.push_back(wall(site.root_z));
+  auto all = before;
+  all.insert(all.end(), behind.begin(), behind.end());
   double left = cut.depth_mm;
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
     const auto whole = tip_arc(raised, tool.re_mm);
-    const auto way = whole ? between(*whole, before, behind, tool.re_mm) : std::nullopt;
+    const auto way = whole ? between(*whole, before, behind, corner) : std::nullopt;
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
@@ -242,7 +226,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    const auto from = comes_in(raised, *way, before, behind, tool.re_mm);
+    const auto from = beginning(raised, way->from, all, corner);
     if (!from) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: no tool gets to the beginning of arc {} past what is before it",

@@ -137,24 +137,22 @@ double distance_mm(const Piece& piece, const Point& p) {
   return s <= 0 || s >= l ? to_ends : std::abs(to.h * way.z - to.z * way.h);
 }
 
-bool clears_behind(const Point& tip, std::span<const Piece> pieces, double r,
-                   double rises_rad) {
-  constexpr double kTouch = 2e-6;
-  const Normal n{-std::cos(rises_rad), std::sin(rises_rad)};  // of the edge, outwards
+double distance_mm(const Piece& piece, const Point& tip, const Corner& corner) {
+  const double r = corner.re_mm;
   const Point centre{tip.h_mm + r, tip.z_mm + r};
-  const auto inside = [&](const Point& p) {
-    const Normal to{p.h_mm - centre.h_mm, p.z_mm - centre.z_mm};
-    const bool behind = to.z * std::cos(rises_rad) + to.h * std::sin(rises_rad) > 0;
-    return behind && dot(to, n) < r - kTouch;
+  const double to_circle = distance_mm(piece, centre) - r;
+  if (!corner.rises_rad) return to_circle;
+  const double c = std::cos(*corner.rises_rad), s = std::sin(*corner.rises_rad);
+  const auto to_edge = [&](const Point& p) {
+    const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
+    return z > 0 && z * c + h * s > 0 ? z * s - h * c - r : INFINITY;
   };
-  for (const auto& piece : pieces) {
-    if (inside(piece.from) || inside(piece.to)) return false;
-    if (!piece.arc) continue;
-    const auto course = around(*piece.arc);
-    for (int i = 1; i < kPoints; ++i)
-      if (inside(course.at(course.length_mm * i / kPoints))) return false;
-  }
-  return true;
+  double least = std::min({to_circle, to_edge(piece.from), to_edge(piece.to)});
+  if (!piece.arc) return least;
+  const auto course = around(*piece.arc);
+  for (int i = 1; i < kPoints; ++i)
+    least = std::min(least, to_edge(course.at(course.length_mm * i / kPoints)));
+  return least;
 }
 
 Course along(std::vector<Point> way) {
@@ -189,15 +187,15 @@ Course backwards(Course course) {
           [length, at = std::move(course.at)](double s) { return at(length - s); }};
 }
 
-double free_mm(const Course& tip, std::span<const Piece> pieces, double r) {
+double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& corner) {
   constexpr double kTouch = 1e-6;  // mm
   constexpr double kStep = 1e-3;   // cuts off less than 1e-6 mm where an edge is grazed
   const auto room = [&](double s) {
     const auto p = tip.at(s);
     double least = INFINITY;
     for (const auto& piece : pieces)
-      least = std::min(least, distance_mm(piece, {p.h_mm + r, p.z_mm + r}));
-    return least - (r - kTouch);
+      least = std::min(least, distance_mm(piece, p, corner));
+    return least + kTouch;
   };
   double free = 0, now = room(0);
   if (!(now > 0)) return 0;

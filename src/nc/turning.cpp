@@ -1,9 +1,12 @@
 #include "turning.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "contour.hpp"
+#include "turnwright/base/units.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -26,6 +29,12 @@ bool is_on(const OperationPlan& o, const std::string& surface) {
 
 bool is_bore(OperationKind kind) {
   return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
+}
+
+double minor_edge_rad(const Site& site, const OperationPlan& o) {
+  const auto tool = std::find_if(site.part.tools.begin(), site.part.tools.end(),
+                                 [&](const auto& t) { return t.id == o.tool; });
+  return units::rad_from_deg(tool->minor_kapr_deg);
 }
 
 // What operations after this one take off the same surface.
@@ -55,9 +64,9 @@ double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& si
 }
 
 // Ends a way where the corner touches a piece.  Whether it does.
-bool clip(std::vector<Point>& way, std::span<const Piece> pieces, double re_mm) {
+bool clip(std::vector<Point>& way, std::span<const Piece> pieces, const Corner& corner) {
   const auto course = along(way);
-  const double free = free_mm(course, pieces, re_mm);
+  const double free = free_mm(course, pieces, corner);
   if (!(free < course.length_mm)) return false;
   double length = course.length_mm;
   while (way.size() > 1 && length > free) {
@@ -92,6 +101,8 @@ struct Pass {
     return last && operation > 0 && joined(site, operation - 1);
   }
   bool goes_on() const { return last && joined(site, operation); }
+  const OperationPlan& plan() const { return site.answer().operations[operation]; }
+  Corner tool() const { return {re_mm, minor_edge_rad(site, plan())}; }
 };
 
 std::vector<Point> contour(const Pass& p) {
@@ -113,14 +124,20 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
       way.front().z_mm += far;
     return;
   }
+  const double own = along(way).length_mm;
   way.front() = {way.front().h_mm - n.z * far, way.front().z_mm + n.h * far};
   const auto pieces = drawn_before(p.site, p.side, p.k);
   way = {way.rbegin(), way.rend()};
-  const bool stopped = clip(way, pieces, p.re_mm);
+  const double lets = free_mm(along(way), pieces, {p.re_mm});
+  const bool stopped = clip(way, pieces, p.tool());
+  if (along(way).length_mm < std::min(lets, own) - kStands_mm)
+    p.site.cannot.push_back(
+        fmt::format("setup {}, {}: the minor edge of {} does not clear what is before {}",
+                    p.site.setup, p.plan().id, p.plan().tool, p.surface().id));
   way = {way.rbegin(), way.rend()};
   if (!stopped || way.empty()) return;
-  if (const auto from = level(way.front(), pieces, p.re_mm))
-    way.insert(way.begin(), *from);
+  const Point level{way.front().h_mm, way.front().z_mm + kBefore_mm};
+  if (comes_in({level, way.front()}, pieces, p.tool())) way.insert(way.begin(), level);
 }
 
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
@@ -150,11 +167,11 @@ std::optional<double> wall_behind(const Site& site, const Side& side, std::size_
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
-    if (s.z0 < z - kSame_mm) break;  // between bores from both ends
+    if (s.z0 < z - kGap_mm) break;  // between bores from both ends
     if (std::max(s.h0, s.h1) > h) return s.z0;
     z = s.z1;
   }
-  const bool at_end = z + part::length_mm(site.part.drawing) < kSame_mm;
+  const bool at_end = z + part::length_mm(site.part.drawing) < kGap_mm;
   if (side.sign < 0 && !at_end && side.stock_h > h) return z;  // the hole goes on
   return std::nullopt;
 }
@@ -177,22 +194,23 @@ bool cut_later(const Site& site, const Surface& s) {
   return cut && cut->kind != part::CutKind::thread;
 }
 
-// Ends where the corner meets something, or behind an edge that falls.
+// Ends where the corner meets something, or where it has taken off what another corner may
+// have left behind an edge that falls.
 void lead_out(const Pass& p, std::vector<Point>& way) {
   auto o = p.operation;
   auto k = p.k;
   for (; p.last && joined(p.site, o); ++o) ++k;
   if (!p.goes_on()) {
     auto& last = way.back();
-    const double corner = p.side.sign > 0 ? p.site.r_most : p.re_mm;
-    last = at_z(way[way.size() - 2], last, last.z_mm - corner - kBehind_mm);
+    last =
+        at_z(way[way.size() - 2], last, last.z_mm - p.site.r_most - p.re_mm - kBehind_mm);
   }
-  clip(way, ends(p, k), p.re_mm);
+  clip(way, ends(p, k), {p.re_mm});
   if (way.size() < 2 || p.side.sign < 0) return;
   if (p.last && !p.goes_on() && !cut_later(p.site, p.surface()))
-    tell_jaws(p.site, p.k, p.site.answer().operations[p.operation].id,
+    tell_jaws(p.site, p.k, p.plan().id,
               std::max(way.back().z_mm, p.surface().z1 - p.re_mm));
-  clip(way, {{wall(p.site.root_z)}}, p.re_mm);
+  clip(way, {{wall(p.site.root_z)}}, {p.re_mm});
 }
 
 std::vector<Point> way_of(const Pass& p) {

@@ -177,7 +177,7 @@ TEST(Course, GoesItsLengthFromEndToEnd) {
 TEST(FreeWay, EndsWhereTheCornerTouches) {
   const double r = 0.8;
   const auto course = along({{20, 5}, {20, -5}});  // of the tip: its centre is r before
-  const auto free = [&](const Piece& p) { return free_mm(course, {{p}}, r); };
+  const auto free = [&](const Piece& p) { return free_mm(course, {{p}}, {r}); };
   EXPECT_NEAR(free(line({20, -3}, {30, -3})), 8, 1e-5);
   EXPECT_NEAR(free(line({20.01, -3}, {20.01, -9})),
               8 + r - std::sqrt(r * r - (r - 0.01) * (r - 0.01)), 1e-4);

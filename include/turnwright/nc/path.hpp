@@ -77,10 +77,14 @@ struct Piece {
 };
 double distance_mm(const Piece& piece, const Point& p);
 
-/// Whether no piece reaches into what a tool takes behind its corner, towards the free end:
-/// all above a minor edge that rises at an angle.
-bool clears_behind(const Point& tip, std::span<const Piece> pieces, double re_mm,
-                   double rises_rad);
+/// A tool's corner, and its minor edge behind, towards the free end, which rises at an angle
+/// and ends nowhere; none: nothing is behind it.
+struct Corner {
+  double re_mm = 0;
+  std::optional<double> rises_rad = std::nullopt;
+};
+/// Of a piece from a tool with its tip at a point; negative inside of it.
+double distance_mm(const Piece& piece, const Point& tip, const Corner& corner);
 
 /// A way of a length: its place after s, no faster than s.
 struct Course {
@@ -92,8 +96,8 @@ Course along(std::vector<Point> way);
 Course around(const Arc& arc);
 Course backwards(Course course);
 
-/// How far a tip gets along a course before its corner is nearer to a piece than its radius,
-/// but for 1e-6 mm: an edge that it passes over does not stop it.
-double free_mm(const Course& tip, std::span<const Piece> pieces, double re_mm);
+/// How far a tip gets along a course before its tool cuts into a piece, but for 1e-6 mm: an
+/// edge that it passes over does not stop it.
+double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& corner);
 
 }  // namespace turnwright::nc
