@@ -10,8 +10,7 @@ namespace turnwright::nc {
 namespace {
 
 constexpr double kFar_mm = 1e4;
-constexpr double kTouch_mm = 1e-5;   // more than free_mm goes too far
-constexpr double kStands_mm = 0.01;  // more than corrections differ
+constexpr double kTouch_mm = 1e-5;  // more than free_mm goes too far
 
 // An element as it is drawn.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {

@@ -54,7 +54,7 @@ bool spared(Site& site, const OperationPlan& o, double depth, double point, doub
   const auto& d = site.part.drawing;
   const auto other = site.sign > 0 ? part::End::left : part::End::right;
   const double rest = part::length_mm(d) - depth - bored_mm(d, other);
-  if (rest < kSame_mm) {  // through, into the other end's bores or into the open
+  if (rest < kGap_mm) {  // through, into the other end's bores or into the open
     double narrowest = INFINITY;
     for (const auto& e : d.inner)
       if (e.from == other) narrowest = std::min({narrowest, e.left_mm, e.right_mm});
@@ -166,7 +166,8 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-// The part of an arc's way on which a tool stays off what is before and behind it.
+// The part of an arc's way on which a tool stays off what is before and behind it; none if
+// its minor edge does not clear what is before.
 std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
                            const std::vector<Piece>& behind, const Corner& corner) {
   const auto course = around(way);
@@ -175,7 +176,8 @@ std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
   const Course first{L / 2, [&](double s) { return course.at(L / 2 - s); }};
   const double to = free_mm(second, behind, corner),
                from = free_mm(first, before, corner);
-  if (!(to + from > 0)) return std::nullopt;
+  const double corner_alone = free_mm(first, before, {corner.re_mm});
+  if (!(to + from > 0) || from < corner_alone - kStands_mm) return std::nullopt;
   return Arc{first.at(from), second.at(to), way.centre, way.convex};
 }
 
@@ -221,8 +223,8 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     const auto way = whole ? between(*whole, before, behind, corner) : std::nullopt;
     if (!way) {
       site.cannot.push_back(fmt::format(
-          "setup {}, {}: arc {} of {:g} mm does not take the tool's corner of "
-          "{:g} mm",
+          "setup {}, {}: arc {} of {:g} mm between what is beside it does not "
+          "take the tool, of a corner of {:g} mm",
           site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }

@@ -15,8 +15,6 @@ using planning::OperationKind;
 using planning::OperationPlan;
 using Kind = Move::Kind;
 
-constexpr double kStands_mm = 0.01;  // more than corrections differ
-
 double depth_mm(const OperationPlan& o) {
   double sum = 0;
   for (const auto& pass : o.passes) sum += pass.ap_mm;
@@ -292,13 +290,14 @@ bool joined(const Site& site, std::size_t i) {
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);
   if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
-  // A shorter one may lie whole in the fillets at its ends.
-  const auto takes_the_corner = [&](const Surface& s) {
-    return std::hypot(s.h1 - s.h0, s.z1 - s.z0) >= 2 * corner_mm(site, a);
+  // A shorter one may lie whole in the fillets at its ends; what is cut later has none.
+  const auto joins = [&](const Surface& s) {
+    return std::hypot(s.h1 - s.h0, s.z1 - s.z0) >= 2 * corner_mm(site, a) &&
+           !cut_later(site, s);
   };
   const auto &s = side.items[k], &t = side.items[k + 1];
   return std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
-         takes_the_corner(s) && takes_the_corner(t);
+         joins(s) && joins(t);
 }
 
 void turn(Site& site, std::size_t operation) {
