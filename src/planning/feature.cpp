@@ -166,7 +166,8 @@ Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clam
       plan, setup, clamping,
       with(before, work.elements, work.elements.size(), &Finished::outer));
   f.amplification_ = amplification(plan, clamping, f.bodies_.back());
-  f.face_x_ = f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index));
+  // At the jaws themselves it may lie behind them by its last bits.
+  f.face_x_ = std::max(0.0, f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index)));
   const auto [small, large] =
       std::minmax(outer[index - 1].right_mm, outer[index].left_mm);
   f.D_small_ = small;

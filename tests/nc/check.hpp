@@ -44,10 +44,8 @@ class Check {
   /// The contour against the drawing with the plan's corrections, all setups done.
   void contour() {
     const auto& d = p_.part.drawing;
-    for (std::size_t i = 0; i < d.outer.size(); ++i)
-      element(outer_, 1, d.outer, i, part::left_z_mm(d, i));
-    for (std::size_t i = 0; i < d.inner.size(); ++i)
-      element(inner_, -1, d.inner, i, part::inner_left_z_mm(d, i));
+    contour(outer_, 1, d.outer);
+    contour(inner_, -1, d.inner);
     for (const auto& e : d.outer) thread(e, 1);
     for (const auto& e : d.inner) thread(e, -1);
     for (const double z : {-0.02, length() + 0.02})
@@ -58,7 +56,7 @@ class Check {
   const Faults& faults() const { return faults_; }
 
  private:
-  static constexpr double kBeside = 3, kTolerance = 1e-4, kArcs = 5e-3, kArcs_mm = 0.3;
+  static constexpr double kBeside = 3, kTolerance = 1e-4, kWall = 1e3;
 
   double length() const { return part::length_mm(p_.part.drawing); }
   void fault(const std::string& text) {
@@ -229,27 +227,6 @@ class Check {
     return rc + out * std::sqrt(std::max(0.0, R * R - dz * dz));
   }
 
-  // Whether the contour rises beyond an end of an element, at a place z, or less steeply
-  // falls than it did: in such an inner corner a fillet stays.
-  template <class Element>
-  bool rises(const std::vector<Element>& all, double sign, double own, double z) const {
-    constexpr double kNear = 1e-4;
-    double slope = 0;  // out of the corner, on both sides
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const double z0 = begin(all[k], k), z1 = z0 + all[k].length_mm;
-      const bool starts = std::abs(z - z0) < 1e-9;
-      if (!starts && std::abs(z - z1) > 1e-9) continue;
-      const double u = starts ? 0 : 1, L = all[k].length_mm,
-                   near = starts ? kNear / L : 1 - kNear / L;
-      const auto h = [&](double at) {
-        return sign * (drawn(all[k], at) + correction(all[k].id, std::lerp(z0, z1, at)));
-      };
-      if (h(u) > own + 1e-9) return true;
-      slope += (h(near) - h(u)) / kNear;
-    }
-    if (slope > 1e-3) return true;
-    return sign < 0 && z > 1e-9 && z < length() - 1e-9;  // the hole goes on
-  }
   double begin(const part::OuterElement&, std::size_t k) const {
     return part::left_z_mm(p_.part.drawing, k);
   }
@@ -257,49 +234,105 @@ class Check {
     return part::inner_left_z_mm(p_.part.drawing, k);
   }
 
+  // Drawn height at a place, or if it is at an edge the highest beside it.
+  template <class Element>
+  double height(double sign, const std::vector<Element>& all, double z) const {
+    const bool through = z < 0 || z > length();
+    double h = sign > 0 || through ? -INFINITY : -p_.part.drawing.stock.inner_mm / 2;
+    bool made = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double u = (z - begin(all[k], k)) / all[k].length_mm;
+      if (u < -1e-9 || u > 1 + 1e-9) continue;
+      const double own =
+          sign * (drawn(all[k], std::clamp(u, 0.0, 1.0)) + correction(all[k].id, z));
+      h = made ? std::max(h, own) : own;
+      made = true;
+    }
+    return h;
+  }
+
+  // Of the largest corner that the plan turns a side with.
+  double corner_mm(bool inner) const {
+    double r = 0;
+    for (const auto& s : p_.plan.setups)
+      for (const auto& o : s.operations) {
+        const auto e = part::extent(p_.part.drawing, o.on[0]);
+        if ((e && e->inner) == inner) r = std::max(r, tool(o).outline.re_mm);
+      }
+    return r;
+  }
+
+  // What a corner that rolls over the contour cannot take off.
+  static std::vector<double> rolled(const std::vector<double>& contour, double r) {
+    const auto n = static_cast<std::ptrdiff_t>(contour.size());
+    const auto reach = static_cast<std::ptrdiff_t>(r / kGrid_mm);
+    std::vector<double> rise;
+    for (std::ptrdiff_t k = 0; k <= reach; ++k)
+      rise.push_back(std::sqrt(r * r - std::pow(kGrid_mm * static_cast<double>(k), 2)));
+    const auto sweep = [&](const std::vector<double>& from, double sign) {
+      std::vector<double> to(from.size(), -INFINITY);
+      for (std::ptrdiff_t i = 0; i < n; ++i)
+        for (std::ptrdiff_t k = std::max(i - reach, std::ptrdiff_t{0});
+             k <= std::min(i + reach, n - 1); ++k)
+          to[static_cast<std::size_t>(i)] =
+              std::max(to[static_cast<std::size_t>(i)],
+                       sign * from[static_cast<std::size_t>(k)] +
+                           rise[static_cast<std::size_t>(std::abs(i - k))]);
+      for (double& h : to) h *= sign;
+      return to;
+    };
+    return sweep(sweep(contour, 1), -1);
+  }
+
+  template <class Element>
+  void contour(const Material& m, double sign, const std::vector<Element>& all) {
+    const double r = corner_mm(sign < 0);
+    std::vector<double> drawn_here;
+    for (std::size_t i = 0; i < m.size(); ++i)
+      drawn_here.push_back(height(sign, all, m.z(i)));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      // A wall counts as high, however low it is, and what falls as level: the corner stays
+      // on the element's own line.
+      const double z0 = begin(all[k], k), z1 = z0 + all[k].length_mm;
+      const auto beside = [&](double z, double beyond) -> std::optional<double> {
+        const double own = height(sign, all, 2 * z - beyond);
+        const double step = height(sign, all, beyond) - own;
+        if (std::abs(step) < 1e-3) return std::nullopt;
+        return step > 0 ? kWall : own;
+      };
+      const auto left = beside(z0, z0 - 1e-5), right = beside(z1, z1 + 1e-5);
+      auto walled = drawn_here;
+      for (std::size_t i = 0; i < m.size(); ++i) {
+        if (left && m.z(i) < z0) walled[i] = std::max(walled[i], *left);
+        if (right && m.z(i) > z1) walled[i] = std::max(walled[i], *right);
+      }
+      element(m, sign, all, k, rolled(walled, r));
+    }
+  }
+
   template <class Element>
   void element(const Material& m, double sign, const std::vector<Element>& all,
-               std::size_t k, double left_z) {
+               std::size_t k, const std::vector<double>& left) {
     const auto& e = all[k];
-    const double L = e.length_mm, step = 1e-6;
-    const double left = drawn(e, 0) + correction(e.id, left_z),
-                 right = drawn(e, 1) + correction(e.id, left_z + L);
-    const bool left_rises = rises(all, sign, sign * left, left_z);
-    const bool right_rises = rises(all, sign, sign * right, left_z + L);
-    // The blank of an arc, its chord, leaves a fillet of its own on what is beside it.
-    const auto arc = [&](std::size_t i) {
-      return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::arc;
-    };
-    const bool left_arc = arc(k - 1), right_arc = arc(k + 1);
+    const double L = e.length_mm, left_z = begin(e, k), step = 1e-6;
     double low = 0, high = 0;
     for (std::size_t i = 0; i < m.size(); ++i) {
       const double z = m.z(i) - left_z;
       if (!(z > 1e-6 && z < L - 1e-6)) continue;
-      const double slope = (drawn(e, std::min(1.0, z / L + step)) -
-                            drawn(e, std::max(0.0, z / L - step))) /
-                           (std::min(1.0, z / L + step) - std::max(0.0, z / L - step)) /
-                           L;
-      const double error = (m[i] - sign * (drawn(e, z / L) + correction(e.id, m.z(i)))) /
-                           std::sqrt(1 + slope * slope);
+      const double u0 = std::max(0.0, z / L - step), u1 = std::min(1.0, z / L + step);
+      const double slope = (drawn(e, u1) - drawn(e, u0)) / (u1 - u0) / L;
+      const double steep = std::sqrt(1 + slope * slope);
+      const double contour = sign * (drawn(e, z / L) + correction(e.id, m.z(i)));
       // An edge to what another setup makes may break by the step of the corrections.
-      if (!corrected(e.id) || std::min(z, L - z) > 0.05) low = std::min(low, error);
-      double fillet = 0;
-      if (left_rises) fillet = std::max(fillet, fillet_mm(z));
-      if (right_rises) fillet = std::max(fillet, fillet_mm(L - z));
-      if ((left_arc && z < kArcs_mm) || (right_arc && L - z < kArcs_mm))
-        fillet = std::max(fillet, kArcs);
-      high = std::max(high, error - fillet);
+      if (!corrected(e.id) || std::min(z, L - z) > 0.05)
+        low = std::min(low, (m[i] - contour) / steep);
+      const double allowed = std::max({left[i - 1], left[i], left[i + 1]});
+      high = std::max(high, (m[i] - allowed) / steep);
     }
     // Radii of corrections are rounded to half the last decimal of a diameter.
     const double tolerance = kTolerance + (corrected(e.id) ? 0.25e-3 : 0);
     if (!(low >= -tolerance) || !(high <= tolerance))
       fault(fmt::format("{}: from {:.5f} to {:.5f} mm off its contour", e.id, low, high));
-  }
-  // That the largest corner leaves at a distance from a wall.
-  double fillet_mm(double d) const {
-    double r = 0;
-    for (const auto& t : p_.part.tools) r = std::max(r, t.re_mm);
-    return d < r ? r - std::sqrt(std::max(0.0, r * r - (r - d) * (r - d))) : 0;
   }
 
   const Planned& p_;

@@ -146,7 +146,7 @@ TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
   ASSERT_EQ(listed(faults_of(rs274, p, p)), "");
   const std::vector<std::pair<const char*, Change>> slips = {
       {"a radius 5 um too small",
-       [](auto t) { return replaced(t, "X28 Z", "X27.99 Z"); }},
+       [](auto t) { return replaced(t, "X28 F0.3", "X27.99 F0.3"); }},
       {"no limit of the spindle",
        [](auto t) {
          return t.replace(t.find(" D"), t.find(" S", t.find("G96")) - t.find(" D"), "");

@@ -13,7 +13,8 @@ namespace turnwright::nc::test {
 
 class RandomPart {
  public:
-  explicit RandomPart(std::uint32_t seed) : random_(seed), tube_(below(3) == 0) {}
+  explicit RandomPart(std::uint32_t seed)
+      : random_(seed), tube_(below(3) == 0), bored_(tube_ || below(4) == 0) {}
 
   nlohmann::json document() {
     outer();
@@ -34,7 +35,7 @@ class RandomPart {
             {{{"hold", "left"}, {"grip_mm", 12}, {"clampings", {"chuck"}}},
              {{"hold", "right"}, {"grip_mm", 12}, {"clampings", {"chuck"}}}}},
            {"damping_ratio", 0.4}};
-    if (tube_) d["inner"] = inner();
+    if (bored_) d["inner"] = inner();
     if (below(2)) d["faces"] = faces();
     return d;
   }
@@ -59,8 +60,8 @@ class RandomPart {
   }
 
   Body body() {
-    if (below(5) == 0) return {true, tube_ ? 56.0 : below(2) ? 30.0 : 36.0};
-    return {false, (tube_ ? 50.0 : 26.0) + 2 * below(14)};
+    if (below(5) == 0) return {true, bored_ ? 56.0 : below(2) ? 30.0 : 36.0};
+    return {false, (bored_ ? 50.0 : 26.0) + 2 * below(14)};
   }
 
   // Cylinders and threads with something or nothing between them, most of them rising
@@ -88,9 +89,18 @@ class RandomPart {
   }
 
   void between(double a, double b) {
-    const int kind = below(5);
+    if (std::abs(a - b) > 4 && below(4) == 0) {  // cones and arcs side by side
+      const double middle = std::round((a + b) / 2);
+      between(a, middle, 1 + below(3));
+      between(middle, b, 1 + below(3));
+    } else {
+      between(a, b, below(5));
+    }
+  }
+
+  void between(double a, double b, int kind) {
     if (kind == 0) {
-      add("groove", 4, {{"diameter_mm", std::min(a, b) - 2 - below(3)}});
+      add("groove", 3 + below(2), {{"diameter_mm", std::min(a, b) - 2 - below(3)}});
     } else if (kind == 1 && a != b) {
       add("cone", 4 + below(20), {{"left_mm", a}, {"right_mm", b}});
     } else if (kind == 2 || kind == 3) {
@@ -145,7 +155,7 @@ class RandomPart {
   }
 
   std::mt19937 random_;
-  bool tube_;
+  bool tube_, bored_;
   json outer_ = json::array();
   int length_mm_ = 0;
   double most_mm_ = 0;
