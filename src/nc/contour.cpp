@@ -14,8 +14,7 @@ constexpr double kTouch_mm = 1e-5;  // more than free_mm goes too far
 
 // An element as it is drawn.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
-  const auto& d = site.part.drawing;
-  const auto& cut = s.inner ? d.inner[s.index].cut : d.outer[s.index].cut;
+  const auto& cut = cut_of(site, s);
   if (cut && cut->kind == part::CutKind::arc) {
     const auto arc = drawn_arc(site, s);
     return {{arc.from, arc.to, arc}};
@@ -63,13 +62,13 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
   return all;
 }
 
-const part::Cut& cut_of(const Site& site, const Surface& s) {
+const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s) {
   const auto& d = site.part.drawing;
-  return *(s.inner ? d.inner[s.index].cut : d.outer[s.index].cut);
+  return s.inner ? d.inner[s.index].cut : d.outer[s.index].cut;
 }
 
 Arc drawn_arc(const Site& site, const Surface& s) {
-  const auto& cut = cut_of(site, s);
+  const auto& cut = *cut_of(site, s);
   const bool mirrored = site.sign < 0;
   const double first = mirrored ? cut.drawn.left_mm : cut.drawn.right_mm;
   const double second = mirrored ? cut.drawn.right_mm : cut.drawn.left_mm;

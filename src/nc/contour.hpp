@@ -15,7 +15,7 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
 const planning::Compensation::Table& correction(const Site& site,
                                                 const std::string& surface);
 
-const part::Cut& cut_of(const Site& site, const Surface& s);
+const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s);
 /// The arc drawn on an element.
 Arc drawn_arc(const Site& site, const Surface& s);
 

@@ -121,7 +121,7 @@ bool rises_behind(const Place& p, double h) {
 void groove(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const double w = o.passes[0].ap_mm, above = s.h0 + site.above(p.side);
-  const double floor = p.side.sign * cut_of(site, s).drawn.left_mm / 2;
+  const double floor = p.side.sign * cut_of(site, s)->drawn.left_mm / 2;
   const auto n = o.passes.size();
   const double step = n > 1 ? (s.z0 - s.z1 - w) / static_cast<double>(n - 1) : 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -137,7 +137,7 @@ void groove(Site& site, const OperationPlan& o, const Place& p) {
 
 void thread(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
-  const auto& cut = cut_of(site, s);
+  const auto& cut = *cut_of(site, s);
   const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
   double room = INFINITY;
   for (std::size_t j = 0; j < p.k; ++j)
@@ -196,7 +196,7 @@ std::optional<Point> beginning(const Arc& drawn, const Point& to,
 
 void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   const auto& s = p.surface();
-  const auto& cut = cut_of(site, s);
+  const auto& cut = *cut_of(site, s);
   const auto drawn = drawn_arc(site, s);
   if (!planning::cleared(site.part, site.setup, s.index)) {
     site.cannot.push_back(fmt::format(

@@ -187,8 +187,7 @@ std::vector<Piece> ends(const Pass& p, std::size_t k) {
 }
 
 bool cut_later(const Site& site, const Surface& s) {
-  const auto& d = site.part.drawing;
-  const auto& cut = s.inner ? d.inner[s.index].cut : d.outer[s.index].cut;
+  const auto& cut = cut_of(site, s);
   return cut && cut->kind != part::CutKind::thread;
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
 #include "slips.hpp"
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/document/file.hpp"
@@ -74,6 +78,27 @@ TEST(NcDoor, SpeaksAnotherControlsWords) {
     EXPECT_NE(text.find(word), text.npos) << word;
   for (const char* word : {"G96 D", "G33", "G95", " M6"})
     EXPECT_EQ(text.find(word), text.npos) << word;
+}
+
+// Whole numbers without a point may count steps there, S takes no decimals, and a percent
+// sign ends the program wherever it stands.
+TEST(NcDoor, WritesAnotherControlsNumbers) {
+  json asked = request("threaded-spindle");
+  asked["control"] = "fanuc";
+  asked["part"]["name"] = "50 % (shaft)";
+  std::istringstream lines(answered(asked)["programs"][0]["text"].get<std::string>());
+  const std::regex word("([XZIKFS])(-?[0-9.]+)");
+  int numbers = 0, ends = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ends += static_cast<int>(std::ranges::count(line, '%'));
+    if (line[0] == '(') continue;
+    for (std::sregex_iterator it(line.begin(), line.end(), word), end; it != end; ++it) {
+      ++numbers;
+      EXPECT_EQ((*it)[2].str().find('.') != std::string::npos, (*it)[1] != "S") << line;
+    }
+  }
+  EXPECT_GT(numbers, 100);
+  EXPECT_EQ(ends, 2);
 }
 
 TEST(NcDoor, SaysWhatHasNoProgram) {

@@ -21,10 +21,11 @@
 ///                 pass that would start in what an element before still carries starts
 ///                 before that element
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
-///                 pass ends r + 0.2 mm behind an edge that falls, unless jaws are nearer
+///                 pass ends where the corner touches what is drawn behind, or r, the
+///                 largest r of the plan's tools and 0.2 mm behind an edge that falls
 ///     cones       are roughed parallel to themselves
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
-///                 runs out along the smaller element to where turning ended
+///                 runs out along the smaller element, a cone too, to where turning ended
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm
 ///     grooves     plunges side by side between the walls, the first at the chuck's
 ///     threads     radial infeeds, each from 3 pitches before; where the part rises
@@ -78,9 +79,8 @@ struct SetupProgram {
 
 struct Programs {
   std::vector<SetupProgram> setups;  ///< none of an infeasible plan
-  /// Sentences; what is here stands in no program, and `setups` is empty: operations from
-  /// the chuck outwards, arcs a corner does not fit into, threads that begin behind a
-  /// larger diameter.
+  /// Sentences on what would be cut wrong or cannot be reached (docs/nc.md lists what);
+  /// then `setups` is empty.
   std::vector<std::string> cannot;
 };
 
