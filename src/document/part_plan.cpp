@@ -126,8 +126,9 @@ void assume_drilled_holes(Draft& draft) {
       auto& e = plan.drawing.inner[i];
       if (e.from != end) continue;
       e.drilled_mm = drilled;
-      draft.assume("/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
-                   "the largest drill that leaves 0.5 mm on the radius");
+      draft.assume(
+          "/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
+          "the largest drill that leaves 0.5 mm on the radius, and what is behind");
     }
   }
 }

@@ -140,9 +140,14 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   const auto& cut = *cut_of(site, s);
   const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
   double room = INFINITY;
-  for (std::size_t j = 0; j < p.k; ++j)
-    if (p.side.top(p.side.items[j]) > root + kSame_mm)
-      room = p.side.items[j].z1 - s.z0 - P / 2;
+  for (std::size_t j = p.k; j-- > 0;) {
+    const auto& e = p.side.items[j];
+    // A chamfer rises to the thread, which is cut into it.
+    const bool chamfer = e.h0 < e.h1 && !(p.side.top(e) > s.h0 + kSame_mm);
+    if (chamfer || !(p.side.top(e) > root + kSame_mm)) continue;
+    room = e.z1 - s.z0 - P / 2;
+    break;
+  }
   const double run_in = std::min(kRunIn * P, room);
   if (!(run_in >= P)) {
     site.cannot.push_back(
@@ -171,14 +176,12 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
 std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
                            const std::vector<Piece>& behind, const Corner& corner) {
   const auto course = around(way);
-  const double L = course.length_mm;
-  const Course second{L / 2, [&](double s) { return course.at(L / 2 + s); }};
-  const Course first{L / 2, [&](double s) { return course.at(L / 2 - s); }};
-  const double to = free_mm(second, behind, corner),
-               from = free_mm(first, before, corner);
-  const double corner_alone = free_mm(first, before, {corner.re_mm});
-  if (!(to + from > 0) || from < corner_alone - kStands_mm) return std::nullopt;
-  return Arc{first.at(from), second.at(to), way.centre, way.convex};
+  const double to = free_mm(course, behind, corner);
+  const Course back{to, [&](double s) { return course.at(to - s); }};
+  const double from = free_mm(back, before, corner);
+  if (!(from > 0) || from < free_mm(back, before, {corner.re_mm}) - kStands_mm)
+    return std::nullopt;
+  return Arc{back.at(from), course.at(to), way.centre, way.convex};
 }
 
 // Where the way of an arc begins: along an arc that falls, level, or from above, as what is
@@ -231,7 +234,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     const auto from = beginning(raised, way->from, all, corner);
     if (!from) {
       site.cannot.push_back(fmt::format(
-          "setup {}, {}: no tool gets to the beginning of arc {} past what is before it",
+          "setup {}, {}: no tool gets to the beginning of arc {} past what is beside it",
           site.setup, o.id, s.id));
       return;
     }

@@ -137,24 +137,6 @@ double distance_mm(const Piece& piece, const Point& p) {
   return s <= 0 || s >= l ? to_ends : std::abs(to.h * way.z - to.z * way.h);
 }
 
-double distance_mm(const Piece& piece, const Point& tip, const Corner& corner) {
-  const double r = corner.re_mm;
-  const Point centre{tip.h_mm + r, tip.z_mm + r};
-  const double to_circle = distance_mm(piece, centre) - r;
-  if (!corner.rises_rad) return to_circle;
-  const double c = std::cos(*corner.rises_rad), s = std::sin(*corner.rises_rad);
-  const auto to_edge = [&](const Point& p) {
-    const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
-    return z > 0 && z * c + h * s > 0 ? z * s - h * c - r : INFINITY;
-  };
-  double least = std::min({to_circle, to_edge(piece.from), to_edge(piece.to)});
-  if (!piece.arc) return least;
-  const auto course = around(*piece.arc);
-  for (int i = 1; i < kPoints; ++i)
-    least = std::min(least, to_edge(course.at(course.length_mm * i / kPoints)));
-  return least;
-}
-
 Course along(std::vector<Point> way) {
   std::vector<double> reached{0};
   for (std::size_t i = 1; i < way.size(); ++i)
@@ -187,14 +169,50 @@ Course backwards(Course course) {
           [length, at = std::move(course.at)](double s) { return at(length - s); }};
 }
 
+namespace {
+
+// How far the disc of a corner is from a piece, at least: both lie between their ends.
+double between_mm(const Piece& piece, const Point& centre, double r) {
+  const auto [low, high] = std::minmax(piece.from.z_mm, piece.to.z_mm);
+  return std::max(low - centre.z_mm, centre.z_mm - high) - r;
+}
+
+// Points of pieces by which a minor edge, a straight one, is held against them.
+std::vector<Point> held(std::span<const Piece> pieces) {
+  std::vector<Point> all;
+  for (const auto& piece : pieces) {
+    all.insert(all.end(), {piece.from, piece.to});
+    if (!piece.arc) continue;
+    const auto course = around(*piece.arc);
+    for (int i = 1; i < kPoints; ++i)
+      all.push_back(course.at(course.length_mm * i / kPoints));
+  }
+  return all;
+}
+
+// Of a point below the minor edge.
+double below_mm(const Point& p, const Point& centre, double r, double rises_rad) {
+  const double c = std::cos(rises_rad), s = std::sin(rises_rad);
+  const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
+  return z > 0 && z * c + h * s > 0 ? z * s - h * c - r : INFINITY;
+}
+
+}  // namespace
+
 double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& corner) {
   constexpr double kTouch = 1e-6;  // mm
   constexpr double kStep = 1e-3;   // cuts off less than 1e-6 mm where an edge is grazed
+  const double r = corner.re_mm;
+  const auto edge_points = corner.rises_rad ? held(pieces) : std::vector<Point>{};
   const auto room = [&](double s) {
     const auto p = tip.at(s);
+    const Point centre{p.h_mm + r, p.z_mm + r};
     double least = INFINITY;
     for (const auto& piece : pieces)
-      least = std::min(least, distance_mm(piece, p, corner));
+      if (between_mm(piece, centre, r) < least)
+        least = std::min(least, distance_mm(piece, centre) - r);
+    for (const auto& point : edge_points)
+      least = std::min(least, below_mm(point, centre, r, *corner.rises_rad));
     return least + kTouch;
   };
   double free = 0, now = room(0);

@@ -109,6 +109,15 @@ std::vector<Point> contour(const Pass& p) {
   return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
 }
 
+// How far from a step down of the corrections the minor edge keeps the corner.
+double lost_mm(const Pass& p) {
+  if (p.k == 0) return 0;
+  const auto &s = p.side.items[p.k - 1], &t = p.surface();
+  const double step = corrected(p.site, p.side, s).back().h_mm - s.h1 -
+                      (corrected(p.site, p.side, t).front().h_mm - t.h0);
+  return std::max(step, 0.0) / std::tan(*p.tool().rises_rad);
+}
+
 // Comes in along the element's own line from as far as what is before it lets the corner,
 // and if that is not far, level; roughing comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
@@ -128,7 +137,7 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   way = {way.rbegin(), way.rend()};
   const double lets = free_mm(along(way), pieces, {p.re_mm});
   const bool stopped = clip(way, pieces, p.tool());
-  if (along(way).length_mm < std::min(lets, own) - kStands_mm)
+  if (along(way).length_mm < std::min(lets, own) - kStands_mm - lost_mm(p))
     p.site.cannot.push_back(
         fmt::format("setup {}, {}: the minor edge of {} does not clear what is before {}",
                     p.site.setup, p.plan().id, p.plan().tool, p.surface().id));
@@ -217,6 +226,7 @@ std::vector<Point> way_of(const Pass& p) {
     const auto before = corrected(p.site, p.side, p.side.items[p.k - 1]);
     const auto n = normal(before[before.size() - 2], before.back());
     way.front() = across(before.back(), n, c[0], normal(c[0], c[1]), p.re_mm).meet;
+    while (way.size() > 2 && way[1].z_mm >= way[0].z_mm) way.erase(way.begin() + 1);
   } else {
     lead_in(p, c, way);
     if (way.size() < 2) return {};
@@ -226,6 +236,8 @@ std::vector<Point> way_of(const Pass& p) {
     const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
     const auto n = normal(c[c.size() - 2], c.back());
     way.back() = across(c.back(), n, after[0], normal(after[0], after[1]), p.re_mm).leave;
+    while (way.size() > 2 && way[way.size() - 2].z_mm <= way.back().z_mm)
+      way.erase(way.end() - 2);
   }
   lead_out(p, way);
   return way;
@@ -246,11 +258,15 @@ void pass(const Pass& p) {
 }
 
 // A facing pass over contact points from the axis outwards, tool coming from outside; its
-// corner goes a radius beyond the first, whatever the slope there.
-void face_pass(Site& site, const std::vector<Point>& contact, double re) {
+// corner goes a radius beyond the first, whatever the slope there, or as far as what is
+// `before` the face lets it.
+void face_pass(Site& site, const std::vector<Point>& contact, double re,
+               const std::vector<Piece>& before) {
   auto way = tips(contact, re);
   way.front() = at_h(way[0], way[1], contact.front().h_mm - re);
   std::reverse(way.begin(), way.end());
+  clip(way, before, {re});
+  if (way.empty()) return;
   site.approach(site.outer, way.front());
   for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
 }
@@ -295,8 +311,13 @@ bool joined(const Site& site, std::size_t i) {
            !cut_later(site, s);
   };
   const auto &s = side.items[k], &t = side.items[k + 1];
-  return std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
-         joins(s) && joins(t);
+  if (!(std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
+        joins(s) && joins(t)))
+    return false;
+  // Deeper down beside a step the minor edge would cut what is before it.
+  const double falls =
+      corrected(site, side, s).back().h_mm - corrected(site, side, t).front().h_mm;
+  return falls <= corner_mm(site, a) * (1 - std::cos(minor_edge_rad(site, a)));
 }
 
 void turn(Site& site, std::size_t operation) {
@@ -325,7 +346,7 @@ void face(Site& site, std::size_t operation) {
     face_pass(site,
               face_contour(site, o.on[0], last ? 0 : left,
                            hole > 0 ? hole - kBehind_mm : 0, outside, last),
-              re);
+              re, {});
     site.rapid(site.at.h_mm, site.at.z_mm + kAbove_mm);
     site.front = last ? 0 : left;
   }
@@ -346,13 +367,19 @@ double highest(const Site& site, std::size_t operation, std::size_t k) {
   return top;
 }
 
-// Along the element before a shoulder to where turning has ended.
-void run_out(Site& site, const std::vector<Point>& way, double to_z) {
-  if (!(to_z > site.at.z_mm)) return;
-  std::size_t i = way.size() - 1;
-  for (; i > 1 && way[i - 1].z_mm < to_z; --i)
-    if (way[i - 1].z_mm > site.at.z_mm) site.to(Kind::feed, site.outer, way[i - 1]);
-  site.to(Kind::feed, site.outer, at_z(way[i - 1], way[i], to_z));
+// Along the element before a shoulder to where turning has ended, or to its beginning, as
+// far as what is before it lets the corner.
+void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
+  const auto& s = site.outer.items[k];
+  if (cut_later(site, s) || !(to_z > site.at.z_mm)) return;
+  auto way = tips(corrected(site, site.outer, s), re_mm);
+  std::reverse(way.begin(), way.end());
+  while (way.size() > 2 && way[way.size() - 2].z_mm > to_z) way.pop_back();
+  if (!(way.back().z_mm > site.at.z_mm)) return;
+  if (way.back().z_mm > to_z) way.back() = at_z(way[way.size() - 2], way.back(), to_z);
+  way.front() = {site.at.h_mm, site.at.z_mm};
+  clip(way, drawn_before(site, site.outer, k), {re_mm});
+  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
 }
 
 }  // namespace
@@ -371,6 +398,7 @@ void face_shoulder(Site& site, std::size_t operation) {
   const auto n = normal(line[line.size() - 2], line.back());
   const double outside = highest(site, operation, k + 1) + kAbove_mm + re;
   const double stock = later_mm(site, operation, id) + depth_mm(o);
+  const auto before = drawn_before(site, site.outer, k);
   double left = stock;
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
@@ -380,8 +408,8 @@ void face_shoulder(Site& site, std::size_t operation) {
         face_contour(site, id, z + (last ? 0 : left),
                      tip(line.back(), n, {0, 1}, re).h_mm + re + (last ? 0 : kBehind_mm),
                      outside, last),
-        re);
-    if (last) run_out(site, tips(line, re), z + stock + site.r_most - re);
+        re, before);
+    if (last) run_out(site, k, re, z + stock + site.r_most - re);
     site.lift(site.outer);
   }
 }

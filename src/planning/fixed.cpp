@@ -22,6 +22,7 @@ using cutting::Load;
 
 constexpr double kCentreShare = 0.35;     // of the end's diameter
 constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
+constexpr double kThinnest_mm = 0.01;     // no wall between bores is so thin
 constexpr int kLeastInfeeds = 4;          // of a thread
 constexpr double kRunIn = 3;              // of a thread, in pitches
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
@@ -245,12 +246,27 @@ void add_centre(Site& s, const char* face, double end_mm) {
 struct Hole {
   double depth_mm = 0, least_mm = INFINITY;
   std::string first;  // the outermost bore
+  /// Left between it and the other end's bores, or the other end; those bores' narrowest.
+  double rest_mm = 0, behind_mm = INFINITY;
+
+  // Whether a drill's point leaves what is drawn behind; between bores from both ends each
+  // takes half.
+  bool spares_behind(const FixedTool& drill, double size_mm) const {
+    if (rest_mm < kThinnest_mm) return size_mm <= behind_mm;
+    const double point = size_mm / 2 / std::tan(units::rad_from_deg(drill.point_deg / 2));
+    return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
+  }
 };
 Hole hole_from(const part::Drawing& d, part::End end) {
   Hole h;
   if (d.stock.kind != part::StockKind::bar) return h;
+  h.rest_mm = part::length_mm(d);
   for (const auto& e : d.inner) {
-    if (e.from != end) continue;
+    h.rest_mm -= e.length_mm;
+    if (e.from != end) {
+      h.behind_mm = std::min({h.behind_mm, e.left_mm, e.right_mm});
+      continue;
+    }
     if (h.first.empty()) h.first = e.id;
     h.depth_mm += e.length_mm;
     h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
@@ -266,7 +282,7 @@ Asked drilling(const Hole& h, const OperationRequest* given) {
           given,
           [h](const FixedTool& t, double size) {
             return size <= h.least_mm - 2 * kLeftToBore_mm &&
-                   h.depth_mm <= t.reach * size;
+                   h.depth_mm <= t.reach * size && h.spares_behind(t, size);
           }};
 }
 
@@ -288,9 +304,13 @@ void add_drilling(Site& s, part::End end) {
   if (f.tool)
     s.out.before.push_back(drilled(s, a, f, h.depth_mm));
   else
-    refuse(s, a,
-           fmt::format("no drill of the tools is for {}, below {:g} mm and {:g} mm long",
-                       s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm));
+    refuse(
+        s, a,
+        fmt::format("no drill of the tools is for {}, below {:g} mm and {:g} mm long{}",
+                    s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+                    h.rest_mm < kThinnest_mm && !std::isfinite(h.behind_mm)
+                        ? ""
+                        : ", with a point that leaves what is behind"));
 }
 
 // A facing sweep between two diameters at constant surface speed.

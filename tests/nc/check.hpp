@@ -290,6 +290,11 @@ class Check {
     std::vector<double> drawn_here;
     for (std::size_t i = 0; i < m.size(); ++i)
       drawn_here.push_back(height(sign, all, m.z(i)));
+    const double hole = p_.part.drawing.stock.inner_mm / 2;
+    for (std::size_t i = 0; sign < 0 && hole > 0 && i < m.size(); ++i)
+      if (m.z(i) > 0.05 && m.z(i) < length() - 0.05 && drawn_here[i] == -hole &&
+          m[i] < -hole - kTolerance)
+        return fault(fmt::format("the tube's hole is cut at {:.2f}", m.z(i)));
     for (std::size_t k = 0; k < all.size(); ++k) {
       // A wall counts as high, however low it is, and what falls as level: the corner stays
       // on the element's own line.

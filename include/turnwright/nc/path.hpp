@@ -83,9 +83,6 @@ struct Corner {
   double re_mm = 0;
   std::optional<double> rises_rad = std::nullopt;
 };
-/// Of a piece from a tool with its tip at a point; negative inside of it.
-double distance_mm(const Piece& piece, const Point& tip, const Corner& corner);
-
 /// A way of a length: its place after s, no faster than s.
 struct Course {
   double length_mm = 0;

@@ -73,8 +73,9 @@ double face_stock_after_mm(const PartPlan& plan, const Assignment& work,
                            std::size_t setup, part::End end);
 
 /// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
-/// the plan's drills that leaves 0.5 mm on the radius of the narrowest and reaches their
-/// end; 0: nothing is, or none does.
+/// the plan's drills that leaves 0.5 mm on the radius of the narrowest, reaches their end
+/// and cuts with its point no narrower bore and no wall behind; 0: nothing is, or none
+/// does.
 double drilled_mm(const PartPlan& plan, part::End end);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
