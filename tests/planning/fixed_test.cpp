@@ -180,6 +180,47 @@ TEST(Centre, ComesWithTheStockWhereNoToolMakesOne) {
 
 json bush() { return reference_part("drilled-bush"); }
 
+/// A bar of 60 mm with a bore from the right and a second one from the left, if it is long.
+PartPlan bored(double right_mm, double D_right_mm, double left_mm, double D_left_mm) {
+  auto d = bush();
+  d.erase("tolerances");
+  d.erase("faces");
+  d["stock"] = {{"kind", "bar"}, {"diameter_mm", 64}, {"length_mm", 62}};
+  d["outer"] = {
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 60}}};
+  d["inner"] = json::array();
+  const auto add = [&](const char* from, double length_mm, double D_mm) {
+    if (length_mm > 0)
+      d["inner"].push_back({{"id", std::string("b-") + from},
+                            {"kind", "cylinder"},
+                            {"from", from},
+                            {"length_mm", length_mm},
+                            {"diameter_mm", D_mm}});
+  };
+  add("right", right_mm, D_right_mm);
+  add("left", left_mm, D_left_mm);
+  return part(d);
+}
+
+TEST(Drilling, SparesWhatIsBehind) {
+  const auto drilled = [](const PartPlan& p) {
+    return std::pair{drilled_mm(p, part::End::right), drilled_mm(p, part::End::left)};
+  };
+  // Through: the counterbore's drill is no wider than the bore behind it.
+  const auto [through, counterbore] = drilled(bored(45, 20, 15, 30));
+  EXPECT_EQ(through, 19);
+  EXPECT_LE(counterbore, 20);
+  EXPECT_GT(counterbore, 15);
+  EXPECT_GT(drilled(bored(15, 30, 0, 0)).first, 20);  // nothing but metal behind
+  // Blind: the point stays in what is left.
+  for (const double rest : {1.0, 3.0, 6.0}) {
+    const double D = drilled(bored(60 - rest, 22, 0, 0)).first;
+    EXPECT_LT(D / 2 / std::tan(units::rad_from_deg(80)), rest);
+    const auto [a, b] = drilled(bored(30 - rest / 2, 22, 30 - rest / 2, 22));
+    EXPECT_LT(std::max(a, b) / 2 / std::tan(units::rad_from_deg(80)), rest / 2);
+  }
+}
+
 TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   const auto p = part(bush());
   for (const auto& e : p.drawing.inner) EXPECT_EQ(e.drilled_mm, 19) << e.id;
