@@ -121,10 +121,11 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   if (level(own) && behind.size() > 2 && level(behind[1]) && level(behind[2]) &&
       site.outer.items[k + 1].stock)
     return;
-  site.cannot.push_back(fmt::format(
-      "setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
-      "needs {:.3g} mm",
-      site.setup, operation, s.id, std::max(s.z1 - site.root_z, 0.0), s.z1 - needed_z));
+  const double ends = std::round(1e3 * (s.z1 - site.root_z)) / 1e3;
+  site.cannot.push_back(
+      fmt::format("setup {}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
+                  "needs {:.3g} mm: grip less",
+                  site.setup, operation, s.id, std::abs(ends), s.z1 - needed_z));
 }
 
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
