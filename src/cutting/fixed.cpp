@@ -21,6 +21,10 @@ Load drill(const catalogue::Kienzle& k, double D, double f, double point_deg) {
   return {Fc, 0.5 * kc * f * D / 2 * sine, units::torque_Nm(Fc, D / 2)};
 }
 
+double drill_point_mm(double D, double point_deg) {
+  return D / 2 / std::tan(units::rad_from_deg(point_deg / 2));
+}
+
 Load plunge(const catalogue::Kienzle& k, double b, double f, double D) {
   const double Fc = k.k11_MPa * b * std::pow(f, 1 - k.m);  // Eq. (3)
   return {Fc, 0.5 * Fc, units::torque_Nm(Fc, D)};

@@ -98,11 +98,11 @@ std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t 
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
-    if (s.z0 < z - kGap_mm) break;  // between bores from both ends
+    if (s.z0 < z - planning::kNoWall_mm) break;  // between bores from both ends
     append(all, pieces(site, side, s));
     z = s.z1;
   }
-  const bool at_end = z + part::length_mm(site.part.drawing) < kGap_mm;
+  const bool at_end = z + part::length_mm(site.part.drawing) < planning::kNoWall_mm;
   if (side.sign < 0 && !at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
     append(all, {{{side.stock_h, z}, {side.stock_h, z - kFar_mm}, {}}});
   return all;

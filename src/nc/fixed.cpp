@@ -9,6 +9,7 @@
 #include "contour.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/cutting/fixed.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -26,7 +27,7 @@ const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
 }
 
 double point_mm(const FixedTool& drill, double D_mm) {
-  return D_mm / 2 / std::tan(units::rad_from_deg(drill.point_deg / 2));
+  return cutting::drill_point_mm(D_mm, drill.point_deg);
 }
 
 double bored_mm(const part::Drawing& d, part::End end) {
@@ -54,7 +55,8 @@ bool spared(Site& site, const OperationPlan& o, double depth, double point, doub
   const auto& d = site.part.drawing;
   const auto other = site.sign > 0 ? part::End::left : part::End::right;
   const double rest = part::length_mm(d) - depth - bored_mm(d, other);
-  if (rest < kGap_mm) {  // through, into the other end's bores or into the open
+  if (rest <
+      planning::kNoWall_mm) {  // through, into the other end's bores or into the open
     double narrowest = INFINITY;
     for (const auto& e : d.inner)
       if (e.from == other) narrowest = std::min({narrowest, e.left_mm, e.right_mm});
@@ -177,7 +179,7 @@ std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
                            const std::vector<Piece>& behind, const Corner& corner) {
   const auto course = around(way);
   const double to = free_mm(course, behind, corner);
-  const Course back{to, [&](double s) { return course.at(to - s); }};
+  const auto back = backwards({to, course.at});
   const double from = free_mm(back, before, corner);
   if (!(from > 0) || from < free_mm(back, before, {corner.re_mm}) - kStands_mm)
     return std::nullopt;

@@ -17,7 +17,6 @@ inline constexpr double kClear_mm = 2;      ///< rapids along the axis above the
 inline constexpr double kChange_mm = 50;    ///< from the stock, where tools are changed
 inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
-inline constexpr double kGap_mm = 0.01;     ///< no wall between bores is so thin
 
 /// An element in the tool's order: z0 > z1, heights of its blank, or once it is cut there
 /// of what is drawn.

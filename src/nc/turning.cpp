@@ -174,11 +174,11 @@ std::optional<double> wall_behind(const Site& site, const Side& side, std::size_
   double z = side.items[k].z1;
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const auto& s = side.items[j];
-    if (s.z0 < z - kGap_mm) break;  // between bores from both ends
+    if (s.z0 < z - planning::kNoWall_mm) break;  // between bores from both ends
     if (std::max(s.h0, s.h1) > h) return s.z0;
     z = s.z1;
   }
-  const bool at_end = z + part::length_mm(site.part.drawing) < kGap_mm;
+  const bool at_end = z + part::length_mm(site.part.drawing) < planning::kNoWall_mm;
   if (side.sign < 0 && !at_end && side.stock_h > h) return z;  // the hole goes on
   return std::nullopt;
 }

@@ -22,7 +22,6 @@ using cutting::Load;
 
 constexpr double kCentreShare = 0.35;     // of the end's diameter
 constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
-constexpr double kThinnest_mm = 0.01;     // no wall between bores is so thin
 constexpr int kLeastInfeeds = 4;          // of a thread
 constexpr double kRunIn = 3;              // of a thread, in pitches
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
@@ -216,7 +215,7 @@ FixedOperation drilled(const Site& s, const Asked& a, const Fitted& f, double de
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const Duty d{cutting::drill(kc, D, f.at.f_mm_rev, f.tool->point_deg),
                std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s)), D};
-  const double point = D / 2 / std::tan(units::rad_from_deg(f.tool->point_deg / 2));
+  const double point = cutting::drill_point_mm(D, f.tool->point_deg);
   const double path = depth_mm + point + kApproach_mm;
   return operation(s, a, f, {pass_of(d, D / 2, path / (f.at.f_mm_rev * d.n_rpm))}, path,
                    {d});
@@ -252,8 +251,8 @@ struct Hole {
   // Whether a drill's point leaves what is drawn behind; between bores from both ends each
   // takes half.
   bool spares_behind(const FixedTool& drill, double size_mm) const {
-    if (rest_mm < kThinnest_mm) return size_mm <= behind_mm;
-    const double point = size_mm / 2 / std::tan(units::rad_from_deg(drill.point_deg / 2));
+    if (rest_mm < kNoWall_mm) return size_mm <= behind_mm;
+    const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
     return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
   }
 };
@@ -308,7 +307,7 @@ void add_drilling(Site& s, part::End end) {
         s, a,
         fmt::format("no drill of the tools is for {}, below {:g} mm and {:g} mm long{}",
                     s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
-                    h.rest_mm < kThinnest_mm && !std::isfinite(h.behind_mm)
+                    h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
                         ? ""
                         : ", with a point that leaves what is behind"));
 }

@@ -26,6 +26,8 @@ struct Load {
 /// chisel edge within its 0.5, +-30 %.
 /// Source: M follows from Kienzle's law, derived here; Ff is a handbook value.
 Load drill(const catalogue::Kienzle& kc, double D_mm, double f_mm_rev, double point_deg);
+/// Length [mm] of a drill's point, (D/2)/tan(point/2).
+double drill_point_mm(double D_mm, double point_deg);
 
 /// Straight edge of width b fed into the work, at diameter D:
 ///

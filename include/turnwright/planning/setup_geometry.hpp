@@ -139,6 +139,9 @@ Planes planes(const catalogue::Lathe& machine, Clamping clamping);
 /// Whether a tailstock presses on the part.
 bool has_tailstock(Clamping clamping);
 
+/// No wall between bores is as thin [mm]: so far they meet.
+inline constexpr double kNoWall_mm = 0.01;
+
 /// Width of a steady rest along the axis [mm]: what it stands on is not cut.
 inline constexpr double kSteadyWidth_mm = 20;
 
