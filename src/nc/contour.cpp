@@ -75,6 +75,18 @@ Arc drawn_arc(const Site& site, const Surface& s) {
   return arc_through({first / 2, s.z0}, {second / 2, s.z1}, cut.radius_mm, cut.convex);
 }
 
+std::size_t end_of_run(const Side& side, std::size_t k) {
+  while (k + 1 < side.items.size() &&
+         side.items[k + 1].z0 > side.items[k].z1 - planning::kNoWall_mm)
+    ++k;
+  return k;
+}
+
+bool hole_goes_on(const Site& site, const Side& side, double z, double h) {
+  const bool at_end = z + part::length_mm(site.part.drawing) < planning::kNoWall_mm;
+  return side.sign < 0 && !at_end && side.stock_h > h;
+}
+
 Piece wall(double z_mm) { return {{kFar_mm, z_mm}, {-kFar_mm, z_mm}, {}}; }
 
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k) {
@@ -95,15 +107,11 @@ std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t 
 std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k) {
   const auto own = pieces(site, side, side.items[k]);
   std::vector<Piece> all{{own.back().to, own.back().to, {}}};
-  double z = side.items[k].z1;
-  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
-    const auto& s = side.items[j];
-    if (s.z0 < z - planning::kNoWall_mm) break;  // between bores from both ends
-    append(all, pieces(site, side, s));
-    z = s.z1;
-  }
-  const bool at_end = z + part::length_mm(site.part.drawing) < planning::kNoWall_mm;
-  if (side.sign < 0 && !at_end && side.stock_h > all.back().to.h_mm)  // the hole goes on
+  const auto last = end_of_run(side, k);
+  for (std::size_t j = k + 1; j <= last; ++j)
+    append(all, pieces(site, side, side.items[j]));
+  const double z = side.items[last].z1;
+  if (hole_goes_on(site, side, z, all.back().to.h_mm))
     append(all, {{{side.stock_h, z}, {side.stock_h, z - kFar_mm}, {}}});
   return all;
 }

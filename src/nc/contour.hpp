@@ -22,6 +22,11 @@ Arc drawn_arc(const Site& site, const Surface& s);
 /// What is drawn from the free end to the beginning of element k; outside the axis is the
 /// lowest.
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k);
+/// The last of the elements that follow on each other from element k; between bores from
+/// both ends is a gap.
+std::size_t end_of_run(const Side& side, std::size_t k);
+/// Whether the hole goes on behind bores that end at a place and a height.
+bool hole_goes_on(const Site& site, const Side& side, double z_mm, double h_mm);
 /// What is drawn behind element k: elements as far as they follow on each other, and what
 /// is left of the hole.
 std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k);

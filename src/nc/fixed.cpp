@@ -26,10 +26,6 @@ const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
                        [&](const FixedTool& t) { return t.id == o.tool; });
 }
 
-double point_mm(const FixedTool& drill, double D_mm) {
-  return cutting::drill_point_mm(D_mm, drill.point_deg);
-}
-
 double bored_mm(const part::Drawing& d, part::End end) {
   double depth = 0;
   for (const auto& e : d.inner)
@@ -37,51 +33,12 @@ double bored_mm(const part::Drawing& d, part::End end) {
   return depth;
 }
 
-// How far the points of the drills for the bores of an end go beyond those.
-double drilled_beyond_mm(const Site& site, part::End end) {
-  double point = 0;
-  for (std::size_t s = 0; s < site.plan.setups.size(); ++s) {
-    if (site.part.setups[s].hold == end) continue;
-    for (const auto& o : site.plan.setups[s].operations)
-      if (o.kind == planning::OperationKind::fixed &&
-          tool_of(site, o).use == FixedUse::drilling)
-        point = std::max(point, point_mm(tool_of(site, o), 2 * o.passes[0].ap_mm));
-  }
-  return point;
-}
-
-// Whether a drill's point leaves what is drawn behind a bore; if not, that is told.
-bool spared(Site& site, const OperationPlan& o, double depth, double point, double D) {
-  const auto& d = site.part.drawing;
-  const auto other = site.sign > 0 ? part::End::left : part::End::right;
-  const double rest = part::length_mm(d) - depth - bored_mm(d, other);
-  if (rest <
-      planning::kNoWall_mm) {  // through, into the other end's bores or into the open
-    double narrowest = INFINITY;
-    for (const auto& e : d.inner)
-      if (e.from == other) narrowest = std::min({narrowest, e.left_mm, e.right_mm});
-    if (narrowest >= D - kSame_mm) return true;
-    site.cannot.push_back(fmt::format(
-        "setup {}, {}: the point of the {:g} mm drill goes {:.3g} mm into the "
-        "bore of {:g} mm behind",
-        site.setup, o.id, D, point, narrowest));
-    return false;
-  }
-  if (point + drilled_beyond_mm(site, other) < rest - kSame_mm) return true;
-  site.cannot.push_back(fmt::format(
-      "setup {}, {}: the point of the {:g} mm drill goes through the {:.3g} mm "
-      "behind the bore",
-      site.setup, o.id, D, rest));
-  return false;
-}
-
 void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   const double D = 2 * o.passes[0].ap_mm;
   const bool centre = tool.use == FixedUse::centring;
   const auto end = site.sign > 0 ? part::End::right : part::End::left;
   const double depth = centre ? tool.reach * D : bored_mm(site.part.drawing, end);
-  const double point = point_mm(tool, D);
-  if (!centre && !spared(site, o, depth, point, D)) return;
+  const double point = cutting::drill_point_mm(D, tool.point_deg);
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);
   site.to(Kind::feed, site.outer, {0, -(depth + point)});
@@ -173,17 +130,19 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-// The part of an arc's way on which a tool stays off what is before and behind it; none if
-// its minor edge does not clear what is before.
-std::optional<Arc> between(const Arc& way, const std::vector<Piece>& before,
-                           const std::vector<Piece>& behind, const Corner& corner) {
-  const auto course = around(way);
+// A tool's way along an arc as far as it stays off what is before and behind; none if its
+// corner does not fit or its minor edge does not clear what is before.
+std::optional<Arc> way_along(const Arc& arc, const std::vector<Piece>& before,
+                             const std::vector<Piece>& behind, const Corner& corner) {
+  const auto whole = tip_arc(arc, corner.re_mm);
+  if (!whole) return std::nullopt;
+  const auto course = around(*whole);
   const double to = free_mm(course, behind, corner);
   const auto back = backwards({to, course.at});
   const double from = free_mm(back, before, corner);
   if (!(from > 0) || from < free_mm(back, before, {corner.re_mm}) - kStands_mm)
     return std::nullopt;
-  return Arc{back.at(from), course.at(to), way.centre, way.convex};
+  return Arc{back.at(from), course.at(to), whole->centre, whole->convex};
 }
 
 // Where the way of an arc begins: along an arc that falls, level, or from above, as what is
@@ -213,9 +172,8 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const Corner corner{tool.re_mm, part::kProfilingClears_rad};
   const auto before = drawn_before(site, p.side, p.k);
   auto behind = drawn_behind(site, p.side, p.k);
-  if (const auto whole = tip_arc(drawn, tool.re_mm))
-    if (const auto way = between(*whole, before, behind, corner))
-      tell_jaws(site, p.k, o.id, way->to.z_mm);
+  if (const auto way = way_along(drawn, before, behind, corner))
+    tell_jaws(site, p.k, o.id, way->to.z_mm);
   behind.push_back(wall(site.root_z));
   auto all = before;
   all.insert(all.end(), behind.begin(), behind.end());
@@ -224,8 +182,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     left = i + 1 == o.passes.size() ? 0 : left - o.passes[i].ap_mm;
     Arc raised = drawn;
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
-    const auto whole = tip_arc(raised, tool.re_mm);
-    const auto way = whole ? between(*whole, before, behind, corner) : std::nullopt;
+    const auto way = way_along(raised, before, behind, corner);
     if (!way) {
       site.cannot.push_back(fmt::format(
           "setup {}, {}: arc {} of {:g} mm between what is beside it does not "

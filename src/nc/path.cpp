@@ -32,6 +32,32 @@ double turn(const Point& centre, const Point& a, const Point& b) {
   return std::remainder(angle(b) - angle(a), kTurn);
 }
 
+// How far the disc of a corner is from a piece, at least: both lie between their ends.
+double between_mm(const Piece& piece, const Point& centre, double r) {
+  const auto [low, high] = std::minmax(piece.from.z_mm, piece.to.z_mm);
+  return std::max(low - centre.z_mm, centre.z_mm - high) - r;
+}
+
+// Points of pieces by which a minor edge, a straight one, is held against them.
+std::vector<Point> held(std::span<const Piece> pieces) {
+  std::vector<Point> all;
+  for (const auto& piece : pieces) {
+    all.insert(all.end(), {piece.from, piece.to});
+    if (!piece.arc) continue;
+    const auto course = around(*piece.arc);
+    for (int i = 1; i < kPoints; ++i)
+      all.push_back(course.at(course.length_mm * i / kPoints));
+  }
+  return all;
+}
+
+// Of a point below the minor edge.
+double below_mm(const Point& p, const Point& centre, double r, double rises_rad) {
+  const double c = std::cos(rises_rad), s = std::sin(rises_rad);
+  const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
+  return z > 0 && z * c + h * s > 0 ? z * s - h * c - r : INFINITY;
+}
+
 }  // namespace
 
 Normal normal(const Point& from, const Point& to) {
@@ -168,36 +194,6 @@ Course backwards(Course course) {
   return {length,
           [length, at = std::move(course.at)](double s) { return at(length - s); }};
 }
-
-namespace {
-
-// How far the disc of a corner is from a piece, at least: both lie between their ends.
-double between_mm(const Piece& piece, const Point& centre, double r) {
-  const auto [low, high] = std::minmax(piece.from.z_mm, piece.to.z_mm);
-  return std::max(low - centre.z_mm, centre.z_mm - high) - r;
-}
-
-// Points of pieces by which a minor edge, a straight one, is held against them.
-std::vector<Point> held(std::span<const Piece> pieces) {
-  std::vector<Point> all;
-  for (const auto& piece : pieces) {
-    all.insert(all.end(), {piece.from, piece.to});
-    if (!piece.arc) continue;
-    const auto course = around(*piece.arc);
-    for (int i = 1; i < kPoints; ++i)
-      all.push_back(course.at(course.length_mm * i / kPoints));
-  }
-  return all;
-}
-
-// Of a point below the minor edge.
-double below_mm(const Point& p, const Point& centre, double r, double rises_rad) {
-  const double c = std::cos(rises_rad), s = std::sin(rises_rad);
-  const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
-  return z > 0 && z * c + h * s > 0 ? z * s - h * c - r : INFINITY;
-}
-
-}  // namespace
 
 double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& corner) {
   constexpr double kTouch = 1e-6;  // mm

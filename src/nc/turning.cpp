@@ -171,16 +171,11 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
 // Where roughing ends: what is behind the element stands higher, or the hole goes on.
 std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
   const double h = side.items[k].h1 + kSame_mm;
-  double z = side.items[k].z1;
-  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
-    const auto& s = side.items[j];
-    if (s.z0 < z - planning::kNoWall_mm) break;  // between bores from both ends
-    if (std::max(s.h0, s.h1) > h) return s.z0;
-    z = s.z1;
-  }
-  const bool at_end = z + part::length_mm(site.part.drawing) < planning::kNoWall_mm;
-  if (side.sign < 0 && !at_end && side.stock_h > h) return z;  // the hole goes on
-  return std::nullopt;
+  const auto last = end_of_run(side, k);
+  for (std::size_t j = k + 1; j <= last; ++j)
+    if (std::max(side.items[j].h0, side.items[j].h1) > h) return side.items[j].z0;
+  const double z = side.items[last].z1;
+  return hole_goes_on(site, side, z, h) ? std::optional(z) : std::nullopt;
 }
 
 // What ends a pass of element k.
@@ -283,6 +278,34 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
   return all;
 }
 
+// What stands where the tool for a shoulder before element k comes in: neighbours too that
+// are no longer than what is left before their own shoulders.
+double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
+  const auto& side = site.outer;
+  double top = side.top0(side.items[k]);
+  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
+    const double stock = shoulder_stock_mm(site, operation, side, j - 1);
+    if (!(side.items[j].z0 + stock >= side.items[k].z0 - kSame_mm)) break;
+    top = std::max(top, side.top0(side.items[j]));
+  }
+  return top;
+}
+
+// Along the element before a shoulder to where turning has ended, or to its beginning, as
+// far as what is before it lets the corner.
+void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
+  const auto& s = site.outer.items[k];
+  if (cut_later(site, s) || !(to_z > site.at.z_mm)) return;
+  auto way = tips(corrected(site, site.outer, s), re_mm);
+  std::reverse(way.begin(), way.end());
+  while (way.size() > 2 && way[way.size() - 2].z_mm > to_z) way.pop_back();
+  if (!(way.back().z_mm > site.at.z_mm)) return;
+  if (way.back().z_mm > to_z) way.back() = at_z(way[way.size() - 2], way.back(), to_z);
+  way.front() = {site.at.h_mm, site.at.z_mm};
+  clip(way, drawn_before(site, site.outer, k), {re_mm});
+  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
+}
+
 }  // namespace
 
 double corner_mm(const Site& site, const OperationPlan& o) {
@@ -352,38 +375,6 @@ void face(Site& site, std::size_t operation) {
   }
 }
 
-namespace {
-
-// What stands where the tool for a shoulder before element k comes in: neighbours too that
-// are no longer than what is left before their own shoulders.
-double highest(const Site& site, std::size_t operation, std::size_t k) {
-  const auto& side = site.outer;
-  double top = side.top0(side.items[k]);
-  for (std::size_t j = k + 1; j < side.items.size(); ++j) {
-    const double stock = shoulder_stock_mm(site, operation, side, j - 1);
-    if (!(side.items[j].z0 + stock >= side.items[k].z0 - kSame_mm)) break;
-    top = std::max(top, side.top0(side.items[j]));
-  }
-  return top;
-}
-
-// Along the element before a shoulder to where turning has ended, or to its beginning, as
-// far as what is before it lets the corner.
-void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
-  const auto& s = site.outer.items[k];
-  if (cut_later(site, s) || !(to_z > site.at.z_mm)) return;
-  auto way = tips(corrected(site, site.outer, s), re_mm);
-  std::reverse(way.begin(), way.end());
-  while (way.size() > 2 && way[way.size() - 2].z_mm > to_z) way.pop_back();
-  if (!(way.back().z_mm > site.at.z_mm)) return;
-  if (way.back().z_mm > to_z) way.back() = at_z(way[way.size() - 2], way.back(), to_z);
-  way.front() = {site.at.h_mm, site.at.z_mm};
-  clip(way, drawn_before(site, site.outer, k), {re_mm});
-  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
-}
-
-}  // namespace
-
 void face_shoulder(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   const auto& id = o.on[0];
@@ -396,7 +387,7 @@ void face_shoulder(Site& site, std::size_t operation) {
   const double re = corner_mm(site, o), z = small.z1;
   const auto line = corrected(site, site.outer, small);
   const auto n = normal(line[line.size() - 2], line.back());
-  const double outside = highest(site, operation, k + 1) + kAbove_mm + re;
+  const double outside = shoulder_top(site, operation, k + 1) + kAbove_mm + re;
   const double stock = later_mm(site, operation, id) + depth_mm(o);
   const auto before = drawn_before(site, site.outer, k);
   double left = stock;

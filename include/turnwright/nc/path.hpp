@@ -75,6 +75,7 @@ struct Piece {
   Point from, to;
   std::optional<Arc> arc;
 };
+
 double distance_mm(const Piece& piece, const Point& p);
 
 /// A tool's corner, and its minor edge behind, towards the free end, which rises at an angle
@@ -83,6 +84,7 @@ struct Corner {
   double re_mm = 0;
   std::optional<double> rises_rad = std::nullopt;
 };
+
 /// A way of a length: its place after s, no faster than s.
 struct Course {
   double length_mm = 0;
