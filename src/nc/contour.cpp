@@ -77,7 +77,7 @@ Arc drawn_arc(const Site& site, const Surface& s) {
 
 std::size_t end_of_run(const Side& side, std::size_t k) {
   while (k + 1 < side.items.size() &&
-         side.items[k + 1].z0 > side.items[k].z1 - planning::kNoWall_mm)
+         side.items[k + 1].z0 >= side.items[k].z1 - planning::kNoWall_mm)
     ++k;
   return k;
 }

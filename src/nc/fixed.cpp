@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "contour.hpp"
-#include "turning.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 
