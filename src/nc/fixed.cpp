@@ -69,11 +69,10 @@ bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
   return true;
 }
 
-bool rises_behind(const Place& p, double h) {
-  const auto& items = p.side.items;
-  if (p.k + 1 >= items.size() || items[p.k + 1].z0 < p.surface().z1 - kSame_mm)
-    return p.side.sign < 0 && p.side.stock_h > h + kSame_mm;
-  return p.side.top0(items[p.k + 1]) > h + kSame_mm;
+bool rises_behind(const Site& site, const Place& p, double h) {
+  if (end_of_run(p.side, p.k) == p.k)
+    return hole_goes_on(site, p.side, p.surface().z1, h + kSame_mm);
+  return p.side.top0(p.side.items[p.k + 1]) > h + kSame_mm;
 }
 
 void groove(Site& site, const OperationPlan& o, const Place& p) {
@@ -84,7 +83,7 @@ void groove(Site& site, const OperationPlan& o, const Place& p) {
   const double step = n > 1 ? (s.z0 - s.z1 - w) / static_cast<double>(n - 1) : 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double z = s.z1 + static_cast<double>(i) * step;
-    const double beside = i == 0 && rises_behind(p, s.h1) ? kBehind_mm : 0;
+    const double beside = i == 0 && rises_behind(site, p, s.h1) ? kBehind_mm : 0;
     site.approach(p.side, {above, z + beside});
     site.to(Kind::feed, p.side, {above, z});
     site.to(Kind::feed, p.side, {floor, z});
@@ -116,7 +115,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
     return;
   }
   if (unfaced(site, o, s, s.z0 + run_in)) return;
-  const double end = s.z1 + (rises_behind(p, root) ? P : 0);
+  const double end = s.z1 + (rises_behind(site, p, root) ? P : 0);
   const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
   site.approach(p.side, before);
   double h = s.h0;

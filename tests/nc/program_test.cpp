@@ -261,31 +261,27 @@ Planned behind_a_cylinder(double groove_mm, double pitch_mm) {
   return planned(d);
 }
 
+// Where cuts of threads begin first and end last, along the axis of their programs.
+std::pair<double, double> threaded(const Planned& p, const Programs& all) {
+  double first = -INFINITY, last = INFINITY;
+  for (const auto& s : all.setups)
+    for (const auto& w : ways_of(s, p.plan.setups[s.setup]))
+      if (w.thread) {
+        first = std::max(first, w.z0);
+        last = std::min(last, w.z1);
+      }
+  return {first, last};
+}
+
 TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
   const auto p = behind_a_cylinder(4, 1.5);
   ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
   const auto all = programs(p.part, p.plan);
   EXPECT_EQ(listed(all.cannot), "");
   EXPECT_EQ(listed(faults_of(p, all)), "");
-  double first = -INFINITY, last = INFINITY;  // of what is cut
-  for (const auto& w : ways_of(all.setups.at(0), p.plan.setups[0]))
-    if (w.thread) {
-      first = std::max(first, w.z0);
-      last = std::min(last, w.z1);
-    }
+  const auto [first, last] = threaded(p, all);
   EXPECT_NEAR(first, -30 + 4 - 0.75, 1e-9);  // half a pitch clear of the cylinder
   EXPECT_NEAR(last, -50 + 1.5, 1e-9);        // a pitch before a shoulder
-
-  // Its relief was cut in another setup: it ends at its end.
-  for (const auto& one : document::parse_file(source("tests/data/awkward_parts.json"))) {
-    if (one["part"]["name"] != "thread-relief-other-setup") continue;
-    const auto relieved = planned(one["part"]);
-    double end = 0;
-    for (const auto& s : programs(relieved.part, relieved.plan).setups)
-      for (const auto& w : ways_of(s, relieved.plan.setups[s.setup]))
-        if (w.thread) end = std::min(end, w.z1);
-    EXPECT_NEAR(end, -14, 1e-9);
-  }
 
   for (const auto& [groove_mm, pitch_mm] : {std::pair{0.0, 1.5}, {3.0, 2.5}}) {
     const auto tight = behind_a_cylinder(groove_mm, pitch_mm);
@@ -297,6 +293,43 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
         "thread t1 begins behind a larger diameter with less than one pitch of room for "
         "the tool to come in"))
         << none.cannot[0];
+  }
+}
+
+TEST(NcPrograms, AThreadWhoseReliefWasCutInAnotherSetupEndsAtItsEnd) {
+  const auto awkward = document::parse_file(source("tests/data/awkward_parts.json"));
+  const auto one = std::find_if(awkward.begin(), awkward.end(), [](const auto& each) {
+    return each["part"]["name"] == "thread-relief-other-setup";
+  });
+  ASSERT_NE(one, awkward.end());
+  const auto p = planned((*one)["part"]);
+  EXPECT_NEAR(threaded(p, programs(p.part, p.plan)).second, -14, 1e-9);
+}
+
+/// A tube of 50 mm with a thread in its end, all through or so far.
+Planned threaded_tube(double length_mm) {
+  auto d = nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "nut", "material": "C45",
+    "stock": {"kind": "tube", "outer_mm": 66, "inner_mm": 26, "length_mm": 51,
+              "left_allowance_mm": 0},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 20, "diameter_mm": 64},
+              {"id": "d2", "kind": "cylinder", "length_mm": 30, "diameter_mm": 62}],
+    "inner": [{"id": "t1", "kind": "thread", "from": "right", "designation": "M36x2"}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 15, "clampings": ["chuck"]},
+               {"hold": "right", "grip_mm": 15, "clampings": ["chuck"]}]})");
+  d["inner"][0]["length_mm"] = length_mm;
+  return planned(d);
+}
+
+TEST(NcPrograms, AThreadInABoreEndsAPitchBeforeAShoulderAndWithThePart) {
+  for (const auto& [length_mm, ends_mm] : {std::pair{25.0, -25 + 2.0}, {50.0, -50.0}}) {
+    const auto p = threaded_tube(length_mm);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    const auto all = programs(p.part, p.plan);
+    EXPECT_EQ(listed(all.cannot), "");
+    EXPECT_EQ(listed(faults_of(p, all)), "");
+    EXPECT_NEAR(threaded(p, all).second, ends_mm, 1e-9);
   }
 }
 
