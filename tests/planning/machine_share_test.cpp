@@ -158,6 +158,63 @@ TEST(MachineShare, OfARunOutCountsADatumOfTheSameSetupAsItIsCut) {
   EXPECT_NEAR(take(with(zone("coaxiality", "d3", "d1"), once, d)).fixed_um, 4, 3 * kUm);
 }
 
+// A cone of the generator gives its sections no run-out, two lobes all of it.
+TEST(MachineShare, OfCircularRunOutsIsThatOfTheSections) {
+  auto d = tube();
+  d["outer"] = {
+      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 60.5}},
+      {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 60}},
+      {{"id", "d3"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 50}}};
+  const json taper = {{"Z", square("EB0Z", 20e-6)}};
+  const json lobed = {{"C", lobes("EXC", {{0, 0}, {1e-3, 0}})}};
+  const auto of_d3 = [&](const char* kind, const json& axes) {
+    return take(with(zone(kind, "d3", "d2"), axes, d)).fixed_um;
+  };
+  EXPECT_NEAR(of_d3("circular-radial-runout", taper), 0, kUm);
+  EXPECT_NEAR(of_d3("total-radial-runout", taper), 0.020 * 40, kUm);
+  EXPECT_NEAR(of_d3("circular-radial-runout", lobed), 2, kUm);
+  // d1 is cut in the other setup: 1 um off there, 1 um here.
+  const json once = {{"C", lobes("EXC", {{1e-3, 0}})}};
+  EXPECT_NEAR(take(with(zone("circular-radial-runout", "d3", "d1"), once, d)).fixed_um, 4,
+              3 * kUm);
+
+  const auto of_face = [&](const char* kind, const json& axes) {
+    return um(zone(kind, "right", "d2"), axes);
+  };
+  const json cone = {{"X", square("EB0X", 20e-6)}};
+  EXPECT_NEAR(of_face("circular-axial-runout", cone), 0, kUm);
+  EXPECT_NEAR(of_face("total-axial-runout", cone), 0.50, kUm);
+  EXPECT_NEAR(of_face("circular-axial-runout", {{"C", lobes("EZC", {{1e-3, 0}})}}), 2,
+              kUm);
+}
+
+// A taper of 20 urad from 20 to 120 mm: 2.4 um at its end, half of a zone about the drawing.
+TEST(MachineShare, OfAProfileCountsItsPlaceAndOfAnAngleItsForm) {
+  const json taper = {{"Z", square("EB0Z", 20e-6)}};
+  EXPECT_NEAR(um(zone("profile", "d2", "right"), taper), 2 * 2.4, kUm);
+  EXPECT_NEAR(um(zone("angularity", "d2", "right"), taper), 2.0, kUm);
+  auto gauged = tube();
+  gauged["budget"] = {{"first_part_gauged", true}};
+  EXPECT_NEAR(take(with(zone("profile", "d2", "right"), taper, gauged)).fixed_um, 2.0,
+              kUm);
+}
+
+// Play of 1 um on either side of 2 um of setting: less towards the chuck, more from it.
+TEST(MachineShare, IsThatOfTheDirectionAsked) {
+  auto d = tube();
+  d["outer"][1]["limits_mm"] = {-0.05, 0.05};
+  d["machine"] = lathe({{"Z", err("EXZ", {2e-3, 0, 0, 0}, 1e-3)}});
+  for (const auto& [direction, off_um] :
+       {std::pair{"to-chuck", 1.0}, {"from-chuck", 3.0}}) {
+    d["operations"] = {{{"id", "f"},
+                        {"setup", 0},
+                        {"kind", "finish"},
+                        {"on", {"d2"}},
+                        {"direction", direction}}};
+    EXPECT_NEAR(take(part(d)).fixed_um, 2 * 2 * off_um, kUm) << direction;
+  }
+}
+
 TEST(MachineShare, OfAFaceCountsTheTiltOfAFaceOfAnotherSetup) {
   // Once per turn of EZC: cos at every radius, 2 um across.  The plane of least squares
   // through it on the left face, by the sums of 21 radii from 30.25 down to 5 mm.
