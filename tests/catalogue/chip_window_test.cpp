@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -66,13 +67,38 @@ TEST(ChipWindow, CornersAreHeldByRounding) {
     }
 }
 
+// Whichever corner it begins with, either way round and with its axes exchanged.
+bool simple(std::vector<ChipPoint> p) {
+  const bool is = is_simple(p);
+  for (int exchanged = 0; exchanged < 2; ++exchanged) {
+    for (int reversed = 0; reversed < 2; ++reversed) {
+      for (std::size_t first = 0; first < p.size(); ++first) {
+        EXPECT_EQ(is_simple(p), is);
+        std::rotate(p.begin(), p.begin() + 1, p.end());
+      }
+      std::reverse(p.begin(), p.end());
+    }
+    for (auto& v : p) v = {v.f_mm_rev, v.ap_mm};
+  }
+  return is;
+}
+
 TEST(ChipWindow, WhatIsNoAreaIsNotSimple) {
-  EXPECT_FALSE(is_simple({{1, 0.1}, {2, 0.2}}));
-  EXPECT_FALSE(is_simple({{1, 0.1}, {2, 0.2}, {4, 0.4}}));            // on one line
-  EXPECT_FALSE(is_simple({{1, 0.1}, {2, 0.2}, {2, 0.1}, {1, 0.2}}));  // crosses itself
-  EXPECT_FALSE(is_simple({{1, 0.1}, {1, 0.1}, {2, 0.1}, {2, 0.2}}));  // a corner twice
-  EXPECT_FALSE(is_simple({{1, 0.1}, {4, 0.1}, {2, 0.1}, {2, 0.3}}));  // runs back
-  EXPECT_TRUE(is_simple({{1, 0.1}, {2, 0.1}, {4, 0.1}, {4, 0.3}}));   // straight corner
+  EXPECT_FALSE(simple({{1, 0.1}, {2, 0.2}}));
+  EXPECT_FALSE(simple({{1, 0.1}, {2, 0.2}, {4, 0.4}}));            // on one line
+  EXPECT_FALSE(simple({{1, 0.1}, {2, 0.2}, {2, 0.1}, {1, 0.2}}));  // crosses itself
+  EXPECT_FALSE(simple({{1, 0.1}, {1, 0.1}, {2, 0.1}, {2, 0.2}}));  // a corner twice
+  EXPECT_FALSE(simple({{1, 0.1}, {4, 0.1}, {2, 0.1}, {2, 0.3}}));  // runs back
+  EXPECT_TRUE(simple({{1, 0.1}, {2, 0.1}, {4, 0.1}, {4, 0.3}}));   // straight corner
+  for (const auto& p : {kL, kStar, kConvex}) EXPECT_TRUE(simple(p));
+}
+
+// A notch down to an edge, and one whose sides stand on the same line.
+TEST(ChipWindow, TouchingItselfIsNotSimpleStandingOnALineIs) {
+  EXPECT_FALSE(simple({{1, 0.1}, {4, 0.1}, {4, 0.4}, {2, 0.1}, {1, 0.4}}));
+  EXPECT_TRUE(simple({{1, 0.1}, {4, 0.1}, {4, 0.4}, {2, 0.11}, {1, 0.4}}));
+  EXPECT_TRUE(simple(
+      {{1, 0.1}, {2, 0.1}, {2, 0.2}, {3, 0.2}, {3, 0.1}, {4, 0.1}, {4, 0.4}, {1, 0.4}}));
 }
 
 }  // namespace

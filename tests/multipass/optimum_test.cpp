@@ -332,6 +332,21 @@ TEST(Multipass, RefusesNumbersOutOfRange) {
     change(m);
     EXPECT_THROW(optimum(m), std::domain_error);
   }
+  for (const auto number :
+       {&Problem::dt_mm, &Problem::theta, &Problem::C0, &Problem::FU, &Problem::PU,
+        &Problem::QU, &Problem::SRu_um, &Problem::k0, &Problem::kt, &Problem::te,
+        &Problem::tc, &Problem::h1, &Problem::h2})
+    for (const double value : {-1.0, std::nan("")}) {
+      Problem m;
+      m.*number = value;
+      EXPECT_THROW(optimum(m), std::domain_error);
+    }
+  for (const auto range : {&Problem::V, &Problem::f, &Problem::d, &Problem::T})
+    for (const Range& value : {Range{2, 1}, Range{-1, 1}, Range{1, INFINITY}}) {
+      Problem m;
+      m.*range = value;
+      EXPECT_THROW(optimum(m), std::domain_error);
+    }
 }
 
 }  // namespace

@@ -400,6 +400,50 @@ TEST(Given, PassesThatAreTooFewAreTold) {
   EXPECT_EQ(r.conflicts[0].sentence, "groove g1: 1 passes of 2 mm are too few");
 }
 
+// A plan's own operations, fixed ones without their conditions, given back.
+json given_back(const json& d) {
+  auto given = as_planned(d, plan(part(d)));
+  for (auto& o : given["operations"])
+    if (o["kind"] == "fixed") o.erase("conditions");
+  return given;
+}
+
+json& given_operation(json& d, const std::string& id) {
+  for (auto& o : d["operations"])
+    if (o["id"] == id) return o;
+  throw std::out_of_range(id);
+}
+
+TEST(Given, DrillsOfHolesKeepTheirIds) {
+  auto d = given_back(bush());
+  given_operation(d, "s0-drill-b1")["id"] = "hole";
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(operation(r, "hole").passes[0].ap_mm,
+            operation(plan(part(bush())), "s0-drill-b1").passes[0].ap_mm);
+}
+
+TEST(Given, PassesOfAnArcThatAreTooDeepAreTold) {
+  auto d = given_back(reference_part("threaded-spindle"));
+  given_operation(d, "s0-arc-a1")["conditions"] = {{"passes", 1}};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  // 6 mm of radius over a quarter: 6 sqrt 2 - 6 deep.
+  EXPECT_EQ(r.conflicts[0].sentence,
+            "arc a1: 1 passes of 2.485 mm are deeper than the 1.5 mm of PROFILE-35");
+}
+
+TEST(Parting, IsNoneBetweenCentres) {
+  auto d = bush();
+  d["setups"][0]["clampings"] = {"between-centres"};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  std::string all;
+  for (const auto& c : r.conflicts) all += c.sentence + "\n";
+  EXPECT_NE(all.find("a part between centres is not parted off"), std::string::npos)
+      << all;
+}
+
 // What is told of a part once its tools of a use have no conditions for its material.
 std::string told_without(const json& d, catalogue::FixedUse use) {
   auto p = part(d);
