@@ -97,9 +97,6 @@ ConstraintValue tolerance_constraint(const PartPlan& plan, const Demand& d,
   return c;
 }
 
-}  // namespace
-
-namespace {
 // "s0-face-d3-d4": an id that a request may carry.
 std::string own_id(std::size_t setup, OperationKind kind, std::string surface) {
   std::replace(surface.begin(), surface.end(), '|', '-');
@@ -112,6 +109,7 @@ OperationKind kind_of(const Feature& feature, bool rough) {
     return rough ? OperationKind::bore_rough : OperationKind::bore_finish;
   return rough ? OperationKind::rough : OperationKind::finish;
 }
+
 }  // namespace
 
 CheckName check_name(Check check) {

@@ -159,8 +159,9 @@ struct Datum {
   double shift_mm = 0, tilt_rad = 0;  ///< of another
 };
 
+// Of an element's axis.
 double angle_rad(const Surface& s, const Datum& d) {
-  const DatumAxis own = is_face(s) ? normal_of(s) : axis_of(s);
+  const DatumAxis own = axis_of(s);
   return std::hypot(own.ax - d.axis.ax, own.ay - d.axis.ay) + d.tilt_rad;
 }
 

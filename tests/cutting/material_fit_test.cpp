@@ -169,11 +169,19 @@ TEST(MaterialFit, SaysWhichCutIsMissing) {
 }
 
 TEST(MaterialFit, RefusesWhatIsNotPositive) {
-  EXPECT_THROW(fit_kienzle(std::vector<ForcePoint>{{0.2, 1, -5}}), std::domain_error);
-  EXPECT_THROW(fit_kienzle(std::vector<ForcePoint>{{std::nan(""), 1, 5}}),
-               std::domain_error);
-  EXPECT_THROW(fit_taylor(std::vector<LifePoint>{{100, 0.2, 0, 10}}, 0, 0),
-               std::domain_error);
+  for (const double bad : {0.0, -5.0, std::nan(""), static_cast<double>(INFINITY)}) {
+    for (const auto number : {&ForcePoint::h_mm, &ForcePoint::b_mm, &ForcePoint::F_N}) {
+      ForcePoint p{0.2, 1, 500};
+      p.*number = bad;
+      EXPECT_THROW(fit_kienzle(std::vector{p}), std::domain_error);
+    }
+    for (const auto number : {&LifePoint::vc_m_min, &LifePoint::f_mm_rev,
+                              &LifePoint::ap_mm, &LifePoint::T_min}) {
+      LifePoint p{100, 0.2, 2, 10};
+      p.*number = bad;
+      EXPECT_THROW(fit_taylor(std::vector{p}, 0, 0), std::domain_error);
+    }
+  }
 }
 
 }  // namespace

@@ -193,6 +193,9 @@ TEST(MachineShare, OfAProfileCountsItsPlaceAndOfAnAngleItsForm) {
   const json taper = {{"Z", square("EB0Z", 20e-6)}};
   EXPECT_NEAR(um(zone("profile", "d2", "right"), taper), 2 * 2.4, kUm);
   EXPECT_NEAR(um(zone("angularity", "d2", "right"), taper), 2.0, kUm);
+  EXPECT_NEAR(um(zone("perpendicularity", "d2", "right"), taper), 0, kUm);  // of its axis
+  EXPECT_NEAR(um(zone("angularity", "right", "d2"), {{"X", square("EB0X", 20e-6)}}), 0.50,
+              kUm);
   auto gauged = tube();
   gauged["budget"] = {{"first_part_gauged", true}};
   EXPECT_NEAR(take(with(zone("profile", "d2", "right"), taper, gauged)).fixed_um, 2.0,
