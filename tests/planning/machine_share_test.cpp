@@ -142,12 +142,18 @@ TEST(MachineShare, OffsetsDropOutIfTheFirstPartIsGauged) {
   EXPECT_NEAR(take(part(d)).fixed_um, 2 * 0.020 * 100, kUm);
 }
 
-TEST(MachineShare, OfARunOutCountsADatumOfTheSameSetupAsItIsCut) {
+// The tube with d2 ending in a smaller d3, both cut in setup 0.
+json stepped() {
   auto d = tube();
   d["outer"] = {
       {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 60.5}},
       {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 60}},
       {{"id", "d3"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 50}}};
+  return d;
+}
+
+TEST(MachineShare, OfARunOutCountsADatumOfTheSameSetupAsItIsCut) {
+  const auto d = stepped();
   const json once = {{"C", lobes("EXC", {{1e-3, 0}})}};
   EXPECT_NEAR(take(with(zone("total-radial-runout", "d3", "d2"), once, d)).fixed_um, 0,
               kUm);
@@ -160,11 +166,7 @@ TEST(MachineShare, OfARunOutCountsADatumOfTheSameSetupAsItIsCut) {
 
 // A cone of the generator gives its sections no run-out, two lobes all of it.
 TEST(MachineShare, OfCircularRunOutsIsThatOfTheSections) {
-  auto d = tube();
-  d["outer"] = {
-      {{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 60.5}},
-      {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 60}},
-      {{"id", "d3"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 50}}};
+  const auto d = stepped();
   const json taper = {{"Z", square("EB0Z", 20e-6)}};
   const json lobed = {{"C", lobes("EXC", {{0, 0}, {1e-3, 0}})}};
   const auto of_d3 = [&](const char* kind, const json& axes) {
