@@ -2,6 +2,12 @@
 set(architecture ${PROJECT_SOURCE_DIR}/tests/architecture)
 add_test(NAME architecture.floors
   COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${architecture}/floors.cmake)
+add_test(NAME architecture.layout
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${architecture}/layout.cmake)
+add_test(NAME architecture.refuses_layout
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/layout -P ${architecture}/layout.cmake)
+set_tests_properties(architecture.refuses_layout PROPERTIES PASS_REGULAR_EXPRESSION
+  "src/planning stands above src/tolerance.*src/nc is missing")
 foreach(house IN ITEMS upwards sideways solver unknown)
   add_test(NAME architecture.refuses_${house}
     COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/${house} -P ${architecture}/floors.cmake)

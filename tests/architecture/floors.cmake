@@ -3,16 +3,7 @@
 #   cmake -D ROOT=<source folder> -P floors.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(floors "base" "part,catalogue,optimise" "deflection,volumetric,cutting,milling,multipass,thermal"
-    "tolerance" "planning" "nc" "report,document" "service" "app")
-set(floor 0)
-foreach(domains IN LISTS floors)
-  math(EXPR floor "${floor} + 1")
-  string(REPLACE "," ";" domains "${domains}")
-  foreach(domain IN LISTS domains)
-    set(floor_of_${domain} ${floor})
-  endforeach()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/floors.cmake)
 
 # Documents, doors and solvers stay out of the physics.
 set(document_headers "^(nlohmann|valijson|CLI|spdlog|boost/beast|boost/asio)/")
@@ -41,7 +32,7 @@ foreach(file IN LISTS files)
       endif()
     elseif(header MATCHES "\\.\\.")
       list(APPEND errors "${file}: \"${header}\" leaves its folder")
-    elseif(floor LESS 7 AND header MATCHES "${document_headers}")
+    elseif(domain IN_LIST physics AND header MATCHES "${document_headers}")
       list(APPEND errors "${file}: ${domain} must not include <${header}>")
     elseif(NOT domain STREQUAL "optimise" AND header MATCHES "${solver_headers}")
       list(APPEND errors "${file}: ${domain} must not include <${header}>")
