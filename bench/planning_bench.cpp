@@ -10,9 +10,9 @@
 #include <limits>
 #include <nlopt.hpp>
 
-#include "../src/planning/attempt.hpp"
+#include "document/json/file.hpp"
+#include "planning/attempt.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <random>
 
-#include "../src/report/chart.hpp"
 #include "../tests/milling/cutters.hpp"
+#include "report/chart.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/milling/checks.hpp"
 #include "turnwright/report/stability_chart.hpp"

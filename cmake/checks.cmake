@@ -8,7 +8,7 @@ add_test(NAME architecture.refuses_layout
   COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/layout -P ${architecture}/layout.cmake)
 set_tests_properties(architecture.refuses_layout PROPERTIES PASS_REGULAR_EXPRESSION
   "src/planning stands above src/tolerance.*src/nc is missing")
-foreach(house IN ITEMS upwards sideways solver unknown)
+foreach(house IN ITEMS upwards sideways solver unknown private)
   add_test(NAME architecture.refuses_${house}
     COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/${house} -P ${architecture}/floors.cmake)
 endforeach()
@@ -20,6 +20,9 @@ set_tests_properties(architecture.refuses_solver PROPERTIES PASS_REGULAR_EXPRESS
   "src/deflection/a.cpp: deflection must not include <nlohmann/json.hpp>")
 set_tests_properties(architecture.refuses_unknown PROPERTIES PASS_REGULAR_EXPRESSION
   "src/part/a.cpp: \"turnwright/elsewhere/b.hpp\" is in no floor")
+
+set_tests_properties(architecture.refuses_private PROPERTIES PASS_REGULAR_EXPRESSION
+  "include/turnwright/part/a.hpp: is installed, \"part/room/b.hpp\" is not")
 
 add_test(NAME format.clang-format COMMAND ${CMAKE_COMMAND}
   -D ROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/tests/format/clang-format.cmake)

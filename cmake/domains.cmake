@@ -41,7 +41,7 @@ tw_domain(nc DEPENDS base part catalogue cutting planning
 
 file(RELATIVE_PATH data_from_bin
   /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
-set_source_files_properties(src/document/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "batch.hpp"
+#include "document/json/file.hpp"
+#include "document/json/parse.hpp"
+#include "document/json/reader.hpp"
 #include "options.hpp"
 #include "progress_line.hpp"
 #include "serve.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/nc.hpp"
-#include "turnwright/document/parse.hpp"
-#include "turnwright/document/reader.hpp"
 #include "turnwright/service/listing.hpp"
 #include "turnwright/service/output.hpp"
 #include "turnwright/service/requests.hpp"

@@ -1,7 +1,7 @@
 #include <stdexcept>
 
+#include "document/json/finite.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/document/finite.hpp"
 #include "turnwright/service/digest.hpp"
 #include "turnwright/service/requests.hpp"
 

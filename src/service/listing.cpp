@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "turnwright/document/file.hpp"
+#include "document/json/file.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -8,8 +8,8 @@
 #include <regex>
 #include <set>
 
+#include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 

@@ -1,5 +1,6 @@
 # Holds every #include line under ROOT/src and ROOT/include against the floors of the
-# house: a domain includes itself and domains of lower floors.
+# house: a domain includes itself and domains of lower floors, and what is installed includes
+# only what is installed.
 #   cmake -D ROOT=<source folder> -P floors.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -23,9 +24,11 @@ foreach(file IN LISTS files)
   foreach(line IN LISTS lines)
     math(EXPR includes "${includes} + 1")
     string(REGEX REPLACE "^[^<\"]*([<\"])([^>\"]+)[>\"].*$" "\\2" header "${line}")
-    if(header MATCHES "^turnwright/([^/]+)/")
-      set(used ${CMAKE_MATCH_1})
-      if(NOT DEFINED floor_of_${used})
+    if(line MATCHES "\"(turnwright/)?([a-z_0-9]+)/")
+      set(used ${CMAKE_MATCH_2})
+      if(file MATCHES "^include/" AND NOT header MATCHES "^turnwright/")
+        list(APPEND errors "${file}: is installed, \"${header}\" is not")
+      elseif(NOT DEFINED floor_of_${used})
         list(APPEND errors "${file}: \"${header}\" is in no floor")
       elseif(NOT used STREQUAL domain AND NOT floor_of_${used} LESS floor)
         list(APPEND errors "${file}: ${domain} (floor ${floor}) includes ${used} (floor ${floor_of_${used}})")

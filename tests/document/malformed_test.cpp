@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
+#include "document/json/file.hpp"
+#include "document/json/parse.hpp"
 #include "schema_check.hpp"
-#include "turnwright/document/file.hpp"
-#include "turnwright/document/parse.hpp"
 #include "turnwright/document/part_plan.hpp"
 
 namespace turnwright::document {

@@ -4,7 +4,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "turnwright/document/file.hpp"
+#include "document/json/file.hpp"
 
 namespace turnwright::document {
 

@@ -1,11 +1,11 @@
 // Schemas and readers describe the same documents.
 #include <gtest/gtest.h>
 
+#include "document/json/file.hpp"
 #include "schema_check.hpp"
 #include "slips.hpp"
 #include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/stability.hpp"

@@ -8,10 +8,10 @@
 #include <string>
 #include <thread>
 
+#include "document/json/parse.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/parse.hpp"
 #include "turnwright/service/requests.hpp"
 
 /// What a fuzzer asks of a document: an answer, or a refusal of the kinds that are told

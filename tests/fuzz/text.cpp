@@ -1,8 +1,8 @@
 #include <optional>
 
 #include "answered.hpp"
+#include "document/json/file.hpp"
 #include "targets.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/service/batch_line.hpp"
 
 namespace turnwright::fuzz {

@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "../../src/milling/unit_circle.hpp"
 #include "cutters.hpp"
+#include "milling/unit_circle.hpp"
 #include "turnwright/milling/limits.hpp"
 
 namespace turnwright::milling {

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "../../src/milling/unit_circle.hpp"
 #include "cutters.hpp"
+#include "milling/unit_circle.hpp"
 
 namespace turnwright::milling {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/document/file.hpp"
+#include "document/json/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/nc/program.hpp"
 

@@ -1,13 +1,13 @@
-#include "../../src/planning/allowance.hpp"
+#include "planning/allowance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "../../src/planning/demand.hpp"
-#include "../../src/planning/feature.hpp"
 #include "parts.hpp"
+#include "planning/demand.hpp"
+#include "planning/feature.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/deflection/thrust.hpp"
 #include "turnwright/planning/process_plan.hpp"

@@ -1,4 +1,4 @@
-#include "../../src/planning/chebyshev.hpp"
+#include "planning/chebyshev.hpp"
 
 #include <gtest/gtest.h>
 

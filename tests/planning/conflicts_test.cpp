@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include "../../src/planning/openable.hpp"
 #include "parts.hpp"
+#include "planning/openable.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// Over-constrained parts, judged by planning documents that were changed as a reader

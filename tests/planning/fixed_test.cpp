@@ -1,4 +1,4 @@
-#include "../../src/planning/fixed.hpp"
+#include "planning/fixed.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "../../src/planning/allowance.hpp"
 #include "parts.hpp"
+#include "planning/allowance.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {

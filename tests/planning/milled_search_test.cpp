@@ -1,5 +1,5 @@
 // The search alone, against lattices that know nothing of it.
-#include "../../src/planning/milled_search.hpp"
+#include "planning/milled_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "../../src/planning/fixed.hpp"
 #include "parts.hpp"
+#include "planning/fixed.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/milling/checks.hpp"
 #include "turnwright/milling/lobes.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "../../src/planning/allowance.hpp"
 #include "parts.hpp"
+#include "planning/allowance.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/document/process_plan.hpp"

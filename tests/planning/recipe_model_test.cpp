@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "../../src/planning/feature_optimiser.hpp"
 #include "parts.hpp"
+#include "planning/feature_optimiser.hpp"
 
 // The physics of a surface as a problem: gradients against differences, boxes against
 // points, feedback against its own equation.

@@ -4,10 +4,10 @@
 #include <map>
 #include <random>
 
-#include "../../src/planning/attempt.hpp"
+#include "document/json/file.hpp"
+#include "planning/attempt.hpp"
 #include "surface_search.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/optimise/local.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "../../src/planning/fixed.hpp"
+#include "planning/fixed.hpp"
 #include "surface_search.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "document/json/file.hpp"
 #include "global_search.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/process_plan.hpp"
 
 // The plans of parts/ against an independent search, against costs.json (that search with

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "document/json/file.hpp"
 #include "global_search.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/file.hpp"
 #include "turnwright/document/part_plan.hpp"
 
 // Writes the costs of the named parts: reference_search [--short] COSTS.json PART...

@@ -2,8 +2,8 @@
 #include <limits>
 #include <vector>
 
-#include "../../src/planning/feature.hpp"
 #include "global_search.hpp"
+#include "planning/feature.hpp"
 
 /// One surface with one recipe: the cheapest conditions on shrinking lattices.
 namespace turnwright::reference {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <regex>
 
-#include "../../src/report/stack.hpp"
+#include "report/stack.hpp"
 
 namespace turnwright::report {
 namespace {

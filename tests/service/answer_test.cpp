@@ -3,8 +3,8 @@
 #include <limits>
 #include <set>
 
+#include "document/json/parse.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/document/parse.hpp"
 #include "turnwright/service/requests.hpp"
 
 namespace turnwright::service {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "turnwright/document/parse.hpp"
+#include "document/json/parse.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "turnwright/document/parse.hpp"
+#include "document/json/parse.hpp"
 #include "turnwright/service/http_api.hpp"
 
 namespace turnwright::service {

@@ -11,7 +11,6 @@
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
-#include "turnwright/document/reader.hpp"
 
 /// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json,
 /// schemas/fixed-tool.json, schemas/milling-cutter.json and schemas/lathe.json say which
@@ -27,13 +26,6 @@ struct Catalogue {
   std::vector<catalogue::Lathe> machines;
   std::map<std::string, nlohmann::json> material_documents;  ///< as written, by id
 };
-
-/// Read one document; what is wrong with it goes to the reader's problems.
-catalogue::Material read_material(Reader document);
-catalogue::Tool read_tool(Reader document);
-catalogue::FixedTool read_fixed_tool(Reader document);
-catalogue::MillingCutter read_milling_cutter(Reader document);
-catalogue::Lathe read_lathe(Reader document);
 
 /// The *.json files in materials/, tools/, tools/fixed/, tools/milling/ and machines/ of
 /// `folder`.

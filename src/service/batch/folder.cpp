@@ -10,8 +10,8 @@
 #include <regex>
 #include <vector>
 
-#include "turnwright/document/file.hpp"
-#include "turnwright/document/reader.hpp"
+#include "document/json/file.hpp"
+#include "document/json/reader.hpp"
 #include "turnwright/service/batch_folder.hpp"
 
 namespace turnwright::service {

@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "document/json/parse.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/document/parse.hpp"
 #include "turnwright/service/batch_input.hpp"
 
 namespace turnwright::service {

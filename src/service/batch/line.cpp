@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "document/json/parse.hpp"
+#include "document/json/reader.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/document/parse.hpp"
-#include "turnwright/document/reader.hpp"
 #include "turnwright/service/batch_line.hpp"
 #include "turnwright/service/digest.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "turnwright/document/parse.hpp"
+#include "document/json/parse.hpp"
 #include "turnwright/service/batch_runner.hpp"
 #include "turnwright/service/known_answers.hpp"
 

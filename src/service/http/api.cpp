@@ -4,10 +4,10 @@
 #include <charconv>
 #include <functional>
 
+#include "document/json/file.hpp"
+#include "document/json/parse.hpp"
 #include "openapi.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/document/file.hpp"
-#include "turnwright/document/parse.hpp"
 #include "turnwright/service/http_api.hpp"
 #include "turnwright/service/page.hpp"
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "turnwright/document/file.hpp"
+#include "document/json/file.hpp"
 #include "turnwright/service/requests.hpp"
 
 namespace turnwright::service {

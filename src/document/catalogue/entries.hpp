@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "document/json/reader.hpp"
+#include "turnwright/document/catalogue.hpp"
+
+/// Entries of the catalogue, which a request names by id or gives as documents.  What is
+/// wrong goes to the problems of `value`.
+namespace turnwright::document {
+
+catalogue::Material material_of(const Catalogue& catalogue, const Reader& value);
+catalogue::Lathe machine_of(const Catalogue& catalogue, const Reader& value);
+/// An unknown id is told with those of tools for fixed operations, too.
+catalogue::Tool tool_of(const Catalogue& catalogue, const Reader& value);
+catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& value);
+catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value);
+
+template <class T>
+std::vector<std::string> ids(const std::vector<T>& entries) {
+  std::vector<std::string> out;
+  for (const auto& entry : entries) out.push_back(entry.id);
+  return out;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,75 @@
+#include "catalogue_readers.hpp"
+#include "document/json/fields.hpp"
+
+namespace turnwright::document {
+namespace {
+
+const Bounds kSpeed = above_up_to(0, 5000, "m/min");
+
+void read_elastic(Reader group, catalogue::Material& m) {
+  m.E_MPa = group.number("E_MPa", within(1000, 1e6, "MPa"));
+  m.nu = group.number("nu", at_least_below(0, 0.5));
+  m.rho_kg_m3 = group.number("rho_kg_m3", within(100, 25000, "kg/m3"));
+  m.expansion_1_K = group.number("expansion_1_K", within(0, 1e-4, "1/K"));
+  finish_group(group);
+}
+
+void read_kienzle(Reader group, catalogue::Material& m) {
+  m.kc.k11_MPa = group.number("kc11_MPa", within(50, 10000, "MPa"));
+  m.kc.m = group.number("mc", at_least_below(0, 1));
+  m.gamma0_deg = group.number("rake_deg", within(-30, 45, "deg"));
+  read_range(group, "h_mm", above_up_to(0, 10, "mm"));
+  read_range(group, "vc_m_min", kSpeed);
+  Bounds kapr = above_up_to(0, 180, "deg");
+  kapr.upper_open = true;
+  group.number("kapr_deg", kapr);
+  m.kc_uncertainty_pct = finish_group(group);
+}
+
+void read_feed_passive(Reader group, catalogue::Material& m) {
+  const auto force = within(5, 10000, "MPa");
+  const auto exponent = at_least_below(0, 1);
+  m.kf = {.k11_MPa = group.number("kf11_MPa", force), .m = group.number("mf", exponent)};
+  m.kp = {.k11_MPa = group.number("kp11_MPa", force), .m = group.number("mp", exponent)};
+  finish_group(group);
+}
+
+void read_taylor(Reader group, catalogue::Material& m) {
+  m.taylor.C = group.number("C", above_up_to(0, 1e5, "m/min"));
+  m.taylor.n = group.number("n", above_up_to(0, 1));
+  m.taylor.a = group.number("a", within(0, 2));
+  m.taylor.b = group.number("b", within(0, 2));
+  group.text("tool");
+  read_range(group, "vc_m_min", kSpeed);
+  read_range(group, "f_mm_rev", above_up_to(0, 5, "mm/rev"));
+  read_range(group, "ap_mm", above_up_to(0, 50, "mm"));
+  m.taylor_uncertainty_pct = finish_group(group);
+}
+
+}  // namespace
+
+catalogue::Material read_material(Reader r) {
+  catalogue::Material m;
+  r = r.as_object();
+  read_required_format(r, "turnwright-material/1");
+  m.id = read_id(r);
+  m.name = r.text("name");
+  m.standard = r.text("standard");
+  m.condition = r.text("condition");
+  m.group = r.choice("group", iso_groups());
+  Reader hardness = r.object("hardness");
+  m.hardness_HB = hardness.number("hardness_HB", above_up_to(0, 800, "HB"));
+  finish_group(hardness);
+  read_elastic(r.object("elastic"), m);
+  read_kienzle(r.object("kienzle"), m);
+  if (const auto group = r.optional_object("feed_passive")) read_feed_passive(*group, m);
+  read_taylor(r.object("taylor"), m);
+  if (auto chip = r.optional_object("chip")) {
+    m.hmin_mm = chip->number("hmin_mm", within(0, 1, "mm"));
+    finish_group(*chip);
+  }
+  r.finish();
+  return m;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,266 @@
+#include "csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "pointer.hpp"
+
+namespace turnwright::document {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kBlank = " \t";
+
+struct Line {
+  std::size_t number;
+  std::string_view text;
+};
+
+struct Header {
+  char separator = ',';
+  std::vector<const CsvColumn*> columns;  // null where a column is ignored
+};
+
+std::string_view trimmed(std::string_view s) {
+  const auto first = s.find_first_not_of(kBlank);
+  if (first == s.npos) return {};
+  return s.substr(first, s.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string pointer_of(const Reader& csv, const Line& line) {
+  return csv.pointer() + "#line " + std::to_string(line.number);
+}
+
+void report(const Reader& csv, std::string pointer, std::string got, std::string expected,
+            std::string code) {
+  csv.problems().add(
+      {std::move(pointer), std::move(got), std::move(expected), std::move(code)});
+}
+
+std::vector<Line> lines_of_text(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<Line> lines;
+  for (std::size_t number = 1;; ++number) {
+    const auto end = text.find('\n');
+    lines.push_back({number, text.substr(0, end)});
+    if (end == text.npos) return lines;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// The lines of either form, without their ends; they point into the document.
+std::vector<Line> lines_of(const Reader& csv) {
+  std::vector<Line> lines;
+  if (csv.broken()) return lines;
+  constexpr const char* kForm = "the text of a table, or the list of its lines";
+  if (csv.is_text()) {
+    lines = lines_of_text(csv.json().get_ref<const std::string&>());
+  } else if (csv.is_array()) {
+    for (const auto& item : csv.json()) {
+      if (!item.is_string()) {
+        csv.problem(kForm, "type");
+        return {};
+      }
+      lines.push_back({lines.size() + 1, item.get_ref<const std::string&>()});
+    }
+    if (!lines.empty() && lines[0].text.starts_with(kByteOrderMark))
+      lines[0].text.remove_prefix(kByteOrderMark.size());
+  } else {
+    csv.problem(kForm, "type");
+  }
+  for (Line& line : lines)
+    if (line.text.ends_with('\r')) line.text.remove_suffix(1);
+  return lines;
+}
+
+/// Whether the lines are text; the first character that is none is reported.
+bool is_text(const Reader& csv, const std::vector<Line>& lines) {
+  const auto control = [](char c) {
+    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7f';
+  };
+  for (const Line& line : lines) {
+    const auto at = std::ranges::find_if(line.text, control);
+    if (at == line.text.end()) continue;
+    report(csv, pointer_of(csv, line),
+           "the control character " + std::to_string(static_cast<int>(*at)) +
+               " in column " + std::to_string(at - line.text.begin() + 1),
+           "a table as text", "type");
+    return false;
+  }
+  return true;
+}
+
+/// The cells without their quotes; nothing if those are out of place.
+std::optional<std::vector<std::string>> cells(std::string_view line, char separator) {
+  std::vector<std::string> out;
+  for (;;) {
+    std::string cell;
+    const auto start = line.find_first_not_of(separator == '\t' ? " " : kBlank);
+    if (start != line.npos && line[start] == '"') {
+      line.remove_prefix(start + 1);
+      for (;;) {
+        const auto quote = line.find('"');
+        if (quote == line.npos) return std::nullopt;
+        cell += line.substr(0, quote);
+        line.remove_prefix(quote + 1);
+        if (!line.starts_with('"')) break;
+        cell += '"';
+        line.remove_prefix(1);
+      }
+      if (!trimmed(line.substr(0, line.find(separator))).empty()) return std::nullopt;
+    } else {
+      cell = trimmed(line.substr(0, line.find(separator)));
+    }
+    out.push_back(std::move(cell));
+    const auto end = line.find(separator);
+    if (end == line.npos) return out;
+    line.remove_prefix(end + 1);
+  }
+}
+
+/// The cells without those that are empty behind the first `least`.
+std::optional<std::vector<std::string>> cells_of(const Reader& csv, const Line& line,
+                                                 char separator, std::size_t least) {
+  auto out = cells(line.text, separator);
+  if (!out)
+    report(csv, pointer_of(csv, line), "a quote out of place",
+           "cells as \"text\", on one line, with \"\" for a quote", "type");
+  while (out && out->size() > least && out->back().empty()) out->pop_back();
+  return out;
+}
+
+char separator_of(std::string_view header) {
+  char best = ',';
+  for (const char c : {';', '\t'})
+    if (std::ranges::count(header, c) > std::ranges::count(header, best)) best = c;
+  return best;
+}
+
+std::string list(const std::vector<CsvColumn>& columns) {
+  std::string out;
+  for (const CsvColumn& c : columns) out += (out.empty() ? "" : ", ") + c.name;
+  return out;
+}
+
+/// What the header's columns hold; nothing if it is wrong.
+std::optional<Header> read_header(const Reader& csv, const Line& line,
+                                  const std::vector<CsvColumn>& columns,
+                                  OtherColumns others) {
+  Header out{.separator = separator_of(line.text), .columns = {}};
+  const auto names = cells_of(csv, line, out.separator, 0);
+  if (!names) return std::nullopt;
+  bool good = true;
+  const auto wrong = [&](const std::string& got, std::string expected, const char* code) {
+    report(csv, pointer_of(csv, line), got, std::move(expected), code);
+    good = false;
+  };
+  std::vector<std::string> strangers;
+  for (const std::string& name : *names) {
+    const auto found = std::ranges::find(columns, name, &CsvColumn::name);
+    const CsvColumn* const column = found == columns.end() ? nullptr : &*found;
+    if (!column && others == OtherColumns::refused)
+      wrong("column " + shown(name), "columns of " + list(columns), "unknown-key");
+    else if (column && std::ranges::count(out.columns, column) > 0)
+      wrong("column " + shown(name) + " again", "each column once", "duplicate");
+    out.columns.push_back(column);
+    if (!column) strangers.push_back(name);
+  }
+  for (const CsvColumn& column : columns) {
+    if (!column.required || std::ranges::count(*names, column.name) > 0) continue;
+    const auto near = nearest(column.name, strangers);
+    wrong("no column \"" + column.name + "\"",
+          near.empty() ? "one" : "perhaps " + shown(near), "missing");
+  }
+  return good ? std::optional(out) : std::nullopt;
+}
+
+/// A number, or the text as it stands.
+nlohmann::json value_of(std::string_view cell) {
+  std::string_view digits = cell;
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
+  double x = 0;
+  const auto end = digits.data() + digits.size();
+  const auto [to, error] = std::from_chars(digits.data(), end, x);
+  if (error != std::errc() || to != end || !std::isfinite(x)) return std::string(cell);
+  return x;
+}
+
+bool has_decimal_comma(std::string cell) {
+  const auto comma = cell.find(',');
+  if (comma == cell.npos) return false;
+  cell[comma] = '.';
+  return value_of(cell).is_number();
+}
+
+/// The row of a line; false once a decimal comma tells that the table's numbers have
+/// them.
+bool add_row(const Reader& csv, const Line& line, const Header& header,
+             std::vector<CsvRow>& rows) {
+  const auto row_cells = cells_of(csv, line, header.separator, header.columns.size());
+  if (!row_cells || std::ranges::all_of(*row_cells, &std::string::empty)) return true;
+  if (row_cells->size() != header.columns.size()) {
+    report(csv, pointer_of(csv, line), std::to_string(row_cells->size()) + " cells",
+           std::to_string(header.columns.size()) + " as in the header", "count");
+    return true;
+  }
+  CsvRow row{nlohmann::json::object(), pointer_of(csv, line)};
+  for (std::size_t i = 0; i < row_cells->size(); ++i) {
+    const CsvColumn* const column = header.columns[i];
+    const std::string& cell = (*row_cells)[i];
+    if (!column || cell.empty()) continue;
+    if (!column->text && has_decimal_comma(cell)) {
+      report(csv, child_pointer(row.pointer, column->name), shown(cell),
+             "a decimal point, here and in all numbers", "type");
+      return false;
+    }
+    row.value[column->name] = column->text ? nlohmann::json(cell) : value_of(cell);
+  }
+  rows.push_back(std::move(row));
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::string> csv_header(const Reader& csv) {
+  const auto lines = lines_of(csv);
+  if (csv.broken() || !is_text(csv, lines)) return {};
+  for (const Line& line : lines) {
+    const auto text = trimmed(line.text);
+    if (!text.empty() && !text.starts_with('#'))
+      return cells_of(csv, line, separator_of(line.text), 0)
+          .value_or(std::vector<std::string>{});
+  }
+  return {};
+}
+
+std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
+                             OtherColumns others, std::size_t most_rows) {
+  const std::size_t before = csv.problems().list.size();
+  const auto lines = lines_of(csv);
+  std::vector<CsvRow> rows;
+  std::optional<Header> header;
+  if (csv.broken() || !is_text(csv, lines)) return rows;
+  for (const Line& line : lines) {
+    const auto text = trimmed(line.text);
+    if (text.empty() || (!header && text.starts_with('#'))) continue;
+    if (!header) {
+      header = read_header(csv, line, columns, others);
+      if (!header) return rows;
+    } else if (!add_row(csv, line, *header, rows)) {
+      return rows;
+    }
+    if (rows.size() > most_rows) break;
+  }
+  const bool too_many = rows.size() > most_rows;
+  const bool nothing = rows.empty() && csv.problems().list.size() == before;
+  if (too_many || nothing)
+    csv.problem(nothing ? "no rows" : "more rows",
+                "a header with columns of " + list(columns) + " and 1 to " +
+                    std::to_string(most_rows) + " rows",
+                "count");
+  return rows;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reader.hpp"
+#include "turnwright/catalogue/material.hpp"
+#include "turnwright/catalogue/milling_cutter.hpp"
+#include "turnwright/catalogue/tool.hpp"
+
+/// Fields that several kinds of documents have in common.
+namespace turnwright::document {
+
+/// Letters, digits and "_.+-", at most 64: what ids may consist of.
+std::string read_id(Reader& r, std::string_view key = "id");
+
+/// "format", which must be `format` if it is there.
+void read_format(Reader& r, const std::string& format);
+void read_required_format(Reader& r, const std::string& format);
+
+/// [lower, upper] with lower <= upper, both within `bounds`.
+catalogue::Range read_range(Reader& r, std::string_view key, const Bounds& bounds);
+
+/// "source", "note" and the returned "uncertainty_pct" of a group of numbers; refuses
+/// what the group holds beyond the keys asked for so far.
+double finish_group(Reader& group);
+
+const Choices<catalogue::IsoGroup>& iso_groups();
+
+/// {"c0_mm_N", "c1_rad_N", "c2_rad_Nmm"}: a compliance that does no negative work.
+catalogue::RootCompliance read_compliance(Reader r);
+
+/// Damping ratio of a mode of slender work or of a bar, "damping_ratio".
+inline const Bounds kDamping = above_up_to(0, 0.5);
+
+/// "modes": {"axis": "x" along the feed or "y" across it, "frequency_Hz",
+/// "damping_ratio", "stiffness_N_mm"}, one to ten of them.
+std::vector<catalogue::TipMode> read_tip_modes(Reader& r);
+
+/// A list of distinct words.
+template <class E>
+std::vector<E> read_set(Reader& r, std::string_view key, const Choices<E>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : choices) words.emplace_back(word);
+  const auto items = r.items(key, 1, choices.size());
+  std::vector<E> out;
+  for (auto item = items.begin(); item != items.end(); ++item) {
+    out.push_back(choices[item->as_choice(words)].second);
+    const auto same = [&](const Reader& other) { return other.json() == item->json(); };
+    if (std::any_of(items.begin(), item, same))
+      item->problem("each word once", "duplicate");
+  }
+  return out;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "part_sections.hpp"
+#include "turnwright/tolerance/iso286.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using part::CutKind;
+using part::ElementKind;
+
+const Bounds kSize = above_up_to(0, 20000, "mm");
+
+enum class Side { outer, inner };
+
+// How an element is read: what is turned, or what is cut into it besides.
+struct Shape {
+  ElementKind turned = ElementKind::cylinder;
+  std::optional<CutKind> cut = {};
+};
+const Choices<std::optional<Shape>> kShapes{{"cylinder", Shape{}},
+                                            {"cone", Shape{ElementKind::cone}},
+                                            {"arc", Shape{{}, CutKind::arc}},
+                                            {"groove", Shape{{}, CutKind::groove}},
+                                            {"thread", Shape{{}, CutKind::thread}}};
+
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+
+std::optional<part::Limits> limits_of_fit(Reader& r, const std::string& fit,
+                                          double diameter_mm, Side side) {
+  if (is_upper(fit[0]) != (side == Side::inner)) {
+    r.problem_at("fit",
+                 side == Side::outer
+                     ? "a shaft's tolerance class, with a small letter, like \"h6\""
+                     : "a bore's tolerance class, with a capital letter, like \"H7\"",
+                 "choice");
+    return std::nullopt;
+  }
+  if (!std::isfinite(diameter_mm)) return std::nullopt;  // reported already
+  try {
+    return tolerance::fit_limits_mm(diameter_mm, fit);
+  } catch (const std::domain_error& error) {
+    r.problem_at("fit", std::string("an ISO 286 tolerance class (") + error.what() + ")",
+                 "choice");
+    return std::nullopt;
+  }
+}
+
+void read_roughness(Reader& r, std::optional<double>& Ra_um,
+                    std::optional<double>& Rz_um) {
+  Ra_um = r.optional_number("Ra_um", above_up_to(0, 100, "um"));
+  Rz_um = r.optional_number("Rz_um", above_up_to(0, 400, "um"));
+}
+
+// Element is part::OuterElement or part::InnerElement here and below.
+template <class Element>
+void read_size(Reader& r, Element& e, Side side) {
+  const double smallest_mm = std::min(e.left_mm, e.right_mm);
+  e.fit = r.optional_text("fit", 8);
+  if (r.has("limits_mm")) {
+    e.limits = read_limits(r);
+    if (e.fit) r.problem_at("limits_mm", "fit or limits_mm, not both", "conflict");
+    if (smallest_mm + e.limits->lower_mm <= 0)
+      r.problem_at("limits_mm", "limits that leave a diameter > 0 mm", "conflict");
+  } else if (e.fit && !e.fit->empty()) {
+    if (e.kind == ElementKind::cone)
+      r.problem_at("fit", "limits_mm: a cone has no single size for a fit", "conflict");
+    else
+      e.limits = limits_of_fit(r, *e.fit, e.left_mm, side);
+  }
+}
+
+template <class Element>
+void read_shape(Reader& r, Element& e, Side side) {
+  e.length_mm = r.number("length_mm", kSize);
+  if (e.kind == ElementKind::cylinder) {
+    e.left_mm = e.right_mm = r.number("diameter_mm", kSize);
+  } else {
+    e.left_mm = r.number("left_mm", kSize);
+    e.right_mm = r.number("right_mm", kSize);
+    if (e.left_mm == e.right_mm)
+      r.problem_at("right_mm", "another diameter than left_mm (else say \"cylinder\")",
+                   "conflict");
+  }
+  read_size(r, e, side);
+  read_roughness(r, e.Ra_um, e.Rz_um);
+  r.finish();
+}
+
+template <class Element>
+void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reader>& items,
+               Side side, std::vector<std::string>& ids) {
+  for (Reader r : items) {
+    r = r.as_object();
+    Element e;
+    e.id = read_id(r);
+    if (e.id == "left" || e.id == "right")
+      r.problem_at("id", "an id other than \"left\" and \"right\", which name the ends",
+                   "conflict");
+    if (!e.id.empty() && std::find(ids.begin(), ids.end(), e.id) != ids.end())
+      r.problem_at("id", "an id no other element has", "duplicate");
+    ids.push_back(e.id);
+    const auto shape = r.choice<std::optional<Shape>>("kind", kShapes);
+    if constexpr (std::is_same_v<Element, part::InnerElement>)
+      e.from = r.choice<part::End>("from", ends());
+    if (shape && shape->cut) {
+      read_cut(draft, r, e, *shape->cut);
+    } else if (shape) {
+      e.kind = shape->turned;
+      read_shape(r, e, side);
+    }
+    list.push_back(std::move(e));
+  }
+}
+
+void read_faces(Draft& draft) {
+  std::vector<std::string> known;
+  for (const auto& named : features(draft.drawing()))
+    if (named.feature == Feature::face) known.push_back(named.id);
+  auto& faces = draft.drawing().faces;
+  for (Reader r : draft.root.optional_items("faces", 0, 200)) {
+    r = r.as_object();
+    part::Face face;
+    face.id =
+        checked_reference(r.at("id", "the id of a face"), known, "a face of the part");
+    for (const auto& earlier : faces)
+      if (!face.id.empty() && earlier.id == face.id)
+        r.problem_at("id", "each face once", "duplicate");
+    read_roughness(r, face.Ra_um, face.Rz_um);
+    r.finish();
+    faces.push_back(std::move(face));
+  }
+}
+
+}  // namespace
+
+void read_elements(Draft& draft) {
+  std::vector<std::string> ids;
+  auto& drawing = draft.drawing();
+  const auto outer = draft.root.items("outer", 1, 100);
+  const auto inner = draft.root.optional_items("inner", 0, 100);
+  read_list(draft, drawing.outer, outer, Side::outer, ids);
+  read_list(draft, drawing.inner, inner, Side::inner, ids);
+  give_grooves_their_blanks(draft, outer, inner);
+  read_faces(draft);
+}
+
+std::vector<NamedFeature> features(const part::Drawing& drawing) {
+  std::vector<NamedFeature> out;
+  const auto add = [&](const auto& e) {
+    out.push_back({e.id, e.cut                             ? Feature::fixed
+                         : e.kind == ElementKind::cylinder ? Feature::cylinder
+                                                           : Feature::cone});
+  };
+  for (const auto& e : drawing.outer) add(e);
+  for (const auto& e : drawing.inner) add(e);
+  const bool unreadable = std::any_of(out.begin(), out.end(),
+                                      [](const auto& named) { return named.id.empty(); });
+  if (unreadable || drawing.outer.empty()) return {};
+  out.push_back({"left", Feature::face});
+  out.push_back({"right", Feature::face});
+  for (std::size_t i = 1; i < drawing.outer.size(); ++i) {
+    const auto &before = drawing.outer[i - 1], &after = drawing.outer[i];
+    if (before.right_mm != after.left_mm)
+      out.push_back({before.id + '|' + after.id, Feature::face});
+  }
+  return out;
+}
+
+const Choices<part::End>& ends() {
+  static const Choices<part::End> kEnds{{"left", part::End::left},
+                                        {"right", part::End::right}};
+  return kEnds;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <stdexcept>
+
+#include "document/json/fields.hpp"
+#include "part_sections.hpp"
+#include "turnwright/tolerance/iso286.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using part::CutKind;
+using part::Where;
+
+const Bounds kSize = above_up_to(0, 20000, "mm");
+
+// ISO 261, coarse series, first and second choice.
+struct Coarse {
+  double d_mm, P_mm;
+};
+constexpr Coarse kCoarse[] = {{3, 0.5},  {4, 0.7},   {5, 0.8},  {6, 1},    {8, 1.25},
+                              {10, 1.5}, {12, 1.75}, {14, 2},   {16, 2},   {18, 2.5},
+                              {20, 2.5}, {22, 2.5},  {24, 3},   {27, 3},   {30, 3.5},
+                              {33, 3.5}, {36, 4},    {39, 4},   {42, 4.5}, {45, 4.5},
+                              {48, 5},   {52, 5},    {56, 5.5}, {60, 5.5}, {64, 6}};
+
+std::optional<double> coarse_pitch_mm(double d_mm) {
+  for (const auto& c : kCoarse)
+    if (c.d_mm == d_mm) return c.P_mm;
+  return std::nullopt;
+}
+
+// What the drawing asks of a surface that catalogue conditions make is told, not judged.
+void leave_to_the_tool(Draft& draft, Reader& r) {
+  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
+    if (const auto value = r.find(key); value && !value->broken())
+      draft.assume(r.pointer_of(key), value->json(),
+                   "left to the tool at its catalogue conditions: not predicted");
+}
+
+void read_demands(Draft& draft, Reader& r, double least_mm) {
+  r.optional_number("Ra_um", above_up_to(0, 100, "um"));
+  r.optional_number("Rz_um", above_up_to(0, 400, "um"));
+  if (r.has("limits_mm") && least_mm + read_limits(r).lower_mm <= 0)
+    r.problem_at("limits_mm", "limits that leave a diameter > 0 mm", "conflict");
+  if (r.has("fit") && r.has("limits_mm"))
+    r.problem_at("limits_mm", "fit or limits_mm, not both", "conflict");
+  leave_to_the_tool(draft, r);
+}
+
+struct Size {
+  double d_mm = std::numeric_limits<double>::quiet_NaN();
+  double P_mm = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Digits that the pattern below has found, with a point in any locale.
+double number(const std::ssub_match& digits) {
+  double x = 0;
+  std::from_chars(&*digits.first, &*digits.first + digits.length(), x);
+  return x;
+}
+
+// "M30x1.5", or "M30" of the coarse series.
+Size read_designation(Reader& r) {
+  static const std::regex kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
+  const auto text = r.text("designation", 20);
+  for (const char* key : {"diameter_mm", "pitch_mm"})
+    if (r.has(key))
+      r.problem_at(key, "designation, or diameter_mm and pitch_mm, not both", "conflict");
+  std::smatch m;
+  if (text.empty()) return {};
+  if (!std::regex_match(text, m, kForm)) {
+    r.problem_at("designation", "an ISO metric thread like \"M30x1.5\" or \"M30\"",
+                 "choice");
+    return {};
+  }
+  Size s{number(m[1]), 0};
+  const auto coarse = coarse_pitch_mm(s.d_mm);
+  if (m[2].matched) {
+    s.P_mm = number(m[2]);
+  } else if (coarse) {
+    s.P_mm = *coarse;
+  } else {
+    r.problem_at("designation", "a pitch too: \"" + text + "\" has no coarse one",
+                 "choice");
+    return {};
+  }
+  return s;
+}
+
+Size read_thread_size(Draft& draft, Reader& r) {
+  if (r.has("designation")) return read_designation(r);
+  Size s;
+  s.d_mm = r.number("diameter_mm", kSize);
+  const auto coarse = coarse_pitch_mm(s.d_mm);
+  if (r.has("pitch_mm")) {
+    s.P_mm = r.number("pitch_mm", above_up_to(0, 50, "mm"));
+  } else if (!coarse) {
+    if (std::isfinite(s.d_mm))
+      r.problem_at("pitch_mm",
+                   "a pitch: " + number_text(s.d_mm) + " mm has no coarse one",
+                   "conflict");
+  } else {
+    s.P_mm = *coarse;
+    draft.assume(r.pointer_of("pitch_mm"), s.P_mm, "the coarse pitch of ISO 261");
+  }
+  return s;
+}
+
+void check_thread_class(Reader& r) {
+  static const std::regex kClass("[3-9][a-hA-H]([3-9][a-hA-H])?");
+  const auto fit = r.optional_text("fit", 8);
+  if (fit && !fit->empty() && !std::regex_match(*fit, kClass))
+    r.problem_at("fit", "a thread's tolerance class like \"6g\" or \"6H\"", "choice");
+}
+
+part::Shaped read_thread(Draft& draft, Reader& r, Where where) {
+  const auto s = read_thread_size(draft, r);
+  check_thread_class(r);
+  read_demands(draft, r, s.d_mm);
+  const char* key = r.has("designation") ? "designation" : "pitch_mm";
+  if (!(s.d_mm > 0 && s.d_mm <= 20000 && s.P_mm > 0)) {
+    if (r.has("designation") && std::isfinite(s.d_mm))
+      r.problem_at(key, "a diameter > 0 and <= 20000 mm and a pitch > 0 mm", "range");
+    return {};
+  }
+  if (s.P_mm > s.d_mm / 3)
+    r.problem_at(key, "a pitch of at most a third of the diameter", "conflict");
+  return part::thread(s.d_mm, s.P_mm, where);
+}
+
+part::Shaped read_groove(Draft& draft, Reader& r) {
+  const double floor = r.number("diameter_mm", kSize);
+  if (const auto fit = r.optional_text("fit", 8);
+      fit && !fit->empty() && std::isfinite(floor)) {
+    try {
+      tolerance::fit_limits_mm(floor, *fit);
+    } catch (const std::domain_error& error) {
+      r.problem_at("fit",
+                   std::string("an ISO 286 tolerance class (") + error.what() + ")",
+                   "choice");
+    }
+  }
+  read_demands(draft, r, floor);
+  return part::groove(floor, floor);
+}
+
+part::Shaped read_arc(Draft& draft, Reader& r, double length_mm) {
+  const part::Ends ends{r.number("left_mm", kSize), r.number("right_mm", kSize)};
+  const double radius = r.number("radius_mm", kSize);
+  const bool convex = r.choice_or("bulge", {{"convex", true}, {"concave", false}}, true);
+  if (!r.has("bulge")) draft.assume(r.pointer_of("bulge"), "convex", "default");
+  read_demands(draft, r, std::min(ends.left_mm, ends.right_mm));
+  if (!std::isfinite(length_mm + ends.left_mm + ends.right_mm + radius)) return {};
+  try {
+    return part::arc(length_mm, ends, radius, convex);
+  } catch (const std::domain_error& error) {
+    r.problem_at("radius_mm", error.what(), "conflict");
+    return {};
+  }
+}
+
+template <class Element>
+void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
+  e.length_mm = r.number("length_mm", kSize);
+  part::Shaped s;
+  if (kind == CutKind::thread) s = read_thread(draft, r, where);
+  if (kind == CutKind::groove) s = read_groove(draft, r);
+  if (kind == CutKind::arc) s = read_arc(draft, r, e.length_mm);
+  s.cut.kind = kind;
+  r.finish();
+  const bool readable = s.blank.left_mm > 0;
+  e.left_mm = readable ? s.blank.left_mm : std::numeric_limits<double>::quiet_NaN();
+  e.right_mm = readable ? s.blank.right_mm : e.left_mm;
+  e.kind =
+      e.left_mm == e.right_mm ? part::ElementKind::cylinder : part::ElementKind::cone;
+  e.cut = s.cut;
+}
+
+template <class Element>
+bool is_groove(const Element& e) {
+  return e.cut && e.cut->kind == CutKind::groove;
+}
+
+bool same_bore(const part::OuterElement&, const part::OuterElement&) { return true; }
+bool same_bore(const part::InnerElement& a, const part::InnerElement& b) {
+  return a.from == b.from;
+}
+
+// Whether the next element of a list lies on the right.
+bool rightwards(const part::OuterElement&) { return true; }
+bool rightwards(const part::InnerElement& e) { return e.from == part::End::left; }
+
+// The diameter that element k shows to groove i.
+template <class Element>
+double towards(const std::vector<Element>& list, std::size_t k, std::size_t i) {
+  const bool on_the_right = (k > i) == rightwards(list[i]);
+  return on_the_right ? list[k].left_mm : list[k].right_mm;
+}
+
+// Of the nearest elements that are no grooves the smaller, inside the larger.
+template <class Element>
+std::optional<std::size_t> neighbour(const std::vector<Element>& list, std::size_t i,
+                                     Where where) {
+  std::optional<std::size_t> before, after;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (is_groove(list[k]) || !same_bore(list[k], list[i])) continue;
+    if (k < i) before = k;
+    if (k > i && !after) after = k;
+  }
+  if (!before || !after) return before ? before : after;
+  const double b = towards(list, *before, i), a = towards(list, *after, i);
+  const bool first = where == Where::outside ? b <= a : b >= a;
+  return first ? before : after;
+}
+
+template <class Element>
+void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
+                 Where where) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto& e = list[i];
+    if (!is_groove(e)) continue;
+    const auto k = beside(list, i);
+    if (!k) {
+      items[i].problem_at("kind",
+                          "a groove beside another element: its blank is turned to that "
+                          "one's diameter",
+                          "conflict");
+      continue;
+    }
+    const double blank = towards(list, *k, i), floor = e.cut->drawn.left_mm;
+    const bool outside = where == Where::outside;
+    if (outside ? floor >= blank : floor <= blank)
+      items[i].problem_at("diameter_mm",
+                          std::string(outside ? "less" : "more") + " than the " +
+                              number_text(blank) + " mm of " + list[*k].id +
+                              " beside the groove",
+                          "conflict");
+    const auto s = part::groove(blank, floor);
+    e.left_mm = e.right_mm = blank;
+    e.cut = s.cut;
+  }
+}
+
+}  // namespace
+
+void read_cut(Draft& draft, Reader& r, part::OuterElement& e, CutKind kind) {
+  read(draft, r, e, kind, Where::outside);
+}
+
+void read_cut(Draft& draft, Reader& r, part::InnerElement& e, CutKind kind) {
+  if (kind == CutKind::arc)
+    r.problem_at("kind", "a kind that a bore can have: not \"arc\"", "kind");
+  read(draft, r, e, kind, Where::inside);
+}
+
+std::optional<std::size_t> beside(const std::vector<part::OuterElement>& list,
+                                  std::size_t groove) {
+  return neighbour(list, groove, Where::outside);
+}
+
+std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
+                                  std::size_t groove) {
+  return neighbour(list, groove, Where::inside);
+}
+
+void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,
+                               const std::vector<Reader>& inner) {
+  give_blanks(draft.drawing().outer, outer, Where::outside);
+  give_blanks(draft.drawing().inner, inner, Where::inside);
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+
+#include "document/catalogue/entries.hpp"
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "milled_shaft.hpp"
+#include "part_sections.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/planning/milled_places.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using planning::Milled;
+using planning::MilledKind;
+
+constexpr std::size_t kPlaces = 100;
+constexpr double kDepthMargin = 0.2, kSpeedMargin = 0.02;
+constexpr double kSlack = 1e-9;     // mm
+constexpr double kToldBelow = 0.9;  // of a section's stiffness
+
+std::string text(double mm) { return number_text(mm) + " mm"; }
+
+// Cylinders that nothing else cuts into.
+std::vector<std::string> cylinders(const part::Drawing& drawing) {
+  std::vector<std::string> out;
+  for (const auto& e : drawing.outer)
+    if (e.kind == part::ElementKind::cylinder && !e.cut) out.push_back(e.id);
+  return out;
+}
+
+deflection::Slot slot_of(const Milled& m, double diameter_mm) {
+  return {m.width_mm, diameter_mm / 2 - m.depth_mm, units::rad_from_deg(m.angle_deg)};
+}
+
+// The largest radius of a hole below a place.
+double hole_mm(const part::Drawing& d, const Milled& m) {
+  double most = d.stock.inner_mm / 2;
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    if (z0 < m.z_mm + m.length_mm && z1 > m.z_mm)
+      most = std::max({most, d.inner[i].left_mm / 2, d.inner[i].right_mm / 2});
+  }
+  return most;
+}
+
+// What the section keeps of its stiffness in bending, the softest way, where a place is
+// and others beside it.
+double stiffness_left(const planning::PartPlan& p, const Milled& m) {
+  const double D = p.drawing.outer[m.element].left_mm;
+  const auto whole = deflection::round_section(D, 2 * hole_mm(p.drawing, m));
+  auto s = whole;
+  for (const auto& x : p.milled)
+    if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
+        m.z_mm < x.z_mm + x.length_mm)
+      s = deflection::without_slot(s, D, slot_of(x, D));
+  const double xx = s.xx_mm4 - s.sx_mm3 * s.sx_mm3 / s.area_mm2;
+  const double yy = s.yy_mm4 - s.sy_mm3 * s.sy_mm3 / s.area_mm2;
+  const double xy = s.xy_mm4 - s.sx_mm3 * s.sy_mm3 / s.area_mm2;
+  return ((xx + yy) / 2 - std::hypot((xx - yy) / 2, xy)) / whole.xx_mm4;
+}
+
+// On the element, below its rim, above its hole.
+void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
+  const auto& e = d.outer[m.element];
+  const double R = e.left_mm / 2, z0 = part::left_z_mm(d, m.element);
+  const double z1 = z0 + e.length_mm;
+  if (m.z_mm < z0 - kSlack || m.z_mm > z1)
+    r.problem_at("z_mm", "a place on " + e.id + ", from " + text(z0) + " to " + text(z1),
+                 "conflict");
+  else if (m.z_mm + m.length_mm > z1 + kSlack)
+    r.problem_at("length_mm", "at most " + text(z1 - m.z_mm) + ", to the end of " + e.id,
+                 "conflict");
+  if (!(m.depth_mm < R)) {
+    if (m.depth_mm >= R)
+      r.problem_at("depth_mm", "less than the radius of " + e.id + ", " + text(R),
+                   "conflict");
+    return;
+  }
+  const double hole = hole_mm(d, m);
+  if (R - m.depth_mm <= hole + kSlack)
+    r.problem_at("depth_mm", "less than the wall over the hole, " + text(R - hole),
+                 "conflict");
+  if (m.kind == MilledKind::flat) {
+    m.width_mm = 2 * std::sqrt(R * R - (R - m.depth_mm) * (R - m.depth_mm));
+    return;
+  }
+  if (m.width_mm >= 2 * R)
+    r.problem_at("width_mm", "less than the diameter of " + e.id + ", " + text(2 * R),
+                 "conflict");
+  else if (R - m.depth_mm >= std::sqrt(R * R - m.width_mm * m.width_mm / 4))
+    r.problem_at("depth_mm",
+                 "a floor below the edges, more than " +
+                     text(R - std::sqrt(R * R - m.width_mm * m.width_mm / 4)) +
+                     " at this width",
+                 "conflict");
+  if (m.kind == MilledKind::keyway && m.length_mm < m.width_mm)
+    r.problem_at("length_mm", "at least its width, " + text(m.width_mm), "conflict");
+}
+
+void check_others(const Draft& draft, Reader& r, const Milled& m) {
+  for (const auto& feature : features(draft.loaded.plan.drawing))
+    if (!m.id.empty() && feature.id == m.id)
+      r.problem_at("id", "an id no element or face has", "duplicate");
+  for (const auto& other : draft.loaded.plan.milled) {
+    if (!m.id.empty() && other.id == m.id)
+      r.problem_at("id", "an id no other milled place has", "duplicate");
+    const double D = draft.loaded.plan.drawing.outer[m.element].left_mm;
+    if (other.element == m.element && other.z_mm < m.z_mm + m.length_mm &&
+        m.z_mm < other.z_mm + other.length_mm &&
+        meet(slot_of(m, D), slot_of(other, D), D))
+      r.problem("a place that does not meet " + other.id, "conflict");
+  }
+}
+
+// Of the driven spindle, where the machine has one.
+Bounds speeds(const Draft& draft) {
+  const auto& driven = draft.loaded.plan.machine.driven_tools;
+  return driven ? within(driven->n_min_rpm, driven->n_max_rpm, "1/min")
+                : above_up_to(0, 1e5, "1/min");
+}
+
+void read_given(const Draft& draft, Reader& r, Milled& m) {
+  const bool whole = draft.purpose == Purpose::predict;
+  if (!whole && !r.has("conditions")) return;
+  Reader given = r.object("conditions");
+  if (const auto n = given.optional_integer("passes", 1, 1000))
+    m.passes = static_cast<int>(*n);
+  if (m.kind == MilledKind::flat)
+    if (const auto n = given.optional_integer("lanes", 1, 1000))
+      m.lanes = static_cast<int>(*n);
+  m.n_rpm = given.optional_number("n_rpm", speeds(draft));
+  m.fz_mm = given.optional_number("fz_mm", above_up_to(0, 5, "mm"));
+  given.finish();
+  if (!whole || given.broken()) return;
+  for (const auto* key : {"passes", "n_rpm", "fz_mm"})
+    if (!given.has(key))
+      given.problem_at(key, "a value: predict chooses none", "missing");
+  if (m.kind == MilledKind::flat && !given.has("lanes"))
+    given.problem_at("lanes", "a value: predict chooses none", "missing");
+}
+
+double margin(Draft& draft, Reader& r, const char* key, const Bounds& bounds,
+              double fallback, const char* why) {
+  if (!r.has(key)) draft.assume(r.pointer_of(key), fallback, why);
+  return r.number_or(key, bounds, fallback);
+}
+
+void read_place(Draft& draft, Reader r) {
+  r = r.as_object();
+  Milled m;
+  m.id = read_id(r);
+  const auto before = r.problems().list.size();
+  m.kind =
+      r.choice("kind", named({MilledKind::flat, MilledKind::keyway, MilledKind::slot}));
+  const bool kind_known = r.problems().list.size() == before;
+  const auto& outer = draft.drawing().outer;
+  const auto on = checked_reference(r.at("on", "the id of an outer cylinder"),
+                                    cylinders(draft.drawing()), "an outer cylinder");
+  const auto e = std::find_if(outer.begin(), outer.end(),
+                              [&](const auto& x) { return !on.empty() && x.id == on; });
+  m.z_mm = r.number("z_mm", within(0, 20000, "mm"));
+  m.length_mm = r.number("length_mm", above_up_to(0, 20000, "mm"));
+  if (kind_known && m.kind != MilledKind::flat)
+    m.width_mm = r.number("width_mm", above_up_to(0, 500, "mm"));
+  m.depth_mm = r.number("depth_mm", above_up_to(0, 500, "mm"));
+  m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
+  m.corner_mm = r.optional_number("corner_mm", within(0, 250, "mm"));
+  if (r.has("tool"))
+    m.cutters = {cutter_of(draft.catalogue, r.at("tool"))};
+  else if (draft.purpose == Purpose::predict)
+    r.problem_at("tool", "the id of a milling cutter", "missing");
+  else {
+    m.cutters = draft.cutters;
+    draft.assume(r.pointer_of("tool"), "any",
+                 "chosen from the milling cutters there are");
+  }
+  const auto setups = static_cast<long>(draft.plan().setups.size());
+  const auto setup = r.optional_integer("setup", 0, std::max(setups - 1, long{0}));
+  m.depth_margin = margin(draft, r, "stability_margin", within(0, 10), kDepthMargin,
+                          "stable so much deeper than each pass");
+  m.speed_margin = margin(draft, r, "speed_margin", within(0.005, 0.2), kSpeedMargin,
+                          "and at every speed so much slower or faster");
+  read_given(draft, r, m);
+  if (!kind_known) return;  // the other keys depend on it
+  r.finish();
+  if (e == outer.end() || r.problems().list.size() > before) return;
+  m.element = static_cast<std::size_t>(e - outer.begin());
+  check_shape(draft.drawing(), r, m);
+  check_others(draft, r, m);
+  if (setup) m.setup = static_cast<std::size_t>(*setup);
+  draft.plan().milled.push_back(std::move(m));
+}
+
+// Machines of the catalogue that mill.
+std::string that_mill(const Catalogue& catalogue) {
+  std::string list;
+  for (const auto& m : catalogue.machines)
+    if (m.driven_tools) list += (list.empty() ? "" : ", ") + m.id;
+  return list.empty() ? "no machine of the catalogue has" : "as " + list + " has";
+}
+
+}  // namespace
+
+void read_milling(Draft& draft) {
+  const auto items = draft.root.optional_items("milling", 0, kPlaces);
+  if (items.empty()) return;
+  const auto& machine = draft.plan().machine;
+  if (!machine.id.empty() && !machine.driven_tools)
+    draft.root.problem_at(
+        "milling",
+        "none: " + machine.id + " has no driven_tools, " + that_mill(draft.catalogue),
+        "conflict");
+  for (const auto& item : items) read_place(draft, item);
+}
+
+void place_milling(Draft& draft) {
+  auto& plan = draft.plan();
+  if (plan.milled.empty()) return;
+  const auto work = planning::assign(plan);
+  const auto items = draft.root.items("milling", 0, kPlaces);
+  for (std::size_t i = 0; i < plan.milled.size(); ++i) {
+    auto& m = plan.milled[i];
+    Reader r = items[i];
+    const auto& id = plan.drawing.outer[m.element].id;
+    if (r.has("setup")) {
+      std::string why;
+      for (const auto clamping : plan.setups[m.setup].clampings)
+        if (why = planning::milled_obstacle(plan, work, m, m.setup, clamping);
+            why.empty())
+          break;
+      if (!why.empty())
+        r.problem_at("setup", "a setup that can mill " + m.id + ": in this one " + why,
+                     "conflict");
+    } else if (const auto setup = planning::milled_setup(plan, work, m)) {
+      m.setup = *setup;
+      draft.assume(r.pointer_of("setup"), *setup, "the first that leaves it free");
+    } else {
+      r.problem("a place that some setup leaves free once " + id + " is turned",
+                "conflict");
+      continue;
+    }
+    if (const auto later = planning::gripped_later(plan, m))
+      draft.assume(r.pointer_of("angle_deg"), m.angle_deg,
+                   "no jaw of setup " + std::to_string(*later) + " stands on it");
+    if (const double left = stiffness_left(plan, m); left < kToldBelow)
+      draft.assume(r.pointer_of("depth_mm"), m.depth_mm,
+                   "the section keeps " +
+                       std::to_string(static_cast<int>(std::floor(100 * left))) +
+                       " % of its stiffness here, which later cuts do not count");
+    m.ways = planning::milled_ways(plan, m);
+    for (const auto& cutter : m.cutters)
+      if (!plan.machine.driven_tools->modes.count(cutter.id) && m.cutters.size() == 1)
+        draft.assume(
+            "/machine/driven_tools/measured", cutter.id,
+            "the tool point is that of the cutter's document, not measured here");
+  }
+  draft.root.problems().throw_if_any();
+}
+
+}  // namespace turnwright::document

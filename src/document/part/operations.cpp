@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <optional>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using planning::OperationKind;
+
+const Choices<OperationKind>& kinds() {
+  static const auto kKinds = named({OperationKind::face, OperationKind::rough,
+                                    OperationKind::finish, OperationKind::bore_rough,
+                                    OperationKind::bore_finish, OperationKind::fixed});
+  return kKinds;
+}
+
+bool is_boring(OperationKind kind) {
+  return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
+}
+
+// Grooves, threads and arcs; bores that are drilled; ends that are centred or parted off.
+std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
+  std::vector<std::string> out;
+  for (const auto& e : drawing.outer)
+    if (e.cut) out.push_back(e.id);
+  for (const auto& e : drawing.inner)
+    if (e.cut || drawing.stock.kind == part::StockKind::bar) out.push_back(e.id);
+  out.insert(out.end(), {"left", "right"});
+  return out;
+}
+
+std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind kind) {
+  if (features(drawing).empty()) return {};  // unreadable: nothing can be judged
+  if (kind == OperationKind::fixed) return fixed_surfaces(drawing);
+  std::vector<std::string> out;
+  if (kind == OperationKind::face)
+    for (const auto& named : features(drawing))
+      if (named.feature == Feature::face) out.push_back(named.id);
+  if (kind == OperationKind::face) return out;
+  if (is_boring(kind))
+    for (const auto& e : drawing.inner) out.push_back(e.id);
+  else
+    for (const auto& e : drawing.outer) out.push_back(e.id);
+  return out;
+}
+
+const char* wanted(OperationKind kind) {
+  if (kind == OperationKind::face) return "a face";
+  if (kind == OperationKind::fixed)
+    return "a groove, thread or arc, a bore of a bar, or an end";
+  return is_boring(kind) ? "an inner element" : "an outer element";
+}
+
+void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
+  const auto known = surfaces(draft.drawing(), op.kind);
+  for (const auto& item : r.items("on", 1, 100)) {
+    auto id = checked_reference(item, known, wanted(op.kind));
+    if (!id.empty() && std::find(op.on.begin(), op.on.end(), id) != op.on.end())
+      item.problem("each element once", "duplicate");
+    op.on.push_back(std::move(id));
+  }
+}
+
+void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op) {
+  if (!r.has("tool")) {
+    if (draft.purpose == Purpose::predict && op.kind != OperationKind::fixed)
+      r.problem_at("tool", "the id of a tool", "missing");
+    return;
+  }
+  std::vector<std::string> known;
+  if (op.kind == OperationKind::fixed) {
+    for (const auto& tool : draft.plan().fixed_tools) known.push_back(tool.id);
+    op.tool = checked_reference(r.at("tool"), known, "a tool for fixed operations");
+    return;
+  }
+  for (const auto& tool : draft.plan().tools) known.push_back(tool.id);
+  op.tool = checked_reference(r.at("tool"), known, "a tool of this request");
+  for (const auto& tool : draft.plan().tools)
+    if (tool.id == *op.tool && tool.bar.has_value() != is_boring(op.kind))
+      r.problem_at("tool",
+                   is_boring(op.kind) ? "a tool with a boring bar"
+                                      : "a tool for the outside, not a boring bar",
+                   "conflict");
+}
+
+// Fixed operations take what is left out from their tool.
+void read_conditions(Draft& draft, Reader& r, OperationKind kind,
+                     planning::Conditions& c) {
+  const bool whole = draft.purpose == Purpose::predict && kind != OperationKind::fixed;
+  if (!whole && !r.has("conditions")) return;
+  Reader given = r.object("conditions");
+  if (const auto passes = given.optional_integer("passes", 1, 100))
+    c.passes = static_cast<int>(*passes);
+  c.ap_mm = given.optional_number("ap_mm", above_up_to(0, 50, "mm"));
+  c.f_mm_rev = given.optional_number("f_mm_rev", above_up_to(0, 5, "mm/rev"));
+  c.vc_m_min = given.optional_number("vc_m_min", above_up_to(0, 5000, "m/min"));
+  given.finish();
+  if (!whole || given.broken()) return;
+  for (const auto* key : {"passes", "ap_mm", "f_mm_rev", "vc_m_min"})
+    if (!given.has(key))
+      given.problem_at(key, "a value: predict chooses none", "missing");
+}
+
+void read_direction(Draft& draft, Reader& r, planning::OperationRequest& op) {
+  using enum planning::Direction;
+  if (r.has("direction"))
+    op.direction =
+        r.choice<planning::Direction>("direction", named({to_chuck, from_chuck}));
+  else
+    draft.assume(r.pointer_of("direction"), name(op.direction), "usual direction");
+}
+
+planning::OperationRequest read_operation(Draft& draft, Reader r) {
+  planning::OperationRequest op;
+  r = r.as_object();
+  op.id = read_id(r);
+  const auto setups = static_cast<long>(draft.plan().setups.size());
+  op.setup =
+      static_cast<std::size_t>(r.integer("setup", 0, std::max(setups - 1, long{0})));
+  const auto before = r.problems().list.size();
+  op.kind = r.choice("kind", kinds());
+  if (r.problems().list.size() > before) return op;  // the other keys depend on it
+  if (is_boring(op.kind) && draft.drawing().inner.empty()) {
+    r.problem_at("kind", "an operation on the outside: the part has no bores",
+                 "conflict");
+    return op;
+  }
+  read_on(draft, r, op);
+  read_tool_reference(draft, r, op);
+  read_direction(draft, r, op);
+  read_conditions(draft, r, op.kind, op.conditions);
+  r.finish();
+  return op;
+}
+
+bool is_end(const std::string& surface) {
+  return surface == "left" || surface == "right";
+}
+
+// An element is made in one setup, by one roughing, one finishing and one fixed operation
+// at most; an end may be faced in one setup and centred or parted off in another.
+void check_pair(Reader r, const planning::OperationRequest& earlier,
+                const planning::OperationRequest& op) {
+  const auto shared = std::find_first_of(op.on.begin(), op.on.end(), earlier.on.begin(),
+                                         earlier.on.end());
+  if (shared == op.on.end() || shared->empty()) return;
+  if (is_end(*shared) &&
+      (earlier.kind == OperationKind::fixed || op.kind == OperationKind::fixed)) {
+    if (earlier.kind != op.kind || earlier.setup != op.setup) return;
+  }
+  if (earlier.kind == op.kind)
+    r.problem_at("on",
+                 "elements that " + earlier.id + ", also \"" + name(op.kind) +
+                     "\", does not cut: not " + *shared,
+                 "duplicate");
+  else if (earlier.setup != op.setup)
+    r.problem_at("setup",
+                 "the setup of " + earlier.id + ", which cuts " + *shared + " too",
+                 "conflict");
+}
+
+// The held end is parted off, if the stock is; the free one gets a centre hole.  What is
+// drilled, centred or parted off takes one pass.
+void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
+  if (op.kind != OperationKind::fixed || !(op.setup < draft.plan().setups.size())) return;
+  const auto& drawing = draft.drawing();
+  const bool left = draft.plan().setups[op.setup].hold == part::End::left;
+  const auto known = fixed_surfaces(drawing);
+  for (const auto& id : op.on) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) continue;  // reported
+    if (id == (left ? "left" : "right") && !(op.setup == 0 && drawing.stock.parted_mm))
+      r.problem_at("on",
+                   "the free end; the held one is parted off in setup 0 if "
+                   "/stock/part_off_allowance_mm says what that leaves",
+                   "conflict");
+    const auto has_cut = [&](const auto& e) { return e.id == id && e.cut; };
+    if (op.conditions.passes.value_or(1) > 1 &&
+        std::none_of(drawing.outer.begin(), drawing.outer.end(), has_cut) &&
+        std::none_of(drawing.inner.begin(), drawing.inner.end(), has_cut))
+      r.problem_at("conditions",
+                   "one pass: " + id + " is drilled, centred or parted off in one",
+                   "conflict");
+  }
+}
+
+// A groove that no operation turns is turned with the element whose diameter its blank
+// has.
+template <class Element>
+void turn_grooves(Draft& draft, const std::vector<Element>& list) {
+  auto& operations = *draft.plan().operations;
+  const auto turns = [](const planning::OperationRequest& o, const std::string& id) {
+    return o.kind != OperationKind::fixed &&
+           std::find(o.on.begin(), o.on.end(), id) != o.on.end();
+  };
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto& id = list[i].id;
+    if (!list[i].cut || list[i].cut->kind != part::CutKind::groove) continue;
+    if (std::any_of(operations.begin(), operations.end(),
+                    [&](const auto& o) { return turns(o, id); }))
+      continue;
+    const auto k = beside(list, i);
+    if (!k) continue;  // reported already
+    const auto given = operations;
+    for (auto o : given) {
+      if (!turns(o, list[*k].id)) continue;
+      o.id += ":" + id;
+      o.on = {id};
+      draft.assume("/operations", {{"id", o.id}, {"kind", name(o.kind)}, {"on", o.on}},
+                   "a groove's blank is turned like " + list[*k].id + " beside it");
+      operations.push_back(std::move(o));
+    }
+  }
+}
+
+}  // namespace
+
+void read_operations(Draft& draft) {
+  const auto value = draft.root.find("operations");
+  const bool automatic = !value || (value->is_text() && value->json() == "auto");
+  if (automatic && draft.purpose == Purpose::predict) {
+    draft.root.problem_at("operations", "a list of operations: predict chooses none",
+                          "missing");
+    return;
+  }
+  if (!value) draft.assume("/operations", "auto", "no operations given");
+  if (automatic) return;
+  if (!value->is_array()) {
+    value->problem("\"auto\" or a list of operations", "type");
+    return;
+  }
+  auto& operations = draft.plan().operations.emplace();
+  for (const auto& item : value->as_items(1, 200)) {
+    auto op = read_operation(draft, item);
+    for (const auto& earlier : operations) {
+      if (!op.id.empty() && earlier.id == op.id)
+        item.problem_at("id", "an id no other operation has", "duplicate");
+      check_pair(item, earlier, op);
+    }
+    check_fixed(draft, item, op);
+    operations.push_back(std::move(op));
+  }
+  turn_grooves(draft, draft.drawing().outer);
+  turn_grooves(draft, draft.drawing().inner);
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,184 @@
+#include "turnwright/document/part_plan.hpp"
+
+#include "document/json/fields.hpp"
+#include "part_sections.hpp"
+#include "turnwright/planning/machine_share.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using planning::Objective;
+
+void read_name(Draft& draft) {
+  auto& part_name = draft.drawing().name;
+  if (draft.root.has("name")) {
+    part_name = draft.root.text("name");
+  } else {
+    part_name = "part";
+    draft.assume("/name", part_name, "no name given");
+  }
+}
+
+void read_rates(Draft& draft) {
+  auto& plan = draft.plan();
+  auto rates = draft.root.optional_object("rates");
+  if (rates) {
+    if (const auto rate = rates->optional_number("machine_per_min", within(1e-6, 1e4)))
+      plan.machine_per_min = *rate;
+    plan.price = rates->optional_number("price", above_up_to(0, 1e9));
+    rates->finish();
+  }
+  if (!rates || !rates->has("machine_per_min")) {
+    plan.machine_per_min = plan.machine.cost_per_min;
+    draft.assume("/rates/machine_per_min", plan.machine_per_min,
+                 "the machine's own rate");
+  }
+  if (plan.objective == Objective::profit && !plan.price && !(rates && rates->broken()))
+    draft.root.problems().add({"/rates/price", "nothing",
+                               "the price of a part: the objective is profit",
+                               "missing"});
+}
+
+template <class T>
+T or_assumed(Draft& draft, const char* key, const std::optional<T>& value, T fallback,
+             const nlohmann::json& echoed) {
+  if (value) return *value;
+  draft.assume(std::string("/") + key, echoed, "default");
+  return fallback;
+}
+
+void read_economics(Draft& draft) {
+  auto& plan = draft.plan();
+  Reader& r = draft.root;
+  plan.objective = or_assumed(
+      draft, "objective",
+      r.optional_choice<Objective>("objective", {{"cost", Objective::cost},
+                                                 {"time", Objective::time},
+                                                 {"profit", Objective::profit}}),
+      Objective::cost, "cost");
+  plan.batch = static_cast<double>(
+      or_assumed(draft, "batch", r.optional_integer("batch", 1, 1'000'000), 1L, 1));
+  read_rates(draft);
+  plan.machine_share_um =
+      or_assumed(draft, "machine_share_um",
+                 r.optional_number("machine_share_um", within(0, 1000, "um")),
+                 plan.machine_share_um, plan.machine_share_um);
+  plan.window_percent =
+      or_assumed(draft, "window_percent",
+                 r.optional_number("window_percent", above_up_to(0, 100, "%")),
+                 plan.window_percent, plan.window_percent);
+  plan.pareto =
+      static_cast<std::size_t>(draft.root.optional_integer("pareto", 2, 50).value_or(0));
+  if (draft.root.has("robust"))
+    plan.robust = draft.root.boolean("robust");
+  else
+    draft.assume("/robust", false, "default");
+  plan.conformance = or_assumed(draft, "conformance",
+                                r.optional_number("conformance", at_least_below(0.5, 1)),
+                                plan.conformance, plan.conformance);
+}
+
+void read_damping(Draft& draft) {
+  auto& plan = draft.plan();
+  if (const auto given = draft.root.optional_number("damping_ratio", kDamping)) {
+    plan.damping_ratio = *given;
+    return;
+  }
+  const auto& machines = plan.machine.damping_ratio;
+  plan.damping_ratio = machines.value_or(plan.damping_ratio);
+  draft.assume(
+      "/damping_ratio", plan.damping_ratio,
+      machines ? "the machine's own" : "slender parts and bars in a chuck or holder");
+}
+
+void read_budget(Draft& draft) {
+  auto budget = draft.root.optional_object("budget");
+  if (!budget) {
+    draft.assume("/budget", nlohmann::json::object(),
+                 "nothing but the cut, the machine's share and the clamping");
+    return;
+  }
+  auto& shop = draft.plan().shop;
+  const auto read = [&](const char* key, double& value, const Bounds& bounds) {
+    if (const auto given = budget->optional_number(key, bounds)) value = *given;
+  };
+  const auto error = within(0, 1000, "um");
+  read("drift_um", shop.drift_um, error);
+  read("drift_axial_um", shop.drift_axial_um, error);
+  read("repeatability_um", shop.repeatability_um, error);
+  read("part_warm_K", shop.part_warm_K, within(0, 200, "K"));
+  read("life_between_offsets", shop.life_between_offsets, within(0, 1));
+  read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
+  read("rechucking_um", shop.rechucking_um, error);
+  read("measurement_U_um", shop.measurement_U_um, error);
+  shop.first_part_gauged = budget->boolean_or("first_part_gauged", false);
+  budget->finish();
+}
+
+// Bores of a bar are bored from what is drilled; needs tools and operations.
+void assume_drilled_holes(Draft& draft) {
+  auto& plan = draft.plan();
+  for (const auto end : {part::End::left, part::End::right}) {
+    const double drilled = planning::drilled_mm(plan, end);
+    if (!(drilled > 0)) continue;
+    for (std::size_t i = 0; i < plan.drawing.inner.size(); ++i) {
+      auto& e = plan.drawing.inner[i];
+      if (e.from != end) continue;
+      e.drilled_mm = drilled;
+      draft.assume(
+          "/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
+          "the largest drill that leaves 0.5 mm on the radius, and what is behind");
+    }
+  }
+}
+
+// A tube's jaws are eased where the request does not say how far; needs the whole part.
+void assume_grip_forces(Draft& draft) {
+  auto& plan = draft.plan();
+  planning::ease_jaws(plan);
+  for (std::size_t s = 0; s < plan.setups.size(); ++s) {
+    const auto& setup = plan.setups[s];
+    if (!setup.eased_by_rule) continue;
+    const double most = setup.grip_force_N.value_or(plan.machine.chuck.grip_force_N);
+    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N",
+                 *setup.finishing_grip_force_N,
+                 "the jaws are eased from " + number_text(most) +
+                     " N: their lobes may take a quarter of a roundness");
+  }
+}
+
+}  // namespace
+
+LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
+                          const std::string& document, Purpose purpose) {
+  Problems problems{.document = document};
+  Reader root = Reader(json, problems).as_object();
+  Draft draft{.root = root, .catalogue = catalogue, .purpose = purpose};
+  if (!root.broken()) {
+    read_format(root, "turnwright-part/1");
+    read_name(draft);
+    read_catalogue_choices(draft);
+    read_elements(draft);
+    read_stock(draft);
+    check_bores(draft);
+    read_tolerances(draft);
+    read_setups(draft);
+    read_operations(draft);
+    read_economics(draft);
+    read_damping(draft);
+    read_budget(draft);
+    read_what_if(draft);
+    read_milling(draft);
+    root.finish();
+  }
+  problems.throw_if_any();
+  assume_drilled_holes(draft);
+  place_milling(draft);
+  assume_grip_forces(draft);
+  draft.plan().machine_takes = planning::machine_takes(draft.plan());
+  draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);
+  return std::move(draft.loaded);
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,82 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document/json/reader.hpp"
+#include "turnwright/document/catalogue.hpp"
+#include "turnwright/document/loaded_part.hpp"
+
+/// The sections of a part document, read one after the other into a draft.
+namespace turnwright::document {
+
+struct Draft {
+  Reader& root;
+  const Catalogue& catalogue;
+  Purpose purpose = Purpose::plan;
+  LoadedPart loaded = {};
+  std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, else all
+
+  planning::PartPlan& plan() { return loaded.plan; }
+  part::Drawing& drawing() { return loaded.plan.drawing; }
+  void assume(std::string pointer, nlohmann::json value, std::string why) {
+    loaded.assumed.push_back({std::move(pointer), std::move(value), std::move(why)});
+  }
+};
+
+void read_catalogue_choices(Draft& draft);  // material, machine, tools
+void read_elements(Draft& draft);           // outer, inner, faces
+/// A groove, thread or arc; a groove's blank waits for the elements beside it.
+void read_cut(Draft& draft, Reader& r, part::OuterElement& e, part::CutKind kind);
+void read_cut(Draft& draft, Reader& r, part::InnerElement& e, part::CutKind kind);
+void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,
+                               const std::vector<Reader>& inner);
+/// The index of the element whose diameter a groove's blank has, in either list.
+std::optional<std::size_t> beside(const std::vector<part::OuterElement>& list,
+                                  std::size_t groove);
+std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
+                                  std::size_t groove);
+void read_stock(Draft& draft);       // after the elements
+void check_bores(Draft& draft);      // after the stock
+void read_tolerances(Draft& draft);  // sizes, general, tolerances
+void read_setups(Draft& draft);
+void read_operations(Draft& draft);  // after the setups
+void read_milling(Draft& draft);     // after the setups
+void read_what_if(Draft& draft);     // the form alone
+
+/// In which setups places are milled, and their ways; needs a part without problems.
+/// @throws InputError with those that no setup leaves free.
+void place_milling(Draft& draft);
+
+/// The changed requests of a document without problems, each read as a whole.
+/// @throws InputError with what is wrong in them.
+std::vector<planning::WhatIf> load_what_if(const nlohmann::json& json,
+                                           const LoadedPart& loaded,
+                                           const Catalogue& catalogue,
+                                           const std::string& document);
+
+// What cross-references are held against.
+
+enum class Feature { cylinder, cone, face, fixed };  // fixed: a groove, thread or arc
+struct NamedFeature {
+  std::string id;
+  Feature feature;
+};
+/// Elements, then faces ("left", "right" and the shoulders).  Empty if an element's id
+/// could not be read: then no reference can be judged.
+std::vector<NamedFeature> features(const part::Drawing& drawing);
+
+/// "limits_mm": deviations [lower, upper] of a size, lower < upper.
+part::Limits read_limits(Reader& r);
+
+/// The words of an enum whose values have a name().
+template <class E>
+Choices<E> named(std::initializer_list<E> all) {
+  Choices<E> out;
+  for (const E value : all) out.emplace_back(name(value), value);
+  return out;
+}
+
+const Choices<part::End>& ends();
+
+}  // namespace turnwright::document

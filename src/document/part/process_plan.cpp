@@ -1,0 +1,290 @@
+#include "turnwright/document/process_plan.hpp"
+
+#include <string>
+
+#include "document/json/finite.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::ordered_json;
+using namespace planning;
+
+const char* word(part::End end) { return end == part::End::left ? "left" : "right"; }
+
+const char* word(PlanStatus status) {
+  return status == PlanStatus::ok ? "ok" : "infeasible";
+}
+
+const char* word(CertificateKind kind) {
+  switch (kind) {
+    case CertificateKind::global:
+      return "global";
+    case CertificateKind::local:
+      return "local";
+    case CertificateKind::none:
+      break;
+  }
+  return "none";
+}
+
+template <class T, class F>
+ordered_json list(const std::vector<T>& values, F convert) {
+  auto out = ordered_json::array();
+  for (const auto& value : values) out.push_back(convert(value));
+  return out;
+}
+
+ordered_json json_of(const Certificate& c) {
+  ordered_json out{{"kind", word(c.kind)},
+                   {"lower_bound", c.lower_bound},
+                   {"gap", c.gap},
+                   {"nodes", c.nodes}};
+  if (!c.engine.empty()) out["engine"] = c.engine;
+  if (!c.reason.empty()) out["reason"] = c.reason;
+  return out;
+}
+
+ordered_json json_of(const Pass& p) {
+  return {{"ap_mm", p.ap_mm}, {"f_mm_rev", p.f_mm_rev}, {"vc_m_min", p.vc_m_min},
+          {"n_rpm", p.n_rpm}, {"time_min", p.time_min}, {"Fc_N", p.Fc_N},
+          {"Ff_N", p.Ff_N},   {"Fp_N", p.Fp_N},         {"Pc_kW", p.Pc_kW},
+          {"T_min", p.T_min}};
+}
+
+ordered_json json_of(const ConstraintValue& c) {
+  return {{"name", c.name},       {"value", c.value},
+          {"limit", c.limit},     {"unit", c.unit},
+          {"at_most", c.at_most}, {"margin", c.margin},
+          {"binding", c.binding}, {"shadow_price", c.shadow_price}};
+}
+
+ordered_json json_of(const OperatingWindow& w) {
+  return {{"percent", w.percent},
+          {"vc_m_min", w.vc_m_min},
+          {"f_mm_rev", w.f_mm_rev},
+          {"limits", w.limits}};
+}
+
+// What is cut deeper than shown before stability is lost has no limit there.
+ordered_json json_of(const MilledCut& m) {
+  return {{"kind", name(m.kind)},
+          {"lanes", m.lanes},
+          {"ae_mm", m.ae_mm},
+          {"fz_mm", m.fz_mm},
+          {"hm_mm", m.hm_mm},
+          {"vf_mm_min", m.vf_mm_min},
+          {"Kt_MPa", m.Kt_MPa},
+          {"Kn_MPa", m.Kn_MPa},
+          {"stability_margin", m.depth_margin},
+          {"speed_margin", m.speed_margin},
+          {"part_share", m.part_share},
+          {"limit_mm", m.limit_mm},
+          {"shown_mm", m.shown_mm},
+          {"chart",
+           {{"n_rpm", m.n_rpm},
+            {"limit_mm", list(m.limits_mm, [](const std::optional<double>& x) {
+               return x ? ordered_json(*x) : ordered_json();
+             })}}}};
+}
+
+ordered_json json_of(const OperationPlan& op) {
+  ordered_json out{
+      {"id", op.id},
+      {"kind", name(op.kind)},
+      {"on", op.on},
+      {"tool", op.tool},
+      {"direction", name(op.direction)},
+      {"passes", list(op.passes, [](const Pass& p) { return json_of(p); })},
+      {"time_min", op.time_min},
+      {"cost", op.cost},
+      {"constraints",
+       list(op.constraints, [](const ConstraintValue& c) { return json_of(c); })},
+      {"certificate", json_of(op.certificate)}};
+  if (op.window) out["window"] = json_of(*op.window);
+  if (op.milled) out["milling"] = json_of(*op.milled);
+  return out;
+}
+
+ordered_json json_of(const RejectedClamping& r) {
+  ordered_json out{{"clamping", name(r.clamping)}, {"why", r.why}};
+  if (r.cost) out["cost"] = *r.cost;
+  return out;
+}
+
+ordered_json json_of(const RejectedTool& r) {
+  ordered_json out{{"tool", r.tool}, {"use", r.use}, {"why", r.why}};
+  if (r.at_least) out["at_least"] = *r.at_least;
+  return out;
+}
+
+ordered_json json_of(const SetupPlan& s) {
+  return {{"hold", word(s.hold)},
+          {"clamping", name(s.clamping)},
+          {"grip_force_N", s.grip_force_N},
+          {"finishing_grip_force_N", s.finishing_grip_force_N},
+          {"rejected",
+           list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
+          {"rejected_tools",
+           list(s.rejected_tools, [](const RejectedTool& r) { return json_of(r); })},
+          {"operations",
+           list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
+}
+
+// A size has [min, max], a form one value.
+ordered_json value_or_pair(const std::vector<double>& values) {
+  if (values.size() == 1) return values[0];
+  return values;
+}
+
+ordered_json json_of(const ToleranceResult& t) {
+  return {{"id", t.id},
+          {"kind", part::name(t.kind)},
+          {"of", t.of},
+          {"predicted_mm", value_or_pair(t.predicted_mm)},
+          {"allowed_mm", value_or_pair(t.allowed_mm)},
+          {"margin_mm", t.margin_mm},
+          {"width_mm", t.width_mm},
+          {"verdict", name(t.verdict)},
+          {"seed_verdict", t.seed_verdict},
+          {"shares", list(t.shares,
+                          [](const Share& s) {
+                            return ordered_json{{"source", s.source}, {"um", s.um}};
+                          })},
+          {"P_conform", t.P_conform}};
+}
+
+// Compensation or Deviation.
+template <class Table>
+ordered_json json_of_table(const Table& c) {
+  return {{"on", c.on},
+          {"setup", c.setup},
+          {"table_mm", list(c.table_mm, [](const std::pair<double, double>& row) {
+             return ordered_json::array({row.first, row.second});
+           })}};
+}
+
+ordered_json json_of(const ParetoPoint& x) {
+  ordered_json out{{"cost_per_part", x.cost_per_part},
+                   {"time_per_part_min", x.time_per_part_min}};
+  if (x.minute_worth) out["minute_worth"] = *x.minute_worth;
+  return out;
+}
+
+ordered_json json_of(const Price& p) {
+  return {{"limit", p.limit},
+          {"now", p.now},
+          {"unit", p.unit},
+          {"saves_per_part_for_10_percent", p.saves_per_part_for_10_percent},
+          {"saves_per_batch_for_10_percent", p.saves_per_batch_for_10_percent},
+          {"binds_in", p.binds_in},
+          {"sentence", p.sentence}};
+}
+
+ordered_json json_of(const WhatIfAnswer& a) {
+  const auto if_known = [](const std::optional<double>& x) -> ordered_json {
+    if (!x) return nullptr;
+    return *x;
+  };
+  const auto if_planned = [&](double x) {
+    return if_known(a.feasible ? std::optional(x) : std::nullopt);
+  };
+  return {{"name", a.name},
+          {"status", word(a.feasible ? PlanStatus::ok : PlanStatus::infeasible)},
+          {"cost_per_part", if_planned(a.cost_per_part)},
+          {"time_per_part_min", if_planned(a.time_per_part_min)},
+          {"saves_per_part", if_known(a.saves_per_part)},
+          {"saves_per_batch", if_known(a.saves_per_batch)},
+          {"saves_min_per_part", if_known(a.saves_min_per_part)},
+          {"first_order_saves_per_part", if_known(a.first_order_saves_per_part)},
+          {"sentence", a.sentence}};
+}
+
+ordered_json json_of(const Conflict& c) {
+  ordered_json out{{"limit", c.limit},     {"where", c.where}, {"value", c.value},
+                   {"allowed", c.allowed}, {"unit", c.unit},   {"sentence", c.sentence}};
+  if (c.set > 0) out["set"] = c.set;
+  return out;
+}
+
+ordered_json json_of(const Relaxation& r) {
+  ordered_json out{{"limit", r.limit},
+                   {"now", r.now},
+                   {"needed", r.needed},
+                   {"unit", r.unit},
+                   {"sentence", r.sentence}};
+  if (r.set > 0) out["set"] = r.set;
+  return out;
+}
+
+ordered_json json_of(const Remedy& r) {
+  ordered_json out;
+  switch (r.change) {
+    case Remedy::Change::clamping:
+      out = {{"change", "clamping"}, {"setup", r.setup}, {"clamping", name(r.clamping)}};
+      if (r.clamping == Clamping::chuck_steady) out["steady_mm"] = r.steady_mm;
+      break;
+    case Remedy::Change::grip:
+      out = {{"change", "grip"}, {"setup", r.setup}, {"grip_mm", r.grip_mm}};
+      break;
+    case Remedy::Change::tool:
+      out = {{"change", "tool"}, {"tool", r.name}};
+      break;
+    case Remedy::Change::operation:
+      out = {{"change", "operation"}, {"operation", r.name}, {"leave", r.key}};
+      break;
+  }
+  out["sentence"] = r.sentence;
+  out["cost_per_part"] = r.cost_per_part;
+  out["time_per_part_min"] = r.time_per_part_min;
+  return out;
+}
+
+ordered_json json_of(const Assumption& a) {
+  return {{"pointer", a.pointer}, {"value", a.value}, {"why", a.why}};
+}
+
+}  // namespace
+
+ordered_json to_json(const std::vector<Assumption>& assumed) {
+  return list(assumed, [](const Assumption& a) { return json_of(a); });
+}
+
+ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& assumed) {
+  const auto if_planned = [&](double x) -> ordered_json {
+    if (!(plan.time_per_part_min > 0)) return nullptr;
+    return x;
+  };
+  ordered_json out{{"status", word(plan.status)},
+                   {"cost_per_part", if_planned(plan.cost_per_part)},
+                   {"time_per_part_min", if_planned(plan.time_per_part_min)}};
+  if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
+  if (const auto& r = plan.robustness)
+    out["robustness"] = {
+        {"conformance", r->conformance},
+        {"nominal_cost_per_part", r->nominal_cost_per_part},
+        {"nominal_time_per_part_min", r->nominal_time_per_part_min},
+        {"price_per_part", plan.cost_per_part - r->nominal_cost_per_part}};
+  out["certificate"] = json_of(plan.certificate);
+  out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });
+  out["tolerances"] =
+      list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
+  out["deviations"] =
+      list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
+  out["compensation"] =
+      list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });
+  if (!plan.pareto.empty())
+    out["pareto"] = list(plan.pareto, [](const ParetoPoint& x) { return json_of(x); });
+  out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
+  if (!plan.what_if.empty())
+    out["what_if"] = list(plan.what_if, [](const WhatIfAnswer& a) { return json_of(a); });
+  out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
+  out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
+  if (!plan.remedies.empty())
+    out["remedies"] = list(plan.remedies, [](const Remedy& r) { return json_of(r); });
+  out["assumed"] = to_json(assumed);
+  require_finite(out, "process plan");
+  return out;
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,188 @@
+#include <algorithm>
+
+#include "document/json/fields.hpp"
+#include "part_sections.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using planning::Clamping;
+
+constexpr double kLeastGrip_mm = 15;
+constexpr std::size_t kSetups = 10;
+
+const Choices<Clamping>& clampings() {
+  static const auto kClampings =
+      named({Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres,
+             Clamping::chuck_steady, Clamping::tailstock_follow});
+  return kClampings;
+}
+
+// A rest is set up where the request names it.
+bool has_rest(Clamping c) {
+  return c == Clamping::chuck_steady || c == Clamping::tailstock_follow;
+}
+
+std::vector<Clamping> all_clampings(const Draft& draft) {
+  std::vector<Clamping> out;
+  for (const auto& [word, clamping] : clampings())
+    if (draft.loaded.plan.machine.has(name(clamping)) && !has_rest(clamping))
+      out.push_back(clamping);
+  return out;
+}
+
+nlohmann::json words(const std::vector<Clamping>& list) {
+  auto out = nlohmann::json::array();
+  for (const auto clamping : list) out.push_back(name(clamping));
+  return out;
+}
+
+// What the jaws hold: the stock first, finished ends afterwards.
+double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
+  if (setup == 0) return drawing.stock.outer_mm;
+  if (drawing.outer.empty()) return 0;
+  return hold == part::End::left ? drawing.outer.front().left_mm
+                                 : drawing.outer.back().right_mm;
+}
+
+double default_grip_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
+  return std::max(kLeastGrip_mm, held_mm(drawing, setup, hold) / 2);
+}
+
+std::string text(double mm) { return number_text(mm) + " mm"; }
+
+void check_setup(const Draft& draft, const Reader& at, std::size_t i,
+                 const planning::SetupRequest& setup, bool grip_given) {
+  const auto& drawing = draft.loaded.plan.drawing;
+  const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
+  const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
+  if (readable && setup.grip_mm >= length_mm)
+    at.problem(
+        (grip_given ? "a grip of " : "no grip_mm, by default ") + text(setup.grip_mm),
+        "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
+            text(length_mm),
+        "conflict");
+  const bool jaws =
+      std::any_of(setup.clampings.begin(), setup.clampings.end(),
+                  [](Clamping c) { return c != Clamping::between_centres; });
+  const auto& machine = draft.loaded.plan.machine;
+  if (machine.id.empty()) return;  // unknown, reported already
+  const auto& range = machine.chuck.diameter_mm;
+  const double d_mm = held_mm(drawing, i, setup.hold);
+  if (jaws && readable && (d_mm < range.lower || d_mm > range.upper))
+    at.problem("a diameter of " + text(d_mm) + " in the jaws",
+               "what the chuck of " + machine.id + " holds, " + text(range.lower) +
+                   " to " + text(range.upper),
+               "conflict");
+}
+
+void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  if (!r.has("clampings")) {
+    setup.clampings = all_clampings(draft);
+    draft.assume(r.pointer_of("clampings"), words(setup.clampings),
+                 "all the machine has");
+    return;
+  }
+  setup.clampings = read_set(r, "clampings", clampings());
+  for (const auto clamping : setup.clampings)
+    if (!draft.loaded.plan.machine.clampings.empty() &&
+        !draft.loaded.plan.machine.has(name(clamping)))
+      r.problem_at("clampings",
+                   "what " + draft.loaded.plan.machine.id + " has: " +
+                       nlohmann::json(draft.loaded.plan.machine.clampings).dump(),
+                   "conflict");
+}
+
+void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& setup) {
+  const auto force = [&](const char* key, double most, const char* of) {
+    const auto given = r.optional_number(key, above_up_to(0, 1e7, "N"));
+    if (given && most > 0 && *given > most)
+      r.problem_at(key, "at most the " + number_text(most) + " N of " + of, "conflict");
+    return given;
+  };
+  const double chuck = draft.loaded.plan.machine.chuck.grip_force_N;
+  setup.grip_force_N = force("grip_force_N", chuck, "the chuck");
+  setup.finishing_grip_force_N =
+      force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), "the roughing");
+}
+
+// Where the steady rest stands: needed by its clamping and by no other.
+void read_steady(Reader& r, planning::SetupRequest& setup) {
+  const bool wanted = std::find(setup.clampings.begin(), setup.clampings.end(),
+                                Clamping::chuck_steady) != setup.clampings.end();
+  if (wanted)
+    setup.steady_z_mm = r.number("steady_mm", above_up_to(0, 20000, "mm"));
+  else if (r.has("steady_mm"))
+    r.problem_at("steady_mm", "nothing: no clamping here is \"chuck-steady\"",
+                 "conflict");
+}
+
+void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
+  const auto& plan = draft.loaded.plan;
+  const double z = plan.setups[i].steady_z_mm, length_mm = part::length_mm(plan.drawing);
+  if (!(z > 0) || !(length_mm > 0)) return;
+  const double jaws_mm = planning::root_z_mm(plan, i, Clamping::chuck_steady);
+  const bool beside = plan.setups[i].hold == part::End::left ? z > jaws_mm : z < jaws_mm;
+  if (!beside || z >= length_mm)
+    r.problem_at("steady_mm", "a place on the part beside the jaws, z from its left end",
+                 "conflict");
+}
+
+planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
+  planning::SetupRequest setup;
+  r = r.as_object();
+  setup.hold = r.choice("hold", ends());
+  const bool grip_given = r.has("grip_mm");
+  if (grip_given) {
+    setup.grip_mm = r.number("grip_mm", above_up_to(0, 20000, "mm"));
+  } else {
+    setup.grip_mm = default_grip_mm(draft.drawing(), i, setup.hold);
+    draft.assume(r.pointer_of("grip_mm"), setup.grip_mm,
+                 "half the held diameter, at least 15 mm");
+  }
+  read_clampings(draft, r, setup);
+  read_grip_forces(draft, r, setup);
+  read_steady(r, setup);
+  if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
+    setup.clampings = {setup.clampings.front()};
+    draft.assume(r.pointer_of("clampings"), words(setup.clampings),
+                 "the first: predict compares none");
+  }
+  r.finish();
+  check_setup(draft, r, i, setup, grip_given);
+  return setup;
+}
+
+void assume_setups(Draft& draft) {
+  auto echoed = nlohmann::json::array();
+  const nlohmann::json none;
+  const Reader at(none, draft.root.problems(), "/setups");
+  for (const auto& [word, end] : ends()) {
+    auto& setups = draft.plan().setups;
+    const std::size_t i = setups.size();
+    setups.push_back({.hold = end,
+                      .grip_mm = default_grip_mm(draft.drawing(), i, end),
+                      .clampings = all_clampings(draft)});
+    check_setup(draft, at, i, setups.back(), false);
+    echoed.push_back({{"hold", word},
+                      {"grip_mm", setups.back().grip_mm},
+                      {"clampings", words(setups.back().clampings)}});
+  }
+  draft.assume("/setups", std::move(echoed),
+               "hold left, then right, grip half a diameter and at least 15 mm, all the "
+               "clampings the machine has");
+}
+
+}  // namespace
+
+void read_setups(Draft& draft) {
+  if (!draft.root.has("setups")) return assume_setups(draft);
+  auto& setups = draft.plan().setups;
+  for (const auto& item : draft.root.items("setups", 1, kSetups)) {
+    setups.push_back(read_setup(draft, item, setups.size()));
+    check_steady(draft, item, setups.size() - 1);
+  }
+}
+
+}  // namespace turnwright::document

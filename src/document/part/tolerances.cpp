@@ -1,0 +1,403 @@
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "part_sections.hpp"
+#include "turnwright/tolerance/general.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using part::ToleranceKind;
+
+enum class Of { cylinder, element, face, any };
+enum class Datum { none, optional_element, element, face, other, any };
+
+struct Rule {
+  ToleranceKind kind;
+  Of of;
+  Datum datum;
+};
+
+// What each kind may belong to and refer to (ISO 1101); `other`: a face for an element,
+// an element for a face.  A length is between two faces and has neither.
+constexpr std::array kRules{
+    Rule{ToleranceKind::diameter, Of::element, Datum::none},
+    Rule{ToleranceKind::straightness, Of::element, Datum::none},
+    Rule{ToleranceKind::circularity, Of::element, Datum::none},
+    Rule{ToleranceKind::flatness, Of::face, Datum::none},
+    Rule{ToleranceKind::cylindricity, Of::cylinder, Datum::none},
+    Rule{ToleranceKind::profile, Of::element, Datum::any},
+    Rule{ToleranceKind::profile_without_datum, Of::element, Datum::none},
+    Rule{ToleranceKind::parallelism, Of::face, Datum::face},
+    Rule{ToleranceKind::perpendicularity, Of::any, Datum::other},
+    Rule{ToleranceKind::angularity, Of::any, Datum::any},
+    Rule{ToleranceKind::position, Of::element, Datum::any},
+    Rule{ToleranceKind::coaxiality, Of::element, Datum::element},
+    Rule{ToleranceKind::circular_radial_runout, Of::element, Datum::element},
+    Rule{ToleranceKind::circular_axial_runout, Of::face, Datum::element},
+    Rule{ToleranceKind::total_radial_runout, Of::cylinder, Datum::element},
+    Rule{ToleranceKind::total_axial_runout, Of::face, Datum::element}};
+
+bool is_face(Feature feature) { return feature == Feature::face; }
+
+std::vector<std::string> names(const std::vector<NamedFeature>& features,
+                               bool (*wanted)(Feature)) {
+  std::vector<std::string> out;
+  for (const auto& named : features)
+    if (wanted(named.feature)) out.push_back(named.id);
+  return out;
+}
+
+struct Found {
+  std::string id;
+  std::optional<Feature> feature;  // none if the id is unknown, which is reported
+};
+
+Found find_feature(const Reader& value, const std::vector<NamedFeature>& features) {
+  const auto all = names(features, [](Feature) { return true; });
+  Found found{checked_reference(value, all, "an element or face of the part"), {}};
+  for (const auto& named : features)
+    if (named.id == found.id) found.feature = named.feature;
+  return found;
+}
+
+bool fits(Of of, Feature feature) {
+  switch (of) {
+    case Of::cylinder:
+      return feature == Feature::cylinder;
+    case Of::element:
+      return !is_face(feature);
+    case Of::face:
+      return is_face(feature);
+    case Of::any:
+      return true;
+  }
+  return false;
+}
+
+const char* wanted(Of of) {
+  switch (of) {
+    case Of::cylinder:
+      return "a cylinder";
+    case Of::element:
+      return "a cylinder or cone";
+    case Of::face:
+      return "a face";
+    case Of::any:
+      break;
+  }
+  return "an element or a face";
+}
+
+// What `datum` must be for a toleranced feature.
+Of datum_of(Datum datum, Feature toleranced) {
+  if (datum == Datum::face) return Of::face;
+  if (datum == Datum::element) return Of::element;
+  if (datum == Datum::other) return is_face(toleranced) ? Of::element : Of::face;
+  return Of::any;
+}
+
+class ToleranceReader {
+ public:
+  ToleranceReader(Draft& draft, std::vector<NamedFeature> features)
+      : draft_(draft), features_(std::move(features)) {}
+
+  part::Tolerance read(Reader r) {
+    r = r.as_object();
+    part::Tolerance t;
+    t.id = read_id(r);
+    const auto& list = draft_.drawing().tolerances;
+    if (!t.id.empty() && std::any_of(list.begin(), list.end(),
+                                     [&](const auto& other) { return other.id == t.id; }))
+      r.problem_at("id", "an id no other tolerance has", "duplicate");
+    const auto before = r.problems().list.size();
+    t.kind = r.choice<ToleranceKind>("kind", kinds());
+    if (r.problems().list.size() > before) return t;  // the other keys depend on it
+    if (t.kind == ToleranceKind::length)
+      read_between(r, t);
+    else
+      read_features(r, t);
+    if (t.kind == ToleranceKind::length || t.kind == ToleranceKind::diameter) {
+      t.limits = read_limits(r);
+      t.value_mm = t.limits->upper_mm - t.limits->lower_mm;
+    } else {
+      t.value_mm = r.number("value_mm", above_up_to(0, 10, "mm"));
+    }
+    r.finish();
+    return t;
+  }
+
+ private:
+  static Choices<ToleranceKind> kinds() {
+    Choices<ToleranceKind> out{
+        {part::name(ToleranceKind::length), ToleranceKind::length}};
+    for (const auto& rule : kRules) out.emplace_back(part::name(rule.kind), rule.kind);
+    return out;
+  }
+
+  void read_between(Reader& r, part::Tolerance& t) const {
+    const auto faces = names(features_, is_face);
+    const auto ends = r.items("between", 2, 2);
+    if (ends.size() != 2) return;
+    for (std::size_t i = 0; i < 2; ++i)
+      t.between[i] = checked_reference(ends[i], faces, "a face of the part");
+    if (t.between[0] == t.between[1] && !t.between[0].empty())
+      r.problem_at("between", "two different faces", "conflict");
+  }
+
+  void read_features(Reader& r, part::Tolerance& t) const {
+    const auto& rule = *std::find_if(kRules.begin(), kRules.end(),
+                                     [&](const Rule& x) { return x.kind == t.kind; });
+    const auto of = find_feature(r.at("of", wanted(rule.of)), features_);
+    t.of = of.id;
+    if (of.feature == Feature::fixed)
+      r.problem_at("of",
+                   "a surface that is turned, faced or bored: no tolerance is predicted "
+                   "of what catalogue conditions make",
+                   "unsupported");
+    else if (of.feature && !fits(rule.of, *of.feature))
+      r.problem_at("of", wanted(rule.of) + std::string(" for ") + part::name(t.kind),
+                   "kind");
+    read_datum(r, t, rule, of);
+  }
+
+  void read_datum(Reader& r, part::Tolerance& t, const Rule& rule,
+                  const Found& of) const {
+    if (rule.datum == Datum::none) {
+      if (r.has("datum"))
+        r.problem_at("datum",
+                     std::string("no datum: ") + part::name(t.kind) + " has none",
+                     "kind");
+      return;
+    }
+    if (t.kind == ToleranceKind::profile && !r.has("datum")) {
+      t.kind = ToleranceKind::profile_without_datum;
+      draft_.assume(r.pointer_of("kind"), part::name(t.kind), "no datum given");
+      return;
+    }
+    const Of want = of.feature ? datum_of(rule.datum, *of.feature) : Of::any;
+    const auto datum = find_feature(r.at("datum", wanted(want)), features_);
+    t.datum = datum.id;
+    if (datum.feature && !fits(want, *datum.feature))
+      r.problem_at("datum",
+                   wanted(want) + std::string(" as datum for ") + part::name(t.kind),
+                   "kind");
+    else if (!t.datum.empty() && t.datum == t.of)
+      r.problem_at("datum", "another feature than the toleranced one", "conflict");
+  }
+
+  Draft& draft_;
+  std::vector<NamedFeature> features_;
+};
+
+part::Tolerance size_tolerance(const std::string& element, const part::Limits& limits) {
+  return {.id = element + ":diameter",
+          .kind = ToleranceKind::diameter,
+          .of = element,
+          .datum = "",
+          .between = {},
+          .value_mm = limits.upper_mm - limits.lower_mm,
+          .limits = limits};
+}
+
+// An explicit tolerance of an element's diameter is the element's size, once.
+template <class Element>
+void take_diameter(Reader& r, const part::Tolerance& t, std::vector<Element>& elements) {
+  for (auto& e : elements) {
+    if (e.id != t.of) continue;
+    if (e.limits)
+      r.problem_at("of", "a diameter without fit, limits_mm or another tolerance",
+                   "conflict");
+    e.limits = t.limits;
+  }
+}
+
+void read_listed(Draft& draft) {
+  auto& drawing = draft.drawing();
+  ToleranceReader reader(draft, features(drawing));
+  for (Reader r : draft.root.optional_items("tolerances", 0, 500)) {
+    auto t = reader.read(r);
+    if (t.kind == ToleranceKind::diameter && t.limits) {
+      take_diameter(r, t, drawing.outer);
+      take_diameter(r, t, drawing.inner);
+    }
+    drawing.tolerances.push_back(std::move(t));
+  }
+}
+
+nlohmann::json pair(const part::Limits& limits) {
+  return {limits.lower_mm, limits.upper_mm};
+}
+
+// Sizes the drawing leaves open get ISO 2768-1's deviations; of a cone's diameters the
+// smaller counts, whose deviations are never the larger ones.
+template <class Element>
+void assume_sizes(Draft& draft, std::vector<Element>& elements, const std::string& list,
+                  tolerance::LinearClass linear, const std::string& why) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    auto& e = elements[i];
+    const double size_mm = std::min(e.left_mm, e.right_mm);
+    if (e.limits || e.cut || !(size_mm > 0)) continue;
+    try {
+      e.limits = tolerance::general_limits_mm(size_mm, linear);
+    } catch (const std::domain_error&) {
+      continue;  // the standard has no value for this size: it stays open
+    }
+    draft.assume("/" + list + "/" + std::to_string(i) + "/limits_mm", pair(*e.limits),
+                 why);
+  }
+}
+
+bool has_overall_length(const part::Drawing& drawing) {
+  return std::any_of(drawing.tolerances.begin(), drawing.tolerances.end(),
+                     [](const part::Tolerance& t) {
+                       return (t.between[0] == "left" && t.between[1] == "right") ||
+                              (t.between[0] == "right" && t.between[1] == "left");
+                     });
+}
+
+void assume_length(Draft& draft, tolerance::LinearClass linear, const std::string& why) {
+  auto& drawing = draft.drawing();
+  const double length_mm = part::length_mm(drawing);
+  if (has_overall_length(drawing) || !(length_mm > 0)) return;
+  try {
+    const auto limits = tolerance::general_limits_mm(length_mm, linear);
+    part::Tolerance t{.id = "part:length",
+                      .kind = ToleranceKind::length,
+                      .of = "",
+                      .datum = "",
+                      .between = {"left", "right"},
+                      .value_mm = limits.upper_mm - limits.lower_mm,
+                      .limits = limits};
+    draft.assume("/tolerances",
+                 {{"id", t.id},
+                  {"kind", part::name(t.kind)},
+                  {"between", t.between},
+                  {"limits_mm", pair(limits)}},
+                 why);
+    drawing.tolerances.push_back(std::move(t));
+  } catch (const std::domain_error&) {
+    return;  // the standard has no value for this length: it stays open
+  }
+}
+
+bool has_zone(const part::Drawing& drawing, const std::string& of, double at_most_mm,
+              std::initializer_list<ToleranceKind> kinds) {
+  return std::any_of(drawing.tolerances.begin(), drawing.tolerances.end(),
+                     [&](const part::Tolerance& t) {
+                       return t.of == of && t.value_mm <= at_most_mm &&
+                              std::find(kinds.begin(), kinds.end(), t.kind) !=
+                                  kinds.end();
+                     });
+}
+
+void assume_zone(Draft& draft, ToleranceKind kind, const std::string& of, double value_mm,
+                 const std::string& why) {
+  const std::string id = of + ":" + part::name(kind);
+  draft.assume(
+      "/tolerances",
+      {{"id", id}, {"kind", part::name(kind)}, {"of", of}, {"value_mm", value_mm}}, why);
+  draft.drawing().tolerances.push_back({.id = id,
+                                        .kind = kind,
+                                        .of = of,
+                                        .datum = "",
+                                        .between = {},
+                                        .value_mm = value_mm,
+                                        .limits = {}});
+}
+
+// ISO 2768-2's straightness where no size or zone holds the generatrix as closely: the
+// radius varies by half the width of a diameter's limits at most.
+template <class Element>
+void assume_straightness(Draft& draft, const std::vector<Element>& elements,
+                         tolerance::GeometricalClass form, const std::string& why) {
+  using enum ToleranceKind;
+  for (const auto& e : elements) {
+    if (e.cut || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
+    const double value = tolerance::general_straightness_mm(e.length_mm, form);
+    const bool held =
+        (e.limits && (e.limits->upper_mm - e.limits->lower_mm) / 2 <= value) ||
+        has_zone(draft.drawing(), e.id, value,
+                 {straightness, cylindricity, total_radial_runout, profile,
+                  profile_without_datum});
+    if (!held) assume_zone(draft, straightness, e.id, value, why);
+  }
+}
+
+// And its flatness of the end faces, by their diameter.
+void assume_flatness(Draft& draft, tolerance::GeometricalClass form,
+                     const std::string& why) {
+  using enum ToleranceKind;
+  const auto& outer = draft.drawing().outer;
+  if (outer.empty()) return;
+  const auto face = [&](const std::string& id, double diameter_mm, double allowance_mm) {
+    if (!(diameter_mm > 0 && diameter_mm <= 3000 && allowance_mm > 0)) return;
+    const double value = tolerance::general_straightness_mm(diameter_mm, form);
+    if (!has_zone(draft.drawing(), id, value,
+                  {flatness, parallelism, perpendicularity, total_axial_runout}))
+      assume_zone(draft, flatness, id, value, why);
+  };
+  face("left", outer.front().left_mm, draft.drawing().stock.left_allowance_mm);
+  face("right", outer.back().right_mm, part::right_allowance_mm(draft.drawing()));
+}
+
+void read_general(Draft& draft) {
+  const auto value = draft.root.find("general");
+  if (!value) return;
+  const auto text = value->as_text();
+  if (text.empty()) return;
+  try {
+    const auto general = tolerance::general_tolerance(text);
+    auto& drawing = draft.drawing();
+    if (general.linear) {
+      assume_sizes(draft, drawing.outer, "outer", *general.linear, text);
+      assume_sizes(draft, drawing.inner, "inner", *general.linear, text);
+      assume_length(draft, *general.linear, text);
+    }
+    if (!general.geometrical) return;
+    assume_straightness(draft, drawing.outer, *general.geometrical, text);
+    assume_straightness(draft, drawing.inner, *general.geometrical, text);
+    assume_flatness(draft, *general.geometrical, text);
+  } catch (const std::domain_error&) {
+    value->problem(
+        "\"ISO 2768-\" with f, m, c or v for sizes and H, K or L for form, such "
+        "as \"ISO 2768-mK\"",
+        "choice");
+  }
+}
+
+// A diameter tolerance for every sized element that no listed one speaks of.
+template <class Element>
+void add_sizes(part::Drawing& drawing, const std::vector<Element>& elements) {
+  for (const auto& e : elements) {
+    const auto& list = drawing.tolerances;
+    const bool listed = std::any_of(list.begin(), list.end(), [&](const auto& t) {
+      return t.kind == ToleranceKind::diameter && t.of == e.id;
+    });
+    if (e.limits && !listed)
+      drawing.tolerances.push_back(size_tolerance(e.id, *e.limits));
+  }
+}
+
+}  // namespace
+
+part::Limits read_limits(Reader& r) {
+  const auto ends = r.numbers("limits_mm", within(-100, 100, "mm"), 2, 2);
+  if (ends.size() != 2) return {};
+  if (ends[0] >= ends[1])
+    r.problem_at("limits_mm", "[lower, upper] with lower < upper", "order");
+  return {.lower_mm = ends[0], .upper_mm = ends[1]};
+}
+
+void read_tolerances(Draft& draft) {
+  auto& drawing = draft.drawing();
+  read_listed(draft);
+  read_general(draft);
+  add_sizes(drawing, drawing.outer);
+  add_sizes(drawing, drawing.inner);
+}
+
+}  // namespace turnwright::document

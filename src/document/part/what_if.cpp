@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "part_sections.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/limit.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMost = 20, kChanges = 50;
+constexpr double kLeastPercent = -90, kMostPercent = 900;
+
+std::string pointer_of(std::size_t k) { return "/what_if/" + std::to_string(k); }
+
+// The member of a list by its index, or by its id.
+json* member(json& list, const std::string& token) {
+  for (auto& item : list)
+    if (item.is_object() && item.value("id", json()) == token) return &item;
+  const bool index = !token.empty() && token.size() < 4 &&
+                     std::all_of(token.begin(), token.end(),
+                                 [](char c) { return c >= '0' && c <= '9'; });
+  if (!index || std::stoul(token) >= list.size()) return nullptr;
+  return &list[std::stoul(token)];
+}
+
+// The value at a pointer whose last key may be new; nothing if there is no such place.
+json* place(json& document, const std::string& pointer) {
+  json* at = &document;
+  std::size_t begin = 1;
+  while (at && begin <= pointer.size()) {
+    const auto end = std::min(pointer.find('/', begin), pointer.size());
+    const auto token = pointer.substr(begin, end - begin);
+    if (at->is_array())
+      at = member(*at, token);
+    else if (at->is_object() && (at->contains(token) || end == pointer.size()))
+      at = &(*at)[token];
+    else
+      at = nullptr;
+    begin = end + 1;
+  }
+  return at;
+}
+
+// The document with the changes of one entry, or the problem with one of them.
+json changed(json document, const json& changes, const std::string& pointer,
+             Problems& problems) {
+  for (const auto& [path, value] : changes.items()) {
+    json* at = path.starts_with('/') ? place(document, path) : nullptr;
+    if (at)
+      *at = value;
+    else
+      problems.add({pointer + "/set", "\"" + path + "\"",
+                    "the place of a value in this document, as /outer/d1/fit or "
+                    "/setups/0/clampings",
+                    "reference"});
+  }
+  return document;
+}
+
+planning::PartPlan with_limit(const json& entry, const planning::PartPlan& plan,
+                              const std::string& pointer, Problems& problems) {
+  const auto name = entry["limit"].get<std::string>();
+  const auto all = planning::limits(plan);
+  const auto limit =
+      std::find_if(all.begin(), all.end(), [&](const auto& l) { return l.name == name; });
+  auto result = plan;
+  if (limit != all.end()) {
+    limit->scale(result, 1 + entry["change_percent"].get<double>() / 100);
+    return result;
+  }
+  std::vector<std::string> names;
+  for (const auto& l : all) names.push_back(l.name);
+  problems.add({pointer + "/limit", shown(entry["limit"]),
+                expected_reference(name, names, "a limit of this request"), "reference"});
+  return result;
+}
+
+std::string called(const json& entry) {
+  if (entry.contains("name")) return entry["name"].get<std::string>();
+  const double percent = entry["change_percent"].get<double>();
+  return entry["limit"].get<std::string>() + (percent < 0 ? " " : " +") +
+         number_text(percent) + " %";
+}
+
+}  // namespace
+
+void read_what_if(Draft& draft) {
+  if (draft.root.has("what_if") && draft.purpose == Purpose::predict)
+    draft.root.problem_at("what_if", "nothing: only plan answers what_if", "unsupported");
+  for (Reader item : draft.root.optional_items("what_if", 0, kMost)) {
+    item = item.as_object();
+    if (item.broken()) continue;
+    const bool limit = item.has("limit") || item.has("change_percent");
+    if (limit) {
+      item.optional_text("name", 100);
+      item.text("limit");
+      const double percent =
+          item.number("change_percent", within(kLeastPercent, kMostPercent, "%"));
+      if (percent == 0)
+        item.problem_at("change_percent", "a change other than 0", "range");
+    } else {
+      item.text("name", 100);
+      const auto set = item.object("set");
+      if (!set.broken() && (set.json().empty() || set.json().size() > kChanges))
+        item.problem_at("set", "1 to 50 changes, as {\"/outer/d1/fit\": \"h7\"}",
+                        "length");
+      else if (!set.broken() && set.json().contains("/what_if"))
+        item.problem_at("set", "no change of what_if itself", "reference");
+    }
+    item.finish();
+  }
+}
+
+std::vector<planning::WhatIf> load_what_if(const json& request, const LoadedPart& loaded,
+                                           const Catalogue& catalogue,
+                                           const std::string& document) {
+  std::vector<planning::WhatIf> all;
+  if (!request.contains("what_if")) return all;
+  auto bare = request;
+  bare.erase("what_if");
+  bare.erase("pareto");
+  Problems problems{.document = document};
+  for (std::size_t k = 0; k < request["what_if"].size(); ++k) {
+    const auto& entry = request["what_if"][k];
+    const auto pointer = pointer_of(k);
+    if (entry.contains("limit")) {
+      all.push_back({called(entry), with_limit(entry, loaded.plan, pointer, problems)});
+      continue;
+    }
+    const auto before = problems.list.size();
+    const auto other = changed(bare, entry["set"], pointer, problems);
+    if (problems.list.size() > before) continue;
+    try {
+      all.push_back({called(entry), load_part_plan(other, catalogue, document).plan});
+    } catch (const InputError& error) {
+      for (auto p : error.problems()) {
+        p.pointer = pointer + "/set" + p.pointer;
+        problems.add(std::move(p));
+      }
+    }
+  }
+  problems.throw_if_any();
+  return all;
+}
+
+}  // namespace turnwright::document

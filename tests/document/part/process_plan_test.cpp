@@ -1,0 +1,181 @@
+#include "turnwright/document/process_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../schema_check.hpp"
+#include "turnwright/base/errors.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::ordered_json;
+using namespace planning;
+
+// Every list has one member and every field its own value.
+ProcessPlan every_field() {
+  ProcessPlan p;
+  p.cost_per_part = 1.5;
+  p.time_per_part_min = 2.5;
+  p.profit_per_min = 3.5;
+  p.certificate = {CertificateKind::global, 1.4, 0.06, 7, "convex", ""};
+  OperationPlan op;
+  op.id = "rough d1";
+  op.kind = OperationKind::rough;
+  op.on = {"d1", "c1"};
+  op.tool = "T1";
+  op.direction = Direction::from_chuck;
+  op.passes = {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}};
+  op.time_min = 11;
+  op.cost = 12;
+  op.constraints = {{"power", "kW", 13, 14, true, 15, true, 16}};
+  op.certificate = {CertificateKind::local, 17, 18, 19, "branch-and-bound", "budget"};
+  SetupPlan setup;
+  setup.hold = part::End::right;
+  setup.clamping = Clamping::chuck_tailstock;
+  setup.grip_force_N = 60000;
+  setup.finishing_grip_force_N = 15000;
+  setup.rejected = {{Clamping::chuck, "dearer", 20},
+                    {Clamping::between_centres, "no", {}}};
+  setup.rejected_tools = {{"T2", "facing", "dear", 2.5},
+                          {"T3", "boring, rough", "no", {}}};
+  setup.operations = {op};
+  p.setups = {setup};
+  ToleranceResult size;
+  size.id = "d1:diameter";
+  size.of = "d1";
+  size.predicted_mm = {-0.01, 0.01};
+  size.allowed_mm = {-0.02, 0.02};
+  size.margin_mm = 0.01;
+  size.width_mm = 0.05;
+  size.verdict = Verdict::met_with_offset;
+  size.seed_verdict = false;
+  size.shares = {{"deflection", 21}};
+  size.P_conform = 0.99;
+  ToleranceResult form = size;
+  form.kind = part::ToleranceKind::total_radial_runout;
+  form.predicted_mm = {0.004};
+  form.allowed_mm = {0.01};
+  form.verdict = Verdict::not_met;
+  p.tolerances = {size, form};
+  p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
+  p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
+  p.prices = {{"d1: diameter", 26, "mm", 27, 270, {"op1"}, "saves"}};
+  p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash", 1},
+                 {"setups", "all setups", 0, 0, "", "no"}};
+  p.relax = {{"t1", 30, 31, "mm", "open", 1}, {"t2", 32, 33, "mm", "wider"}};
+  p.remedies = {{.change = Remedy::Change::clamping,
+                 .setup = 1,
+                 .clamping = Clamping::chuck_steady,
+                 .steady_mm = 34,
+                 .sentence = "steady",
+                 .cost_per_part = 35,
+                 .time_per_part_min = 36},
+                {.change = Remedy::Change::grip, .setup = 2, .grip_mm = 37},
+                {.change = Remedy::Change::tool, .name = "T4"},
+                {.change = Remedy::Change::operation, .name = "op2", .key = "passes"}};
+  return p;
+}
+
+const std::vector<Assumption> kAssumed{{"/batch", 1, "default"}};
+
+TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
+  EXPECT_EQ(
+      to_json(every_field(), kAssumed).dump(),
+      R"({"status":"ok","cost_per_part":1.5,"time_per_part_min":2.5,"profit_per_min":3.5,)"
+      R"("certificate":{"kind":"global","lower_bound":1.4,"gap":0.06,"nodes":7,)"
+      R"("engine":"convex"},)"
+      R"("setups":[{"hold":"right","clamping":"chuck-tailstock",)"
+      R"("grip_force_N":60000.0,"finishing_grip_force_N":15000.0,"rejected":[)"
+      R"({"clamping":"chuck","why":"dearer","cost":20.0},)"
+      R"({"clamping":"between-centres","why":"no"}],)"
+      R"("rejected_tools":[{"tool":"T2","use":"facing","why":"dear","at_least":2.5},)"
+      R"({"tool":"T3","use":"boring, rough","why":"no"}],)"
+      R"("operations":[{"id":"rough d1","kind":"rough","on":["d1","c1"],"tool":"T1",)"
+      R"("direction":"from-chuck","passes":[{"ap_mm":1.0,"f_mm_rev":2.0,"vc_m_min":3.0,)"
+      R"("n_rpm":4.0,"time_min":5.0,"Fc_N":6.0,"Ff_N":7.0,"Fp_N":8.0,"Pc_kW":9.0,)"
+      R"("T_min":10.0}],"time_min":11.0,"cost":12.0,"constraints":[{"name":"power",)"
+      R"("value":13.0,"limit":14.0,"unit":"kW","at_most":true,"margin":15.0,)"
+      R"("binding":true,"shadow_price":16.0}],"certificate":{"kind":"local",)"
+      R"("lower_bound":17.0,"gap":18.0,"nodes":19,"engine":"branch-and-bound",)"
+      R"("reason":"budget"}}]}],)"
+      R"("tolerances":[{"id":"d1:diameter","kind":"diameter","of":"d1",)"
+      R"("predicted_mm":[-0.01,0.01],"allowed_mm":[-0.02,0.02],"margin_mm":0.01,)"
+      R"("width_mm":0.05,"verdict":"met-with-offset","seed_verdict":false,"shares":[)"
+      R"({"source":"deflection","um":21.0}],"P_conform":0.99},)"
+      R"({"id":"d1:diameter","kind":"total-radial-runout","of":"d1",)"
+      R"("predicted_mm":0.004,"allowed_mm":0.01,"margin_mm":0.01,"width_mm":0.05,)"
+      R"("verdict":"not-met","seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
+      R"("P_conform":0.99}],)"
+      R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
+      R"("compensation":[{"on":"d1","setup":1,"table_mm":[[22.0,23.0],[24.0,25.0]]}],)"
+      R"("prices":[{"limit":"d1: diameter","now":26.0,"unit":"mm",)"
+      R"("saves_per_part_for_10_percent":27.0,"saves_per_batch_for_10_percent":270.0,)"
+      R"("binds_in":["op1"],"sentence":"saves"}],)"
+      R"("conflicts":[{"limit":"t1","where":"op1","value":28.0,"allowed":29.0,)"
+      R"("unit":"mm","sentence":"clash","set":1},)"
+      R"({"limit":"setups","where":"all setups","value":0.0,"allowed":0.0,)"
+      R"("unit":"","sentence":"no"}],)"
+      R"("relax":[{"limit":"t1","now":30.0,"needed":31.0,"unit":"mm",)"
+      R"("sentence":"open","set":1},)"
+      R"({"limit":"t2","now":32.0,"needed":33.0,"unit":"mm","sentence":"wider"}],)"
+      R"("remedies":[{"change":"clamping","setup":1,"clamping":"chuck-steady",)"
+      R"("steady_mm":34.0,"sentence":"steady","cost_per_part":35.0,)"
+      R"("time_per_part_min":36.0},)"
+      R"({"change":"grip","setup":2,"grip_mm":37.0,"sentence":"","cost_per_part":0.0,)"
+      R"("time_per_part_min":0.0},)"
+      R"({"change":"tool","tool":"T4","sentence":"","cost_per_part":0.0,)"
+      R"("time_per_part_min":0.0},)"
+      R"({"change":"operation","operation":"op2","leave":"passes","sentence":"",)"
+      R"("cost_per_part":0.0,"time_per_part_min":0.0}],)"
+      R"("assumed":[{"pointer":"/batch","value":1,"why":"default"}]})");
+}
+
+TEST(ProcessPlan, TheSchemaTakesWhatIsWritten) {
+  const SchemaCheck schema("plan.result.json");
+  EXPECT_EQ(schema.fault(to_json(every_field(), kAssumed)), "");
+  EXPECT_EQ(schema.fault(to_json({}, {})), "");
+  auto infeasible = every_field();
+  infeasible.status = PlanStatus::infeasible;
+  infeasible.profit_per_min.reset();
+  const auto json = to_json(infeasible, {});
+  EXPECT_EQ(json["status"], "infeasible");
+  EXPECT_FALSE(json.contains("profit_per_min"));
+  EXPECT_EQ(schema.fault(json), "");
+  for (const auto& [key, value] : json.items()) {
+    if (key == "remedies") continue;  // there where something would help
+    auto without = json;
+    without.erase(key);
+    EXPECT_NE(schema.fault(without), "") << key;
+  }
+}
+
+TEST(ProcessPlan, NumbersComeBackToTheLastBit) {
+  auto plan = every_field();
+  plan.cost_per_part = 0.1 + 0.2;
+  plan.time_per_part_min = std::nextafter(1.0, 2.0);
+  const auto back = ordered_json::parse(to_json(plan, {}).dump());
+  EXPECT_EQ(back["cost_per_part"].get<double>(), plan.cost_per_part);
+  EXPECT_EQ(back["time_per_part_min"].get<double>(), plan.time_per_part_min);
+}
+
+TEST(ProcessPlan, ANumberThatIsNoneIsABrokenPromise) {
+  auto plan = every_field();
+  plan.setups[0].operations[0].passes[0].T_min = std::numeric_limits<double>::infinity();
+  try {
+    to_json(plan, {});
+    FAIL() << "written";
+  } catch (const ModelRangeError& error) {
+    EXPECT_STREQ(error.what(),
+                 "process plan/setups/0/operations/0/passes/0/T_min: the result is "
+                 "beyond what a number holds");
+  }
+  plan = every_field();
+  plan.tolerances[1].predicted_mm = {std::nan("")};
+  EXPECT_THROW(to_json(plan, {}), ModelRangeError);
+}
+
+}  // namespace
+}  // namespace turnwright::document
