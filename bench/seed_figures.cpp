@@ -10,10 +10,11 @@
 #include <fstream>
 #include <random>
 
-#include "../tests/milling/cutters.hpp"
+#include "../tests/chatter/cutters.hpp"
 #include "report/chart.hpp"
+#include "turnwright/chatter/limits.hpp"
+#include "turnwright/chatter/reference_methods.hpp"
 #include "turnwright/document/stability.hpp"
-#include "turnwright/milling/checks.hpp"
 #include "turnwright/report/stability_chart.hpp"
 
 namespace turnwright {
@@ -38,7 +39,7 @@ std::vector<Cut> simulated_cuts() {
     Cut c{kSlowest + (kFastest - kSlowest) * share(), kDeepest_mm * share()};
     c.stable =
         std::abs(
-            milling::simulation(milling::slot_cutter(), c.n_rpm, c.ap_mm).multiplier) < 1;
+            chatter::simulation(chatter::slot_cutter(), c.n_rpm, c.ap_mm).multiplier) < 1;
     out.push_back(c);
   }
   return out;
@@ -65,8 +66,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
 /// Specific force over one turn at 1000/min.
 std::string figure_2() {
   constexpr double kWidth = 190, kHeight = 90, kLeft = 25, kScale = 150, kZero = 55;
-  const milling::System s = milling::slot_cutter();
-  const auto arcs = milling::arcs(s);
+  const chatter::System s = chatter::slot_cutter();
+  const auto arcs = chatter::arcs(s);
   const double pitch = 2 * units::kPi / s.teeth;
   std::vector<report::Point> line;
   double most = 0;
@@ -77,7 +78,7 @@ std::string figure_2() {
     if (angle < arcs.front().begin_rad) angle += pitch;
     for (const auto& arc : arcs)
       if (angle >= arc.begin_rad && angle <= arc.end_rad) {
-        const double h = milling::directional_MPa(s, 1000, arc, angle).xx;
+        const double h = chatter::directional_MPa(s, 1000, arc, angle).xx;
         most = std::max(most, std::abs(h));
         line.push_back({kLeft + kScale * turn, h});
         break;
@@ -121,7 +122,7 @@ Placed placed(int elements, const std::vector<Cut>& cuts) {
   Placed out{.elements = elements};
   for (const Cut& c : cuts) {
     const auto found =
-        milling::time_finite_elements(milling::slot_cutter(), c.n_rpm, c.ap_mm, elements);
+        chatter::time_finite_elements(chatter::slot_cutter(), c.n_rpm, c.ap_mm, elements);
     if (std::abs(found.multiplier) < 1) ++(c.stable ? out.right : out.unsafe);
   }
   return out;

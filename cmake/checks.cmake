@@ -15,7 +15,7 @@ endforeach()
 set_tests_properties(architecture.refuses_upwards PROPERTIES
   PASS_REGULAR_EXPRESSION "src/part/a.cpp: part \\(floor 2\\) includes planning \\(floor 5\\)")
 set_tests_properties(architecture.refuses_sideways PROPERTIES PASS_REGULAR_EXPRESSION
-  "include/turnwright/cutting/a.hpp: cutting \\(floor 3\\) includes milling \\(floor 3\\)")
+  "include/turnwright/cutting/a.hpp: cutting \\(floor 3\\) includes chatter \\(floor 3\\)")
 set_tests_properties(architecture.refuses_solver PROPERTIES PASS_REGULAR_EXPRESSION
   "src/deflection/a.cpp: deflection must not include <nlohmann/json.hpp>")
 set_tests_properties(architecture.refuses_unknown PROPERTIES PASS_REGULAR_EXPRESSION

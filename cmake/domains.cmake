@@ -10,17 +10,17 @@ tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(volumetric DEPENDS base catalogue
   PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt)
-tw_domain(milling DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
+tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
-target_compile_options(turnwright_milling PRIVATE
+target_compile_options(turnwright_chatter PRIVATE
   -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
-set_target_properties(turnwright_milling PROPERTIES
+set_target_properties(turnwright_chatter PROPERTIES
   DISABLE_PRECOMPILE_HEADERS ON)  # other flags
 # Some hundred eigenvalues take a minute with each step of Eigen's watched, in which nobody
 # looks whether to leave.
 if(TURNWRIGHT_FUZZ)
-  set_source_files_properties(src/milling/spectrum.cpp PROPERTIES
+  set_source_files_properties(src/chatter/model/eigenvalues.cpp PROPERTIES
     COMPILE_OPTIONS -fno-sanitize=all)
 endif()
 tw_domain(multipass DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
@@ -31,7 +31,7 @@ endif()
 tw_domain(tolerance DEPENDS base part PRIVATE_LIBS fmt::fmt)
 
 tw_domain(planning
-  DEPENDS base part catalogue optimise deflection cutting volumetric milling tolerance
+  DEPENDS base part catalogue optimise deflection cutting volumetric chatter tolerance
   PRIVATE_LIBS Eigen3::Eigen fmt::fmt
   TEST_DEPENDS document)
 
@@ -44,7 +44,7 @@ file(RELATIVE_PATH data_from_bin
 set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
-  DEPENDS base catalogue part cutting deflection multipass thermal milling volumetric
+  DEPENDS base catalogue part cutting deflection multipass thermal chatter volumetric
     tolerance planning nc
   PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt)
 if(BUILD_TESTING)

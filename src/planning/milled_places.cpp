@@ -7,9 +7,9 @@
 
 #include "milled_geometry.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/chatter/lobes.hpp"
 #include "turnwright/cutting/fixed.hpp"
 #include "turnwright/cutting/milled.hpp"
-#include "turnwright/milling/lobes.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -22,18 +22,18 @@ bool jaws_cover(const PartPlan& p, std::size_t setup, Clamping clamping, double 
                                                  : z1 > root + kSlack_mm;
 }
 
-milling::System system_of(const std::vector<catalogue::TipMode>& modes, int teeth,
+chatter::System system_of(const std::vector<catalogue::TipMode>& modes, int teeth,
                           const Engagement& e, double force, double normal_ratio) {
-  milling::System s;
+  chatter::System s;
   for (const auto& m : modes)
-    s.modes.push_back({m.along_feed ? milling::Axis::x : milling::Axis::y,
+    s.modes.push_back({m.along_feed ? chatter::Axis::x : chatter::Axis::y,
                        2 * units::kPi * m.frequency_Hz, m.damping_ratio,
                        m.stiffness_N_mm});
   s.teeth = teeth;
-  const auto arc = milling::down_milling(e.immersion);
+  const auto arc = chatter::down_milling(e.immersion);
   s.entry_rad = arc.entry_rad;
   s.exit_rad = arc.exit_rad;
-  s.force = milling::LinearForce{force, force * normal_ratio};
+  s.force = chatter::LinearForce{force, force * normal_ratio};
   return s;
 }
 
@@ -51,15 +51,15 @@ struct Forces {
   double ratio(const Engagement& e, double fz) const {
     return at(e, fz).Kn_MPa / at(e, fz).Kt_MPa;
   }
-  std::shared_ptr<const milling::Lobes> lobes(const std::vector<Engagement>& cuts) const {
-    std::vector<milling::System> systems;
+  std::shared_ptr<const chatter::Lobes> lobes(const std::vector<Engagement>& cuts) const {
+    std::vector<chatter::System> systems;
     for (const double fz : feeds_mm)
       for (const auto& e : cuts)
         systems.push_back(system_of(tip_modes(p, cutter), cutter.teeth, e,
                                     at(e, fz).Kt_MPa / at(widest, fz).Kt_MPa,
                                     ratio(e, fz)));
     if (systems.empty()) return nullptr;
-    return std::make_shared<const milling::Lobes>(std::move(systems));
+    return std::make_shared<const chatter::Lobes>(std::move(systems));
   }
 };
 

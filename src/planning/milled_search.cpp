@@ -28,7 +28,7 @@ struct Span {
 struct Lost {
   double n_rpm, stable;
 };
-using Losses = std::map<const milling::Lobes*, std::vector<Lost>>;
+using Losses = std::map<const chatter::Lobes*, std::vector<Lost>>;
 
 // Speeds at which the largest feed is at least fz: one interval.
 std::optional<Span> feedable(const MilledCase& c, double fz) {
@@ -136,7 +136,7 @@ std::vector<double> speeds_about(double n_rpm, double margin, double parts) {
 
 // The losses at some speeds within the margin of another that break (2) there, each
 // brought to within kBracket of where it begins to.
-std::vector<Lost> losses_at(const MilledCase& c, const milling::Lobes& lobes,
+std::vector<Lost> losses_at(const MilledCase& c, const chatter::Lobes& lobes,
                             double n_rpm, const std::vector<double>& u) {
   const double W = load_N_mm(c, feed_mm(c, n_rpm));
   std::vector<double> stable;
@@ -162,7 +162,7 @@ std::vector<Lost> losses_at(const MilledCase& c, const milling::Lobes& lobes,
 }
 
 // Those of some lobes that stand against a speed: at the margin's ends, then between.
-std::vector<Lost> losses_about(const MilledCase& c, const milling::Lobes* lobes,
+std::vector<Lost> losses_about(const MilledCase& c, const chatter::Lobes* lobes,
                                double n) {
   if (!lobes) return {};
   const double s = c.speed_margin, low = n * (1 - s), high = n * (1 + s);

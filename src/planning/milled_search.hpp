@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "turnwright/milling/lobes.hpp"
+#include "turnwright/chatter/lobes.hpp"
 
 /// The cheapest speed and feed of a milled place over every choice of whole numbers.
 namespace turnwright::planning {
@@ -22,8 +22,8 @@ struct FeedCap {
 /// stiffness.  Cost and W fall with the feed, so fz is the least of its caps; in ln n its
 /// logarithm is concave and that of the cost convex.
 struct MilledCase {
-  const milling::Lobes* lobes = nullptr;
-  const milling::Lobes* between = nullptr;  ///< that B must be the least of, if any
+  const chatter::Lobes* lobes = nullptr;
+  const chatter::Lobes* between = nullptr;  ///< that B must be the least of, if any
   double n_min_rpm = 0, n_max_rpm = 0;
   std::vector<FeedCap> caps;  ///< at least one
   double fz_min_mm = 0;

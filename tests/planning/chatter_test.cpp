@@ -4,9 +4,9 @@
 
 #include "parts.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/chatter/limits.hpp"
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/deflection/beam.hpp"
-#include "turnwright/milling/limits.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 // Regenerative chatter as a limit of every pass.
@@ -66,13 +66,13 @@ nlohmann::json slender(double zeta) {
 TEST(Chatter, LimitIsThatOfTheStabilityOfTurning) {
   const double k = 4000, zeta = 0.03, K_MPa = 700;
   const double limit_mm = 2 * k * zeta * (1 + zeta) / K_MPa;
-  milling::System s;
+  chatter::System s;
   s.exit_rad = 2 * units::kPi;
-  s.force = milling::ConstantForce{K_MPa};
-  s.modes = {{milling::Axis::x, 2 * units::kPi * 120, zeta, k}};
+  s.force = chatter::ConstantForce{K_MPa};
+  s.modes = {{chatter::Axis::x, 2 * units::kPi * 120, zeta, k}};
   double least = 1e9;
   for (double n = 1920; n < 2040; n += 4)
-    if (const auto at = milling::speed_limits(s, n, 3 * limit_mm).limit_mm())
+    if (const auto at = chatter::speed_limits(s, n, 3 * limit_mm).limit_mm())
       least = std::min(least, *at);
   EXPECT_GE(least, limit_mm * (1 - 1e-9));
   EXPECT_LE(least, limit_mm * 1.002);
@@ -81,15 +81,15 @@ TEST(Chatter, LimitIsThatOfTheStabilityOfTurning) {
 // With the sum of static compliances for two modes, safe at every speed.
 TEST(Chatter, StaticComplianceIsSafeForSeveralModes) {
   const double zeta = 0.03, K_MPa = 700;
-  milling::System s;
+  chatter::System s;
   s.exit_rad = 2 * units::kPi;
-  s.force = milling::ConstantForce{K_MPa};
-  s.modes = {{milling::Axis::x, 2 * units::kPi * 120, zeta, 6000},
-             {milling::Axis::x, 2 * units::kPi * 310, 0.05, 9000}};
+  s.force = chatter::ConstantForce{K_MPa};
+  s.modes = {{chatter::Axis::x, 2 * units::kPi * 120, zeta, 6000},
+             {chatter::Axis::x, 2 * units::kPi * 310, 0.05, 9000}};
   const double limit_mm =
       1 / (K_MPa * (1 / (6000 * 2 * 0.03 * 1.03) + 1 / (9000 * 2 * 0.05 * 1.05)));
   for (double n = 2500; n < 6000; n += 125)
-    EXPECT_EQ(milling::multipliers(s, n, 0.999 * limit_mm).unstable, 0) << n;
+    EXPECT_EQ(chatter::multipliers(s, n, 0.999 * limit_mm).unstable, 0) << n;
 }
 
 TEST(Chatter, IsAConstraintWithItsValueAndLimitInClosedForm) {

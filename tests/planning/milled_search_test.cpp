@@ -11,21 +11,21 @@
 namespace turnwright::planning {
 namespace {
 
-milling::Lobes lobes(std::mt19937_64& draw, double immersion) {
+chatter::Lobes lobes(std::mt19937_64& draw, double immersion) {
   std::uniform_real_distribution<double> u(0, 1);
-  milling::System s;
-  for (const auto axis : {milling::Axis::x, milling::Axis::y})
+  chatter::System s;
+  for (const auto axis : {chatter::Axis::x, chatter::Axis::y})
     s.modes.push_back({axis, 2 * std::numbers::pi * (500 + 1500 * u(draw)),
                        0.02 + 0.04 * u(draw), 5000 + 15000 * u(draw)});
   s.teeth = 1 + static_cast<int>(4 * u(draw));
-  const auto arc = milling::down_milling(immersion);
+  const auto arc = chatter::down_milling(immersion);
   s.entry_rad = arc.entry_rad;
   s.exit_rad = arc.exit_rad;
-  s.force = milling::LinearForce{1, 0.2 + 0.4 * u(draw)};
-  return milling::Lobes({s});
+  s.force = chatter::LinearForce{1, 0.2 + 0.4 * u(draw)};
+  return chatter::Lobes({s});
 }
 
-MilledCase some_case(const milling::Lobes& l, int passes, double slope, double limit) {
+MilledCase some_case(const chatter::Lobes& l, int passes, double slope, double limit) {
   MilledCase c;
   c.lobes = &l;
   c.n_min_rpm = 1500;

@@ -9,9 +9,10 @@
 
 #include "parts.hpp"
 #include "planning/fixed.hpp"
+#include "turnwright/chatter/limits.hpp"
+#include "turnwright/chatter/lobes.hpp"
+#include "turnwright/chatter/reference_methods.hpp"
 #include "turnwright/document/process_plan.hpp"
-#include "turnwright/milling/checks.hpp"
-#include "turnwright/milling/lobes.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -61,7 +62,7 @@ const OperationPlan* milled_in(const FixedWork& work) {
 }
 
 // The cuts of an operation as systems, by the issue's own formulas.
-std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
+std::vector<chatter::System> systems_of(const PartPlan& p, const Milled& m,
                                         const OperationPlan& o) {
   const auto& cut = *o.milled;
   const auto cutter = *std::find_if(m.cutters.begin(), m.cutters.end(),
@@ -72,11 +73,11 @@ std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
   if (m.kind == MilledKind::flat || side > 1e-6)
     for (const double share : {0.75, 0.5, 0.25, 0.0})
       if (side + share > 0) widths.push_back(side + share * (cut.ae_mm - side));
-  std::vector<milling::System> all;
+  std::vector<chatter::System> all;
   for (const double ae : widths) {
-    milling::System s;
+    chatter::System s;
     for (const auto& mode : cutter.modes)
-      s.modes.push_back({mode.along_feed ? milling::Axis::x : milling::Axis::y,
+      s.modes.push_back({mode.along_feed ? chatter::Axis::x : chatter::Axis::y,
                          2 * std::numbers::pi * mode.frequency_Hz, mode.damping_ratio,
                          mode.stiffness_N_mm});
     s.teeth = cutter.teeth;
@@ -88,7 +89,7 @@ std::vector<milling::System> systems_of(const PartPlan& p, const Milled& m,
                      (1 - (cutter.gamma_deg - p.material.gamma0_deg) / 100) *
                      std::pow(hm, -p.material.kc.m);
     const auto& kf = p.material.kf;
-    s.force = milling::LinearForce{K, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.5 * K};
+    s.force = chatter::LinearForce{K, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.5 * K};
     all.push_back(s);
   }
   return all;
@@ -123,15 +124,15 @@ TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
       const auto& pass = o.passes[0];
       EXPECT_GE(o.milled->limit_mm, pass.ap_mm * 1.2 * (1 - 1e-9)) << o.id;
       const double yields = 1 + o.milled->part_share;
-      const auto growth = [&](const milling::System& s, double n, double ap) {
-        return std::abs(milling::simulation(s, n, ap * yields).multiplier);
+      const auto growth = [&](const chatter::System& s, double n, double ap) {
+        return std::abs(chatter::simulation(s, n, ap * yields).multiplier);
       };
       double least = std::numeric_limits<double>::infinity(), beyond = 0;
       for (const auto& s : systems_of(p, m, o))
         for (const double u : {-1.0, 0.0, 1.0}) {
           const double n = pass.n_rpm * (1 + 0.02 * u);
           EXPECT_LT(growth(s, n, 0.97 * 1.2 * pass.ap_mm), 1) << o.id << ' ' << n;
-          const auto loss = milling::speed_limits(s, n, 40 * pass.ap_mm).limit_mm();
+          const auto loss = chatter::speed_limits(s, n, 40 * pass.ap_mm).limit_mm();
           if (!loss || *loss > least * yields) continue;
           least = *loss / yields;
           beyond = growth(s, n, 1.05 * least);
@@ -201,7 +202,7 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
             for (const double u : {0.98, 1.0, 1.02}) {
               if (!stable) break;
               const auto limit =
-                  milling::speed_limits(s, n * u, ap * 1.2 * (1 + rho)).limit_mm();
+                  chatter::speed_limits(s, n * u, ap * 1.2 * (1 + rho)).limit_mm();
               stable = !limit;
             }
           if (stable) least = cost;
@@ -233,9 +234,9 @@ TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
     const double yields = 1 + o.milled->part_share;
     const double asked = 1.2 * pass.ap_mm * yields;
     for (auto s : systems_of(p, p.milled[0], o)) {
-      const auto [Kt, Kn] = std::get<milling::LinearForce>(s.force);
-      s.force = milling::LinearForce{1, Kn / Kt};
-      const milling::Lobes lobes({s});
+      const auto [Kt, Kn] = std::get<chatter::LinearForce>(s.force);
+      s.force = chatter::LinearForce{1, Kn / Kt};
+      const chatter::Lobes lobes({s});
       for (const double u : {0.98, 0.99, 1.0, 1.01, 1.02})
         EXPECT_GE(lobes.stable_to_N_mm(pass.n_rpm * u, asked * Kt),
                   asked * Kt * (1 - 1e-6))
@@ -267,10 +268,10 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
   const auto& kc = p.material.kc;
   const double k11 = kc.k11_MPa * (1 - (c.gamma_deg - p.material.gamma0_deg) / 100);
   ASSERT_GT(m.ways.size(), 1U);
-  const auto check = [&](const milling::System& s, double share, double fz) {
+  const auto check = [&](const chatter::System& s, double share, double fz) {
     const double a = share * m.width_mm / 2 / c.dc_mm, arc = std::acos(1 - 2 * a);
     EXPECT_NEAR(s.exit_rad - s.entry_rad, arc, 1e-12);
-    const auto& force = std::get<milling::LinearForce>(s.force);
+    const auto& force = std::get<chatter::LinearForce>(s.force);
     const double hm = fz * 2 * a / arc;
     EXPECT_NEAR(force.Kn_MPa / force.Kt_MPa,
                 350 * std::pow(hm, -0.4) / (k11 * std::pow(hm, -kc.m)), 1e-12);

@@ -20,7 +20,7 @@ struct MilledChip {
 MilledChip milled_chip(double immersion);
 
 /// Stiffness of the force against the chip, N per mm of thickness and mm of depth, as
-/// milling::LinearForce wants it:
+/// chatter::LinearForce wants it:
 ///
 ///     Kt = kc1.1 hm^-mc,   Kn = kf1.1 hm^-mf, else 0.5 Kt                            (4)
 ///

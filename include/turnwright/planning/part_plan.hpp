@@ -13,7 +13,7 @@
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/part/drawing.hpp"
 
-namespace turnwright::milling {
+namespace turnwright::chatter {
 class Lobes;
 }
 
@@ -105,8 +105,8 @@ struct MilledWay {
   int lanes = 1;
   double fz_from_mm = 0, fz_to_mm = 0;
   double normal = 0;  ///< largest Kn/Kt of its cuts and feeds
-  std::shared_ptr<const milling::Lobes> lobes;
-  std::shared_ptr<const milling::Lobes> between;  ///< of cuts on the way, if any
+  std::shared_ptr<const chatter::Lobes> lobes;
+  std::shared_ptr<const chatter::Lobes> between;  ///< of cuts on the way, if any
 };
 
 /// A place milled into an outer cylinder once that is turned, by a driven tool whose axis

@@ -18,9 +18,9 @@
 namespace turnwright::document {
 namespace {
 
-using milling::FrequencyResponse;
-using milling::ModalFit;
-using milling::NoFit;
+using chatter::FrequencyResponse;
+using chatter::ModalFit;
+using chatter::NoFit;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kRows = 20000, kLines = 5000;
@@ -182,20 +182,20 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   const auto before = r.problems().list.size();
   MeasuredAxis out;
   if (axis == AxisKey::asked)
-    out.axis = r.choice<milling::Axis>(
-        "axis", {{"x", milling::Axis::x}, {"y", milling::Axis::y}});
+    out.axis = r.choice<chatter::Axis>(
+        "axis", {{"x", chatter::Axis::x}, {"y", chatter::Axis::y}});
   const Unit unit = read_unit(r);
   std::vector<Line> all = read_lines(r);
   const std::size_t given = all.size();
   const std::vector<Line> lines = in_band(r, std::move(all));
-  const auto modes = r.optional_integer("modes", 1, milling::kMostModes);
+  const auto modes = r.optional_integer("modes", 1, chatter::kMostModes);
   r.finish();
   if (lines.size() > kLines)
     r.problem_at("csv", "at most " + std::to_string(kLines) + " lines in the band",
                  "count");
   if (r.broken() || r.problems().list.size() > before) return std::nullopt;
   const auto found =
-      milling::modal_fit(response(lines, unit),
+      chatter::modal_fit(response(lines, unit),
                          modes ? std::optional(static_cast<int>(*modes)) : std::nullopt);
   if (const auto* no = std::get_if<NoFit>(&found)) {
     report(r, lines, *no, modes, unit.derivative);
@@ -213,7 +213,7 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
 ordered_json described(const MeasuredAxis& measured) {
   const ModalFit& fit = measured.fit;
   ordered_json modes = ordered_json::array();
-  for (const milling::FittedMode& m : fit.modes) {
+  for (const chatter::FittedMode& m : fit.modes) {
     ordered_json told;
     add(told, "frequency_Hz", hertz(m.wn_rad_s.value), hertz(m.wn_rad_s.u));
     add(told, "damping_ratio", m.zeta.value, m.zeta.u);
@@ -221,7 +221,7 @@ ordered_json described(const MeasuredAxis& measured) {
     told["mass_kg"] = 1000 * m.k_N_mm.value / (m.wn_rad_s.value * m.wn_rad_s.value);
     modes.push_back(std::move(told));
   }
-  ordered_json out{{"axis", measured.axis == milling::Axis::x ? "x" : "y"},
+  ordered_json out{{"axis", measured.axis == chatter::Axis::x ? "x" : "y"},
                    {"lines", measured.lines},
                    {"left_out", measured.left_out},
                    {"from_Hz", measured.from_Hz},
@@ -248,7 +248,7 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
         " % of the response's squares, less than 90 %: its limits are not to be "
         "trusted; is the unit right, the band wide enough, the noise low?");
   const auto weakest = std::ranges::min_element(
-      fit.modes, {}, [](const milling::FittedMode& m) { return m.k_N_mm.value; });
+      fit.modes, {}, [](const chatter::FittedMode& m) { return m.k_N_mm.value; });
   const double k = weakest->k_N_mm.value;
   if (!contains(usual, k))
     out.push_back(measured.pointer +

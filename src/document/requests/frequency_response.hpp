@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "document/json/reader.hpp"
-#include "turnwright/milling/frf.hpp"
-#include "turnwright/milling/system.hpp"
+#include "turnwright/chatter/frf.hpp"
+#include "turnwright/chatter/system.hpp"
 
 namespace turnwright::document {
 
 /// Modes fitted to a frequency response measured along an axis.
 struct MeasuredAxis {
-  milling::Axis axis = milling::Axis::x;
+  chatter::Axis axis = chatter::Axis::x;
   std::string pointer;       ///< of its part of the request
   std::size_t lines = 0;     ///< used
   std::size_t left_out = 0;  ///< at 0 Hz, where nothing vibrates, or outside the band
   double from_Hz = 0, to_Hz = 0;
-  milling::ModalFit fit;
+  chatter::ModalFit fit;
 };
 
 enum class AxisKey { asked, none };

@@ -13,13 +13,13 @@
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/milling/checks.hpp"
-#include "turnwright/milling/limits.hpp"
+#include "turnwright/chatter/limits.hpp"
+#include "turnwright/chatter/reference_methods.hpp"
 
 namespace turnwright::document {
 namespace {
 
-using namespace turnwright::milling;
+using namespace turnwright::chatter;
 using namespace stability_request;
 using nlohmann::json;
 using nlohmann::ordered_json;

@@ -16,7 +16,7 @@
 namespace turnwright::document::stability_request {
 namespace {
 
-using namespace turnwright::milling;
+using namespace turnwright::chatter;
 using nlohmann::json;
 
 constexpr std::size_t kModes = 20, kSpeeds = 10000, kPoints = 10000, kChecked = 200;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "frequency_response.hpp"
+#include "turnwright/chatter/cutter.hpp"
+#include "turnwright/chatter/uncertain.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/milling/cutter.hpp"
-#include "turnwright/milling/uncertain.hpp"
 
 /// The request of the door `stability`.
 namespace turnwright::document::stability_request {
@@ -27,13 +27,13 @@ struct SpeedRange {
 /// The force that a material's law gives at the mean chip.
 struct Chip {
   double hm_mm = 0;
-  milling::LinearForce force;
+  chatter::LinearForce force;
 };
 
 struct Request {
   Model model = Model::milling;
-  milling::System system;
-  std::optional<milling::Cutter> cutter;  // with what `system` does not hold
+  chatter::System system;
+  std::optional<chatter::Cutter> cutter;  // with what `system` does not hold
   std::vector<MeasuredAxis> measured;     // whose modes `system` holds
   bool modes_of_cutter = false;           // those of its document
   std::optional<Chip> chip;
@@ -41,7 +41,7 @@ struct Request {
   std::vector<double> speeds_rpm;
   bool speeds_listed = false;     // one by one, not as a range
   std::vector<double> depths_mm;  // counted at each speed
-  std::optional<milling::Bands> bands;
+  std::optional<chatter::Bands> bands;
   std::optional<SpeedRange> machine;
   std::vector<Point> points;
   Method method = Method::fundamental_matrix;

@@ -1,2 +1,2 @@
 #pragma once
-#include "turnwright/milling/stability.hpp"
+#include "turnwright/chatter/stability.hpp"

@@ -1,0 +1,93 @@
+// Charts of the benchmark tool beside our own first-order semi-discretisation.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/chatter/limits.hpp"
+#include "turnwright/chatter/reference_methods.hpp"
+
+namespace turnwright::chatter {
+namespace {
+
+/// 922 Hz, zeta 0.011, 0.03993 kg, two teeth; `axes` 1 or 2.
+System tool(std::int64_t axes, double immersion) {
+  const double wn = 922 * 2 * units::kPi;
+  const Engagement cut = down_milling(immersion);
+  System s{.modes = {},
+           .teeth = 2,
+           .entry_rad = cut.entry_rad,
+           .exit_rad = cut.exit_rad,
+           .force = LinearForce{.Kt_MPa = 600, .Kn_MPa = 200}};
+  for (std::int64_t i = 0; i < axes; ++i)
+    s.modes.push_back({.axis = i == 0 ? Axis::x : Axis::y,
+                       .wn_rad_s = wn,
+                       .zeta = 0.011,
+                       .k_N_mm = 0.03993 * wn * wn / 1000});
+  return s;
+}
+
+constexpr int kSpeeds = 200;
+double speed(int i) { return 5000 + 20000.0 * i / (kSpeeds - 1); }
+
+struct Chart {
+  std::int64_t axes;
+  double immersion, deepest_mm;
+};
+constexpr Chart kCharts[] = {{1, 0.1, 6}, {1, 1, 2}, {2, 0.1, 4}, {2, 1, 0.3}};
+
+/// 200 speeds, all crossings.
+void boundary(benchmark::State& state) {
+  const Chart& chart = kCharts[state.range(0)];
+  const System s = tool(chart.axes, chart.immersion);
+  for (auto _ : state)
+    for (int i = 0; i < kSpeeds; ++i)
+      benchmark::DoNotOptimize(speed_limits(s, speed(i), chart.deepest_mm));
+}
+BENCHMARK(boundary)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+
+/// The same with certified counts at 100 depths of each speed.
+void chart(benchmark::State& state) {
+  const Chart& chart = kCharts[state.range(0)];
+  const System s = tool(chart.axes, chart.immersion);
+  std::vector<double> depths;
+  for (int i = 1; i <= 100; ++i) depths.push_back(chart.deepest_mm * i / 100);
+  for (auto _ : state)
+    for (int i = 0; i < kSpeeds; ++i)
+      benchmark::DoNotOptimize(speed_limits(s, speed(i), chart.deepest_mm, depths));
+}
+BENCHMARK(chart)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+
+/// 20 speeds of a tool with modes 15 % apart on x and y in turn and some teeth, a/D 0.1.
+void twenty_speeds(benchmark::State& state) {
+  System s = tool(1, 0.1);
+  const Mode first = s.modes[0];
+  for (std::int64_t i = 1; i < state.range(0); ++i) {
+    s.modes.push_back(first);
+    s.modes.back().axis = i % 2 == 0 ? Axis::x : Axis::y;
+    s.modes.back().wn_rad_s *= std::pow(1.15, static_cast<double>(i));
+  }
+  s.teeth = static_cast<int>(state.range(1));
+  constexpr int kFew = 20;
+  for (auto _ : state)
+    for (int i = 0; i < kFew; ++i)
+      benchmark::DoNotOptimize(speed_limits(s, 5000 + 1000.0 * i, 2));
+}
+BENCHMARK(twenty_speeds)
+    ->ArgsProduct({{1, 2, 3, 4}, {1, 2, 4, 8}})
+    ->Unit(benchmark::kMillisecond);
+
+/// One cut by 40 intervals; a chart of 200 x 100 cuts takes 20000 times as long.
+void semi_discretised_cut(benchmark::State& state) {
+  const Chart& chart = kCharts[state.range(0)];
+  const System s = tool(chart.axes, chart.immersion);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(semi_discretisation(s, 12000, chart.deepest_mm / 2, 40));
+}
+BENCHMARK(semi_discretised_cut)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace turnwright::chatter
+
+BENCHMARK_MAIN();

@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+namespace turnwright::chatter {
+
+/// A depth at which the cut turns from stable to unstable or back.
+struct Crossing {
+  double ap_mm = 0;
+  bool loss = true;           ///< stable below, unstable above; else the other way about
+  bool flip = false;          ///< the multiplier is -1; else a pair e^(+-i theta)
+  double theta_rad = 0;       ///< argument of the multiplier, in (0, pi]
+  double frequency_Hz = 0;    ///< of the chatter, (1) of limits.hpp
+  double relative_error = 0;  ///< estimated, of ap_mm
+};
+
+/// Stability at one spindle speed, up to a depth.
+struct SpeedLimits {
+  double n_rpm = 0;
+  std::vector<Crossing> crossings;  ///< rising
+  std::vector<int> unstable;        ///< multipliers outside the circle at depths asked
+  /// The first loss; none if the cut is stable up to the depth asked about.
+  std::optional<double> limit_mm() const;
+};
+
+/// Multipliers of one cut.
+struct Multipliers {
+  int unstable = 0;            ///< outside the unit circle, a pair counts as two
+  double spectral_radius = 0;  ///< largest modulus
+  bool certified = true;       ///< whether `unstable` is the winding number
+};
+
+}  // namespace turnwright::chatter

@@ -1,0 +1,182 @@
+#include "characteristic_interpolant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace turnwright::chatter {
+namespace {
+
+constexpr std::size_t kPowers = 120;  // of z at most
+constexpr double kRounding = 1e-13;   // of f, relative to sum |d_l|
+constexpr double kBeyond = 1.1;       // |t| asked about: boxes overlap
+
+/// d_l of (1); the multipliers come in conjugate pairs.
+std::vector<double> coefficients(const std::vector<Complex>& multipliers) {
+  std::vector<Complex> c{1.0};
+  for (const Complex& mu : multipliers) {
+    c.push_back(0);
+    for (std::size_t l = c.size(); --l > 0;) c[l] -= mu * c[l - 1];
+    if (c.size() > kPowers) c.pop_back();
+  }
+  std::vector<double> out;
+  for (const Complex& x : c) out.push_back(x.real());
+  return out;
+}
+
+double size_of(const std::vector<double>& d) {
+  return std::accumulate(d.begin(), d.end(), 0.0,
+                         [](double sum, double x) { return sum + std::abs(x); });
+}
+
+int outside(const std::vector<Complex>& multipliers) {
+  return static_cast<int>(
+      std::ranges::count_if(multipliers, [](Complex mu) { return std::norm(mu) > 1; }));
+}
+
+/// T_k and its first three derivatives by t at one place.
+struct Chebyshev {
+  std::vector<double> T, T1, T2, T3;
+};
+
+Chebyshev chebyshev(std::size_t terms, double t) {
+  Chebyshev c{{1, t}, {0, 1}, {0, 0}, {0, 0}};
+  for (std::size_t k = 1; k + 1 < terms; ++k) {
+    c.T.push_back(2 * t * c.T[k] - c.T[k - 1]);
+    c.T1.push_back(2 * c.T[k] + 2 * t * c.T1[k] - c.T1[k - 1]);
+    c.T2.push_back(4 * c.T1[k] + 2 * t * c.T2[k] - c.T2[k - 1]);
+    c.T3.push_back(6 * c.T2[k] + 2 * t * c.T3[k] - c.T3[k - 1]);
+  }
+  return c;
+}
+
+/// The samples of one interpolant at the extrema of T_n, from its upper end down.
+using Samples = std::vector<std::vector<double>>;
+
+double extremum(std::size_t i, std::size_t n) {
+  return std::cos(units::kPi * static_cast<double>(i) / static_cast<double>(n));
+}
+
+// d_k = 2/n sum'' f(t_i) T_k(t_i), the first and the last halved; Clenshaw and Curtis.
+std::vector<double> series_of(const Samples& samples, std::size_t l) {
+  const std::size_t n = samples.size() - 1;
+  std::vector<double> out(n + 1);
+  for (std::size_t k = 0; k <= n; ++k) {
+    double sum = 0;
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double f = l < samples[i].size() ? samples[i][l] : 0;
+      sum += (i == 0 || i == n ? 0.5 : 1) * f * extremum(i * k % (2 * n), n);
+    }
+    out[k] = (k == 0 || k == n ? 1 : 2) * sum / static_cast<double>(n);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
+    const MultipliersAt& multipliers, double from_mm, double to_mm, double tail) {
+  CharacteristicInterpolant out;
+  out.middle_ = (from_mm + to_mm) / 2;
+  out.half_ = (to_mm - from_mm) / 2;
+  Samples samples;
+  for (const std::size_t n : {8u, 16u}) {
+    Samples finer;
+    for (std::size_t i = 0; i <= n; ++i) {
+      if (!samples.empty() && i % 2 == 0) {
+        finer.push_back(std::move(samples[i / 2]));
+        continue;
+      }
+      const double w = i == 0   ? to_mm
+                       : i == n ? from_mm
+                                : out.middle_ + out.half_ * extremum(i, n);
+      const auto found = multipliers(w);
+      if (i == 0) out.above_ = outside(found);
+      if (i == n) out.below_ = outside(found);
+      finer.push_back(coefficients(found));
+    }
+    samples = std::move(finer);
+
+    double scale = 0;
+    std::size_t powers = 0;
+    for (const auto& d : samples) {
+      scale = std::max(scale, size_of(d));
+      powers = std::max(powers, d.size());
+    }
+    std::vector<std::vector<double>> series;
+    double left = 0;
+    for (std::size_t l = 0; l < powers; ++l) {
+      series.push_back(series_of(samples, l));
+      const auto& d = series.back();
+      left += std::abs(d[n]) + std::abs(d[n - 1]) + std::abs(d[n - 2]);
+    }
+    if (left > tail * scale) continue;
+
+    // Powers of z that rounding hides.
+    double dropped = 0;
+    while (series.size() > 2 && dropped + size_of(series.back()) < kRounding * scale) {
+      dropped += size_of(series.back());
+      series.pop_back();
+    }
+    out.powers_ = series.size();
+    out.terms_ = n + 1;
+    for (const auto& d : series) out.d_.insert(out.d_.end(), d.begin(), d.end());
+    out.noise_ = left + dropped + kRounding * scale;
+    double weighted = 0, all = 0;
+    for (std::size_t l = 0; l < series.size(); ++l) {
+      weighted += static_cast<double>(l) * size_of(series[l]);
+      all += size_of(series[l]);
+    }
+    out.shift_ = std::round(weighted / all);
+    const Chebyshev edge = chebyshev(out.terms_, kBeyond);  // T^(j) is largest at the end
+    for (std::size_t l = 0; l < series.size(); ++l) {
+      const double e = std::abs(static_cast<double>(l) - out.shift_);
+      for (std::size_t k = 0; k <= n; ++k) {
+        const double c = std::abs(series[l][k]);
+        out.most_.TTT += c * edge.T3[k];
+        out.most_.TTU += c * edge.T2[k] * e;
+        out.most_.TUU += c * edge.T1[k] * e * e;
+        out.most_.UUU += c * edge.T[k] * e * e * e;
+      }
+    }
+    return out;
+  }
+  return std::nullopt;
+}
+
+Local CharacteristicInterpolant::at(const Box& box, Complex u) const {
+  const double t = (box.w - middle_) / half_;
+  const Chebyshev c = chebyshev(terms_, t);
+  Complex power = std::pow(std::conj(u), shift_);
+  Complex g, g_t, g_tt, g_e, g_te, g_ee;  // e: weighted by l - s
+  for (std::size_t l = 0; l < powers_; ++l, power *= u) {
+    const double* d = &d_[l * terms_];
+    double value = 0, slope = 0, curve = 0;
+    for (std::size_t k = 0; k < terms_; ++k) {
+      value += d[k] * c.T[k];
+      slope += d[k] * c.T1[k];
+      curve += d[k] * c.T2[k];
+    }
+    const double e = static_cast<double>(l) - shift_;
+    g += value * power;
+    g_t += slope * power;
+    g_tt += curve * power;
+    g_e += e * value * power;
+    g_te += e * slope * power;
+    g_ee += e * e * value * power;
+  }
+  const double a = box.w_half / half_, b = box.theta_half;
+  const double tt = modulus(g_tt) + most_.TTT * a + most_.TTU * b,
+               te = modulus(g_te) + most_.TTU * a + most_.TUU * b,
+               ee = modulus(g_ee) + most_.TUU * a + most_.UUU * b;
+  const auto degree = static_cast<double>(powers_), terms = static_cast<double>(terms_);
+  return {.g = g,
+          .g_w = g_t / half_,
+          .g_theta = Complex(0, -1) * g_e,
+          .ww = tt / (half_ * half_),
+          .wt = te / half_,
+          .tt = ee,
+          .unseen = noise_ * (terms * terms * a + degree * b)};
+}
+
+}  // namespace turnwright::chatter

@@ -1,0 +1,55 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "chatter/fundamental_matrix/krawczyk_search.hpp"
+
+namespace turnwright::chatter {
+
+/// Multipliers of a cut by its depth, those too small to matter left out.
+using MultipliersAt = std::function<std::vector<Complex>(double w_mm)>;
+
+/// The characteristic function of a delayed motion
+///
+///     f(z, w) = prod_i (1 - z mu_i(w)) = sum_l d_l(w) z^l                            (1)
+///
+/// which is entire in z, so that its d_l fall off, over depths from a to b:
+///
+///     d_l(w) = sum_k d_lk T_k(t),   t = (2 w - a - b)/(b - a)                        (2)
+///
+/// with Chebyshev's polynomials through samples at their extrema.  Its zeros inside the
+/// unit circle are the unstable multipliers, as those of taylor_patch.hpp are.
+/// Source: derived here.
+class CharacteristicInterpolant {
+ public:
+  /// None if 17 depths leave a tail above `tail` of sum_l |d_l|.
+  static std::optional<CharacteristicInterpolant> sampled(
+      const MultipliersAt& multipliers, double from_mm, double to_mm, double tail);
+
+  double from_mm() const { return middle_ - half_; }
+  double to_mm() const { return middle_ + half_; }
+  /// Multipliers outside the circle at the two ends.
+  int unstable_at_from() const { return below_; }
+  int unstable_at_to() const { return above_; }
+
+  /// Errors of f are smaller: the tail of (2) and rounding.
+  double noise() const { return noise_; }
+
+  /// g = e^(i s theta) f(e^(-i theta), w) with the whole number s by which g turns
+  /// slowly, as taylor_patch.hpp tells of it.
+  Local at(const Box& box, Complex u) const;
+
+ private:
+  double middle_ = 0, half_ = 0, noise_ = 0;
+  int below_ = 0, above_ = 0;
+  std::size_t powers_ = 0, terms_ = 0;  // of z, of Chebyshev's series
+  double shift_ = 0;                    // s
+  std::vector<double> d_;               // d_lk, [l * terms_ + k]
+  /// Bounds on derivatives of g by t (T) and theta (U) on all of the interpolant.
+  struct Bounds {
+    double TTT = 0, TTU = 0, TUU = 0, UUU = 0;
+  } most_;
+};
+
+}  // namespace turnwright::chatter

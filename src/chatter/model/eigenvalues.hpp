@@ -1,0 +1,20 @@
+#pragma once
+#include <Eigen/Dense>
+
+#include "turnwright/chatter/dominant.hpp"
+
+namespace turnwright::chatter {
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// With the vectors as columns, of length 1.
+struct Eigenpairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+Eigenpairs eigenpairs(const Eigen::MatrixXd& matrix);
+
+/// Largest eigenvalue, and how many lie outside the unit circle.
+Dominant dominant(const Eigen::MatrixXd& monodromy);
+
+}  // namespace turnwright::chatter
