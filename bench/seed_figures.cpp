@@ -11,11 +11,11 @@
 #include <random>
 
 #include "../tests/chatter/cutters.hpp"
-#include "report/chart.hpp"
+#include "report/picture/chart.hpp"
+#include "report/picture/stability_chart.hpp"
 #include "turnwright/chatter/limits.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
 #include "turnwright/document/stability.hpp"
-#include "turnwright/report/stability_chart.hpp"
 
 namespace turnwright {
 namespace {

@@ -3,6 +3,14 @@
 #include <utility>
 #include <vector>
 
+#include "report/picture/budget_drawing.hpp"
+#include "report/page/stability_html.hpp"
+#include "report/picture/drawing.hpp"
+#include "report/picture/milled_drawing.hpp"
+#include "report/picture/stability_chart.hpp"
+#include "report/picture/volumetric_drawing.hpp"
+#include "report/picture/window_drawing.hpp"
+#include "report/text/text.hpp"
 #include "turnwright/document/acceptance.hpp"
 #include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/calibrate_material.hpp"
@@ -20,13 +28,6 @@
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/process_plan.hpp"
-#include "turnwright/report/budget_drawing.hpp"
-#include "turnwright/report/drawing.hpp"
-#include "turnwright/report/milled_drawing.hpp"
-#include "turnwright/report/stability_chart.hpp"
-#include "turnwright/report/text.hpp"
-#include "turnwright/report/volumetric_drawing.hpp"
-#include "turnwright/report/window_drawing.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "report/picture/figure.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/nc/program.hpp"
-#include "turnwright/report/html.hpp"
 
 /// Every capability once: a pure function from a request document to a result document.
 /// The doors (command line, HTTP, batch) are generated from this table, so that adding a

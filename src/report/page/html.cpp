@@ -1,0 +1,248 @@
+#include "html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "html_parts.hpp"
+#include "report/picture/svg.hpp"
+#include "report/text/certificate_words.hpp"
+#include "report/text/json_fields.hpp"
+#include "report/text/plan_words.hpp"
+#include "report/text/setup_words.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string header(std::string_view name, const ordered_json& result) {
+  const bool feasible = word(result, "status") != "infeasible";
+  std::string out = tag("h1", name);
+  out += "<p class=\"status" + std::string(feasible ? "" : " infeasible") + "\">" +
+         (feasible ? "Every limit is kept" : "Infeasible: no plan keeps every limit") +
+         "</p>\n";
+  if (feasible) {
+    out += "<dl>\n";
+    out += key_figure("Cost", shown(number(result, "cost_per_part"), 4), "per part");
+    out +=
+        key_figure("Time", shown(number(result, "time_per_part_min"), 3), "min per part");
+    if (const auto profit = number(result, "profit_per_min"))
+      out += key_figure("Profit", shown(profit, 4), "per minute");
+    const auto& robust = object(result, "robustness");
+    if (const auto p = number(robust, "conformance"))
+      out += key_figure(
+          "Robust", shown(100 * *p, 2),
+          "% kept, for " + shown(number(robust, "price_per_part"), 4) + " per part");
+    out += "</dl>\n";
+  }
+  if (const auto& c = object(result, "certificate"); !c.empty())
+    out += tag("p", "Proof: " + proof(c) + ".");
+  return out + origin(result);
+}
+
+// The first run has the operation's name, time and cost; the last is followed by its
+// note.
+std::string operation_rows(const ordered_json& operation) {
+  const auto all = runs(list(operation, "passes"));
+  const auto& certificate = object(operation, "certificate");
+  std::string out;
+  for (std::size_t i = 0; i < std::max<std::size_t>(all.size(), 1); ++i) {
+    const bool first = i == 0;
+    out += "<tr class=\"first\">" + words_cell(first ? word(operation, "id") : "") +
+           words_cell(first ? word(operation, "tool") : "");
+    static const ordered_json kNone = ordered_json::object();
+    const auto& pass = i < all.size() ? *all[i].first : kNone;
+    out += number_cell(i < all.size() ? std::to_string(all[i].count) : "-") +
+           number_cell(shown(number(pass, "ap_mm"), 3)) +
+           number_cell(shown(number(pass, "f_mm_rev"), 3)) +
+           number_cell(shown(number(pass, "vc_m_min"), 1)) +
+           number_cell(i < all.size() ? speeds(all[i]) : "-") +
+           number_cell(first ? shown(number(operation, "time_min"), 3) : "") +
+           number_cell(first ? shown(number(operation, "cost"), 3) : "") +
+           number_cell(first ? gap(certificate) : "") + "</tr>\n";
+  }
+  return out + "<tr><td class=\"note\" colspan=\"10\">" + escaped(note(operation)) +
+         "</td></tr>\n";
+}
+
+std::string operations(const ordered_json& all) {
+  if (all.empty()) return tag("p", "No operations.");
+  std::string out = table_head({{"operation", "", false},
+                                {"tool", "", false},
+                                {"passes", ""},
+                                {"ap", "mm"},
+                                {"f", "mm/rev"},
+                                {"vc", "m/min"},
+                                {"n", "1/min"},
+                                {"time", "min"},
+                                {"cost", "per part"},
+                                {"gap", ""}});
+  for (const auto& operation : all) out += operation_rows(operation);
+  return out + kTableFoot;
+}
+
+std::string setup_figures(const ordered_json& result, const Figures& figures) {
+  std::string out;
+  for (std::size_t i = 0; i < list(result, "setups").size(); ++i)
+    out += figure_named(
+        figures, fmt::format("setup-{}.svg", i),
+        fmt::format("Setup {}: the part, its clamping and its deviations", i));
+  return pairs(out);
+}
+
+std::string setups(const ordered_json& result) {
+  std::string out;
+  const bool feasible = word(result, "status") != "infeasible";
+  std::size_t index = 0;
+  for (const auto& setup : list(result, "setups")) {
+    const auto i = std::to_string(index++);
+    out += tag("h2", "Setup " + i) + tag("p", "Hold " + holding(setup) + ".");
+    std::string rejected;
+    for (const auto& r : list(setup, "rejected"))
+      rejected += tag("li", "not " + word(r, "clamping") + ": " + word(r, "why"));
+    if (!rejected.empty()) out += "<ul>\n" + rejected + "</ul>\n";
+    if (!feasible && !list(setup, "operations").empty())
+      out +=
+          "<p class=\"bad\">Conditions that come closest; they break limits, do not "
+          "cut with them.</p>\n";
+    out += operations(list(setup, "operations"));
+  }
+  return out;
+}
+
+/// How much of the width is used, as a bar.
+std::string used_cell(const ordered_json& tolerance) {
+  const auto width = number(tolerance, "width_mm");
+  if (!width || !(*width > 0)) return words_cell("-");
+  const Stack stack = stack_of(tolerance);
+  const double used = 1 - stack.left_um / units::um_from_mm(*width);
+  const double shown_width = 60 * std::clamp(used, 0.0, 1.0);
+  return fmt::format(
+      "<td class=\"n\">{} % <svg width=\"60\" height=\"7\" aria-hidden=\"true\">"
+      "<rect width=\"60\" height=\"7\" fill=\"#e3e6ea\"/>"
+      "<rect width=\"{:.2f}\" height=\"7\" fill=\"{}\"/></svg></td>",
+      shown(100 * used, 0), shown_width, stack.over() ? "#b00d26" : "#3a4654");
+}
+
+std::string tolerances(const ordered_json& result, const Figures& figures) {
+  const auto& all = list(result, "tolerances");
+  if (all.empty()) return "";
+  std::string out = tag("h2", "Tolerances") + table_head({{"id", "", false},
+                                                          {"kind", "", false},
+                                                          {"of", "", false},
+                                                          {"predicted", "\u00b5m"},
+                                                          {"allowed", "\u00b5m"},
+                                                          {"margin", "\u00b5m"},
+                                                          {"used", "of the width"},
+                                                          {"verdict", "", false},
+                                                          {"paper", "", false}});
+  for (const auto& t : all) {
+    auto kind = word(t, "kind");
+    std::replace(kind.begin(), kind.end(), '-', ' ');
+    const bool met = word(t, "verdict") != "not-met";
+    out += "<tr>" + words_cell(word(t, "id")) + words_cell(kind) +
+           words_cell(word(t, "of")) + number_cell(micrometres(t, "predicted_mm")) +
+           number_cell(micrometres(t, "allowed_mm")) +
+           number_cell(micrometres(t, "margin_mm")) + used_cell(t) +
+           (met ? words_cell(verdict(t)) : "<td class=\"bad\">NOT MET</td>") +
+           words_cell(other_verdict(t)) + "</tr>\n";
+    if (const auto p = conformance(t); !p.empty())
+      out += "<tr><td class=\"note\" colspan=\"9\">" + escaped(p) + "</td></tr>\n";
+  }
+  return out + kTableFoot +
+         "<p class=\"from\">offset: met once the tool path is corrected; paper: the "
+         "published acceptance equations, where they judge otherwise</p>\n" +
+         figure_named(figures, "budget.svg", "What takes each tolerance's width");
+}
+
+// Of the operations that cost most; the others' pictures stand alone.
+std::string windows(const ordered_json& result, const Figures& figures) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::pair<double, std::string>> shown_first;
+  for (const auto& setup : list(result, "setups"))
+    for (const auto& o : list(setup, "operations"))
+      shown_first.emplace_back(-number(o, "cost").value_or(0), word(o, "id"));
+  std::stable_sort(shown_first.begin(), shown_first.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string out;
+  std::size_t count = 0;
+  for (const auto& [cost, id] : shown_first) {
+    const auto one =
+        figure_named(figures, "window-" + id + ".svg", "Speeds and feeds of " + id);
+    if (one.empty() || ++count > kMost) continue;
+    out += one;
+  }
+  if (out.empty()) return "";
+  return tag("h2", "Windows of speed and feed: the operations that cost most") +
+         pairs(out);
+}
+
+// Of every milled place: how deep it may be cut over the spindle's speeds.
+std::string stability(const ordered_json& result, const Figures& figures) {
+  std::string out;
+  for (const auto& setup : list(result, "setups"))
+    for (const auto& o : list(setup, "operations"))
+      out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
+                          "Stable depth over speed of " + word(o, "id"));
+  return out.empty() ? "" : tag("h2", "Stability of milled places") + pairs(out);
+}
+
+std::string compensation(const ordered_json& result) {
+  std::string rows;
+  for (const auto& c : list(result, "compensation")) {
+    std::string table;
+    for (const auto& row : list(c, "table_mm"))
+      if (row.is_array() && row.size() == 2 && row[0].is_number() && row[1].is_number())
+        table += fmt::format("{}{}: {}", table.empty() ? "" : "; ",
+                             shown(row[0].get<double>(), 2),
+                             shown(units::um_from_mm(row[1].get<double>()), 2));
+    rows += "<tr>" + words_cell(word(c, "on")) +
+            number_cell(shown(number(c, "setup"), 0)) + words_cell(table) + "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return tag("h2", "Compensation: add dr to the radius of the tool path at z") +
+         table_head({{"on", "", false}, {"setup", ""}, {"z: dr", "mm: \u00b5m", false}}) +
+         rows + kTableFoot;
+}
+
+std::string prices(const ordered_json& result) {
+  constexpr std::size_t kMost = 12;
+  auto sentences = sentences_of(list(result, "prices"));
+  const auto all = sentences.size();
+  if (all > kMost) sentences.resize(kMost);
+  auto out = section("Prices: what 10 % more room would save", sentences);
+  if (all > kMost)
+    out +=
+        fmt::format("<p class=\"from\">{} smaller ones are in the result document.</p>\n",
+                    all - kMost);
+  return out;
+}
+
+}  // namespace
+
+std::string html(std::string_view name, const ordered_json& result,
+                 const Figures& figures) {
+  const bool feasible = word(result, "status") != "infeasible";
+  std::string out = header(name, result);
+  out += section("Conflicts: limits that cannot be kept together",
+                 conflict_sentences(result));
+  if (!feasible)
+    out += section(several_sets(list(result, "relax"))
+                       ? "What would have to give, one of every set"
+                       : "What would have to give, the smallest opening first",
+                   opening_sentences(result));
+  out += section("What else would do, each alone, as planned with it",
+                 sentences_of(list(result, "remedies")));
+  out += setup_figures(result, figures) + setups(result) + tolerances(result, figures) +
+         prices(result) +
+         section("What if: planned anew with a change",
+                 sentences_of(list(result, "what_if"))) +
+         compensation(result) + stability(result, figures) + windows(result, figures) +
+         assumptions(result);
+  return page(std::string(name) + " - process plan", out);
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,51 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/picture/figure.hpp"
+
+/// What pages are put together from; all text is escaped.
+namespace turnwright::report {
+
+using Figures = std::vector<Figure>;
+
+/// <name>text</name>
+std::string tag(const std::string& name, std::string_view text);
+
+/// The figure of that file as an image of its own, so that its styles and names stay
+/// apart from the page's; "" if there is none.
+std::string figure_named(const Figures& figures, const std::string& file,
+                         const std::string& what);
+
+/// Figures two beside each other.
+std::string pairs(const std::string& figures);
+
+/// A heading over numbered sentences; "" without any.
+std::string section(const std::string& title, const std::vector<std::string>& sentences);
+
+struct Heading {
+  std::string title, unit;
+  bool number = true;
+};
+std::string table_head(const std::vector<Heading>& headings,
+                       const std::string& css_class = "");
+inline constexpr const char* kTableFoot = "</tbody></table></div>\n";
+std::string words_cell(std::string_view text);
+std::string number_cell(std::string_view text);
+
+/// An entry of a list of large numbers.
+std::string key_figure(const std::string& name, const std::string& value,
+                       const std::string& unit);
+
+/// What a result document says it was made of, and by which version.
+std::string origin(const nlohmann::ordered_json& result);
+
+/// The table of `assumed`.
+std::string assumptions(const nlohmann::ordered_json& result);
+
+/// The whole page.
+std::string page(std::string_view title, const std::string& body);
+
+}  // namespace turnwright::report

@@ -1,0 +1,149 @@
+#include "stability_html.hpp"
+
+#include <fmt/format.h>
+
+#include "html_parts.hpp"
+#include "report/text/json_fields.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kMost = 40;  // rows of a table
+
+std::string header(const ordered_json& result) {
+  std::string out = tag("h1", "Stability of the cut");
+  if (const auto& best = object(result, "best"); !best.empty()) {
+    out += "<dl>\n";
+    out += key_figure("Best speed", shown(number(best, "n_rpm"), 0), "1/min");
+    out +=
+        key_figure("Depth there", significant(number(best, "ap_mm")),
+                   word(best, "limited_by") == "chatter" ? "mm, where chatter begins"
+                                                         : "mm, the deepest asked about");
+    out += "</dl>\n";
+  }
+  return out + origin(result);
+}
+
+std::string plus_minus(const ordered_json& parent, const std::string& key) {
+  return significant(number(parent, key.c_str()), 6) + " \u00b1 " +
+         significant(number(parent, ("u_" + key).c_str()), 2);
+}
+
+std::string responses(const ordered_json& result) {
+  std::string rows, rest;
+  for (const auto& r : list(result, "frf")) {
+    for (const auto& m : list(r, "modes"))
+      rows += "<tr>" + words_cell(word(r, "axis")) +
+              number_cell(plus_minus(m, "frequency_Hz")) +
+              number_cell(plus_minus(m, "damping_ratio")) +
+              number_cell(plus_minus(m, "stiffness_N_mm")) +
+              number_cell(significant(number(m, "mass_kg"))) + "</tr>\n";
+    rest += tag("p", fmt::format("Along {}: {} lines from {} to {} Hz; the modes explain "
+                                 "{} % of the response's squares, what is left is {} of "
+                                 "it and correlated by {} from line to line.",
+                                 word(r, "axis"), shown(number(r, "lines"), 0),
+                                 significant(number(r, "from_Hz")),
+                                 significant(number(r, "to_Hz")),
+                                 shown(100 * number(r, "explained").value_or(0), 3),
+                                 significant(number(r, "relative_rest"), 2),
+                                 shown(number(r, "correlation"), 2)));
+  }
+  if (rows.empty()) return "";
+  return tag("h2", "Modes of the measured response") +
+         table_head({{"axis", "", false},
+                     {"frequency", "Hz"},
+                     {"damping ratio", ""},
+                     {"stiffness", "N/mm"},
+                     {"mass", "kg"}}) +
+         rows + kTableFoot + rest;
+}
+
+std::string force(const ordered_json& result) {
+  const auto& f = object(result, "force");
+  if (f.empty()) return "";
+  return tag("p", fmt::format("Force of the material at a mean chip of {} mm: Kt {} MPa, "
+                              "Kn {} MPa.",
+                              significant(number(f, "hm_mm"), 3),
+                              significant(number(f, "Kt_MPa")),
+                              significant(number(f, "Kn_MPa"))));
+}
+
+/// What is not to be trusted, and what was not told at all.
+std::string warnings(const ordered_json& result) {
+  std::string out;
+  for (const auto& warning : list(result, "warnings"))
+    if (warning.is_string()) out += tag("p", warning.get<std::string>());
+  for (const auto& u : list(result, "undecided"))
+    out += tag("p", fmt::format("Not told: {} 1/min, {} mm ({}): {}.",
+                                significant(number(u, "n_rpm"), 6),
+                                significant(number(u, "ap_mm"), 6), word(u, "pointer"),
+                                word(u, "why")));
+  return out.empty() ? out : tag("h2", "Warnings") + out;
+}
+
+std::string crossings(const ordered_json& speed) {
+  std::vector<std::string> all;
+  for (const auto& c : list(speed, "crossings"))
+    all.push_back(word(c, "sense") + " " + significant(number(c, "ap_mm"), 5) + " (" +
+                  word(c, "kind") + ", " + shown(number(c, "frequency_Hz"), 0) + " Hz)");
+  return all.empty() ? "none" : joined(all);
+}
+
+std::string speeds(const ordered_json& result) {
+  const auto& all = list(result, "speeds");
+  if (all.empty()) return "";
+  std::string rows;
+  const std::size_t step = 1 + (all.size() - 1) / kMost;
+  for (std::size_t i = 0; i < all.size(); i += step)
+    rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
+            number_cell(significant(number(all[i], "limit_mm"), 5)) +
+            words_cell(crossings(all[i])) + "</tr>\n";
+  std::string out = tag("h2", "Limits");
+  if (step > 1)
+    out += fmt::format(
+        "<p class=\"from\">One in {} of {} speeds; all are in the result "
+        "document.</p>\n",
+        step, all.size());
+  return out +
+         table_head({{"speed", "1/min"},
+                     {"stable to", "mm"},
+                     {"where it turns, depths in mm", "", false}}) +
+         rows + kTableFoot;
+}
+
+std::string points(const ordered_json& result) {
+  const auto& all = list(result, "points");
+  if (all.empty()) return "";
+  std::string rows;
+  for (std::size_t i = 0; i < all.size() && i < kMost; ++i)
+    rows += "<tr>" + number_cell(shown(number(all[i], "n_rpm"), 0)) +
+            number_cell(significant(number(all[i], "ap_mm"))) +
+            words_cell(flag(all[i], "stable") ? "stable" : "unstable") +
+            number_cell(shown(number(all[i], "unstable_multipliers"), 0)) +
+            number_cell(shown(number(all[i], "spectral_radius"), 4)) + "</tr>\n";
+  std::string out = tag("h2", "Cuts asked about");
+  if (all.size() > kMost)
+    out += fmt::format("<p class=\"from\">The first {} of {}.</p>\n", kMost, all.size());
+  return out +
+         table_head({{"speed", "1/min"},
+                     {"depth", "mm"},
+                     {"verdict", "", false},
+                     {"unstable multipliers", ""},
+                     {"spectral radius", ""}}) +
+         rows + kTableFoot;
+}
+
+}  // namespace
+
+std::string stability_html(std::string_view, const ordered_json& result,
+                           const std::vector<Figure>& figures) {
+  return page("Stability of the cut",
+              header(result) +
+                  figure_named(figures, "stability.svg", "Depth over spindle speed") +
+                  warnings(result) + force(result) + responses(result) + points(result) +
+                  speeds(result) + assumptions(result));
+}
+
+}  // namespace turnwright::report

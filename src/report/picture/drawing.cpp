@@ -1,0 +1,531 @@
+#include "drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "chart.hpp"
+#include "contour.hpp"
+#include "report/text/layout.hpp"
+#include "svg.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using part::End;
+using planning::Clamping;
+using planning::Deviation;
+using planning::PartPlan;
+using planning::ProcessPlan;
+
+// Millimetres of paper.
+constexpr double kWidth = 190, kBeside = 16, kHighest = 70, kError = 6;
+constexpr double kTop = 17, kJaw = 9, kAround = kJaw + 2.5, kLabelGap = 3.6,
+                 kNumberGap = 3.2;
+constexpr double kCharacter = 1.7;  // of 2.8 mm type, on average of a wide face
+constexpr double kWords = 70;       // of the legend
+constexpr double kLeft = 4, kRight = kWidth - 2;  // of what is spread
+constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;
+constexpr std::size_t kNameLength = 60, kIdLength = 24;
+
+/// What a deviation is of: its surface as drawn; none for a face.
+std::optional<Run> surface_of(const part::Drawing& d, const std::string& id) {
+  const auto at = part::extent(d, id);
+  if (!at) return std::nullopt;
+  return Run{at->z0_mm, at->z1_mm, at->left_mm / 2, at->right_mm / 2};
+}
+
+/// Common to the pictures of a plan.
+struct Scales {
+  double length = 0;  ///< paper mm of a mm
+  double factor = 0;  ///< an error is drawn so much larger; 0: there is none
+};
+
+Scales scales(const PartPlan& p, const ProcessPlan& plan) {
+  const auto& stock = p.drawing.stock;
+  Scales s;
+  s.length =
+      std::min((kWidth - 2 * kBeside) / stock.length_mm, kHighest / stock.outer_mm);
+  if (!(s.length > 0) || !std::isfinite(s.length))
+    throw std::domain_error("setup_drawings: the stock must have a length and diameter");
+  double largest = 0;
+  const auto show = [&](const auto& table) {
+    if (!surface_of(p.drawing, table.on)) return;
+    for (const auto& [z, e] : table.table_mm) {
+      if (!std::isfinite(e))
+        throw std::domain_error("setup_drawings: deviations must be finite");
+      largest = std::max(largest, std::abs(e));
+    }
+  };
+  std::ranges::for_each(plan.deviations, show);
+  std::ranges::for_each(plan.compensation, show);
+  if (largest > 0) s.factor = round_below(kError / (s.length * largest));
+  return s;
+}
+
+struct Label {
+  double x = 0, y = 0;  ///< where its leader ends
+  std::string text, css_class;
+};
+
+/// One setup on its sheet.
+struct Sheet {
+  const PartPlan& part;
+  const ProcessPlan& plan;
+  const planning::SetupWork& work;
+  std::size_t setup;
+  Scales scale;
+  Contour contour;
+  double axis = 0;  ///< y of the centre line
+  Svg svg = {};
+
+  Clamping clamping() const { return plan.setups[setup].clamping; }
+  bool holds_left() const { return part.setups[setup].hold == End::left; }
+  double x(double z) const {
+    const auto& stock = part.drawing.stock;
+    return (kWidth - scale.length * stock.length_mm) / 2 +
+           scale.length * (z + stock.left_allowance_mm);
+  }
+  Point at(double z, double r) const { return {x(z), axis - scale.length * r}; }
+  double stock_height() const { return scale.length * part.drawing.stock.outer_mm / 2; }
+  double left_z() const { return contour.outer.front().z0; }
+  double right_z() const { return contour.outer.back().z1; }
+};
+
+template <class Element>
+std::string id_and_size(const Element& e) {
+  const auto id = clipped(e.id, kIdLength);
+  const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
+  if (e.cut && e.cut->kind == part::CutKind::thread)
+    return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm);
+  std::string text = id + "  \u00d8" + plain(size.left_mm);
+  if (size.left_mm != size.right_mm) text += "\u2013" + plain(size.right_mm);
+  if (e.cut && e.cut->kind == part::CutKind::arc) text += " R" + plain(e.cut->radius_mm);
+  return e.fit ? text + ' ' + clipped(*e.fit, kIdLength) : text;
+}
+
+bool corrected(const Sheet& s, const std::string& id) {
+  return std::any_of(s.plan.compensation.begin(), s.plan.compensation.end(),
+                     [&](const auto& c) { return c.setup == s.setup && c.on == id; });
+}
+
+/// All, or of more than have room on the page `gap` apart evenly chosen ones.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, double gap) {
+  const auto most = static_cast<std::size_t>((kRight - kLeft) / gap);
+  if (all.size() <= most) return all;
+  std::vector<T> some;
+  for (std::size_t i = 0; i < most; ++i)
+    some.push_back(all[i * (all.size() - 1) / (most - 1)]);
+  return some;
+}
+
+/// Ids and sizes of what is cut so far, of the other outer elements the id alone; left to
+/// right.
+std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
+  std::vector<Label> all;
+  const auto add = [&](const auto& e, const Run& run) {
+    const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
+    const auto text = id_and_size(e);
+    if (corrected(s, e.id))
+      all.push_back({end.x, end.y, text + ", path corrected", "path"});
+    else
+      all.push_back({end.x, end.y, text, ""});
+  };
+  const auto& d = s.part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const auto runs = outer_runs(d, i);
+    const Run& run = runs[runs.size() / 2];
+    if (finished.outer[i]) {
+      add(d.outer[i], run);
+    } else {
+      const Point end = s.at((run.z0 + run.z1) / 2, d.stock.outer_mm / 2);
+      all.push_back(
+          {end.x, end.y, clipped(d.outer[i].id, kIdLength) + " uncut", "later"});
+    }
+  }
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (finished.inner[i]) add(d.inner[i], inner_runs(d, i).front());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Label& a, const Label& b) { return a.x < b.x; });
+  return thinned(all, kLabelGap);
+}
+
+double text_width(const std::string& text) {
+  return kCharacter * static_cast<double>(characters(text));
+}
+
+/// Whether the labels have room side by side, each over its element.
+bool fit_side_by_side(const std::vector<Label>& all) {
+  double end = 0;
+  for (const auto& label : all) {
+    const double half = text_width(label.text) / 2;
+    if (label.x - half < end + 1.5 || label.x + half > kWidth) return false;
+    end = label.x + half;
+  }
+  return true;
+}
+
+/// Ascending places moved as little as keeps them `gap` apart and on the page.
+std::vector<double> spread(std::vector<double> x, double gap) {
+  double least = kLeft;
+  for (auto& place : x) least = (place = std::max(place, least)) + gap;
+  double most = kRight;
+  for (auto place = x.rbegin(); place != x.rend(); ++place)
+    most = (*place = std::min(*place, most)) - gap;
+  return x;
+}
+
+double label_height(const std::vector<Label>& all) {
+  if (fit_side_by_side(all)) return 3;
+  double longest = 0;
+  for (const auto& label : all) longest = std::max(longest, text_width(label.text));
+  return longest;
+}
+
+void draw_labels(Sheet& s, const std::vector<Label>& all) {
+  const double foot = s.axis - s.stock_height() - kAround - 3;
+  std::vector<double> x;
+  for (const auto& label : all) x.push_back(label.x);
+  const bool flat = fit_side_by_side(all);
+  if (!flat) x = spread(std::move(x), kLabelGap);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& css_class = all[i].css_class;
+    if (flat)
+      s.svg.text({x[i], foot}, Anchor::middle, all[i].text, css_class);
+    else
+      s.svg.text_upwards({x[i] + 1, foot}, Anchor::start, all[i].text, css_class);
+    s.svg.polyline("leader", {{x[i], foot + 0.8},
+                              {x[i], foot + 2},
+                              {all[i].x, foot + 4},
+                              {all[i].x, all[i].y}});
+  }
+}
+
+void draw_body(Sheet& s) {
+  std::vector<Point> section;
+  for (const auto& run : s.contour.outer) {
+    section.push_back(s.at(run.z0, run.r0));
+    section.push_back(s.at(run.z1, run.r1));
+  }
+  for (auto run = s.contour.inner.rbegin(); run != s.contour.inner.rend(); ++run) {
+    section.push_back(s.at(run->z1, run->r1));
+    section.push_back(s.at(run->z0, run->r0));
+  }
+  s.svg.polygon("body", section);
+}
+
+void draw_stock(Sheet& s) {
+  const auto& stock = s.part.drawing.stock;
+  const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
+  const double r = stock.outer_mm / 2, hole = stock.inner_mm / 2;
+  s.svg.polyline("stock",
+                 {s.at(z0, -r), s.at(z0, r), s.at(z1, r), s.at(z1, -r), s.at(z0, -r)});
+  if (hole > 0)
+    for (const double side : {hole, -hole})
+      s.svg.line("stock", s.at(z0, side), s.at(z1, side));
+}
+
+/// The outline above (section) and below (view) the centre line, with the edges that are
+/// seen; of bores below what is hidden.
+void draw_contour(Sheet& s) {
+  std::vector<Point> above, below;
+  const auto& outer = s.contour.outer;
+  above.push_back(s.at(s.left_z(), s.contour.inner.front().r0));
+  below.push_back(s.at(s.left_z(), 0));
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    for (const auto& [z, r] :
+         {std::pair{outer[i].z0, outer[i].r0}, {outer[i].z1, outer[i].r1}}) {
+      above.push_back(s.at(z, r));
+      below.push_back(s.at(z, -r));
+    }
+    if (i > 0 && outer[i - 1].r1 != outer[i].r0)
+      s.svg.line("thin", s.at(outer[i].z0, 0), s.at(outer[i].z0, -outer[i].r0));
+  }
+  above.push_back(s.at(s.right_z(), s.contour.inner.back().r1));
+  below.push_back(s.at(s.right_z(), 0));
+  s.svg.polyline("contour", above);
+  s.svg.polyline("contour", below);
+  const auto& inner = s.contour.inner;
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    const auto& run = inner[i];
+    if (run.r0 > 0 || run.r1 > 0) {
+      s.svg.line("contour", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
+      s.svg.line("hidden", s.at(run.z0, -run.r0), s.at(run.z1, -run.r1));
+    }
+    if (i > 0 && inner[i - 1].r1 != run.r0) {
+      s.svg.line("contour", s.at(run.z0, 0),
+                 s.at(run.z0, std::max(inner[i - 1].r1, run.r0)));
+      s.svg.line("hidden", s.at(run.z0, -inner[i - 1].r1), s.at(run.z0, -run.r0));
+    }
+  }
+}
+
+/// What this setup cuts, in thick lines.
+void draw_cut(Sheet& s) {
+  const auto& d = s.part.drawing;
+  const auto both = [&](double z0, double r0, double z1, double r1) {
+    s.svg.line("cut", s.at(z0, r0), s.at(z1, r1));
+    s.svg.line("cut", s.at(z0, -r0), s.at(z1, -r1));
+  };
+  for (const std::size_t i : s.work.elements)
+    for (const Run& run : outer_runs(d, i)) both(run.z0, run.r0, run.z1, run.r1);
+  for (const std::size_t i : s.work.bores)
+    for (const Run& run : inner_runs(d, i))
+      s.svg.line("cut", s.at(run.z0, run.r0), s.at(run.z1, run.r1));
+  for (const std::size_t k : s.work.shoulders) {
+    const double z = part::left_z_mm(d, k);
+    both(z, d.outer[k - 1].right_mm / 2, z, d.outer[k].left_mm / 2);
+  }
+  if (!s.work.end_face) return;
+  const bool right = s.holds_left();
+  const double bore = right ? s.contour.inner.back().r1 : s.contour.inner.front().r0;
+  const double z = right ? s.right_z() : s.left_z();
+  both(z, bore, z, right ? s.contour.outer.back().r1 : s.contour.outer.front().r0);
+}
+
+/// The roots of threads that are cut so far, thin as on a drawing.
+void draw_threads(Sheet& s, const planning::Finished& finished) {
+  const auto root = [&](const auto& e, double z, bool inner) {
+    if (!e.cut || e.cut->kind != part::CutKind::thread) return;
+    const double r = e.cut->core.left_mm / 2;
+    s.svg.line("thin", s.at(z, r), s.at(z + e.length_mm, r));
+    if (!inner) s.svg.line("thin", s.at(z, -r), s.at(z + e.length_mm, -r));
+  };
+  const auto& d = s.part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i)
+    if (finished.outer[i]) root(d.outer[i], part::left_z_mm(d, i), false);
+  for (std::size_t i = 0; i < d.inner.size(); ++i)
+    if (finished.inner[i]) root(d.inner[i], part::inner_left_z_mm(d, i), true);
+}
+
+/// Places of a table on its surface, its values enlarged outwards by `factor`; none
+/// unless this setup cuts the surface.
+template <class Table>
+std::vector<Point> stand_off(const Sheet& s, const Table& table, double factor) {
+  const auto surface = surface_of(s.part.drawing, table.on);
+  std::vector<Point> points;
+  if (table.setup != s.setup || !surface) return points;
+  for (const auto& [z, e] : table.table_mm)
+    points.push_back(s.at(z, radius_mm(*surface, z) + factor * e));  // Eq. (1)
+  return points;
+}
+
+void draw_errors(Sheet& s) {
+  if (!(s.scale.factor > 0)) return;
+  for (const auto& d : s.plan.deviations) {
+    const auto made = stand_off(s, d, s.scale.factor);
+    if (made.empty()) continue;
+    auto outline = stand_off(s, d, 0);
+    outline.insert(outline.end(), made.rbegin(), made.rend());
+    s.svg.polygon("error", outline);
+    s.svg.polyline("made", made);
+  }
+  for (const auto& c : s.plan.compensation)
+    if (const auto path = stand_off(s, c, s.scale.factor); !path.empty())
+      s.svg.polyline("path", path);
+}
+
+bool corrects(const Sheet& s) {
+  return std::ranges::any_of(s.plan.compensation,
+                             [&](const auto& c) { return !stand_off(s, c, 0).empty(); });
+}
+
+/// What jaws hold: the part, beyond it the bar that it is parted off.
+Runs held_between(const Sheet& s, double from_z, double to_z) {
+  const double bar = s.part.drawing.stock.outer_mm / 2;
+  Runs all = s.contour.outer;
+  if (from_z < s.left_z()) all.insert(all.begin(), {from_z, s.left_z(), bar, bar});
+  if (to_z > s.right_z()) all.push_back({s.right_z(), to_z, bar, bar});
+  return between(all, from_z, to_z);
+}
+
+/// Jaws bored to the part: they touch it over the whole grip.
+void draw_jaws(Sheet& s) {
+  const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
+  const double grip = s.part.setups[s.setup].grip_mm;
+  const double outward = s.holds_left() ? end - grip : end + grip;
+  const Runs held = held_between(s, std::min(end, outward), std::max(end, outward));
+  double top = 0;
+  for (const Run& run : held) top = std::max({top, run.r0, run.r1});
+  top += kJaw / s.scale.length;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Point> jaw;
+    for (const Run& run : held) {
+      jaw.push_back(s.at(run.z0, side * run.r0));
+      jaw.push_back(s.at(run.z1, side * run.r1));
+    }
+    jaw.push_back(s.at(held.back().z1, side * top));
+    jaw.push_back(s.at(held.front().z0, side * top));
+    s.svg.polygon("jaw", jaw);
+  }
+}
+
+/// Where its rollers run, narrower towards the part.
+void draw_steady_rest(Sheet& s) {
+  const double z = s.part.setups[s.setup].steady_z_mm;
+  const double half = planning::kSteadyWidth_mm / 2;
+  double r = 0;
+  for (const Run& run : between(s.contour.outer, z - half, z + half))
+    r = std::max({r, run.r0, run.r1});
+  const double top = r + kJaw / s.scale.length;
+  for (const double side : {1.0, -1.0})
+    s.svg.polygon("rest", {s.at(z - half / 2, side * r), s.at(z + half / 2, side * r),
+                           s.at(z + half, side * top), s.at(z - half, side * top)});
+}
+
+/// A 60 degree point in the part's end: as deep as the bore lets it, or a centre hole.
+void draw_centre(Sheet& s, End end) {
+  const double out = end == End::left ? -1 : 1;
+  const double bore =
+      end == End::left ? s.contour.inner.front().r0 : s.contour.inner.back().r1;
+  const double depth = std::max(1.5, s.scale.length * bore / kTan30);
+  const Point face = s.at(end == End::left ? s.left_z() : s.right_z(), 0);
+  const double base = face.x + out * 3, half = (depth + 3) * kTan30;
+  s.svg.polygon("centre", {{face.x - out * depth, s.axis},
+                           {base, s.axis - half},
+                           {base + out * kCentreShank, s.axis - half},
+                           {base + out * kCentreShank, s.axis + half},
+                           {base, s.axis + half}});
+}
+
+void draw_clamping(Sheet& s) {
+  const End held = s.part.setups[s.setup].hold;
+  const End free = held == End::left ? End::right : End::left;
+  if (s.clamping() == Clamping::between_centres)
+    draw_centre(s, held);
+  else
+    draw_jaws(s);
+  if (s.clamping() == Clamping::chuck_steady)
+    draw_steady_rest(s);
+  else if (s.clamping() != Clamping::chuck)
+    draw_centre(s, free);
+}
+
+/// Between the ends of an arc, where its chords meet.
+bool within_an_arc(const part::Drawing& d, double z) {
+  constexpr double kRounding_mm = 1e-6;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
+    const auto& cut = d.outer[i].cut;
+    if (cut && cut->kind == part::CutKind::arc && z > z0 + kRounding_mm &&
+        z < z1 - kRounding_mm)
+      return true;
+  }
+  return false;
+}
+
+/// z of every end of an element, with lines down from the part; y of the foot.
+double draw_ruler(Sheet& s) {
+  std::vector<double> z;
+  for (const auto& run : s.contour.outer)
+    for (const double end : {run.z0, run.z1})
+      if (!within_an_arc(s.part.drawing, end)) z.push_back(end);
+  for (const auto& run : s.contour.inner) z.insert(z.end(), {run.z0, run.z1});
+  std::sort(z.begin(), z.end());
+  z.erase(std::unique(z.begin(), z.end(),
+                      [](double a, double b) { return std::abs(a - b) < 1e-6; }),
+          z.end());
+  z = thinned(z, kNumberGap);
+  std::vector<double> x;
+  for (const double place : z) x.push_back(s.x(place));
+  const auto labels_x = spread(x, kNumberGap);
+  const double ruler = s.axis + s.stock_height() + kAround + 1, foot = ruler + 4.5;
+  double longest = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto text = plain(z[i]);
+    longest = std::max(longest, text_width(text));
+    s.svg.polyline("leader", {{x[i], s.axis + s.stock_height() + 1},
+                              {x[i], ruler + 1.2},
+                              {labels_x[i], foot - 0.8}});
+    s.svg.text_upwards({labels_x[i] + 1, foot}, Anchor::end, text);
+  }
+  s.svg.line("thin", {x.front(), ruler}, {x.back(), ruler});
+  s.svg.text({x.front() - 3, ruler + 1}, Anchor::end, "z [mm]");
+  return foot + longest;
+}
+
+void draw_bar(Sheet& s, Point from, Point to) {
+  s.svg.line("bar", from, to);
+  const Point tick = from.x == to.x ? Point{1, 0} : Point{0, 1};
+  for (const auto& end : {from, to})
+    s.svg.line("thin", {end.x - tick.x, end.y - tick.y},
+               {end.x + tick.x, end.y + tick.y});
+}
+
+/// The bars of both scales and what the lines mean; y of the foot.
+double draw_legend(Sheet& s, double top) {
+  const double foot = top + kError + 2, mm = round_below(30 / s.scale.length);
+  draw_bar(s, {10, foot}, {10 + s.scale.length * mm, foot});
+  s.svg.text({10, foot - 2}, Anchor::start, plain(mm) + " mm");
+  s.svg.text({kWords, foot - 3.6}, Anchor::start,
+             "thick: cut in this setup; dashed: stock; above the axis in section");
+  if (!(s.scale.factor > 0)) {
+    s.svg.text({kWords, foot}, Anchor::start, "no deviation of a radius is predicted");
+    return foot;
+  }
+  const double drawn = s.scale.length * s.scale.factor;  // paper mm of a mm of error
+  const double bar_mm = round_below(kError / drawn);
+  draw_bar(s, {54, foot}, {54, foot - drawn * bar_mm});
+  s.svg.text({56.5, foot - drawn * bar_mm / 2 + 1}, Anchor::start,
+             plain(units::um_from_mm(bar_mm)) + " \u00b5m", "accent");
+  s.svg.text({kWords, foot}, Anchor::start,
+             "red: the surface as made, its error " + plain(s.scale.factor) +
+                 ":1 to the lengths",
+             "accent");
+  if (!corrects(s)) return foot;
+  s.svg.text({kWords, foot + 3.6}, Anchor::start,
+             "blue: the tool path as corrected, likewise", "path");
+  return foot + 3.6;
+}
+
+std::string heading(const Sheet& s) {
+  const auto& request = s.part.setups[s.setup];
+  std::string text = "Setup " + std::to_string(s.setup) + ": " + name(s.clamping()) +
+                     ", " + (s.holds_left() ? "left" : "right") + " end held";
+  if (s.clamping() != Clamping::between_centres)
+    text += ", grip " + plain(request.grip_mm) + " mm";
+  return text;
+}
+
+std::string drawn(Sheet s, const planning::Finished& finished) {
+  s.axis = kTop + label_height(labels(s, finished)) + 3 + kAround + s.stock_height();
+  const auto title = clipped(s.part.drawing.name, kNameLength);
+  s.svg.text({10, 9}, Anchor::start, title, "title");
+  s.svg.text({10, 14}, Anchor::start, heading(s));
+  if (s.plan.status == planning::PlanStatus::infeasible)
+    s.svg.text({kWidth - 10, 14}, Anchor::end, "no plan keeps every limit", "accent");
+  draw_body(s);
+  draw_stock(s);
+  draw_contour(s);
+  draw_labels(s, labels(s, finished));
+  draw_clamping(s);  // over the leaders of what it holds
+  draw_cut(s);
+  draw_threads(s, finished);
+  draw_errors(s);
+  s.svg.line("axis", {s.x(s.left_z()) - 10, s.axis}, {s.x(s.right_z()) + 10, s.axis});
+  const double foot = draw_legend(s, draw_ruler(s) + 2);
+  return s.svg.page(kWidth, foot + 6, title + " - " + heading(s));
+}
+
+}  // namespace
+
+std::vector<std::string> setup_drawings(const PartPlan& part, const ProcessPlan& plan) {
+  if (plan.setups.size() > part.setups.size())
+    throw std::domain_error("setup_drawings: the plan has more setups than the part");
+  const auto work = planning::assign(part);
+  const auto scale = scales(part, plan);
+  auto finished = planning::nothing_finished(part.drawing);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < plan.setups.size(); ++i) {
+    planning::finish(finished, work.setups[i]);
+    all.push_back(drawn(
+        {part, plan, work.setups[i], i, scale, contour_after(part, work, i)}, finished));
+  }
+  return all;
+}
+
+}  // namespace turnwright::report

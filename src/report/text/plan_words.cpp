@@ -1,0 +1,126 @@
+#include "plan_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "json_fields.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+// "set 2: ", where there is more than one.
+std::string set_of(const ordered_json& member, const ordered_json& all) {
+  const auto set = number(member, "set");
+  const bool several = std::any_of(all.begin(), all.end(), [](const ordered_json& other) {
+    return number(other, "set").value_or(0) > 1;
+  });
+  return set && several ? "set " + shown(set, 0) + ": " : "";
+}
+
+// |ln(needed/now)|: how far a limit has to move, whichever way opens it.
+double opening(const ordered_json& relaxation) {
+  const auto now = number(relaxation, "now"), needed = number(relaxation, "needed");
+  if (!now || !needed || !(*now > 0) || !(*needed > 0))
+    return std::numeric_limits<double>::infinity();
+  return std::abs(std::log(*needed / *now));
+}
+
+}  // namespace
+
+std::string sentence_of(const ordered_json& member) {
+  const auto sentence = word(member, "sentence");
+  return sentence.empty() ? word(member, "limit") : sentence;
+}
+
+std::vector<std::string> sentences_of(const ordered_json& members) {
+  std::vector<std::string> sentences;
+  for (const auto& member : members) sentences.push_back(sentence_of(member));
+  return sentences;
+}
+
+std::vector<std::string> conflict_sentences(const ordered_json& result) {
+  const auto& all = list(result, "conflicts");
+  std::vector<std::string> sentences;
+  for (const auto& conflict : all)
+    sentences.push_back(set_of(conflict, all) + sentence_of(conflict));
+  return sentences;
+}
+
+bool several_sets(const ordered_json& members) {
+  return std::any_of(members.begin(), members.end(), [&](const ordered_json& member) {
+    return !set_of(member, members).empty();
+  });
+}
+
+std::vector<std::string> opening_sentences(const ordered_json& result) {
+  const auto& members = list(result, "relax");
+  std::vector<const ordered_json*> all;
+  for (const auto& relaxation : members) all.push_back(&relaxation);
+  std::stable_sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
+    return opening(*a) < opening(*b);
+  });
+  std::vector<std::string> sentences;
+  for (const auto* relaxation : all) {
+    auto sentence = set_of(*relaxation, members) + sentence_of(*relaxation);
+    const double by = opening(*relaxation);
+    if (std::isfinite(by)) {
+      const double ratio = *number(*relaxation, "needed") / *number(*relaxation, "now");
+      sentence += fmt::format(" [{:+.1f} %]", 100 * (ratio - 1));
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+std::string micrometres(const ordered_json& tolerance, const char* key) {
+  std::vector<std::string> parts;
+  for (const auto& value : list(tolerance, key))
+    parts.push_back(value.is_number() ? shown(units::um_from_mm(value.get<double>()), 1)
+                                      : "-");
+  if (!parts.empty()) return joined(parts, "..");
+  const auto value = number(tolerance, key);
+  return value ? shown(units::um_from_mm(*value), 1) : "-";
+}
+
+std::string verdict(const ordered_json& tolerance) {
+  const auto ours = word(tolerance, "verdict");
+  if (ours == "met-with-offset") return "offset";
+  return ours == "not-met" ? "NOT MET" : ours;
+}
+
+std::string other_verdict(const ordered_json& tolerance) {
+  const bool accepted = word(tolerance, "verdict") != "not-met";
+  if (!tolerance.contains("seed_verdict") || flag(tolerance, "seed_verdict") == accepted)
+    return "";
+  return accepted ? "not met" : "met";
+}
+
+std::string conformance(const ordered_json& tolerance) {
+  const auto p = number(tolerance, "P_conform");
+  if (!p || *p >= 0.99995) return "";
+  return fmt::format("conforms with a probability of {} %", shown(100 * *p, 2));
+}
+
+Stack stack_of(const ordered_json& tolerance) {
+  Shares shares;
+  for (const auto& s : list(tolerance, "shares"))
+    shares.emplace_back(word(s, "source"), number(s, "um").value_or(0));
+  const bool size = list(tolerance, "predicted_mm").size() == 2;
+  return stack(units::um_from_mm(number(tolerance, "width_mm").value_or(0)),
+               units::um_from_mm(number(tolerance, "margin_mm").value_or(0)),
+               size ? 2 : 1, shares);
+}
+
+std::string value_text(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace turnwright::report

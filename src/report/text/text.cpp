@@ -1,0 +1,216 @@
+#include "text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "certificate_words.hpp"
+#include "json_fields.hpp"
+#include "layout.hpp"
+#include "plan_words.hpp"
+#include "provenance.hpp"
+#include "setups.hpp"
+#include "stack.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string header(const ordered_json& result) {
+  const auto name = word(result, "name");
+  std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
+  if (word(result, "status") == "infeasible") {
+    out += paragraph("status  ", "infeasible");
+    if (const auto c = result.find("certificate"); c != result.end())
+      out += paragraph("proof   ", proof(*c));
+  } else {
+    out += paragraph("status  ", "every limit is kept");
+    out += paragraph("cost    ", shown(number(result, "cost_per_part"), 4) + " per part");
+    out += paragraph("time    ",
+                     shown(number(result, "time_per_part_min"), 3) + " min per part");
+    if (const auto profit = number(result, "profit_per_min"))
+      out += paragraph("profit  ", shown(profit, 4) + " per minute");
+    if (const auto robust = result.find("robustness"); robust != result.end())
+      out += paragraph("robust  ",
+                       fmt::format("every tolerance is kept with {} %, for {} per part "
+                                   "more than nominally",
+                                   shown(100 * *number(*robust, "conformance"), 2),
+                                   shown(number(*robust, "price_per_part"), 4)));
+    const auto certificate = result.find("certificate");
+    if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
+  }
+  return out + made_by(result);
+}
+
+// One sentence of each member, in the order of importance.
+std::string numbered(const std::vector<std::string>& sentences) {
+  std::string out;
+  std::size_t i = 0;
+  for (const auto& sentence : sentences)
+    out += paragraph(fmt::format("{:3}. ", ++i), sentence);
+  return out;
+}
+
+std::string conflicts(const ordered_json& result) {
+  const auto sentences = conflict_sentences(result);
+  if (sentences.empty()) return "";
+  return "\nCONFLICTS  limits that cannot be kept together\n" + numbered(sentences);
+}
+
+std::string relaxations(const ordered_json& result) {
+  if (word(result, "status") != "infeasible") return "";
+  std::string out = "\nWHAT WOULD HAVE TO GIVE  the smallest opening first";
+  out += several_sets(list(result, "relax")) ? ", one of every set\n" : "\n";
+  const auto sentences = opening_sentences(result);
+  if (sentences.empty())
+    return out + "  No limit was found whose opening alone would do.\n";
+  return out + numbered(sentences);
+}
+
+std::string remedies(const ordered_json& result) {
+  const auto& all = list(result, "remedies");
+  if (all.empty()) return "";
+  return "\nWHAT ELSE WOULD DO  each alone, as planned with it\n" +
+         numbered(sentences_of(all));
+}
+
+std::string tolerances(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& t : list(result, "tolerances")) {
+    auto kind = word(t, "kind");
+    std::replace(kind.begin(), kind.end(), '-', ' ');  // so that it wraps
+    rows.push_back({{word(t, "id"), kind, word(t, "of"), micrometres(t, "predicted_mm"),
+                     micrometres(t, "allowed_mm"), micrometres(t, "margin_mm"),
+                     verdict(t), other_verdict(t)},
+                    conformance(t)});
+  }
+  if (rows.empty()) return "";
+  return "\nTOLERANCES\n" +
+         paragraph(
+             "  ",
+             "predicted, allowed and margin in um; offset: met once the tool path is "
+             "corrected; paper: the published acceptance equations, where they judge "
+             "otherwise") +
+         table({{"id", Align::left},
+                {"kind", Align::left},
+                {"of", Align::left},
+                {"predicted"},
+                {"allowed"},
+                {"margin"},
+                {"verdict", Align::left},
+                {"paper", Align::left}},
+               rows);
+}
+
+// A column a source, and what is left.
+std::string budget(const ordered_json& result) {
+  std::vector<const ordered_json*> tolerances;
+  std::vector<Stack> stacks;
+  for (const auto& t : list(result, "tolerances"))
+    if (t.contains("width_mm")) {
+      tolerances.push_back(&t);
+      stacks.push_back(stack_of(t));
+    }
+  if (stacks.empty()) return "";
+  const auto all = sources(stacks);
+  std::vector<Column> columns{{"id", Align::left}, {"width"}};
+  for (const auto& source : all) columns.push_back({clipped(source, 11)});
+  columns.push_back({"left"});
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < stacks.size(); ++i) {
+    Row row{{word(*tolerances[i], "id"), micrometres(*tolerances[i], "width_mm")}, ""};
+    for (const auto& source : all) {
+      double um = 0;
+      for (const auto& [name, taken] : stacks[i].slices)
+        if (name == source) um += taken;
+      row.cells.push_back(um > 0 ? shown(um, 1) : "");
+    }
+    row.cells.push_back(shown(stacks[i].left_um, 1));
+    rows.push_back(std::move(row));
+  }
+  return "\nBUDGET\n" +
+         paragraph("  ",
+                   "what takes each tolerance's width, um; independent sources add by "
+                   "squares and are reduced in proportion") +
+         table(columns, rows);
+}
+
+// The rows [z, dr] laid across the page, so many at a time.
+std::string across(const ordered_json& rows) {
+  constexpr std::size_t kAbreast = 9;
+  std::string out;
+  for (std::size_t i = 0; i < rows.size(); i += kAbreast) {
+    std::vector<Column> columns{{"z mm", Align::left}};
+    Row correction{{"dr um"}, ""};
+    for (std::size_t k = i; k < std::min(i + kAbreast, rows.size()); ++k) {
+      const auto& row = rows[k];
+      if (!row.is_array() || row.size() != 2 || !row[0].is_number() ||
+          !row[1].is_number())
+        continue;
+      columns.push_back({shown(row[0].get<double>(), 2)});
+      correction.cells.push_back(shown(units::um_from_mm(row[1].get<double>()), 2));
+    }
+    out += table(columns, {correction});
+  }
+  return out;
+}
+
+std::string compensation(const ordered_json& result) {
+  std::string out;
+  for (const auto& c : list(result, "compensation"))
+    out += paragraph("  ", fmt::format("{} in setup {}", word(c, "on"),
+                                       shown(number(c, "setup"), 0))) +
+           across(list(c, "table_mm"));
+  if (out.empty()) return "";
+  return "\nCOMPENSATION  add dr to the radius of the tool path at z\n" + out;
+}
+
+std::string prices(const ordered_json& result) {
+  constexpr std::size_t kMost = 8;
+  const auto& all = list(result, "prices");
+  if (all.empty()) return "";
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+    sentences.push_back(sentence_of(all[i]));
+  std::string out = "\nPRICES  what 10 % more room would save\n" + numbered(sentences);
+  if (all.size() > kMost)
+    out += fmt::format("  {} smaller ones are in the result document.\n",
+                       all.size() - kMost);
+  return out;
+}
+
+std::string what_if(const ordered_json& result) {
+  const auto& all = list(result, "what_if");
+  if (all.empty()) return "";
+  return "\nWHAT IF  planned anew with a change\n" + numbered(sentences_of(all));
+}
+
+// One line each: a long value gives way to the reason.
+std::string assumptions(const ordered_json& result) {
+  constexpr std::size_t kWidth = kPageWidth - 2, kLeastValue = 16;
+  std::string out;
+  for (const auto& a : list(result, "assumed")) {
+    const auto found = a.find("value");
+    const auto value = found == a.end() ? "-" : value_text(*found);
+    const std::string lead = word(a, "pointer") + " = ", why = ": " + word(a, "why");
+    const auto taken = std::min(characters(lead + why), kWidth - kLeastValue);
+    out += "  " + clipped(lead + clipped(value, kWidth - taken) + why, kWidth) + '\n';
+  }
+  if (out.empty()) return "";
+  return "\nASSUMED  what the request left open\n" + out;
+}
+
+}  // namespace
+
+std::string text(const ordered_json& plan_result) {
+  return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
+         remedies(plan_result) + setups(plan_result) + tolerances(plan_result) +
+         budget(plan_result) + compensation(plan_result) + prices(plan_result) +
+         what_if(plan_result) + assumptions(plan_result);
+}
+
+}  // namespace turnwright::report
