@@ -8,6 +8,12 @@ add_test(NAME architecture.refuses_layout
   COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/layout -P ${architecture}/layout.cmake)
 set_tests_properties(architecture.refuses_layout PROPERTIES PASS_REGULAR_EXPRESSION
   "src/planning stands above src/tolerance.*src/nc is missing")
+add_test(NAME architecture.circles
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${architecture}/circles.cmake)
+add_test(NAME architecture.refuses_circle
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/circle -P ${architecture}/circles.cmake)
+set_tests_properties(architecture.refuses_circle PROPERTIES
+  PASS_REGULAR_EXPRESSION "between two:\n  part/a\n  part/b\n")
 foreach(house IN ITEMS upwards sideways solver unknown private)
   add_test(NAME architecture.refuses_${house}
     COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/${house} -P ${architecture}/floors.cmake)

@@ -2,7 +2,7 @@
 file(READ ${IN} bytes HEX)
 string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
-file(WRITE ${OUT} "#include \"turnwright/service/page.hpp\"
+file(WRITE ${OUT} "#include \"service/http/page.hpp\"
 
 namespace turnwright::service {
 namespace {

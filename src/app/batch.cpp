@@ -7,10 +7,10 @@
 
 #include "options.hpp"
 #include "progress_line.hpp"
+#include "service/batch/runner.hpp"
+#include "service/batch/slurm.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/service/batch_runner.hpp"
-#include "turnwright/service/slurm.hpp"
 
 namespace turnwright::app {
 namespace {

@@ -22,11 +22,11 @@
 #include "options.hpp"
 #include "progress_line.hpp"
 #include "serve.hpp"
+#include "service/listing.hpp"
+#include "service/output.hpp"
+#include "service/requests.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/nc.hpp"
-#include "turnwright/service/listing.hpp"
-#include "turnwright/service/output.hpp"
-#include "turnwright/service/requests.hpp"
 
 namespace turnwright::app {
 namespace {

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "options.hpp"
+#include "service/batch/folder.hpp"
+#include "service/http/log.hpp"
+#include "service/http/server.hpp"
+#include "service/output.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/service/batch_folder.hpp"
-#include "turnwright/service/log.hpp"
-#include "turnwright/service/output.hpp"
-#include "turnwright/service/server.hpp"
 
 namespace turnwright::app {
 namespace {

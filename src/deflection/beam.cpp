@@ -190,7 +190,7 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     throw std::domain_error("flexibilities: one place per position is needed");
   const Body root = body(supports.root);
   Column a;
-  Beam::Run in_left, in_right;
+  BeamRun in_left, in_right;
   for (std::size_t i = 0, l = 0, r = 0, n = 0; i < a_mm.size(); i += n) {
     if (!(a_mm[i] >= 0 && a_mm[i] <= end))
       throw std::domain_error("flexibilities: positions must be in [0, L]");
@@ -209,7 +209,7 @@ void flexibilities(const Beam& left, const Beam& right, std::span<const double> 
     const std::span<const double> at(a.data(), n);
     left_piece.measure(at, in_left);
     if (&left != &right) right_piece.measure(at, in_right);
-    const Beam::Bodies& after = &left == &right ? in_left.right : in_right.right;
+    const BeamBodies& after = &left == &right ? in_left.right : in_right.right;
     const double tail = supports.tail_mm_N + right_piece.right.moment_mm_N;
     const auto places = out.subspan(i, n);
     if (supports.method == Method::between_centres) {
@@ -234,7 +234,7 @@ Body Beam::body(double a_mm) const {
   if (!(a_mm >= 0 && a_mm <= length_mm_ * (1 + kEnd)))
     throw std::domain_error("Beam: positions must be in [0, L]");
   const Piece& piece = pieces_[piece_at(a_mm, 0)];
-  Run run;
+  BeamRun run;
   piece.measure({&a_mm, 1}, run);
   const auto& left = run.left;
   return joined(piece.before, run.t[0], {left.M[0], left.d[0], left.X[0]});

@@ -7,6 +7,7 @@
 
 #include "beam_run.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/deflection/beam.hpp"
 
 namespace turnwright::deflection {
 namespace {
@@ -181,13 +182,13 @@ void Beam::add_pieces(const part::Shaft& shaft, const part::Segment& s, double z
   }
 }
 
-void Beam::Piece::measure(std::span<const double> a_mm, Run& run) const {
+void Beam::Piece::measure(std::span<const double> a_mm, BeamRun& run) const {
   run.n = a_mm.size();
   for (std::size_t i = 0; i < run.n; ++i) run.t[i] = std::min(a_mm[i] - z_mm, h_mm);
   both_sides(run);
 }
 
-void Beam::Piece::both_sides(Run& run) const {
+void Beam::Piece::both_sides(BeamRun& run) const {
   switch (kind) {
     case Kind::cylinder:
       return cylinder(*this, run);
@@ -210,7 +211,7 @@ Body Beam::Piece::measured() const {
     };
     return joined(seen_from(half, 0), half, seen_from(h_mm, 1));
   }
-  Run all;
+  BeamRun all;
   all.n = 1;
   all.t[0] = h_mm;
   both_sides(all);

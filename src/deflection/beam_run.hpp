@@ -2,8 +2,6 @@
 #include <array>
 #include <cstddef>
 
-#include "turnwright/deflection/beam.hpp"
-
 namespace turnwright::deflection {
 
 // Positions within one piece are taken together, one array per quantity, so that the
@@ -12,17 +10,17 @@ namespace turnwright::deflection {
 inline constexpr std::size_t kRun = 64;
 using Column = std::array<double, kRun>;
 
-/// Eq. (1) at several positions.
-struct Beam::Bodies {
+/// Eq. (1) of beam.hpp at several positions.
+struct BeamBodies {
   Column M, d, X;
 };
 
 /// Positions t[i] behind the left end of a piece, and what lies between there and either
 /// end of the piece as the section at t[i] feels it.
-struct Beam::Run {
+struct BeamRun {
   std::size_t n;
   Column t;
-  Bodies left, right;
+  BeamBodies left, right;
 };
 
 }  // namespace turnwright::deflection

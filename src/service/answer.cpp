@@ -1,9 +1,9 @@
 #include <stdexcept>
 
+#include "digest.hpp"
 #include "document/json/finite.hpp"
+#include "requests.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/digest.hpp"
-#include "turnwright/service/requests.hpp"
 
 namespace turnwright::service {
 

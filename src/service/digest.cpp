@@ -1,4 +1,4 @@
-#include "turnwright/service/digest.hpp"
+#include "digest.hpp"
 
 #include <openssl/evp.h>
 

@@ -1,4 +1,4 @@
-#include "turnwright/service/listing.hpp"
+#include "listing.hpp"
 
 #include <algorithm>
 

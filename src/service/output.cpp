@@ -1,4 +1,4 @@
-#include "turnwright/service/output.hpp"
+#include "output.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

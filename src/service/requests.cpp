@@ -1,10 +1,11 @@
-#include "turnwright/service/requests.hpp"
+#include "requests.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "report/picture/budget_drawing.hpp"
+#include "report/page/html.hpp"
 #include "report/page/stability_html.hpp"
+#include "report/picture/budget_drawing.hpp"
 #include "report/picture/drawing.hpp"
 #include "report/picture/milled_drawing.hpp"
 #include "report/picture/stability_chart.hpp"

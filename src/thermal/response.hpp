@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "turnwright/thermal/lag_model.hpp"
+#include "turnwright/thermal/inputs.hpp"
 
 /// The states of LagModel with their derivatives by the parameters that enter
 /// nonlinearly.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../temporary_folder.hpp"
-#include "turnwright/service/requests.hpp"
+#include "service/requests.hpp"
 
 // Runs the program itself, as a shell would.
 namespace turnwright::app {

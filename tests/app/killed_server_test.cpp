@@ -11,7 +11,7 @@
 #include <random>
 #include <thread>
 
-#include "../service/http_client.hpp"
+#include "../service/http/client.hpp"
 #include "../temporary_folder.hpp"
 
 namespace turnwright::app {

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "document/json/parse.hpp"
+#include "service/requests.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/service/requests.hpp"
 
 /// What a fuzzer asks of a document: an answer, or a refusal of the kinds that are told
 /// to callers.  All else ends the fuzzer.

@@ -1,9 +1,9 @@
 #include <thread>
 
-#include "../service/http_client.hpp"
+#include "../service/http/client.hpp"
 #include "answered.hpp"
+#include "service/http/server.hpp"
 #include "targets.hpp"
-#include "turnwright/service/server.hpp"
 
 namespace turnwright::fuzz {
 namespace {

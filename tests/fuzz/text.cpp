@@ -2,8 +2,8 @@
 
 #include "answered.hpp"
 #include "document/json/file.hpp"
+#include "service/batch/line.hpp"
 #include "targets.hpp"
-#include "turnwright/service/batch_line.hpp"
 
 namespace turnwright::fuzz {
 namespace {

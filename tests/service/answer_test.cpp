@@ -4,8 +4,8 @@
 #include <set>
 
 #include "document/json/parse.hpp"
+#include "service/requests.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/service/requests.hpp"
 
 namespace turnwright::service {
 namespace {

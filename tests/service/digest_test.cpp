@@ -1,4 +1,4 @@
-#include "turnwright/service/digest.hpp"
+#include "service/digest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "turnwright/service/listing.hpp"
+#include "service/listing.hpp"
 
 #include <gtest/gtest.h>
 

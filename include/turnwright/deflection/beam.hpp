@@ -60,6 +60,8 @@ Body body(const Root& root);
 /// so inexact, its term is small.
 Body joined(const Body& behind, double length_mm, const Body& stretch);
 
+struct BeamRun;  // positions taken together, see src/deflection/beam_run.hpp
+
 /// The bending and shearing part: its bodies once, then every position in O(1) after
 /// finding its segment.
 ///
@@ -125,8 +127,6 @@ class Beam {
                             std::span<Flexibility> out);
 
  private:
-  struct Bodies;
-  struct Run;
   /// One end of a piece: re - ri and re + ri there, and Eq. (3) without the centre for
   /// what lies between it and the part's end on that side.
   struct End {
@@ -141,8 +141,8 @@ class Beam {
     Body whole, before;  // the piece, and all left of it
 
     /// What lies between each of the positions, all within the piece, and its ends.
-    void measure(std::span<const double> a_mm, Run& run) const;
-    void both_sides(Run& run) const;
+    void measure(std::span<const double> a_mm, BeamRun& run) const;
+    void both_sides(BeamRun& run) const;
     Body measured() const;
   };
 

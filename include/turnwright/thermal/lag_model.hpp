@@ -2,15 +2,11 @@
 #include <span>
 #include <vector>
 
+#include "turnwright/thermal/inputs.hpp"
+
 /// Thermal drift of a spindle from what the control already knows: speed and ambient
 /// temperature.
 namespace turnwright::thermal {
-
-/// Rows of a log or of a plan, at rising times.  The spindle keeps rpm[i] from time_s[i]
-/// to time_s[i + 1]; the ambient runs straight from one row to the next.
-struct Inputs {
-  std::vector<double> time_s, rpm, ambient_degC;
-};
 
 /// One heat store of the spindle: its share of the drift, and how slowly it fills.
 struct Lag {

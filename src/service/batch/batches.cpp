@@ -1,12 +1,12 @@
-#include "turnwright/service/batches.hpp"
+#include "batches.hpp"
 
 #include <sys/resource.h>
 
 #include <chrono>
 
+#include "line.hpp"
+#include "service/http/log.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/batch_line.hpp"
-#include "turnwright/service/log.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -1,7 +1,7 @@
+#include "chunk.hpp"
+
 #include <fstream>
 #include <vector>
-
-#include "turnwright/service/batch_chunk.hpp"
 
 namespace turnwright::service {
 namespace {

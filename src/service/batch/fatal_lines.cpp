@@ -1,4 +1,4 @@
-#include "turnwright/service/fatal_lines.hpp"
+#include "fatal_lines.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

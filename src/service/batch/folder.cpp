@@ -1,3 +1,5 @@
+#include "folder.hpp"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -12,7 +14,6 @@
 
 #include "document/json/file.hpp"
 #include "document/json/reader.hpp"
-#include "turnwright/service/batch_folder.hpp"
 
 namespace turnwright::service {
 namespace {

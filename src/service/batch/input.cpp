@@ -1,3 +1,5 @@
+#include "input.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,7 +10,6 @@
 
 #include "document/json/parse.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/service/batch_input.hpp"
 
 namespace turnwright::service {
 namespace {

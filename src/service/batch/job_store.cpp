@@ -1,13 +1,13 @@
-#include "turnwright/service/job_store.hpp"
+#include "job_store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "fatal_lines.hpp"
+#include "line.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/batch_line.hpp"
-#include "turnwright/service/fatal_lines.hpp"
 
 namespace turnwright::service {
 namespace {

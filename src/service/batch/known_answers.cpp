@@ -1,4 +1,4 @@
-#include "turnwright/service/known_answers.hpp"
+#include "known_answers.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>

@@ -1,10 +1,11 @@
+#include "line.hpp"
+
 #include <algorithm>
 
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "service/digest.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/batch_line.hpp"
-#include "turnwright/service/digest.hpp"
 
 namespace turnwright::service {
 namespace {

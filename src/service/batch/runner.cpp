@@ -1,3 +1,5 @@
+#include "runner.hpp"
+
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -6,8 +8,7 @@
 #include <chrono>
 
 #include "document/json/parse.hpp"
-#include "turnwright/service/batch_runner.hpp"
-#include "turnwright/service/known_answers.hpp"
+#include "known_answers.hpp"
 
 namespace turnwright::service {
 namespace {

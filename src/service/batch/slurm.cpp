@@ -1,4 +1,4 @@
-#include "turnwright/service/slurm.hpp"
+#include "slurm.hpp"
 
 #include <sys/wait.h>
 

@@ -1,3 +1,5 @@
+#include "api.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +9,8 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "openapi.hpp"
+#include "page.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/http_api.hpp"
-#include "turnwright/service/page.hpp"
 
 namespace turnwright::service {
 namespace {

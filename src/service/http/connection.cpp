@@ -8,10 +8,10 @@
 
 #include "host.hpp"
 #include "keys.hpp"
+#include "log.hpp"
 #include "state.hpp"
 #include "target.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/log.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -6,8 +6,8 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <fstream>
 
-#include "turnwright/service/digest.hpp"
-#include "turnwright/service/server.hpp"
+#include "server.hpp"
+#include "service/digest.hpp"
 
 namespace turnwright::service {
 namespace {

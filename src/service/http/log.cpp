@@ -1,4 +1,4 @@
-#include "turnwright/service/log.hpp"
+#include "log.hpp"
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>

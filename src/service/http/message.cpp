@@ -1,3 +1,5 @@
+#include "message.hpp"
+
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -5,8 +7,6 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-
-#include "turnwright/service/http_message.hpp"
 
 namespace turnwright::service {
 namespace {

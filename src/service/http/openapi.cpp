@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "document/json/file.hpp"
-#include "turnwright/service/requests.hpp"
+#include "service/requests.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -1,8 +1,8 @@
-#include "turnwright/service/page.hpp"
+#include "page.hpp"
 
 #include <stdexcept>
 
-#include "turnwright/service/digest.hpp"
+#include "service/digest.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -1,4 +1,4 @@
-#include "turnwright/service/server.hpp"
+#include "server.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <random>
 #include <thread>
 
+#include "log.hpp"
 #include "state.hpp"
-#include "turnwright/service/log.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -6,8 +6,9 @@
 #include <boost/beast.hpp>
 #include <set>
 
+#include "api.hpp"
 #include "metrics.hpp"
-#include "turnwright/service/server.hpp"
+#include "server_options.hpp"
 
 namespace turnwright::service {
 

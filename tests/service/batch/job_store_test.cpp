@@ -1,4 +1,4 @@
-#include "turnwright/service/job_store.hpp"
+#include "service/batch/job_store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "../temporary_folder.hpp"
-#include "little_memory.hpp"
+#include "../../temporary_folder.hpp"
+#include "../little_memory.hpp"
+#include "service/batch/batches.hpp"
+#include "service/batch/fatal_lines.hpp"
+#include "service/batch/line.hpp"
 #include "turnwright/base/cancelled.hpp"
-#include "turnwright/service/batch_line.hpp"
-#include "turnwright/service/batches.hpp"
-#include "turnwright/service/fatal_lines.hpp"
 
 namespace turnwright::service {
 namespace {

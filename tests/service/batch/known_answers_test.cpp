@@ -1,4 +1,4 @@
-#include "turnwright/service/known_answers.hpp"
+#include "service/batch/known_answers.hpp"
 
 #include <gtest/gtest.h>
 

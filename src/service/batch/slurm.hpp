@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "turnwright/service/batch_runner.hpp"
+#include "runner.hpp"
 
 /// A batch as job arrays of Slurm, whose tasks are shards of it and share the folder.
 ///

@@ -1,4 +1,4 @@
-#include "turnwright/service/server.hpp"
+#include "service/http/server.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <thread>
 
-#include "http_client.hpp"
-#include "little_memory.hpp"
+#include "../little_memory.hpp"
+#include "client.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::service {

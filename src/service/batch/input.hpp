@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/service/digest.hpp"
+#include "service/digest.hpp"
 
 namespace turnwright::service {
 

@@ -1,4 +1,4 @@
-#include "turnwright/service/http_api.hpp"
+#include "service/http/api.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "turnwright/service/batch_folder.hpp"
+#include "service/batch/folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "../temporary_folder.hpp"
+#include "../../temporary_folder.hpp"
+#include "service/batch/runner.hpp"
 #include "turnwright/base/errors.hpp"
-#include "turnwright/service/batch_runner.hpp"
 
 namespace turnwright::service {
 namespace {

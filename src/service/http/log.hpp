@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "turnwright/service/http_message.hpp"
+#include "message.hpp"
 
 namespace turnwright::service {
 

@@ -1,10 +1,10 @@
-#include "turnwright/service/batch_input.hpp"
+#include "service/batch/input.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "../temporary_folder.hpp"
+#include "../../temporary_folder.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {

@@ -1,10 +1,10 @@
-#include "turnwright/service/batch_chunk.hpp"
+#include "service/batch/chunk.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "../temporary_folder.hpp"
+#include "../../temporary_folder.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -1,11 +1,8 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
-
-#include "turnwright/service/http_api.hpp"
 
 namespace turnwright::service {
 
@@ -23,33 +20,6 @@ struct ServerOptions {
   std::chrono::milliseconds deadline{60'000};  ///< to compute the answer
   std::chrono::milliseconds drain{120'000};    ///< for open calls after stop()
   std::vector<std::string> keys;  ///< bearer keys; empty: every caller is served
-};
-
-/// The keys in a file: one a line, of 16 to 200 visible characters; blank lines and lines
-/// that begin with # are skipped.
-/// @throws InputError if it cannot be read, holds none or a wrong one.
-std::vector<std::string> read_keys(const std::filesystem::path& file);
-
-struct ServerState;
-
-/// HTTP/1.1 on one address.  One thread reads and writes, `threads` compute.
-class Server {
- public:
-  /// Binds, so that clients can connect from here on.  `api` must outlive the server.
-  /// @throws InputError if the address is none, if it is not of this machine alone and
-  ///   there is no key, or if it cannot be bound.
-  Server(const ServerOptions& options, const HttpApi& api);
-  ~Server();
-
-  std::uint16_t port() const;
-
-  /// Serves until stop(), SIGTERM or SIGINT; then refuses new connections, answers every
-  /// call that has arrived, and returns.
-  void run();
-  void stop();  ///< from any thread
-
- private:
-  std::unique_ptr<ServerState> state_;
 };
 
 }  // namespace turnwright::service

@@ -1,10 +1,10 @@
-#include "turnwright/service/page.hpp"
+#include "service/http/page.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "turnwright/service/digest.hpp"
+#include "service/digest.hpp"
 
 namespace turnwright::service {
 namespace {

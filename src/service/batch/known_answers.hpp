@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "turnwright/service/batch_line.hpp"
+#include "line.hpp"
 
 namespace turnwright::service {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "turnwright/service/batch_chunk.hpp"
-#include "turnwright/service/batch_input.hpp"
+#include "chunk.hpp"
+#include "input.hpp"
 
 /// The folder of a batch:
 ///

@@ -3,7 +3,7 @@
 #include <new>
 #include <string>
 
-#include "turnwright/service/requests.hpp"
+#include "service/requests.hpp"
 
 /// One line of a batch: {"name": "plan", "document": {..}}.
 namespace turnwright::service {

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "turnwright/service/http_message.hpp"
+#include "message.hpp"
 
 /// The planner's page: one HTML file with its styles and its script inside.
 namespace turnwright::service {

@@ -6,9 +6,9 @@
 #include <stop_token>
 #include <string>
 
-#include "turnwright/service/batches.hpp"
-#include "turnwright/service/http_message.hpp"
-#include "turnwright/service/page.hpp"
+#include "message.hpp"
+#include "page.hpp"
+#include "service/batch/batches.hpp"
 
 namespace turnwright::service {
 

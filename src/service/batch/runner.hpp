@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "folder.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/service/batch_folder.hpp"
 
 namespace turnwright::service {
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "document/json/parse.hpp"
-#include "turnwright/service/http_api.hpp"
+#include "service/http/api.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "turnwright/service/batch_line.hpp"
-#include "turnwright/service/digest.hpp"
-#include "turnwright/service/output.hpp"
+#include "line.hpp"
+#include "service/digest.hpp"
+#include "service/output.hpp"
 
 /// The records of consecutive lines in a file that appears at once and tells by itself
 /// whether it is whole: behind the records a line seals them,

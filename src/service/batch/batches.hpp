@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
-#include "turnwright/service/fatal_lines.hpp"
-#include "turnwright/service/job_store.hpp"
-#include "turnwright/service/requests.hpp"
+#include "fatal_lines.hpp"
+#include "job_store.hpp"
+#include "service/requests.hpp"
 
 namespace turnwright::service {
 
