@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "turnwright/base/units.hpp"
 
@@ -31,12 +32,17 @@ Matrix around(const Matrix& a, const Matrix& b) {
   return {c00 * a.xx + c01 * a.xy, c10 * a.xy + c11 * a.yy, c00 * a.xy + c01 * a.yy};
 }
 
+/// T of Eq. (3) about the centroid.
+Matrix about_centroid(const Section& s, const char* caller) {
+  const double A = s.area_mm2;
+  if (!(A > 0)) throw std::domain_error(std::string(caller) + ": a section has no area");
+  return {s.xx_mm4 - s.sx_mm3 * s.sx_mm3 / A, s.yy_mm4 - s.sy_mm3 * s.sy_mm3 / A,
+          s.xy_mm4 - s.sx_mm3 * s.sy_mm3 / A};
+}
+
 /// T^-1/E about the centroid, Eq. (3).
 Matrix bending(const Section& s, double E) {
-  const double A = s.area_mm2;
-  if (!(A > 0)) throw std::domain_error("oval_flexibility: a section has no area");
-  const Matrix T{s.xx_mm4 - s.sx_mm3 * s.sx_mm3 / A, s.yy_mm4 - s.sy_mm3 * s.sy_mm3 / A,
-                 s.xy_mm4 - s.sx_mm3 * s.sy_mm3 / A};
+  const Matrix T = about_centroid(s, "oval_flexibility");
   if (!(T.xx * T.yy - T.xy * T.xy > 0))
     throw std::domain_error("oval_flexibility: a section does not resist bending");
   return 1 / E * inverse(T);
@@ -82,6 +88,11 @@ Section without_flat(const Section& section, double outer_mm, double floor_mm,
   return without_slot(
       section, outer_mm,
       {2 * std::sqrt((R - floor_mm) * (R + floor_mm)), floor_mm, angle_rad});
+}
+
+double least_second_moment_mm4(const Section& section) {
+  const auto [xx, yy, xy] = about_centroid(section, "least_second_moment_mm4");
+  return (xx + yy) / 2 - std::hypot((xx - yy) / 2, xy);
 }
 
 OvalFlexibility oval_flexibility(std::span<const Stretch> stretches, double E_MPa,

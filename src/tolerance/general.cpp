@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "turnwright/base/units.hpp"
 
@@ -58,6 +60,52 @@ void check_length(double length_mm) {
   if (!(length_mm > 0 && length_mm <= 3000))
     throw std::domain_error(
         fmt::format("length {} mm: ISO 2768-2 holds above 0 up to 3000 mm", length_mm));
+}
+
+using part::ToleranceKind;
+
+bool has_zone(const part::Drawing& drawing, const std::string& of, double at_most_mm,
+              std::initializer_list<ToleranceKind> kinds) {
+  return std::ranges::any_of(drawing.tolerances, [&](const part::Tolerance& t) {
+    return t.of == of && t.value_mm <= at_most_mm &&
+           std::ranges::find(kinds, t.kind) != kinds.end();
+  });
+}
+
+part::Tolerance zone(ToleranceKind kind, const std::string& of, double value_mm) {
+  return {.id = of + ":" + part::name(kind),
+          .kind = kind,
+          .of = of,
+          .datum = "",
+          .between = {},
+          .value_mm = value_mm};
+}
+
+template <class Element>
+void add_straightness(const part::Drawing& drawing, const std::vector<Element>& elements,
+                      GeometricalClass form, std::vector<part::Tolerance>& out) {
+  using enum ToleranceKind;
+  for (const auto& e : elements) {
+    if (e.cut || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
+    const double value = general_straightness_mm(e.length_mm, form);
+    const bool held =
+        (e.limits && (e.limits->upper_mm - e.limits->lower_mm) / 2 <= value) ||
+        has_zone(drawing, e.id, value,
+                 {straightness, cylindricity, total_radial_runout, profile,
+                  profile_without_datum});
+    if (!held) out.push_back(zone(straightness, e.id, value));
+  }
+}
+
+void add_flatness(const part::Drawing& drawing, const std::string& id, double diameter_mm,
+                  double allowance_mm, GeometricalClass form,
+                  std::vector<part::Tolerance>& out) {
+  using enum ToleranceKind;
+  if (!(diameter_mm > 0 && diameter_mm <= 3000 && allowance_mm > 0)) return;
+  const double value = general_straightness_mm(diameter_mm, form);
+  if (!has_zone(drawing, id, value,
+                {flatness, parallelism, perpendicularity, total_axial_runout}))
+    out.push_back(zone(flatness, id, value));
 }
 
 }  // namespace
@@ -136,6 +184,20 @@ double general_symmetry_mm(double length_mm, GeometricalClass tolerance_class) {
 
 double general_runout_mm(GeometricalClass tolerance_class) {
   return kRunout[static_cast<std::size_t>(tolerance_class)];
+}
+
+std::vector<part::Tolerance> implied_form_tolerances(const part::Drawing& drawing,
+                                                     GeometricalClass tolerance_class) {
+  std::vector<part::Tolerance> out;
+  add_straightness(drawing, drawing.outer, tolerance_class, out);
+  add_straightness(drawing, drawing.inner, tolerance_class, out);
+  const auto& outer = drawing.outer;
+  if (outer.empty()) return out;
+  add_flatness(drawing, "left", outer.front().left_mm, drawing.stock.left_allowance_mm,
+               tolerance_class, out);
+  add_flatness(drawing, "right", outer.back().right_mm, part::right_allowance_mm(drawing),
+               tolerance_class, out);
+  return out;
 }
 
 }  // namespace turnwright::tolerance

@@ -67,6 +67,18 @@ TEST(Ovality, AFlatThroughTheAxisLeavesHalfADisc) {
 
 const Root kRoot{1.8e-5, 8.6e-8, 1.1e-9};
 
+// Half a disc: R^4 (pi/8 - 8/(9 pi)) about its centroid, less than pi R^4/8 across.
+TEST(Ovality, LeastSecondMomentIsThatOfHalfADiscAboutItsCentroid) {
+  const double R = 10;
+  for (const double angle : {0.0, 0.7, 2.9}) {
+    const Section half = without_flat(round_section(2 * R), 2 * R, 0, angle);
+    EXPECT_NEAR(least_second_moment_mm4(half), 1e4 * (kPi / 8 - 8 / (9 * kPi)), 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(least_second_moment_mm4(round_section(2 * R, R)),
+                   kPi / 64 * (16e4 - 1e4));
+  EXPECT_THROW(least_second_moment_mm4({}), std::domain_error);
+}
+
 TEST(Ovality, RoundSectionsAreTheBeamWithoutLobes) {
   // slender: shear is 1e-12 of the deflection
   const part::Shaft wire{210000, 0, {{4e5, 0.4, 0.4, 0, 0}, {3e5, 0.3, 0.3, 0.1, 0.1}}};

@@ -152,5 +152,58 @@ TEST(General, RefusesSizesOutsideTheTables) {
     EXPECT_THROW(general_angle_rad(bad, m), std::domain_error) << bad;
 }
 
+part::Drawing step() {
+  part::Drawing d;
+  d.stock = {.outer_mm = 62, .length_mm = 152, .left_allowance_mm = 1};
+  d.outer = {{.id = "d1", .length_mm = 50, .left_mm = 60, .right_mm = 60},
+             {.id = "d2", .length_mm = 100, .left_mm = 30, .right_mm = 30}};
+  return d;
+}
+
+std::vector<std::string> implied(const part::Drawing& d, GeometricalClass form) {
+  std::vector<std::string> out;
+  for (const auto& t : implied_form_tolerances(d, form)) {
+    EXPECT_FALSE(t.limits);
+    out.push_back(t.id + " " + std::to_string(t.value_mm).substr(0, 4));
+  }
+  return out;
+}
+
+using Ids = std::vector<std::string>;
+
+// Table 1 of part 2, K: 0.2 mm over 30 to 100 mm, 0.1 mm over 10 to 30 mm.
+TEST(General, ImpliesFormWhereNothingHoldsIt) {
+  EXPECT_EQ(implied(step(), K), (Ids{"d1:straightness 0.20", "d2:straightness 0.20",
+                                     "left:flatness 0.20", "right:flatness 0.10"}));
+  part::Drawing d = step();
+  d.inner = {{.id = "b1", .length_mm = 20, .left_mm = 12, .right_mm = 12}};
+  EXPECT_EQ(implied(d, K)[2], "b1:straightness 0.10");
+  EXPECT_TRUE(implied({}, K).empty());
+}
+
+TEST(General, ImpliesNoFormThatASizeOrZoneHoldsAsClosely) {
+  using enum part::ToleranceKind;
+  part::Drawing d = step();
+  d.outer[0].limits = part::Limits{-0.2, 0.2};   // the radius varies by 0.2
+  d.outer[1].limits = part::Limits{-0.2, 0.21};  // by 0.205
+  EXPECT_EQ(implied(d, K)[0], "d2:straightness 0.20");
+  d.tolerances = {
+      {.id = "t1", .kind = total_radial_runout, .of = "d2", .value_mm = 0.2},
+      {.id = "t2", .kind = perpendicularity, .of = "left", .value_mm = 0.21},
+      {.id = "t3", .kind = total_axial_runout, .of = "right", .value_mm = 0.1}};
+  EXPECT_EQ(implied(d, K), Ids{"left:flatness 0.20"});
+  d.tolerances[0].kind = circularity;  // holds no generatrix
+  EXPECT_EQ(implied(d, K)[0], "d2:straightness 0.20");
+}
+
+TEST(General, ImpliesNoFormOfCutsUnfacedEndsAndSizesBeyondTheTable) {
+  part::Drawing d = step();
+  d.outer[0].cut = part::Cut{};
+  d.outer[1].length_mm = 3000.5;
+  d.stock.left_allowance_mm = 0;
+  d.stock.length_mm = 3050.5;
+  EXPECT_TRUE(implied(d, H).empty());
+}
+
 }  // namespace
 }  // namespace turnwright::tolerance

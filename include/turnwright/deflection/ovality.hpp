@@ -38,6 +38,11 @@ Section without_slot(const Section& section, double outer_mm, const Slot& slot);
 Section without_flat(const Section& section, double outer_mm, double floor_mm,
                      double angle_rad);
 
+/// Least second moment of area about an axis through the centroid [mm4]: the section's
+/// stiffness in bending, the softest way, over E.  Source: the smaller principal moment.
+/// @throws std::domain_error unless the section has area.
+double least_second_moment_mm4(const Section& section);
+
 /// A stretch of constant section.
 struct Stretch {
   double length_mm = 0;

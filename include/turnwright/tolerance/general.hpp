@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "turnwright/part/drawing.hpp"
 
@@ -52,5 +53,13 @@ double general_symmetry_mm(double length_mm, GeometricalClass tolerance_class);
 
 /// Circular run-out [mm], radial or axial.
 double general_runout_mm(GeometricalClass tolerance_class);
+
+/// The form tolerances that part 2 implies where the drawing holds the form less closely,
+/// ids "<of>:<kind>": of an element without a cut a straightness, unless half the width of
+/// its diameter's limits, by which the radius varies at most, or a zone of it is as
+/// narrow; of a faced end a flatness by its diameter, unless a zone of it is as narrow.
+/// Nothing where the tables have no value.
+std::vector<part::Tolerance> implied_form_tolerances(const part::Drawing& drawing,
+                                                     GeometricalClass tolerance_class);
 
 }  // namespace turnwright::tolerance

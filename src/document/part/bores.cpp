@@ -2,51 +2,12 @@
 #include <cmath>
 
 #include "part_sections.hpp"
+#include "turnwright/part/wall.hpp"
 
 namespace turnwright::document {
 namespace {
 
 constexpr double kThin = 0.2;  // wall over radius: below it a ring ovalises
-
-// Diameter of a list of elements beside z, on the side `towards` (+1: right); `beyond`
-// where there is none.
-template <class Element, class LeftEnd>
-double diameter_mm(const std::vector<Element>& elements, const LeftEnd& left_end,
-                   double z, double towards, double beyond) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const auto& e = elements[i];
-    const double u = (z - left_end(i)) / e.length_mm;
-    const double inwards = u + towards * 1e-9;
-    const auto made = part::core(e);
-    if (inwards > 0 && inwards < 1)
-      return made.left_mm + (made.right_mm - made.left_mm) * u;
-  }
-  return beyond;
-}
-
-struct Wall {
-  double z_mm = 0, share = 1;  // of the radius
-};
-
-// Where the finished part is thinnest: at an end of some element, on one of its sides.
-Wall thinnest(const part::Drawing& d) {
-  std::vector<double> ends{0, part::length_mm(d)};
-  for (std::size_t i = 0; i < d.outer.size(); ++i) ends.push_back(part::left_z_mm(d, i));
-  for (std::size_t i = 0; i < d.inner.size(); ++i)
-    for (const double u : {0.0, d.inner[i].length_mm})
-      ends.push_back(part::inner_left_z_mm(d, i) + u);
-  Wall wall;
-  for (const double z : ends)
-    for (const double side : {-1.0, 1.0}) {
-      const double outer = diameter_mm(
-          d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); }, z, side, 0);
-      const double inner = diameter_mm(
-          d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); }, z, side,
-          d.stock.inner_mm);
-      if (outer > 0 && 1 - inner / outer < wall.share) wall = {z, 1 - inner / outer};
-    }
-  return wall;
-}
 
 bool readable(const part::Drawing& d) {
   const auto sound = [](const auto& e) {
@@ -86,7 +47,7 @@ void check_bores(Draft& draft) {
                   "conflict");
     return;
   }
-  const Wall wall = thinnest(d);
+  const part::Wall wall = part::thinnest_wall(d);
   const bool told = d.inner.empty() && wall.share <= 0;  // of the stock
   if (wall.share >= kThin || told) return;
   const Reader at = d.inner.empty() ? draft.root.at("stock") : *list;

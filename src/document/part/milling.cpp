@@ -55,10 +55,7 @@ double stiffness_left(const planning::PartPlan& p, const Milled& m) {
     if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
         m.z_mm < x.z_mm + x.length_mm)
       s = deflection::without_slot(s, D, slot_of(x, D));
-  const double xx = s.xx_mm4 - s.sx_mm3 * s.sx_mm3 / s.area_mm2;
-  const double yy = s.yy_mm4 - s.sy_mm3 * s.sy_mm3 / s.area_mm2;
-  const double xy = s.xy_mm4 - s.sx_mm3 * s.sy_mm3 / s.area_mm2;
-  return ((xx + yy) / 2 - std::hypot((xx - yy) / 2, xy)) / whole.xx_mm4;
+  return deflection::least_second_moment_mm4(s) / whole.xx_mm4;
 }
 
 // On the element, below its rim, above its hole.

@@ -284,64 +284,16 @@ void assume_length(Draft& draft, tolerance::LinearClass linear, const std::strin
   }
 }
 
-bool has_zone(const part::Drawing& drawing, const std::string& of, double at_most_mm,
-              std::initializer_list<ToleranceKind> kinds) {
-  return std::any_of(drawing.tolerances.begin(), drawing.tolerances.end(),
-                     [&](const part::Tolerance& t) {
-                       return t.of == of && t.value_mm <= at_most_mm &&
-                              std::find(kinds.begin(), kinds.end(), t.kind) !=
-                                  kinds.end();
-                     });
-}
-
-void assume_zone(Draft& draft, ToleranceKind kind, const std::string& of, double value_mm,
-                 const std::string& why) {
-  const std::string id = of + ":" + part::name(kind);
-  draft.assume(
-      "/tolerances",
-      {{"id", id}, {"kind", part::name(kind)}, {"of", of}, {"value_mm", value_mm}}, why);
-  draft.drawing().tolerances.push_back({.id = id,
-                                        .kind = kind,
-                                        .of = of,
-                                        .datum = "",
-                                        .between = {},
-                                        .value_mm = value_mm,
-                                        .limits = {}});
-}
-
-// ISO 2768-2's straightness where no size or zone holds the generatrix as closely: the
-// radius varies by half the width of a diameter's limits at most.
-template <class Element>
-void assume_straightness(Draft& draft, const std::vector<Element>& elements,
-                         tolerance::GeometricalClass form, const std::string& why) {
-  using enum ToleranceKind;
-  for (const auto& e : elements) {
-    if (e.cut || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
-    const double value = tolerance::general_straightness_mm(e.length_mm, form);
-    const bool held =
-        (e.limits && (e.limits->upper_mm - e.limits->lower_mm) / 2 <= value) ||
-        has_zone(draft.drawing(), e.id, value,
-                 {straightness, cylindricity, total_radial_runout, profile,
-                  profile_without_datum});
-    if (!held) assume_zone(draft, straightness, e.id, value, why);
+void assume_form(Draft& draft, tolerance::GeometricalClass form, const std::string& why) {
+  for (auto& t : tolerance::implied_form_tolerances(draft.drawing(), form)) {
+    draft.assume("/tolerances",
+                 {{"id", t.id},
+                  {"kind", part::name(t.kind)},
+                  {"of", t.of},
+                  {"value_mm", t.value_mm}},
+                 why);
+    draft.drawing().tolerances.push_back(std::move(t));
   }
-}
-
-// And its flatness of the end faces, by their diameter.
-void assume_flatness(Draft& draft, tolerance::GeometricalClass form,
-                     const std::string& why) {
-  using enum ToleranceKind;
-  const auto& outer = draft.drawing().outer;
-  if (outer.empty()) return;
-  const auto face = [&](const std::string& id, double diameter_mm, double allowance_mm) {
-    if (!(diameter_mm > 0 && diameter_mm <= 3000 && allowance_mm > 0)) return;
-    const double value = tolerance::general_straightness_mm(diameter_mm, form);
-    if (!has_zone(draft.drawing(), id, value,
-                  {flatness, parallelism, perpendicularity, total_axial_runout}))
-      assume_zone(draft, flatness, id, value, why);
-  };
-  face("left", outer.front().left_mm, draft.drawing().stock.left_allowance_mm);
-  face("right", outer.back().right_mm, part::right_allowance_mm(draft.drawing()));
 }
 
 void read_general(Draft& draft) {
@@ -357,10 +309,7 @@ void read_general(Draft& draft) {
       assume_sizes(draft, drawing.inner, "inner", *general.linear, text);
       assume_length(draft, *general.linear, text);
     }
-    if (!general.geometrical) return;
-    assume_straightness(draft, drawing.outer, *general.geometrical, text);
-    assume_straightness(draft, drawing.inner, *general.geometrical, text);
-    assume_flatness(draft, *general.geometrical, text);
+    if (general.geometrical) assume_form(draft, *general.geometrical, text);
   } catch (const std::domain_error&) {
     value->problem(
         "\"ISO 2768-\" with f, m, c or v for sizes and H, K or L for form, such "
