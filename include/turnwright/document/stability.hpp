@@ -12,8 +12,8 @@ namespace turnwright::document {
 using StabilityProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// The door `stability`: dynamics of milling or turning -> limits per speed and verdicts
-/// per point.  Computed by milling/limits.hpp, modes of a measured response by
-/// milling/frf.hpp; the documents are described by schemas/stability.request.json and
+/// per point.  Computed by chatter/chart.hpp, modes of a measured response by
+/// chatter/frf.hpp; the documents are described by schemas/stability.request.json and
 /// schemas/stability.result.json.
 /// @throws InputError with every problem of the request; ModelRangeError if a speed and
 ///   depth would take too long to search; Cancelled soon after `stop` was asked for.

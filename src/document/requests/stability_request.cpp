@@ -383,7 +383,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
   read_machine(r, q);
   for (Reader& point : r.optional_items("points", 1, kPoints)) {
     point = point.as_object();
-    Point p;
+    chatter::OperatingPoint p;
     p.n_rpm = point.number("n_rpm", kSpeed);
     p.ap_mm = point.number("ap_mm", kPointDepth);
     point.finish();

@@ -1,0 +1,99 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "turnwright/chatter/cutter.hpp"
+#include "turnwright/chatter/cutter_limits.hpp"
+#include "turnwright/chatter/stability_limits.hpp"
+#include "turnwright/chatter/system.hpp"
+#include "turnwright/chatter/uncertain.hpp"
+
+/// A stability chart: limits over the spindle speed, and verdicts on single cuts.
+namespace turnwright::chatter {
+
+/// How stability is judged: by limits.hpp or, to check it, by a method of
+/// reference_methods.hpp.
+enum class Method { fundamental_matrix, tfea, semi_discretisation, simulation };
+
+struct OperatingPoint {
+  double n_rpm = 0, ap_mm = 0;
+};
+
+struct SpeedRange {
+  double from_rpm = 0, to_rpm = 0;
+  bool holds(double n_rpm) const { return n_rpm >= from_rpm && n_rpm <= to_rpm; }
+};
+
+struct ChartRequest {
+  System system;
+  std::optional<Cutter> cutter;  ///< with what `system` does not hold
+  Method method = Method::fundamental_matrix;
+  int resolution = 0;               ///< elements or intervals of a reference method
+  std::optional<double> ap_max_mm;  ///< searched up to there; given if there are speeds
+  std::vector<double> speeds_rpm;
+  std::vector<double> depths_mm;  ///< multipliers are counted there at each speed
+  std::optional<Bands> bands;
+  std::optional<SpeedRange> machine;  ///< speeds that the machine reaches; absent: all
+  std::vector<OperatingPoint> points;
+
+  /// Whether depth and delay enter by more than one number, see cutter.hpp.
+  bool shaped() const;
+};
+
+/// What is told of one speed.
+struct ChartSpeed {
+  std::size_t index = 0;  ///< in speeds_rpm
+  SpeedLimits limits;
+  std::optional<UncertainLimit> uncertain;  ///< if there are bands
+};
+
+/// What is told of one cut.
+struct ChartPoint {
+  OperatingPoint at;
+  std::optional<int> unstable;  ///< multipliers, if the method tells
+  double spectral_radius = 0;
+  bool stable = false;
+  std::vector<Surface> walls;  ///< of a stable cut by a cutter with a feed
+};
+
+/// A speed or point outside the method's range.
+struct Undecided {
+  std::size_t index = 0;  ///< in speeds_rpm or points
+  OperatingPoint at;      ///< of a speed: ap_max
+  std::string why;        ///< empty if it was not tried
+  double harder_rpm = 0;  ///< then: a speed that would take too long, and this one longer
+};
+
+struct StabilityChart {
+  std::vector<ChartSpeed> speeds;  ///< those decided, in the order of the request
+  std::vector<ChartPoint> points;
+  std::vector<Undecided> undecided_speeds, undecided_points;
+  /// The machine's speed that removes most, and its depth: n times the depth up to the
+  /// first loss is greatest.  None if the machine reaches none of them.
+  std::optional<OperatingPoint> best;
+  bool best_is_limited_by_chatter = false;  ///< else by ap_max
+  std::vector<OperatingPoint>
+      magic;  ///< local maxima of the limit over the speed, rising
+};
+
+/// So many of the speeds and points are done.
+using ChartProgress = std::function<void(std::size_t done, std::size_t all)>;
+
+/// Speeds are searched from the highest down, for slow ones take longest: once a search
+/// would take too long, slower ones at as great depths are not tried.
+/// @throws Cancelled soon after `stop` was asked for.
+StabilityChart stability_chart(const ChartRequest& request,
+                               const std::stop_token& stop = {},
+                               const ChartProgress& tell = {});
+
+/// Depth [mm] below which turning with one mode is stable at every speed,
+/// 2 k zeta (1 + zeta)/K.  Source: least -1/Re G of one mode, as in any text on
+/// regenerative chatter.
+/// @param system  with a constant force and one mode.
+double absolute_limit_mm(const System& system);
+
+}  // namespace turnwright::chatter

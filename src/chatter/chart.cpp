@@ -1,0 +1,183 @@
+#include "turnwright/chatter/chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "turnwright/base/cancelled.hpp"
+#include "turnwright/chatter/limits.hpp"
+#include "turnwright/chatter/reference_methods.hpp"
+
+namespace turnwright::chatter {
+namespace {
+
+constexpr int kDepths = 40;  // scanned by the reference methods
+
+Dominant by_reference(const ChartRequest& q, double n_rpm, double ap_mm,
+                      const std::stop_token& stop) {
+  leave_if(stop);
+  if (q.method == Method::tfea)
+    return time_finite_elements(q.system, n_rpm, ap_mm, q.resolution);
+  if (q.method == Method::semi_discretisation)
+    return semi_discretisation(q.system, n_rpm, ap_mm, q.resolution);
+  return simulation(q.system, n_rpm, ap_mm);
+}
+
+SpeedLimits limits_of(const ChartRequest& q, double n_rpm, const std::stop_token& stop) {
+  leave_if(stop);
+  if (q.shaped()) return speed_limits(*q.cutter, n_rpm, *q.ap_max_mm, q.depths_mm);
+  if (q.method == Method::fundamental_matrix)
+    return speed_limits(q.system, n_rpm, *q.ap_max_mm, q.depths_mm);
+  return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths, [&](double ap_mm) {
+    return by_reference(q, n_rpm, ap_mm, stop);
+  });
+}
+
+ChartPoint judged(const ChartRequest& q, const OperatingPoint& p,
+                  const std::stop_token& stop) {
+  leave_if(stop);
+  if (q.method != Method::fundamental_matrix) {
+    const Dominant d = by_reference(q, p.n_rpm, p.ap_mm, stop);
+    const double radius = std::abs(d.multiplier);
+    return {p, d.unstable, radius, radius < 1, {}};
+  }
+  const Multipliers m = q.shaped() ? multipliers(*q.cutter, p.n_rpm, p.ap_mm)
+                                   : multipliers(q.system, p.n_rpm, p.ap_mm);
+  ChartPoint out{p, m.unstable, m.spectral_radius, m.unstable == 0, {}};
+  if (out.stable && q.cutter && q.cutter->feed_mm > 0 && p.ap_mm > 0)
+    out.walls = surfaces(*q.cutter, p.n_rpm, p.ap_mm);
+  return out;
+}
+
+/// Searches at speeds, or points, one after the other.
+class Attempts {
+ public:
+  /// What is computed at the i-th of them; none if that is outside the method, or no
+  /// easier than one before that would have taken too long.
+  template <class F>
+  auto at(std::size_t i, const OperatingPoint& asked, F compute)
+      -> std::optional<decltype(compute())> {
+    for (const OperatingPoint& p : too_long_)
+      if (asked.n_rpm <= p.n_rpm && asked.ap_mm >= p.ap_mm) {
+        undecided_[i] = {i, asked, "", p.n_rpm};
+        return std::nullopt;
+      }
+    try {
+      return compute();
+    } catch (const TooManyVibrations& e) {
+      too_long_.push_back(asked);
+      undecided_[i] = {i, asked, e.what()};
+    } catch (const ModelRangeError& e) {
+      undecided_[i] = {i, asked, e.what()};
+    }
+    return std::nullopt;
+  }
+
+  /// In the order asked.
+  std::vector<Undecided> undecided() const {
+    std::vector<Undecided> out;
+    for (const auto& [i, told] : undecided_) out.push_back(told);
+    return out;
+  }
+
+ private:
+  std::vector<OperatingPoint> too_long_;
+  std::map<std::size_t, Undecided> undecided_;
+};
+
+double stable_mm(const SpeedLimits& speed, double ap_max) {
+  return speed.limit_mm().value_or(ap_max);
+}
+
+void find_best(const ChartRequest& q, StabilityChart& out) {
+  const double ap_max = *q.ap_max_mm;
+  const auto volume = [&](const ChartSpeed& s) {
+    const double n_rpm = s.limits.n_rpm;
+    const bool possible = !q.machine || q.machine->holds(n_rpm);
+    return possible ? n_rpm * stable_mm(s.limits, ap_max) : 0;
+  };
+  const auto at = std::ranges::max_element(out.speeds, {}, volume);
+  if (!(volume(*at) > 0)) return;
+  out.best = {at->limits.n_rpm, stable_mm(at->limits, ap_max)};
+  out.best_is_limited_by_chatter = at->limits.limit_mm().has_value();
+}
+
+void find_magic(const ChartRequest& q, StabilityChart& out) {
+  /// A speed, and to which depth it is stable, if that is told.
+  std::vector<std::pair<double, std::optional<double>>> all;
+  for (const double n : q.speeds_rpm) all.emplace_back(n, std::nullopt);
+  for (const ChartSpeed& s : out.speeds)
+    all[s.index].second = stable_mm(s.limits, *q.ap_max_mm);
+  std::ranges::sort(all);
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    const auto &below = all[i - 1].second, &at = all[i].second,
+               &above = all[i + 1].second;
+    if (below && at && above && *at > *below && *at >= *above)
+      out.magic.push_back({all[i].first, *at});
+  }
+}
+
+/// Places in a list of speeds from the highest down.
+std::vector<std::size_t> from_the_fastest(const std::vector<double>& speeds_rpm) {
+  std::vector<std::size_t> out(speeds_rpm.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::ranges::stable_sort(out, std::ranges::greater(),
+                           [&](std::size_t i) { return speeds_rpm[i]; });
+  return out;
+}
+
+}  // namespace
+
+bool ChartRequest::shaped() const {
+  return cutter && (cutter->helix_rad > 0 || cutter->by_revolution() ||
+                    cutter->indentation_N_mm > 0);
+}
+
+StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& stop,
+                               const ChartProgress& tell) {
+  StabilityChart out;
+  std::size_t done = 0;
+  const auto one_done = [&] {
+    if (tell) tell(++done, q.speeds_rpm.size() + q.points.size());
+  };
+  const auto systems = q.bands ? drawn(q.system, *q.bands) : std::vector<System>{};
+  Attempts speeds, points;
+  for (const std::size_t i : from_the_fastest(q.speeds_rpm)) {
+    const double n_rpm = q.speeds_rpm[i];
+    auto speed = speeds.at(i, {n_rpm, *q.ap_max_mm}, [&] {
+      ChartSpeed found{i, limits_of(q, n_rpm, stop), {}};
+      if (q.bands) {
+        leave_if(stop);
+        found.uncertain =
+            uncertain_limit(q.system, systems, *q.bands, n_rpm, *q.ap_max_mm);
+      }
+      return found;
+    });
+    if (speed) out.speeds.push_back(std::move(*speed));
+    one_done();
+  }
+  std::ranges::sort(out.speeds, {}, &ChartSpeed::index);
+  if (!out.speeds.empty()) {
+    find_best(q, out);
+    find_magic(q, out);
+  }
+  for (std::size_t i = 0; i < q.points.size(); ++i) {
+    if (auto point =
+            points.at(i, q.points[i], [&] { return judged(q, q.points[i], stop); }))
+      out.points.push_back(std::move(*point));
+    one_done();
+  }
+  out.undecided_speeds = speeds.undecided();
+  out.undecided_points = points.undecided();
+  return out;
+}
+
+double absolute_limit_mm(const System& system) {
+  const Mode& m = system.modes.front();
+  return 2 * m.k_N_mm * m.zeta * (1 + m.zeta) /
+         std::get<ConstantForce>(system.force).K_MPa;
+}
+
+}  // namespace turnwright::chatter
