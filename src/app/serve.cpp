@@ -7,8 +7,8 @@
 
 #include "options.hpp"
 #include "service/batch/folder.hpp"
-#include "service/http/log.hpp"
 #include "service/http/server.hpp"
+#include "service/log.hpp"
 #include "service/output.hpp"
 #include "turnwright/document/catalogue.hpp"
 

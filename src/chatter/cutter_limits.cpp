@@ -1,3 +1,5 @@
+#include "turnwright/chatter/cutter_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +12,6 @@
 #include "turning.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/chatter/cutter_limits.hpp"
 
 namespace turnwright::chatter {
 namespace {

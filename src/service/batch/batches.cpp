@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "line.hpp"
-#include "service/http/log.hpp"
+#include "service/log.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {

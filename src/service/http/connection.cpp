@@ -6,9 +6,10 @@
 #include <ctime>
 #include <optional>
 
+#include "call_log.hpp"
 #include "host.hpp"
 #include "keys.hpp"
-#include "log.hpp"
+#include "service/log.hpp"
 #include "state.hpp"
 #include "target.hpp"
 #include "turnwright/base/cancelled.hpp"

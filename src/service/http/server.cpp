@@ -6,7 +6,6 @@
 #include <random>
 #include <thread>
 
-#include "log.hpp"
 #include "state.hpp"
 
 namespace turnwright::service {

@@ -1,8 +1,8 @@
+#include "report/page/stability_html.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
-
-#include "report/page/stability_html.hpp"
 
 namespace turnwright::report {
 namespace {

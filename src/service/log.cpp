@@ -3,8 +3,6 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <nlohmann/json.hpp>
-
 namespace turnwright::service {
 namespace {
 
@@ -26,22 +24,11 @@ void start_log() {
   spdlog::set_default_logger(std::move(logger));
 }
 
-void log_call(const Call& call, int status, std::size_t bytes, double seconds) {
-  spdlog::info(members({{"event", "call"},
-                        {"id", call.request_id},
-                        {"method", call.method},
-                        {"target", call.target.substr(0, 200)},
-                        {"status", status},
-                        {"bytes", bytes},
-                        {"ms", 1e3 * seconds}}));
-}
+void log_info(const ordered_json& object) { spdlog::info(members(object)); }
+void log_error(const ordered_json& object) { spdlog::error(members(object)); }
 
 void log_event(const std::string& event, const std::string& detail) {
-  spdlog::info(members({{"event", event}, {"detail", detail}}));
-}
-
-void log_fault(const Call& call, const std::string& what) {
-  spdlog::error(members({{"event", "fault"}, {"id", call.request_id}, {"what", what}}));
+  log_info({{"event", event}, {"detail", detail}});
 }
 
 }  // namespace turnwright::service

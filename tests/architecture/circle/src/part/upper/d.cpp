@@ -1,0 +1,1 @@
+#include "part/lower/e.hpp"
