@@ -10,6 +10,7 @@
 #include "service/http/server.hpp"
 #include "service/log.hpp"
 #include "service/output.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 namespace turnwright::app {

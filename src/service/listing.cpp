@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "document/json/file.hpp"
+#include "document/json/reader.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {
 namespace {

@@ -1,6 +1,7 @@
 // Schemas and readers describe the same documents.
 #include <gtest/gtest.h>
 
+#include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
 #include "schema_check.hpp"
 #include "slips.hpp"

@@ -1,5 +1,6 @@
 #include <cstdlib>
 
+#include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 // TURNWRIGHT_DATA_FROM_BIN (install's data folder as seen from its executables) and

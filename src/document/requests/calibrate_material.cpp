@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"

@@ -7,6 +7,7 @@
 #include "line.hpp"
 #include "service/log.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {
 namespace {

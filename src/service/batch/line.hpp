@@ -4,6 +4,7 @@
 #include <string>
 
 #include "service/requests.hpp"
+#include "turnwright/base/errors.hpp"
 
 /// One line of a batch: {"name": "plan", "document": {..}}.
 namespace turnwright::service {
