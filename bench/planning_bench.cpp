@@ -13,7 +13,7 @@
 #include "document/json/file.hpp"
 #include "planning/attempt.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace {
@@ -21,18 +21,18 @@ namespace {
 using namespace turnwright;
 using namespace turnwright::planning;
 
-PartPlan reference_part(const std::string& name) {
+PreparedPart reference_part(const std::string& name) {
   const std::string root = TURNWRIGHT_SOURCE_DIR;
   static const auto catalogue = document::load_catalogue(root);
-  return document::load_part_plan(document::parse_file(root + "/parts/" + name + ".json"),
-                                  catalogue, name)
-      .plan;
+  return document::prepared_part(document::parse_file(root + "/parts/" + name + ".json"),
+                                 catalogue, name)
+      .part;
 }
 
 using optimise::Problem;
 using Vec = std::vector<double>;
 
-void plan_of(benchmark::State& state, PartPlan part) {
+void plan_of(benchmark::State& state, PreparedPart part) {
   std::size_t operations = 0;
   long nodes = 0;
   for (auto _ : state) {
@@ -46,7 +46,7 @@ void plan_of(benchmark::State& state, PartPlan part) {
 }
 
 // Eleven operations, every setup in the chuck, with a tailstock or between centres.
-PartPlan three_clampings() {
+PreparedPart three_clampings() {
   auto part = reference_part("pump-shaft");
   for (auto& s : part.setups)
     s.clampings = {Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres};
@@ -55,8 +55,9 @@ PartPlan three_clampings() {
 
 // A seat of the gearbox shaft's first setup, two roughing passes and a finishing pass,
 // sizes asked at three places.
-RecipeModel seat(const PartPlan& part, std::size_t element, std::optional<double> ap) {
-  const auto work = assign(part);
+RecipeModel seat(const PreparedPart& part, std::size_t element,
+                 std::optional<double> ap) {
+  const auto& work = part.work;
   Fixed fixed;
   fixed.finish.ap_mm = ap;
   const auto feature = Feature::element(part, 0, Clamping::chuck, work.setups[0],
@@ -77,7 +78,7 @@ RecipeModel seat(const PartPlan& part, std::size_t element, std::optional<double
 // feed of roughing and finishing of both, 8 variables, the sum of both costs.
 class TwoSeats {
  public:
-  explicit TwoSeats(const PartPlan& part)
+  explicit TwoSeats(const PreparedPart& part)
       : seats_{seat(part, 4, 0.5), seat(part, 3, 0.5)} {
     std::size_t rows = 0;
     for (const auto& m : seats_) {
@@ -257,14 +258,14 @@ void certified(benchmark::State& state, const RecipeModel& model) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto add_plan = [](const std::string& name, const PartPlan& part) {
+  const auto add_plan = [](const std::string& name, const PreparedPart& part) {
     benchmark::RegisterBenchmark(("plan/" + name).c_str(), [part](benchmark::State& s) {
       plan_of(s, part);
     })->Unit(benchmark::kMillisecond);
   };
   const auto part = three_clampings();
   add_plan("three-clampings", part);
-  const auto chosen = best_attempt(part, assign(part));
+  const auto chosen = best_attempt(part);
   with_rivals("three-clampings", surfaces(chosen));
   for (const char* name :
        {"gearbox-input-shaft", "piston-rod", "spindle-nose", "infeasible-as-drawn"})

@@ -169,7 +169,7 @@ std::vector<std::vector<Step>> stops(const Site& site) {
 // Numbers of the plan's tools, drills and blades of each size, in their order of use.
 class Numbers {
  public:
-  explicit Numbers(const planning::PartPlan& part) : part_(part) {}
+  explicit Numbers(const planning::PreparedPart& part) : part_(part) {}
   TableTool tool(const Site& site, const OperationPlan& o) {
     TableTool t{0, o.tool, corner_mm(site, o), 3};
     if (o.kind == OperationKind::fixed) {
@@ -188,7 +188,7 @@ class Numbers {
   }
 
  private:
-  const planning::PartPlan& part_;
+  const planning::PreparedPart& part_;
   std::vector<std::string> ids_;
 };
 
@@ -264,7 +264,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
 
 }  // namespace
 
-Programs programs(const planning::PartPlan& part, const planning::ProcessPlan& plan) {
+Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan) {
   Programs all;
   if (plan.status != planning::PlanStatus::ok) return all;
   Numbers numbers(part);

@@ -16,7 +16,7 @@ double Side::highest(double from_z, double to_z) const {
   return h;
 }
 
-Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
+Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& plan_,
            std::size_t setup_)
     : part(part_),
       plan(plan_),
@@ -29,7 +29,7 @@ Site::Site(const planning::PartPlan& part_, const planning::ProcessPlan& plan_,
   for (const auto& t : part.tools) r_most = std::max(r_most, t.re_mm);
   outer = {1, stock.outer_mm / 2, {}};
   inner = {-1, -stock.inner_mm / 2, {}};
-  const auto work = planning::assign(part).setups;
+  const auto& work = part.work.setups;
   auto finished = planning::nothing_finished(part.drawing);
   bool faced = false;
   for (std::size_t k = 0; k < setup; ++k) {

@@ -44,10 +44,10 @@ struct Side {
 
 class Site {
  public:
-  Site(const planning::PartPlan& part, const planning::ProcessPlan& plan,
+  Site(const planning::PreparedPart& part, const planning::ProcessPlan& plan,
        std::size_t setup);
 
-  const planning::PartPlan& part;
+  const planning::PreparedPart& part;
   const planning::ProcessPlan& plan;
   std::size_t setup;
   planning::Clamping clamping;

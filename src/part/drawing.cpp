@@ -67,8 +67,14 @@ double inner_left_z_mm(const Drawing& drawing, std::size_t i) {
   return length_mm(drawing) - depth - drawing.inner[i].length_mm;
 }
 
-double hole_mm(const Drawing& d, std::size_t i) {
-  return std::max(d.stock.inner_mm, d.inner.at(i).drilled_mm);
+double largest_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
+  double most = d.stock.inner_mm;
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z0 = inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    if (z0 < z1_mm && z1 > z0_mm)
+      most = std::max({most, d.inner[i].left_mm, d.inner[i].right_mm});
+  }
+  return most;
 }
 
 bool has_cut(const Drawing& d, const std::string& id) {

@@ -48,14 +48,15 @@ bool sees_eccentricity(ToleranceKind kind) {
 }
 
 // How far a radius error moves a size, or a face's error a length.
-double sensitivity(const PartPlan& p, const Tolerance& t) {
+double sensitivity(const PreparedPart& p, const Tolerance& t) {
   if (t.kind == ToleranceKind::diameter) return 2;
   if (t.kind == ToleranceKind::length) return 1;
   return std::cos(half_angle_rad(p.drawing, t.of).value_or(0));
 }
 
 // From the jaws to where an element begins; 0 where it reaches between them.
-double beyond_jaws_mm(const PartPlan& p, const std::string& surface, const Making& m) {
+double beyond_jaws_mm(const PreparedPart& p, const std::string& surface,
+                      const Making& m) {
   const auto at = part::extent(p.drawing, surface);
   if (!at) return 0;
   const double jaws = root_z_mm(p, m.setup, m.clamping);
@@ -64,7 +65,7 @@ double beyond_jaws_mm(const PartPlan& p, const std::string& surface, const Makin
 }
 
 // Half of what a warm part is too small by once it is cold, on one side of a size.
-double heat_um(const PartPlan& p, const Tolerance& t) {
+double heat_um(const PreparedPart& p, const Tolerance& t) {
   const auto& d = p.drawing;
   const double alpha = p.material.expansion_1_K, dT = p.shop.part_warm_K;
   if (t.kind == ToleranceKind::length) {
@@ -76,7 +77,7 @@ double heat_um(const PartPlan& p, const Tolerance& t) {
   return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
 }
 
-bool cuts_face(const PartPlan& p, std::size_t setup, const SetupWork& work,
+bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
                const std::string& face) {
   if (work.end_face && face == free_face(p, setup)) return true;
   return std::any_of(work.shoulders.begin(), work.shoulders.end(),
@@ -89,9 +90,9 @@ struct Together {
   bool setup = false;  ///< both: the same drift
   bool tool = false;   ///< the same wear too
 };
-Together together(const PartPlan& p, const Tolerance& t, std::size_t setup) {
+Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) {
   if (t.kind != ToleranceKind::length) return {};
-  const auto work = assign(p).setups[setup];
+  const auto& work = p.work.setups[setup];
   Together both;
   both.setup =
       cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
@@ -100,7 +101,7 @@ Together together(const PartPlan& p, const Tolerance& t, std::size_t setup) {
   return both;
 }
 
-double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
+double wear_um(const PreparedPart& p, const catalogue::Tool& tool) {
   const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
                               units::rad_from_deg(tool.gamma_deg)};
   return units::um_from_mm(deflection::wear_error_mm(p.shop.wear_land_mm, edge,
@@ -108,13 +109,14 @@ double wear_um(const PartPlan& p, const catalogue::Tool& tool) {
          2;
 }
 
-bool datum_elsewhere(const PartPlan& p, const Tolerance& t, const Making& making) {
-  return !t.datum.empty() && setup_of(p, assign(p), t.datum) != making.setup;
+bool datum_elsewhere(const PreparedPart& p, const Tolerance& t, const Making& making) {
+  return !t.datum.empty() && setup_of(p, t.datum) != making.setup;
 }
 
 // Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
 // by the tube beside it, 1/2 lambda wide at its end.
-double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
+double squeeze_um(const PreparedPart& p, const Tolerance& t, const Making& m,
+                  double force_N) {
   const double outer = grip_diameter_mm(p, m.setup, m.clamping);
   const double inner = gripped_bore_mm(p, m.setup);
   if (!(outer > 0 && inner > 0) || !sees_lobes(t.kind)) return 0;
@@ -123,7 +125,7 @@ double squeeze_um(const PartPlan& p, const Tolerance& t, const Making& m) {
   const double width = std::max(p.setups[m.setup].grip_mm, 1 / (2 * decay));
   const auto ring = deflection::with_shear(
       {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
-  const double F = jaw_force_N(p, m.setup, m.clamping, Stage::finishing) / kJaws;
+  const double F = force_N / kJaws;
   const double lobes = t.kind == ToleranceKind::profile
                            ? 2 * deflection::squeeze_mm(ring, kJaws, F, 0)
                            : deflection::lobing_mm(ring, kJaws, F);
@@ -143,19 +145,17 @@ double largest(double most, const Suffices& suffices) {
   return low;
 }
 
-double gentle_grip_N(const PartPlan& p, std::size_t setup) {
+double gentle_grip_N(const PreparedPart& p, std::size_t setup, double most) {
   constexpr double kOfZone = 0.25, kLeast = 0.05;
-  const double most = jaw_force_N(p, setup, Clamping::chuck, Stage::roughing);
   const auto& clampings = p.setups[setup].clampings;
   const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
     return c != Clamping::between_centres;
   });
   if (jaws == clampings.end() || !(gripped_bore_mm(p, setup) > 0)) return most;
-  const auto work = assign(p);
   double share = 1;
   for (const auto& t : p.drawing.tolerances) {
-    if (setup_of(p, work, t.of) != setup) continue;
-    const double um = squeeze_um(p, t, {setup, *jaws, nullptr});
+    if (setup_of(p, t.of) != setup) continue;
+    const double um = squeeze_um(p, t, {setup, *jaws, nullptr}, most);
     share =
         std::min(share, kOfZone * units::um_from_mm(width_mm(t)) / std::max(um, 1e-9));
   }
@@ -164,7 +164,7 @@ double gentle_grip_N(const PartPlan& p, std::size_t setup) {
 
 }  // namespace
 
-Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& making) {
+Allowance allowance(const PreparedPart& p, std::size_t tolerance, const Making& making) {
   const Tolerance& t = p.drawing.tolerances[tolerance];
   const auto& shop = p.shop;
   Allowance a;
@@ -179,7 +179,9 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
     if (um > 0) a.spread.push_back({source, d, um, s});
   };
   spread(kMachine, Distribution::normal, machine.u_um / a.ends, 1);
-  fixed("jaw-squeeze", squeeze_um(p, t, making));
+  fixed("jaw-squeeze",
+        squeeze_um(p, t, making,
+                   jaw_force_N(p, making.setup, making.clamping, Stage::finishing)));
   fixed(kMeasurement, (size ? 2 : 1) * shop.measurement_U_um);
   if (size) {
     const double s = sensitivity(p, t);
@@ -198,16 +200,18 @@ Allowance allowance(const PartPlan& p, std::size_t tolerance, const Making& maki
   return a;
 }
 
-void ease_jaws(PartPlan& p) {
+std::vector<JawForces> jaw_forces(const PreparedPart& p) {
+  std::vector<JawForces> all;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    auto& setup = p.setups[s];
-    if (setup.finishing_grip_force_N && !setup.eased_by_rule) continue;
-    setup.finishing_grip_force_N.reset();
-    const double force = gentle_grip_N(p, s);
-    setup.eased_by_rule =
-        force < setup.grip_force_N.value_or(p.machine.chuck.grip_force_N);
-    if (setup.eased_by_rule) setup.finishing_grip_force_N = force;
+    const auto& setup = p.setups[s];
+    JawForces jaws{setup.grip_force_N.value_or(p.machine.chuck.grip_force_N)};
+    jaws.finishing_N = setup.finishing_grip_force_N
+                           ? *setup.finishing_grip_force_N
+                           : gentle_grip_N(p, s, jaws.roughing_N);
+    jaws.eased = !setup.finishing_grip_force_N && jaws.finishing_N < jaws.roughing_N;
+    all.push_back(jaws);
   }
+  return all;
 }
 
 double taken_mm(const Allowance& a) {
@@ -216,7 +220,7 @@ double taken_mm(const Allowance& a) {
   return units::mm_from_um(um);
 }
 
-double force_spread(const PartPlan& p) {
+double force_spread(const PreparedPart& p) {
   return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
          100;
 }
@@ -228,7 +232,8 @@ double fixed_in_parts_um(const Allowance& a) {
   return um;
 }
 
-double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a, Cut cut) {
+double left_mm(const PreparedPart& p, std::size_t tolerance, const Allowance& a,
+               Cut cut) {
   const bool corrected = cut == Cut::corrected;
   const double width = width_mm(p.drawing.tolerances[tolerance]);
   if (!p.robust) return std::max(0.0, width - taken_mm(a));
@@ -236,7 +241,7 @@ double left_mm(const PartPlan& p, std::size_t tolerance, const Allowance& a, Cut
   if (!(h > 0)) return 0;
   const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
   const double r = cut == Cut::none ? 0 : force_spread(p);
-  const auto end = p.other_ends.find(tolerance);
+  const auto end = p.other_ends.find(p.drawing.tolerances[tolerance].id);
   const bool one_sided = a.ends == 1 || (!corrected && end == p.other_ends.end());
   const tolerance::Spread spread(a.spread);
   const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
@@ -274,7 +279,7 @@ void widen(part::Tolerance& t, double times) {
   t.limits = part::Limits{middle - half, middle + half};
 }
 
-double faces_cut(const PartPlan& p, const Tolerance& t) {
+double faces_cut(const PreparedPart& p, const Tolerance& t) {
   return static_cast<double>(face_is_cut(p, t.between[0])) +
          static_cast<double>(face_is_cut(p, t.between[1]));
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/tolerance/budget.hpp"
 
@@ -52,7 +52,8 @@ struct Allowance {
   std::vector<tolerance::Source> spread;  ///< of one end, sensitivities included
   double ends = 1;  ///< of the width: 1 of a zone, 2 of a size, for each face of a length
 };
-Allowance allowance(const PartPlan& plan, std::size_t tolerance, const Making& making);
+Allowance allowance(const PreparedPart& plan, std::size_t tolerance,
+                    const Making& making);
 
 /// Of the width, by all of it: what is fixed, and at each end the root of the sum of
 /// squares of the spread, (3) of tolerance/budget.hpp [mm].
@@ -62,7 +63,7 @@ double taken_mm(const Allowance& allowance);
 double fixed_in_parts_um(const Allowance& allowance);
 
 /// Relative standard deviation of what the cut leaves: of forces and of stiffness.
-double force_spread(const PartPlan& plan);
+double force_spread(const PreparedPart& plan);
 
 /// What the cut has to do with a tolerance: nothing, an error, or one that its path is
 /// corrected for.
@@ -90,8 +91,8 @@ enum class Cut { none, error, corrected };
 /// Source: derived here; the left sides fall as E grows.
 /// @param cut without effect on a plan that is not robust.
 /// @return ends E [mm].
-double left_mm(const PartPlan& plan, std::size_t tolerance, const Allowance& allowance,
-               Cut cut);
+double left_mm(const PreparedPart& plan, std::size_t tolerance,
+               const Allowance& allowance, Cut cut);
 
 /// What each source takes of the width on its own, a spread by its reach; both faces of a
 /// length together.
@@ -104,6 +105,6 @@ double width_mm(const part::Tolerance& tolerance);
 void widen(part::Tolerance& tolerance, double times);
 
 /// Faces of a `length` that this plan cuts: they share what the tolerance leaves.
-double faces_cut(const PartPlan& plan, const part::Tolerance& tolerance);
+double faces_cut(const PreparedPart& plan, const part::Tolerance& tolerance);
 
 }  // namespace turnwright::planning

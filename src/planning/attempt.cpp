@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyondRounding = 1e-6;
 
 // What a setup takes, in the terms of the objective.
-std::string takes(const PartPlan& p, const Totals& t) {
+std::string takes(const PreparedPart& p, const Totals& t) {
   if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.minutes);
   if (p.objective == Objective::profit)
     return fmt::format("{:.4f} in {:.4f} min", t.cost, t.minutes);
@@ -24,7 +24,7 @@ std::string takes(const PartPlan& p, const Totals& t) {
 }
 
 // Why a clamping loses to the best one.
-RejectedClamping rejection(const PartPlan& p, const SolvedSetup& s,
+RejectedClamping rejection(const PreparedPart& p, const SolvedSetup& s,
                            const SolvedSetup& best) {
   const char* verb = p.objective == Objective::time ? "takes" : "costs";
   const auto least = takes(p, totals(p, best));
@@ -57,8 +57,9 @@ std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
 // The stiffer clampings first: what a slender part could do in the chuck alone then has a
 // cost to beat, which is quicker to refute than that it can be made at all.
 // Compensation is proposed only where no clamping does without.
-Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWork& work,
-                             const Finished& done, Economy economy) {
+Comparison compare_clampings(const PreparedPart& p, std::size_t setup,
+                             const SetupWork& work, const Finished& done,
+                             Economy economy) {
   Comparison result;
   SharedMemory shared;
   std::vector<SetupPlanner> planners;
@@ -99,7 +100,7 @@ Comparison compare_clampings(const PartPlan& p, std::size_t setup, const SetupWo
   return result;
 }
 
-Economy economy_of(const PartPlan& p, double profit_rate) {
+Economy economy_of(const PreparedPart& p, double profit_rate) {
   switch (p.objective) {
     case Objective::cost:
       return {p.machine_per_min, 1};
@@ -113,14 +114,14 @@ Economy economy_of(const PartPlan& p, double profit_rate) {
 
 }  // namespace
 
-Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
+Attempt attempt(const PreparedPart& p, Economy economy) {
   Attempt a;
   auto done = nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    a.setups.push_back(compare_clampings(p, s, work.setups[s], done, economy));
+    a.setups.push_back(compare_clampings(p, s, p.work.setups[s], done, economy));
     const auto& c = a.setups.back();
     a.feasible = a.feasible && c.solved && c.chosen.feasible();
-    finish(done, work.setups[s]);
+    finish(done, p.work.setups[s]);
     if (!c.solved) a.lower_bound = kInfinity;
     if (!c.solved) continue;
     const auto t = totals(p, c.chosen);
@@ -135,15 +136,15 @@ Attempt attempt(const PartPlan& p, const Assignment& work, Economy economy) {
 // Dinkelbach: the profit rate R is best when min C + R t equals the price; each step
 // takes the R of the plan before, which rises until the certificates' gap hides what is
 // left.  A part that earns nothing at least cost is made at least cost.
-Attempt best_attempt(const PartPlan& p, const Assignment& work) {
+Attempt best_attempt(const PreparedPart& p) {
   constexpr double kRises = 1e-6;
-  auto best = attempt(p, work, economy_of(p, 0));
+  auto best = attempt(p, economy_of(p, 0));
   if (p.objective != Objective::profit) return best;
   const auto rate = [&](const Attempt& a) {
     return (*p.price - a.total.cost) / a.total.minutes;
   };
   while (best.feasible && rate(best) > 0) {
-    auto next = attempt(p, work, economy_of(p, rate(best)));
+    auto next = attempt(p, economy_of(p, rate(best)));
     if (!next.feasible || !(rate(next) > rate(best) * (1 + kRises))) {
       next.lower_bound = std::min(next.lower_bound, next.objective);
       best.objective = best.total.cost + rate(best) * best.total.minutes;

@@ -22,14 +22,14 @@ struct Attempt {
 };
 
 /// At a given worth of a minute and an edge.
-Attempt attempt(const PartPlan& plan, const Assignment& work, Economy economy);
+Attempt attempt(const PreparedPart& part, Economy economy);
 
 /// For the plan's own objective.
-Attempt best_attempt(const PartPlan& plan, const Assignment& work);
+Attempt best_attempt(const PreparedPart& part);
 
 /// Of a plan that cannot be made: its conflicting sets of limits (conflict_sets.hpp) over
 /// every recipe, how far each member would have to open for the others to be kept, and
 /// what no limit decides.
-void explain(const PartPlan& plan, const Attempt& attempt, ProcessPlan& result);
+void explain(const PreparedPart& plan, const Attempt& attempt, ProcessPlan& result);
 
 }  // namespace turnwright::planning

@@ -6,7 +6,7 @@
 
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/cutting/spindle.hpp"
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 
 /// The operations that make one feature - roughing passes and finishing passes of an
 /// element, or the passes over a face - as functions of their conditions, over any

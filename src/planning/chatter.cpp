@@ -13,7 +13,7 @@ constexpr double kNearWorst = 0.9;  // of the largest: may be it at another dept
 constexpr int kParts = 4;           // of the ranges of depth and feed
 
 // What divides a static compliance to give that of regeneration, at any speed.
-double damped(const PartPlan& p, double zeta) {
+double damped(const PreparedPart& p, double zeta) {
   return 2 * zeta * (1 + zeta) * p.chatter_times;
 }
 

@@ -16,7 +16,7 @@ const SolvedFeature* feature_of(const Attempt& a, const std::string& surface) {
 }
 
 // "setup 0, chuck or chuck-tailstock, d2"
-std::string where(const PartPlan& p, const Attempt& a, const std::string& surface) {
+std::string where(const PreparedPart& p, const Attempt& a, const std::string& surface) {
   const auto* f = feature_of(a, surface);
   if (!f) return surface;
   const auto setup = f->task.making.setup;
@@ -27,7 +27,7 @@ std::string where(const PartPlan& p, const Attempt& a, const std::string& surfac
 }
 
 // Of a limit: its own surface, or the first that is in trouble and has to keep it.
-std::string surface_of(const PartPlan& p, const Openable& l,
+std::string surface_of(const PreparedPart& p, const Openable& l,
                        const std::set<std::string>& troubled) {
   if (!l.surface.empty()) return l.surface;
   for (const auto& surface : troubled)
@@ -35,8 +35,8 @@ std::string surface_of(const PartPlan& p, const Openable& l,
   return {};
 }
 
-std::string joined_names(const PartPlan& p, const Feasibility& part, const LimitSet& set,
-                         std::size_t but) {
+std::string joined_names(const PreparedPart& p, const Feasibility& part,
+                         const LimitSet& set, std::size_t but) {
   std::string out;
   for (const std::size_t i : set) {
     if (i == but) continue;
@@ -55,7 +55,7 @@ struct Need {
 
 class Explanation {
  public:
-  Explanation(const PartPlan& p, const Attempt& a) : p_(p), a_(a), part_(p) {
+  Explanation(const PreparedPart& p, const Attempt& a) : p_(p), a_(a), part_(p) {
     sets_ = conflicting_sets(part_);
     for (const auto& set : sets_) members_.insert(members_.end(), set.begin(), set.end());
     part_.with(Openings(part_.limits().size(), 1));
@@ -200,7 +200,7 @@ class Explanation {
     return r;
   }
 
-  const PartPlan& p_;
+  const PreparedPart& p_;
   const Attempt& a_;
   Feasibility part_;
   std::vector<LimitSet> sets_;
@@ -211,7 +211,7 @@ class Explanation {
 
 }  // namespace
 
-void explain(const PartPlan& plan, const Attempt& attempt, ProcessPlan& result) {
+void explain(const PreparedPart& plan, const Attempt& attempt, ProcessPlan& result) {
   Explanation(plan, attempt).tell(result);
 }
 

@@ -15,7 +15,7 @@ double middle_mm(const Tolerance& t) {
   return t.limits ? (t.limits->upper_mm + t.limits->lower_mm) / 2 : 0;
 }
 
-Demand demand(const PartPlan& p, std::size_t index, std::optional<double> half_angle,
+Demand demand(const PreparedPart& p, std::size_t index, std::optional<double> half_angle,
               Offset offset, const Making& making) {
   const Tolerance& t = p.drawing.tolerances[index];
   const bool free = offset == Offset::free;
@@ -78,14 +78,14 @@ std::optional<double> half_angle_rad(const part::Drawing& d, const std::string& 
   return std::atan2(std::abs(at->right_mm - at->left_mm) / 2, at->z1_mm - at->z0_mm);
 }
 
-bool face_is_cut(const PartPlan& p, const std::string& face) {
+bool face_is_cut(const PreparedPart& p, const std::string& face) {
   if (face == "left") return face_stock_mm(p, part::End::left) > 1e-9;
   if (face == "right") return face_stock_mm(p, part::End::right) > 1e-9;
   return true;
 }
 
-std::vector<Demand> demands(const PartPlan& p, const std::string& surface, Offset offset,
-                            const Making& making) {
+std::vector<Demand> demands(const PreparedPart& p, const std::string& surface,
+                            Offset offset, const Making& making) {
   std::vector<Demand> all;
   const auto half_angle = half_angle_rad(p.drawing, surface);
   const auto& tolerances = p.drawing.tolerances;

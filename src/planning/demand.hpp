@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "allowance.hpp"
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/tolerance/acceptance.hpp"
 
 /// What the drawing's tolerances ask of the error e of one surface.
@@ -35,7 +35,7 @@ enum class Offset { none, free };
 ///     others        as tolerance::verdict's (4) to (8)
 ///
 /// A width that is used up gives upper = 0, which nothing can keep.
-std::vector<Demand> demands(const PartPlan& plan, const std::string& surface,
+std::vector<Demand> demands(const PreparedPart& plan, const std::string& surface,
                             Offset offset, const Making& making);
 
 /// The first of some demands that what is no matter of the cut has used up, or nothing.
@@ -47,6 +47,6 @@ std::optional<double> half_angle_rad(const part::Drawing& drawing,
 
 /// True if an operation of this plan makes the face (its end has stock, or it is a
 /// shoulder).
-bool face_is_cut(const PartPlan& plan, const std::string& face);
+bool face_is_cut(const PreparedPart& plan, const std::string& face);
 
 }  // namespace turnwright::planning

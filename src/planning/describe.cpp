@@ -81,7 +81,7 @@ void merge(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
 }
 
 // A tolerance as constraint: what the whole surface shows against what the cut may use.
-ConstraintValue tolerance_constraint(const PartPlan& plan, const Demand& d,
+ConstraintValue tolerance_constraint(const PreparedPart& plan, const Demand& d,
                                      const tolerance::PiecewisePolynomial& e,
                                      double price) {
   ConstraintValue c;
@@ -162,7 +162,7 @@ CheckName check_name(Check check) {
   return {"", "", true};
 }
 
-std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row) {
+std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& row) {
   if (row.check == Check::spindle_max && chain.operations[row.operation].n_cap_of_grip)
     return "spindle speed that leaves a third of the grip";
   if (row.check != Check::tolerance) return check_name(row.check).name;
@@ -170,7 +170,7 @@ std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row) {
   return t.id + " " + part::name(t.kind);
 }
 
-ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
+ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& r) {
   const auto n = check_name(r.row.check);
   ConstraintValue c;
@@ -221,7 +221,7 @@ Spent spent(const FeatureAnswer& answer) {
   return s;
 }
 
-std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
+std::vector<OperationPlan> describe(const PreparedPart& plan, std::size_t setup,
                                     const SolvedFeature& solved, const Rates& rates) {
   const auto& a = solved.answer;
   const Chosen x{a.model->chain(), a.choice, forces(a.model->chain(), a.choice)};

@@ -29,14 +29,14 @@ struct Rates {
 };
 
 /// One plan entry per operation of the feature.
-std::vector<OperationPlan> describe(const PartPlan& plan, std::size_t setup,
+std::vector<OperationPlan> describe(const PreparedPart& plan, std::size_t setup,
                                     const SolvedFeature& solved, const Rates& rates);
 
 /// "t1 cylindricity" for a tolerance row, else the check's name.
-std::string row_name(const PartPlan& plan, const Chain& chain, const Row& row);
+std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& row);
 
 /// A row at a choice in its own unit, with its name.
-ConstraintValue constraint(const PartPlan& plan, const Chain& chain,
+ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& row);
 
 /// A value against its limit; the margin is in ln.

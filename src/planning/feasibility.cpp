@@ -31,7 +31,8 @@ bool as_open(const std::vector<double>& these, const std::vector<double>& others
 
 }  // namespace
 
-Feasibility::Feasibility(const PartPlan& plan) : plan_(plan), limits_(limits_of(plan)) {}
+Feasibility::Feasibility(const PreparedPart& plan)
+    : plan_(plan), limits_(limits_of(plan)) {}
 
 std::vector<double> Feasibility::state(const Openings& times,
                                        const std::string& surface) const {
@@ -41,8 +42,8 @@ std::vector<double> Feasibility::state(const Openings& times,
   return of_surface;
 }
 
-bool Feasibility::made(const PartPlan& p, const FeatureTask& task, const Openings& times,
-                       const Found& found) {
+bool Feasibility::made(const PreparedPart& p, const FeatureTask& task,
+                       const Openings& times, const Found& found) {
   const auto& surface = task.feature.surface();
   if (left_out_.count(surface)) return true;
   const auto [rough, finish] = tools_of(task);
@@ -61,7 +62,7 @@ bool Feasibility::made(const PartPlan& p, const FeatureTask& task, const Opening
   return answer.feasible;
 }
 
-bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& work,
+bool Feasibility::setup_made(const PreparedPart& p, std::size_t s, const SetupWork& work,
                              const Finished& done, const Openings& times,
                              const Found& found) {
   bool any_clamping = false;
@@ -85,14 +86,13 @@ bool Feasibility::setup_made(const PartPlan& p, std::size_t s, const SetupWork& 
 }
 
 bool Feasibility::with(const Openings& times, const Found& found) {
-  const auto p = opened(plan_, limits_, times);
-  const auto work = assign(p);
+  const auto p = prepare(opened(plan_, limits_, times), plan_);
   auto done = nothing_finished(p.drawing);
   bool all = true;
   failed_.clear();
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    all = setup_made(p, s, work.setups[s], done, times, found) && all;
-    finish(done, work.setups[s]);
+    all = setup_made(p, s, p.work.setups[s], done, times, found) && all;
+    finish(done, p.work.setups[s]);
   }
   return all;
 }

@@ -20,9 +20,9 @@ class Feasibility {
   /// Called with the task and the answer of a surface that can be made.
   using Found = std::function<void(const FeatureTask&, const FeatureAnswer&)>;
 
-  explicit Feasibility(const PartPlan& plan);
+  explicit Feasibility(const PreparedPart& plan);
 
-  const PartPlan& plan() const { return plan_; }
+  const PreparedPart& plan() const { return plan_; }
   const std::vector<Openable>& limits() const { return limits_; }
 
   /// With the limits opened: true if conditions were found that keep all of them, the
@@ -39,9 +39,9 @@ class Feasibility {
 
  private:
   std::vector<double> state(const Openings& times, const std::string& surface) const;
-  bool made(const PartPlan& plan, const FeatureTask& task, const Openings& times,
+  bool made(const PreparedPart& plan, const FeatureTask& task, const Openings& times,
             const Found& found);
-  bool setup_made(const PartPlan& plan, std::size_t setup, const SetupWork& work,
+  bool setup_made(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
                   const Finished& done, const Openings& times, const Found& found);
 
   // Setup, clamping and the jaws' force at finishing, surface, its tools.
@@ -53,7 +53,7 @@ class Feasibility {
     bool made;
   };
 
-  const PartPlan& plan_;
+  const PreparedPart& plan_;
   std::vector<Openable> limits_;
   std::map<Key, std::vector<Tried>> tried_;
   std::set<std::string> failed_, left_out_;

@@ -57,7 +57,7 @@ std::size_t place_of(const std::vector<std::size_t>& elements, std::size_t index
 
 // Of everything that bends, by the thrust on the body as the setup leaves it, its most
 // slender one.
-double amplification(const PartPlan& p, Clamping clamping, const SetupBody& body) {
+double amplification(const PreparedPart& p, Clamping clamping, const SetupBody& body) {
   const double P = p.machine.tail_thrust_N;
   if (!has_tailstock(clamping) || !(P > 0)) return 1;
   return deflection::thrust_amplification(
@@ -68,7 +68,7 @@ catalogue::Range overlap(const catalogue::Range& a, const catalogue::Range& b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
-const part::Face* find_face(const PartPlan& p, const std::string& id) {
+const part::Face* find_face(const PreparedPart& p, const std::string& id) {
   for (const auto& f : p.drawing.faces)
     if (f.id == id) return &f;
   return nullptr;
@@ -76,13 +76,13 @@ const part::Face* find_face(const PartPlan& p, const std::string& id) {
 
 }  // namespace
 
-double clamping_rpm(const PartPlan& p, Clamping clamping) {
+double clamping_rpm(const PreparedPart& p, Clamping clamping) {
   const auto& m = p.machine;
   if (clamping == Clamping::between_centres) return m.n_max_rpm;
   return std::min(m.n_max_rpm, m.chuck.n_max_rpm);
 }
 
-double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
+double grip_loss_rpm(const PreparedPart& p, Clamping clamping, double force_N) {
   const auto& c = p.machine.chuck;
   if (clamping == Clamping::between_centres || !(c.jaw_mass_radius_kg_m > 0))
     return std::numeric_limits<double>::infinity();
@@ -90,8 +90,8 @@ double grip_loss_rpm(const PartPlan& p, Clamping clamping, double force_N) {
          units::kPi;
 }
 
-Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
-                 std::string surface, const Fixed& fixed)
+Feature::Feature(const PreparedPart& plan, std::size_t setup, Clamping clamping,
+                 Kind kind, std::string surface, const Fixed& fixed)
     : plan_(&plan),
       setup_(setup),
       clamping_(clamping),
@@ -104,7 +104,7 @@ Feature::Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kin
   }
 }
 
-Feature Feature::element(const PartPlan& plan, std::size_t setup, Clamping clamping,
+Feature Feature::element(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                          const SetupWork& work, const Finished& before, std::size_t index,
                          const Fixed& fixed) {
   const auto& e = plan.drawing.outer[index];
@@ -118,13 +118,13 @@ Feature Feature::element(const PartPlan& plan, std::size_t setup, Clamping clamp
   return f;
 }
 
-Feature Feature::bore(const PartPlan& plan, std::size_t setup, Clamping clamping,
+Feature Feature::bore(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                       const SetupWork& work, const Finished& before, std::size_t index,
                       const Fixed& fixed) {
   const auto& e = plan.drawing.inner[index];
   Feature f(plan, setup, clamping, Kind::bore, e.id, fixed);
   f.take(e, index, part::inner_left_z_mm(plan.drawing, index));
-  f.hole_mm_ = part::hole_mm(plan.drawing, index);
+  f.hole_mm_ = hole_mm(plan, index);
   f.stock_ = (f.D_large_ - f.hole_mm_) / 2;
   f.depth_mm_ =
       e.from == part::End::left ? f.high_ : part::length_mm(plan.drawing) - f.low_;
@@ -137,8 +137,8 @@ Feature Feature::bore(const PartPlan& plan, std::size_t setup, Clamping clamping
   return f;
 }
 
-Feature Feature::end_face(const PartPlan& plan, std::size_t setup, const Finished& before,
-                          const Fixed& fixed) {
+Feature Feature::end_face(const PreparedPart& plan, std::size_t setup,
+                          const Finished& before, const Fixed& fixed) {
   const bool left = plan.setups[setup].hold == part::End::right;
   Feature f(plan, setup, Clamping::chuck, Kind::end_face, left ? "left" : "right", fixed);
   f.bodies_.emplace_back(plan, setup, Clamping::chuck, before);
@@ -156,7 +156,7 @@ Feature Feature::end_face(const PartPlan& plan, std::size_t setup, const Finishe
   return f;
 }
 
-Feature Feature::shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
+Feature Feature::shoulder(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                           const SetupWork& work, const Finished& before,
                           std::size_t index, const Fixed& fixed) {
   const auto& outer = plan.drawing.outer;

@@ -35,9 +35,9 @@ struct Economy {
 };
 
 /// Fastest spindle speed [1/min] of machine and clamping.
-double clamping_rpm(const PartPlan& plan, Clamping clamping);
+double clamping_rpm(const PreparedPart& plan, Clamping clamping);
 /// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
-double grip_loss_rpm(const PartPlan& plan, Clamping clamping, double force_N);
+double grip_loss_rpm(const PreparedPart& plan, Clamping clamping, double force_N);
 
 /// What a clamping is to the cut where nothing yields: two clampings that hold alike
 /// differ in no chain without stations.
@@ -51,15 +51,15 @@ class Feature {
  public:
   enum class Kind { element, bore, end_face, shoulder };
 
-  static Feature element(const PartPlan& plan, std::size_t setup, Clamping clamping,
+  static Feature element(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                          const SetupWork& work, const Finished& before, std::size_t index,
                          const Fixed& fixed);
-  static Feature bore(const PartPlan& plan, std::size_t setup, Clamping clamping,
+  static Feature bore(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                       const SetupWork& work, const Finished& before, std::size_t index,
                       const Fixed& fixed);
-  static Feature end_face(const PartPlan& plan, std::size_t setup, const Finished& before,
-                          const Fixed& fixed);
-  static Feature shoulder(const PartPlan& plan, std::size_t setup, Clamping clamping,
+  static Feature end_face(const PreparedPart& plan, std::size_t setup,
+                          const Finished& before, const Fixed& fixed);
+  static Feature shoulder(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                           const SetupWork& work, const Finished& before,
                           std::size_t index, const Fixed& fixed);
 
@@ -133,7 +133,7 @@ class Feature {
                                 const Compensation::Table& table) const;
 
  private:
-  Feature(const PartPlan& plan, std::size_t setup, Clamping clamping, Kind kind,
+  Feature(const PreparedPart& plan, std::size_t setup, Clamping clamping, Kind kind,
           std::string surface, const Fixed& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
@@ -168,7 +168,7 @@ class Feature {
   std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
   bool enters(const catalogue::Tool& tool) const;
 
-  const PartPlan* plan_;
+  const PreparedPart* plan_;
   std::size_t setup_;
   Clamping clamping_;
   Kind kind_;

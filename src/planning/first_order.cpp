@@ -9,7 +9,8 @@ namespace turnwright::planning {
 namespace {
 
 // The tool of the same name, or nothing.
-const catalogue::Tool* same(const PartPlan& p, const catalogue::Tool* tool, bool& found) {
+const catalogue::Tool* same(const PreparedPart& p, const catalogue::Tool* tool,
+                            bool& found) {
   if (!tool) return nullptr;
   const auto it = std::find_if(p.tools.begin(), p.tools.end(),
                                [&](const auto& t) { return t.id == tool->id; });
@@ -18,7 +19,7 @@ const catalogue::Tool* same(const PartPlan& p, const catalogue::Tool* tool, bool
 }
 
 // A minute costs as much more as it does in the changed request.
-Economy economy(const PartPlan& plan, const PartPlan& changed, Economy e) {
+Economy economy(const PreparedPart& plan, const PreparedPart& changed, Economy e) {
   if (plan.objective != Objective::time)
     e.minute += changed.machine_per_min - plan.machine_per_min;
   return e;
@@ -55,8 +56,8 @@ std::optional<double> lagrangian(const FeatureAnswer& a, const Chain& chain) {
 }
 
 // Of the objective of one surface.
-std::optional<double> change(const PartPlan& plan, const SolvedFeature& f,
-                             const PartPlan& changed, const Feature& feature) {
+std::optional<double> change(const PreparedPart& plan, const SolvedFeature& f,
+                             const PreparedPart& changed, const Feature& feature) {
   const auto& a = f.answer;
   bool found = true;
   auto recipe = a.model->recipe();
@@ -82,7 +83,7 @@ std::optional<double> change(const PartPlan& plan, const SolvedFeature& f,
 }
 
 // Of the objective of a setup, all but its surfaces.
-double besides(const PartPlan& p, const SolvedSetup& s, const FixedWork& fixed,
+double besides(const PreparedPart& p, const SolvedSetup& s, const FixedWork& fixed,
                const Economy& e) {
   return e.minute *
              (minutes_besides_cutting(p, s.clamping, s.indexings) + fixed.minutes()) +
@@ -91,18 +92,17 @@ double besides(const PartPlan& p, const SolvedSetup& s, const FixedWork& fixed,
 
 }  // namespace
 
-std::optional<double> first_order(const PartPlan& plan,
+std::optional<double> first_order(const PreparedPart& plan,
                                   const std::vector<SolvedSetup>& solved,
-                                  const PartPlan& changed) {
+                                  const PreparedPart& changed) {
   if (changed.setups.size() != solved.size() || changed.objective != plan.objective)
     return {};
-  const auto work = assign(changed);
   auto done = nothing_finished(changed.drawing);
   double sum = 0;
   for (std::size_t s = 0; s < solved.size(); ++s) {
     const auto& own = solved[s];
     SharedMemory shared;
-    const SetupPlanner planner(changed, s, own.clamping, work.setups[s], done, {},
+    const SetupPlanner planner(changed, s, own.clamping, changed.work.setups[s], done, {},
                                shared);
     const auto features = planner.features();
     if (features.size() != own.features.size()) return {};
@@ -111,11 +111,11 @@ std::optional<double> first_order(const PartPlan& plan,
       if (!d) return {};
       sum += *d;
     }
-    finish(done, work.setups[s]);
+    finish(done, changed.work.setups[s]);
     if (own.features.empty()) continue;
     const auto e = own.features[0].task.economy;
     const auto then = economy(plan, changed, e);
-    const auto fixed = fixed_work(changed, s, own.clamping, work.setups[s], then);
+    const auto fixed = fixed_work(changed, s, own.clamping, changed.work.setups[s], then);
     if (!fixed.conflicts.empty()) return {};
     sum += besides(changed, own, fixed, then) - besides(plan, own, own.fixed, e);
   }

@@ -18,8 +18,8 @@ namespace turnwright::planning {
 /// @return nothing where the changed request has not the same surfaces with the same
 ///   tools in the same setups, or leaves nothing of a tolerance.
 /// Source: derived here; what re-solving gives in prices_test.
-std::optional<double> first_order(const PartPlan& plan,
+std::optional<double> first_order(const PreparedPart& plan,
                                   const std::vector<SolvedSetup>& solved,
-                                  const PartPlan& changed);
+                                  const PreparedPart& changed);
 
 }  // namespace turnwright::planning

@@ -27,7 +27,7 @@ constexpr double kRunIn = 3;              // of a thread, in pitches
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
 
 struct Site {
-  const PartPlan& p;
+  const PreparedPart& p;
   std::size_t setup;
   Clamping clamping;
   const SetupWork& work;
@@ -66,7 +66,7 @@ bool of_given_depth(const Asked& a, double size) {
 }
 
 // The largest size that fits, to part off the smallest, of the first tool that has it.
-Fitted fitted(const PartPlan& p, const Asked& a) {
+Fitted fitted(const PlanRequest& p, const Asked& a) {
   Fitted best;
   for (const auto& t : p.fixed_tools) {
     const auto* at = t.conditions_in(p.material.group);
@@ -204,7 +204,7 @@ Pass pass_of(const Duty& d, double ap_mm, double time_min) {
   return p;
 }
 
-cutting::Load load_of(const Fitted& f, const PartPlan& p, double b_mm, double D_mm) {
+cutting::Load load_of(const Fitted& f, const PreparedPart& p, double b_mm, double D_mm) {
   return cutting::plunge(cutting::kienzle_at(p.material, f.tool->gamma_deg), b_mm,
                          f.at.f_mm_rev, D_mm);
 }
@@ -285,7 +285,7 @@ Asked drilling(const Hole& h, const OperationRequest* given) {
           }};
 }
 
-const OperationRequest* given_drilling(const PartPlan& p, part::End end) {
+const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   if (!p.operations) return nullptr;
   for (const auto& o : *p.operations)
     for (const auto& e : p.drawing.inner)
@@ -507,7 +507,7 @@ void add_cut(Site& s, const Element& e, bool inner, part::CutKind kind) {
 }
 
 // The end this setup frees, and whether it is solid when the centre comes in.
-bool solid(const PartPlan& p, std::size_t setup) {
+bool solid(const PreparedPart& p, std::size_t setup) {
   const auto end =
       p.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
   if (p.drawing.stock.kind == part::StockKind::tube) return false;
@@ -558,7 +558,7 @@ double FixedWork::open() const {
 
 int FixedWork::indexings() const { return brought_in(before) + brought_in(after); }
 
-FixedWork fixed_work(const PartPlan& p, std::size_t setup, Clamping clamping,
+FixedWork fixed_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
                      const SetupWork& work, const Economy& economy) {
   FixedWork out;
   Site s{p, setup, clamping, work, Stage::roughing, out};
@@ -580,13 +580,13 @@ FixedWork fixed_work(const PartPlan& p, std::size_t setup, Clamping clamping,
   return out;
 }
 
-double drilled_mm(const PartPlan& p, part::End end) {
+double drilled_mm(const PlanRequest& p, part::End end) {
   const auto h = hole_from(p.drawing, end);
   if (h.first.empty()) return 0;
   return fitted(p, drilling(h, given_drilling(p, end))).size_mm;
 }
 
-std::vector<Conflict> fixed_conflicts(const PartPlan& p, std::size_t setup,
+std::vector<Conflict> fixed_conflicts(const PreparedPart& p, std::size_t setup,
                                       Clamping clamping, const SetupWork& work) {
   const auto fixed = fixed_work(p, setup, clamping, work, {p.machine_per_min, 1});
   auto all = fixed.conflicts;

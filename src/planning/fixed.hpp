@@ -44,11 +44,11 @@ struct FixedWork {
 /// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
 /// the tool.
-FixedWork fixed_work(const PartPlan& plan, std::size_t setup, Clamping clamping,
+FixedWork fixed_work(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                      const SetupWork& work, const Economy& economy);
 
 /// The conflicts of a setup at fixed conditions, limits that are not kept among them.
-std::vector<Conflict> fixed_conflicts(const PartPlan& plan, std::size_t setup,
+std::vector<Conflict> fixed_conflicts(const PreparedPart& plan, std::size_t setup,
                                       Clamping clamping, const SetupWork& work);
 
 }  // namespace turnwright::planning

@@ -23,7 +23,7 @@ constexpr const char* kEasedGrip = "finishing grip force";
 
 // "t1, the cylindricity of d1," and for what the drawing gives no id "the diameter k6 of
 // d1".
-std::string called(const PartPlan& p, const part::Tolerance& t) {
+std::string called(const PreparedPart& p, const part::Tolerance& t) {
   const auto surface = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
   const auto kind = std::string("the ") + part::name(t.kind);
   if (t.id.find(':') == std::string::npos)
@@ -38,19 +38,18 @@ std::string called(const PartPlan& p, const part::Tolerance& t) {
 
 // A limit that has no other words than its name.
 Limit limit(const std::string& name, const char* unit, bool at_most, double now,
-            std::function<void(PartPlan&, double)> scale) {
+            std::function<void(PlanRequest&, double)> scale) {
   return {name, (at_most ? "raising " : "lowering ") + name,
           unit, at_most,
           now,  std::move(scale)};
 }
 
-void add_tolerances(const PartPlan& p, std::vector<Limit>& all) {
+void add_tolerances(const PreparedPart& p, std::vector<Limit>& all) {
   const auto& tolerances = p.drawing.tolerances;
   for (std::size_t i = 0; i < tolerances.size(); ++i)
     all.push_back({tolerances[i].id, "opening " + called(p, tolerances[i]), "mm", true,
-                   width_mm(tolerances[i]), [i](PartPlan& plan, double k) {
+                   width_mm(tolerances[i]), [i](PlanRequest& plan, double k) {
                      widen(plan.drawing.tolerances[i], k);
-                     ease_jaws(plan);
                    }});
 }
 
@@ -62,7 +61,7 @@ void add_roughness(const std::vector<Surface>& surfaces,
          {std::pair{"roughness Ra", &Surface::Ra_um}, {"roughness Rz", &Surface::Rz_um}})
       if (surfaces[i].*value)
         all.push_back(limit(of(what, surfaces[i].id), "um", true, *(surfaces[i].*value),
-                            [i, list, member = value](PartPlan& plan, double k) {
+                            [i, list, member = value](PlanRequest& plan, double k) {
                               *((plan.drawing.*list)[i].*member) *= k;
                             }));
 }
@@ -80,7 +79,7 @@ void stretch(std::vector<CurvePoint>& curve, double k) {
 }
 
 // What ends at the same speed - curve, spindle, chuck - moves along.
-void raise_speed(double end_rpm, double k, PartPlan& plan) {
+void raise_speed(double end_rpm, double k, PlanRequest& plan) {
   auto& m = plan.machine;
   const auto ends_there = [&](double n) { return std::abs(n / end_rpm - 1) < 1e-9; };
   if (ends_there(m.curve.back().n_rpm)) stretch(m.curve, k);
@@ -88,44 +87,48 @@ void raise_speed(double end_rpm, double k, PartPlan& plan) {
     if (ends_there(*n)) *n *= k;
 }
 
-void add_machine(const PartPlan& p, std::vector<Limit>& all) {
+// Whether the jaws finish with a force of their own.
+bool has_finishing_force(const PreparedPart& p, std::size_t s) {
+  return p.setups[s].finishing_grip_force_N || p.jaws[s].eased;
+}
+
+void add_machine(const PreparedPart& p, std::vector<Limit>& all) {
   const auto& m = p.machine;
   const auto number = [](double catalogue::Lathe::*value) {
-    return [value](PartPlan& plan, double k) { plan.machine.*value *= k; };
+    return [value](PlanRequest& plan, double k) { plan.machine.*value *= k; };
   };
   all.push_back(limit(of(kPower, m.id), "kW", true, most_power_kW(m.curve),
-                      [](PartPlan& plan, double k) {
+                      [](PlanRequest& plan, double k) {
                         for (auto& point : plan.machine.curve) {
                           point.P_kW *= k;
                           point.M_Nm *= k;
                         }
                       }));
   all.push_back(limit(of(kDampingRatio, m.id), "", true, p.damping_ratio,
-                      [](PartPlan& plan, double k) { plan.damping_ratio *= k; }));
+                      [](PlanRequest& plan, double k) { plan.damping_ratio *= k; }));
   all.push_back(limit(of("feed force", m.id), "N", true, m.feed_force_max_N,
                       number(&catalogue::Lathe::feed_force_max_N)));
   const double end = std::min(m.n_max_rpm, m.curve.back().n_rpm);
   all.push_back(limit(of("largest spindle speed", m.id), "1/min", true, end,
-                      [end](PartPlan& plan, double k) { raise_speed(end, k, plan); }));
+                      [end](PlanRequest& plan, double k) { raise_speed(end, k, plan); }));
   all.push_back(limit(of("least spindle speed", m.id), "1/min", false, m.n_min_rpm,
                       number(&catalogue::Lathe::n_min_rpm)));
   if (m.chuck.n_max_rpm < end)
     all.push_back(
         limit("largest speed of the chuck", "1/min", true, m.chuck.n_max_rpm,
-              [](PartPlan& plan, double k) { plan.machine.chuck.n_max_rpm *= k; }));
+              [](PlanRequest& plan, double k) { plan.machine.chuck.n_max_rpm *= k; }));
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    const double full = p.setups[s].grip_force_N.value_or(m.chuck.grip_force_N);
-    all.push_back(
-        limit(grip_name(kGrip, s), "N", true, full, [s, full](PartPlan& plan, double k) {
-          plan.setups[s].grip_force_N = k * full;
-          ease_jaws(plan);
-        }));
-    if (const auto eased = p.setups[s].finishing_grip_force_N)
-      all.push_back(limit(grip_name(kEasedGrip, s), "N", true, *eased,
-                          [s](PartPlan& plan, double k) {
-                            *plan.setups[s].finishing_grip_force_N *= k;
-                            plan.setups[s].eased_by_rule = false;
-                          }));
+    const double full = p.jaws[s].roughing_N;
+    all.push_back(limit(grip_name(kGrip, s), "N", true, full,
+                        [s, full](PlanRequest& plan, double k) {
+                          plan.setups[s].grip_force_N = k * full;
+                        }));
+    if (has_finishing_force(p, s))
+      all.push_back(
+          limit(grip_name(kEasedGrip, s), "N", true, p.jaws[s].finishing_N,
+                [s, force = p.jaws[s].finishing_N](PlanRequest& plan, double k) {
+                  plan.setups[s].finishing_grip_force_N = k * force;
+                }));
   }
 }
 
@@ -146,34 +149,36 @@ constexpr ToolLimit kToolLimits[] = {
     {Check::life_min, "least tool life", &Tool::T_min, &Range::lower},
     {Check::life_max, "longest tool life", &Tool::T_min, &Range::upper}};
 
-void add_tools(const PartPlan& p, std::vector<Limit>& all) {
+void add_tools(const PreparedPart& p, std::vector<Limit>& all) {
   for (std::size_t i = 0; i < p.tools.size(); ++i) {
     const auto& tool = p.tools[i];
     for (const auto& l : kToolLimits)
       all.push_back(limit(
           of(l.what, tool.id), check_name(l.check).unit, check_name(l.check).at_most,
           tool.*l.range.*l.end,
-          [i, l](PartPlan& plan, double k) { plan.tools[i].*l.range.*l.end *= k; }));
+          [i, l](PlanRequest& plan, double k) { plan.tools[i].*l.range.*l.end *= k; }));
     if (tool.bar && tool.bar->damping_ratio)
       all.push_back(limit(
           of(kDampingRatio, tool.id), "", true, *tool.bar->damping_ratio,
-          [i](PartPlan& plan, double k) { *plan.tools[i].bar->damping_ratio *= k; }));
-    all.push_back(limit(of("cutting force", tool.id), "N", true, tool.Fc_max_N,
-                        [i](PartPlan& plan, double k) { plan.tools[i].Fc_max_N *= k; }));
+          [i](PlanRequest& plan, double k) { *plan.tools[i].bar->damping_ratio *= k; }));
+    all.push_back(
+        limit(of("cutting force", tool.id), "N", true, tool.Fc_max_N,
+              [i](PlanRequest& plan, double k) { plan.tools[i].Fc_max_N *= k; }));
   }
 }
 
 // The jaws' force that an operation has.
-std::string grip_of(const PartPlan& p, const SolvedFeature& f, const OperationModel& o) {
+std::string grip_of(const PreparedPart& p, const SolvedFeature& f,
+                    const OperationModel& o) {
   const std::size_t s = f.task.making.setup;
   const bool eased = o.finishing && f.task.feature.kind() != Feature::Kind::end_face &&
-                     p.setups[s].finishing_grip_force_N;
+                     has_finishing_force(p, s);
   return grip_name(eased ? kEasedGrip : kGrip, s);
 }
 
 }  // namespace
 
-std::vector<Limit> limits(const PartPlan& p) {
+std::vector<Limit> limits(const PreparedPart& p) {
   std::vector<Limit> all;
   add_tolerances(p, all);
   const auto& d = p.drawing;
@@ -191,14 +196,15 @@ double most_power_kW(const std::vector<CurvePoint>& curve) {
   return most;
 }
 
-std::vector<std::string> spindle_limit_names(const PartPlan& p, const SolvedFeature& f,
+std::vector<std::string> spindle_limit_names(const PreparedPart& p,
+                                             const SolvedFeature& f,
                                              std::size_t operation) {
   const auto& o = f.answer.model->chain().operations[operation];
   return {of("largest spindle speed", p.machine.id), "largest speed of the chuck",
           grip_of(p, f, o)};
 }
 
-std::vector<std::string> limit_names(const PartPlan& p, const SolvedFeature& f,
+std::vector<std::string> limit_names(const PreparedPart& p, const SolvedFeature& f,
                                      const Row& row) {
   const auto& chain = f.answer.model->chain();
   if (row.check == Check::tolerance)

@@ -12,11 +12,11 @@ namespace turnwright::planning {
 double most_power_kW(const std::vector<catalogue::CurvePoint>& curve);
 
 /// The limits that a row may stand for, by name.
-std::vector<std::string> limit_names(const PartPlan& plan, const SolvedFeature& feature,
-                                     const Row& row);
+std::vector<std::string> limit_names(const PreparedPart& plan,
+                                     const SolvedFeature& feature, const Row& row);
 
 /// Those that hold the spindle while an operation that is clamped by it is cut.
-std::vector<std::string> spindle_limit_names(const PartPlan& plan,
+std::vector<std::string> spindle_limit_names(const PreparedPart& plan,
                                              const SolvedFeature& feature,
                                              std::size_t operation);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "turnwright/base/units.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
@@ -33,18 +34,18 @@ Interval operator-(const Interval& a, const Interval& b) {
   return {a.low - b.high, a.high - b.low};
 }
 
-bool holds_left(const PartPlan& p, std::size_t setup) {
+bool holds_left(const PreparedPart& p, std::size_t setup) {
   return p.setups[setup].hold == part::End::left;
 }
 
-double machine_z_mm(const PartPlan& p, const Place& at, double z) {
+double machine_z_mm(const PreparedPart& p, const Place& at, double z) {
   const double root = root_z_mm(p, at.setup, at.clamping);
   return p.machine.errors->jaws_z_mm + (holds_left(p, at.setup) ? z - root : root - z);
 }
 
 // The last operation on the surface says which way it is cut; the request may leave it
 // open.
-bool from_chuck(const PartPlan& p, const std::string& surface) {
+bool from_chuck(const PreparedPart& p, const std::string& surface) {
   bool from = false;
   if (p.operations)
     for (const auto& o : *p.operations)
@@ -53,7 +54,7 @@ bool from_chuck(const PartPlan& p, const std::string& surface) {
   return from;
 }
 
-Generator element(const PartPlan& p, const std::string& id, const part::Extent& e,
+Generator element(const PreparedPart& p, const std::string& id, const part::Extent& e,
                   const Place& at) {
   const double left = machine_z_mm(p, at, e.z0_mm), right = machine_z_mm(p, at, e.z1_mm);
   Generator g{e.left_mm / 2, left, e.right_mm / 2, right};
@@ -65,7 +66,7 @@ Generator element(const PartPlan& p, const std::string& id, const part::Extent& 
   return g;
 }
 
-Generator face(const PartPlan& p, const std::string& id, const Place& at) {
+Generator face(const PreparedPart& p, const std::string& id, const Place& at) {
   const auto& d = p.drawing;
   const double z = machine_z_mm(p, at, face_z_mm(d, id)), hole = d.stock.inner_mm / 2;
   if (id == "left") return {d.outer.front().left_mm / 2, z, hole, z};
@@ -95,7 +96,7 @@ std::size_t places_around(const Machine& m) {
 /// A machine at work on the part.
 class Bench {
  public:
-  Bench(const PartPlan& p, const Machine& m)
+  Bench(const PreparedPart& p, const Machine& m)
       : p_(p), kinematics_(m), tool_(m.tool_point_mm), around_(places_around(m)) {}
 
   Surface surface(const std::string& id, const Place& at) const {
@@ -106,7 +107,7 @@ class Bench {
   }
 
  private:
-  const PartPlan& p_;
+  const PreparedPart& p_;
   Kinematics kinematics_;
   volumetric::Vec3 tool_;
   std::size_t around_;
@@ -132,7 +133,7 @@ Interval diameters(const Surface& s) {
   return extremes(d);
 }
 
-double of_size(const PartPlan& p, const Interval& d) {
+double of_size(const PreparedPart& p, const Interval& d) {
   return p.shop.first_part_gauged ? d.high - d.low
                                   : 2 * std::max(std::abs(d.low), std::abs(d.high));
 }
@@ -165,7 +166,8 @@ double angle_rad(const Surface& s, const Datum& d) {
   return std::hypot(own.ax - d.axis.ax, own.ay - d.axis.ay) + d.tilt_rad;
 }
 
-double zone_mm(const PartPlan& p, ToleranceKind kind, const Surface& s, const Datum& d) {
+double zone_mm(const PreparedPart& p, ToleranceKind kind, const Surface& s,
+               const Datum& d) {
   const double off = 2 * d.shift_mm, tipped = 2 * largest_r_mm(s) * d.tilt_rad;
   switch (kind) {
     case ToleranceKind::diameter:
@@ -208,7 +210,7 @@ double zone_mm(const PartPlan& p, ToleranceKind kind, const Surface& s, const Da
 /// at `other`, if anything makes it.
 class Take {
  public:
-  Take(const PartPlan& p, const Tolerance& t, const Place& own,
+  Take(const PreparedPart& p, const Tolerance& t, const Place& own,
        const std::optional<Place>& other)
       : p_(p), t_(t), own_(own), other_(other) {}
 
@@ -268,12 +270,11 @@ class Take {
 
   // The face cut at own_, then the other.
   std::pair<std::string, std::string> faces() const {
-    const auto work = assign(p_);
-    const bool first = setup_of(p_, work, t_.between[0]) == own_.setup;
+    const bool first = setup_of(p_, t_.between[0]) == own_.setup;
     return {t_.between[first ? 0 : 1], t_.between[first ? 1 : 0]};
   }
 
-  const PartPlan& p_;
+  const PreparedPart& p_;
   const Tolerance& t_;
   const Place& own_;
   const std::optional<Place>& other_;
@@ -332,7 +333,7 @@ std::vector<Machine> uncertain(const catalogue::GeometricErrors& g) {
 }
 
 // The clampings of a setup that differ in where the part stands.
-std::vector<Place> places(const PartPlan& p, std::size_t setup) {
+std::vector<Place> places(const PreparedPart& p, std::size_t setup) {
   std::vector<Place> all;
   for (const Clamping c : p.setups[setup].clampings)
     if (std::none_of(all.begin(), all.end(), [&](const Place& other) {
@@ -343,7 +344,7 @@ std::vector<Place> places(const PartPlan& p, std::size_t setup) {
   return all;
 }
 
-std::vector<std::optional<Place>> others(const PartPlan& p,
+std::vector<std::optional<Place>> others(const PreparedPart& p,
                                          std::optional<std::size_t> setup,
                                          const Place& own) {
   if (!setup) return {std::nullopt};
@@ -353,8 +354,9 @@ std::vector<std::optional<Place>> others(const PartPlan& p,
   return all;
 }
 
-MachineTake take(const PartPlan& p, const std::vector<Bench>& benches, const Tolerance& t,
-                 const Place& own, const std::vector<std::optional<Place>>& others) {
+MachineTake take(const PreparedPart& p, const std::vector<Bench>& benches,
+                 const Tolerance& t, const Place& own,
+                 const std::vector<std::optional<Place>>& others) {
   MachineTake worst;
   for (const auto& other : others) {
     const Take one(p, t, own, other);
@@ -368,26 +370,24 @@ MachineTake take(const PartPlan& p, const std::vector<Bench>& benches, const Tol
   return worst;
 }
 
-MachinePlace key(std::size_t tolerance, std::size_t setup, Clamping c) {
-  return {tolerance, setup, c == Clamping::between_centres};
+MachinePlace key(const Tolerance& t, std::size_t setup, Clamping c) {
+  return {t.id, setup, c == Clamping::between_centres};
 }
 
 }  // namespace
 
-std::map<MachinePlace, MachineTake> machine_takes(const PartPlan& p) {
+std::map<MachinePlace, MachineTake> machine_takes(const PreparedPart& p) {
   std::map<MachinePlace, MachineTake> all;
   if (!p.machine.errors) return all;
   std::vector<Bench> benches{{p, p.machine.errors->chain}};
   for (const Machine& m : uncertain(*p.machine.errors)) benches.emplace_back(p, m);
-  const auto work = assign(p);
-  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
-    const Tolerance& t = p.drawing.tolerances[i];
+  for (const Tolerance& t : p.drawing.tolerances) {
     const bool length = t.kind == ToleranceKind::length;
-    const auto a = setup_of(p, work, length ? t.between[0] : t.of);
-    const auto b = setup_of(p, work, length ? t.between[1] : t.datum);
+    const auto a = setup_of(p, length ? t.between[0] : t.of);
+    const auto b = setup_of(p, length ? t.between[1] : t.datum);
     const auto add = [&](std::size_t setup, std::optional<std::size_t> other) {
       for (const Place& own : places(p, setup))
-        all[key(i, setup, own.clamping)] =
+        all[key(t, setup, own.clamping)] =
             take(p, benches, t, own, others(p, other, own));
     };
     if (a) add(*a, b);
@@ -396,21 +396,29 @@ std::map<MachinePlace, MachineTake> machine_takes(const PartPlan& p) {
   return all;
 }
 
-MachineTake machine_take(const PartPlan& p, std::size_t tolerance, std::size_t setup,
+MachineTake machine_take(const PreparedPart& p, std::size_t tolerance, std::size_t setup,
                          Clamping clamping) {
-  const auto found = p.machine_takes.find(key(tolerance, setup, clamping));
-  return found == p.machine_takes.end() ? MachineTake{} : found->second;
+  if (!p.machine.errors) return {};
+  const auto at = key(p.drawing.tolerances.at(tolerance), setup, clamping);
+  const auto found = p.machine_takes.find(at);
+  if (found == p.machine_takes.end())
+    throw std::domain_error("machine_take: " + at.tolerance + " is not cut in setup " +
+                            std::to_string(setup) + " by " + name(clamping));
+  return found->second;
 }
 
-double least_machine_mm(const PartPlan& p, std::size_t tolerance) {
+double least_machine_mm(const PreparedPart& p, std::size_t tolerance) {
   double most = 0;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     double least = std::numeric_limits<double>::infinity();
     for (const Place& at : places(p, s)) {
-      const auto take = machine_take(p, tolerance, s, at.clamping);
+      const auto found =
+          p.machine_takes.find(key(p.drawing.tolerances[tolerance], s, at.clamping));
+      if (found == p.machine_takes.end()) continue;
+      const auto& take = found->second;
       least = std::min(least, take.fixed_um + (p.robust ? 0 : 3 * take.u_um));
     }
-    most = std::max(most, least);
+    if (std::isfinite(least)) most = std::max(most, least);  // else cut elsewhere
   }
   return units::mm_from_um(p.machine_share_um + most);
 }

@@ -221,10 +221,10 @@ std::string stopped(const MilledSite& s, const MilledChoice& c, bool whole) {
   return {};
 }
 
-void add(const PartPlan& p, const Milled& m, std::size_t setup, Clamping clamping,
-         const Economy& economy, FixedWork& out) {
+void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
+         Clamping clamping, const Economy& economy, FixedWork& out) {
   MilledSite s{p, m, setup, clamping, economy, 0};
-  if (const auto why = milled_obstacle(p, assign(p), m, setup, clamping); !why.empty())
+  if (const auto why = milled_obstacle(p, m, setup, clamping); !why.empty())
     return refuse(s, "setups", 0, 0, "", why, out);
   s.part_mm_N = part_mm_N(p, m, setup, clamping);
   const bool whole = m.passes && m.n_rpm && m.fz_mm && m.ways.size() == 1;
@@ -251,16 +251,16 @@ void add(const PartPlan& p, const Milled& m, std::size_t setup, Clamping clampin
 
 }  // namespace
 
-void add_milled(const PartPlan& p, std::size_t setup, Clamping clamping,
+void add_milled(const PreparedPart& p, std::size_t setup, Clamping clamping,
                 const Economy& economy, FixedWork& out) {
-  for (const auto& m : p.milled)
-    if (m.setup == setup) add(p, m, setup, clamping, economy, out);
+  for (const auto& m : p.milled_places)
+    if (m.setup.value_or(0) == setup) add(p, m, setup, clamping, economy, out);
 }
 
-void add_lobes(const PartPlan& p, OperationPlan& o) {
+void add_lobes(const PreparedPart& p, OperationPlan& o) {
   if (!o.milled) return;
-  const auto m = std::find_if(p.milled.begin(), p.milled.end(),
-                              [&](const Milled& x) { return x.id == o.on.front(); });
+  const auto m = std::find_if(p.milled_places.begin(), p.milled_places.end(),
+                              [&](const MilledPlace& x) { return x.id == o.on.front(); });
   const auto way = std::find_if(m->ways.begin(), m->ways.end(), [&](const MilledWay& w) {
     return m->cutters[w.cutter].id == o.tool && w.lanes == o.milled->lanes &&
            o.milled->fz_mm <= w.fz_to_mm * (1 + kRounding);

@@ -106,9 +106,9 @@ MilledCut cut_at(const MilledSite& s, const MilledChoice& c, const MilledCase& k
 
 }  // namespace
 
-double part_mm_N(const PartPlan& p, const Milled& m, std::size_t setup,
+double part_mm_N(const PreparedPart& p, const Milled& m, std::size_t setup,
                  Clamping clamping) {
-  const SetupBody body(p, setup, clamping, finished_after(p, assign(p), setup));
+  const SetupBody body(p, setup, clamping, finished_after(p, setup));
   const auto shaft = body.shaft();
   const auto supports = planes(p.machine, clamping).tangential;
   const deflection::Beam beam(shaft);
@@ -158,7 +158,8 @@ MilledChoice milled_choice(const MilledSite& s, const MilledWay& way, int passes
   return c;
 }
 
-catalogue::Range speeds_rpm(const PartPlan& p, const catalogue::MillingCutter& cutter) {
+catalogue::Range speeds_rpm(const PreparedPart& p,
+                            const catalogue::MillingCutter& cutter) {
   const auto ranges = cutting::speed_ranges(*p.machine.driven_tools);
   const auto& vc = cutter.conditions_in(p.material.group)->vc_m_min;
   return {std::max(ranges.front().n_min_rpm, units::spindle_rpm(vc.lower, cutter.dc_mm)),

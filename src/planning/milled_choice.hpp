@@ -9,8 +9,8 @@ namespace turnwright::planning {
 
 /// A place in the setup that is to make it.
 struct MilledSite {
-  const PartPlan& p;
-  const Milled& m;
+  const PreparedPart& p;
+  const MilledPlace& m;
   std::size_t setup;
   Clamping clamping;
   const Economy& economy;
@@ -47,13 +47,14 @@ MilledChoice milled_choice(const MilledSite& site, const MilledWay& way, int pas
 
 /// Largest compliance across the feed of the part as the setup leaves it, of three
 /// places.
-double part_mm_N(const PartPlan& plan, const Milled& place, std::size_t setup,
+double part_mm_N(const PreparedPart& plan, const Milled& place, std::size_t setup,
                  Clamping clamping);
 /// Of a tool point, across the feed.
 double tip_mm_N(const std::vector<catalogue::TipMode>& modes);
 
 /// Speeds that cutter and driven spindle have in common; none if lower > upper.
-catalogue::Range speeds_rpm(const PartPlan& plan, const catalogue::MillingCutter& cutter);
+catalogue::Range speeds_rpm(const PreparedPart& plan,
+                            const catalogue::MillingCutter& cutter);
 
 /// (1) to (4) in one range of the spindle.
 MilledCase milled_case(const MilledSite& site, const MilledChoice& choice,

@@ -13,14 +13,12 @@ Engagement engagement(double ae_mm, double dc_mm) {
 }
 
 // Largest radius of the part between two places once a setup is done.
-double highest_mm(const PartPlan& p, const Assignment& work, std::size_t setup, double z0,
-                  double z1) {
-  const auto done = finished_after(p, work, setup);
+double highest_mm(const PreparedPart& p, std::size_t setup, double z0, double z1) {
+  const auto done = finished_after(p, setup);
   const double L = part::length_mm(p.drawing);
   const bool stock =
-      std::max(z0, -face_stock_after_mm(p, work, setup, part::End::left)) < -kSlack_mm ||
-      std::min(z1, L + face_stock_after_mm(p, work, setup, part::End::right)) >
-          L + kSlack_mm;
+      std::max(z0, -face_stock_after_mm(p, setup, part::End::left)) < -kSlack_mm ||
+      std::min(z1, L + face_stock_after_mm(p, setup, part::End::right)) > L + kSlack_mm;
   double most = stock ? p.drawing.stock.outer_mm / 2 : 0;
   for (std::size_t i = 0; i < p.drawing.outer.size(); ++i) {
     const auto& e = p.drawing.outer[i];
@@ -56,20 +54,19 @@ std::vector<Engagement> engagements_between(const Milled& m,
   return between;
 }
 
-double depth_beside_mm(const PartPlan& p, std::size_t setup, const Milled& m, double D,
-                       RunOut out) {
+double depth_beside_mm(const PreparedPart& p, std::size_t setup, const Milled& m,
+                       double D, RunOut out) {
   const auto beyond = [&](bool open) {
     return kHolder_mm + (open ? D / 2 + kApproach_mm : -D / 2);
   };
   const double floor = p.drawing.outer[m.element].left_mm / 2 - m.depth_mm;
-  return highest_mm(p, assign(p), setup, m.z_mm - beyond(out.left),
+  return highest_mm(p, setup, m.z_mm - beyond(out.left),
                     m.z_mm + m.length_mm + beyond(out.right)) -
          floor;
 }
 
-RunOut run_out(const PartPlan& p, std::size_t setup, Clamping clamping, const Milled& m,
-               double D) {
-  const auto work = assign(p);
+RunOut run_out(const PreparedPart& p, std::size_t setup, Clamping clamping,
+               const Milled& m, double D) {
   const double L = part::length_mm(p.drawing), way = D + kApproach_mm;
   const double floor = p.drawing.outer[m.element].left_mm / 2 - m.depth_mm;
   const bool holds_left = p.setups[setup].hold == part::End::left;
@@ -77,7 +74,7 @@ RunOut run_out(const PartPlan& p, std::size_t setup, Clamping clamping, const Mi
   const auto open = [&](double z0, double z1, bool held_side) {
     if (held_side && (holds_left ? z0 < root : z1 > root)) return false;
     if (!held_side && has_tailstock(clamping) && (z0 < 0 || z1 > L)) return false;
-    return highest_mm(p, work, setup, z0, z1) <= floor + kSlack_mm;
+    return highest_mm(p, setup, z0, z1) <= floor + kSlack_mm;
   };
   const double left = m.z_mm, right = m.z_mm + m.length_mm;
   return {open(left - way, left, holds_left), open(right, right + way, !holds_left)};

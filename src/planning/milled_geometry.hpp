@@ -30,12 +30,12 @@ std::vector<Engagement> engagements_between(const Milled& place,
 struct RunOut {
   bool left = false, right = false;
 };
-RunOut run_out(const PartPlan& plan, std::size_t setup, Clamping clamping,
+RunOut run_out(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                const Milled& place, double dc_mm);
 
 /// How deep below what stands beside the place its floor lies [mm], as far from the
 /// cutter's way as its holder reaches: kHolder_mm.
-double depth_beside_mm(const PartPlan& plan, std::size_t setup, const Milled& place,
+double depth_beside_mm(const PreparedPart& plan, std::size_t setup, const Milled& place,
                        double dc_mm, RunOut out);
 inline constexpr double kHolder_mm = 25;  ///< radius: a nut of size ER 32
 

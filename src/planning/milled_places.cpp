@@ -10,11 +10,12 @@
 #include "turnwright/chatter/lobes.hpp"
 #include "turnwright/cutting/fixed.hpp"
 #include "turnwright/cutting/milled.hpp"
+#include "turnwright/deflection/ovality.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-bool jaws_cover(const PartPlan& p, std::size_t setup, Clamping clamping, double z0,
+bool jaws_cover(const PreparedPart& p, std::size_t setup, Clamping clamping, double z0,
                 double z1) {
   if (clamping == Clamping::between_centres) return false;
   const double root = root_z_mm(p, setup, clamping);
@@ -39,7 +40,7 @@ chatter::System system_of(const std::vector<catalogue::TipMode>& modes, int teet
 
 // Of unit force where the widest cut is; others have thinner chips and so more.
 struct Forces {
-  const PartPlan& p;
+  const PreparedPart& p;
   const catalogue::MillingCutter& cutter;
   Engagement widest;
   std::vector<double> feeds_mm;
@@ -63,7 +64,7 @@ struct Forces {
   }
 };
 
-MilledWay way_of(const PartPlan& p, const Milled& m, std::size_t index, int lanes,
+MilledWay way_of(const PreparedPart& p, const Milled& m, std::size_t index, int lanes,
                  double fz_from, double fz_to) {
   const auto& cutter = m.cutters[index];
   const auto cuts = engagements(m, cutter, lanes);
@@ -80,7 +81,7 @@ MilledWay way_of(const PartPlan& p, const Milled& m, std::size_t index, int lane
 }
 
 // A cutter's ways with so many lanes, one for each stretch of feeds.
-void add_ways(const PartPlan& p, const Milled& m, std::size_t index, int lanes,
+void add_ways(const PreparedPart& p, const Milled& m, std::size_t index, int lanes,
               std::vector<MilledWay>& ways) {
   const auto& cutter = m.cutters[index];
   const auto& hex = cutter.conditions_in(p.material.group)->hex_mm;
@@ -98,17 +99,17 @@ void add_ways(const PartPlan& p, const Milled& m, std::size_t index, int lanes,
 
 }  // namespace
 
-const std::vector<catalogue::TipMode>& tip_modes(const PartPlan& p,
+const std::vector<catalogue::TipMode>& tip_modes(const PreparedPart& p,
                                                  const catalogue::MillingCutter& cutter) {
   const auto& measured = p.machine.driven_tools->modes;
   const auto found = measured.find(cutter.id);
   return found == measured.end() ? cutter.modes : found->second;
 }
 
-std::string milled_obstacle(const PartPlan& p, const Assignment& work, const Milled& m,
-                            std::size_t setup, Clamping clamping) {
+std::string milled_obstacle(const PreparedPart& p, const Milled& m, std::size_t setup,
+                            Clamping clamping) {
   const auto& id = p.drawing.outer[m.element].id;
-  const auto turned = setup_of(p, work, id);
+  const auto turned = setup_of(p, id);
   if (turned && *turned > setup)
     return fmt::format("{} is turned in setup {} only", id, *turned);
   const double z0 = m.z_mm, z1 = m.z_mm + m.length_mm;
@@ -123,22 +124,34 @@ std::string milled_obstacle(const PartPlan& p, const Assignment& work, const Mil
   return {};
 }
 
-std::optional<std::size_t> milled_setup(const PartPlan& p, const Assignment& work,
-                                        const Milled& m) {
+std::optional<std::size_t> milled_setup(const PreparedPart& p, const Milled& m) {
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     for (const auto clamping : p.setups[s].clampings)
-      if (milled_obstacle(p, work, m, s, clamping).empty()) return s;
+      if (milled_obstacle(p, m, s, clamping).empty()) return s;
   return {};
 }
 
-std::optional<std::size_t> gripped_later(const PartPlan& p, const Milled& m) {
-  for (std::size_t s = m.setup + 1; s < p.setups.size(); ++s)
+std::optional<std::size_t> gripped_later(const PreparedPart& p, const MilledPlace& m) {
+  for (std::size_t s = m.setup.value() + 1; s < p.setups.size(); ++s)
     for (const auto clamping : p.setups[s].clampings)
       if (jaws_cover(p, s, clamping, m.z_mm, m.z_mm + m.length_mm)) return s;
   return {};
 }
 
-std::string does_not_fit(const PartPlan& p, const Milled& m,
+double stiffness_kept(const PlanRequest& p, const Milled& m) {
+  const double D = p.drawing.outer[m.element].left_mm;
+  const auto whole = deflection::round_section(
+      D, part::largest_hole_mm(p.drawing, m.z_mm, m.z_mm + m.length_mm));
+  auto s = whole;
+  for (const auto& x : p.milled)
+    if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
+        m.z_mm < x.z_mm + x.length_mm)
+      s = deflection::without_slot(
+          s, D, {x.width_mm, D / 2 - x.depth_mm, units::rad_from_deg(x.angle_deg)});
+  return deflection::least_second_moment_mm4(s) / whole.xx_mm4;
+}
+
+std::string does_not_fit(const PreparedPart& p, const Milled& m,
                          const catalogue::MillingCutter& c) {
   const double D = c.dc_mm, w = m.width_mm;
   if (!c.conditions_in(p.material.group))
@@ -169,7 +182,7 @@ std::string does_not_fit(const PartPlan& p, const Milled& m,
   return c.centre_cutting ? "" : "does not cut over its centre, so it cannot plunge";
 }
 
-std::vector<MilledWay> milled_ways(const PartPlan& p, const Milled& m) {
+std::vector<MilledWay> milled_ways(const PreparedPart& p, const Milled& m) {
   std::vector<MilledWay> ways;
   for (std::size_t i = 0; i < m.cutters.size(); ++i) {
     const auto& c = m.cutters[i];

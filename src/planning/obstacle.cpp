@@ -27,7 +27,7 @@ catalogue::ToolUse use_of(const Feature& f) {
                                          : catalogue::ToolUse::finishing;
 }
 
-std::string why_none(const PartPlan& plan, const Feature& f) {
+std::string why_none(const PreparedPart& plan, const Feature& f) {
   const auto& fixed = f.fixed();
   if (!plan.operations && tools_for(plan, use_of(f)).empty())
     return fmt::format(": none of the tools for {} has a grade for {}",
@@ -46,7 +46,8 @@ std::string why_none(const PartPlan& plan, const Feature& f) {
 
 }  // namespace
 
-Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& f, const Demand& d) {
+Conflict used_up_conflict(const PreparedPart& plan, const SolvedFeature& f,
+                          const Demand& d) {
   const auto& t = plan.drawing.tolerances[d.tolerance];
   std::string sources;
   for (const auto& s : shares(allowance(plan, d.tolerance, f.task.making)))
@@ -62,7 +63,7 @@ Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& f, const De
                       readable(width_mm(t)), sources)};
 }
 
-std::string obstacle(const PartPlan& plan, const SolvedFeature& f) {
+std::string obstacle(const PreparedPart& plan, const SolvedFeature& f) {
   const auto& feature = f.task.feature;
   if (const auto* d = used_up(f.task.demands); d && !f.answer.model)
     return used_up_conflict(plan, f, *d).sentence;

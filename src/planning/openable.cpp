@@ -25,7 +25,7 @@ auto& condition(Conditions& c, Kind kind) {
 }
 
 // Least and largest of a condition that the request has given, if any.
-std::optional<catalogue::Range> given(const PartPlan& p, Kind kind) {
+std::optional<catalogue::Range> given(const PlanRequest& p, Kind kind) {
   std::optional<catalogue::Range> r;
   if (!p.operations) return r;
   for (const auto& o : *p.operations)
@@ -43,7 +43,7 @@ Kind given_of(Kind end) {
 
 // Far enough for what is given, the corner with the largest feed (0.8 of it) and the
 // least depth (2/3 of it).
-void open_window(PartPlan& p, Kind end) {
+void open_window(PlanRequest& p, Kind end) {
   const auto g = given(p, given_of(end));
   for (auto& t : p.tools) {
     auto& window = given_of(end) == Kind::ap  ? t.ap_mm
@@ -69,7 +69,7 @@ void open_spindle(catalogue::Lathe& m, double times) {
   m.curve.push_back(last);
 }
 
-void open_given(PartPlan& p, const Openable& l) {
+void open_given(PlanRequest& p, const Openable& l) {
   auto& c = (*p.operations)[l.index].conditions;
   if (l.kind == Kind::passes)
     c.passes.reset();
@@ -77,7 +77,7 @@ void open_given(PartPlan& p, const Openable& l) {
     condition(c, l.kind).reset();
 }
 
-void open_roughness(PartPlan& p, const Openable& l, double times) {
+void open_roughness(PlanRequest& p, const Openable& l, double times) {
   for_every_roughness(p, [&](auto& e) {
     if (e.id != l.surface) return;
     auto& value = l.kind == Kind::Ra ? e.Ra_um : e.Rz_um;
@@ -89,7 +89,7 @@ void open_roughness(PartPlan& p, const Openable& l, double times) {
 }
 
 // Everything but tolerances that are left out.
-void open(PartPlan& p, const Openable& l, double times) {
+void open(PlanRequest& p, const Openable& l, double times) {
   const double far = std::min(times, kFar);
   auto& m = p.machine;
   switch (l.kind) {
@@ -139,30 +139,14 @@ void open(PartPlan& p, const Openable& l, double times) {
   }
 }
 
-void leave_out(PartPlan& p, std::size_t tolerance) {
-  auto& all = p.drawing.tolerances;
-  all.erase(all.begin() + static_cast<long>(tolerance));
-  std::map<std::size_t, double> ends;
-  for (const auto& [i, end] : p.other_ends)
-    if (i != tolerance) ends[i < tolerance ? i : i - 1] = end;
-  p.other_ends = std::move(ends);
-  std::map<MachinePlace, MachineTake> takes;
-  for (const auto& [at, take] : p.machine_takes) {
-    auto place = at;
-    place.tolerance -= at.tolerance > tolerance;
-    if (at.tolerance != tolerance) takes[place] = take;
-  }
-  p.machine_takes = std::move(takes);
-}
-
-LimitName of_tools(const PartPlan& p, Check check, double catalogue::Tool::*value) {
+LimitName of_tools(const PlanRequest& p, Check check, double catalogue::Tool::*value) {
   const auto n = check_name(check);
   double largest = 0;
   for (const auto& t : p.tools) largest = std::max(largest, t.*value);
   return {n.name, n.unit, largest, n.at_most};
 }
 
-LimitName of_windows(const PartPlan& p, Check check,
+LimitName of_windows(const PlanRequest& p, Check check,
                      catalogue::Range catalogue::Tool::*range) {
   const auto n = check_name(check);
   double value = n.at_most ? 0 : std::numeric_limits<double>::infinity();
@@ -177,7 +161,7 @@ LimitName named(Check check, double now) {
   return {n.name, n.unit, now, n.at_most};
 }
 
-LimitName name_of_given(const PartPlan& p, const Openable& l) {
+LimitName name_of_given(const PlanRequest& p, const Openable& l) {
   const auto& o = (*p.operations)[l.index];
   if (l.kind == Kind::passes)
     return {"passes of " + o.id, "", static_cast<double>(*o.conditions.passes), true};
@@ -187,7 +171,7 @@ LimitName name_of_given(const PartPlan& p, const Openable& l) {
   return {key + (" of " + o.id), unit, *condition(o.conditions, l.kind), true};
 }
 
-double roughness(const PartPlan& p, const Openable& l) {
+double roughness(const PlanRequest& p, const Openable& l) {
   double value = 0;
   for_every_roughness(p, [&](const auto& e) {
     if (e.id == l.surface) value = (l.kind == Kind::Ra ? e.Ra_um : e.Rz_um).value_or(0);
@@ -199,7 +183,7 @@ double roughness(const PartPlan& p, const Openable& l) {
 
 bool is_given(const Openable& l) { return l.kind >= Kind::passes && l.kind <= Kind::vc; }
 
-std::vector<Openable> limits_of(const PartPlan& p) {
+std::vector<Openable> limits_of(const PlanRequest& p) {
   std::vector<Openable> all;
   for (std::size_t i = 0; p.operations && i < p.operations->size(); ++i) {
     const auto& c = (*p.operations)[i].conditions;
@@ -223,20 +207,20 @@ std::vector<Openable> limits_of(const PartPlan& p) {
   return all;
 }
 
-PartPlan opened(const PartPlan& plan, const std::vector<Openable>& limits,
-                const Openings& times) {
-  PartPlan p = plan;
+PlanRequest opened(const PlanRequest& plan, const std::vector<Openable>& limits,
+                   const Openings& times) {
+  PlanRequest p = plan;
   // Windows first: they open to what is given.
   for (std::size_t i = limits.size(); i-- > 0;)
     if (times[i] != 1) open(p, limits[i], times[i]);
   for (std::size_t i = limits.size(); i-- > 0;)
     if (limits[i].kind == Kind::tolerance && times[i] == kWithout)
-      leave_out(p, limits[i].index);
-  ease_jaws(p);
+      p.drawing.tolerances.erase(p.drawing.tolerances.begin() +
+                                 static_cast<long>(limits[i].index));
   return p;
 }
 
-bool bears_on(const PartPlan& p, const Openable& l, const std::string& surface) {
+bool bears_on(const PlanRequest& p, const Openable& l, const std::string& surface) {
   if (l.kind == Kind::Ra || l.kind == Kind::Rz) return l.surface == surface;
   if (is_given(l)) {
     const auto& on = (*p.operations)[l.index].on;
@@ -247,7 +231,7 @@ bool bears_on(const PartPlan& p, const Openable& l, const std::string& surface) 
   return t.of == surface || t.between[0] == surface || t.between[1] == surface;
 }
 
-LimitName name_of(const PartPlan& p, const Openable& l) {
+LimitName name_of(const PlanRequest& p, const Openable& l) {
   const auto& m = p.machine;
   switch (l.kind) {
     case Kind::tolerance: {

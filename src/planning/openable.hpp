@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 
 /// The limits of a plan that a reader can change, whatever the recipe: those of the
 /// drawing, of the machine and of the tools, and what the request has given.  Where the
@@ -45,7 +45,7 @@ struct Openable {
 
 /// What is given first, then what the tools, the drawing and the machine ask: a conflict
 /// is told with the earlier limits where it can be.
-std::vector<Openable> limits_of(const PartPlan& plan);
+std::vector<Openable> limits_of(const PlanRequest& plan);
 
 /// How often each limit is opened: 1 as it is, infinity without it.
 using Openings = std::vector<double>;
@@ -56,11 +56,11 @@ inline constexpr double kFar = 1e4;
 /// The plan with its limits opened: upper ones times as large, lower ones times as small,
 /// sizes about their middle, the grip by friction and lighter jaws, so that tubes keep
 /// their shape.  A given condition is given or, opened at all, not.
-PartPlan opened(const PartPlan& plan, const std::vector<Openable>& limits,
-                const Openings& times);
+PlanRequest opened(const PlanRequest& plan, const std::vector<Openable>& limits,
+                   const Openings& times);
 
 /// Whether a surface has to keep it.
-bool bears_on(const PartPlan& plan, const Openable& limit, const std::string& surface);
+bool bears_on(const PlanRequest& plan, const Openable& limit, const std::string& surface);
 
 /// A limit as a result tells it: the drawing's width of a tolerance, the motor's largest
 /// power.
@@ -69,7 +69,7 @@ struct LimitName {
   double now = 0;
   bool at_most = true;
 };
-LimitName name_of(const PartPlan& plan, const Openable& limit);
+LimitName name_of(const PlanRequest& plan, const Openable& limit);
 
 /// Given by the request, and there or not.
 bool is_given(const Openable& limit);

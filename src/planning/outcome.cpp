@@ -18,7 +18,7 @@ bool SolvedSetup::feasible() const {
                      [](const SolvedFeature& f) { return f.answer.feasible; });
 }
 
-Totals totals(const PartPlan& p, const SolvedSetup& s) {
+Totals totals(const PreparedPart& p, const SolvedSetup& s) {
   Totals t;
   t.minutes = minutes_besides_cutting(p, s.clamping, s.indexings);
   for (const auto& f : s.features) {
@@ -32,7 +32,8 @@ Totals totals(const PartPlan& p, const SolvedSetup& s) {
   return t;
 }
 
-std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSetup& s) {
+std::vector<OperationPlan> operations_in_order(const PreparedPart& p,
+                                               const SolvedSetup& s) {
   std::vector<std::vector<OperationPlan>> places(kPlaces);
   for (const auto& f : s.features) {
     if (!f.answer.model) continue;
@@ -55,12 +56,12 @@ std::vector<OperationPlan> operations_in_order(const PartPlan& p, const SolvedSe
   return all;
 }
 
-void add_unreachable(const Assignment& work, ProcessPlan& result) {
-  for (const auto& sentence : work.unreachable)
+void add_unreachable(const PreparedPart& p, ProcessPlan& result) {
+  for (const auto& sentence : p.work.unreachable)
     result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
 }
 
-void add_used_up(const PartPlan& p, const std::vector<std::size_t>& tolerances,
+void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& tolerances,
                  ProcessPlan& result) {
   constexpr double kBeyond = 1.001;
   for (const std::size_t i : tolerances) {
@@ -81,12 +82,12 @@ void add_used_up(const PartPlan& p, const std::vector<std::size_t>& tolerances,
   }
 }
 
-void add_fixed_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
+void add_fixed_obstacles(const PreparedPart& p, ProcessPlan& result) {
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     std::vector<std::pair<Clamping, Conflict>> all;
     const auto& clampings = p.setups[s].clampings;
     const bool stuck = std::ranges::all_of(clampings, [&](Clamping c) {
-      const auto conflicts = fixed_conflicts(p, s, c, work.setups[s]);
+      const auto conflicts = fixed_conflicts(p, s, c, p.work.setups[s]);
       for (const auto& one : conflicts) all.emplace_back(c, one);
       return !conflicts.empty();
     });
@@ -104,11 +105,10 @@ void add_fixed_obstacles(const PartPlan& p, const Assignment& work, ProcessPlan&
   }
 }
 
-std::vector<std::size_t> tolerances_left_to_the_stock(const PartPlan& p,
-                                                      const Assignment& work) {
+std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& p) {
   std::set<std::string> made;
-  for (std::size_t s = 0; s < work.setups.size(); ++s) {
-    const auto& w = work.setups[s];
+  for (std::size_t s = 0; s < p.work.setups.size(); ++s) {
+    const auto& w = p.work.setups[s];
     for (const std::size_t i : w.elements) made.insert(p.drawing.outer[i].id);
     for (const std::size_t i : w.bores) made.insert(p.drawing.inner[i].id);
     for (const std::size_t k : w.shoulders) made.insert(shoulder_id(p.drawing, k));

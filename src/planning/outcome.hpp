@@ -24,51 +24,50 @@ struct Totals {
   double minutes = 0, cost = 0;
 };
 /// Time and cost of a setup, per part.
-Totals totals(const PartPlan& plan, const SolvedSetup& setup);
+Totals totals(const PreparedPart& plan, const SolvedSetup& setup);
 
 /// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
 /// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
-std::vector<OperationPlan> operations_in_order(const PartPlan& plan,
+std::vector<OperationPlan> operations_in_order(const PreparedPart& plan,
                                                const SolvedSetup& setup);
 
 /// What no setup makes.
-void add_unreachable(const Assignment& work, ProcessPlan& result);
+void add_unreachable(const PreparedPart& part, ProcessPlan& result);
 
 /// Those of some tolerances that the machine's share alone uses up.
-void add_used_up(const PartPlan& plan, const std::vector<std::size_t>& tolerances,
+void add_used_up(const PreparedPart& plan, const std::vector<std::size_t>& tolerances,
                  ProcessPlan& result);
 
 /// Of what no setup cuts: no condition, and no limit but themselves, can help them.
-std::vector<std::size_t> tolerances_left_to_the_stock(const PartPlan& plan,
-                                                      const Assignment& work);
+std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& part);
 
 /// And what stands against the operations at fixed conditions of a setup in all its
 /// clampings.
-void add_fixed_obstacles(const PartPlan& plan, const Assignment& work,
-                         ProcessPlan& result);
+void add_fixed_obstacles(const PreparedPart& part, ProcessPlan& result);
 
 /// Predicted against allowed for every tolerance of the drawing, at the answers.
-std::vector<ToleranceResult> tolerance_results(const PartPlan& plan,
+std::vector<ToleranceResult> tolerance_results(const PreparedPart& plan,
                                                const std::vector<SolvedSetup>& setups);
 
 /// The error of every surface at 21 places, as it is made; not of blanks.
-std::vector<Deviation> deviations(const PartPlan& plan,
+std::vector<Deviation> deviations(const PreparedPart& plan,
                                   const std::vector<SolvedSetup>& setups);
 
 /// Correction of the tool path where a tolerance needs it.
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);
 
 /// Every limit that costs something, dearest first.
-std::vector<Price> prices(const PartPlan& plan, const std::vector<SolvedSetup>& setups);
+std::vector<Price> prices(const PreparedPart& plan,
+                          const std::vector<SolvedSetup>& setups);
 
 /// A number in a sentence: four digits, whole from ten thousand on.
 std::string readable(double value);
 
 /// One sentence: what stands against this feature, and by how much.
-std::string obstacle(const PartPlan& plan, const SolvedFeature& feature);
+std::string obstacle(const PreparedPart& plan, const SolvedFeature& feature);
 
 /// A tolerance of which all but the cut leaves nothing.
-Conflict used_up_conflict(const PartPlan& plan, const SolvedFeature& feature,
+Conflict used_up_conflict(const PreparedPart& plan, const SolvedFeature& feature,
                           const Demand& demand);
 
 }  // namespace turnwright::planning

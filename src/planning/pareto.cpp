@@ -11,25 +11,27 @@ namespace {
 using Corner = std::optional<ParetoPoint>;
 
 // The plan of least cost + minute time: that of a machine dearer by it.
-Corner cheapest(PartPlan p, double minute) {
-  p.objective = Objective::cost;
-  p.machine_per_min += minute;
-  const auto r = conforming(std::move(p), {}, Why::untold);
+Corner cheapest(const PreparedPart& p, double minute) {
+  PlanRequest dearer = p;
+  dearer.objective = Objective::cost;
+  dearer.machine_per_min += minute;
+  const auto r = conforming(prepare(std::move(dearer), p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   const double time = r.time_per_part_min;
   return ParetoPoint{r.cost_per_part - minute * time, time, minute};
 }
 
-Corner fastest(PartPlan p) {
-  p.objective = Objective::time;
-  const auto r = conforming(std::move(p), {}, Why::untold);
+Corner fastest(const PreparedPart& p) {
+  PlanRequest quick = p;
+  quick.objective = Objective::time;
+  const auto r = conforming(prepare(std::move(quick), p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   return ParetoPoint{r.cost_per_part, r.time_per_part_min, {}};
 }
 
 // The corner of the convex hull of cost against time that a line through two of its
 // corners cuts off, and those beyond; nothing cheaper by more than the certificates' gap.
-void add_corners(const PartPlan& p, const ParetoPoint& slow, const ParetoPoint& fast,
+void add_corners(const PreparedPart& p, const ParetoPoint& slow, const ParetoPoint& fast,
                  std::vector<ParetoPoint>& all) {
   constexpr double kWorth = 2e-4;
   const double saved = slow.time_per_part_min - fast.time_per_part_min;
@@ -69,7 +71,7 @@ std::vector<ParetoPoint> hull(const std::vector<ParetoPoint>& rising) {
 
 }  // namespace
 
-std::vector<ParetoPoint> pareto(const PartPlan& p, const ProcessPlan& own) {
+std::vector<ParetoPoint> pareto(const PreparedPart& p, const ProcessPlan& own) {
   const ParetoPoint known{own.cost_per_part, own.time_per_part_min, {}};
   Corner slow = p.objective == Objective::cost ? known : cheapest(p, 0);
   const Corner fast = p.objective == Objective::time ? known : fastest(p);

@@ -61,7 +61,7 @@ Certificate no_certificate(const Attempt& a) {
   return c;
 }
 
-SetupPlan setup_plan(const PartPlan& p, std::size_t index, const Comparison& c,
+SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison& c,
                      ProcessPlan& result) {
   SetupPlan s;
   s.hold = p.setups[index].hold;
@@ -100,9 +100,9 @@ bool add_missed(ProcessPlan& result) {
   return true;
 }
 
-std::optional<double> first_order_saving(const PartPlan& p,
+std::optional<double> first_order_saving(const PreparedPart& p,
                                          const std::vector<SolvedSetup>& solved,
-                                         PartPlan changed) {
+                                         PreparedPart changed) {
   changed.other_ends = p.other_ends;
   const auto costs = first_order(p, solved, changed);
   if (!costs) return {};
@@ -111,20 +111,19 @@ std::optional<double> first_order_saving(const PartPlan& p,
 
 }  // namespace
 
-ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why why) {
+ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if, Why why) {
   ProcessPlan result;
   for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
-  const auto work = assign(p);
-  add_unreachable(work, result);
-  add_used_up(p, tolerances_left_to_the_stock(p, work), result);
-  add_fixed_obstacles(p, work, result);
+  add_unreachable(p, result);
+  add_used_up(p, tolerances_left_to_the_stock(p), result);
+  add_fixed_obstacles(p, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason =
         "the conflicts told do not depend on the conditions of turning and boring";
     return result;
   }
-  const auto a = best_attempt(p, work);
+  const auto a = best_attempt(p);
   std::vector<SolvedSetup> chosen;
   for (std::size_t s = 0; s < a.setups.size(); ++s) {
     result.setups.push_back(setup_plan(p, s, a.setups[s], result));
@@ -135,7 +134,7 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why w
     result.certificate = no_certificate(a);
     if (why == Why::told) {
       explain(p, a, result);
-      result.remedies = remedies(p, work, a);
+      result.remedies = remedies(p, a);
     }
     return result;
   }
@@ -150,7 +149,7 @@ ProcessPlan planned(const PartPlan& p, const std::vector<WhatIf>& what_if, Why w
   result.prices = prices(p, chosen);
   for (std::size_t k = 0; k < what_if.size(); ++k)
     result.what_if[k].first_order_saves_per_part =
-        first_order_saving(p, chosen, what_if[k].plan);
+        first_order_saving(p, chosen, what_if[k].part);
   return result;
 }
 

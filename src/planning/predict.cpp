@@ -62,13 +62,13 @@ void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) 
 }
 
 // Whether every setup's clamping can be used; else why not is told.
-bool held(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
+bool held(const PreparedPart& p, ProcessPlan& result) {
   auto done = nothing_finished(p.drawing);
   bool all = true;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     const auto clamping = p.setups[s].clampings.front();
-    const auto why = unusable(p, s, clamping, work.setups[s], done);
-    finish(done, work.setups[s]);
+    const auto why = unusable(p, s, clamping, p.work.setups[s], done);
+    finish(done, p.work.setups[s]);
     if (why.empty()) continue;
     all = false;
     result.conflicts.push_back({"clamping", fmt::format("setup {}", s), 0, 0, "",
@@ -77,21 +77,21 @@ bool held(const PartPlan& p, const Assignment& work, ProcessPlan& result) {
   return all;
 }
 
-std::vector<SolvedSetup> solved(const PartPlan& p, const Assignment& work,
+std::vector<SolvedSetup> solved(const PreparedPart& p,
                                 const std::set<std::string>& corrected) {
   auto done = nothing_finished(p.drawing);
   std::vector<SolvedSetup> all;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     SharedMemory shared;
-    SetupPlanner planner(p, s, p.setups[s].clampings.front(), work.setups[s], done,
+    SetupPlanner planner(p, s, p.setups[s].clampings.front(), p.work.setups[s], done,
                          {p.machine_per_min, 1}, shared);
     all.push_back(planner.as_given(as_given, corrected));
-    finish(done, work.setups[s]);
+    finish(done, p.work.setups[s]);
   }
   return all;
 }
 
-SetupPlan setup_plan(const PartPlan& p, std::size_t s, const SolvedSetup& solved,
+SetupPlan setup_plan(const PreparedPart& p, std::size_t s, const SolvedSetup& solved,
                      ProcessPlan& result) {
   SetupPlan setup;
   setup.hold = p.setups[s].hold;
@@ -110,7 +110,7 @@ SetupPlan setup_plan(const PartPlan& p, std::size_t s, const SolvedSetup& solved
 }
 
 // The surfaces of tolerances that are not met.
-std::set<std::string> missed(const PartPlan& p,
+std::set<std::string> missed(const PreparedPart& p,
                              const std::vector<ToleranceResult>& tolerances) {
   std::set<std::string> all;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
@@ -129,26 +129,26 @@ bool feasible(const std::vector<SolvedSetup>& setups) {
 }
 
 // Corrected are the surfaces that keep their tolerances so, and not without.
-std::vector<SolvedSetup> with_corrections(const PartPlan& p, const Assignment& work) {
-  auto plain = solved(p, work, {});
+std::vector<SolvedSetup> with_corrections(const PreparedPart& p) {
+  auto plain = solved(p, {});
   if (!feasible(plain)) return plain;
   auto surfaces = missed(p, tolerance_results(p, plain));
   if (surfaces.empty()) return plain;
-  const auto corrected = solved(p, work, surfaces);
+  const auto corrected = solved(p, surfaces);
   for (const auto& left : missed(p, tolerance_results(p, corrected)))
     surfaces.erase(left);
   for (const auto& setup : corrected)
     for (const auto& f : setup.features)
       if (worst_excess(f.task.demands, f.answer.profile) > kBeyondRounding)
         surfaces.erase(f.task.feature.surface());
-  return surfaces.empty() ? plain : solved(p, work, surfaces);
+  return surfaces.empty() ? plain : solved(p, surfaces);
 }
 
 void require(bool holds, const std::string& rule) {
   if (!holds) throw std::domain_error("predict: " + rule);
 }
 
-void require_given(const PartPlan& p) {
+void require_given(const PreparedPart& p) {
   for (const auto& setup : p.setups)
     require(!setup.clampings.empty(), "each setup needs a clamping");
   require(p.operations.has_value(), "the operations must be given");
@@ -160,20 +160,19 @@ void require_given(const PartPlan& p) {
 
 }  // namespace
 
-ProcessPlan predict(const PartPlan& p) {
+ProcessPlan predict(const PreparedPart& p) {
   require_given(p);
   ProcessPlan result;
-  const auto work = assign(p);
-  add_unreachable(work, result);
+  add_unreachable(p, result);
   std::vector<std::size_t> every(p.drawing.tolerances.size());
   std::iota(every.begin(), every.end(), 0);
   add_used_up(p, every, result);
-  if (!held(p, work, result)) {
+  if (!held(p, result)) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason = "nothing to predict: the part cannot be held so";
     return result;
   }
-  const auto setups = with_corrections(p, work);
+  const auto setups = with_corrections(p);
   for (std::size_t s = 0; s < setups.size(); ++s)
     result.setups.push_back(setup_plan(p, s, setups[s], result));
   result.certificate.reason = "conditions as given";
@@ -193,5 +192,7 @@ ProcessPlan predict(const PartPlan& p) {
   if (!result.conflicts.empty()) result.status = PlanStatus::infeasible;
   return result;
 }
+
+ProcessPlan predict(const PlanRequest& request) { return predict(prepare(request)); }
 
 }  // namespace turnwright::planning

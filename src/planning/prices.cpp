@@ -14,7 +14,7 @@ constexpr double kWorthNaming = 1e-7;  // of the objective: below it a price is 
 constexpr double kStep = 1e-5;         // of a limit: its square is far below 1 %
 const double kTenPercent = std::log(1.1);
 
-const char* unit_of_objective(const PartPlan& p) {
+const char* unit_of_objective(const PreparedPart& p) {
   return p.objective == Objective::time ? " min" : "";
 }
 
@@ -40,7 +40,7 @@ bool clamped(const Chain& chain, const Choice<double>& c, std::size_t i) {
          units::cutting_speed_m_min(cap, sweep(o, o.narrowest(), c.a).D_small_mm);
 }
 
-Binding binding(const PartPlan& p, const std::vector<SolvedSetup>& setups) {
+Binding binding(const PreparedPart& p, const std::vector<SolvedSetup>& setups) {
   Binding all;
   for (const auto& s : setups)
     for (const auto& f : s.features) {
@@ -62,13 +62,15 @@ Binding binding(const PartPlan& p, const std::vector<SolvedSetup>& setups) {
 }
 
 // d objective/d ln(limit) where it is opened.
-double slope(const PartPlan& p, const std::vector<SolvedSetup>& setups, const Limit& l) {
-  auto opened = p;
+double slope(const PreparedPart& p, const std::vector<SolvedSetup>& setups,
+             const Limit& l) {
+  PlanRequest opened = p;
   l.scale(opened, l.at_most ? 1 + kStep : 1 / (1 + kStep));
-  return -first_order(p, setups, opened).value_or(0) / std::log1p(kStep);
+  return -first_order(p, setups, prepare(std::move(opened), p)).value_or(0) /
+         std::log1p(kStep);
 }
 
-Price price(const PartPlan& p, const Limit& l, double gain,
+Price price(const PreparedPart& p, const Limit& l, double gain,
             std::vector<std::string> binds_in) {
   const double then = l.at_most ? l.now * 1.1 : l.now / 1.1;
   const auto sentence = fmt::format(
@@ -85,7 +87,7 @@ std::string readable(double value) {
                                : fmt::format("{:.0f}", value);
 }
 
-std::vector<Price> prices(const PartPlan& p, const std::vector<SolvedSetup>& setups) {
+std::vector<Price> prices(const PreparedPart& p, const std::vector<SolvedSetup>& setups) {
   double objective = 0;
   for (const auto& s : setups) objective += s.objective;
   const auto holds = binding(p, setups);

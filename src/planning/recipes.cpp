@@ -14,7 +14,7 @@ bool fits(const Tool& t, ToolUse use, catalogue::IsoGroup group) {
          std::find(t.groups.begin(), t.groups.end(), group) != t.groups.end();
 }
 
-const Tool* tool_named(const PartPlan& p, const std::optional<std::string>& id) {
+const Tool* tool_named(const PreparedPart& p, const std::optional<std::string>& id) {
   if (!id) return nullptr;
   for (const auto& t : p.tools)
     if (t.id == *id) return &t;
@@ -46,14 +46,14 @@ Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t
 
 }  // namespace
 
-std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
+std::vector<const Tool*> tools_for(const PreparedPart& p, ToolUse use) {
   std::vector<const Tool*> all;
   for (const auto& t : p.tools)
     if (fits(t, use, p.material.group)) all.push_back(&t);
   return all;
 }
 
-Wanted wanted(const PartPlan& p, std::size_t setup, const std::string& surface) {
+Wanted wanted(const PreparedPart& p, std::size_t setup, const std::string& surface) {
   Wanted w;
   if (!p.operations) return w;
   w.given = true;
@@ -74,7 +74,7 @@ Wanted wanted(const PartPlan& p, std::size_t setup, const std::string& surface) 
   return w;
 }
 
-std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Wanted& w,
+std::vector<Recipe> recipes(const PreparedPart& p, const Feature& f, const Wanted& w,
                             const Tool* rough, const Tool* finish) {
   std::vector<Recipe> all;
   if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;

@@ -15,10 +15,10 @@ struct Wanted {
   Fixed fixed;
   std::vector<std::string> ids;  ///< of the given operations, rough first
 };
-Wanted wanted(const PartPlan& plan, std::size_t setup, const std::string& surface);
+Wanted wanted(const PreparedPart& plan, std::size_t setup, const std::string& surface);
 
 /// The tools of the request for a use and the plan's material.
-std::vector<const catalogue::Tool*> tools_for(const PartPlan& plan,
+std::vector<const catalogue::Tool*> tools_for(const PreparedPart& plan,
                                               catalogue::ToolUse use);
 
 /// Finishing passes that `auto` may take on an element or a bore.
@@ -27,7 +27,7 @@ inline constexpr int kFinishingPasses = 2;
 /// Every number of passes that the depths of the tools allow, or as given, with every
 /// speed range; on elements and bores at most kFinishingPasses finishing passes unless
 /// given.
-std::vector<Recipe> recipes(const PartPlan& plan, const Feature& feature,
+std::vector<Recipe> recipes(const PreparedPart& plan, const Feature& feature,
                             const Wanted& wanted, const catalogue::Tool* rough,
                             const catalogue::Tool* finish);
 

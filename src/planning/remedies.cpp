@@ -16,7 +16,7 @@ namespace {
 using Change = Remedy::Change;
 
 struct Variant {
-  PartPlan plan;
+  PlanRequest plan;
   Remedy remedy;
 };
 
@@ -25,7 +25,7 @@ bool is_cut(const std::vector<std::size_t>& elements, std::size_t i) {
 }
 
 // The middles of outer elements between jaws and free end that a setup does not cut.
-std::vector<double> steady_places_mm(const PartPlan& p, std::size_t s,
+std::vector<double> steady_places_mm(const PreparedPart& p, std::size_t s,
                                      const SetupWork& work) {
   std::vector<double> places;
   const double root = root_z_mm(p, s, Clamping::chuck_steady), free = free_z_mm(p, s);
@@ -40,7 +40,7 @@ std::vector<double> steady_places_mm(const PartPlan& p, std::size_t s,
   return places;
 }
 
-void add_clampings(const PartPlan& p, std::size_t s, const SetupWork& work,
+void add_clampings(const PreparedPart& p, std::size_t s, const SetupWork& work,
                    std::vector<Variant>& all) {
   const auto& allowed = p.setups[s].clampings;
   const auto add = [&](Clamping c, double steady_mm) {
@@ -68,7 +68,7 @@ void add_clampings(const PartPlan& p, std::size_t s, const SetupWork& work,
 }
 
 // Jaws as far as the nearest element that the setup cuts.
-void add_grip(const PartPlan& p, std::size_t s, const SetupWork& work,
+void add_grip(const PreparedPart& p, std::size_t s, const SetupWork& work,
               std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
   const double root = root_z_mm(p, s, Clamping::chuck), free = free_z_mm(p, s);
@@ -92,7 +92,7 @@ void add_grip(const PartPlan& p, std::size_t s, const SetupWork& work,
   all.push_back(std::move(v));
 }
 
-void add_tools(const PartPlan& p, std::vector<Variant>& all) {
+void add_tools(const PreparedPart& p, std::vector<Variant>& all) {
   for (const auto& tool : p.spare_tools) {
     if (std::find(tool.groups.begin(), tool.groups.end(), p.material.group) ==
         tool.groups.end())
@@ -104,7 +104,7 @@ void add_tools(const PartPlan& p, std::vector<Variant>& all) {
   }
 }
 
-void add_operations(const PartPlan& p, std::vector<Variant>& all) {
+void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
   const auto limits = limits_of(p);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const auto& l = limits[i];
@@ -125,22 +125,22 @@ void add_operations(const PartPlan& p, std::vector<Variant>& all) {
 
 }  // namespace
 
-std::vector<Remedy> remedies(const PartPlan& p, const Assignment& work,
-                             const Attempt& attempt) {
+std::vector<Remedy> remedies(const PreparedPart& p, const Attempt& attempt) {
   std::vector<Variant> variants;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     const auto& setup = attempt.setups[s];
     if (setup.solved && setup.chosen.feasible()) continue;
-    add_clampings(p, s, work.setups[s], variants);
-    add_grip(p, s, work.setups[s], variants);
+    add_clampings(p, s, p.work.setups[s], variants);
+    add_grip(p, s, p.work.setups[s], variants);
   }
   add_tools(p, variants);
   add_operations(p, variants);
   std::vector<Remedy> all;
   for (auto& [plan, remedy] : variants) {
-    Feasibility part(plan);
+    const auto changed = prepare(std::move(plan));
+    Feasibility part(changed);
     if (!part.with(Openings(part.limits().size(), 1))) continue;
-    const auto planned_with = conforming(plan, {}, Why::untold);
+    const auto planned_with = conforming(changed, {}, Why::untold);
     if (planned_with.status != PlanStatus::ok) continue;
     remedy.cost_per_part = planned_with.cost_per_part;
     remedy.time_per_part_min = planned_with.time_per_part_min;

@@ -8,7 +8,6 @@ namespace turnwright::planning {
 /// steady rest at the middle of an element that the setup does not cut), jaws that reach
 /// to what the setup cuts first, a tool of the catalogue that the request leaves out, a
 /// given condition left to the planner.  Cheapest first.
-std::vector<Remedy> remedies(const PartPlan& plan, const Assignment& work,
-                             const Attempt& attempt);
+std::vector<Remedy> remedies(const PreparedPart& part, const Attempt& attempt);
 
 }  // namespace turnwright::planning

@@ -20,12 +20,12 @@ double other_end(const part::Tolerance& t, const ToleranceResult& r) {
 }
 
 // Asks more of the tolerances that do not conform; false if none is left to ask.
-bool asked_more(const ProcessPlan& result, bool as_they_are, PartPlan& p) {
+bool asked_more(const ProcessPlan& result, bool as_they_are, PreparedPart& p) {
   bool more = false;
   for (std::size_t i = 0; i < result.tolerances.size(); ++i) {
     const auto& r = result.tolerances[i];
     if (r.P_conform >= p.conformance - kConforms) continue;
-    const auto [end, fresh] = p.other_ends.try_emplace(i, 0);
+    const auto [end, fresh] = p.other_ends.try_emplace(r.id, 0);
     if (!fresh && end->second == kBothSigns) continue;
     end->second = as_they_are ? other_end(p.drawing.tolerances[i], r) : kBothSigns;
     more = true;
@@ -50,7 +50,7 @@ void bound_by(double first, ProcessPlan& r) {
 
 }  // namespace
 
-ProcessPlan conforming(PartPlan p, const std::vector<WhatIf>& what_if, Why why) {
+ProcessPlan conforming(PreparedPart p, const std::vector<WhatIf>& what_if, Why why) {
   auto result = planned(p, what_if, why);
   if (!p.robust) return result;
   const double bound = result.certificate.lower_bound;

@@ -9,13 +9,13 @@ namespace {
 
 using part::End;
 
-const part::Drawing& drawing(const PartPlan& p) { return p.drawing; }
-bool holds_left(const PartPlan& p, std::size_t s) {
+const part::Drawing& drawing(const PlanRequest& p) { return p.drawing; }
+bool holds_left(const PlanRequest& p, std::size_t s) {
   return p.setups[s].hold == End::left;
 }
 
 // z at which the jaws end.  The first setup grips stock, the later ones the part.
-double jaw_z(const PartPlan& p, std::size_t s) {
+double jaw_z(const PlanRequest& p, std::size_t s) {
   const auto& d = drawing(p);
   const double grip = p.setups[s].grip_mm, L = part::length_mm(d);
   if (holds_left(p, s)) return grip - (s == 0 ? d.stock.left_allowance_mm : 0);
@@ -25,7 +25,7 @@ double jaw_z(const PartPlan& p, std::size_t s) {
 double largest(const part::OuterElement& e) { return std::max(e.left_mm, e.right_mm); }
 
 // Whether a tool can get at outer element i from the free end.
-bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
+bool reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
   const auto& e = drawing(p).outer;
   const double z0 = part::left_z_mm(drawing(p), i), z1 = z0 + e[i].length_mm;
   const bool left = holds_left(p, s);
@@ -40,7 +40,7 @@ bool reachable(const PartPlan& p, std::size_t s, std::size_t i) {
 }
 
 // A bore opens to the free end and narrows inwards, itself and with all before it.
-bool bore_reachable(const PartPlan& p, std::size_t s, std::size_t i) {
+bool bore_reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
   const auto& inner = drawing(p).inner;
   const auto& e = inner[i];
   const bool right = e.from == End::right;
@@ -66,7 +66,7 @@ bool face_named(const part::Drawing& d, const std::string& id) {
 
 // Whether the request leaves it to the planner to make a surface in this setup, or asks
 // for it there.
-bool wanted_in(const PartPlan& p, std::size_t s, const std::string& surface) {
+bool wanted_in(const PlanRequest& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
     return o.setup == s && o.kind != OperationKind::fixed &&
@@ -76,7 +76,7 @@ bool wanted_in(const PartPlan& p, std::size_t s, const std::string& surface) {
 
 // The first setup that is to make a surface and can; else why there is none.
 template <class Can>
-std::optional<std::size_t> place(const PartPlan& p, const std::string& surface,
+std::optional<std::size_t> place(const PlanRequest& p, const std::string& surface,
                                  const std::string& why, const Can& can, Assignment& a) {
   bool asked = false;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
@@ -93,7 +93,7 @@ std::optional<std::size_t> place(const PartPlan& p, const std::string& surface,
   return {};
 }
 
-void assign_faces(const PartPlan& p, Assignment& a) {
+void assign_faces(const PlanRequest& p, Assignment& a) {
   const auto& d = drawing(p);
   for (const End end : {End::left, End::right}) {
     if (!(face_stock_mm(p, end) > 1e-9)) continue;
@@ -133,9 +133,9 @@ void finish(Finished& finished, const SetupWork& work) {
   for (const std::size_t i : work.bores) finished.inner[i] = true;
 }
 
-Finished finished_after(const PartPlan& p, const Assignment& work, std::size_t setup) {
+Finished finished_after(const PreparedPart& p, std::size_t setup) {
   auto done = nothing_finished(p.drawing);
-  for (std::size_t s = 0; s <= setup; ++s) finish(done, work.setups[s]);
+  for (std::size_t s = 0; s <= setup; ++s) finish(done, p.work.setups[s]);
   return done;
 }
 
@@ -143,31 +143,30 @@ std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
 }
 
-double face_stock_mm(const PartPlan& p, part::End end) {
+double face_stock_mm(const PlanRequest& p, part::End end) {
   const auto& stock = drawing(p).stock;
   if (stock.parted_mm && p.setups.front().hold == end) return *stock.parted_mm;
   return end == End::left ? stock.left_allowance_mm
                           : part::right_allowance_mm(drawing(p));
 }
 
-double face_stock_after_mm(const PartPlan& p, const Assignment& work, std::size_t setup,
-                           part::End end) {
-  const auto faced = setup_of(p, work, end == part::End::left ? "left" : "right");
+double face_stock_after_mm(const PreparedPart& p, std::size_t setup, part::End end) {
+  const auto faced = setup_of(p, end == part::End::left ? "left" : "right");
   return faced && *faced <= setup ? 0 : face_stock_mm(p, end);
 }
 
-bool cleared(const PartPlan& p, std::size_t s, std::size_t i) {
+bool cleared(const PlanRequest& p, std::size_t s, std::size_t i) {
   const auto& cut = drawing(p).outer[i].cut;
   if (!cut) return true;
   return (holds_left(p, s) ? cut->falls_to_left_rad : cut->falls_to_right_rad) <=
          part::kProfilingClears_rad;
 }
 
-const char* free_face(const PartPlan& p, std::size_t s) {
+const char* free_face(const PlanRequest& p, std::size_t s) {
   return holds_left(p, s) ? "right" : "left";
 }
 
-Assignment assign(const PartPlan& p) {
+Assignment assign(const PlanRequest& p) {
   Assignment a;
   a.setups.resize(p.setups.size());
   const auto& outer = drawing(p).outer;
@@ -203,11 +202,10 @@ double face_z_mm(const part::Drawing& d, const std::string& face) {
   return part::length_mm(d);
 }
 
-std::optional<std::size_t> setup_of(const PartPlan& p, const Assignment& work,
-                                    const std::string& surface) {
+std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& surface) {
   const auto& d = p.drawing;
-  for (std::size_t s = 0; s < work.setups.size(); ++s) {
-    const SetupWork& w = work.setups[s];
+  for (std::size_t s = 0; s < p.work.setups.size(); ++s) {
+    const SetupWork& w = p.work.setups[s];
     const auto any = [&](const std::vector<std::size_t>& indices, const auto& id) {
       return std::any_of(indices.begin(), indices.end(),
                          [&](std::size_t i) { return id(i) == surface; });
@@ -221,7 +219,7 @@ std::optional<std::size_t> setup_of(const PartPlan& p, const Assignment& work,
   return {};
 }
 
-double root_z_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
+double root_z_mm(const PlanRequest& p, std::size_t s, Clamping clamping) {
   if (clamping != Clamping::between_centres) return jaw_z(p, s);
   const auto& d = drawing(p);
   // The held end is faced once a setup before has held the other one.
@@ -232,11 +230,11 @@ double root_z_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
   return part::length_mm(d) + (faced ? 0 : part::right_allowance_mm(d));
 }
 
-double free_z_mm(const PartPlan& p, std::size_t s) {
+double free_z_mm(const PlanRequest& p, std::size_t s) {
   return holds_left(p, s) ? part::length_mm(drawing(p)) : 0;
 }
 
-double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
+double grip_diameter_mm(const PlanRequest& p, std::size_t s, Clamping clamping) {
   if (clamping == Clamping::between_centres) return 0;
   if (s == 0) return drawing(p).stock.outer_mm;
   const auto& e = drawing(p).outer;  // the smallest diameter between the jaws
@@ -249,12 +247,11 @@ double grip_diameter_mm(const PartPlan& p, std::size_t s, Clamping clamping) {
   return d;
 }
 
-double gripped_bore_mm(const PartPlan& p, std::size_t s) {
+double gripped_bore_mm(const PreparedPart& p, std::size_t s) {
   const auto& d = drawing(p);
-  const auto setups = assign(p).setups;
   double bore = d.stock.inner_mm;
   for (std::size_t k = 0; k <= s; ++k)
-    for (const std::size_t i : setups[k].bores) {
+    for (const std::size_t i : p.work.setups[k].bores) {
       const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
       if (holds_left(p, s) ? z0 < jaw_z(p, s) : z1 > jaw_z(p, s))
         bore = std::max({bore, d.inner[i].left_mm, d.inner[i].right_mm});
@@ -262,16 +259,14 @@ double gripped_bore_mm(const PartPlan& p, std::size_t s) {
   return bore;
 }
 
-double jaw_force_N(const PartPlan& p, std::size_t s, Clamping clamping, Stage stage) {
+double jaw_force_N(const PreparedPart& p, std::size_t s, Clamping clamping, Stage stage) {
   if (clamping == Clamping::between_centres) return 0;
-  const auto& setup = p.setups[s];
-  const double force = setup.grip_force_N.value_or(p.machine.chuck.grip_force_N);
-  return stage == Stage::roughing ? force : setup.finishing_grip_force_N.value_or(force);
+  return stage == Stage::roughing ? p.jaws.at(s).roughing_N : p.jaws.at(s).finishing_N;
 }
 
-SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
+SetupBody::SetupBody(const PreparedPart& p, std::size_t s, Clamping clamping,
                      const Finished& finished)
-    : plan_(&p),
+    : part_(&p),
       root_z_(root_z_mm(p, s, clamping)),
       sign_(holds_left(p, s) ? 1 : -1),
       length_(sign_ * (free_z_mm(p, s) - root_z_)) {
@@ -289,7 +284,7 @@ SetupBody::SetupBody(const PartPlan& p, std::size_t s, Clamping clamping,
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const double z0 = part::inner_left_z_mm(d, i);
     const auto& e = d.inner[i];
-    const double drilled = part::hole_mm(d, i);  // and from the start: no stiffer
+    const double drilled = hole_mm(p, i);  // and from the start: no stiffer
     const auto made = finished.inner[i] ? part::core(e) : part::Ends{drilled, drilled};
     inner_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
@@ -313,8 +308,8 @@ part::Shaft SetupBody::shaft(const std::vector<Zone>& outer,
   const auto diameter = [](const Zone& zone, double z) {
     return zone.d0 + (zone.d1 - zone.d0) * (z - zone.z0) / (zone.z1 - zone.z0);
   };
-  const double hole = drawing(*plan_).stock.inner_mm;
-  part::Shaft shaft{plan_->material.E_MPa, plan_->material.nu, {}};
+  const double hole = drawing(*part_).stock.inner_mm;
+  part::Shaft shaft{part_->material.E_MPa, part_->material.nu, {}};
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     double z0 = ends[k], z1 = ends[k + 1];
     if (!(z1 - z0 > 1e-9)) continue;
@@ -335,7 +330,7 @@ part::Shaft SetupBody::shaft(const Element& element, double left_mm) const {
     zone.d0 = e.left_mm + more;
     zone.d1 = e.right_mm + more;
   };
-  const auto& d = drawing(*plan_);
+  const auto& d = drawing(*part_);
   if (element.inner)
     leave(inner[element.index], d.inner[element.index], -2 * left_mm);
   else

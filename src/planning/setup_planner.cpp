@@ -51,7 +51,8 @@ std::size_t place_in_setup(Feature::Kind kind, bool rough) {
   return rough ? 4 : 5;
 }
 
-double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int indexings) {
+double minutes_besides_cutting(const PreparedPart& plan, Clamping clamping,
+                               int indexings) {
   const auto& m = plan.machine;
   double t = indexings * m.index_min + m.load_min + m.setup_min / plan.batch;
   if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
@@ -61,7 +62,7 @@ double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int inde
   return t;
 }
 
-SetupPlanner::SetupPlanner(const PartPlan& p, std::size_t setup, Clamping clamping,
+SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping clamping,
                            const SetupWork& work, const Finished& before,
                            const Economy& economy, SharedMemory& shared)
     : p_(p),

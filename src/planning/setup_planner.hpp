@@ -48,7 +48,7 @@ struct SharedMemory {
 /// part of the tools.  The plan must outlive it.
 class SetupPlanner {
  public:
-  SetupPlanner(const PartPlan& plan, std::size_t setup, Clamping clamping,
+  SetupPlanner(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                const SetupWork& work, const Finished& before, const Economy& economy,
                SharedMemory& shared);
 
@@ -98,7 +98,7 @@ class SetupPlanner {
   int indexings(const SolvedSetup& s) const;
   double besides_cutting(int indexings) const;
 
-  const PartPlan& p_;
+  const PreparedPart& p_;
   std::size_t setup_;
   Clamping clamping_;
   Economy economy_;
@@ -114,7 +114,8 @@ class SetupPlanner {
 };
 
 /// Minutes of a setup beside its operations: tools brought in, loading, preparing.
-double minutes_besides_cutting(const PartPlan& plan, Clamping clamping, int indexings);
+double minutes_besides_cutting(const PreparedPart& plan, Clamping clamping,
+                               int indexings);
 
 /// Where a surface's operations stand in the order of a setup: faces first, then all
 /// roughing, all finishing, shoulders, and the bores in the same way.

@@ -99,7 +99,7 @@ void add(const std::vector<tolerance::Source>& of_face,
   }
 }
 
-Taken taken(const PartPlan& p, std::size_t tolerance, const Found& at,
+Taken taken(const PreparedPart& p, std::size_t tolerance, const Found& at,
             const Found& other) {
   Taken all{.by = {.fixed = {{kMachine, p.machine_share_um}}, .spread = {}}};
   double made = 0;
@@ -127,7 +127,7 @@ double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
 }
 
 // What is not known of forces and stiffness is not known of a correction either.
-double conforming(const PartPlan& p, const Tolerance& t, const Found& at,
+double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
                   const Found& other, const Taken& all) {
   if (!(all.fixed_mm < width_mm(t) && (at.feature || other.feature))) return 0;
   const auto c = judged(t, at, all.fixed_mm, half_angle_rad(p.drawing, t.of).value_or(0));
@@ -146,8 +146,8 @@ void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.margin_mm = width_mm(t) - taken_mm;
 }
 
-void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found& other,
-             const Taken& all, ToleranceResult& r) {
+void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
+             const Found& other, const Taken& all, ToleranceResult& r) {
   const double half_angle = half_angle_rad(p.drawing, t.of).value_or(0);
   const auto c = judged(t, at, all.mm, half_angle);
   const auto cut = verdict(c, profile(at), profile(other));
@@ -173,7 +173,7 @@ void predict(const PartPlan& p, const Tolerance& t, const Found& at, const Found
 }
 
 // An element that nothing cuts has the stock's diameter, and no form.
-void not_made(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
+void not_made(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   const auto& d = p.drawing;
   const auto at = *part::extent(d, t.of);
   const double off = at.inner ? d.stock.inner_mm - std::max(at.left_mm, at.right_mm)
@@ -191,7 +191,7 @@ void not_made(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
 }
 
 // Of surfaces left as the stock has them only the machine's share is predicted.
-void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
+void left_as_stock(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   if (!t.limits) {
     r.predicted_mm = {units::mm_from_um(p.machine_share_um)};
     r.allowed_mm = {t.value_mm};
@@ -207,7 +207,7 @@ void left_as_stock(const PartPlan& p, const Tolerance& t, ToleranceResult& r) {
 
 }  // namespace
 
-std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
+std::vector<ToleranceResult> tolerance_results(const PreparedPart& p,
                                                const std::vector<SolvedSetup>& setups) {
   std::vector<ToleranceResult> results;
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
@@ -238,7 +238,7 @@ std::vector<ToleranceResult> tolerance_results(const PartPlan& p,
   return results;
 }
 
-std::vector<Deviation> deviations(const PartPlan& p,
+std::vector<Deviation> deviations(const PreparedPart& p,
                                   const std::vector<SolvedSetup>& setups) {
   constexpr int kPlaces = 21;
   std::vector<Deviation> all;

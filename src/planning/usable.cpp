@@ -10,7 +10,7 @@ namespace turnwright::planning {
 namespace {
 
 // What stands in the way of a tailstock, a centre or a steady rest, or nothing.
-std::string in_the_way(const PartPlan& p, std::size_t setup, Clamping c,
+std::string in_the_way(const PreparedPart& p, std::size_t setup, Clamping c,
                        const SetupWork& work) {
   const auto& d = p.drawing;
   if (c != Clamping::chuck_steady)
@@ -36,7 +36,7 @@ std::string in_the_way(const PartPlan& p, std::size_t setup, Clamping c,
 constexpr double kOfBuckling = 0.5;
 
 // The tailstock's thrust against what the part bears once the setup is done.
-std::string buckles(const PartPlan& p, std::size_t setup, Clamping c,
+std::string buckles(const PreparedPart& p, std::size_t setup, Clamping c,
                     const SetupWork& work, Finished done) {
   if (!has_tailstock(c) || !(p.machine.tail_thrust_N > 0)) return {};
   finish(done, work);
@@ -51,14 +51,14 @@ std::string buckles(const PartPlan& p, std::size_t setup, Clamping c,
 
 }  // namespace
 
-bool rest_stands_free(const PartPlan& p, std::size_t setup) {
+bool rest_stands_free(const PlanRequest& p, std::size_t setup) {
   const double z = p.setups[setup].steady_z_mm;
   const auto [low, high] =
       std::minmax({root_z_mm(p, setup, Clamping::chuck_steady), free_z_mm(p, setup)});
   return z > low && z < high;
 }
 
-std::string unusable(const PartPlan& p, std::size_t setup, Clamping c,
+std::string unusable(const PreparedPart& p, std::size_t setup, Clamping c,
                      const SetupWork& work, const Finished& done) {
   const auto& m = p.machine;
   const auto& d = p.drawing.stock;

@@ -18,7 +18,7 @@ std::string saves(double amount, const std::string& unit) {
                      readable(std::abs(amount)), unit);
 }
 
-std::string sentence(const PartPlan& p, const ProcessPlan& own, const WhatIfAnswer& a,
+std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIfAnswer& a,
                      const ProcessPlan& changed) {
   if (!a.feasible) {
     const auto why =
@@ -40,11 +40,12 @@ std::string sentence(const PartPlan& p, const ProcessPlan& own, const WhatIfAnsw
 
 }  // namespace
 
-void answer(const PartPlan& p, const std::vector<WhatIf>& what_if, ProcessPlan& result) {
+void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
+            ProcessPlan& result) {
   const bool both = result.status == PlanStatus::ok;
   for (std::size_t k = 0; k < what_if.size(); ++k) {
     auto& a = result.what_if[k];
-    const auto changed = conforming(what_if[k].plan);
+    const auto changed = conforming(what_if[k].part);
     a.feasible = changed.status == PlanStatus::ok;
     a.cost_per_part = changed.cost_per_part;
     a.time_per_part_min = changed.time_per_part_min;

@@ -38,7 +38,7 @@ struct Speeds {
 
 // One operation at its depth, beside the others as chosen.
 struct Slice {
-  const PartPlan& plan;
+  const PreparedPart& plan;
   const Chain& chain;
   Choice<double> at;
   std::size_t i;
@@ -340,7 +340,7 @@ void add_cost_curves(const Slice& s, const Frame& frame, double optimum,
 
 }  // namespace
 
-std::optional<OperatingWindow> operating_window(const PartPlan& plan,
+std::optional<OperatingWindow> operating_window(const PreparedPart& plan,
                                                 const SolvedFeature& solved,
                                                 std::size_t i) {
   const auto& task = solved.task;

@@ -22,7 +22,7 @@ namespace turnwright::planning {
 /// the window its vertices move inwards by as much, so that the polygon holds nothing
 /// else. Nothing if the request fixes speed or feed, or the window has no area. Source:
 /// derived here; window_test predicts its vertices and points inside and outside.
-std::optional<OperatingWindow> operating_window(const PartPlan& plan,
+std::optional<OperatingWindow> operating_window(const PreparedPart& plan,
                                                 const SolvedFeature& solved,
                                                 std::size_t i);
 

@@ -149,22 +149,22 @@ constexpr const char* kCalibrateExample = R"({
     {"vc_m_min": 320, "f_mm_rev": 0.2, "ap_mm": 2, "Fc_N": 941, "T_min": 8.6}]})";
 
 ordered_json plan(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "plan");
-  return document::to_json(planning::plan(part.plan, part.what_if), part.assumed);
+  const auto part = document::prepared_part(request, context.catalogue, "plan");
+  return document::to_json(planning::plan(part.part, part.what_if), part.assumed);
 }
 
 ordered_json predict(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "predict",
-                                             document::Purpose::predict);
-  return document::to_json(planning::predict(part.plan), part.assumed);
+  const auto part = document::prepared_part(request, context.catalogue, "predict",
+                                            document::Purpose::predict);
+  return document::to_json(planning::predict(part.part), part.assumed);
 }
 
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
 
 ordered_json nc_programs(const json& request, const Context& context) {
   const auto [part, control] = document::load_nc_request(request, context.catalogue);
-  const auto plan = planning::plan(part.plan);
-  return document::to_json(nc::programs(part.plan, plan), plan, control);
+  const auto plan = planning::plan(part.part);
+  return document::to_json(nc::programs(part.part, plan), plan, control);
 }
 
 std::string nc_text(const ordered_json& result) {
@@ -177,15 +177,15 @@ std::string nc_text(const ordered_json& result) {
 
 ordered_json drawing(const json& request, const Context& context) {
   return document::drawing(
-      document::load_part_plan(request, context.catalogue, "drawing"));
+      document::prepared_part(request, context.catalogue, "drawing"));
 }
 
-Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan) {
-  Drawn all{document::to_json(plan, part.assumed), {}, nc::programs(part.plan, plan)};
-  for (auto& svg : report::setup_drawings(part.plan, plan))
+Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan) {
+  Drawn all{document::to_json(plan, part.assumed), {}, nc::programs(part.part, plan)};
+  for (auto& svg : report::setup_drawings(part.part, plan))
     all.drawings.push_back(
         {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
-  if (auto svg = report::budget_drawing(part.plan, plan); !svg.empty())
+  if (auto svg = report::budget_drawing(part.part, plan); !svg.empty())
     all.drawings.push_back({"budget.svg", std::move(svg)});
   for (const auto& setup : plan.setups)
     for (const auto& o : setup.operations) {
@@ -198,15 +198,16 @@ Drawn drawn(const document::LoadedPart& part, const planning::ProcessPlan& plan)
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
-  auto part = document::load_part_plan(request, context.catalogue, "plan");
-  part.plan.window_curves = true;
-  return drawn(part, planning::plan(part.plan, part.what_if));
+  auto loaded = document::load_part_plan(request, context.catalogue, "plan");
+  loaded.plan.window_curves = true;
+  const auto part = document::prepared(std::move(loaded), context.catalogue);
+  return drawn(part, planning::plan(part.part, part.what_if));
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
-  const auto part = document::load_part_plan(request, context.catalogue, "predict",
-                                             document::Purpose::predict);
-  return drawn(part, planning::predict(part.plan));
+  const auto part = document::prepared_part(request, context.catalogue, "predict",
+                                            document::Purpose::predict);
+  return drawn(part, planning::predict(part.part));
 }
 
 Drawn drawn_stability(const json& request, const Context& context) {

@@ -10,7 +10,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "schema_check.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -37,7 +37,7 @@ std::string text_of(const fs::path& file) {
 
 InputError refusal(const fs::path& file) {
   try {
-    load_part_plan(parse_file(file, "part.json"), test_catalogue(), "part.json");
+    prepared_part(parse_file(file, "part.json"), test_catalogue(), "part.json");
   } catch (const InputError& error) {
     return error;
   }
@@ -91,7 +91,7 @@ TEST(Malformed, DamagedDocumentsAreTakenOrRefusedAndNothingElse) {
         text[at] = bytes[below(bytes.size())];
     }
     try {
-      load_part_plan(parse(text, "part.json"), test_catalogue(), "part.json");
+      prepared_part(parse(text, "part.json"), test_catalogue(), "part.json");
     } catch (const InputError& error) {
       EXPECT_FALSE(error.problems().empty());
       ++refused;

@@ -8,7 +8,7 @@
 #include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/multipass.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/stability.hpp"
 
 namespace turnwright::document {
@@ -43,8 +43,8 @@ TEST(Schema, FitsEveryReferencePartAndTheReaderTakesIt) {
   const auto catalogue = load_catalogue(source_path(""));
   for (const auto& entry : fs::directory_iterator(source_path("parts"))) {
     if (entry.path().extension() != ".json") continue;
-    EXPECT_NO_THROW(load_part_plan(parse_file(entry.path()), catalogue,
-                                   entry.path().filename().string()));
+    EXPECT_NO_THROW(prepared_part(parse_file(entry.path()), catalogue,
+                                  entry.path().filename().string()));
   }
 }
 
@@ -61,7 +61,7 @@ const Catalogue& test_catalogue() {
 
 std::string refused_part(const json& document) {
   try {
-    load_part_plan(document, test_catalogue(), "t");
+    prepared_part(document, test_catalogue(), "t");
   } catch (const InputError& error) {
     return error.what();
   }

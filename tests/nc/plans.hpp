@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "document/json/file.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/nc/program.hpp"
 
 namespace turnwright::nc::test {
@@ -28,12 +28,12 @@ inline std::vector<std::string> reference_parts() {
 }
 
 struct Planned {
-  planning::PartPlan part;
+  planning::PreparedPart part;
   planning::ProcessPlan plan;
 };
 
 inline Planned planned(const nlohmann::json& document) {
-  auto part = document::load_part_plan(document, catalogue(), "part").plan;
+  auto part = document::prepared_part(document, catalogue(), "part").part;
   auto plan = planning::plan(part);
   return {std::move(part), std::move(plan)};
 }

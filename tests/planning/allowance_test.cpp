@@ -44,13 +44,13 @@ nlohmann::json pin_with(nlohmann::json budget) {
   return d;
 }
 
-std::size_t tolerance(const PartPlan& p, const std::string& id) {
+std::size_t tolerance(const PreparedPart& p, const std::string& id) {
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i)
     if (p.drawing.tolerances[i].id == id) return i;
   throw std::out_of_range(id);
 }
 
-Making in_chuck(const PartPlan& p, std::size_t setup) {
+Making in_chuck(const PreparedPart& p, std::size_t setup) {
   return {setup, Clamping::chuck, &p.tools.at(1)};
 }
 

@@ -27,7 +27,7 @@ OperationPlan operation(const ProcessPlan& r, const std::string& id) {
   return *o;
 }
 
-const catalogue::FixedTool& tool(const PartPlan& p, const std::string& id) {
+const catalogue::FixedTool& tool(const PreparedPart& p, const std::string& id) {
   for (const auto& t : p.fixed_tools)
     if (t.id == id) return t;
   throw std::out_of_range(id);
@@ -181,7 +181,7 @@ TEST(Centre, ComesWithTheStockWhereNoToolMakesOne) {
 json bush() { return reference_part("drilled-bush"); }
 
 /// A bar of 60 mm with a bore from the right and a second one from the left, if it is long.
-PartPlan bored(double right_mm, double D_right_mm, double left_mm, double D_left_mm) {
+PreparedPart bored(double right_mm, double D_right_mm, double left_mm, double D_left_mm) {
   auto d = bush();
   d.erase("tolerances");
   d.erase("faces");
@@ -203,7 +203,7 @@ PartPlan bored(double right_mm, double D_right_mm, double left_mm, double D_left
 }
 
 TEST(Drilling, SparesWhatIsBehind) {
-  const auto drilled = [](const PartPlan& p) {
+  const auto drilled = [](const PreparedPart& p) {
     return std::pair{drilled_mm(p, part::End::right), drilled_mm(p, part::End::left)};
   };
   // Through: the counterbore's drill is no wider than the bore behind it.
@@ -223,7 +223,7 @@ TEST(Drilling, SparesWhatIsBehind) {
 
 TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   const auto p = part(bush());
-  for (const auto& e : p.drawing.inner) EXPECT_EQ(e.drilled_mm, 19) << e.id;
+  for (const double drilled : p.drilled_mm) EXPECT_EQ(drilled, 19);
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
   const auto o = operation(r, "s0-drill-b1");
@@ -356,7 +356,7 @@ TEST(Body, HasTheCoreOfWhatIsCut) {
 }
 
 // What is told of a part that cannot be made, a sentence a line.
-std::string told(const PartPlan& p) {
+std::string told(const PreparedPart& p) {
   const auto r = plan(p);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   std::string all;

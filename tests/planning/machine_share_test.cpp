@@ -65,14 +65,14 @@ json length(const char* from, const char* to) {
           {"limits_mm", {-0.05, 0.05}}};
 }
 
-PartPlan with(const json& tolerance, json axes, json d = tube()) {
+PreparedPart with(const json& tolerance, json axes, json d = tube()) {
   d["tolerances"] = {tolerance};
   d["machine"] = lathe(std::move(axes));
   return part(d);
 }
 
 // What the first tolerance is taken of, cut in a setup.
-MachineTake take(const PartPlan& p, std::size_t setup = 0) {
+MachineTake take(const PreparedPart& p, std::size_t setup = 0) {
   return machine_take(p, 0, setup, Clamping::chuck);
 }
 double um(const json& tolerance, json axes, std::size_t setup = 0) {

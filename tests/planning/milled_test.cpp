@@ -50,7 +50,7 @@ json keyway() {
           {"length_mm", 32}, {"width_mm", 10},   {"depth_mm", 5}};
 }
 
-FixedWork work_of(const PartPlan& p, std::size_t setup = 0) {
+FixedWork work_of(const PreparedPart& p, std::size_t setup = 0) {
   return fixed_work(p, setup, Clamping::chuck, assign(p).setups[setup],
                     {p.machine_per_min, 1});
 }
@@ -62,7 +62,7 @@ const OperationPlan* milled_in(const FixedWork& work) {
 }
 
 // The cuts of an operation as systems, by the issue's own formulas.
-std::vector<chatter::System> systems_of(const PartPlan& p, const Milled& m,
+std::vector<chatter::System> systems_of(const PreparedPart& p, const Milled& m,
                                         const OperationPlan& o) {
   const auto& cut = *o.milled;
   const auto cutter = *std::find_if(m.cutters.begin(), m.cutters.end(),
@@ -263,7 +263,7 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
                                    {"kp11_MPa", 250},       {"mp", 0.3},
                                    {"uncertainty_pct", 15}, {"source", "a test"}};
   const auto p = part(j);
-  const auto& m = p.milled[0];
+  const auto& m = p.milled_places[0];
   const auto& c = m.cutters[0];
   const auto& kc = p.material.kc;
   const double k11 = kc.k11_MPa * (1 - (c.gamma_deg - p.material.gamma0_deg) / 100);
@@ -347,7 +347,7 @@ TEST(Milled, TheHolderClearsWhatStandsBeside) {
   for (const char* hold : {"left", "right"})
     j["setups"].push_back({{"hold", hold}, {"grip_mm", 15}, {"clampings", {"chuck"}}});
   j["milling"][0]["z_mm"] = 40, j["milling"][0]["tool"] = "KEYWAY-HM-10";
-  const auto setup = part(j).milled[0].setup;
+  const auto setup = part(j).milled_places[0].setup.value();
   auto work = work_of(part(j), setup);
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_NE(work.conflicts[0].sentence.find("holder would meet what stands 33 mm above"),

@@ -3,7 +3,7 @@
 
 #include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {
@@ -12,8 +12,8 @@ inline const document::Catalogue& shop() {
   static const auto all = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
   return all;
 }
-inline PartPlan part(const nlohmann::json& document) {
-  return document::load_part_plan(document, shop(), "part").plan;
+inline PreparedPart part(const nlohmann::json& document) {
+  return document::prepared_part(document, shop(), "part").part;
 }
 inline nlohmann::json file(const std::string& name) {
   return document::parse_file(TURNWRIGHT_SOURCE_DIR "/" + name);
@@ -69,9 +69,9 @@ inline nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
   return d;
 }
 
-inline PartPlan part_to_predict(const nlohmann::json& document) {
-  return document::load_part_plan(document, shop(), "part", document::Purpose::predict)
-      .plan;
+inline PreparedPart part_to_predict(const nlohmann::json& document) {
+  return document::prepared_part(document, shop(), "part", document::Purpose::predict)
+      .part;
 }
 
 }  // namespace turnwright::planning

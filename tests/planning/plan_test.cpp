@@ -22,7 +22,7 @@ const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
   throw std::out_of_range(id);
 }
 
-double length_of(const PartPlan& p, const std::string& id) {
+double length_of(const PreparedPart& p, const std::string& id) {
   for (const auto& e : p.drawing.outer)
     if (e.id == id) return e.length_mm;
   throw std::out_of_range(id);

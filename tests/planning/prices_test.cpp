@@ -337,8 +337,8 @@ TEST(Limits, AreNamedOnceAndScaled) {
 
 ProcessPlan asked(json d, const json& what_if) {
   d["what_if"] = what_if;
-  const auto loaded = document::load_part_plan(d, shop(), "part");
-  return plan(loaded.plan, loaded.what_if);
+  const auto loaded = document::prepared_part(d, shop(), "part");
+  return plan(loaded.part, loaded.what_if);
 }
 
 TEST(WhatIf, IsThePlanOfTheChangedDocument) {

@@ -46,7 +46,7 @@ class Surfaces : public testing::TestWithParam<const char*> {
     }
   }
 
-  PartPlan plan_;
+  PreparedPart plan_;
   std::vector<std::unique_ptr<RecipeModel>> models_;
   std::mt19937 seed_{9};
   double unit() { return std::uniform_real_distribution<double>(0, 1)(seed_); }

@@ -8,7 +8,7 @@
 #include "planning/attempt.hpp"
 #include "surface_search.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/optimise/local.hpp"
 
 // Nothing that keeps the limits of a surface is below its certificate, judged by the
@@ -24,11 +24,11 @@ constexpr double kRounding = 1e-12;
 constexpr int kPlaces =
     9;  // fewer let more points through: the bound has to hold for them
 
-planning::PartPlan loaded(const std::string& name) {
+planning::PreparedPart loaded(const std::string& name) {
   const std::string root = TURNWRIGHT_SOURCE_DIR;
-  return document::load_part_plan(document::parse_file(root + "/parts/" + name + ".json"),
-                                  document::load_catalogue(root), name)
-      .plan;
+  return document::prepared_part(document::parse_file(root + "/parts/" + name + ".json"),
+                                 document::load_catalogue(root), name)
+      .part;
 }
 
 // Conditions on lines through where it stands, closing in until they are allowed.
@@ -127,7 +127,7 @@ class SurfaceCertificate : public testing::TestWithParam<const char*> {};
 
 TEST_P(SurfaceCertificate, HoldsForEveryAllowedPointAndLocalSolve) {
   const auto p = loaded(GetParam());
-  const auto all = planning::best_attempt(p, planning::assign(p));
+  const auto all = planning::best_attempt(p);
   ASSERT_TRUE(all.feasible);
   for (const auto* f : chosen(all)) expect_none_below(*f);
 }

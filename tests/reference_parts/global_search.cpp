@@ -20,13 +20,13 @@ using planning::Clamping;
 using planning::Demand;
 using planning::Feature;
 using planning::Offset;
-using planning::PartPlan;
+using planning::PreparedPart;
 using planning::Recipe;
 
 constexpr double kFeasible = 0x1p-36;  // of a limit: rounding
 constexpr int kFinePlaces = 1601;      // parabolas through them are exact to 1e-10
 
-std::vector<const Tool*> tools_for(const PartPlan& p, ToolUse use) {
+std::vector<const Tool*> tools_for(const PreparedPart& p, ToolUse use) {
   std::vector<const Tool*> all;
   for (const auto& t : p.tools)
     if (std::count(t.uses.begin(), t.uses.end(), use) > 0 &&
@@ -41,7 +41,7 @@ int most_passes(double stock, const Tool& t) {
   return std::max(1, static_cast<int>(stock / least + 1e-9));
 }
 
-std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Tool* rough,
+std::vector<Recipe> recipes(const PreparedPart& p, const Feature& f, const Tool* rough,
                             const Tool* finish) {
   std::vector<Recipe> all;
   const auto ranges = cutting::speed_ranges(p.machine).size();
@@ -61,7 +61,7 @@ std::vector<Recipe> recipes(const PartPlan& p, const Feature& f, const Tool* rou
 // The surfaces of one setup in one clamping: what each costs with each pair of tools.
 class SetupSearch {
  public:
-  SetupSearch(const PartPlan& p, std::size_t setup, Clamping clamping,
+  SetupSearch(const PreparedPart& p, std::size_t setup, Clamping clamping,
               const planning::SetupWork& work, const planning::Finished& done,
               const planning::Economy& economy, const Effort& effort)
       : p_(p),
@@ -300,7 +300,7 @@ class SetupSearch {
     return count;
   }
 
-  const PartPlan& p_;
+  const PreparedPart& p_;
   std::size_t setup_;
   Clamping clamping_;
   planning::Economy economy_;
@@ -312,7 +312,7 @@ class SetupSearch {
 };
 
 // What the chuck and the room between centres can hold.
-bool usable(const PartPlan& p, std::size_t setup, Clamping c,
+bool usable(const PreparedPart& p, std::size_t setup, Clamping c,
             const planning::SetupWork& work) {
   const auto& m = p.machine;
   const bool centre = c == Clamping::chuck_tailstock || c == Clamping::between_centres;
@@ -325,7 +325,7 @@ bool usable(const PartPlan& p, std::size_t setup, Clamping c,
   return m.chuck.diameter_mm.lower <= d && d <= m.chuck.diameter_mm.upper;
 }
 
-planning::Economy economy_of(const PartPlan& p) {
+planning::Economy economy_of(const PreparedPart& p) {
   if (p.operations || p.objective == planning::Objective::profit)
     throw std::invalid_argument("the search chooses all operations, for cost or time");
   const bool cost = p.objective == planning::Objective::cost;
@@ -334,9 +334,9 @@ planning::Economy economy_of(const PartPlan& p) {
 
 }  // namespace
 
-Found search(const PartPlan& p, const Effort& effort) {
+Found search(const PreparedPart& p, const Effort& effort) {
   const auto economy = economy_of(p);
-  const auto work = planning::assign(p);
+  const auto& work = p.work;
   Found found;
   auto done = planning::nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
@@ -361,9 +361,9 @@ Found search(const PartPlan& p, const Effort& effort) {
   return found;
 }
 
-Found as_planned(const PartPlan& p, const planning::ProcessPlan& plan) {
+Found as_planned(const PreparedPart& p, const planning::ProcessPlan& plan) {
   const auto economy = economy_of(p);
-  const auto work = planning::assign(p);
+  const auto& work = p.work;
   Found found;
   auto done = planning::nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// The cheapest plan of a part by brute force, to hold the planner's optimum against.
@@ -51,10 +51,10 @@ struct Found {
 
 /// Cost or time per part as `objective` says; not `profit`, and not with operations
 /// given.
-Found search(const planning::PartPlan& plan, const Effort& effort);
+Found search(const planning::PreparedPart& plan, const Effort& effort);
 
 /// A plan's clampings, tools and conditions computed anew: costs, tools brought in, and
 /// by how much each surface is over its limits.
-Found as_planned(const planning::PartPlan& part, const planning::ProcessPlan& plan);
+Found as_planned(const planning::PreparedPart& part, const planning::ProcessPlan& plan);
 
 }  // namespace turnwright::reference

@@ -24,10 +24,10 @@ constexpr double kGap = 1e-4;        // what a certificate may leave open
 constexpr double kBeyond = 1e-9;     // of a limit: what an optimum may be over it
 constexpr double kRounding = 1e-12;  // of sums of some ten costs
 
-document::LoadedPart loaded(const std::string& name) {
+document::PreparedDocument loaded(const std::string& name) {
   const std::string root = TURNWRIGHT_SOURCE_DIR;
-  return document::load_part_plan(document::parse_file(root + "/parts/" + name + ".json"),
-                                  document::load_catalogue(root), name);
+  return document::prepared_part(document::parse_file(root + "/parts/" + name + ".json"),
+                                 document::load_catalogue(root), name);
 }
 
 nlohmann::json stored(const std::string& name) {
@@ -53,14 +53,14 @@ double operations_cost(const ProcessPlan& plan, const std::string& surface) {
 class ReferencePart : public testing::TestWithParam<const char*> {
  protected:
   const std::string name = GetParam();
-  const document::LoadedPart part = loaded(name);
-  const ProcessPlan plan = planning::plan(part.plan);
+  const document::PreparedDocument part = loaded(name);
+  const ProcessPlan plan = planning::plan(part.part);
 };
 
 TEST_P(ReferencePart, HasAPlanThatMeetsEveryTolerance) {
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_TRUE(plan.conflicts.empty());
-  ASSERT_EQ(plan.tolerances.size(), part.plan.drawing.tolerances.size());
+  ASSERT_EQ(plan.tolerances.size(), part.part.drawing.tolerances.size());
   for (const auto& t : plan.tolerances) {
     EXPECT_EQ(t.verdict, Verdict::met) << t.id << ' ' << t.of;
     EXPECT_GE(t.margin_mm, -kBeyond * std::abs(t.allowed_mm.back()))
@@ -83,7 +83,7 @@ TEST_P(ReferencePart, KeepsEveryLimitItLists) {
 
 TEST_P(ReferencePart, KeepsEveryLimitAndCostsWhatItSaysWhenComputedAnew) {
   ASSERT_EQ(plan.status, PlanStatus::ok);
-  const auto anew = as_planned(part.plan, plan);
+  const auto anew = as_planned(part.part, plan);
   for (const auto& setup : anew.setups)
     for (const auto& x : setup.surfaces) {
       EXPECT_LE(x.excess, kBeyond) << x.surface;
@@ -109,7 +109,7 @@ TEST_P(ReferencePart, CostsWhatTheSearchWithFullEffortFound) {
 }
 
 TEST_P(ReferencePart, IsNotBeatenByAShortSearch) {
-  const auto found = search(part.plan, kShort);
+  const auto found = search(part.part, kShort);
   EXPECT_GE(found.objective, plan.certificate.lower_bound);
   EXPECT_GE(found.objective, plan.cost_per_part * (1 - kGap));
   EXPECT_NEAR(found.objective, plan.cost_per_part, kGap * plan.cost_per_part);
@@ -117,13 +117,13 @@ TEST_P(ReferencePart, IsNotBeatenByAShortSearch) {
 
 TEST_P(ReferencePart, HasTheSameBytesWhenPlannedAgain) {
   EXPECT_EQ(document::to_json(plan, part.assumed).dump(),
-            document::to_json(planning::plan(part.plan), part.assumed).dump());
+            document::to_json(planning::plan(part.part), part.assumed).dump());
 }
 
 // One plan for all of it, as milled places take their time; they are planned by the same
 // code in the search, which chooses the turning beside them.
 TEST(ReferencePartWithMilledPlaces, IsCertifiedAndCostsWhatTheSearchFound) {
-  const auto plan = planning::plan(loaded("keyed-shaft").plan);
+  const auto plan = planning::plan(loaded("keyed-shaft").part);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   int milled = 0;
   for (const auto& s : plan.setups)
@@ -155,17 +155,17 @@ INSTANTIATE_TEST_SUITE_P(Parts, ReferencePart,
 class PartInfeasibleAsDrawn : public testing::Test {
  protected:
   // Its tolerances alone: it chatters too.
-  static document::LoadedPart damped() {
+  static document::PreparedDocument damped() {
     auto all = loaded("infeasible-as-drawn");
-    all.plan.chatter_times = 1e4;
+    all.part.chatter_times = 1e4;
     return all;
   }
-  const document::LoadedPart part = damped();
-  const ProcessPlan plan = planning::plan(part.plan);
+  const document::PreparedDocument part = damped();
+  const ProcessPlan plan = planning::plan(part.part);
 
   // The part with a named tolerance opened to a width about its middle.
-  static planning::PartPlan opened(planning::PartPlan p, const std::string& limit,
-                                   double width) {
+  static planning::PreparedPart opened(planning::PreparedPart p, const std::string& limit,
+                                       double width) {
     for (auto& t : p.drawing.tolerances) {
       if (t.id + ' ' + part::name(t.kind) + " of " + t.of != limit) continue;
       t.value_mm = width;
@@ -177,8 +177,8 @@ class PartInfeasibleAsDrawn : public testing::Test {
   }
 
   // All limits that have to give, each opened as told times a factor.
-  planning::PartPlan opened(const std::vector<double>& factors) const {
-    auto p = part.plan;
+  planning::PreparedPart opened(const std::vector<double>& factors) const {
+    auto p = part.part;
     for (std::size_t i = 0; i < plan.relax.size(); ++i)
       p = opened(p, plan.relax[i].limit, factors[i] * plan.relax[i].needed);
     return p;
@@ -188,7 +188,7 @@ class PartInfeasibleAsDrawn : public testing::Test {
 TEST_F(PartInfeasibleAsDrawn, IsInfeasibleToTheSearchToo) {
   EXPECT_EQ(plan.status, PlanStatus::infeasible);
   EXPECT_TRUE(stored("infeasible-as-drawn").at("infeasible"));
-  EXPECT_FALSE(std::isfinite(search(part.plan, kShort).objective));
+  EXPECT_FALSE(std::isfinite(search(part.part, kShort).objective));
 }
 
 TEST_F(PartInfeasibleAsDrawn, NamesTheTolerancesThatFailAndByHowMuch) {
@@ -223,7 +223,7 @@ TEST_F(PartInfeasibleAsDrawn, HasAResultDocument) {
   const auto json = document::to_json(plan, part.assumed);
   EXPECT_EQ(json.at("status"), "infeasible");
   EXPECT_EQ(json.dump(),
-            document::to_json(planning::plan(part.plan), part.assumed).dump());
+            document::to_json(planning::plan(part.part), part.assumed).dump());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "document/json/file.hpp"
 #include "global_search.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 // Writes the costs of the named parts: reference_search [--short] COSTS.json PART...
 // where PART is a name in parts/; parts not named keep what COSTS.json says.
@@ -27,10 +27,10 @@ int main(int argc, char** argv) {
   for (std::size_t k = brief + 1U; k < words.size(); ++k) {
     const auto& name = words[k];
     const auto start = std::chrono::steady_clock::now();
-    const auto part = document::load_part_plan(
+    const auto part = document::prepared_part(
         document::parse_file(root + "/parts/" + name + ".json"), catalogue, name);
     const auto found =
-        reference::search(part.plan, brief ? reference::kShort : reference::Effort{});
+        reference::search(part.part, brief ? reference::kShort : reference::Effort{});
     const std::chrono::duration<double> s = std::chrono::steady_clock::now() - start;
     std::cout.precision(12);
     std::cout << name << ' ' << found.objective << " in " << s.count() << " s\n";

@@ -1,7 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 
@@ -11,6 +11,6 @@ namespace turnwright::document {
 ///
 /// z [mm] from the left end of the finished part; diameters as drawn (of a thread the
 /// nominal one, of an arc its ends').  A surface that no setup can make has no `setup`.
-nlohmann::ordered_json drawing(const LoadedPart& part);
+nlohmann::ordered_json drawing(const PreparedDocument& prepared);
 
 }  // namespace turnwright::document

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/planning/process_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 
 namespace turnwright::document {
 
@@ -15,9 +15,10 @@ struct Assumption {
 };
 
 struct LoadedPart {
-  planning::PartPlan plan;
+  planning::PlanRequest plan;
   std::vector<Assumption> assumed;
-  std::vector<planning::WhatIf> what_if = {};
+  nlohmann::json json;   ///< as it was read
+  std::string document;  ///< what errors call it
 };
 
 /// `predict` needs every operation with its tool and all its conditions.

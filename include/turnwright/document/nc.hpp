@@ -1,14 +1,14 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/nc/program.hpp"
 
 namespace turnwright::document {
 
 /// The request of `nc` (schemas/nc.request.json): a part document and the control.
 struct NcRequest {
-  LoadedPart part = {};
+  PreparedDocument part = {};
   nc::Control control = nc::Control::linuxcnc;
 };
 

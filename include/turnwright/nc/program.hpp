@@ -85,7 +85,7 @@ struct Programs {
 };
 
 /// The ways of every setup of a plan.
-Programs programs(const planning::PartPlan& part, const planning::ProcessPlan& plan);
+Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan);
 
 /// The program's text, lines of printable ASCII.
 std::string text(const SetupProgram& program, Control control);

@@ -43,7 +43,6 @@ struct InnerElement {
   std::optional<Limits> limits = {};
   std::optional<double> Ra_um = {}, Rz_um = {};
   std::optional<Cut> cut = {};
-  double drilled_mm = 0;  ///< hole that is drilled here before it is bored, of a bar
 };
 
 /// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
@@ -112,9 +111,8 @@ double length_mm(const Drawing& drawing);
 double left_z_mm(const Drawing& drawing, std::size_t i);
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
-/// Diameter [mm] of the hole that boring finds at inner element i: the tube's or a
-/// drill's.
-double hole_mm(const Drawing& drawing, std::size_t i);
+/// Largest diameter [mm] of stock's hole and inner elements between two places.
+double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
 /// Diameters that the finished element has at its ends, where it has a cut its core.
 template <class Element>
 Ends core(const Element& e) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 
 namespace turnwright::planning {
 
@@ -14,7 +14,7 @@ struct Limit {
   std::string unit;
   bool at_most = true;  ///< more is more room
   double now = 0;
-  std::function<void(PartPlan&, double factor)> scale;
+  std::function<void(PlanRequest&, double factor)> scale;
 };
 
 /// Every limit of a plan, each name once: tolerances by their ids; roughness per surface;
@@ -23,6 +23,6 @@ struct Limit {
 ///
 /// The curve of power and torque is scaled at all its points; the largest spindle speed
 /// with the curve's last point along its own line.  A size is opened about its middle.
-std::vector<Limit> limits(const PartPlan& plan);
+std::vector<Limit> limits(const PreparedPart& part);
 
 }  // namespace turnwright::planning

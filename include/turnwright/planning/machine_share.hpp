@@ -2,13 +2,13 @@
 #include <cstddef>
 #include <map>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 
 /// What the lathe's own geometric errors take of the tolerances.
 namespace turnwright::planning {
 
-/// By tolerance, by setup and place of what is cut there, as PartPlan::machine_takes
-/// holds it; empty without an error model.
+/// By tolerance, by setup and place of what is cut there, as PreparedPart::machine_takes
+/// holds it; empty without an error model.  Needs `work` of the part.
 ///
 /// Every surface is cut by the machine as calibrated (volumetric/lathe_part.hpp), where
 /// it stands in its setup,
@@ -49,16 +49,17 @@ namespace turnwright::planning {
 /// is taken for the standard uncertainty of what the machine takes: exact for one
 /// parameter, and of several as often kept as a normal (by drawing machines, in the
 /// test). Source: derived here, checked by Monte Carlo in machine_share_test.
-std::map<MachinePlace, MachineTake> machine_takes(const PartPlan& plan);
+std::map<MachinePlace, MachineTake> machine_takes(const PreparedPart& plan);
 
 /// Of a tolerance whose surface is cut in this setup and clamping; none without an error
 /// model.
-MachineTake machine_take(const PartPlan& plan, std::size_t tolerance, std::size_t setup,
-                         Clamping clamping);
+/// @throws std::domain_error of a surface that is not cut there.
+MachineTake machine_take(const PreparedPart& plan, std::size_t tolerance,
+                         std::size_t setup, Clamping clamping);
 
 /// The least that the machine, error model and machine_share_um, takes of a tolerance in
 /// any clamping of each setup that cuts it; 3 u of what is uncertain unless the plan is
 /// robust [mm].
-double least_machine_mm(const PartPlan& plan, std::size_t tolerance);
+double least_machine_mm(const PreparedPart& plan, std::size_t tolerance);
 
 }  // namespace turnwright::planning

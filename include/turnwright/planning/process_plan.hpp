@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 
 /// The answer of `plan`: the fields of schemas/plan.result.json, one to one.
 namespace turnwright::planning {
@@ -209,7 +209,7 @@ struct ParetoPoint {
 /// The request with something changed, and what that is called.
 struct WhatIf {
   std::string name;
-  PartPlan plan;
+  PreparedPart part;
 };
 
 /// A changed request, planned anew, against the one that was asked.
@@ -252,13 +252,15 @@ struct ProcessPlan {
 
 /// Certified cheapest process plan of a part, and of changed requests what they save.
 /// @throws std::domain_error if profit is the objective and no price is given.
-ProcessPlan plan(const PartPlan& request, const std::vector<WhatIf>& what_if = {});
+ProcessPlan plan(const PreparedPart& part, const std::vector<WhatIf>& what_if = {});
+ProcessPlan plan(const PlanRequest& request);
 
 /// Deviations, margins, time and cost of a part whose operations are given whole, in the
 /// first clamping of each setup.  Nothing is optimised; limits that are not kept are
 /// `conflicts`, and the tolerances are judged all the same.
 /// @throws std::domain_error if a setup has no clamping, or a turning operation no speed
 ///   or feed.
-ProcessPlan predict(const PartPlan& request);
+ProcessPlan predict(const PreparedPart& part);
+ProcessPlan predict(const PlanRequest& request);
 
 }  // namespace turnwright::planning

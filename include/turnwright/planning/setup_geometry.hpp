@@ -6,19 +6,10 @@
 
 #include "turnwright/deflection/beam.hpp"
 #include "turnwright/part/shaft.hpp"
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 
 /// Which setup cuts what, and the body that stands in the machine while it does.
 namespace turnwright::planning {
-
-/// What a setup cuts: elements in the order of the tool, from the free end inwards.
-struct SetupWork {
-  std::vector<std::size_t> elements;  ///< indices into drawing.outer
-  bool end_face = false;              ///< the face of the free end
-  std::vector<std::size_t>
-      shoulders;  ///< element k: the face "k-1|k", where the drawing asks
-  std::vector<std::size_t> bores;  ///< indices into drawing.inner
-};
 
 /// Which elements have their final diameters; the others are stock.
 struct Finished {
@@ -34,12 +25,6 @@ struct Element {
   std::size_t index = 0;
 };
 
-struct Assignment {
-  std::vector<SetupWork> setups;
-  std::vector<std::string>
-      unreachable;  ///< one sentence per element or face nobody can cut
-};
-
 /// Gives every element to the first setup that can cut it: it lies outside the jaws and
 /// nothing between it and the free end is larger than it.  An end face goes to the first
 /// setup whose free end it is, if the stock leaves material there; a shoulder to the
@@ -47,64 +32,63 @@ struct Assignment {
 /// it.  A bore goes to the first setup whose free end it opens to, if nothing before it
 /// is narrower.
 /// With given operations they say in which setup; what none of them makes is unreachable.
-Assignment assign(const PartPlan& plan);
+Assignment assign(const PlanRequest& plan);
 
 /// "d1|d2": the face between outer elements k-1 and k.
 std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
 /// The setup that makes an element or face; none of one that stays as the stock has it.
-std::optional<std::size_t> setup_of(const PartPlan& plan, const Assignment& work,
-                                    const std::string& surface);
+std::optional<std::size_t> setup_of(const PreparedPart& part, const std::string& surface);
 /// z [mm] of "left", "right" or a shoulder.
 double face_z_mm(const part::Drawing& drawing, const std::string& face);
 /// Whether a profiling tool that comes from the end a setup leaves free clears an outer
 /// element: true but of arcs that fall more than `part::kProfilingClears_rad`.
-bool cleared(const PartPlan& plan, std::size_t setup, std::size_t element);
+bool cleared(const PlanRequest& plan, std::size_t setup, std::size_t element);
 /// "left" or "right": the end that a setup leaves free.
-const char* free_face(const PartPlan& plan, std::size_t setup);
+const char* free_face(const PlanRequest& plan, std::size_t setup);
 
 /// Elements with their final diameters once a setup is done.
-Finished finished_after(const PartPlan& plan, const Assignment& work, std::size_t setup);
+Finished finished_after(const PreparedPart& part, std::size_t setup);
 
 /// Material [mm] before the finished face of an end once it is free: what parting off
 /// leaves at the first setup's held end, else the stock's allowance.
-double face_stock_mm(const PartPlan& plan, part::End end);
+double face_stock_mm(const PlanRequest& plan, part::End end);
 /// The same once a setup is done: none if the end was faced by then.
-double face_stock_after_mm(const PartPlan& plan, const Assignment& work,
-                           std::size_t setup, part::End end);
+double face_stock_after_mm(const PreparedPart& part, std::size_t setup, part::End end);
 
 /// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
 /// the plan's drills that leaves 0.5 mm on the radius of the narrowest, reaches their end
 /// and cuts with its point no narrower bore and no wall behind; 0: nothing is, or none
 /// does.
-double drilled_mm(const PartPlan& plan, part::End end);
+double drilled_mm(const PlanRequest& plan, part::End end);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
-double root_z_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
+double root_z_mm(const PlanRequest& plan, std::size_t setup, Clamping clamping);
 /// z of the free end once this setup has faced it.
-double free_z_mm(const PartPlan& plan, std::size_t setup);
+double free_z_mm(const PlanRequest& plan, std::size_t setup);
 
 /// Diameter [mm] the jaws close on, 0 between centres.
-double grip_diameter_mm(const PartPlan& plan, std::size_t setup, Clamping clamping);
+double grip_diameter_mm(const PlanRequest& plan, std::size_t setup, Clamping clamping);
 
 /// Largest bore [mm] between the jaws once the setup is done, 0 of a solid part.
-double gripped_bore_mm(const PartPlan& plan, std::size_t setup);
+double gripped_bore_mm(const PreparedPart& plan, std::size_t setup);
 
 /// Force of all jaws at rest [N], 0 between centres; they may be eased when the roughing
 /// of a setup is done.
 enum class Stage { roughing, finishing };
-double jaw_force_N(const PartPlan& plan, std::size_t setup, Clamping clamping,
+double jaw_force_N(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                    Stage stage);
 
-/// Gives every setup whose request tells no force for finishing its own: that of roughing
-/// (told by nothing), or as much less as leaves the lobes a quarter of every zone that
-/// sees them; at least a twentieth [N].  To be called anew where zones change.
-void ease_jaws(PartPlan& plan);
+/// The jaws' forces of every setup.  Where the request gives none for finishing it is the
+/// largest, not above roughing's, whose three-jaw lobing of a tube uses at most a quarter
+/// of each tolerance that sees it, and at least a twentieth of roughing's.  Needs `work`
+/// and `drilled_mm` of the part.
+std::vector<JawForces> jaw_forces(const PreparedPart& part);
 
 /// The body from the root to the free end; the end at the root is as the setups before
 /// left it.
 class SetupBody {
  public:
-  SetupBody(const PartPlan& plan, std::size_t setup, Clamping clamping,
+  SetupBody(const PreparedPart& plan, std::size_t setup, Clamping clamping,
             const Finished& finished);
 
   /// Distance from the root [mm], of a z of the part.
@@ -124,7 +108,7 @@ class SetupBody {
   };
   part::Shaft shaft(const std::vector<Zone>& outer, const std::vector<Zone>& inner) const;
 
-  const PartPlan* plan_;
+  const PreparedPart* part_;
   double root_z_, sign_, length_;
   std::vector<Zone> outer_, inner_;  // one an element, then what is beside them
 };

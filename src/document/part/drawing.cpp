@@ -9,17 +9,10 @@ namespace {
 
 using nlohmann::ordered_json;
 using planning::Clamping;
-using planning::PartPlan;
+using planning::PreparedPart;
 
-/// A part with the setups that cut its surfaces.
-struct Assigned {
-  const PartPlan& plan;
-  planning::Assignment work;
-};
-
-void add_setup(ordered_json& surface, const Assigned& part, const std::string& id) {
-  if (const auto setup = planning::setup_of(part.plan, part.work, id))
-    surface["setup"] = *setup;
+void add_setup(ordered_json& surface, const PreparedPart& part, const std::string& id) {
+  if (const auto setup = planning::setup_of(part, id)) surface["setup"] = *setup;
 }
 
 ordered_json pair(const part::Limits& limits) {
@@ -46,7 +39,7 @@ const char* kind(part::CutKind cut) {
 
 template <class Element>
 ordered_json json_of(const Element& e, const char* side, double z_mm,
-                     const Assigned& part) {
+                     const PreparedPart& part) {
   const bool cylinder = e.kind == part::ElementKind::cylinder;
   const part::Ends ends = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   ordered_json out{{"id", e.id},
@@ -68,8 +61,8 @@ ordered_json json_of(const Element& e, const char* side, double z_mm,
   return out;
 }
 
-ordered_json elements(const Assigned& part) {
-  const auto& d = part.plan.drawing;
+ordered_json elements(const PreparedPart& part) {
+  const auto& d = part.drawing;
   auto all = ordered_json::array();
   for (std::size_t i = 0; i < d.outer.size(); ++i)
     all.push_back(json_of(d.outer[i], "outer", part::left_z_mm(d, i), part));
@@ -78,8 +71,8 @@ ordered_json elements(const Assigned& part) {
   return all;
 }
 
-ordered_json faces(const Assigned& part) {
-  const auto& d = part.plan.drawing;
+ordered_json faces(const PreparedPart& part) {
+  const auto& d = part.drawing;
   std::vector<std::string> ids{"left"};
   for (std::size_t k = 1; k < d.outer.size(); ++k)
     ids.push_back(planning::shoulder_id(d, k));
@@ -105,7 +98,7 @@ ordered_json json_of(const part::Tolerance& t) {
   return out;
 }
 
-ordered_json json_of(const PartPlan& plan, std::size_t s) {
+ordered_json json_of(const PreparedPart& plan, std::size_t s) {
   const auto& setup = plan.setups[s];
   auto clampings = ordered_json::array();
   for (const auto clamping : setup.clampings) clampings.push_back(name(clamping));
@@ -120,9 +113,9 @@ ordered_json json_of(const PartPlan& plan, std::size_t s) {
 
 }  // namespace
 
-ordered_json drawing(const LoadedPart& loaded) {
-  const Assigned part{loaded.plan, planning::assign(loaded.plan)};
-  const auto& d = loaded.plan.drawing;
+ordered_json drawing(const PreparedDocument& prepared) {
+  const auto& part = prepared.part;
+  const auto& d = part.drawing;
   ordered_json out{{"name", d.name}, {"length_mm", part::length_mm(d)}};
   out["stock"] = {
       {"z_mm",
@@ -135,10 +128,10 @@ ordered_json drawing(const LoadedPart& loaded) {
   for (const auto& tolerance : d.tolerances)
     out["tolerances"].push_back(json_of(tolerance));
   out["setups"] = ordered_json::array();
-  for (std::size_t s = 0; s < loaded.plan.setups.size(); ++s)
-    out["setups"].push_back(json_of(loaded.plan, s));
+  for (std::size_t s = 0; s < part.setups.size(); ++s)
+    out["setups"].push_back(json_of(part, s));
   out["unreachable"] = part.work.unreachable;
-  out["assumed"] = to_json(loaded.assumed);
+  out["assumed"] = to_json(prepared.assumed);
   require_finite(out, "drawing");
   return out;
 }

@@ -7,7 +7,6 @@
 #include "milled_shaft.hpp"
 #include "part_sections.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/planning/milled_places.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -17,8 +16,7 @@ using planning::MilledKind;
 
 constexpr std::size_t kPlaces = 100;
 constexpr double kDepthMargin = 0.2, kSpeedMargin = 0.02;
-constexpr double kSlack = 1e-9;     // mm
-constexpr double kToldBelow = 0.9;  // of a section's stiffness
+constexpr double kSlack = 1e-9;  // mm
 
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
@@ -32,30 +30,6 @@ std::vector<std::string> cylinders(const part::Drawing& drawing) {
 
 deflection::Slot slot_of(const Milled& m, double diameter_mm) {
   return {m.width_mm, diameter_mm / 2 - m.depth_mm, units::rad_from_deg(m.angle_deg)};
-}
-
-// The largest radius of a hole below a place.
-double hole_mm(const part::Drawing& d, const Milled& m) {
-  double most = d.stock.inner_mm / 2;
-  for (std::size_t i = 0; i < d.inner.size(); ++i) {
-    const double z0 = part::inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
-    if (z0 < m.z_mm + m.length_mm && z1 > m.z_mm)
-      most = std::max({most, d.inner[i].left_mm / 2, d.inner[i].right_mm / 2});
-  }
-  return most;
-}
-
-// What the section keeps of its stiffness in bending, the softest way, where a place is
-// and others beside it.
-double stiffness_left(const planning::PartPlan& p, const Milled& m) {
-  const double D = p.drawing.outer[m.element].left_mm;
-  const auto whole = deflection::round_section(D, 2 * hole_mm(p.drawing, m));
-  auto s = whole;
-  for (const auto& x : p.milled)
-    if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
-        m.z_mm < x.z_mm + x.length_mm)
-      s = deflection::without_slot(s, D, slot_of(x, D));
-  return deflection::least_second_moment_mm4(s) / whole.xx_mm4;
 }
 
 // On the element, below its rim, above its hole.
@@ -75,7 +49,7 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
                    "conflict");
     return;
   }
-  const double hole = hole_mm(d, m);
+  const double hole = part::largest_hole_mm(d, m.z_mm, m.z_mm + m.length_mm) / 2;
   if (R - m.depth_mm <= hole + kSlack)
     r.problem_at("depth_mm", "less than the wall over the hole, " + text(R - hole),
                  "conflict");
@@ -186,7 +160,7 @@ void read_place(Draft& draft, Reader r) {
   m.element = static_cast<std::size_t>(e - outer.begin());
   check_shape(draft.drawing(), r, m);
   check_others(draft, r, m);
-  if (setup) m.setup = static_cast<std::size_t>(*setup);
+  if (setup) m.given_setup = static_cast<std::size_t>(*setup);
   draft.plan().milled.push_back(std::move(m));
 }
 
@@ -210,50 +184,6 @@ void read_milling(Draft& draft) {
         "none: " + machine.id + " has no driven_tools, " + that_mill(draft.catalogue),
         "conflict");
   for (const auto& item : items) read_place(draft, item);
-}
-
-void place_milling(Draft& draft) {
-  auto& plan = draft.plan();
-  if (plan.milled.empty()) return;
-  const auto work = planning::assign(plan);
-  const auto items = draft.root.items("milling", 0, kPlaces);
-  for (std::size_t i = 0; i < plan.milled.size(); ++i) {
-    auto& m = plan.milled[i];
-    Reader r = items[i];
-    const auto& id = plan.drawing.outer[m.element].id;
-    if (r.has("setup")) {
-      std::string why;
-      for (const auto clamping : plan.setups[m.setup].clampings)
-        if (why = planning::milled_obstacle(plan, work, m, m.setup, clamping);
-            why.empty())
-          break;
-      if (!why.empty())
-        r.problem_at("setup", "a setup that can mill " + m.id + ": in this one " + why,
-                     "conflict");
-    } else if (const auto setup = planning::milled_setup(plan, work, m)) {
-      m.setup = *setup;
-      draft.assume(r.pointer_of("setup"), *setup, "the first that leaves it free");
-    } else {
-      r.problem("a place that some setup leaves free once " + id + " is turned",
-                "conflict");
-      continue;
-    }
-    if (const auto later = planning::gripped_later(plan, m))
-      draft.assume(r.pointer_of("angle_deg"), m.angle_deg,
-                   "no jaw of setup " + std::to_string(*later) + " stands on it");
-    if (const double left = stiffness_left(plan, m); left < kToldBelow)
-      draft.assume(r.pointer_of("depth_mm"), m.depth_mm,
-                   "the section keeps " +
-                       std::to_string(static_cast<int>(std::floor(100 * left))) +
-                       " % of its stiffness here, which later cuts do not count");
-    m.ways = planning::milled_ways(plan, m);
-    for (const auto& cutter : m.cutters)
-      if (!plan.machine.driven_tools->modes.count(cutter.id) && m.cutters.size() == 1)
-        draft.assume(
-            "/machine/driven_tools/measured", cutter.id,
-            "the tool point is that of the cutter's document, not measured here");
-  }
-  draft.root.problems().throw_if_any();
 }
 
 }  // namespace turnwright::document

@@ -21,7 +21,7 @@ NcRequest load_nc_request(const json& request, const Catalogue& catalogue) {
   NcRequest out{.control = r.choice_or("control", kControls, nc::Control::linuxcnc)};
   r.finish();
   try {
-    if (!part.broken()) out.part = load_part_plan(part.json(), catalogue, "nc");
+    if (!part.broken()) out.part = prepared_part(part.json(), catalogue, "nc");
   } catch (const InputError& e) {
     for (auto problem : e.problems()) {
       problem.pointer = part.pointer() + problem.pointer;

@@ -2,8 +2,6 @@
 
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
-#include "turnwright/planning/machine_share.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -116,38 +114,6 @@ void read_budget(Draft& draft) {
   budget->finish();
 }
 
-// Bores of a bar are bored from what is drilled; needs tools and operations.
-void assume_drilled_holes(Draft& draft) {
-  auto& plan = draft.plan();
-  for (const auto end : {part::End::left, part::End::right}) {
-    const double drilled = planning::drilled_mm(plan, end);
-    if (!(drilled > 0)) continue;
-    for (std::size_t i = 0; i < plan.drawing.inner.size(); ++i) {
-      auto& e = plan.drawing.inner[i];
-      if (e.from != end) continue;
-      e.drilled_mm = drilled;
-      draft.assume(
-          "/inner/" + std::to_string(i), {{"drilled_mm", drilled}},
-          "the largest drill that leaves 0.5 mm on the radius, and what is behind");
-    }
-  }
-}
-
-// A tube's jaws are eased where the request does not say how far; needs the whole part.
-void assume_grip_forces(Draft& draft) {
-  auto& plan = draft.plan();
-  planning::ease_jaws(plan);
-  for (std::size_t s = 0; s < plan.setups.size(); ++s) {
-    const auto& setup = plan.setups[s];
-    if (!setup.eased_by_rule) continue;
-    const double most = setup.grip_force_N.value_or(plan.machine.chuck.grip_force_N);
-    draft.assume("/setups/" + std::to_string(s) + "/finishing_grip_force_N",
-                 *setup.finishing_grip_force_N,
-                 "the jaws are eased from " + number_text(most) +
-                     " N: their lobes may take a quarter of a roundness");
-  }
-}
-
 }  // namespace
 
 LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
@@ -155,6 +121,8 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
   Problems problems{.document = document};
   Reader root = Reader(json, problems).as_object();
   Draft draft{.root = root, .catalogue = catalogue, .purpose = purpose};
+  draft.loaded.json = json;
+  draft.loaded.document = document;
   if (!root.broken()) {
     read_format(root, "turnwright-part/1");
     read_name(draft);
@@ -173,11 +141,6 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     root.finish();
   }
   problems.throw_if_any();
-  assume_drilled_holes(draft);
-  place_milling(draft);
-  assume_grip_forces(draft);
-  draft.plan().machine_takes = planning::machine_takes(draft.plan());
-  draft.loaded.what_if = load_what_if(json, draft.loaded, catalogue, document);
   return std::move(draft.loaded);
 }
 

@@ -17,7 +17,7 @@ struct Draft {
   LoadedPart loaded = {};
   std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, else all
 
-  planning::PartPlan& plan() { return loaded.plan; }
+  planning::PlanRequest& plan() { return loaded.plan; }
   part::Drawing& drawing() { return loaded.plan.drawing; }
   void assume(std::string pointer, nlohmann::json value, std::string why) {
     loaded.assumed.push_back({std::move(pointer), std::move(value), std::move(why)});
@@ -43,17 +43,6 @@ void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups
 void read_milling(Draft& draft);     // after the setups
 void read_what_if(Draft& draft);     // the form alone
-
-/// In which setups places are milled, and their ways; needs a part without problems.
-/// @throws InputError with those that no setup leaves free.
-void place_milling(Draft& draft);
-
-/// The changed requests of a document without problems, each read as a whole.
-/// @throws InputError with what is wrong in them.
-std::vector<planning::WhatIf> load_what_if(const nlohmann::json& json,
-                                           const LoadedPart& loaded,
-                                           const Catalogue& catalogue,
-                                           const std::string& document);
 
 // What cross-references are held against.
 

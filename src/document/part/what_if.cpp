@@ -1,3 +1,5 @@
+#include "what_if.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -5,7 +7,6 @@
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
 #include "turnwright/document/part_plan.hpp"
-#include "turnwright/planning/limit.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -14,8 +15,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMost = 20, kChanges = 50;
 constexpr double kLeastPercent = -90, kMostPercent = 900;
-
-std::string pointer_of(std::size_t k) { return "/what_if/" + std::to_string(k); }
 
 // The member of a list by its index, or by its id.
 json* member(json& list, const std::string& token) {
@@ -62,24 +61,6 @@ json changed(json document, const json& changes, const std::string& pointer,
   return document;
 }
 
-planning::PartPlan with_limit(const json& entry, const planning::PartPlan& plan,
-                              const std::string& pointer, Problems& problems) {
-  const auto name = entry["limit"].get<std::string>();
-  const auto all = planning::limits(plan);
-  const auto limit =
-      std::find_if(all.begin(), all.end(), [&](const auto& l) { return l.name == name; });
-  auto result = plan;
-  if (limit != all.end()) {
-    limit->scale(result, 1 + entry["change_percent"].get<double>() / 100);
-    return result;
-  }
-  std::vector<std::string> names;
-  for (const auto& l : all) names.push_back(l.name);
-  problems.add({pointer + "/limit", shown(entry["limit"]),
-                expected_reference(name, names, "a limit of this request"), "reference"});
-  return result;
-}
-
 std::string called(const json& entry) {
   if (entry.contains("name")) return entry["name"].get<std::string>();
   const double percent = entry["change_percent"].get<double>();
@@ -116,35 +97,28 @@ void read_what_if(Draft& draft) {
   }
 }
 
-std::vector<planning::WhatIf> load_what_if(const json& request, const LoadedPart& loaded,
-                                           const Catalogue& catalogue,
-                                           const std::string& document) {
-  std::vector<planning::WhatIf> all;
+std::vector<ChangedRequest> changed_requests(const json& request, Problems& problems) {
+  std::vector<ChangedRequest> all;
   if (!request.contains("what_if")) return all;
   auto bare = request;
   bare.erase("what_if");
   bare.erase("pareto");
-  Problems problems{.document = document};
   for (std::size_t k = 0; k < request["what_if"].size(); ++k) {
     const auto& entry = request["what_if"][k];
-    const auto pointer = pointer_of(k);
+    const auto pointer = "/what_if/" + std::to_string(k);
     if (entry.contains("limit")) {
-      all.push_back({called(entry), with_limit(entry, loaded.plan, pointer, problems)});
+      all.push_back({called(entry),
+                     pointer + "/limit",
+                     entry["limit"].get<std::string>(),
+                     1 + entry["change_percent"].get<double>() / 100,
+                     {}});
       continue;
     }
     const auto before = problems.list.size();
-    const auto other = changed(bare, entry["set"], pointer, problems);
-    if (problems.list.size() > before) continue;
-    try {
-      all.push_back({called(entry), load_part_plan(other, catalogue, document).plan});
-    } catch (const InputError& error) {
-      for (auto p : error.problems()) {
-        p.pointer = pointer + "/set" + p.pointer;
-        problems.add(std::move(p));
-      }
-    }
+    auto document = changed(bare, entry["set"], pointer, problems);
+    if (problems.list.size() == before)
+      all.push_back({called(entry), pointer + "/set", "", 1, std::move(document)});
   }
-  problems.throw_if_any();
   return all;
 }
 

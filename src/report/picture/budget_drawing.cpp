@@ -70,7 +70,7 @@ double draw_key(Svg& svg, const std::vector<std::string>& sources, double y) {
 
 }  // namespace
 
-std::string budget_drawing(const planning::PartPlan& part,
+std::string budget_drawing(const planning::PreparedPart& part,
                            const planning::ProcessPlan& plan) {
   std::vector<Stack> stacks;
   for (const auto& t : plan.tolerances) stacks.push_back(stack_of(t));

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::report {
@@ -13,7 +13,7 @@ namespace turnwright::report {
 /// of the width, at most by a fifth.  "" of a plan that judges no tolerance.  Equal plans
 /// give equal bytes.
 /// @throws std::domain_error if a number to be drawn is not finite.
-std::string budget_drawing(const planning::PartPlan& part,
+std::string budget_drawing(const planning::PreparedPart& part,
                            const planning::ProcessPlan& plan);
 
 }  // namespace turnwright::report

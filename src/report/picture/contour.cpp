@@ -8,7 +8,7 @@ namespace {
 
 using part::End;
 using planning::Assignment;
-using planning::PartPlan;
+using planning::PreparedPart;
 
 constexpr double kNothing_mm = 1e-9;  // shorter runs are rounding of sums of lengths
 
@@ -79,12 +79,12 @@ Runs inner_runs(const part::Drawing& d, std::size_t i) {
   return runs(d.inner[i], part::inner_left_z_mm(d, i));
 }
 
-Contour contour_after(const PartPlan& p, const Assignment& work, std::size_t setup) {
+Contour contour_after(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
-  const auto finished = planning::finished_after(p, work, setup);
+  const auto finished = planning::finished_after(p, setup);
   const double L = part::length_mm(d), stock = d.stock.outer_mm / 2;
-  const double left_z = 0 - planning::face_stock_after_mm(p, work, setup, End::left);
-  const double right_z = L + planning::face_stock_after_mm(p, work, setup, End::right);
+  const double left_z = 0 - planning::face_stock_after_mm(p, setup, End::left);
+  const double right_z = L + planning::face_stock_after_mm(p, setup, End::right);
   Contour c;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     for (auto run : outer_runs(d, i)) {

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 /// The part's outline between its setups.
@@ -20,8 +20,7 @@ struct Contour {
 };
 
 /// As the part stands after `setup`: what no setup up to it has cut is stock.
-Contour contour_after(const planning::PartPlan& part, const planning::Assignment& work,
-                      std::size_t setup);
+Contour contour_after(const planning::PreparedPart& part, std::size_t setup);
 
 /// An element as drawn: one run, of an arc a dozen chords of it.
 Runs outer_runs(const part::Drawing& drawing, std::size_t i);

@@ -18,7 +18,7 @@ namespace {
 using part::End;
 using planning::Clamping;
 using planning::Deviation;
-using planning::PartPlan;
+using planning::PreparedPart;
 using planning::ProcessPlan;
 
 // Millimetres of paper.
@@ -44,7 +44,7 @@ struct Scales {
   double factor = 0;  ///< an error is drawn so much larger; 0: there is none
 };
 
-Scales scales(const PartPlan& p, const ProcessPlan& plan) {
+Scales scales(const PreparedPart& p, const ProcessPlan& plan) {
   const auto& stock = p.drawing.stock;
   Scales s;
   s.length =
@@ -73,7 +73,7 @@ struct Label {
 
 /// One setup on its sheet.
 struct Sheet {
-  const PartPlan& part;
+  const PreparedPart& part;
   const ProcessPlan& plan;
   const planning::SetupWork& work;
   std::size_t setup;
@@ -513,17 +513,18 @@ std::string drawn(Sheet s, const planning::Finished& finished) {
 
 }  // namespace
 
-std::vector<std::string> setup_drawings(const PartPlan& part, const ProcessPlan& plan) {
+std::vector<std::string> setup_drawings(const PreparedPart& part,
+                                        const ProcessPlan& plan) {
   if (plan.setups.size() > part.setups.size())
     throw std::domain_error("setup_drawings: the plan has more setups than the part");
-  const auto work = planning::assign(part);
+  const auto& work = part.work;
   const auto scale = scales(part, plan);
   auto finished = planning::nothing_finished(part.drawing);
   std::vector<std::string> all;
   for (std::size_t i = 0; i < plan.setups.size(); ++i) {
     planning::finish(finished, work.setups[i]);
-    all.push_back(drawn(
-        {part, plan, work.setups[i], i, scale, contour_after(part, work, i)}, finished));
+    all.push_back(
+        drawn({part, plan, work.setups[i], i, scale, contour_after(part, i)}, finished));
   }
   return all;
 }

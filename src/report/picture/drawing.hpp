@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/planning/part_plan.hpp"
+#include "turnwright/planning/plan_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::report {
@@ -22,7 +22,7 @@ namespace turnwright::report {
 /// as bored to what they hold.  An element that no setup has cut yet has its id without
 /// its size.  Equal plans give equal bytes. Source: derived here.
 /// @throws std::domain_error if a number to be drawn is not finite, or there is no stock.
-std::vector<std::string> setup_drawings(const planning::PartPlan& part,
+std::vector<std::string> setup_drawings(const planning::PreparedPart& part,
                                         const planning::ProcessPlan& plan);
 
 }  // namespace turnwright::report

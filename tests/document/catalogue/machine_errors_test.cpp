@@ -9,7 +9,7 @@
 #include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/geometry.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/samba.hpp"
 #include "turnwright/planning/machine_share.hpp"
 #include "turnwright/volumetric/samba.hpp"
@@ -199,7 +199,7 @@ TEST(Calibration, OfABallBarIsSavedAsAMachineThatPlanReads) {
 
   json part = parse_file(source_path("parts/bearing-seat.json"));
   part["machine"] = saved;
-  const auto plan = load_part_plan(part, load_catalogue(source_path("")), "part").plan;
+  const auto plan = prepared_part(part, load_catalogue(source_path("")), "part").part;
   ASSERT_EQ(plan.drawing.tolerances[0].id, "t1");  // cylindricity over 80 mm
   const auto take = planning::machine_take(plan, 0, 0, planning::Clamping::chuck);
   // Taper and bow alike from z = 5 to 85 mm: 20 urad z and 0.5 um (z/100 mm)^2.

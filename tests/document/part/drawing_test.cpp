@@ -37,7 +37,7 @@ json tube() {
 }
 
 ordered_json drawn(const json& request) {
-  return drawing(load_part_plan(request, catalogue(), "drawing"));
+  return drawing(prepared_part(request, catalogue(), "drawing"));
 }
 
 ordered_json named(const ordered_json& list, const std::string& id) {

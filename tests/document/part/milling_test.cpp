@@ -7,7 +7,7 @@
 #include "../schema_check.hpp"
 #include "../slips.hpp"
 #include "document/json/file.hpp"
-#include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -42,8 +42,8 @@ json part() {
     "objective": "cost", "batch": 10, "rates": {"machine_per_min": 1}})");
 }
 
-LoadedPart load(const json& document, Purpose purpose = Purpose::plan) {
-  return load_part_plan(document, test_catalogue(), "t", purpose);
+PreparedDocument load(const json& document, Purpose purpose = Purpose::plan) {
+  return prepared_part(document, test_catalogue(), "t", purpose);
 }
 
 std::string refused(const json& document) {
@@ -65,9 +65,9 @@ std::string refused_with(const std::string& pointer, const json& value) {
 }
 
 TEST(Milling, EveryKeyIsRead) {
-  const auto plan = load(part()).plan;
+  const auto plan = load(part()).part;
   ASSERT_EQ(plan.milled.size(), 3U);
-  const auto& k = plan.milled[0];
+  const auto& k = plan.milled_places[0];
   EXPECT_EQ(k.id, "k1");
   EXPECT_EQ(k.kind, planning::MilledKind::keyway);
   EXPECT_EQ(k.element, 2U);
@@ -86,7 +86,7 @@ TEST(Milling, EveryKeyIsRead) {
   EXPECT_EQ(k.n_rpm, 3000);
   EXPECT_EQ(k.fz_mm, 0.03);
   ASSERT_EQ(k.ways.size(), 1U);
-  const auto& f = plan.milled[1];
+  const auto& f = plan.milled_places[1];
   EXPECT_EQ(f.kind, planning::MilledKind::flat);
   EXPECT_NEAR(f.width_mm, 2 * std::sqrt(23.0 * 23 - 21 * 21), 1e-12);
   EXPECT_EQ(f.lanes, 3);
@@ -98,7 +98,7 @@ TEST(Milling, EveryKeyIsRead) {
       EXPECT_NEAR(f.ways[i].fz_from_mm, f.ways[i - 1].fz_to_mm, 1e-12);
     }
   }
-  EXPECT_EQ(plan.milled[2].kind, planning::MilledKind::slot);
+  EXPECT_EQ(plan.milled_places[2].kind, planning::MilledKind::slot);
 }
 
 TEST(Milling, WhatIsLeftOutIsAssumed) {
@@ -114,9 +114,9 @@ TEST(Milling, WhatIsLeftOutIsAssumed) {
   EXPECT_EQ(assumed("/milling/1/stability_margin"), "0.2");
   EXPECT_EQ(assumed("/milling/1/speed_margin"), "0.02");
   EXPECT_EQ(assumed("/milling/1/tool"), "\"any\"");
-  EXPECT_EQ(loaded.plan.milled[1].depth_margin, 0.2);
-  EXPECT_EQ(loaded.plan.milled[1].speed_margin, 0.02);
-  EXPECT_EQ(loaded.plan.milled[2].setup, 1U);
+  EXPECT_EQ(loaded.part.milled_places[1].depth_margin, 0.2);
+  EXPECT_EQ(loaded.part.milled_places[1].speed_margin, 0.02);
+  EXPECT_EQ(loaded.part.milled_places[2].setup, 1U);
 }
 
 // Flats on both sides count together.
@@ -225,8 +225,8 @@ TEST(Milling, CuttersOfTheToolsListAreTheChoice) {
       parse_file(source_path("tests/data/catalogue/tools/milling/test-cutter.json"));
   own["id"] = "own";
   document["tools"] = {"test-rougher", own};
-  EXPECT_EQ(load(document).plan.milled[1].cutters.size(), 1U);
-  EXPECT_EQ(load(document).plan.milled[1].cutters[0].id, "own");
+  EXPECT_EQ(load(document).part.milled_places[1].cutters.size(), 1U);
+  EXPECT_EQ(load(document).part.milled_places[1].cutters[0].id, "own");
   document["tools"] = {"test-rougher", "test-cutter", "test-cutter"};
   EXPECT_EQ(refused(document),
             "/tools/2: got \"test-cutter\", expected each tool once\n");

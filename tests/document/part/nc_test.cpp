@@ -28,15 +28,15 @@ json answered(const json& request) {
   static const SchemaCheck kRequest("nc.request.json"), kResult("nc.result.json");
   EXPECT_EQ(kRequest.fault(request), "");
   const auto [part, control] = load_nc_request(request, catalogue());
-  const auto plan = planning::plan(part.plan);
-  json result = to_json(nc::programs(part.plan, plan), plan, control);
+  const auto plan = planning::plan(part.part);
+  json result = to_json(nc::programs(part.part, plan), plan, control);
   EXPECT_EQ(kResult.fault(result), "");
   return result;
 }
 
 std::string refused(const json& request) {
   return refusal(
-      [](const json& r) { return load_nc_request(r, catalogue()).part.plan.batch; },
+      [](const json& r) { return load_nc_request(r, catalogue()).part.part.batch; },
       request);
 }
 

@@ -590,18 +590,19 @@ json asked(const json& what_if) {
 }
 
 TEST(WhatIf, EachChangeIsReadAsTheDocumentItMakes) {
-  const auto loaded =
-      load(asked({{{"name", "wider"}, {"set", {{"/outer/d1/fit", "k7"}, {"/batch", 20}}}},
-                  {{"name", "shorter"}, {"set", {{"/outer/3/length_mm", 41}}}},
-                  {{"limit", "roughness Ra of d1"}, {"change_percent", -25}}}));
+  const auto loaded = prepared_part(
+      asked({{{"name", "wider"}, {"set", {{"/outer/d1/fit", "k7"}, {"/batch", 20}}}},
+             {{"name", "shorter"}, {"set", {{"/outer/3/length_mm", 41}}}},
+             {{"limit", "roughness Ra of d1"}, {"change_percent", -25}}}),
+      test_catalogue(), "part");
   ASSERT_EQ(loaded.what_if.size(), 3u);
-  EXPECT_EQ(loaded.plan.drawing.outer[0].fit, "k6");
+  EXPECT_EQ(loaded.part.drawing.outer[0].fit, "k6");
   EXPECT_EQ(loaded.what_if[0].name, "wider");
-  EXPECT_EQ(loaded.what_if[0].plan.drawing.outer[0].fit, "k7");
-  EXPECT_EQ(loaded.what_if[0].plan.batch, 20);
-  EXPECT_EQ(loaded.what_if[1].plan.drawing.outer[3].length_mm, 41);
+  EXPECT_EQ(loaded.what_if[0].part.drawing.outer[0].fit, "k7");
+  EXPECT_EQ(loaded.what_if[0].part.batch, 20);
+  EXPECT_EQ(loaded.what_if[1].part.drawing.outer[3].length_mm, 41);
   EXPECT_EQ(loaded.what_if[2].name, "roughness Ra of d1 -25 %");
-  EXPECT_NEAR(*loaded.what_if[2].plan.drawing.outer[0].Ra_um, 0.6, 1e-12);
+  EXPECT_NEAR(*loaded.what_if[2].part.drawing.outer[0].Ra_um, 0.6, 1e-12);
 }
 
 TEST(WhatIf, RefusalsNameTheChange) {

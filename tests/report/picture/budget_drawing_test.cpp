@@ -66,7 +66,7 @@ std::pair<double, double> bar(const std::string& svg, const std::string& css_cla
 }
 
 TEST(BudgetDrawing, DrawsSharesEndToEndInTheWidth) {
-  planning::PartPlan p;
+  planning::PreparedPart p;
   p.drawing.name = "A & B";
   const auto svg = budget_drawing(p, plan());
   EXPECT_EQ(svg.rfind("<svg ", 0), 0u);

@@ -12,14 +12,14 @@ namespace turnwright::report {
 namespace {
 
 using planning::Clamping;
-using planning::PartPlan;
+using planning::PreparedPart;
 using planning::ProcessPlan;
 
 // A bush from tube: d1 and its end face are cut in setup 1; d2, the bore and the right
 // face in setup 0.  Stock 100 mm from -2, diameter 40: the height does not bind, so a mm
 // is (190 - 2 * 16) / 100 = 1.58 paper mm; z = -2 lies at x = 16.
-PartPlan bush() {
-  PartPlan p;
+PreparedPart bush() {
+  planning::PlanRequest p;
   p.drawing.name = "Bush <A&B>";
   p.drawing.stock = {part::StockKind::tube, 40, 10, 100, 2};
   part::OuterElement d1, d2;
@@ -39,7 +39,7 @@ PartPlan bush() {
   p.setups.resize(2);
   p.setups[0] = {part::End::left, 20, {Clamping::chuck}};
   p.setups[1] = {part::End::right, 40, {Clamping::chuck}};
-  return p;
+  return planning::prepare(std::move(p));
 }
 
 // The largest error, 0.010 mm, may take 6 paper mm: 6 / (1.58 * 0.010) = 380, so 200:1.

@@ -1,7 +1,4 @@
 #pragma once
-#include <compare>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +10,9 @@
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/part/drawing.hpp"
 
-namespace turnwright::chatter {
-class Lobes;
-}
-
-/// The request of `plan` and `predict` as plain values: everything resolved, every
-/// default filled in (document/ reports which under `assumed`).
+/// The request of `plan` and `predict` as plain values: what was asked, ids resolved and
+/// defaults filled in (document/ reports which under `assumed`).  What follows from it is
+/// in a PreparedPart (prepared_part.hpp).
 namespace turnwright::planning {
 
 enum class Clamping {
@@ -37,7 +31,6 @@ struct SetupRequest {
   double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
   std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's
   std::optional<double> finishing_grip_force_N = {};  ///< once roughing is done
-  bool eased_by_rule = false;  ///< finishing_grip_force_N is ease_jaws', not given
 };
 
 /// What else moves the edge or the part in this shop, besides the cut and the machine's
@@ -54,19 +47,6 @@ struct ShopErrors {
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
   bool first_part_gauged =
       false;  ///< offsets take out the machine's mean error of a size
-};
-
-/// What the machine's geometric errors take of a tolerance's width.
-struct MachineTake {
-  double fixed_um = 0;  ///< as calibrated
-  double u_um = 0;      ///< standard uncertainty of it
-};
-
-/// Where the surface of a tolerance is cut.
-struct MachinePlace {
-  std::size_t tolerance = 0, setup = 0;
-  bool centres = false;
-  auto operator<=>(const MachinePlace&) const = default;
 };
 
 enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed, mill };
@@ -98,17 +78,6 @@ enum class MilledKind {
 };
 const char* name(MilledKind kind);
 
-/// A way of milling a place: cutter, lanes side by side, and what they bear at feeds per
-/// tooth of which none changes the ratio of the forces by much.
-struct MilledWay {
-  std::size_t cutter = 0;  ///< of Milled::cutters
-  int lanes = 1;
-  double fz_from_mm = 0, fz_to_mm = 0;
-  double normal = 0;  ///< largest Kn/Kt of its cuts and feeds
-  std::shared_ptr<const chatter::Lobes> lobes;
-  std::shared_ptr<const chatter::Lobes> between;  ///< of cuts on the way, if any
-};
-
 /// A place milled into an outer cylinder once that is turned, by a driven tool whose axis
 /// crosses the part's at a right angle, fed along the part.
 struct Milled {
@@ -120,18 +89,17 @@ struct Milled {
   double depth_mm = 0;              ///< of the floor below the cylinder's rim
   double angle_deg = 0;             ///< of its middle about the axis
   std::optional<double> corner_mm;  ///< largest corner radius at the floor
-  std::size_t setup = 0;
-  double depth_margin = 0.2;   ///< stable so much deeper, relative,
-  double speed_margin = 0.02;  ///< at every speed so much slower or faster
+  std::optional<std::size_t> given_setup;  ///< absent: the first that leaves it free
+  double depth_margin = 0.2;               ///< stable so much deeper, relative,
+  double speed_margin = 0.02;              ///< at every speed so much slower or faster
   std::vector<catalogue::MillingCutter> cutters;  ///< one that is given, or all there are
   std::optional<int> passes, lanes;               ///< given, else chosen
   std::optional<double> n_rpm, fz_mm;
-  std::vector<MilledWay> ways;  ///< those that fit, of milled_ways
 };
 
 enum class Objective { cost, time, profit };
 
-struct PartPlan {
+struct PlanRequest {
   part::Drawing drawing;
   catalogue::Material material;
   catalogue::Lathe machine;
@@ -146,17 +114,17 @@ struct PartPlan {
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um =
-      0;  ///< of every tolerance, besides what `machine.errors` take
-  std::map<MachinePlace, MachineTake> machine_takes = {};  ///< of machine.errors
-  double window_percent = 5;    ///< how far above its optimum an operation's window goes
-  bool window_curves = false;   ///< with limits and lines of equal cost, to be drawn
+      0;                       ///< of every tolerance, besides what `machine.errors` take
+  double window_percent = 5;   ///< how far above its optimum an operation's window goes
+  bool window_curves = false;  ///< with limits and lines of equal cost, to be drawn
   double damping_ratio = 0.03;  ///< of what the part stands in, for chatter
-  double chatter_times = 1;     ///< limits of chatter are taken so many times as high
+  /// Limits of chatter are taken so many times as high: 1, but where an explanation asks
+  /// what chatter alone rules out.
+  double chatter_times = 1;
   ShopErrors shop;
   double conformance = 0.9973;
   bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
   std::size_t pareto = 0;  ///< corners of cost against time to find, 0: none
-  std::map<std::size_t, double> other_ends = {};  ///< of a robust plan, allowance.hpp (2)
 };
 
 }  // namespace turnwright::planning

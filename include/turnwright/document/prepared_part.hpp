@@ -1,0 +1,27 @@
+#pragma once
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+/// A part document, read and prepared for planning.
+namespace turnwright::document {
+
+struct PreparedDocument {
+  planning::PreparedPart part;
+  std::vector<Assumption>
+      assumed;  ///< by the reader and by what follows from the request
+  std::vector<planning::WhatIf> what_if;
+};
+
+/// What follows from a request that was read: holes that are drilled, jaws that are eased,
+/// the setups of milled places.
+/// @throws InputError of milled places that no setup leaves free, and of changed requests
+///   (`what_if`) that cannot be read.
+PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue);
+
+/// The same of a document.
+/// @throws InputError also as load_part_plan does.
+PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& catalogue,
+                               const std::string& document,
+                               Purpose purpose = Purpose::plan);
+
+}  // namespace turnwright::document

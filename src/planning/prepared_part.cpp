@@ -1,0 +1,63 @@
+#include "turnwright/planning/prepared_part.hpp"
+
+#include <algorithm>
+
+#include "turnwright/planning/machine_share.hpp"
+#include "turnwright/planning/milled_places.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// What the largest drill that fits leaves to each bore (setup_geometry.hpp).
+std::vector<double> drilled(const PlanRequest& r) {
+  const double left = drilled_mm(r, part::End::left);
+  const double right = drilled_mm(r, part::End::right);
+  std::vector<double> all;
+  for (const auto& e : r.drawing.inner)
+    all.push_back(e.from == part::End::left ? left : right);
+  return all;
+}
+
+std::vector<MilledPlace> placed(const PreparedPart& p) {
+  std::vector<MilledPlace> all;
+  for (const auto& m : p.milled) {
+    all.push_back({m, m.given_setup, {}});
+    if (!m.given_setup) all.back().setup = milled_setup(p, m);
+  }
+  return all;
+}
+
+// All but what is slow to find.
+PreparedPart assigned(PlanRequest request) {
+  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
+  p.work = assign(p);
+  p.drilled_mm = drilled(p);
+  p.jaws = jaw_forces(p);
+  p.milled_places = placed(p);
+  return p;
+}
+
+}  // namespace
+
+PreparedPart prepare(PlanRequest request) {
+  auto p = assigned(std::move(request));
+  p.machine_takes = machine_takes(p);
+  for (auto& m : p.milled_places) m.ways = milled_ways(p, m);
+  return p;
+}
+
+PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
+  auto p = assigned(std::move(request));
+  p.machine_takes = like.machine_takes;
+  for (std::size_t i = 0; i < p.milled_places.size(); ++i)
+    p.milled_places[i].ways = like.milled_places.at(i).ways;
+  p.other_ends = like.other_ends;
+  return p;
+}
+
+double hole_mm(const PreparedPart& p, std::size_t i) {
+  return std::max(p.drawing.stock.inner_mm, p.drilled_mm.at(i));
+}
+
+}  // namespace turnwright::planning
