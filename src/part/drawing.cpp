@@ -1,45 +1,9 @@
 #include "turnwright/part/drawing.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 
 namespace turnwright::part {
-namespace {
-
-// In the order of the enumerators.
-constexpr const char* kKindNames[] = {"diameter",
-                                      "length",
-                                      "straightness",
-                                      "circularity",
-                                      "flatness",
-                                      "cylindricity",
-                                      "profile",
-                                      "profile-without-datum",
-                                      "parallelism",
-                                      "perpendicularity",
-                                      "angularity",
-                                      "position",
-                                      "coaxiality",
-                                      "circular-radial-runout",
-                                      "circular-axial-runout",
-                                      "total-radial-runout",
-                                      "total-axial-runout"};
-static_assert(std::size(kKindNames) ==
-              static_cast<std::size_t>(ToleranceKind::total_axial_runout) + 1);
-
-}  // namespace
-
-const char* name(ToleranceKind kind) {
-  return kKindNames[static_cast<std::size_t>(kind)];
-}
-
-std::optional<ToleranceKind> tolerance_kind(const std::string& name) {
-  const auto found = std::find(std::begin(kKindNames), std::end(kKindNames), name);
-  if (found == std::end(kKindNames)) return std::nullopt;
-  return static_cast<ToleranceKind>(found - std::begin(kKindNames));
-}
-
 double length_mm(const Drawing& drawing) {
   double sum = 0;
   for (const auto& element : drawing.outer) sum += element.length_mm;

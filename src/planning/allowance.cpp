@@ -22,31 +22,6 @@ using tolerance::Distribution;
 constexpr int kJaws = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool is_size(ToleranceKind kind) {
-  return kind == ToleranceKind::diameter || kind == ToleranceKind::length ||
-         kind == ToleranceKind::profile;
-}
-
-bool sees_lobes(ToleranceKind kind) {
-  switch (kind) {
-    case ToleranceKind::circularity:
-    case ToleranceKind::cylindricity:
-    case ToleranceKind::circular_radial_runout:
-    case ToleranceKind::total_radial_runout:
-    case ToleranceKind::profile:
-    case ToleranceKind::profile_without_datum:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool sees_eccentricity(ToleranceKind kind) {
-  return kind == ToleranceKind::coaxiality ||
-         kind == ToleranceKind::circular_radial_runout ||
-         kind == ToleranceKind::total_radial_runout;
-}
-
 // How far a radius error moves a size, or a face's error a length.
 double sensitivity(const PreparedPart& p, const Tolerance& t) {
   if (t.kind == ToleranceKind::diameter) return 2;
@@ -119,14 +94,14 @@ double squeeze_um(const PreparedPart& p, const Tolerance& t, const Making& m,
                   double force_N) {
   const double outer = grip_diameter_mm(p, m.setup, m.clamping);
   const double inner = gripped_bore_mm(p, m.setup);
-  if (!(outer > 0 && inner > 0) || !sees_lobes(t.kind)) return 0;
+  if (!(outer > 0 && inner > 0) || !part::facts(t.kind).sees_lobes) return 0;
   const double R = (outer + inner) / 4, wall = (outer - inner) / 2;
   const double decay = deflection::lobe_decay_1_mm(R, wall, kJaws);
   const double width = std::max(p.setups[m.setup].grip_mm, 1 / (2 * decay));
   const auto ring = deflection::with_shear(
       {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
   const double F = force_N / kJaws;
-  const double lobes = t.kind == ToleranceKind::profile
+  const double lobes = part::has_two_ends(t.kind)
                            ? 2 * deflection::squeeze_mm(ring, kJaws, F, 0)
                            : deflection::lobing_mm(ring, kJaws, F);
   return units::um_from_mm(lobes) * std::exp(-decay * beyond_jaws_mm(p, t.of, m));
@@ -168,7 +143,7 @@ Allowance allowance(const PreparedPart& p, std::size_t tolerance, const Making& 
   const Tolerance& t = p.drawing.tolerances[tolerance];
   const auto& shop = p.shop;
   Allowance a;
-  const bool size = is_size(t.kind);
+  const bool size = part::has_two_ends(t.kind);
   if (size) a.ends = t.kind == ToleranceKind::length ? 2 * faces_cut(p, t) : 2;
   const MachineTake machine = machine_take(p, tolerance, making.setup, making.clamping);
   a.fixed.push_back({kMachine, p.machine_share_um + machine.fixed_um});
@@ -194,7 +169,7 @@ Allowance allowance(const PreparedPart& p, std::size_t tolerance, const Making& 
       spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
-  if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&
+  if (shop.rechucking_um > 0 && part::facts(t.kind).sees_eccentricity &&
       datum_elsewhere(p, t, making))
     spread("rechucking", Distribution::rayleigh, shop.rechucking_um, 2);
   return a;

@@ -10,6 +10,7 @@ namespace {
 
 using part::Tolerance;
 using part::ToleranceKind;
+using Rule = part::ToleranceRule;
 
 double middle_mm(const Tolerance& t) {
   return t.limits ? (t.limits->upper_mm + t.limits->lower_mm) / 2 : 0;
@@ -36,34 +37,29 @@ Demand demand(const PreparedPart& p, std::size_t index, std::optional<double> ha
     d.upper *= d.shape == Shape::range ? share : share / 2;
     d.lower = -d.upper;
   };
-  switch (t.kind) {
-    case ToleranceKind::diameter:
-      size(2, 1);
+  const auto& facts = part::facts(t.kind);
+  switch (half_angle ? facts.rule_of_axis() : facts.rule) {
+    case Rule::size:
+      if (t.kind == ToleranceKind::length)
+        size(1, 1 / std::max(1.0, faces_cut(p, t)));
+      else
+        size(2, 1);
       break;
-    case ToleranceKind::profile:
+    case Rule::profile:
       size(cosine, 1);
       break;
-    case ToleranceKind::length:
-      size(1, 1 / std::max(1.0, faces_cut(p, t)));
-      break;
-    case ToleranceKind::profile_without_datum:
+    case Rule::floating_profile:
       d.factor = cosine;
       d.shape = Shape::range;
       break;
-    case ToleranceKind::straightness:
+    case Rule::straightness:
       d.shape = Shape::straightness;
       break;
-    case ToleranceKind::cylindricity:
-    case ToleranceKind::total_radial_runout:
-    case ToleranceKind::flatness:
-    case ToleranceKind::parallelism:
-    case ToleranceKind::total_axial_runout:
+    case Rule::range:
+    case Rule::runout:
       d.shape = Shape::range;
       break;
-    case ToleranceKind::perpendicularity:
-      d.shape = half_angle ? Shape::none : Shape::range;
-      break;
-    default:
+    case Rule::machine:
       break;
   }
   if (d.shape == Shape::none) leave(Cut::none);

@@ -199,11 +199,13 @@ double zone_mm(const PreparedPart& p, ToleranceKind kind, const Surface& s,
     case ToleranceKind::perpendicularity:
       if (!is_face(s)) return angle_rad(s, d) * length_mm(s);
       break;
-    default:
+    case ToleranceKind::parallelism:
+    case ToleranceKind::total_axial_runout:
       break;
+    case ToleranceKind::length:
+      throw std::domain_error("zone_mm: a length is between two faces");
   }
-  return perpendicularity_mm(s, d.axis) +
-         tipped;  // of faces, parallelism and total runout
+  return perpendicularity_mm(s, d.axis) + tipped;  // of faces
 }
 
 /// What one chain of errors takes of a tolerance, cut at `own`, its datum or other face

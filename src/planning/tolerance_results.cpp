@@ -61,8 +61,7 @@ tolerance::Case judged(const Tolerance& t, const Found& at, double taken_mm,
   } else if (bare) {
     c.value_mm = t.value_mm;
     c.machine_mm = taken_mm;  // the cut has no term here
-    if (t.kind == ToleranceKind::perpendicularity)
-      c.controlled = tolerance::Controlled::axis;
+    if (part::facts(t.kind).axis_rule) c.controlled = tolerance::Controlled::axis;
   } else {
     c.value_mm = t.value_mm - taken_mm;
   }

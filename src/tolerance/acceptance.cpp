@@ -13,39 +13,11 @@ namespace turnwright::tolerance {
 namespace {
 
 using Kind = part::ToleranceKind;
-
-/// Which of the header's conditions judges a case.
-enum class Rule { size, range, runout, straightness, profile, free_profile, machine };
+using Rule = part::ToleranceRule;
 
 Rule rule_of(const Case& c) {
-  switch (c.kind) {
-    case Kind::length:
-    case Kind::diameter:
-      return Rule::size;
-    case Kind::flatness:
-    case Kind::cylindricity:
-    case Kind::parallelism:
-      return Rule::range;
-    case Kind::perpendicularity:
-      return c.controlled == Controlled::face ? Rule::range : Rule::machine;
-    case Kind::total_radial_runout:
-    case Kind::total_axial_runout:
-      return Rule::runout;
-    case Kind::straightness:
-      return Rule::straightness;
-    case Kind::profile:
-      return Rule::profile;
-    case Kind::profile_without_datum:
-      return Rule::free_profile;
-    case Kind::circularity:
-    case Kind::angularity:
-    case Kind::position:
-    case Kind::coaxiality:
-    case Kind::circular_radial_runout:
-    case Kind::circular_axial_runout:
-      return Rule::machine;
-  }
-  throw std::domain_error("acceptance: unknown kind of tolerance");
+  const auto& facts = part::facts(c.kind);
+  return c.controlled == Controlled::axis ? facts.rule_of_axis() : facts.rule;
 }
 
 void require(bool holds, const char* what) {
@@ -144,11 +116,12 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
       with_offset = range * cosine;
       found = "zone about the nominal surface {:.2f} um of {:.2f} um";
       break;
-    case Rule::free_profile:  // Eq. (8)
+    case Rule::floating_profile:  // Eq. (8)
       without_offset = with_offset = range * cosine;
       found = "zone normal to the surface {:.2f} um of {:.2f} um";
       break;
-    default:  // Eq. (9)
+    case Rule::size:     // judge_size has it
+    case Rule::machine:  // Eq. (9)
       without_offset = with_offset = c.machine_mm;
       found =
           "the cut's deflection has no part in it, machine and chucking {:.2f} um of "

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <stdexcept>
 
 namespace turnwright::part {
@@ -45,20 +44,6 @@ TEST(Drawing, AllowancesAndPartFillTheStock) {
   EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162
   EXPECT_EQ(d.stock.left_allowance_mm + length_mm(d) + right_allowance_mm(d),
             d.stock.length_mm);
-}
-
-TEST(ToleranceKind, NamesAreDistinctAndReadBack) {
-  std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(ToleranceKind::total_axial_runout); ++i) {
-    const auto kind = static_cast<ToleranceKind>(i);
-    EXPECT_EQ(tolerance_kind(name(kind)), kind);
-    names.insert(name(kind));
-  }
-  EXPECT_EQ(names.size(), 17U);
-  EXPECT_STREQ(name(ToleranceKind::profile_without_datum), "profile-without-datum");
-  EXPECT_STREQ(name(ToleranceKind::circular_axial_runout), "circular-axial-runout");
-  EXPECT_EQ(tolerance_kind("roundness"), std::nullopt);
-  EXPECT_EQ(tolerance_kind(""), std::nullopt);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "turnwright/part/cut.hpp"
+#include "turnwright/part/tolerance_kind.hpp"
 
 /// What the drawing says, left to right along the axis, z = 0 at the left end of the
 /// finished part.  Plain values; document/ fills and checks them.
@@ -50,30 +51,6 @@ struct Face {
   std::string id;
   std::optional<double> Ra_um = {}, Rz_um = {};
 };
-
-enum class ToleranceKind {
-  diameter,
-  length,
-  straightness,
-  circularity,
-  flatness,
-  cylindricity,
-  profile,
-  profile_without_datum,
-  parallelism,
-  perpendicularity,
-  angularity,
-  position,
-  coaxiality,
-  circular_radial_runout,
-  circular_axial_runout,
-  total_radial_runout,
-  total_axial_runout
-};
-
-/// "total-radial-runout" and so on, as in the documents.
-const char* name(ToleranceKind kind);
-std::optional<ToleranceKind> tolerance_kind(const std::string& name);
 
 struct Tolerance {
   std::string id;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "document/json/fields.hpp"
@@ -11,35 +10,8 @@ namespace turnwright::document {
 namespace {
 
 using part::ToleranceKind;
-
-enum class Of { cylinder, element, face, any };
-enum class Datum { none, optional_element, element, face, other, any };
-
-struct Rule {
-  ToleranceKind kind;
-  Of of;
-  Datum datum;
-};
-
-// What each kind may belong to and refer to (ISO 1101); `other`: a face for an element,
-// an element for a face.  A length is between two faces and has neither.
-constexpr std::array kRules{
-    Rule{ToleranceKind::diameter, Of::element, Datum::none},
-    Rule{ToleranceKind::straightness, Of::element, Datum::none},
-    Rule{ToleranceKind::circularity, Of::element, Datum::none},
-    Rule{ToleranceKind::flatness, Of::face, Datum::none},
-    Rule{ToleranceKind::cylindricity, Of::cylinder, Datum::none},
-    Rule{ToleranceKind::profile, Of::element, Datum::any},
-    Rule{ToleranceKind::profile_without_datum, Of::element, Datum::none},
-    Rule{ToleranceKind::parallelism, Of::face, Datum::face},
-    Rule{ToleranceKind::perpendicularity, Of::any, Datum::other},
-    Rule{ToleranceKind::angularity, Of::any, Datum::any},
-    Rule{ToleranceKind::position, Of::element, Datum::any},
-    Rule{ToleranceKind::coaxiality, Of::element, Datum::element},
-    Rule{ToleranceKind::circular_radial_runout, Of::element, Datum::element},
-    Rule{ToleranceKind::circular_axial_runout, Of::face, Datum::element},
-    Rule{ToleranceKind::total_radial_runout, Of::cylinder, Datum::element},
-    Rule{ToleranceKind::total_axial_runout, Of::face, Datum::element}};
+using Datum = part::DatumFeature;
+using Of = part::Toleranced;
 
 bool is_face(Feature feature) { return feature == Feature::face; }
 
@@ -72,8 +44,10 @@ bool fits(Of of, Feature feature) {
       return !is_face(feature);
     case Of::face:
       return is_face(feature);
-    case Of::any:
+    case Of::element_or_face:
       return true;
+    case Of::two_faces:
+      break;
   }
   return false;
 }
@@ -86,18 +60,28 @@ const char* wanted(Of of) {
       return "a cylinder or cone";
     case Of::face:
       return "a face";
-    case Of::any:
+    case Of::element_or_face:
+      return "an element or a face";
+    case Of::two_faces:
       break;
   }
-  return "an element or a face";
+  return "two faces";
 }
 
 // What `datum` must be for a toleranced feature.
 Of datum_of(Datum datum, Feature toleranced) {
-  if (datum == Datum::face) return Of::face;
-  if (datum == Datum::element) return Of::element;
-  if (datum == Datum::other) return is_face(toleranced) ? Of::element : Of::face;
-  return Of::any;
+  switch (datum) {
+    case Datum::element:
+      return Of::element;
+    case Datum::face:
+      return Of::face;
+    case Datum::other:
+      return is_face(toleranced) ? Of::element : Of::face;
+    case Datum::none:
+    case Datum::element_or_face:
+      break;
+  }
+  return Of::element_or_face;
 }
 
 class ToleranceReader {
@@ -116,11 +100,12 @@ class ToleranceReader {
     const auto before = r.problems().list.size();
     t.kind = r.choice<ToleranceKind>("kind", kinds());
     if (r.problems().list.size() > before) return t;  // the other keys depend on it
-    if (t.kind == ToleranceKind::length)
+    const auto& facts = part::facts(t.kind);
+    if (facts.of == Of::two_faces)
       read_between(r, t);
     else
       read_features(r, t);
-    if (t.kind == ToleranceKind::length || t.kind == ToleranceKind::diameter) {
+    if (facts.rule == part::ToleranceRule::size) {
       t.limits = read_limits(r);
       t.value_mm = t.limits->upper_mm - t.limits->lower_mm;
     } else {
@@ -132,9 +117,10 @@ class ToleranceReader {
 
  private:
   static Choices<ToleranceKind> kinds() {
-    Choices<ToleranceKind> out{
-        {part::name(ToleranceKind::length), ToleranceKind::length}};
-    for (const auto& rule : kRules) out.emplace_back(part::name(rule.kind), rule.kind);
+    Choices<ToleranceKind> out;
+    for (const bool faces : {true, false})
+      for (const auto& row : part::tolerance_kinds())
+        if ((row.of == Of::two_faces) == faces) out.emplace_back(row.name, row.kind);
     return out;
   }
 
@@ -149,24 +135,22 @@ class ToleranceReader {
   }
 
   void read_features(Reader& r, part::Tolerance& t) const {
-    const auto& rule = *std::find_if(kRules.begin(), kRules.end(),
-                                     [&](const Rule& x) { return x.kind == t.kind; });
-    const auto of = find_feature(r.at("of", wanted(rule.of)), features_);
+    const auto& facts = part::facts(t.kind);
+    const auto of = find_feature(r.at("of", wanted(facts.of)), features_);
     t.of = of.id;
     if (of.feature == Feature::fixed)
       r.problem_at("of",
                    "a surface that is turned, faced or bored: no tolerance is predicted "
                    "of what catalogue conditions make",
                    "unsupported");
-    else if (of.feature && !fits(rule.of, *of.feature))
-      r.problem_at("of", wanted(rule.of) + std::string(" for ") + part::name(t.kind),
+    else if (of.feature && !fits(facts.of, *of.feature))
+      r.problem_at("of", wanted(facts.of) + std::string(" for ") + part::name(t.kind),
                    "kind");
-    read_datum(r, t, rule, of);
+    read_datum(r, t, facts.datum, of);
   }
 
-  void read_datum(Reader& r, part::Tolerance& t, const Rule& rule,
-                  const Found& of) const {
-    if (rule.datum == Datum::none) {
+  void read_datum(Reader& r, part::Tolerance& t, Datum wants, const Found& of) const {
+    if (wants == Datum::none) {
       if (r.has("datum"))
         r.problem_at("datum",
                      std::string("no datum: ") + part::name(t.kind) + " has none",
@@ -178,7 +162,7 @@ class ToleranceReader {
       draft_.assume(r.pointer_of("kind"), part::name(t.kind), "no datum given");
       return;
     }
-    const Of want = of.feature ? datum_of(rule.datum, *of.feature) : Of::any;
+    const Of want = of.feature ? datum_of(wants, *of.feature) : Of::element_or_face;
     const auto datum = find_feature(r.at("datum", wanted(want)), features_);
     t.datum = datum.id;
     if (datum.feature && !fits(want, *datum.feature))

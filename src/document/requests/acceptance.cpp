@@ -16,6 +16,7 @@ namespace turnwright::document {
 namespace {
 
 using Kind = part::ToleranceKind;
+using Rule = part::ToleranceRule;
 using tolerance::Case;
 using tolerance::counts_deflection;
 using tolerance::Profile;
@@ -36,8 +37,7 @@ struct Named {
 const Choices<Kind>& kinds() {
   static const Choices<Kind> kAll = [] {
     Choices<Kind> all;
-    for (int k = 0; k <= static_cast<int>(Kind::total_axial_runout); ++k)
-      all.emplace_back(part::name(static_cast<Kind>(k)), static_cast<Kind>(k));
+    for (const auto& row : part::tolerance_kinds()) all.emplace_back(row.name, row.kind);
     return all;
   }();
   return kAll;
@@ -119,9 +119,11 @@ std::optional<Case> read_case(Reader& r) {
   const std::size_t before = r.problems().list.size();
   c.kind = r.choice("tolerance", kinds());
   if (r.broken() || r.problems().list.size() != before) return std::nullopt;
-  const bool size = c.kind == Kind::diameter || c.kind == Kind::length;
-  const bool profile = c.kind == Kind::profile || c.kind == Kind::profile_without_datum;
-  if (c.kind == Kind::perpendicularity)
+  const auto& facts = part::facts(c.kind);
+  const bool size = facts.rule == Rule::size;
+  const bool profile =
+      facts.rule == Rule::profile || facts.rule == Rule::floating_profile;
+  if (facts.axis_rule)
     c.controlled = r.choice_or<tolerance::Controlled>(
         "controlled",
         {{"face", tolerance::Controlled::face}, {"axis", tolerance::Controlled::axis}},

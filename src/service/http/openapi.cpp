@@ -22,11 +22,13 @@ std::string component(std::string file) {
 }
 
 // OpenAPI keeps schemas side by side in one document: "#/definitions/x" of a file becomes
-// a component of its own, file.x.
+// a component of its own, file.x, and so does "file.json#/definitions/x" of another.
 void move_references(ordered_json& schema, const std::string& name) {
   if (schema.is_object() && schema.contains("$ref") && schema["$ref"].is_string()) {
     const std::string to = schema["$ref"];
-    schema["$ref"] = "#/components/schemas/" + name + '.' + to.substr(to.rfind('/') + 1);
+    const auto file = to.substr(0, to.find('#'));
+    schema["$ref"] = "#/components/schemas/" + (file.empty() ? name : component(file)) +
+                     '.' + to.substr(to.rfind('/') + 1);
   }
   if (schema.is_structured())  // a range over a number is the number itself
     for (auto& member : schema) move_references(member, name);
