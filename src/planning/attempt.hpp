@@ -27,7 +27,7 @@ Attempt attempt(const PreparedPart& part, Economy economy);
 /// For the plan's own objective.
 Attempt best_attempt(const PreparedPart& part);
 
-/// Of a plan that cannot be made: its conflicting sets of limits (conflict_sets.hpp) over
+/// Of a plan that cannot be made: its conflicting sets of limits (irreducible_conflicts.hpp) over
 /// every recipe, how far each member would have to open for the others to be kept, and
 /// what no limit decides.
 void explain(const PreparedPart& plan, const Attempt& attempt, ProcessPlan& result);

@@ -69,6 +69,8 @@ struct Functional {
   std::size_t tolerance = 0;  ///< index into the drawing's tolerances
 };
 
+/// What the conditions of an operation are held against; limit_table.hpp has a row for
+/// each.
 enum class Check {
   depth_min,
   depth_max,
@@ -76,22 +78,30 @@ enum class Check {
   feed_max,
   vc_min,
   vc_max,
-  force,
-  feed_force,
+  tolerance,
+  Ra,
+  Rz,
   power,
   torque,
-  life_min,
-  life_max,
+  feed_force,
+  grip,
   spindle_max,
   spindle_min,
-  grip,
+  force,
+  life_min,
+  life_max,
   chatter,
   chip_min,
   chip_max,
-  Ra,
-  Rz,
   speed_window,
-  tolerance
+  stable_depth,  ///< of milled places, as are the next
+  part_compliance,
+  milled_depth_max,
+  chip_thickness_max,
+  chip_thickness_min,
+  milled_vc_max,
+  milled_n_max,
+  milled_feed_max
 };
 
 /// Whether a check's value may have either sign, or vanish.

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "limit_table.hpp"
+
 namespace turnwright::planning {
 namespace {
 
@@ -56,10 +58,10 @@ ConstraintValue priced(ConstraintValue c, double multiplier) {
 
 // Chatter at conditions, against the largest stiffness that part and tool bear.
 ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
-  const auto n = check_name(Check::chatter);
+  const auto& limit = limit_row(Check::chatter);
   ConstraintValue c;
-  c.name = n.name;
-  c.unit = n.unit;
+  c.name = limit.name;
+  c.unit = limit.unit;
   c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a, x.F[i]);
   c.limit = limit_N_mm;
   c.margin = -std::log(std::max(c.value / c.limit, 1e-300));
@@ -112,73 +114,23 @@ OperationKind kind_of(const Feature& feature, bool rough) {
 
 }  // namespace
 
-CheckName check_name(Check check) {
-  switch (check) {
-    case Check::depth_min:
-      return {"least depth of cut", "mm", false};
-    case Check::depth_max:
-      return {"largest depth of cut", "mm", true};
-    case Check::feed_min:
-      return {"least feed", "mm/rev", false};
-    case Check::feed_max:
-      return {"largest feed", "mm/rev", true};
-    case Check::vc_min:
-      return {"least cutting speed", "m/min", false};
-    case Check::vc_max:
-      return {"largest cutting speed", "m/min", true};
-    case Check::force:
-      return {"cutting force", "N", true};
-    case Check::feed_force:
-      return {"feed force", "N", true};
-    case Check::power:
-      return {"power", "kW", true};
-    case Check::torque:
-      return {"torque", "Nm", true};
-    case Check::life_min:
-      return {"least tool life", "min", false};
-    case Check::life_max:
-      return {"longest tool life", "min", true};
-    case Check::spindle_max:
-      return {"largest spindle speed", "1/min", true};
-    case Check::spindle_min:
-      return {"least spindle speed", "1/min", false};
-    case Check::grip:
-      return {"grip of the chuck", "N", true};
-    case Check::chatter:
-      return {"chatter stiffness", "N/mm", true};
-    case Check::chip_min:
-      return {"least feed of the chip breaker", "mm/rev", false};
-    case Check::chip_max:
-      return {"largest feed of the chip breaker", "mm/rev", true};
-    case Check::Ra:
-      return {"roughness Ra", "um", true};
-    case Check::Rz:
-      return {"roughness Rz", "um", true};
-    case Check::speed_window:
-      return {"cutting speed", "m/min", false};
-    case Check::tolerance:
-      return {"tolerance", "mm", true};
-  }
-  return {"", "", true};
-}
-
 std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& row) {
   if (row.check == Check::spindle_max && chain.operations[row.operation].n_cap_of_grip)
     return "spindle speed that leaves a third of the grip";
-  if (row.check != Check::tolerance) return check_name(row.check).name;
+  if (row.check != Check::tolerance) return limit_row(row.check).name;
   const auto& t = plan.drawing.tolerances[chain.functionals[row.operation].tolerance];
   return t.id + " " + part::name(t.kind);
 }
 
 ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& r) {
-  const auto n = check_name(r.row.check);
+  const auto& limit = limit_row(r.row.check);
   ConstraintValue c;
   c.name = row_name(plan, chain, r.row);
-  c.unit = n.unit;
-  c.at_most = n.at_most;
-  c.value = n.at_most ? r.value : r.limit;
-  c.limit = n.at_most ? r.limit : r.value;
+  c.unit = limit.unit;
+  c.at_most = limit.at_most();
+  c.value = c.at_most ? r.value : r.limit;
+  c.limit = c.at_most ? r.limit : r.value;
   if (r.row.check == Check::power || r.row.check == Check::torque) {  // from their share
     const auto& o = chain.operations[r.row.operation];
     const double Fc = forces(chain, choice)[r.row.operation].Fc_N;
@@ -198,10 +150,10 @@ ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
   return c;
 }
 
-ConstraintValue constraint(std::string name, std::string unit, double value, double limit,
-                           bool at_most) {
-  ConstraintValue c{std::move(name), std::move(unit), value, limit, at_most};
-  c.margin = (at_most ? -1 : 1) * std::log(value / limit);
+ConstraintValue constraint(Check check, double value, double limit) {
+  const auto& row = limit_row(check);
+  ConstraintValue c{row.name, row.unit, value, limit, row.at_most()};
+  c.margin = (c.at_most ? -1 : 1) * std::log(value / limit);
   c.binding = c.margin < kBinding;
   return c;
 }

@@ -7,14 +7,6 @@
 /// A feature's answer in the terms of the result document.
 namespace turnwright::planning {
 
-/// How a check is called, in what unit, and which of its two sides is the limit.
-struct CheckName {
-  const char* name;
-  const char* unit;
-  bool at_most;
-};
-CheckName check_name(Check check);
-
 /// A surface that has been optimised, with what it was asked.
 struct SolvedFeature {
   FeatureTask task;
@@ -39,9 +31,8 @@ std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& ro
 ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& row);
 
-/// A value against its limit; the margin is in ln.
-ConstraintValue constraint(std::string name, std::string unit, double value, double limit,
-                           bool at_most = true);
+/// A value against the limit of a check; the margin is in ln.
+ConstraintValue constraint(Check check, double value, double limit);
 
 /// Minutes, edge cost and money of the answer's operations, approach included.
 struct Spent {

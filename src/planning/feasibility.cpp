@@ -24,26 +24,26 @@ std::pair<std::string, std::string> tools_of(const FeatureTask& t) {
   return ids;
 }
 
-// Whether limits are opened as far as others, or further.
-bool as_open(const std::vector<double>& these, const std::vector<double>& others) {
+// Whether limits are relaxed as far as others, or further.
+bool as_relaxed(const std::vector<double>& these, const std::vector<double>& others) {
   return std::ranges::equal(these, others, std::greater_equal<>{});
 }
 
 }  // namespace
 
-Feasibility::Feasibility(const PreparedPart& plan)
-    : plan_(plan), limits_(limits_of(plan)) {}
+Feasibility::Feasibility(const PreparedPart& part)
+    : part_(part), limits_(relaxable_limits(part)) {}
 
-std::vector<double> Feasibility::state(const Openings& times,
+std::vector<double> Feasibility::state(const RelaxationFactors& factors,
                                        const std::string& surface) const {
   std::vector<double> of_surface;
   for (std::size_t i = 0; i < limits_.size(); ++i)
-    if (bears_on(plan_, limits_[i], surface)) of_surface.push_back(times[i]);
+    if (bears_on(part_, limits_[i], surface)) of_surface.push_back(factors[i]);
   return of_surface;
 }
 
 bool Feasibility::made(const PreparedPart& p, const FeatureTask& task,
-                       const Openings& times, const Found& found) {
+                       const RelaxationFactors& factors, const Found& found) {
   const auto& surface = task.feature.surface();
   if (left_out_.count(surface)) return true;
   const auto [rough, finish] = tools_of(task);
@@ -51,10 +51,10 @@ bool Feasibility::made(const PreparedPart& p, const FeatureTask& task,
   auto& tried =
       tried_[{setup, clamping, jaw_force_N(p, setup, clamping, Stage::finishing), surface,
               rough, finish}];
-  const auto asked = state(times, surface);
+  const auto asked = state(factors, surface);
   for (const auto& t : tried)
     if (!(t.made && found) &&
-        (t.made ? as_open(asked, t.times) : as_open(t.times, asked)))
+        (t.made ? as_relaxed(asked, t.factors) : as_relaxed(t.factors, asked)))
       return t.made;
   const auto answer = any_answer(task);
   if (answer.feasible && found) found(task, answer);
@@ -63,7 +63,7 @@ bool Feasibility::made(const PreparedPart& p, const FeatureTask& task,
 }
 
 bool Feasibility::setup_made(const PreparedPart& p, std::size_t s, const SetupWork& work,
-                             const Finished& done, const Openings& times,
+                             const Finished& done, const RelaxationFactors& factors,
                              const Found& found) {
   bool any_clamping = false;
   for (const Clamping c : p.setups[s].clampings) {
@@ -74,7 +74,7 @@ bool Feasibility::setup_made(const PreparedPart& p, std::size_t s, const SetupWo
     planner.allow_compensation();
     std::set<std::string> tried, succeeded;
     const bool all = planner.can_be_made([&](const FeatureTask& t) {
-      const bool can = made(p, t, times, found);
+      const bool can = made(p, t, factors, found);
       (can ? succeeded : tried).insert(t.feature.surface());
       return can;
     });
@@ -85,13 +85,13 @@ bool Feasibility::setup_made(const PreparedPart& p, std::size_t s, const SetupWo
   return !any_clamping;  // no limit decides that
 }
 
-bool Feasibility::with(const Openings& times, const Found& found) {
-  const auto p = prepare(opened(plan_, limits_, times), plan_);
+bool Feasibility::with(const RelaxationFactors& factors, const Found& found) {
+  const auto p = prepare(relaxed(part_, limits_, factors), part_);
   auto done = nothing_finished(p.drawing);
   bool all = true;
   failed_.clear();
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    all = setup_made(p, s, p.work.setups[s], done, times, found) && all;
+    all = setup_made(p, s, p.work.setups[s], done, factors, found) && all;
     finish(done, p.work.setups[s]);
   }
   return all;

@@ -137,22 +137,22 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
     const double n =
         std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
     const auto& [Fc, Ff, M] = d.load;
-    tighten(all, constraint("feed force", "N", Ff, m.feed_force_max_N));
-    tighten(all, constraint("power", "kW", units::shaft_power_kW(M, n),
+    tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
+    tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
                             cutting::available_kW(ranges, n, false)));
-    tighten(all, constraint("torque", "Nm", M,
+    tighten(all, constraint(Check::torque, M,
                             cutting::available_kW(ranges, n, true) /
                                 units::shaft_power_kW(1, n)));
-    tighten(all, constraint("least spindle speed", "1/min", d.n_rpm, m.n_min_rpm, false));
-    if (tool.Fc_max_N) tighten(all, constraint("cutting force", "N", Fc, *tool.Fc_max_N));
+    tighten(all, constraint(Check::spindle_min, d.n_rpm, m.n_min_rpm));
+    if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
     if (s.clamping == Clamping::between_centres) continue;
     const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
     const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
                              grip_diameter_mm(s.p, s.setup, s.clamping)};
     const double needed =
         cutting::grip_needed_N(grip, 2000 * M / d.D_mm, d.radial ? 0.0 : Ff, d.D_mm);
-    tighten(all, constraint("grip of the chuck", "N",
-                            needed + cutting::grip_loss_N(grip, d.n_rpm), force));
+    tighten(all,
+            constraint(Check::grip, needed + cutting::grip_loss_N(grip, d.n_rpm), force));
   }
   return all;
 }

@@ -8,15 +8,12 @@
 /// Which limits of a request stand behind the rows of a solved surface.
 namespace turnwright::planning {
 
-/// The largest of a motor's curve.
-double most_power_kW(const std::vector<catalogue::CurvePoint>& curve);
-
 /// The limits that a row may stand for, by name.
-std::vector<std::string> limit_names(const PreparedPart& plan,
+std::vector<std::string> limit_names(const PreparedPart& part,
                                      const SolvedFeature& feature, const Row& row);
 
 /// Those that hold the spindle while an operation that is clamped by it is cut.
-std::vector<std::string> spindle_limit_names(const PreparedPart& plan,
+std::vector<std::string> spindle_limit_names(const PreparedPart& part,
                                              const SolvedFeature& feature,
                                              std::size_t operation);
 

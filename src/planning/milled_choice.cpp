@@ -54,28 +54,27 @@ std::vector<ConstraintValue> limits(const MilledSite& s, const MilledChoice& c, 
   const double P = power_kW(s, c, n, fz), M = P / units::shaft_power_kW(1, n);
   const double F = force_N(s, c, fz);
   std::vector<ConstraintValue> all{
-      constraint("stable depth with its margin", "mm", ap * (1 + s.m.depth_margin),
+      constraint(Check::stable_depth, ap * (1 + s.m.depth_margin),
                  std::max(stable_mm, kLeast_mm)),
-      constraint("compliance of the part", "nm/N", 1e6 * s.part_mm_N,
+      constraint(Check::part_compliance, 1e6 * s.part_mm_N,
                  1e6 * tip_mm_N(tip_modes(s.p, cutter))),
-      constraint("depth of cut", "mm", ap, cutter.ap_mm.upper),
-      constraint("least depth of cut", "mm", ap, cutter.ap_mm.lower, false),
-      constraint("chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.upper),
-      constraint("least chip thickness", "mm", fz * c.hex_over_fz, c.grade->hex_mm.lower,
-                 false),
-      constraint("cutting speed", "m/min", vc, c.grade->vc_m_min.upper),
-      constraint("least cutting speed", "m/min", vc, c.grade->vc_m_min.lower, false),
-      constraint("spindle speed", "1/min", n, ranges.back().n_max_rpm),
-      constraint("least spindle speed", "1/min", n, ranges.front().n_min_rpm, false),
-      constraint("feed speed", "mm/min", fz * cutter.teeth * n, driven.feed_max_mm_min),
-      constraint("power", "kW", P, cutting::available_kW(ranges, held, false)),
+      constraint(Check::milled_depth_max, ap, cutter.ap_mm.upper),
+      constraint(Check::depth_min, ap, cutter.ap_mm.lower),
+      constraint(Check::chip_thickness_max, fz * c.hex_over_fz, c.grade->hex_mm.upper),
+      constraint(Check::chip_thickness_min, fz * c.hex_over_fz, c.grade->hex_mm.lower),
+      constraint(Check::milled_vc_max, vc, c.grade->vc_m_min.upper),
+      constraint(Check::vc_min, vc, c.grade->vc_m_min.lower),
+      constraint(Check::milled_n_max, n, ranges.back().n_max_rpm),
+      constraint(Check::spindle_min, n, ranges.front().n_min_rpm),
+      constraint(Check::milled_feed_max, fz * cutter.teeth * n, driven.feed_max_mm_min),
+      constraint(Check::power, P, cutting::available_kW(ranges, held, false)),
       constraint(
-          "torque", "Nm", M,
+          Check::torque, M,
           cutting::available_kW(ranges, held, true) / units::shaft_power_kW(1, held)),
-      constraint("cutting force", "N", F, cutter.Fc_max_N)};
+      constraint(Check::force, F, cutter.Fc_max_N)};
   if (std::isfinite(c.grip_N)) {
     const double force = jaw_force_N(s.p, s.setup, s.clamping, Stage::finishing);
-    all.push_back(constraint("grip of the chuck", "N", F / c.grip_N * force, force));
+    all.push_back(constraint(Check::grip, F / c.grip_N * force, force));
   }
   for (auto& limit : all) limit.binding = limit.margin < kBinding;
   return all;

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "attempt.hpp"
-#include "first_order.hpp"
 #include "remedies.hpp"
+#include "sensitivity.hpp"
 
 namespace turnwright::planning {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "first_order.hpp"
 #include "limits.hpp"
+#include "sensitivity.hpp"
 
 namespace turnwright::planning {
 namespace {

@@ -105,17 +105,12 @@ void add_tools(const PreparedPart& p, std::vector<Variant>& all) {
 }
 
 void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
-  const auto limits = limits_of(p);
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    const auto& l = limits[i];
-    if (!is_given(l)) continue;
-    const char* key = l.kind == Openable::Kind::passes ? "passes"
-                      : l.kind == Openable::Kind::ap   ? "ap_mm"
-                      : l.kind == Openable::Kind::f    ? "f_mm_rev"
-                                                       : "vc_m_min";
-    const auto& id = (*p.operations)[l.index].id;
+  for (const auto& l : relaxable_limits(p)) {
+    if (!l.row->given()) continue;
+    const char* key = l.row->name;
+    const auto& id = (*p.operations)[l.owner].id;
     all.push_back(
-        {opened(p, {l}, {kWithout}),
+        {relaxed(p, {l}, {kWithout}),
          {.change = Change::operation,
           .name = id,
           .key = key,
@@ -139,7 +134,7 @@ std::vector<Remedy> remedies(const PreparedPart& p, const Attempt& attempt) {
   for (auto& [plan, remedy] : variants) {
     const auto changed = prepare(std::move(plan));
     Feasibility part(changed);
-    if (!part.with(Openings(part.limits().size(), 1))) continue;
+    if (!part.with(RelaxationFactors(part.limits().size(), 1))) continue;
     const auto planned_with = conforming(changed, {}, Why::untold);
     if (planned_with.status != PlanStatus::ok) continue;
     remedy.cost_per_part = planned_with.cost_per_part;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "exchange.hpp"
+#include "limit_table.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -146,7 +147,7 @@ struct Slice {
     speed_checks(o(), at.v[i], at.f[i], at.a, F, spindle_cap(o(), F, at.a),
                  [&](Check c, double, double) { checks.push_back(c); });
     return by < checks.size() ? row_name(plan, chain, {i, checks[by], true})
-                              : std::string("cutting speed");
+                              : std::string(limit_row(Check::speed_window).name);
   }
 };
 
@@ -243,10 +244,11 @@ class Side {
 // What ends the feeds at f, on the way to the end of the range.
 std::string end_name(const Slice& s, double f, double range_end) {
   if (f == range_end)
-    return check_name(f == s.o().f.upper ? Check::feed_max : Check::feed_min).name;
+    return limit_row(f == s.o().f.upper ? Check::feed_max : Check::feed_min).name;
   const double next = f * std::pow(range_end / f, 1e-6);
   if (const auto row = s.broken(next)) return row_name(s.plan, s.chain, *row);
-  return s.speeds(next, kInfinity) ? cost_name(s.plan.window_percent) : "cutting speed";
+  return s.speeds(next, kInfinity) ? cost_name(s.plan.window_percent)
+                                   : limit_row(Check::speed_window).name;
 }
 
 OperatingWindow polygon(const Slice& s, const Feeds& feeds, double percent, double most) {

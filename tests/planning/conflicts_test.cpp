@@ -7,7 +7,7 @@
 #include <set>
 
 #include "parts.hpp"
-#include "planning/openable.hpp"
+#include "planning/relaxation.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// Over-constrained parts, judged by planning documents that were changed as a reader
@@ -344,25 +344,25 @@ TEST(Conflicts, AToleranceThatSetsTheJawsForceIsToldAsFarAsItHasToOpen) {
 // Window of the tool, speeds of the machine, roughness of the drawing, as their files have
 // them.
 TEST(Conflicts, LimitsAreToldByNameWithWhatTheyAre) {
-  using enum Openable::Kind;
+  using enum Check;
   auto d = pin();
   d["tools"] = {"PDJNL-DNMG150604-PF"};
   d["outer"][0]["Rz_um"] = 25;
-  const auto p = part(d);
-  const auto told = [&](const Openable& l) {
-    const auto n = name_of(p, l);
+  const auto p = prepare(part(d));
+  const auto told = [&](Check check, std::size_t owner = 0) {
+    const auto n = value_of(p, {&limit_row(check), owner});
     return fmt::format("{} {} {:g} {}", n.name, n.at_most ? "<=" : ">=", n.now, n.unit);
   };
-  EXPECT_EQ(told({depth_min}), "least depth of cut >= 0.25 mm");
-  EXPECT_EQ(told({depth_max}), "largest depth of cut <= 1.5 mm");
-  EXPECT_EQ(told({feed_min}), "least feed >= 0.06 mm/rev");
-  EXPECT_EQ(told({feed_max}), "largest feed <= 0.3 mm/rev");
-  EXPECT_EQ(told({vc_min}), "least cutting speed >= 20 m/min");
-  EXPECT_EQ(told({vc_max}), "largest cutting speed <= 500 m/min");
-  EXPECT_EQ(told({spindle_min}), "least spindle speed >= 40 1/min");
-  EXPECT_EQ(told({spindle_max}), "largest spindle speed <= 4500 1/min");
-  EXPECT_EQ(told({Ra, 0, "d2"}), "roughness Ra <= 3.2 um");
-  EXPECT_EQ(told({Rz, 0, "d1"}), "roughness Rz <= 25 um");
+  EXPECT_EQ(told(depth_min), "least depth of cut >= 0.25 mm");
+  EXPECT_EQ(told(depth_max), "largest depth of cut <= 1.5 mm");
+  EXPECT_EQ(told(feed_min), "least feed >= 0.06 mm/rev");
+  EXPECT_EQ(told(feed_max), "largest feed <= 0.3 mm/rev");
+  EXPECT_EQ(told(vc_min), "least cutting speed >= 20 m/min");
+  EXPECT_EQ(told(vc_max), "largest cutting speed <= 500 m/min");
+  EXPECT_EQ(told(spindle_min), "least spindle speed >= 40 1/min");
+  EXPECT_EQ(told(spindle_max), "largest spindle speed <= 4500 1/min");
+  EXPECT_EQ(told(Ra, 1), "roughness Ra <= 3.2 um");
+  EXPECT_EQ(told(Rz, 0), "roughness Rz <= 25 um");
 }
 
 class MachineLimit : public testing::TestWithParam<std::pair<const char*, double>> {};

@@ -319,20 +319,6 @@ TEST(Prices, AreRankedAndSayWhatTheyAreOf) {
   EXPECT_EQ(names.count("roughness Ra of d2"), 1u);
 }
 
-TEST(Limits, AreNamedOnceAndScaled) {
-  const auto p = part(reference_part("gearbox-input-shaft"));
-  std::set<std::string> names;
-  for (const auto& l : limits(p)) {
-    EXPECT_TRUE(names.insert(l.name).second) << l.name;
-    auto twice = p;
-    l.scale(twice, 2);
-    for (const auto& m : limits(twice))
-      if (m.name == l.name) {
-        EXPECT_NEAR(m.now, 2 * l.now, 1e-12 * l.now) << l.name;
-      }
-  }
-}
-
 // ---- What if --------------------------------------------------------------------------
 
 ProcessPlan asked(json d, const json& what_if) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "openings.hpp"
+#include "least_relaxation.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -27,7 +27,7 @@ std::string where(const PreparedPart& p, const Attempt& a, const std::string& su
 }
 
 // Of a limit: its own surface, or the first that is in trouble and has to keep it.
-std::string surface_of(const PreparedPart& p, const Openable& l,
+std::string surface_of(const PreparedPart& p, const RelaxableLimit& l,
                        const std::set<std::string>& troubled) {
   if (!l.surface.empty()) return l.surface;
   for (const auto& surface : troubled)
@@ -35,13 +35,13 @@ std::string surface_of(const PreparedPart& p, const Openable& l,
   return {};
 }
 
-std::string joined_names(const PreparedPart& p, const Feasibility& part,
+std::string joined_names(const PreparedPart& p, const Feasibility& oracle,
                          const LimitSet& set, std::size_t but) {
   std::string out;
   for (const std::size_t i : set) {
     if (i == but) continue;
-    const auto& l = part.limits()[i];
-    out += (out.empty() ? "" : " and ") + name_of(p, l).name;
+    const auto& l = oracle.limits()[i];
+    out += (out.empty() ? "" : " and ") + value_of(p, l).name;
     if (!l.surface.empty()) out += " of " + l.surface;
   }
   return out;
@@ -49,21 +49,21 @@ std::string joined_names(const PreparedPart& p, const Feasibility& part,
 
 // What one member of a set would need.
 struct Need {
-  std::optional<double> times;  // for all else to be kept
-  double in_set = 0;            // for the rest of its set to be kept
+  std::optional<double> factor;  // for all else to be kept
+  double in_set = 0;             // for the rest of its set to be kept
 };
 
 class Explanation {
  public:
-  Explanation(const PreparedPart& p, const Attempt& a) : p_(p), a_(a), part_(p) {
-    sets_ = conflicting_sets(part_);
+  Explanation(const PreparedPart& p, const Attempt& a) : p_(p), a_(a), oracle_(p) {
+    sets_ = irreducible_conflicts(oracle_);
     for (const auto& set : sets_) members_.insert(members_.end(), set.begin(), set.end());
-    part_.with(Openings(part_.limits().size(), 1));
-    troubled_ = part_.failed();
+    oracle_.with(RelaxationFactors(oracle_.limits().size(), 1));
+    troubled_ = oracle_.failed();
   }
 
   void tell(ProcessPlan& result) {
-    for (const auto& surface : part_.left_out())
+    for (const auto& surface : oracle_.left_out())
       if (const auto* f = feature_of(a_, surface); f && !f->answer.feasible)
         result.conflicts.push_back(
             {"depth of cut", where(p_, a_, surface), 0, 0, "mm", obstacle(p_, *f)});
@@ -89,10 +89,11 @@ class Explanation {
     std::vector<Need> all;
     for (const std::size_t i : sets_[k]) {
       Need need;
-      need.times = least_opening(part_, i, without(part_, less(members_, sets_[k])));
-      need.in_set = need.times
-                        ? *need.times
-                        : least_opening(part_, i, only(part_, sets_[k])).value_or(1);
+      need.factor =
+          least_relaxation(oracle_, i, without(oracle_, less(members_, sets_[k])));
+      need.in_set =
+          need.factor ? *need.factor
+                      : least_relaxation(oracle_, i, only(oracle_, sets_[k])).value_or(1);
       all.push_back(need);
     }
     return all;
@@ -105,7 +106,7 @@ class Explanation {
     return all;
   }
 
-  // Opened together, one of each set; if that is not enough, all by the same factor more.
+  // Relaxed together, one of each set; if that is not enough, all by the same factor more.
   void make_joint() {
     if (sets_.size() < 2) return;
     std::vector<std::size_t> chosen(sets_.size(), 0);
@@ -119,27 +120,27 @@ class Explanation {
 
   void grow_until_kept(const std::vector<std::size_t>& chosen) {
     constexpr int kRounds = 200;
-    Openings times(part_.limits().size(), 1);
+    RelaxationFactors factors(oracle_.limits().size(), 1);
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t k = 0; k < sets_.size(); ++k) {
-        const auto& t = needs_[k][chosen[k]].times;
+        const auto& t = needs_[k][chosen[k]].factor;
         if (!t) return;
-        times[sets_[k][chosen[k]]] = *t;
+        factors[sets_[k][chosen[k]]] = *t;
       }
-      if (part_.with(times)) return;
+      if (oracle_.with(factors)) return;
       for (std::size_t k = 0; k < sets_.size(); ++k) {
-        auto& t = *needs_[k][chosen[k]].times;
-        const auto& l = part_.limits()[sets_[k][chosen[k]]];
-        if (t < kWithout) t = as_told(name_of(p_, l), t * kOpening);
+        auto& t = *needs_[k][chosen[k]].factor;
+        const auto& l = oracle_.limits()[sets_[k][chosen[k]]];
+        if (t < kWithout) t = reported_factor(value_of(p_, l), t * kRelaxationStep);
       }
     }
-    for (std::size_t k = 0; k < sets_.size(); ++k) needs_[k][chosen[k]].times.reset();
+    for (std::size_t k = 0; k < sets_.size(); ++k) needs_[k][chosen[k]].factor.reset();
   }
 
   void tell(std::size_t k, std::size_t i, ProcessPlan& result) const {
     const std::size_t limit = sets_[k][i];
-    const auto& l = part_.limits()[limit];
-    const auto n = name_of(p_, l);
+    const auto& l = oracle_.limits()[limit];
+    const auto n = value_of(p_, l);
     const auto surface = surface_of(p_, l, troubled_);
     const Need& need = needs_[k][i];
     Conflict c{
@@ -150,29 +151,30 @@ class Explanation {
       c.value = used->value;
       c.sentence = used->sentence;
     }
-    if (need.times)
-      result.relax.push_back(relaxation(l, n, surface, value_at(l, n, *need.times), k));
+    if (need.factor)
+      result.relax.push_back(relaxation(l, n, surface, value_at(l, n, *need.factor), k));
     result.conflicts.push_back(std::move(c));
   }
 
-  double value_at(const Openable& l, const LimitName& n, double times) const {
-    if (is_given(l)) return n.now;
-    if (times == kWithout) return name_of(opened(p_, {l}, {kWithout}), l).now;
-    return opened_value(n, times);
+  double value_at(const RelaxableLimit& l, const LimitValue& n, double factor) const {
+    if (l.row->given()) return n.now;
+    if (factor == kWithout)
+      return value_of(prepare(relaxed(p_, {l}, {kWithout}), p_), l).now;
+    return relaxed_value(n, factor);
   }
 
-  std::optional<Conflict> used_up_by_all_else(const Openable& l) const {
-    if (l.kind != Openable::Kind::tolerance) return {};
+  std::optional<Conflict> used_up_by_all_else(const RelaxableLimit& l) const {
+    if (!l.row->is_width) return {};
     for (const auto& s : a_.setups)
       for (const auto& f : s.chosen.features)
         for (const auto& d : f.task.demands)
-          if (d.tolerance == l.index && !(d.upper > 0)) return used_up_conflict(p_, f, d);
+          if (d.tolerance == l.owner && !(d.upper > 0)) return used_up_conflict(p_, f, d);
     return {};
   }
 
   std::string sentence(const Conflict& c, std::size_t k, std::size_t limit) const {
-    const auto others = joined_names(p_, part_, sets_[k], limit);
-    if (is_given(part_.limits()[limit]))
+    const auto others = joined_names(p_, oracle_, sets_[k], limit);
+    if (oracle_.limits()[limit].row->given())
       return fmt::format("{}: {}, given as {}{}{}, leaves no way to keep {}", c.where,
                          c.limit, readable(c.allowed), c.unit.empty() ? "" : " ", c.unit,
                          others.empty() ? "what the tools can cut" : others);
@@ -183,26 +185,25 @@ class Explanation {
         others.empty() ? "" : " that keep " + others, readable(c.allowed), c.unit);
   }
 
-  Relaxation relaxation(const Openable& l, const LimitName& n, const std::string& surface,
-                        double needed, std::size_t k) const {
+  Relaxation relaxation(const RelaxableLimit& l, const LimitValue& n,
+                        const std::string& surface, double needed, std::size_t k) const {
     Relaxation r{n.name, n.now, needed, n.unit, {}, k + 1};
-    if (l.kind == Openable::Kind::tolerance || !l.surface.empty())
-      r.limit += " of " + surface;
-    if (is_given(l)) {
+    if (l.row->is_width || !l.surface.empty()) r.limit += " of " + surface;
+    if (l.row->given()) {
       r.sentence = r.limit + " would have to be left to the planner";
       return r;
     }
     r.sentence = fmt::format("{} would have to {} from {} to {} {}", r.limit,
-                             l.kind == Openable::Kind::tolerance ? "open" : "go",
-                             readable(r.now), readable(needed), n.unit);
-    if (l.kind == Openable::Kind::tolerance && p_.drawing.tolerances[l.index].limits)
+                             l.row->is_width ? "open" : "go", readable(r.now),
+                             readable(needed), n.unit);
+    if (l.row->is_width && p_.drawing.tolerances[l.owner].limits)
       r.sentence += " about the middle of its limits";
     return r;
   }
 
   const PreparedPart& p_;
   const Attempt& a_;
-  Feasibility part_;
+  Feasibility oracle_;
   std::vector<LimitSet> sets_;
   LimitSet members_;
   std::set<std::string> troubled_;

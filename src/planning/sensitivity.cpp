@@ -1,4 +1,4 @@
-#include "first_order.hpp"
+#include "sensitivity.hpp"
 
 #include <algorithm>
 #include <cmath>
