@@ -97,7 +97,7 @@ double squeeze_um(const PreparedPart& p, const Tolerance& t, const Making& m,
   if (!(outer > 0 && inner > 0) || !part::facts(t.kind).sees_lobes) return 0;
   const double R = (outer + inner) / 4, wall = (outer - inner) / 2;
   const double decay = deflection::lobe_decay_1_mm(R, wall, kJaws);
-  const double width = std::max(p.setups[m.setup].grip_mm, 1 / (2 * decay));
+  const double width = std::max(p.grips_mm[m.setup], 1 / (2 * decay));
   const auto ring = deflection::with_shear(
       {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
   const double F = force_N / kJaws;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "grips.hpp"
 #include "turnwright/planning/machine_share.hpp"
 #include "turnwright/planning/milled_places.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
@@ -30,8 +31,8 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 
 // All but what is slow to find.
 PreparedPart assigned(PlanRequest request) {
-  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
-  p.work = assign(p);
+  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}, {}};
+  choose_grips(p);
   p.drilled_mm = drilled(p);
   p.jaws = jaw_forces(p);
   p.milled_places = placed(p);

@@ -9,15 +9,15 @@ namespace {
 
 using part::End;
 
-const part::Drawing& drawing(const PlanRequest& p) { return p.drawing; }
-bool holds_left(const PlanRequest& p, std::size_t s) {
+const part::Drawing& drawing(const PreparedPart& p) { return p.drawing; }
+bool holds_left(const PreparedPart& p, std::size_t s) {
   return p.setups[s].hold == End::left;
 }
 
 // z at which the jaws end.  The first setup grips stock, the later ones the part.
-double jaw_z(const PlanRequest& p, std::size_t s) {
+double jaw_z(const PreparedPart& p, std::size_t s) {
   const auto& d = drawing(p);
-  const double grip = p.setups[s].grip_mm, L = part::length_mm(d);
+  const double grip = p.grips_mm.at(s), L = part::length_mm(d);
   if (holds_left(p, s)) return grip - (s == 0 ? d.stock.left_allowance_mm : 0);
   return L - grip + (s == 0 ? part::right_allowance_mm(d) : 0);
 }
@@ -25,7 +25,7 @@ double jaw_z(const PlanRequest& p, std::size_t s) {
 double largest(const part::OuterElement& e) { return std::max(e.left_mm, e.right_mm); }
 
 // Whether a tool can get at outer element i from the free end.
-bool reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
+bool reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
   const auto& e = drawing(p).outer;
   const double z0 = part::left_z_mm(drawing(p), i), z1 = z0 + e[i].length_mm;
   const bool left = holds_left(p, s);
@@ -40,7 +40,7 @@ bool reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
 }
 
 // A bore opens to the free end and narrows inwards, itself and with all before it.
-bool bore_reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
+bool bore_reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
   const auto& inner = drawing(p).inner;
   const auto& e = inner[i];
   const bool right = e.from == End::right;
@@ -66,7 +66,7 @@ bool face_named(const part::Drawing& d, const std::string& id) {
 
 // Whether the request leaves it to the planner to make a surface in this setup, or asks
 // for it there.
-bool wanted_in(const PlanRequest& p, std::size_t s, const std::string& surface) {
+bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
     return o.setup == s && o.kind != OperationKind::fixed &&
@@ -76,7 +76,7 @@ bool wanted_in(const PlanRequest& p, std::size_t s, const std::string& surface) 
 
 // The first setup that is to make a surface and can; else why there is none.
 template <class Can>
-std::optional<std::size_t> place(const PlanRequest& p, const std::string& surface,
+std::optional<std::size_t> place(const PreparedPart& p, const std::string& surface,
                                  const std::string& why, const Can& can, Assignment& a) {
   bool asked = false;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
@@ -93,7 +93,7 @@ std::optional<std::size_t> place(const PlanRequest& p, const std::string& surfac
   return {};
 }
 
-void assign_faces(const PlanRequest& p, Assignment& a) {
+void assign_faces(const PreparedPart& p, Assignment& a) {
   const auto& d = drawing(p);
   for (const End end : {End::left, End::right}) {
     if (!(face_stock_mm(p, end) > 1e-9)) continue;
@@ -143,7 +143,7 @@ std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
 }
 
-double face_stock_mm(const PlanRequest& p, part::End end) {
+double face_stock_mm(const PreparedPart& p, part::End end) {
   const auto& stock = drawing(p).stock;
   if (stock.parted_mm && p.setups.front().hold == end) return *stock.parted_mm;
   return end == End::left ? stock.left_allowance_mm
@@ -155,18 +155,18 @@ double face_stock_after_mm(const PreparedPart& p, std::size_t setup, part::End e
   return faced && *faced <= setup ? 0 : face_stock_mm(p, end);
 }
 
-bool cleared(const PlanRequest& p, std::size_t s, std::size_t i) {
+bool cleared(const PreparedPart& p, std::size_t s, std::size_t i) {
   const auto& cut = drawing(p).outer[i].cut;
   if (!cut) return true;
   return (holds_left(p, s) ? cut->falls_to_left_rad : cut->falls_to_right_rad) <=
          part::kProfilingClears_rad;
 }
 
-const char* free_face(const PlanRequest& p, std::size_t s) {
+const char* free_face(const PreparedPart& p, std::size_t s) {
   return holds_left(p, s) ? "right" : "left";
 }
 
-Assignment assign(const PlanRequest& p) {
+Assignment assign(const PreparedPart& p) {
   Assignment a;
   a.setups.resize(p.setups.size());
   const auto& outer = drawing(p).outer;
@@ -219,7 +219,7 @@ std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& su
   return {};
 }
 
-double root_z_mm(const PlanRequest& p, std::size_t s, Clamping clamping) {
+double root_z_mm(const PreparedPart& p, std::size_t s, Clamping clamping) {
   if (clamping != Clamping::between_centres) return jaw_z(p, s);
   const auto& d = drawing(p);
   // The held end is faced once a setup before has held the other one.
@@ -230,11 +230,11 @@ double root_z_mm(const PlanRequest& p, std::size_t s, Clamping clamping) {
   return part::length_mm(d) + (faced ? 0 : part::right_allowance_mm(d));
 }
 
-double free_z_mm(const PlanRequest& p, std::size_t s) {
+double free_z_mm(const PreparedPart& p, std::size_t s) {
   return holds_left(p, s) ? part::length_mm(drawing(p)) : 0;
 }
 
-double grip_diameter_mm(const PlanRequest& p, std::size_t s, Clamping clamping) {
+double grip_diameter_mm(const PreparedPart& p, std::size_t s, Clamping clamping) {
   if (clamping == Clamping::between_centres) return 0;
   if (s == 0) return drawing(p).stock.outer_mm;
   const auto& e = drawing(p).outer;  // the smallest diameter between the jaws

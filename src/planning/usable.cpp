@@ -51,7 +51,7 @@ std::string buckles(const PreparedPart& p, std::size_t setup, Clamping c,
 
 }  // namespace
 
-bool rest_stands_free(const PlanRequest& p, std::size_t setup) {
+bool rest_stands_free(const PreparedPart& p, std::size_t setup) {
   const double z = p.setups[setup].steady_z_mm;
   const auto [low, high] =
       std::minmax({root_z_mm(p, setup, Clamping::chuck_steady), free_z_mm(p, setup)});

@@ -6,7 +6,7 @@
 namespace turnwright::planning {
 
 /// Whether a setup's steady rest stands between jaws and free end.
-bool rest_stands_free(const PlanRequest& plan, std::size_t setup);
+bool rest_stands_free(const PreparedPart& plan, std::size_t setup);
 
 /// Why a clamping cannot be used at all in a setup that does `work` on a part with `done`
 /// finished: what the chuck holds, the room between centres, what stands in the way of a

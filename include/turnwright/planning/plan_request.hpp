@@ -26,7 +26,7 @@ const char* name(Clamping clamping);
 
 struct SetupRequest {
   part::End hold = part::End::left;  ///< the end in the jaws or at the headstock
-  double grip_mm = 0;                ///< jaws hold the outermost grip_mm of that end
+  std::optional<double> grip_mm = {};  ///< of that end in the jaws; absent: chosen
   std::vector<Clamping> clampings;   ///< candidates, at least one
   double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
   std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's

@@ -32,7 +32,8 @@ struct Element {
 /// it.  A bore goes to the first setup whose free end it opens to, if nothing before it
 /// is narrower.
 /// With given operations they say in which setup; what none of them makes is unreachable.
-Assignment assign(const PlanRequest& plan);
+/// Needs `grips_mm` of the part.
+Assignment assign(const PreparedPart& part);
 
 /// "d1|d2": the face between outer elements k-1 and k.
 std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
@@ -42,16 +43,16 @@ std::optional<std::size_t> setup_of(const PreparedPart& part, const std::string&
 double face_z_mm(const part::Drawing& drawing, const std::string& face);
 /// Whether a profiling tool that comes from the end a setup leaves free clears an outer
 /// element: true but of arcs that fall more than `part::kProfilingClears_rad`.
-bool cleared(const PlanRequest& plan, std::size_t setup, std::size_t element);
+bool cleared(const PreparedPart& part, std::size_t setup, std::size_t element);
 /// "left" or "right": the end that a setup leaves free.
-const char* free_face(const PlanRequest& plan, std::size_t setup);
+const char* free_face(const PreparedPart& part, std::size_t setup);
 
 /// Elements with their final diameters once a setup is done.
 Finished finished_after(const PreparedPart& part, std::size_t setup);
 
 /// Material [mm] before the finished face of an end once it is free: what parting off
 /// leaves at the first setup's held end, else the stock's allowance.
-double face_stock_mm(const PlanRequest& plan, part::End end);
+double face_stock_mm(const PreparedPart& part, part::End end);
 /// The same once a setup is done: none if the end was faced by then.
 double face_stock_after_mm(const PreparedPart& part, std::size_t setup, part::End end);
 
@@ -59,15 +60,15 @@ double face_stock_after_mm(const PreparedPart& part, std::size_t setup, part::En
 /// the plan's drills that leaves 0.5 mm on the radius of the narrowest, reaches their end
 /// and cuts with its point no narrower bore and no wall behind; 0: nothing is, or none
 /// does.
-double drilled_mm(const PlanRequest& plan, part::End end);
+double drilled_mm(const PlanRequest& request, part::End end);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
-double root_z_mm(const PlanRequest& plan, std::size_t setup, Clamping clamping);
+double root_z_mm(const PreparedPart& part, std::size_t setup, Clamping clamping);
 /// z of the free end once this setup has faced it.
-double free_z_mm(const PlanRequest& plan, std::size_t setup);
+double free_z_mm(const PreparedPart& part, std::size_t setup);
 
 /// Diameter [mm] the jaws close on, 0 between centres.
-double grip_diameter_mm(const PlanRequest& plan, std::size_t setup, Clamping clamping);
+double grip_diameter_mm(const PreparedPart& part, std::size_t setup, Clamping clamping);
 
 /// Largest bore [mm] between the jaws once the setup is done, 0 of a solid part.
 double gripped_bore_mm(const PreparedPart& plan, std::size_t setup);

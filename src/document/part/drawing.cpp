@@ -103,7 +103,7 @@ ordered_json json_of(const PreparedPart& plan, std::size_t s) {
   auto clampings = ordered_json::array();
   for (const auto clamping : setup.clampings) clampings.push_back(name(clamping));
   ordered_json out{{"hold", setup.hold == part::End::left ? "left" : "right"},
-                   {"grip_mm", setup.grip_mm},
+                   {"grip_mm", plan.grips_mm[s]},
                    {"jaws_z_mm", planning::root_z_mm(plan, s, Clamping::chuck)}};
   if (std::ranges::find(setup.clampings, Clamping::chuck_steady) != setup.clampings.end())
     out["steady_z_mm"] = setup.steady_z_mm;

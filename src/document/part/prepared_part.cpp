@@ -18,6 +18,15 @@ constexpr double kNotedBelow = 0.9;  // of a section's stiffness
 
 using Assumed = std::vector<Assumption>;
 
+void add_grips(const planning::PreparedPart& p, Assumed& assumed) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    if (!p.setups[s].grip_mm)
+      assumed.push_back(
+          {"/setups/" + std::to_string(s) + "/grip_mm", p.grips_mm[s],
+           "half the held diameter, at least 15 mm and at most half of what "
+           "is held; less where a surface could not be cut else"});
+}
+
 void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
   for (std::size_t i = 0; i < p.drilled_mm.size(); ++i)
     if (p.drilled_mm[i] > 0)
@@ -131,6 +140,7 @@ std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
   PreparedDocument out{planning::prepare(loaded.plan), std::move(loaded.assumed), {}};
+  add_grips(out.part, out.assumed);
   add_drilled_holes(out.part, out.assumed);
   add_milled_places(loaded, out.part, out.assumed);
   add_eased_jaws(out.part, out.assumed);

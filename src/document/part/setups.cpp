@@ -2,14 +2,12 @@
 
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {
 
 using planning::Clamping;
 
-constexpr double kLeastGrip_mm = 15;
 constexpr std::size_t kSetups = 10;
 
 const Choices<Clamping>& clampings() {
@@ -46,23 +44,18 @@ double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) 
                                  : drawing.outer.back().right_mm;
 }
 
-double default_grip_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
-  return std::max(kLeastGrip_mm, held_mm(drawing, setup, hold) / 2);
-}
-
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
 void check_setup(const Draft& draft, const Reader& at, std::size_t i,
-                 const planning::SetupRequest& setup, bool grip_given) {
+                 const planning::SetupRequest& setup) {
   const auto& drawing = draft.loaded.plan.drawing;
   const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
   const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
   if (readable && setup.grip_mm >= length_mm)
-    at.problem(
-        (grip_given ? "a grip of " : "no grip_mm, by default ") + text(setup.grip_mm),
-        "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
-            text(length_mm),
-        "conflict");
+    at.problem("a grip of " + text(*setup.grip_mm),
+               "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
+                   text(length_mm),
+               "conflict");
   const bool jaws =
       std::any_of(setup.clampings.begin(), setup.clampings.end(),
                   [](Clamping c) { return c != Clamping::between_centres; });
@@ -122,8 +115,12 @@ void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
   const auto& plan = draft.loaded.plan;
   const double z = plan.setups[i].steady_z_mm, length_mm = part::length_mm(plan.drawing);
   if (!(z > 0) || !(length_mm > 0)) return;
-  const double jaws_mm = planning::root_z_mm(plan, i, Clamping::chuck_steady);
-  const bool beside = plan.setups[i].hold == part::End::left ? z > jaws_mm : z < jaws_mm;
+  const bool left = plan.setups[i].hold == part::End::left;
+  const double jaws_mm = plan.setups[i].grip_mm.value_or(0) -
+                         (i > 0  ? 0
+                          : left ? plan.drawing.stock.left_allowance_mm
+                                 : part::right_allowance_mm(plan.drawing));
+  const bool beside = (left ? z : length_mm - z) > jaws_mm;
   if (!beside || z >= length_mm)
     r.problem_at("steady_mm", "a place on the part beside the jaws, z from its left end",
                  "conflict");
@@ -133,14 +130,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   planning::SetupRequest setup;
   r = r.as_object();
   setup.hold = r.choice("hold", ends());
-  const bool grip_given = r.has("grip_mm");
-  if (grip_given) {
-    setup.grip_mm = r.number("grip_mm", above_up_to(0, 20000, "mm"));
-  } else {
-    setup.grip_mm = default_grip_mm(draft.drawing(), i, setup.hold);
-    draft.assume(r.pointer_of("grip_mm"), setup.grip_mm,
-                 "half the held diameter, at least 15 mm");
-  }
+  setup.grip_mm = r.optional_number("grip_mm", above_up_to(0, 20000, "mm"));
   read_clampings(draft, r, setup);
   read_grip_forces(draft, r, setup);
   read_steady(r, setup);
@@ -150,7 +140,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
                  "the first: predict compares none");
   }
   r.finish();
-  check_setup(draft, r, i, setup, grip_given);
+  check_setup(draft, r, i, setup);
   return setup;
 }
 
@@ -161,17 +151,12 @@ void assume_setups(Draft& draft) {
   for (const auto& [word, end] : ends()) {
     auto& setups = draft.plan().setups;
     const std::size_t i = setups.size();
-    setups.push_back({.hold = end,
-                      .grip_mm = default_grip_mm(draft.drawing(), i, end),
-                      .clampings = all_clampings(draft)});
-    check_setup(draft, at, i, setups.back(), false);
-    echoed.push_back({{"hold", word},
-                      {"grip_mm", setups.back().grip_mm},
-                      {"clampings", words(setups.back().clampings)}});
+    setups.push_back({.hold = end, .clampings = all_clampings(draft)});
+    check_setup(draft, at, i, setups.back());
+    echoed.push_back({{"hold", word}, {"clampings", words(setups.back().clampings)}});
   }
   draft.assume("/setups", std::move(echoed),
-               "hold left, then right, grip half a diameter and at least 15 mm, all the "
-               "clampings the machine has");
+               "hold left, then right, with all the clampings the machine has");
 }
 
 }  // namespace

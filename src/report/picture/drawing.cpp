@@ -346,7 +346,7 @@ Runs held_between(const Sheet& s, double from_z, double to_z) {
 /// Jaws bored to the part: they touch it over the whole grip.
 void draw_jaws(Sheet& s) {
   const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
-  const double grip = s.part.setups[s.setup].grip_mm;
+  const double grip = s.part.grips_mm[s.setup];
   const double outward = s.holds_left() ? end - grip : end + grip;
   const Runs held = held_between(s, std::min(end, outward), std::max(end, outward));
   double top = 0;
@@ -487,7 +487,7 @@ std::string heading(const Sheet& s) {
   std::string text = "Setup " + std::to_string(s.setup) + ": " + name(s.clamping()) +
                      ", " + (s.holds_left() ? "left" : "right") + " end held";
   if (s.clamping() != Clamping::between_centres)
-    text += ", grip " + plain(request.grip_mm) + " mm";
+    text += ", grip " + plain(s.part.grips_mm[s.setup]) + " mm";
   return text;
 }
 
