@@ -37,7 +37,8 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .of = Of::element,
               .datum = Datum::element_or_face,
               .rule = Rule::profile,
-              .sees_lobes = true};
+              .sees_lobes = true,
+              .rechucked = Rechucked::displaced};
     case K::profile_without_datum:
       return {.kind = kind,
               .name = "profile-without-datum",
@@ -45,27 +46,39 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .rule = Rule::floating_profile,
               .sees_lobes = true};
     case K::parallelism:
-      return {kind, "parallelism", Of::face, Datum::face, Rule::range};
+      return {.kind = kind,
+              .name = "parallelism",
+              .of = Of::face,
+              .datum = Datum::face,
+              .rule = Rule::range,
+              .rechucked = Rechucked::tilted};
     case K::perpendicularity:
       return {.kind = kind,
               .name = "perpendicularity",
               .datum = Datum::other,
               .rule = Rule::range,
-              .axis_rule = Rule::machine};
+              .axis_rule = Rule::machine,
+              .rechucked = Rechucked::tilted};
     case K::angularity:
       return {.kind = kind,
               .name = "angularity",
               .datum = Datum::element_or_face,
-              .rule = Rule::machine};
+              .rule = Rule::machine,
+              .rechucked = Rechucked::tilted};
     case K::position:
-      return {kind, "position", Of::element, Datum::element_or_face, Rule::machine};
+      return {.kind = kind,
+              .name = "position",
+              .of = Of::element,
+              .datum = Datum::element_or_face,
+              .rule = Rule::machine,
+              .rechucked = Rechucked::run_out};
     case K::coaxiality:
       return {.kind = kind,
               .name = "coaxiality",
               .of = Of::element,
               .datum = Datum::element,
               .rule = Rule::machine,
-              .sees_eccentricity = true};
+              .rechucked = Rechucked::run_out};
     case K::circular_radial_runout:
       return {.kind = kind,
               .name = "circular-radial-runout",
@@ -73,9 +86,14 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .datum = Datum::element,
               .rule = Rule::machine,
               .sees_lobes = true,
-              .sees_eccentricity = true};
+              .rechucked = Rechucked::run_out};
     case K::circular_axial_runout:
-      return {kind, "circular-axial-runout", Of::face, Datum::element, Rule::machine};
+      return {.kind = kind,
+              .name = "circular-axial-runout",
+              .of = Of::face,
+              .datum = Datum::element,
+              .rule = Rule::machine,
+              .rechucked = Rechucked::tilted};
     case K::total_radial_runout:
       return {.kind = kind,
               .name = "total-radial-runout",
@@ -83,9 +101,14 @@ constexpr ToleranceFacts row(ToleranceKind kind) {
               .datum = Datum::element,
               .rule = Rule::runout,
               .sees_lobes = true,
-              .sees_eccentricity = true};
+              .rechucked = Rechucked::run_out};
     case K::total_axial_runout:
-      return {kind, "total-axial-runout", Of::face, Datum::element, Rule::runout};
+      return {.kind = kind,
+              .name = "total-axial-runout",
+              .of = Of::face,
+              .datum = Datum::element,
+              .rule = Rule::runout,
+              .rechucked = Rechucked::tilted};
   }
   return {};
 }

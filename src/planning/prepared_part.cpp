@@ -31,7 +31,7 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 
 // All but what is slow to find.
 PreparedPart assigned(PlanRequest request) {
-  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}, {}};
+  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
   p.drilled_mm = drilled(p);
   p.jaws = jaw_forces(p);
@@ -53,7 +53,6 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
   p.machine_takes = like.machine_takes;
   for (std::size_t i = 0; i < p.milled_places.size(); ++i)
     p.milled_places[i].ways = like.milled_places.at(i).ways;
-  p.other_ends = like.other_ends;
   return p;
 }
 

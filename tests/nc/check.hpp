@@ -193,6 +193,8 @@ class Check {
   planning::Clamping clamping() const { return p_.plan.setups[setup_].clamping; }
 
   double correction(const std::string& id, double z) const {
+    for (const auto& o : p_.plan.offsets)
+      if (o.on == id) return o.offset_mm;
     for (const auto& c : p_.plan.compensation) {
       if (c.on != id) continue;
       const auto& t = c.table_mm;
@@ -207,8 +209,9 @@ class Check {
   }
 
   bool corrected(const std::string& id) const {
-    return std::any_of(p_.plan.compensation.begin(), p_.plan.compensation.end(),
-                       [&](const auto& c) { return c.on == id; });
+    const auto is_on = [&](const auto& c) { return c.on == id; };
+    return std::ranges::any_of(p_.plan.compensation, is_on) ||
+           std::ranges::any_of(p_.plan.offsets, is_on);
   }
 
   // Radius drawn at a place of an element.

@@ -37,10 +37,10 @@ nlohmann::json tube(double grip_force_N) {
   return d;
 }
 
-nlohmann::json pin_with(nlohmann::json budget) {
+nlohmann::json pin_with(const nlohmann::json& budget) {
   auto d = pin();
   d["outer"][1]["limits_mm"] = {-0.05, 0};
-  d["budget"] = std::move(budget);
+  d["budget"].update(budget);
   return d;
 }
 
@@ -108,8 +108,8 @@ TEST(Allowance, OfALengthCountsEveryFaceThatIsCut) {
 }
 
 // From a shoulder to the end, both cut in the first setup.
-nlohmann::json stepped(nlohmann::json budget) {
-  auto d = pin_with(std::move(budget));
+nlohmann::json stepped(const nlohmann::json& budget) {
+  auto d = pin_with(budget);
   d["tolerances"] = {{{"id", "l"},
                       {"kind", "length"},
                       {"between", {"d1|d2", "right"}},

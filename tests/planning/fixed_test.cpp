@@ -143,7 +143,7 @@ TEST(FixedOperations, TimeOfAPartIsTheSumOfItsParts) {
       in = o.tool;
     }
   }
-  EXPECT_NEAR(besides, 2 * (m.load_min + m.setup_min / p.batch) + tools * m.index_min,
+  EXPECT_NEAR(besides, 2 * (m.load_min + m.setup_min / *p.batch) + tools * m.index_min,
               1e-9);
 }
 

@@ -187,7 +187,7 @@ TEST(Plan, CostAgainstTimeOfARobustPlanIsOfRobustPlans) {
   auto d = pin();
   d["rates"]["machine_per_min"] = 0.15;
   d["outer"][1]["limits_mm"] = {-0.015, 0.015};
-  d["budget"] = {{"repeatability_um", 2.2}};
+  d["budget"]["repeatability_um"] = 2.2;
   d["robust"] = true;
   d["pareto"] = 4;
   const auto p = part(d);
@@ -592,7 +592,7 @@ TEST(Plan, ACorrectedPathLeavesNothing) {
 // Three sigma leave nothing for the cut, but most parts conform: a normal source alone.
 TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
   auto d = pin();
-  d["budget"] = {{"repeatability_um", 2}};
+  d["budget"]["repeatability_um"] = 2;
   d["outer"][1]["limits_mm"] = {-0.1, 0};
   d = as_planned(d, planned(d));
   const auto size = [&](double half_mm) {

@@ -45,6 +45,10 @@ enum class ToleranceRule {
   machine            ///< (9): spindle and chucking alone, the cut has no term
 };
 
+/// How a tolerance sees that its datum was cut in another setup: an eccentricity e of the
+/// part in its jaws is 2 e of a run-out, moves a located surface by e, tilts the part.
+enum class Rechucked { unseen, run_out, displaced, tilted };
+
 /// A row of the table.
 struct ToleranceFacts {
   ToleranceKind kind = ToleranceKind::diameter;
@@ -54,8 +58,8 @@ struct ToleranceFacts {
   ToleranceRule rule = ToleranceRule::machine;
   /// Where the toleranced feature is an axis, if that changes the rule.
   std::optional<ToleranceRule> axis_rule = std::nullopt;
-  bool sees_lobes = false;         ///< of a thin ring in three jaws
-  bool sees_eccentricity = false;  ///< of a part that is chucked again
+  bool sees_lobes = false;  ///< of a thin ring in three jaws
+  Rechucked rechucked = Rechucked::unseen;
 
   ToleranceRule rule_of_axis() const { return axis_rule.value_or(rule); }
 };
