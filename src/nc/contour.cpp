@@ -47,15 +47,8 @@ const planning::Compensation::Table& correction(const Site& site,
   return none;
 }
 
-double offset_mm(const Site& site, const std::string& surface) {
-  for (const auto& o : site.plan.offsets)
-    if (o.on == surface) return o.offset_mm;
-  return 0;
-}
-
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
-  const double by = side.sign * offset_mm(site, s.id);
-  std::vector<Point> all{{s.h0 + by, s.z0}, {s.h1 + by, s.z1}};
+  std::vector<Point> all{{s.h0, s.z0}, {s.h1, s.z1}};
   const auto& table = correction(site, s.id);
   if (table.empty()) return all;
   all.clear();

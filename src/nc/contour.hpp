@@ -15,9 +15,6 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
 const planning::Compensation::Table& correction(const Site& site,
                                                 const std::string& surface);
 
-/// What every pass over a surface is moved by, on the radius or along the axis.
-double offset_mm(const Site& site, const std::string& surface);
-
 const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s);
 /// The arc drawn on an element.
 Arc drawn_arc(const Site& site, const Surface& s);

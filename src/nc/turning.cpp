@@ -106,8 +106,8 @@ struct Pass {
 std::vector<Point> contour(const Pass& p) {
   if (p.last) return corrected(p.site, p.side, p.surface());
   const auto& s = p.surface();
-  const double by = p.left_mm + p.side.sign * offset_mm(p.site, s.id);
-  return {{s.h0 + by, s.z0}, {s.h1 + by, s.z1}};
+  return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
+}};
 }
 
 // How far from a step down of the corrections the minor edge keeps the corner.
@@ -272,7 +272,7 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
                                 double from, double to, bool last) {
   const auto& table = correction(site, id);
   if (!last || table.empty()) {
-    const double moved = z + offset_mm(site, id);
+    const double moved = z + offset_mm(site.plan, id);
     return {{from, moved}, {to, moved}};
   }
   std::vector<Point> all{{from, z + planning::interpolated(table, from)}};

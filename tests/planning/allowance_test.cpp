@@ -192,6 +192,48 @@ TEST(Allowance, RechuckingCountsTowardsADatumOfAnotherSetup) {
   EXPECT_EQ(share_um(allowance(p, x, in_chuck(p, 1)), "rechucking"), 0);
 }
 
+// Jaws and centres each with their own, the later of two setups deciding.
+TEST(Allowance, RechuckingIsThatOfWhatHoldsThePartInTheLaterSetup) {
+  auto d =
+      pin_with({{"rechucking_um",
+                 {{"hard_jaws", 6}, {"soft_jaws", 2}, {"collet", 1}, {"centres", 0.5}}}});
+  d["tolerances"] = {{{"id", "x"},
+                      {"kind", "total-radial-runout"},
+                      {"of", "d1"},
+                      {"datum", "d2"},
+                      {"value_mm", 0.1}}};
+  const double reach = 2 * std::sqrt(-2 * std::log(0.00135));
+  const auto share = [&](std::size_t setup, Clamping c) {
+    const auto p = part(d);
+    return share_um(allowance(p, tolerance(p, "x"), {setup, c, nullptr}), "rechucking");
+  };
+  EXPECT_NEAR(share(1, Clamping::chuck), 2 * reach, 1e-9);
+  EXPECT_NEAR(share(1, Clamping::between_centres), 0.5 * reach, 1e-9);
+  d["setups"][1]["jaws"] = "hard";
+  EXPECT_NEAR(share(1, Clamping::chuck), 6 * reach, 1e-9);
+  d["setups"][1]["jaws"] = "collet";
+  EXPECT_NEAR(share(1, Clamping::chuck), 1 * reach, 1e-9);
+  // Cut before its datum: whichever clamping the datum's setup will choose.
+  std::swap(d["tolerances"][0]["of"], d["tolerances"][0]["datum"]);
+  d["setups"][1]["clampings"] = {"between-centres"};
+  EXPECT_NEAR(share(0, Clamping::chuck), 0.5 * reach, 1e-9);
+  d["setups"][1]["clampings"] = {"between-centres", "chuck"};
+  EXPECT_NEAR(share(0, Clamping::chuck), 1 * reach, 1e-9);
+}
+
+// Jaws 40 mm deep that are off by e at each end tilt a face of 40 mm by sqrt(2) e/40.
+TEST(Allowance, AFaceIsTiltedByJawsThatErrAtBothEndsOfTheGrip) {
+  auto d = pin_with({{"rechucking_um", 2}});
+  d["tolerances"] = {{{"id", "x"},
+                      {"kind", "perpendicularity"},
+                      {"of", "left"},
+                      {"datum", "d2"},
+                      {"value_mm", 0.03}}};
+  const auto p = part(d);
+  EXPECT_NEAR(share_um(allowance(p, tolerance(p, "x"), in_chuck(p, 1)), "rechucking"),
+              std::sqrt(2.0) * 2 * 40 / 40 * std::sqrt(-2 * std::log(0.00135)), 1e-9);
+}
+
 TEST(Squeeze, IsTheRingsAtTheJawsAndDiesAwayBeyond) {
   const auto p = part(tube(9000));
   const double R = 25, t = 10, EI = 20 * t * t * t / 12 * p.material.E_MPa;
@@ -430,6 +472,35 @@ TEST(Robust, PartsDrawnAnewConformAsOftenAsAsked) {
         EXPECT_LE(P, wanted + 0.01) << wanted;
       }
     }
+  }
+}
+
+// The offset set by the first part leaves the range, and it alone scales.
+TEST(Robust, PartsWithAnOffsetConformAsOftenAsAsked) {
+  for (const double wanted : {0.9, 0.9973}) {
+    auto d = pin_with(
+        {{"drift_um", 2}, {"repeatability_um", 0.7}, {"first_part_gauged", true}});
+    d["outer"][1]["limits_mm"] = {-0.012, 0};
+    const auto p = part(robust(d, wanted));
+    const auto r = plan(p);
+    ASSERT_EQ(r.status, PlanStatus::ok) << wanted;
+    const auto t = std::find_if(r.tolerances.begin(), r.tolerances.end(),
+                                [](const auto& x) { return x.id == "d2:diameter"; });
+    const double middle = -0.006, share = 0.0005;
+    std::mt19937_64 random(2027);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int kept = 0;
+    constexpr int kParts = 200'000;
+    for (int k = 0; k < kParts; ++k) {
+      const double scale = 1 + force_spread(p) * normal(random);
+      const double moved = 2 * (0.002 * uniform(random) + 0.0007 * normal(random));
+      const double low = middle + (t->predicted_mm[0] - middle) * scale + moved;
+      const double high = middle + (t->predicted_mm[1] - middle) * scale + moved;
+      kept += low >= -0.012 + share && high <= -share;
+    }
+    EXPECT_NEAR(static_cast<double>(kept) / kParts, t->P_conform, 0.003) << wanted;
+    EXPECT_GE(t->P_conform, wanted - 1e-6) << wanted;
   }
 }
 

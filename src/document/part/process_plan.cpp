@@ -277,10 +277,9 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
       list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
   out["deviations"] =
       list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
-  if (!plan.offsets.empty())
-    out["offsets"] = list(plan.offsets, [](const ToolOffset& o) {
-      return ordered_json{{"on", o.on}, {"setup", o.setup}, {"offset_mm", o.offset_mm}};
-    });
+  out["offsets"] = list(plan.offsets, [](const ToolOffset& o) {
+    return ordered_json{{"on", o.on}, {"setup", o.setup}, {"offset_mm", o.offset_mm}};
+  });
   out["compensation"] =
       list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });
   if (!plan.pareto.empty())

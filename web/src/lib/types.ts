@@ -170,7 +170,7 @@ export interface Plan {
   setups: Setup[];
   tolerances: Tolerance[];
   deviations: OnSurface[];
-  offsets?: { on: string; setup: number; offset_mm: number }[];
+  offsets: { on: string; setup: number; offset_mm: number }[];
   compensation: OnSurface[];
   pareto?: Corner[];
   prices: Price[];
