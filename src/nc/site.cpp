@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace turnwright::nc {
 
@@ -116,6 +117,13 @@ void Site::approach(const Side& side, const Point& p) {
 
 void Site::lift(const Side& side) {
   rapid(at.h_mm + side.sign * above(side), at.z_mm + above(side));
+}
+
+const Surface& surface_of(const Site& site, const std::string& id) {
+  for (const Side* side : {&site.outer, &site.inner})
+    for (const auto& s : side->items)
+      if (s.id == id) return s;
+  throw std::domain_error("nc: no element " + id);
 }
 
 void Site::home(bool from_bore) {
