@@ -107,7 +107,6 @@ std::vector<Point> contour(const Pass& p) {
   if (p.last) return corrected(p.site, p.side, p.surface());
   const auto& s = p.surface();
   return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
-}};
 }
 
 // How far from a step down of the corrections the minor edge keeps the corner.
@@ -149,7 +148,8 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
 }
 
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
-// material before the free end; not where a blank before is higher than the pass.
+// material before the free end; not where a blank before is higher than the pass.  What
+// roughing has left on a long element it enters down a slope that the minor edge clears.
 void start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
   const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
@@ -158,7 +158,14 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   for (std::size_t j = p.k; j-- > 0;) {
     auto& s = p.side.items[j];
     if (blank(s) > h + kStands_mm) break;
-    if (!(p.side.top(s) > h + kStands_mm)) continue;
+    const double top = p.side.top(s);
+    if (!(top > h + kStands_mm)) continue;
+    const double slope_z = from + (top - h) / std::tan(*p.tool().rises_rad);
+    if (!s.stock && slope_z < s.z0 + kBefore_mm) {
+      if (from > z) way.insert(way.begin(), {h, from});
+      way.insert(way.begin(), {top, slope_z});
+      return;
+    }
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
