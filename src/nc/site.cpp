@@ -31,7 +31,8 @@ double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
 double Side::highest(double from_z, double to_z) const {
   double h = -INFINITY;
   for (const auto& s : items)
-    if (s.z0 > from_z && s.z1 < to_z) h = std::max(h, top(s));
+    if (s.z0 > from_z && s.z1 < to_z)
+      h = std::max(h, to_z <= s.low_z + kSame_mm ? top1(s) : top(s));
   return h;
 }
 
@@ -97,7 +98,8 @@ void Site::to(Move::Kind kind, const Side& side, const Point& p) {
 }
 
 void Site::approach(const Side& side, const Point& p, double re_mm) {
-  const double stands = std::max(side.highest(p.z_mm, p.z_mm + 2 * re_mm), p.h_mm);
+  const double to_z = side.sign > 0 ? p.z_mm + 2 * re_mm : INFINITY;
+  const double stands = std::max(side.highest(p.z_mm, to_z), p.h_mm);
   approach(side, {stands + above(side), p.z_mm});
   to(Move::Kind::feed, side, p);
 }
@@ -109,10 +111,16 @@ void Site::approach(const Side& side, const Point& p) {
     rapid(at.h_mm, p.z_mm);
     rapid(x, p.z_mm);
   } else {
+    clear_bore();
     rapid(at.h_mm, std::max(at.z_mm, front + kClear_mm));
     rapid(x, at.z_mm);
     rapid(x, p.z_mm);
   }
+}
+
+void Site::clear_bore() {
+  const double h = inner.highest(at.z_mm, INFINITY) + kAboveBore_mm;
+  if (-at.h_mm < h - kSame_mm) rapid(-h, at.z_mm);
 }
 
 void Site::lift(const Side& side) {
@@ -129,6 +137,7 @@ const Surface& surface_of(const Site& site, const std::string& id) {
 void Site::home(bool from_bore) {
   const double x = outer.stock_h + kChange_mm, z_ = front + kChange_mm;
   if (from_bore) {
+    clear_bore();
     rapid(at.h_mm, z_);
     rapid(x, z_);
   } else {

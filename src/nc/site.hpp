@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct Surface {
   bool inner = false;
   std::size_t index = 0;  ///< in the drawing
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool stock = true;  ///< nothing has been taken off yet
-  double left = 0;    ///< what a pass has left on it
+  bool stock = true;         ///< nothing has been taken off yet
+  double left = 0;           ///< what a pass has left on it
+  double left_end = 0;       ///< and at its end towards the chuck,
+  double low_z = -INFINITY;  ///< from here on no higher than there
 };
 
 /// Outside or in the bores.
@@ -37,7 +40,7 @@ struct Side {
   std::vector<Surface> items;  ///< from the free end inwards
 
   double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
-  double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
+  double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left_end; }
   double top(const Surface& s) const;
   /// Of what stands over a stretch of the axis.
   double highest(double from_z, double to_z) const;
@@ -76,6 +79,8 @@ class Site {
   void approach(const Side& side, const Point& p, double re_mm);
   /// From wherever it is to a point in the air.
   void approach(const Side& side, const Point& p);
+  /// In a bore away from its wall, as far as what stands before asks on the way out.
+  void clear_bore();
   /// Off a surface and out of a corner.
   void lift(const Side& side);
   /// To the place of tool change.

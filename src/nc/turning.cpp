@@ -93,6 +93,7 @@ struct Pass {
   std::size_t operation, k;  // k: the element's place in the tool's order
   double left_mm, re_mm;
   bool last;  // makes what is drawn
+  bool ends;  // of its operation
 
   Surface& surface() const { return side.items[k]; }
   bool from_before() const {
@@ -103,10 +104,42 @@ struct Pass {
   Corner tool() const { return {re_mm, minor_edge_rad(site, plan())}; }
 };
 
+// What roughing leaves on the next element, if that begins where this one ends and is
+// roughed deeper.
+std::optional<double> deeper_next_mm(const Pass& p) {
+  if (p.last || !p.ends || p.k + 1 >= p.side.items.size()) return std::nullopt;
+  const auto &s = p.surface(), &next = p.side.items[p.k + 1];
+  if (std::abs(s.h1 - next.h0) > kSame_mm || std::abs(s.z1 - next.z0) > kSame_mm)
+    return std::nullopt;
+  const auto& all = p.site.answer().operations;
+  for (std::size_t i = p.operation + 1; i < all.size(); ++i) {
+    if (all[i].kind != p.plan().kind || !is_on(all[i], next.id)) continue;
+    const double left = later_mm(p.site, i, next.id);
+    return left < p.left_mm - kStands_mm ? std::optional(left) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// Roughing goes down at its end to where the next element's begins, which then need not
+// come in from before this one: down a slope that the minor edge clears, on a cone level.
 std::vector<Point> contour(const Pass& p) {
-  if (p.last) return corrected(p.site, p.side, p.surface());
-  const auto& s = p.surface();
-  return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
+  auto& s = p.surface();
+  if (p.last) return corrected(p.site, p.side, s);
+  const Point from{s.h0 + p.left_mm, s.z0}, to{s.h1 + p.left_mm, s.z1};
+  const auto next = deeper_next_mm(p);
+  if (!next) return {from, to};
+  const double low = s.h1 + *next;
+  const double down = (p.left_mm - *next) / std::tan(*p.tool().rises_rad);
+  if (s.h1 > s.h0 && low > from.h_mm + kStands_mm) {
+    s.low_z = s.z0;
+    s.left_end = *next;
+    return {from, at_h(from, to, low), {low, s.z1}};
+  }
+  const double level = kBefore_mm + 2 * p.re_mm;
+  if (s.h1 != s.h0 || s.z0 - s.z1 < level + down + kBefore_mm) return {from, to};
+  s.low_z = s.z1 + level;
+  s.left_end = *next;
+  return {from, {from.h_mm, s.low_z + down}, {low, s.low_z}, {low, s.z1}};
 }
 
 // How far from a step down of the corrections the minor edge keeps the corner.
@@ -158,6 +191,9 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   for (std::size_t j = p.k; j-- > 0;) {
     auto& s = p.side.items[j];
     if (blank(s) > h + kStands_mm) break;
+    if (!s.stock && z + 2 * p.re_mm <= s.low_z + kSame_mm &&
+        p.side.top1(s) <= h + kStands_mm)
+      break;
     const double top = p.side.top(s);
     if (!(top > h + kStands_mm)) continue;
     const double slope_z = from + (top - h) / std::tan(*p.tool().rises_rad);
@@ -169,7 +205,7 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
-    s.left = h - blank(s);
+    s.left = s.left_end = h - blank(s);
   }
   if (first && from < p.site.front + kBefore_mm && p.site.front > 0)
     from = p.site.front + kBefore_mm;
@@ -247,6 +283,8 @@ std::vector<Point> way_of(const Pass& p) {
 }
 
 void pass(const Pass& p) {
+  auto& s = p.surface();
+  s.low_z = -INFINITY;
   const auto way = way_of(p);
   if (way.size() > 1) {
     if (p.from_before())
@@ -256,8 +294,9 @@ void pass(const Pass& p) {
     for (std::size_t i = 1; i < way.size(); ++i) p.site.to(Kind::feed, p.side, way[i]);
   }
   if (!p.goes_on()) p.site.lift(p.side);
-  p.surface().stock = false;
-  p.surface().left = p.left_mm;
+  s.stock = false;
+  s.left = p.left_mm;
+  if (!std::isfinite(s.low_z)) s.left_end = p.left_mm;
 }
 
 // A facing pass over contact points from the axis outwards, tool coming from outside; its
@@ -364,7 +403,7 @@ void turn(Site& site, std::size_t operation) {
       left -= o.passes[i].ap_mm;
       const bool last = finishes && i + 1 == o.passes.size();
       pass({site, side, operation, place(side, id), last ? 0 : left, corner_mm(site, o),
-            last});
+            last, i + 1 == o.passes.size()});
     }
   }
 }
