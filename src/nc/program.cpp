@@ -290,7 +290,8 @@ SetupProgram program(Site& site, Numbers& numbers) {
 
 }  // namespace
 
-void refuse_unprogrammed(const planning::PreparedPart& part, planning::ProcessPlan& plan) {
+void refuse_unprogrammed(const planning::PreparedPart& part,
+                         planning::ProcessPlan& plan) {
   const auto outwards = [](const planning::SetupPlan& s) {
     return std::any_of(s.operations.begin(), s.operations.end(), [](const auto& o) {
       return o.direction == planning::Direction::from_chuck;

@@ -98,8 +98,8 @@ bool goes_on(const SetupWork& work, bool inner, const Item& a, const Item& b) {
 }
 
 // What turning leaves before a face between an element and the next one.
-double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work, const Item& a,
-                               const Item& b) {
+double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
+                               const Item& a, const Item& b) {
   const std::size_t k = std::max(a.index, b.index);
   if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
     return 0;

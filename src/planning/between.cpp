@@ -49,7 +49,8 @@ Between Order::done() {
   return sum_;
 }
 
-Breakdown besides_cutting(const PreparedPart& p, Clamping clamping, const Between& between) {
+Breakdown besides_cutting(const PreparedPart& p, Clamping clamping,
+                          const Between& between) {
   const auto& m = p.machine;
   Breakdown b;
   b.air.time_min = between.rapid_mm / m.rapid_mm_min;

@@ -1,14 +1,17 @@
 #include <stdexcept>
 
+#include "explanation.hpp"
 #include "pareto.hpp"
 #include "planned.hpp"
 #include "what_if.hpp"
 
 namespace turnwright::planning {
+
 ProcessPlan plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
   if (p.objective == Objective::profit && !p.price)
     throw std::domain_error("plan: the most profitable plan needs a price");
   auto result = planned(p, what_if);
+  add_explanation(p, result);
   answer(p, what_if, result);
   if (result.status != PlanStatus::ok) return result;
   if (p.pareto > 0) result.pareto = pareto(p, result);

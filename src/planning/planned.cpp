@@ -8,7 +8,6 @@
 #include <set>
 
 #include "attempt.hpp"
-#include "remedies.hpp"
 #include "sensitivity.hpp"
 
 namespace turnwright::planning {
@@ -112,7 +111,7 @@ std::optional<double> first_order_saving(const PreparedPart& p,
 
 }  // namespace
 
-ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if, Why why) {
+ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
   ProcessPlan result;
   for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
   add_unreachable(p, result);
@@ -133,10 +132,6 @@ ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if, W
   if (!a.feasible) {
     result.status = PlanStatus::infeasible;
     result.certificate = no_certificate(a);
-    if (why == Why::told) {
-      explain(p, a, result);
-      result.remedies = remedies(p, a);
-    }
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);

@@ -4,12 +4,9 @@
 /// The certified plan alone, without what `plan` may be asked for besides it.
 namespace turnwright::planning {
 
-/// Whether a plan that cannot be made says why.
-enum class Why { told, untold };
-
 /// Every tolerance is kept, of a robust plan with the probability `conformance` by
 /// (1) and (2) of allowance.hpp.  Of changed requests only what they save to first order.
-ProcessPlan planned(const PreparedPart& plan, const std::vector<WhatIf>& what_if = {},
-                    Why why = Why::told);
+/// Why a part that cannot be made cannot is for explanation.hpp.
+ProcessPlan planned(const PreparedPart& part, const std::vector<WhatIf>& what_if = {});
 
 }  // namespace turnwright::planning

@@ -4,21 +4,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "feasibility.hpp"
+#include "grips.hpp"
 #include "planned.hpp"
-#include "recipes.hpp"
-#include "usable.hpp"
+#include "relaxation.hpp"
+#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-using Change = Remedy::Change;
+using Kind = RequestChange::Kind;
 
 struct Variant {
-  PlanRequest plan;
-  Remedy remedy;
+  RequestChange change;
+  std::string sentence;
 };
+
+PlanRequest with(PlanRequest r, const RequestChange& c) {
+  switch (c.kind) {
+    case Kind::clamping:
+      r.setups[c.setup].clampings.push_back(c.clamping);
+      if (c.clamping == Clamping::chuck_steady)
+        r.setups[c.setup].steady_z_mm = c.steady_mm;
+      break;
+    case Kind::grip:
+      r.setups[c.setup].grip_mm = c.grip_mm;
+      break;
+    case Kind::tool:
+      r.tools.push_back(*std::ranges::find(r.spare_tools, c.name, &catalogue::Tool::id));
+      break;
+    case Kind::operation: {
+      auto& given =
+          std::ranges::find(*r.operations, c.name, &OperationRequest::id)->conditions;
+      if (c.key == "passes") given.passes.reset();
+      if (c.key == "ap_mm") given.ap_mm.reset();
+      if (c.key == "f_mm_rev") given.f_mm_rev.reset();
+      if (c.key == "vc_m_min") given.vc_m_min.reset();
+      break;
+    }
+  }
+  return r;
+}
 
 bool is_cut(const std::vector<std::size_t>& elements, std::size_t i) {
   return std::find(elements.begin(), elements.end(), i) != elements.end();
@@ -40,19 +68,15 @@ std::vector<double> steady_places_mm(const PreparedPart& p, std::size_t s,
   return places;
 }
 
-void add_clampings(const PreparedPart& p, std::size_t s, const SetupWork& work,
-                   std::vector<Variant>& all) {
+void add_clampings(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   const auto& allowed = p.setups[s].clampings;
   const auto add = [&](Clamping c, double steady_mm) {
-    Variant v{
-        p,
-        {.change = Change::clamping, .setup = s, .clamping = c, .steady_mm = steady_mm}};
-    v.plan.setups[s].clampings.push_back(c);
-    if (c == Clamping::chuck_steady) v.plan.setups[s].steady_z_mm = steady_mm;
-    v.remedy.sentence = fmt::format("allowing {} in setup {}", name(c), s);
+    auto sentence = fmt::format("allowing {} in setup {}", name(c), s);
     if (c == Clamping::chuck_steady)
-      v.remedy.sentence += fmt::format(", the rest at z = {} mm", readable(steady_mm));
-    all.push_back(std::move(v));
+      sentence += fmt::format(", the rest at z = {} mm", readable(steady_mm));
+    all.push_back(
+        {{.kind = Kind::clamping, .setup = s, .clamping = c, .steady_mm = steady_mm},
+         std::move(sentence)});
   };
   for (const Clamping c :
        {Clamping::chuck, Clamping::chuck_tailstock, Clamping::between_centres,
@@ -63,14 +87,21 @@ void add_clampings(const PreparedPart& p, std::size_t s, const SetupWork& work,
     if (c != Clamping::chuck_steady)
       add(c, 0);
     else
-      for (const double z : steady_places_mm(p, s, work)) add(c, z);
+      for (const double z : steady_places_mm(p, s, p.work.setups[s])) add(c, z);
   }
 }
 
-// Jaws as far as the nearest element that the setup cuts.
-void add_grip(const PreparedPart& p, std::size_t s, const SetupWork& work,
+void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
               std::vector<Variant>& all) {
+  all.push_back({{.kind = Kind::grip, .setup = s, .grip_mm = grip_mm},
+                 fmt::format("gripping {} instead of {} mm in setup {}",
+                             readable(grip_mm), readable(p.grips_mm[s]), s)});
+}
+
+// Jaws as far as the nearest element that the setup cuts.
+void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
+  const auto& work = p.work.setups[s];
   const double root = root_z_mm(p, s, Clamping::chuck), free = free_z_mm(p, s);
   double room = std::abs(free - root);
   for (const std::size_t i : work.elements) {
@@ -78,30 +109,16 @@ void add_grip(const PreparedPart& p, std::size_t s, const SetupWork& work,
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, free > root ? z0 - root : root - z1);
   }
-  const double grip = std::floor((p.setups[s].grip_mm + room) / kDigit_mm) * kDigit_mm;
-  if (work.elements.empty() || !(grip >= p.setups[s].grip_mm + kWorth_mm)) return;
-  Variant v{p, {.change = Change::grip, .setup = s, .grip_mm = grip}};
-  v.plan.setups[s].grip_mm = grip;
-  v.remedy.sentence = fmt::format("gripping {} instead of {} mm in setup {}",
-                                  readable(grip), readable(p.setups[s].grip_mm), s);
-  auto& clampings = v.plan.setups[s].clampings;
-  if (!rest_stands_free(v.plan, s) && std::erase(clampings, Clamping::chuck_steady)) {
-    if (clampings.empty()) return;
-    v.remedy.sentence += ", without the steady rest,";
-  }
-  all.push_back(std::move(v));
+  const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
+  if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
+    add_grip(p, s, grip, all);
 }
 
 void add_tools(const PreparedPart& p, std::vector<Variant>& all) {
-  for (const auto& tool : p.spare_tools) {
-    if (std::find(tool.groups.begin(), tool.groups.end(), p.material.group) ==
+  for (const auto& tool : p.spare_tools)
+    if (std::find(tool.groups.begin(), tool.groups.end(), p.material.group) !=
         tool.groups.end())
-      continue;
-    Variant v{p, {.change = Change::tool, .name = tool.id}};
-    v.plan.tools.push_back(tool);
-    v.remedy.sentence = "the tool " + tool.id;
-    all.push_back(std::move(v));
-  }
+      all.push_back({{.kind = Kind::tool, .name = tool.id}, "the tool " + tool.id});
 }
 
 void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
@@ -109,44 +126,76 @@ void add_operations(const PreparedPart& p, std::vector<Variant>& all) {
     if (!l.row->given()) continue;
     const char* key = l.row->name;
     const auto& id = (*p.operations)[l.owner].id;
-    all.push_back(
-        {relaxed(p, {l}, {kWithout}),
-         {.change = Change::operation,
-          .name = id,
-          .key = key,
-          .sentence = fmt::format("leaving {} of {} to the planner", key, id)}});
+    all.push_back({{.kind = Kind::operation, .name = id, .key = key},
+                   fmt::format("leaving {} of {} to the planner", key, id)});
   }
+}
+
+std::vector<Variant> variants(const PreparedPart& p, const Attempt* attempt) {
+  std::vector<Variant> all;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    const auto* setup = attempt ? &attempt->setups[s] : nullptr;
+    if (setup && setup->solved && setup->chosen.feasible()) continue;
+    add_clampings(p, s, all);
+    add_longer_grip(p, s, all);
+    if (!p.work.unreachable.empty())
+      for (const double grip : shorter_grips_mm(p, s)) add_grip(p, s, grip, all);
+  }
+  add_tools(p, all);
+  add_operations(p, all);
+  return all;
+}
+
+// The plan of a changed request, if there is one.
+std::optional<ProcessPlan> plan_of(PlanRequest request) {
+  const auto changed = prepare(std::move(request));
+  if (!changed.work.unreachable.empty()) return {};
+  if (Feasibility oracle(changed);
+      !oracle.with(RelaxationFactors(oracle.limits().size(), 1)))
+    return {};
+  auto plan = planned(changed);
+  if (plan.status != PlanStatus::ok) return {};
+  return plan;
+}
+
+void add_remedy(const ProcessPlan& with, std::vector<RequestChange> changes,
+                const std::string& sentence, std::vector<Remedy>& all) {
+  const bool two = changes.size() > 1;
+  all.push_back({std::move(changes),
+                 fmt::format("{} {} it possible, at {} per part", sentence,
+                             two ? "make" : "makes", readable(with.cost_per_part)),
+                 with.cost_per_part, with.time_per_part_min});
+}
+
+// Two changes together; those of one setup's jaws, or of two tools, exclude each other.
+void add_pairs(const PreparedPart& p, const std::vector<Variant>& all,
+               std::vector<Remedy>& found) {
+  constexpr int kTried = 100;
+  int tried = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = i + 1; k < all.size(); ++k) {
+      const auto &a = all[i].change, &b = all[k].change;
+      if (a.kind == b.kind && (a.kind == Kind::tool || a.setup == b.setup)) continue;
+      if (++tried > kTried) return;
+      if (const auto plan = plan_of(with(with(p, a), b)))
+        add_remedy(*plan, {a, b}, all[i].sentence + " and " + all[k].sentence, found);
+    }
 }
 
 }  // namespace
 
-std::vector<Remedy> remedies(const PreparedPart& p, const Attempt& attempt) {
-  std::vector<Variant> variants;
-  for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    const auto& setup = attempt.setups[s];
-    if (setup.solved && setup.chosen.feasible()) continue;
-    add_clampings(p, s, p.work.setups[s], variants);
-    add_grip(p, s, p.work.setups[s], variants);
+void add_remedies(const PreparedPart& p, const Attempt* attempt, ProcessPlan& result) {
+  const auto all = variants(p, attempt);
+  for (const auto& [change, sentence] : all) {
+    if (const auto plan = plan_of(with(p, change)))
+      add_remedy(*plan, {change}, sentence, result.remedies);
+    else
+      result.tried.push_back({change, sentence});
   }
-  add_tools(p, variants);
-  add_operations(p, variants);
-  std::vector<Remedy> all;
-  for (auto& [plan, remedy] : variants) {
-    const auto changed = prepare(std::move(plan));
-    Feasibility part(changed);
-    if (!part.with(RelaxationFactors(part.limits().size(), 1))) continue;
-    const auto planned_with = planned(changed, {}, Why::untold);
-    if (planned_with.status != PlanStatus::ok) continue;
-    remedy.cost_per_part = planned_with.cost_per_part;
-    remedy.time_per_part_min = planned_with.time_per_part_min;
-    remedy.sentence +=
-        fmt::format(" makes it possible, at {} per part", readable(remedy.cost_per_part));
-    all.push_back(std::move(remedy));
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Remedy& a, const Remedy& b) {
-    return a.cost_per_part < b.cost_per_part;
-  });
-  return all;
+  if (result.remedies.empty() && result.relax.empty()) add_pairs(p, all, result.remedies);
+  std::stable_sort(
+      result.remedies.begin(), result.remedies.end(),
+      [](const Remedy& a, const Remedy& b) { return a.cost_per_part < b.cost_per_part; });
 }
 
 }  // namespace turnwright::planning

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "explanation.hpp"
 #include "outcome.hpp"
 #include "planned.hpp"
 
@@ -48,7 +49,8 @@ void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
   const bool both = result.status == PlanStatus::ok;
   for (std::size_t k = 0; k < what_if.size(); ++k) {
     auto& a = result.what_if[k];
-    const auto changed = planned(what_if[k].part);
+    auto changed = planned(what_if[k].part);
+    add_explanation(what_if[k].part, changed);
     a.feasible = changed.status == PlanStatus::ok;
     a.cost_per_part = changed.cost_per_part;
     a.time_per_part_min = changed.time_per_part_min;

@@ -33,10 +33,10 @@ enum class Jaws {
 const char* name(Jaws jaws);
 
 struct SetupRequest {
-  part::End hold = part::End::left;  ///< the end in the jaws or at the headstock
+  part::End hold = part::End::left;    ///< the end in the jaws or at the headstock
   std::optional<double> grip_mm = {};  ///< of that end in the jaws; absent: chosen
-  std::vector<Clamping> clampings;   ///< candidates, at least one
-  double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
+  std::vector<Clamping> clampings;     ///< candidates, at least one
+  double steady_z_mm = 0;              ///< where a steady rest stands, with chuck_steady
   std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's
   std::optional<double> finishing_grip_force_N = {};  ///< once roughing is done
   Jaws jaws = Jaws::soft;

@@ -72,7 +72,7 @@ struct MilledPlace : Milled {
 /// Made by `prepare` alone and not changed afterwards: a changed request is a copy of the
 /// PlanRequest in it, prepared anew.
 struct PreparedPart : PlanRequest {
-  std::vector<double> grips_mm;      ///< of the held end in the jaws, one a setup
+  std::vector<double> grips_mm;    ///< of the held end in the jaws, one a setup
   Assignment work;                 ///< of every surface to a setup
   std::vector<double> drilled_mm;  ///< before each bore of drawing.inner is bored; 0: not
   std::vector<JawForces> jaws;     ///< one a setup

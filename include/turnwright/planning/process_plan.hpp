@@ -211,22 +211,33 @@ struct Relaxation {
   std::size_t set = 0;   ///< as of the conflict; 0: of an obstacle
 };
 
-/// One change of the request, beside its limits, that makes an infeasible part feasible:
-/// it was planned with it.
-struct Remedy {
-  enum class Change {
+/// A change of the request beside its limits.
+struct RequestChange {
+  enum class Kind {
     clamping,  ///< `clamping` allowed in `setup`, a rest at `steady_mm`
     grip,      ///< `setup` grips `grip_mm`
     tool,      ///< the catalogue's tool `name` allowed
     operation  ///< the condition `key` of operation `name` left to the planner
   };
-  Change change = Change::clamping;
+  Kind kind = Kind::clamping;
   std::size_t setup = 0;
   Clamping clamping = Clamping::chuck;
   double steady_mm = 0, grip_mm = 0;
   std::string name = {}, key = {};
+};
+
+/// One change of the request, or two together where no single one was found, that makes an
+/// infeasible part feasible: it was planned with it.
+struct Remedy {
+  std::vector<RequestChange> changes;  ///< one or two
   std::string sentence = {};
   double cost_per_part = 0, time_per_part_min = 0;  ///< of the plan with it
+};
+
+/// A change of the request that was tried alone and leaves the part infeasible.
+struct TriedChange {
+  RequestChange change;
+  std::string sentence;  ///< "allowing between-centres in setup 0"
 };
 
 /// A certified plan on the convex hull of cost against time: no plan has less of
@@ -288,7 +299,8 @@ struct ProcessPlan {
   std::vector<ParetoPoint> pareto;    ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
-  std::vector<Remedy> remedies;  ///< cheapest first
+  std::vector<Remedy> remedies;    ///< cheapest first
+  std::vector<TriedChange> tried;  ///< what is no remedy alone
 };
 
 /// Certified cheapest process plan of a part, and of changed requests what they save.

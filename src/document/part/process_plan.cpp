@@ -242,26 +242,39 @@ ordered_json json_of(const Relaxation& r) {
   return out;
 }
 
-ordered_json json_of(const Remedy& r) {
+ordered_json json_of(const RequestChange& c) {
+  using Kind = RequestChange::Kind;
   ordered_json out;
-  switch (r.change) {
-    case Remedy::Change::clamping:
-      out = {{"change", "clamping"}, {"setup", r.setup}, {"clamping", name(r.clamping)}};
-      if (r.clamping == Clamping::chuck_steady) out["steady_mm"] = r.steady_mm;
+  switch (c.kind) {
+    case Kind::clamping:
+      out = {{"change", "clamping"}, {"setup", c.setup}, {"clamping", name(c.clamping)}};
+      if (c.clamping == Clamping::chuck_steady) out["steady_mm"] = c.steady_mm;
       break;
-    case Remedy::Change::grip:
-      out = {{"change", "grip"}, {"setup", r.setup}, {"grip_mm", r.grip_mm}};
+    case Kind::grip:
+      out = {{"change", "grip"}, {"setup", c.setup}, {"grip_mm", c.grip_mm}};
       break;
-    case Remedy::Change::tool:
-      out = {{"change", "tool"}, {"tool", r.name}};
+    case Kind::tool:
+      out = {{"change", "tool"}, {"tool", c.name}};
       break;
-    case Remedy::Change::operation:
-      out = {{"change", "operation"}, {"operation", r.name}, {"leave", r.key}};
+    case Kind::operation:
+      out = {{"change", "operation"}, {"operation", c.name}, {"leave", c.key}};
       break;
   }
+  return out;
+}
+
+ordered_json json_of(const Remedy& r) {
+  auto out = json_of(r.changes.front());
+  if (r.changes.size() > 1) out["together_with"] = json_of(r.changes[1]);
   out["sentence"] = r.sentence;
   out["cost_per_part"] = r.cost_per_part;
   out["time_per_part_min"] = r.time_per_part_min;
+  return out;
+}
+
+ordered_json json_of(const TriedChange& t) {
+  auto out = json_of(t.change);
+  out["sentence"] = t.sentence;
   return out;
 }
 
@@ -309,6 +322,8 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
   if (!plan.remedies.empty())
     out["remedies"] = list(plan.remedies, [](const Remedy& r) { return json_of(r); });
+  if (!plan.tried.empty())
+    out["tried"] = list(plan.tried, [](const TriedChange& t) { return json_of(t); });
   out["assumed"] = to_json(assumed);
   require_finite(out, "process plan");
   return out;

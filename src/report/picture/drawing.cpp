@@ -483,7 +483,6 @@ double draw_legend(Sheet& s, double top) {
 }
 
 std::string heading(const Sheet& s) {
-  const auto& request = s.part.setups[s.setup];
   std::string text = "Setup " + std::to_string(s.setup) + ": " + name(s.clamping()) +
                      ", " + (s.holds_left() ? "left" : "right") + " end held";
   if (s.clamping() != Clamping::between_centres)

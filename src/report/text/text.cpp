@@ -74,15 +74,25 @@ std::string relaxations(const ordered_json& result) {
   out += several_sets(list(result, "relax")) ? ", one of every set\n" : "\n";
   const auto sentences = opening_sentences(result);
   if (sentences.empty())
-    return out + "  No limit was found whose opening alone would do.\n";
+    return out +
+           "  No limit was found whose opening alone would do; what else was tried is "
+           "told below.\n";
   return out + numbered(sentences);
 }
 
 std::string remedies(const ordered_json& result) {
   const auto& all = list(result, "remedies");
-  if (all.empty()) return "";
-  return "\nWHAT ELSE WOULD DO  each alone, as planned with it\n" +
-         numbered(sentences_of(all));
+  std::string out;
+  if (!all.empty())
+    out = "\nWHAT ELSE WOULD DO  each line alone, as planned with it\n" +
+          numbered(sentences_of(all));
+  const auto& tried = list(result, "tried");
+  if (all.empty() && word(result, "status") == "infeasible" && tried.empty())
+    return out +
+           "\nWHAT ELSE WOULD DO\n  There is no other clamping, grip or tool to try.\n";
+  if (!tried.empty())
+    out += "\nTRIED WITHOUT SUCCESS  each alone\n" + numbered(sentences_of(tried));
+  return out;
 }
 
 std::string tolerances(const ordered_json& result) {
@@ -233,8 +243,9 @@ std::string assumptions(const ordered_json& result) {
 std::string text(const ordered_json& plan_result) {
   return header(plan_result) + breakdown(plan_result) + conflicts(plan_result) +
          relaxations(plan_result) + remedies(plan_result) + setups(plan_result) +
-         tolerances(plan_result) + budget(plan_result) + offsets(plan_result) + compensation(plan_result) +
-         prices(plan_result) + what_if(plan_result) + assumptions(plan_result);
+         tolerances(plan_result) + budget(plan_result) + offsets(plan_result) +
+         compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
+         assumptions(plan_result);
 }
 
 }  // namespace turnwright::report
