@@ -19,7 +19,7 @@ namespace turnwright::chatter {
 /// the sign of the slope, one at most.  Zeros that touch 0 within rounding leave and come
 /// back at one depth, and are not told.
 ///
-/// Source: (1) as in any text on regenerative chatter, with the indentation of
+/// Source: [Tobias 1958] and [Tlusty 1963] for (1), with the indentation force of
 /// cutter.hpp; the search derived here.
 /// @param cutter  its force constant.
 /// @throws TooManyVibrations after kMostPieces.

@@ -1,6 +1,6 @@
 // The part as a Timoshenko beam whose section varies, by Castigliano's theorem.
 //
-// Departures from the seed (Eqs. 6-8 there; why and by how much: docs/deflection.md):
+// Departures from [Valino 2008] (its Eqs. 6-8; why and by how much: docs/deflection.md):
 // both sides of the tool count between centres, the tailstock's reaction comes from the
 // real sections, and the couple of the feed force and all rotations are there.
 //

@@ -49,9 +49,10 @@ struct FeatureAnswer {
 /// for all tasks that share `unasked`.
 double least_objective(const FeatureTask& task);
 
-/// Minimises over recipes and conditions.  Tolerances enter as functionals at places of
-/// the surface: the worst places of each optimum are added until none is violated
-/// (exchange); a bound proved with some places holds with all.
+/// Minimises over discrete choices and conditions.  Tolerances are linear constraints at
+/// positions on the surface.  The most violated positions of each optimum are added until
+/// none is violated (exchange method, [Blankenship 1976]); a lower bound that is proved
+/// with some positions holds with all of them.
 ///
 /// `gap` is what the branch and bound may leave open, in ln(objective).  With a finite
 /// `most` the search is for answers cheaper than that: none is an answer too, and a quick

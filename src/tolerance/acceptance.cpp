@@ -105,7 +105,8 @@ void judge_size(const Case& c, const Extremes& e, double guard_mm, Verdict& v) {
   v.room_mm = {l - low - guard_mm, u - high + guard_mm};
   v.margin_after_offset_mm = v.allowed_mm - v.measured_mm;
   v.offset_into_limits_mm = (u + l - high - low) / (2 * per);
-  v.seed_verdict = spread <= v.allowed_mm + guard_mm;  // seed Eqs. (11), (15)
+  v.published_verdict =
+      spread <= v.allowed_mm + guard_mm;  // [Valino 2008] Eqs. (11), (15)
   conclude(
       v, guard_mm,
       fmt::format("{} deviates by {:+.2f} to {:+.2f} um, limits {:+.2f} to {:+.2f} um",
@@ -165,12 +166,13 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
   conclude(v, guard_mm, fmt::format(fmt::runtime(found), um(v.measured_mm), um(t)),
            rule == Rule::profile);
   if (rule == Rule::range || rule == Rule::runout)
-    v.seed_verdict = range <= t + guard_mm;  // seed Eqs. (16), (19), (23), (24)
+    v.published_verdict =
+        range <= t + guard_mm;  // [Valino 2008] Eqs. (16), (19), (23), (24)
   else if (rule == Rule::profile)
-    v.seed_verdict = std::abs(e.max_mm) + std::abs(e.min_mm) <=
-                     t / cosine + guard_mm;  // seed Eq. (22)
+    v.published_verdict = std::abs(e.max_mm) + std::abs(e.min_mm) <=
+                          t / cosine + guard_mm;  // [Valino 2008] Eq. (22)
   else
-    v.seed_verdict = v.accepted;
+    v.published_verdict = v.accepted;
 }
 
 }  // namespace

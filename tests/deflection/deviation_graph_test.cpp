@@ -70,7 +70,7 @@ TEST(DeviationGraph, TakesTheLowestDegreeThatExplains) {
   }
 }
 
-// The sentence of the seed: steps of 10 to 20 um where the section changes are not the
+// The sentence of [Valino 2008]: steps of 10 to 20 um where the section changes are not the
 // part's. A bar with three sections, deflected, has none; with the carriage's it has two.
 TEST(DeviationGraph, ASteppedBarMakesNoStepsACarriageDoes) {
   const Workpiece part(

@@ -8,7 +8,7 @@
 namespace turnwright {
 
 /// Number k = 0, 1, .. of SplitMix64 started at `state`, without those before it.
-/// Source: Rosetta Code, "Pseudo-random numbers/Splitmix64", which lists the first five.
+/// Source: [Rosetta], which lists the first five.
 constexpr std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k) {
   std::uint64_t z = state + (k + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -24,8 +24,8 @@
 /// Valid as system.hpp is; the diameter of the tool and the feed change h in no other
 /// way: trochoids are circles, and delays do not depend on the chip.  Small vibrations do
 /// not change which tooth met the surface last.
-/// Source: derived here; (1) follows the literature's term of indentation,
-/// F = -C w/v q', whose C is a measured value.
+/// Source: [Altintas 2008] for the indentation force F = -C w/v q', whose C is measured;
+/// the rest derived here.
 namespace turnwright::chatter {
 
 struct Cutter {

@@ -24,10 +24,13 @@ namespace turnwright::chatter {
 /// alike and needs no Phi (src/chatter/turning.hpp), the true one.
 ///
 /// Valid for any number of modes and teeth; the work grows with wn tau and with the depth
-/// over the first limit.
-/// Source: derived here; checked in accuracy_test against
-/// direct integration and in limits_test against printed charts of the
-/// literature's benchmark, semi-discretisation and simulation.
+/// over the first limit.  Unlike the zero-order method of [Altintas 1995], which averages
+/// the directional factors over a tooth period, it finds flips and islands at any
+/// immersion.
+/// Source: the equation of motion is that of [Altintas 1995] and [Insperger 2004]; the
+/// method is derived here, checked in accuracy_test against direct integration and in
+/// limits_test against printed charts of the literature's benchmark, semi-discretisation
+/// and simulation.
 /// @param depths_mm  rising, up to ap_max: counted too, by the multipliers that crossed
 ///   below; where a zero was followed past them, by winding numbers.
 /// @throws ModelRangeError if the search becomes longer than a few seconds, or if a

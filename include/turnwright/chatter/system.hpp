@@ -43,9 +43,7 @@ struct LinearForce {
 ///     h = C gamma (v tau)^(gamma - 1) sin^gamma(phi) (normal_ratio sin(phi) + cos(phi))
 ///                                                                                   (5)
 ///
-/// Source: Ozoegwu, Omenyi, Ofochebe, "Time Finite Element Chatter Stability
-/// Characterization of a Three Tooth Plastic End-Milling CNC Machine", Eq. (3), whose
-/// third tooth has lost "[0.3 sin +" in print.
+/// Source: [Ozoegwu 2013], Eq. (3), whose third tooth has lost "[0.3 sin +" in print.
 struct PowerLawForce {
   double C = 0;               ///< [N m^-(1 + gamma)], > 0
   double gamma = 0;           ///< in (0, 1]

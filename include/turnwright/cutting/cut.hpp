@@ -85,7 +85,7 @@ struct Forces {
 ///
 ///     Fc = kc1.1 b h^(1-mc) K_gamma = kc1.1 K_gamma L^mc (ap f)^(1-mc)               (3)
 ///
-/// Source: Kienzle (1952); equivalent chip thickness after Brammertz/Woxen.
+/// Source: [Kienzle 1952]; equivalent chip thickness after [Woxen 1932].
 template <class T>
 T kienzle_N(const Kienzle& k, const T& L_mm, const T& ap_mm, const T& f_mm_rev) {
   using std::pow;
@@ -166,7 +166,7 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
 ///     F_D = 0.5 Fc,  Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)               (5)
 ///
 /// Carried with +-30 %.
-/// Source: Colwell (1954), "Predicting the angle of chip flow".
+/// Source: [Colwell 1954].
 template <class T>
 Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
                    const T& per = T(1.0)) {
@@ -216,7 +216,7 @@ Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const Forces<LogDual<N>>&
   return linear(0.5 * F.Fc_N * flow / f_mm_rev);
 }
 
-/// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: Taylor (1907), extended form.
+/// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: [Taylor 1907], extended form.
 template <class T>
 T tool_life_min(const Cut& c, const T& vc_m_min, const T& f_mm_rev, const T& ap_mm) {
   using std::pow;
@@ -238,7 +238,7 @@ T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& a
 ///
 /// times the wiper factor.  Exact for f <= 2 r sin(kappa'); beyond, the straight minor
 /// edge lies below the arc's continuation and shaves the ridge, so the formula stays
-/// safe. Source: Brammertz (1961).
+/// safe. Source: [Brammertz 1961].
 template <class T>
 T Rz_um(const Cut& c, const T& f_mm_rev) {
   const double r = c.corner.re_mm, h = c.hmin_mm;

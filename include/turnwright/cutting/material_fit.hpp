@@ -79,7 +79,7 @@ struct TaylorFit {
 /// after the others); else their given values stay.  n is -1 over a coefficient, the
 /// others are ratios of two, ln C = -c0/c1: their intervals are Fieller's, exact for
 /// normal errors.  Not identifiable: n and C, where the speed hardly moved or the life
-/// does not fall with it beyond doubt. Source: Fieller (1954) for ratios; derived here
+/// does not fall with it beyond doubt. Source: [Fieller 1954] for ratios; derived here
 /// from (2), material_fit_test covers.
 /// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
 ///   the measurements do not tell the exponents apart.

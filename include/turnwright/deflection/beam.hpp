@@ -9,7 +9,7 @@ namespace turnwright::deflection {
 enum class Method { chuck, between_centres, chuck_tailstock };
 
 /// Compliance of the root S = [[c0, c1], [c1, c2]]: deflection and rotation at z = 0 per
-/// unit force and couple there.  The springs k1, k2, k3 and the arm Lc of the seed's
+/// unit force and couple there.  The springs k1, k2, k3 and the arm Lc of [Valino 2008]'s
 /// Eqs. 3 and 4 enter only as c0 = 1/k1 + Lc^2/k2, c1 = Lc/k2, c2 = 1/k2 + 1/k3.
 struct Root {
   double c0_mm_N = 0, c1_rad_N = 0, c2_rad_Nmm = 0;
@@ -94,8 +94,9 @@ struct BeamRun;  // positions taken together, see src/deflection/beam_run.hpp
 /// so a diameter step costs up to 21 % unless `shoulder_correction` is used.  Linear.
 /// Degenerate input: a = 0 on a rigid chuck gives zeros; head and tail centre both rigid
 /// leave (5) without their terms.
-/// Source: the seed (Valino et al.), Eqs. 6-8, corrected as docs/deflection.md derives;
-/// Eq. 7: Cowper's shear coefficient, handbook value.  Checked in beam_test.
+/// Source: [Valino 2008], Eqs. 6-8, corrected as docs/deflection.md derives;
+/// [Timoshenko 1921], the beam; [Cowper 1966] for (7), handbook value.  Checked in
+/// beam_test.
 class Beam {
  public:
   /// @throws std::domain_error on lengths or diameters that are no body, E or nu not

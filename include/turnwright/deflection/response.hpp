@@ -27,7 +27,7 @@ struct Load {
 /// Positive delta: the part gives way, the radius comes out larger by e.  Eq. (4) is the
 /// first term of hypot(D/2 + delta_r, delta_t) - D/2; what it leaves out is
 /// delta_t^2 delta_r/D^2 and smaller.  Tool, toolpost and heat are not in it.
-/// Source: the seed's Eqs. 1 and 2, corrected as docs/deflection.md derives.
+/// Source: [Valino 2008], Eqs. 1 and 2, corrected as docs/deflection.md derives.
 struct Response {
   double a_mm = 0, D_mm = 0;
   Flexibility radial, tangential;

@@ -41,7 +41,7 @@ double wear_error_mm(double VB_mm, const Edge& edge, double life_used);
 /// c_rr = 1/k_tool; the cross term is how far the edge goes away from the part under Ft
 /// alone, mostly the shank bending down and the turret turning; negative where that
 /// brings the edge closer.
-/// Source: the seed's Eq. 5, corrected as docs/deflection.md derives.
+/// Source: [Valino 2008], Eq. 5, corrected as docs/deflection.md derives.
 struct Toolpost {
   double c_rr_mm_N = 0;
   double c_rt_mm_N = 0;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// The literature's multi-pass turning problem (Shin and Joo 1992; Chen and Tsai 1996):
+/// The literature's multi-pass turning problem, [Shin 1992] in the form of [Chen 1996]:
 /// n equal roughing passes and a finishing pass take the depth dt off a bar, and speed,
 /// feed and depth of both are wanted at the least cost of a piece.
 namespace turnwright::multipass {

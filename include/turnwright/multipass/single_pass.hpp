@@ -19,7 +19,7 @@ struct PowerLimit {
   bool upper = true;  ///< law <= limit, else law >= limit
 };
 
-/// One pass whose cost is a sum of powers of speed and feed, as Ermer (1971) put it:
+/// One pass whose cost is a sum of powers of speed and feed, as [Ermer 1971] put it:
 ///
 ///     min sum_k c_k V^a_k f^b_k,  limits, V and f in their ranges
 ///

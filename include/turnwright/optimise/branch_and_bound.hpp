@@ -72,8 +72,7 @@ struct SearchResult {
 /// bound first; ties in the order of birth, so the result is the same on every run.
 /// Near an optimum the Lagrangian's gradient vanishes and (1) errs by the square of the
 /// box, which is what ends the search.  Rounding: 1e-11 is left at every comparison.
-/// Source: Neumaier, "Interval Methods for Systems of Equations" (1990), mean value form;
-/// Lagrangian cut derived here.
+/// Source: [Neumaier 1990], mean value form; Lagrangian cut derived here.
 SearchResult branch_and_bound(std::vector<Piece>& pieces, double incumbent,
                               const SearchOptions& options = {});
 

@@ -72,8 +72,8 @@ std::vector<double> multipliers_at(const Problem& problem, std::span<const doubl
 ///             + sum_j min(r_j (lower_j - y*_j), r_j (upper_j - y*_j))                (1)
 ///     r = df* + sum lambda_i dg_i*
 ///
-/// Valid for any lambda >= 0; tight at an optimum.  Source: convexity of the Lagrangian,
-/// derived here.
+/// Valid for any lambda >= 0; tight at an optimum.  Source: weak duality, [Boyd 2004];
+/// (1) derived here.
 double convex_lower_bound(const Problem& problem, std::span<const double> y,
                           const Values& at, std::span<const double> multipliers);
 

@@ -7,7 +7,7 @@ namespace turnwright::optimise {
 ///
 /// Active-set method; ends after finitely many steps, each a least-squares solve by
 /// rank-revealing QR, so dependent columns are harmless.
-/// Source: Lawson and Hanson, "Solving Least Squares Problems" (1974), algorithm NNLS.
+/// Source: [Lawson 1974], algorithm NNLS.
 Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A,
                                            const Eigen::VectorXd& b);
 

@@ -46,8 +46,8 @@ struct PosynomialOptimum {
 /// says that no y is allowed, as does a lower bound above any value f can have in the
 /// box. Cost: 20 to 40 factorisations of the size of y; no solver of the house gives
 /// multipliers, of which the bound is made.
-/// Source: Boyd and Vandenberghe, "Convex Optimization" (2004), sections 4.5 (geometric
-/// programs) and 11.7 (primal-dual method); (1) is their 11.4, as one problem.
+/// Source: [Boyd 2004], geometric programs, primal-dual methods and, as one problem in
+/// (1), their search for a first allowed point; [Mehrotra 1992].
 /// @throws std::domain_error if sizes disagree or a bound is not finite and ordered.
 PosynomialOptimum minimise(const Posynomial& problem,
                            const PosynomialOptions& options = {});

@@ -20,7 +20,7 @@ struct Relaxed {
 /// `relax(box, cut)` may stop as soon as its bound is above the cut.  The result's
 /// `lower_bound` is that of the whole box: at least upper_bound - gap where the search is
 /// complete, and +infinity where nothing is allowed.
-/// Source: Horst and Tuy, "Global Optimization" (1996), prototype branch and bound.
+/// Source: [Horst 1996], prototype branch and bound.
 SearchResult relaxation_search(
     const Box& box, double incumbent,
     const std::function<Relaxed(const Box&, double cut)>& relax,

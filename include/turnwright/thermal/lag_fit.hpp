@@ -86,7 +86,7 @@ struct Choice {
 /// knows how the log began).  A second lag is taken if it lowers the mean square error of
 /// the blocks left out by more than kEarned.
 ///
-/// Source: derived here; (4) is known as variable projection.
+/// Source: [Golub 1973] for (4), variable projection; the rest derived here.
 /// @throws std::domain_error as drift_um, or if errors are not as many as times or rows
 ///   are more; ModelRangeError if the rows are fewer than kLeastRows, or the spindle never
 ///   turns in them.

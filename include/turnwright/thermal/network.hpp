@@ -44,7 +44,7 @@ struct Network {
 /// chain rule, from `starts` sets of random weights.  The same seed gives the same
 /// network.
 ///
-/// Source: derived here; the inputs are those of Valiño et al. (2008), section II.B.
+/// Source: derived here; the inputs are those of [Valino 2008], section II.B.
 /// @throws std::domain_error if rows and errors differ in number or there are none, or
 ///   without hidden neurons or starts.
 Network train(std::span<const Row> rows, std::span<const double> error_um,

@@ -5,7 +5,7 @@
 #include "turnwright/part/drawing.hpp"
 #include "turnwright/tolerance/piecewise.hpp"
 
-/// Does a feature with error e(z) conform to a tolerance of the drawing?
+/// Whether a surface with the error e(z) conforms to a tolerance of the drawing.
 ///
 /// e is the signed radius error (positive = larger radius), for faces the axial error
 /// g(rho); both over the whole profile.  t is the zone's width, alpha the half angle of a
@@ -33,12 +33,12 @@
 /// two-point size does not show (lobes, a bent axis), on the diameter; (2) alone judges
 /// local sizes (ISO 14405-1's default).
 ///
-/// Sources: ISO 1101 and ISO 14405-1 definitions (from general knowledge); G. Valino et
-/// al., "Machining Error Predictive Model in a CAPP system for turning" (2008), Eqs.
-/// (9)-(24), which seed_verdict reproduces: (11) and (15) are the last column of (1) and
-/// (2) alone, so a part wholly off its limits passes; (22), with moduli, is
-/// |e_max| + |e_min| <= t/cos(alpha), so twice the error of (7) passes; (16), (19), (23),
-/// (24) are (4) and (5) without m.  Where it has no equation its verdict is `accepted`.
+/// Sources: the definitions of ISO 1101 and ISO 14405-1 (from general knowledge);
+/// [Valino 2008], Eqs. (9)-(24), which published_verdict reproduces.  Its (11) and (15)
+/// are the last column of (1) and (2) alone, so a part wholly off its limits passes; its
+/// (22), with moduli, is |e_max| + |e_min| <= t/cos(alpha), so twice the error of (7)
+/// passes; its (16), (19), (23), (24) are (4) and (5) without m.  For kinds without a
+/// published equation published_verdict equals `accepted`.
 namespace turnwright::tolerance {
 
 /// Which of the two the tolerance of perpendicularity controls; the other is its datum.
@@ -74,7 +74,7 @@ struct Verdict {
   /// limits, added to e [mm, on the radius or along the axis]; offset_mm unless limits or
   /// m are one-sided.
   double offset_into_limits_mm = 0;
-  bool seed_verdict = false;
+  bool published_verdict = false;  ///< by the equations of [Valino 2008]
   Extremes extremes_mm;    ///< of e; of the length's deviation; 0, 0 if e is empty
   double measured_mm = 0;  ///< what is compared: in (1), (2) the spread of the size,
                            ///< in (7) twice the largest deviation, else the left side

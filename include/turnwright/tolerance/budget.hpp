@@ -151,7 +151,7 @@ struct Budget {
   double mean_um = 0, sigma_um = 0;      ///< of S, in closed form
   std::vector<SourceShare> shares = {};  ///< in the order of the sources
   double P_conform = 0;                  ///< (6)
-  double P_low = 0, P_high = 0;          ///< Wilson's 95 % interval of P_conform by draws
+  double P_low = 0, P_high = 0;          ///< 95 % interval of P_conform, [Wilson 1927]
   double P_accept = 0;                   ///< (8)
   double Q0_135_um = 0, Q50_um = 0, Q99_865_um = 0;
   std::optional<double> index = {};  ///< (7); none if S does not spread

@@ -58,10 +58,11 @@ struct Zone {
 ///
 /// measured along e; across the zone it is cos(atan a) of it, 5e-9 less at a = 1e-4.
 /// Samples: exact, the best line is parallel to an edge of their convex hull.
-/// Polynomials: exchange - the best line of finitely many points of the curve is a lower
-/// bound, the curve's extremes about that line give an upper one and the next points;
-/// ends when the two agree within 1e-12 of the width or within the rounding of e. Source:
-/// derived here, checked in piecewise_test.
+/// Polynomials: by the exchange method.  The best line of finitely many points of the
+/// curve is a lower bound; the extremes of the curve about that line give an upper bound
+/// and the next points.  It ends when the two agree within 1e-12 of the width or within
+/// the rounding of e.
+/// Source: [Stiefel 1959], the exchange; checked in piecewise_test.
 /// @throws std::domain_error as check().
 Zone minimum_zone(const Profile& profile);
 

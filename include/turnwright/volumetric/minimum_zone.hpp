@@ -19,12 +19,13 @@ struct Zone {
 ///
 /// (1) is twice the best uniform approximation, a linear programme in the family's m
 /// unknowns, constant included.  Its dual has m + 1 rows; the simplex method on it is the
-/// exchange of m + 1 reference points (Stiefel), which ends at points that touch the zone
-/// in turns.  Columns that depend on those before them get the parameter 0.
+/// exchange of m + 1 reference points, which ends at points that touch the two sides of
+/// the zone alternately.  Columns that depend on those before them get the parameter 0.
 ///
 /// Exact to rounding for the linear model; the circle's and the cylinder's are linear for
 /// deviations small against the radius, e^2/(2 r) is neglected.
-/// Source: derived here; checked against search over all references in minimum_zone_test.
+/// Source: [Stiefel 1959], the exchange; checked in minimum_zone_test against a search
+/// over all references.
 /// @param basis  a_ij row by row, `columns` of them, without the constant.
 /// @throws std::domain_error if basis is not values x columns, there are no values, or
 ///   one of them is not finite.

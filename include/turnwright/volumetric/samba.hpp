@@ -73,8 +73,8 @@ struct Identifiability {
 ///
 /// Columns of angles are divided by 100 mm; singular values below kRankTolerance of the
 /// largest count as zero.  An unknown is identifiable if no null vector moves it.
-/// Source: derived here; the idea is Mayer's (CIRP Annals 61, 2012) as the thesis on the
-/// comparison of ball bar and SAMBA describes it.
+/// Source: [Mayer 2012], the method as [Mohammed 2019] describes it; equations derived
+/// here.
 /// @throws std::domain_error for unknown or repeated names, or a ball or stylus that is
 ///   not there; ModelRangeError where equations times unknowns are over 10 million, here
 ///   and below.

@@ -57,8 +57,8 @@ inline Judged judge(const Local& g, const Box& box, double noise) {
                                  distance(g.g + E, D), distance(g.g - E, D)});
     if (far > rest) return {Verdict::none};
   }
-  // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
-  // into the Newton point +- (q + noise).
+  // [Krawczyk 1969]: with Y = (D E)^-1 the map x -> x - Y g(x) contracts by q in the box,
+  // and sends the box into the Newton point +- (q + noise).
   const double row = std::max(size_D, size_E) / std::abs(det);
   const double q = row * (ww + 2 * wt + tt + g.unseen), slack = q + row * noise;
   if (!(q < 1)) return {};

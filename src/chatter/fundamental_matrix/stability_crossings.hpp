@@ -43,7 +43,7 @@ SpeedLimits charted(const std::vector<OnCircle>& zeros, const System& system,
 /// reaches as far beyond, so that a single zero in it lies on the border.
 /// At theta = 0 there are none, for kappa = 0 whatever w: a cyclic fold cannot occur.
 ///
-/// Source: derived here; Krawczyk's operator as in any text on interval analysis.
+/// Source: [Krawczyk 1969], the operator; the search derived here.
 /// @throws ModelRangeError if the search has to look at more than `kBoxes` boxes, see
 ///   krawczyk_search.hpp.
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,

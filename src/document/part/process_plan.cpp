@@ -146,7 +146,7 @@ ordered_json json_of(const ToleranceResult& t) {
           {"margin_mm", t.margin_mm},
           {"width_mm", t.width_mm},
           {"verdict", name(t.verdict)},
-          {"seed_verdict", t.seed_verdict},
+          {"published_verdict", t.published_verdict},
           {"shares", list(t.shares,
                           [](const Share& s) {
                             return ordered_json{{"source", s.source}, {"um", s.um}};
