@@ -123,12 +123,12 @@ TEST(Valino2008, Eq22RefusesWhatAnOffsetWouldCure) {
   expect(cone({0.0060, 0.0061}, 0.012, 0), {false, true, false});
 }
 
-// At 75 deg t/cos(alpha) is nearly 4 t: 19 um at one end passes the paper's test at t = 5 um,
-// where 19 cos 75 = 4.92 > 2.5.
+// At 75 deg t/cos(alpha) is nearly 4 t: 19 um at one end passes the paper's test at
+// t = 5 um, where 19 cos 75 = 4.92 > 2.5.
 TEST(Valino2008, Eq22PassesOnASteepCone) { expect(cone({0, 0.019}, 0.005, 75), kShift); }
 
-// The table "Bad parts that the published equations pass" of docs/tolerances.md: each row, the case it
-// stands for and by how much it is out [um], worked out by hand.
+// The table "Bad parts that the published equations pass" of docs/tolerances.md: each
+// row, the case it stands for and by how much it is out [um], worked out by hand.
 TEST(Valino2008, PassesTheBadPartsOfTheDocs) {
   std::ifstream file(TURNWRIGHT_SOURCE_DIR "/docs/tolerances.md");
   const std::string docs(std::istreambuf_iterator<char>(file), {});

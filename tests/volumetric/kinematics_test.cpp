@@ -250,7 +250,8 @@ TEST(Kinematics, SquarenessTurnsTheDirectionOnly) {
 }
 
 TEST(Kinematics, PapersExampleOfThreeMoves) {
-  // Scales and squareness that give the sums of [Jha], 0.018 + 0.006, 0.007 + 0.023, 0.045.
+  // Scales and squareness that give the sums of [Jha]: 0.018 + 0.006, 0.007 + 0.023,
+  // 0.045.
   Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
   m.axes[0].errors[0].c[1] = 0.018 / 2;  // EXX over 200 mm
   m.axes[1].errors[1].c[1] = 0.045 / 4;  // EYY over 400 mm

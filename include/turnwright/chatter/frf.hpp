@@ -57,8 +57,8 @@ struct NoFit {
 ///
 /// over the lines: sum |Y - (i w)^d H|^2 / s^2 = sum |e|^2 / s^2 is least.  c stands for
 /// modes above the lines, b for those below and for free motion.  The method is that of
-/// Levenberg and Marquardt in ln wn, ln zeta, 1/k, c, b.  Modes are added one by one, each
-/// at the frequency where it explains most of the residual that small changes of the
+/// Levenberg and Marquardt in ln wn, ln zeta, 1/k, c, b.  Modes are added one by one,
+/// each at the frequency where it explains most of the residual that small changes of the
 /// modes before cannot explain, and all are fitted again; the starting points tried are
 /// the best three of these frequencies, and each mode split in two.
 ///
@@ -74,8 +74,9 @@ struct NoFit {
 /// (2), not its 3 parameters, because a mode placed at the best of 2 L lines fits noise
 /// better than a mode at a given line.  Only fits are considered whose modes all lie
 /// inside the band, have positive stiffness and are determined by the lines (see NoFit);
-/// at most kMostModes modes.  Modes whose peak |1/(2 zeta k)| is below 1e-3 of the highest
-/// are then left out: they move no limit, and rounding of printed values looks like them.
+/// at most kMostModes modes.  Modes whose peak |1/(2 zeta k)| is below 1e-3 of the
+/// highest are then left out: they move no limit, and rounding of printed values looks
+/// like them.
 /// A mode of negative stiffness is a reason to refuse the response if its peak is above a
 /// twentieth of the highest and if the residual without it and the modes after it is four
 /// times as large.

@@ -149,8 +149,8 @@ Estimate predicted_deflection(const PlaneFit& fit, double z_mm, double F_N, doub
 Estimate predicted_radius_error(const PlaneFit& radial, const PlaneFit* tangential,
                                 double z_mm, double D_mm, const Load& load);
 
-/// The three springs of [Valino 2008], c0 = 1/k1 + Lc^2/k2, c1 = Lc/k2, c2 = 1/k2 + 1/k3, as
-/// flexibilities, so that a rigid spring is 0.
+/// The three springs of [Valino 2008], c0 = 1/k1 + Lc^2/k2, c1 = Lc/k2,
+/// c2 = 1/k2 + 1/k3, as flexibilities, so that a rigid spring is 0.
 struct Springs {
   double Lc_mm = 0;
   double per_k1_mm_N = 0, per_k2_rad_Nmm = 0, per_k3_rad_Nmm = 0;

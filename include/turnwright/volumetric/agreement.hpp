@@ -35,8 +35,8 @@ struct Agreement {
   Summary a, b;
   double difference = 0;  ///< a.mean - b.mean; its modulus is the thesis' "range"
   bool overlap = false;   ///< |difference| <= a.sd + b.sd
-  /// Test of equal means [Welch 1947]: t, degrees of freedom, two-sided probability; none if
-  /// neither list scatters.
+  /// Test of equal means [Welch 1947]: t, degrees of freedom, two-sided probability; none
+  /// if neither list scatters.
   std::optional<double> t, dof, p;
   /// Over the runs that both have, if they are three or more and scatter in both.
   std::optional<Correlation> correlation;
