@@ -14,7 +14,7 @@ namespace {
 
 using Kind = part::ToleranceKind;
 
-/// Which of the header's conditions judges a case.
+/// The condition of the header by which a case is judged.
 enum class Rule { size, range, runout, straightness, profile, free_profile, machine };
 
 Rule rule_of(const Case& c) {
@@ -69,8 +69,8 @@ void check_case(const Case& c, Rule rule) {
 
 double um(double mm) { return units::um_from_mm(mm); }
 
-/// What is left once the numbers are compared; fills the part of the sentence that tells
-/// why, and the verdicts that follow from the margins.
+/// Last step of a verdict: the sentence that gives the reason, and the verdicts that
+/// follow from the margins.
 void conclude(Verdict& v, double guard_mm, const std::string& found, bool offset_helps) {
   v.accepted = v.margin_mm >= -guard_mm;
   v.accepted_after_offset = v.accepted || v.margin_after_offset_mm >= -guard_mm;
