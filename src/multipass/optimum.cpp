@@ -35,8 +35,8 @@ class Search {
         box, kInfinity, [this](const Box& b, double cut) { return relax(b, cut); },
         {.gap = kSearchGap, .max_nodes = kMostNodes});
   }
-  /// The best point found: from the start, and with its depths and those at the ends of
-  /// their range as low as the other conditions allow.
+  /// The best point found, after its cost has been minimised over the other conditions
+  /// with its own depth and with the depths at both ends of the range.
   Best best(const Interval& ln_dr) {
     Log y = best_.y;
     if (!std::isfinite(best_.ln_UC)) return best_;

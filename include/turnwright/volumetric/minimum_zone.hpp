@@ -6,11 +6,12 @@
 namespace turnwright::volumetric {
 
 struct Zone {
-  double width = 0;                ///< max - min of what the model leaves
+  double width = 0;                ///< max - min of the residuals
   std::vector<double> parameters;  ///< of the model, constant first
 };
 
-/// Narrowest zone between two parallel surfaces of a linear family that holds all values:
+/// Narrowest zone between two parallel surfaces of a linear family that contains all
+/// values:
 ///
 ///     min over x of max_i r_i - min_i r_i,   r_i = v_i - sum_j x_j a_ij              (1)
 ///
@@ -32,8 +33,8 @@ struct Zone {
 Zone minimum_zone(std::span<const double> basis, std::size_t columns,
                   std::span<const double> values);
 
-/// The same zone with the surface of least squares instead of the narrowest: never
-/// narrower.
+/// The zone about the least-squares surface, which is never narrower than the minimum
+/// zone.
 Zone least_squares_zone(std::span<const double> basis, std::size_t columns,
                         std::span<const double> values);
 
