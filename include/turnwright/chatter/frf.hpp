@@ -4,10 +4,11 @@
 #include <variant>
 #include <vector>
 
-/// Modes from a frequency response measured at the cut, force and motion along one axis.
+/// Modal parameters from a frequency response measured at the cut, with force and motion
+/// along one axis.
 namespace turnwright::chatter {
 
-/// Y(w) = (i w)^d H(w): what moves under a force e^(+i w t).
+/// A frequency response Y(w) = (i w)^d H(w): the motion under a force e^(+i w t).
 struct FrequencyResponse {
   int derivative = 0;           ///< d: 0 receptance, 1 mobility, 2 accelerance
   std::vector<double> w_rad_s;  ///< rising, > 0
@@ -26,26 +27,26 @@ struct FittedMode {
 struct ModalFit {
   std::vector<FittedMode> modes;  ///< rising in frequency
   Measured above_mm_N;            ///< c of (1): modes above the lines
-  Measured below_mm_N_s2;         ///< b of (1): what moves below the lines
-  /// f of (3); none: errors alike at every line.
+  Measured below_mm_N_s2;         ///< b of (1): modes below the lines, free motion
+  /// f of (3); none: the errors are equal at every line.
   std::optional<double> error_floor;
   double explained = 0;     ///< 1 - sum |e|^2 / sum |Y|^2
   double rms_measured = 0;  ///< of |Y|
   double rms_left = 0;      ///< of |e|
-  /// Of e/s at neighbouring lines, in [-1, 1]: near 0 if what is left is noise.  Where it
-  /// is not the uncertainties are too small.
+  /// Correlation of e/s at neighbouring lines, in [-1, 1]: near 0 if the residual is
+  /// noise; otherwise the uncertainties are too small.
   double correlation = 0;
 };
 
-/// Why there is no fit, with the frequency that tells it, if one does.
+/// The reason why there is no fit, with the frequency at which it appears, if any.
 struct NoFit {
   enum class Why {
     too_few_lines,  ///< fewer than 3 n + 2 for n modes
     no_peak,        ///< no mode explains the lines better than (1) without any
-    negative,       ///< a drive point's mode has a stiffness > 0, so Im H < 0 at its peak
-    not_told,       ///< a standard uncertainty above half of the value, a peak below
-                    ///< 1e-3 of the highest, or (2) no less than with one mode less
-    other_quantity  ///< taken for another `derivative` it leaves less than a tenth
+    negative,       ///< a negative stiffness, which no mode at the driving point can have
+    not_told,       ///< not determined: a standard uncertainty above half of the value, a
+                    ///< peak below 1e-3 of the highest, or (2) as large as without it
+    other_quantity  ///< as another `derivative` the residual is less than a tenth
   } why = Why::no_peak;
   double w_rad_s = 0;
   int derivative = 0;
