@@ -13,7 +13,7 @@
 ///     manifest.json    input, data and version; number of lines per chunk
 ///     work/N.jsonl     chunk N (from 0), while the batch is not complete
 ///     results.jsonl    every record, in the order of lines; appears at once
-///     summary.json     number of records of each kind, length and SHA-256 of results.jsonl
+///     summary.json     records of each kind, length and SHA-256 of results.jsonl
 ///
 /// Everything is a function of the input, the data and the version, and no file is
 /// changed once it has its name.  So a run that is killed, cut off or started twice does
