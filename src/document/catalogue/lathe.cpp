@@ -125,8 +125,8 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.stiffness_uncertainty_pct = finish_group(group);
 }
 
-// The machine's own geometry, with the keys of `geometry`; a chain with problems is left
-// out.
+// The machine's own geometry, with the keys of `geometry`; a chain with problems is
+// omitted.
 void read_geometry(Reader group, catalogue::Lathe& m) {
   const auto problems = group.problems().list.size();
   std::vector<catalogue::Axis> fitted;
