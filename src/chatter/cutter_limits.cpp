@@ -135,8 +135,9 @@ class Ascent {
     if (interpolant && enter(*interpolant)) return;
     if (narrow)
       throw ModelRangeError(
-          "milling: what this cutter does near a depth of " + std::to_string(from) +
-          " mm cannot be told; ask for a smaller ap_max_mm or a higher speed");
+          "milling: the stability of this cutter near a depth of " +
+          std::to_string(from) +
+          " mm cannot be decided; ask for a smaller ap_max_mm or a higher speed");
     const double middle = from + 0.49 * (to - from);
     climb(from, middle);
     climb(middle, to);
