@@ -1,4 +1,4 @@
-// The multi-pass door's problems on one core: the literature's, and hard variants. Beside
+// The problems of `multipass` on one core: the literature's, and hard variants. Beside
 // them NLopt's evolutionary search (GN_ISRES) on the same problem with one n given: it
 // has no proof and stops at its budget; `excess` is how far its cost is above.
 #include <benchmark/benchmark.h>

@@ -29,7 +29,7 @@ struct BatchArguments {
 
 constexpr Range<std::int64_t> kShards{1, 1'000'000};
 
-/// @throws InputError if it is not of the form "2/5".
+/// @throws InputError unless the text has the form "2/5".
 service::Shard shard_of(const std::string& text) {
   const auto slash = std::min(text.find('/'), text.size());
   const auto index = number_in(std::string_view(text).substr(0, slash), kShards);
@@ -65,7 +65,7 @@ void run_here(const BatchArguments& arguments, const fs::path& data,
                      });
 }
 
-/// Whether the batch can be put together now.
+/// Whether all chunks are complete, so that the results can be put together.
 bool run_on_cluster(const BatchArguments& arguments, const fs::path& data,
                     service::BatchInput& input, const service::BatchFolder& folder) {
   service::SlurmBatch cluster(input, folder,
@@ -114,7 +114,7 @@ void add_batch(CLI::App& app, const std::optional<fs::path>& data,
                    R"(file of lines {"name": "plan", "document": {..}})")
       ->required();
   add_path(*command, "-o,--output", arguments->folder,
-           "folder of the results; a run that was cut short goes on there")
+           "folder of the results; a run that was interrupted continues there")
       ->required();
   add_number<unsigned>(*command, "--jobs", arguments->jobs, {1, 1024},
                        "lines at once (default: one a core)");

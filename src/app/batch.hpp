@@ -6,8 +6,8 @@
 
 namespace turnwright::app {
 
-/// Adds `batch`; `chosen` is called with the work when the user asks for it.
-/// @param data  where --data is put; must outlive the app.
+/// Adds the command `batch`; `chosen` is called with its work when the user chooses it.
+/// @param data  receives the value of --data; must outlive the app.
 void add_batch(CLI::App& app, const std::optional<std::filesystem::path>& data,
                const std::function<void(std::function<void()>)>& chosen);
 

@@ -42,7 +42,7 @@ enum Exit {
   kOutput = 74
 };
 
-/// What the user wrote behind `turnwright`.
+/// The options and arguments of the command line.
 struct Arguments {
   std::optional<fs::path> data;
   std::string file;
@@ -65,7 +65,7 @@ nlohmann::json read_request(const std::string& file) {
   return document::parse(std::cin, "standard input", document::kLocalLimits);
 }
 
-// Problems of the request are told under the name its reader knows.
+// Problems of the request are reported under the name that the user gave it.
 service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request,
                       const document::Catalogue& catalogue) {
@@ -95,7 +95,7 @@ void write_drawings(const fs::path& folder,
 constexpr auto kControl = nc::Control::linuxcnc;
 constexpr const char* kToolTable = "tools.tbl";
 
-/// Whether write_programs() of some plan gives a file this name.
+/// Whether a file of this name may have been written by write_programs() for some plan.
 bool is_of_programs(std::string_view name) {
   nc::SetupProgram program;
   const auto digits = std::min(name.find_first_of("0123456789"), name.size());
@@ -103,7 +103,7 @@ bool is_of_programs(std::string_view name) {
   return name == kToolTable || name == document::file_name(program, kControl);
 }
 
-/// Makes the folder hold the programs of this plan and none of another.
+/// Writes the programs of this plan into the folder and removes those of any other plan.
 void write_programs(const fs::path& folder, const nc::Programs& programs) {
   std::vector<service::NamedText> files;
   for (const auto& program : programs.setups)
@@ -118,11 +118,12 @@ void write_programs(const fs::path& folder, const nc::Programs& programs) {
     std::cerr << "no NC program: there is no feasible plan\n";
 }
 
-/// Where an option has output written.
+/// The file or folder to which an option writes.
 struct Output {
   const char* option;
   fs::path path;
-  bool (*makes)(const std::string& name);  ///< of a folder: whether it gets such a file
+  bool (*makes)(
+      const std::string& name);  ///< for a folder: whether it receives such a file
 };
 
 std::vector<Output> outputs(const Arguments& arguments) {
@@ -130,7 +131,7 @@ std::vector<Output> outputs(const Arguments& arguments) {
   const auto add = [&all](const char* option, const std::optional<fs::path>& path,
                           bool (*makes)(const std::string&)) {
     std::error_code error;
-    // A pipe or a device takes more than one output.
+    // A pipe or a device may receive more than one output.
     if (!path || *path == "-" || fs::is_other(*path, error)) return;
     auto resolved = fs::weakly_canonical(fs::absolute(*path), error);
     if (!resolved.has_filename()) resolved = resolved.parent_path();  // "folder/"
@@ -145,14 +146,14 @@ std::vector<Output> outputs(const Arguments& arguments) {
   return all;
 }
 
-/// Whether both would write the same file; two folders may be one.
+/// Whether both outputs would write the same file; two folders may be the same.
 bool collide(const Output& a, const Output& b) {
   if (b.makes && !a.makes && a.path.parent_path() == b.path)
     return b.makes(a.path.filename().string());
   return a.path == b.path && !(a.makes && b.makes);
 }
 
-/// @throws OutputError if the folder can be none.
+/// @throws OutputError if the path cannot be a folder.
 void require_folder(const fs::path& folder) {
   std::error_code error;
   for (auto at = fs::absolute(folder); !fs::is_directory(at, error);
@@ -163,8 +164,8 @@ void require_folder(const fs::path& folder) {
           std::make_error_code(std::errc::not_a_directory).message());
 }
 
-/// Told before anything is computed.
-/// @throws InputError if two outputs have one place, OutputError.
+/// Checks the outputs before anything is computed.
+/// @throws InputError if two outputs have the same place, OutputError.
 void require_places(const Arguments& arguments) {
   const auto all = outputs(arguments);
   for (auto b = all.begin(); b != all.end(); ++b)
@@ -177,7 +178,7 @@ void require_places(const Arguments& arguments) {
     if (folder) require_folder(*folder);
 }
 
-/// Of a result, and of the programs if any were asked for.
+/// Exit code of a result, and of its programs if they were requested.
 Exit exit_code(const service::Drawn& drawn, bool programs) {
   if (service::infeasible(drawn.result)) return kInfeasible;
   const bool none = service::not_programmed(drawn.result) ||
@@ -263,8 +264,8 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
 }
 
-/// What stands where a command should.
-/// @throws InputError if there is anything.
+/// Reports an unknown command.
+/// @throws InputError if there is one.
 void refuse_unknown(const CLI::App& app) {
   for (const auto& word : app.remaining()) {
     if (word.starts_with('-')) continue;
@@ -322,7 +323,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace turnwright;
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit is then a write error
   try {
     return app::run(argc, argv);
   } catch (const InputError& e) {

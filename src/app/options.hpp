@@ -11,11 +11,10 @@
 
 #include "turnwright/base/errors.hpp"
 
-/// What the user may write behind an option: one rule for every number and one for every
-/// file and folder.
+/// Values of options: one rule for every number, and one for every file and folder.
 namespace turnwright::app {
 
-/// The command line is the document, the option its place.
+/// An error in which the command line is the document and the option the place in it.
 inline InputError wrong_option(const std::string& option, const std::string& got,
                                const std::string& expected, const std::string& code) {
   return {"command line", {{option, got, expected, code}}};
@@ -26,8 +25,8 @@ struct Range {
   Number least, most;
 };
 
-/// The number that the whole of `text` writes in decimal; none if it is none, or none of
-/// the range.  NaN is of no range.
+/// The decimal number that the whole of `text` represents; none if it is not a number or
+/// outside the range.  NaN is outside every range.
 template <class Number>
 std::optional<Number> number_in(std::string_view text, const Range<Number>& range) {
   Number value{};
@@ -38,7 +37,7 @@ std::optional<Number> number_in(std::string_view text, const Range<Number>& rang
   return good ? std::optional(value) : std::nullopt;
 }
 
-/// An option "--name" with a number, put into `value`.
+/// Adds an option "--name" with a number, which is stored in `value`.
 template <class Number, class Value>
 CLI::Option* add_number(CLI::App& app, const std::string& option, Value& value,
                         const Range<Number>& range, const std::string& help) {
@@ -56,7 +55,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, Value& value,
       ->type_name(std::is_integral_v<Number> ? "INT" : "NUMBER");
 }
 
-/// The same, with what `value` holds now as the default that the help shows.
+/// The same, with the present content of `value` as the default that the help shows.
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& option, Number& value,
                         const Range<Number>& range, const std::string& help) {
@@ -68,8 +67,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, Number& value,
 
 enum class Dash { is_no_name, is_standard_output };
 
-/// An option with a file or folder.
-/// @param names  "-o,--output": the last one is told when it is wrong.
+/// Adds an option with a file or folder.
+/// @param names  for example "-o,--output"; errors name the last one.
 template <class Path>
 CLI::Option* add_path(CLI::App& app, const std::string& names, Path& path,
                       const std::string& help, Dash dash = Dash::is_no_name) {

@@ -5,16 +5,16 @@
 
 namespace turnwright::app {
 
-/// One line on standard error that is written over and over, if that is a terminal.
+/// A line on standard error that is rewritten as work proceeds, if that is a terminal.
 class ProgressLine {
  public:
-  /// @param what  that is counted, "lines".
+  /// @param what  the items that are counted, for example "lines".
   explicit ProgressLine(std::string what);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// @param found  of all that were there before; so many more are done.
+  /// @param found  items that were complete before this run; they count as done.
   void tell(std::int64_t found, std::int64_t done, std::int64_t all);
 
  private:

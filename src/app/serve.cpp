@@ -25,7 +25,7 @@ struct ServeArguments {
   unsigned batch_threads = 1;
 };
 
-/// Where jobs are kept unless the caller says: the user's state folder.
+/// Default place of the job store: the user's state folder.
 fs::path usual_job_file() {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
@@ -35,7 +35,7 @@ fs::path usual_job_file() {
   return base / "turnwright" / "jobs.sqlite";
 }
 
-/// The job store; none if nobody asked for one and the usual place cannot be used.
+/// The job store; none if no option names one and the default place cannot be used.
 std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& asked,
                                              const std::string& data) {
   if (asked) try {
@@ -56,7 +56,7 @@ std::unique_ptr<service::JobStore> open_jobs(const std::optional<fs::path>& aske
   }
 }
 
-/// The page as it lies in a folder, read anew for every answer.
+/// The page from a folder, read again for every answer.
 service::HttpApi::Page page_of(const fs::path& folder) {
   const auto read = [file = folder / "index.html"]() -> std::string {
     std::ifstream in(file, std::ios::binary);
@@ -65,7 +65,7 @@ service::HttpApi::Page page_of(const fs::path& folder) {
                        {{"", "nothing that can be read", "the page", "file"}});
     return {std::istreambuf_iterator<char>(in), {}};
   };
-  read();  // what is wrong is told at once
+  read();  // errors are reported at the start
   return read;
 }
 

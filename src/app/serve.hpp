@@ -6,7 +6,8 @@
 
 namespace turnwright::app {
 
-/// Adds `turnwright serve`; `chosen` is called with what serves until it is told to stop.
+/// Adds the command `serve`; `chosen` is called with a function that serves until a
+/// signal stops it.
 void add_serve(CLI::App& app, const std::optional<std::filesystem::path>& data,
                const std::function<void(std::function<void()>)>& chosen);
 

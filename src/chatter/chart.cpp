@@ -51,11 +51,11 @@ ChartPoint judged(const ChartRequest& q, const OperatingPoint& p,
   return out;
 }
 
-/// Searches at speeds, or points, one after the other.
+/// Searches at speeds or points, one after the other.
 class Attempts {
  public:
-  /// What is computed at the i-th of them; none if that is outside the method, or no
-  /// easier than one before that would have taken too long.
+  /// The result at the i-th of them; none if it is outside the range of the method, or at
+  /// least as difficult as an earlier one that would have taken too long.
   template <class F>
   auto at(std::size_t i, const OperatingPoint& asked, F compute)
       -> std::optional<decltype(compute())> {
@@ -75,7 +75,7 @@ class Attempts {
     return std::nullopt;
   }
 
-  /// In the order asked.
+  /// The undecided ones in the order of the request.
   std::vector<Undecided> undecided() const {
     std::vector<Undecided> out;
     for (const auto& [i, told] : undecided_) out.push_back(told);
@@ -105,7 +105,7 @@ void find_best(const ChartRequest& q, StabilityChart& out) {
 }
 
 void find_magic(const ChartRequest& q, StabilityChart& out) {
-  /// A speed, and to which depth it is stable, if that is told.
+  /// A speed with the depth up to which it is stable, if that is decided.
   std::vector<std::pair<double, std::optional<double>>> all;
   for (const double n : q.speeds_rpm) all.emplace_back(n, std::nullopt);
   for (const ChartSpeed& s : out.speeds)
@@ -119,7 +119,7 @@ void find_magic(const ChartRequest& q, StabilityChart& out) {
   }
 }
 
-/// Places in a list of speeds from the highest down.
+/// Indices of a list of speeds, from the highest speed down.
 std::vector<std::size_t> from_the_fastest(const std::vector<double>& speeds_rpm) {
   std::vector<std::size_t> out(speeds_rpm.size());
   std::iota(out.begin(), out.end(), std::size_t{0});

@@ -41,8 +41,8 @@ double step_out(const MultipliersAt& multipliers, const OnCircle& at, double out
   return -std::log(modulus(nearest)) / outwards;
 }
 
-/// A step on one map after the other, each finer than the last, until that step is too
-/// small to be the error; `at` comes with what the interpolant's noise may have done.
+/// Steps on one map after the other, each finer than the last, until a step is too small
+/// to matter as error.  `at` initially has the error by the noise of the interpolant.
 void refine(const std::vector<MultipliersAt>& finer, double outwards, OnCircle& at) {
   constexpr double kLarge = 5e-9;
   double noise = at.relative_error;
@@ -51,7 +51,7 @@ void refine(const std::vector<MultipliersAt>& finer, double outwards, OnCircle& 
       const double step = step_out(multipliers, at, outwards);
       at.relative_error = std::abs(step) / at.w_mm + std::exchange(noise, 0);
       at.w_mm += step;
-    } catch (const ModelRangeError&) {  // as fine as there is room for
+    } catch (const ModelRangeError&) {  // a finer map would be too large
       if (noise > 0) throw;
       return;
     }
@@ -120,8 +120,8 @@ class Ascent {
 
   void climb(double from, double to) {
     constexpr double kTail = 1e-9, kRough = 1e-5, kNarrow = 1e-2;
-    // At the ends of a range ends of contact may fall together and pieces vanish: the
-    // samples there are taken so far beside them.
+    // At the ends of a range ends of engagement may coincide, so that pieces vanish;
+    // samples are therefore taken at this distance from them.
     constexpr double kBeside = 1e-10;  // rad
     const bool narrow = to - from < kNarrow * ap_max_;
     const double lag = lag_rad_mm(cutter_),
@@ -135,14 +135,16 @@ class Ascent {
     if (interpolant && enter(*interpolant)) return;
     if (narrow)
       throw ModelRangeError(
-          "milling: what this cutter does near a depth of " + std::to_string(from) +
-          " mm cannot be told; ask for a smaller ap_max_mm or a higher speed");
+          "milling: the stability of this cutter near a depth of " +
+          std::to_string(from) +
+          " mm cannot be decided; ask for a smaller ap_max_mm or a higher speed");
     const double middle = from + 0.49 * (to - from);
     climb(from, middle);
     climb(middle, to);
   }
 
-  /// False if noise hides zeros or those found do not explain the change of the count.
+  /// False if noise hides zeros, or if those found do not explain the change of the
+  /// count.
   bool enter(const CharacteristicInterpolant& interpolant) {
     Search<OneInterpolant> search{OneInterpolant{&interpolant}};
     try {

@@ -21,13 +21,14 @@ struct Inside {
   Complex z;
 };
 
-/// From a depth up to the next level's: so many unstable multipliers, if known.
+/// The number of unstable multipliers, if known, from a depth up to that of the next
+/// level.
 struct Level {
   double from_mm = 0;
   std::optional<int> unstable;
 };
 
-/// Walks up in depth, keeping the number of unstable multipliers.
+/// Searches upwards in depth and keeps the number of unstable multipliers.
 class Climb {
  public:
   Climb(const System& system, double n_rpm)
@@ -62,7 +63,7 @@ class Climb {
   }
 
  private:
-  /// Depth up to which one series is likely to do.
+  /// Depth up to which one series is likely to be precise.
   double first_strip(double ap_max) const {
     constexpr double kGrowth = 5;
     double w = ap_max;
@@ -70,7 +71,7 @@ class Climb {
     return w;
   }
 
-  /// Searches as far as one series tells, and returns how far that is.
+  /// Searches as far as one series is precise, and returns that depth.
   double by_series(double ap_max) {
     const auto whole =
         series_up_to(coarse_.system(), coarse_.arcs(), coarse_.n_rpm(), ap_max);
@@ -94,7 +95,7 @@ class Climb {
     }
   }
 
-  /// How far above w the cut is shown to be unstable; w itself if that does not work.
+  /// The depth above w up to which the cut is shown to be unstable; w if that fails.
   double followed(double w, double ap_max) {
     const auto start = entered_ ? entered_ : zero_inside(w);
     entered_.reset();
@@ -106,8 +107,8 @@ class Climb {
     return std::max(w, done.w_mm);
   }
 
-  /// A zero well inside, as near as may be to the one last followed: two that met on the
-  /// real axis part along it.
+  /// A zero well inside the circle, as near as possible to the one followed last: two
+  /// zeros that met on the real axis separate along it.
   std::optional<Inside> zero_inside(double w) const {
     constexpr double kInside = 0.98;
     std::vector<Complex> starts;
@@ -124,7 +125,7 @@ class Climb {
   Characteristic coarse_, fine_;
   int count_ = 0;
   std::optional<Inside> entered_;  // the zero of the last loss
-  Complex last_ = 0.5;             // where a zero was followed to
+  Complex last_ = 0.5;             // last position of the zero followed
   std::vector<Crossing> crossings_;
   std::vector<Level> levels_{{0, 0}};
 };

@@ -9,7 +9,7 @@
 namespace turnwright::chatter {
 namespace {
 
-// 2 k zeta, the order of the deepest cut that is stable at every speed.
+// 2 k zeta, of the order of magnitude of the absolute limit.
 double first_guess(const std::vector<System>& systems) {
   double least = 1e300;
   for (const auto& s : systems)
@@ -17,8 +17,8 @@ double first_guess(const std::vector<System>& systems) {
   return least;
 }
 
-// A search that ends with a multiplier on the circle, to within rounding, goes a little
-// deeper.  What cannot be told counts as lost beyond what was searched before.
+// If a search ends with a multiplier on the circle to within rounding it is continued
+// slightly deeper.  Depths that cannot be decided count as unstable.
 std::optional<double> first_loss(const System& system, double n_rpm, double before,
                                  double& depth) {
   for (const double deeper : {1.0, 1.05}) {
@@ -38,8 +38,9 @@ std::optional<double> first_loss(const System& system, double n_rpm, double befo
 Lobes::Lobes(std::vector<System> systems)
     : systems_(std::move(systems)), first_(first_guess(systems_)) {}
 
-// Twice as deep each time: a search far above the first loss takes long.  The depths do
-// not depend on what is asked, so neither do the last digits of what is found.
+// Each search goes twice as deep as the one before, because a search far above the first
+// loss takes long.  The depths do not depend on the call, so neither do the last digits
+// of the result.
 Lobes::Known Lobes::search(const System& system, double n_rpm, Known k,
                            double enough) const {
   while (!k.lost && k.searched < enough) {

@@ -68,7 +68,7 @@ class Loop {
     return omega;
   }
 
-  /// What rounding may make of D, relative to it, at a zero of Im D.
+  /// Relative rounding error of D at a zero of Im D.
   double noise(double omega) const {
     constexpr double kEach = 4 * std::numeric_limits<double>::epsilon();
     const auto d = at(variable<double, 1>(omega, 0));
@@ -131,7 +131,7 @@ class FrequencySearch {
     left_.push_back({{p.omega.lo, middle}, p.from_below, above});
   }
 
-  /// Of Im D, as it is enclosed and by the mean value theorem.
+  /// Enclosure of Im D, directly and by the mean value theorem.
   bool may_be_zero(const Enclosure& im, const Interval& omega, double middle) const {
     const Interval mean =
         Interval(loop_.at(middle).im) + im.d[0] * (omega - Interval(middle));
@@ -155,7 +155,7 @@ class FrequencySearch {
   }
 
   const Loop& loop_;
-  double least_;  // of |D| at depths that are looked at
+  double least_;  // least |D| that matters up to the largest depth
   std::vector<Piece> left_;
   std::vector<OnCircle> found_;
 };

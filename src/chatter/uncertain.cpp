@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Factors 1 +- band; the standard's distributions are not the same everywhere.
+/// Factors 1 +- band; the distributions of <random> differ between libraries.
 class Factors {
  public:
   explicit Factors(std::uint64_t seed) : random_(seed) {}
@@ -51,7 +51,7 @@ std::optional<double> told(double limit, double ap_max) {
   return limit <= ap_max ? std::optional(limit) : std::nullopt;
 }
 
-/// What the force of `a` is times that of `b`, both of one kind.
+/// The ratio of the force of `a` to that of `b`, both of one kind.
 double force_ratio(const Force& a, const Force& b) {
   return std::visit(
       [&b](const auto& f) {
@@ -86,7 +86,7 @@ std::vector<System> drawn(const System& system, const Bands& bands) {
 UncertainLimit uncertain_limit(const System& nominal, const std::vector<System>& systems,
                                const Bands& bands, double n_rpm, double ap_max_mm) {
   const double most = 1 + bands.force;
-  // Losses of forces above a system's own lie as much lower as those are larger.
+  // Limits are inversely proportional to the force.
   double worst = first_loss(nominal, n_rpm, most * ap_max_mm) / most;
   std::vector<double> losses;
   for (const System& s : systems) {

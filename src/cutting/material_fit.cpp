@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kLeastThickness = 0.04879;  // ln 1.05
 constexpr double kLeastSpread = 0.02;
-constexpr int kSpare = 3;  // measurements beyond the unknowns that outliers leave
+constexpr int kSpare = 3;  // measurements beyond the unknowns that are always kept
 
 double quantile(double p, int degrees) {
   return boost::math::quantile(boost::math::students_t(degrees), p);
@@ -51,7 +51,7 @@ MatrixXd rows_of(const MatrixXd& X, const std::vector<std::size_t>& rows) {
   return X(rows, Eigen::all);
 }
 
-// The row most unlike the others if it is less likely than p over their number.
+// The row that fits the others least, if it is less likely than p over their number.
 std::optional<std::size_t> outlier(const Regression& r, double p) {
   std::optional<std::size_t> worst;
   double largest = 0;
@@ -67,7 +67,7 @@ std::optional<std::size_t> outlier(const Regression& r, double p) {
     }
   }
   const auto n = static_cast<double>(r.residual.size());
-  if (r.s2 < 1e-24 || !(p > 0)) return std::nullopt;  // no scatter but rounding's
+  if (r.s2 < 1e-24 || !(p > 0)) return std::nullopt;  // nothing but rounding
   return largest > quantile(1 - p / (2 * n), r.degrees - 1) ? worst : std::nullopt;
 }
 
@@ -92,7 +92,8 @@ Regression robust(const MatrixXd& X, const VectorXd& y, double p, Evidence& e) {
   }
 }
 
-/// What is left of a column after a constant and the columns before it: rms.
+/// Root mean square of the part of a column that a constant and the columns before it do
+/// not explain.
 double spread(const MatrixXd& before, const VectorXd& column) {
   const VectorXd c = least_squares(before, column).x;
   return std::sqrt((column - before * c).squaredNorm() /
@@ -173,7 +174,8 @@ TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double gi
     d[i] = std::log(p.ap_mm);
     y[i] = std::log(p.T_min);
   }
-  // Columns: 1, ln vc with the given exponents' share, then ln f and ln ap if they tell.
+  // Columns: 1, ln vc with the terms of the given exponents, then ln f and ln ap if they
+  // vary enough.
   const auto nothing = [&](const std::string& test) {
     fit.missing.insert(fit.missing.begin(), {{"n", test}, {"C", test}});
     return fit;

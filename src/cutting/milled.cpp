@@ -29,7 +29,7 @@ double teeth_sum(double arc, int teeth, double mc) {
   constexpr int kAngles = 720;
   const double pitch = 2 * units::kPi / teeth;
   double most = 0;
-  for (int k = 1; k <= kAngles; ++k) {  // the tooth that is next to leave is at phi
+  for (int k = 1; k <= kAngles; ++k) {  // phi is that of the tooth that leaves next
     double sum = 0;
     for (double phi = arc - pitch + pitch * k / kAngles; phi > 0; phi -= pitch)
       sum += std::pow(std::sin(std::min(phi, units::kPi)), 1 - mc);  // Eq. (6)

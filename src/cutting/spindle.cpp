@@ -18,8 +18,8 @@ double torque_power_kW(const CurvePoint& p) {
   return units::shaft_power_kW(p.M_Nm, p.n_rpm);
 }
 
-// True if the slope of either curve rises at point i: a dip, where the lines around it no
-// longer lie above the curve.  1e-9: points on one line, as rounding leaves them.
+// Whether the slope of either curve rises at point i.  At such a dip the lines around it
+// do not lie above the curve.  1e-9 allows for the rounding of points on one line.
 bool dip(const std::vector<CurvePoint>& c, std::size_t i) {
   const auto slope = [&](auto value, std::size_t a, std::size_t b) {
     return std::log(value(c[b]) / value(c[a])) / std::log(c[b].n_rpm / c[a].n_rpm);
@@ -37,7 +37,7 @@ void add_unless_there(std::vector<PowerLine>& lines, const PowerLine& line) {
   if (!there) lines.push_back(line);
 }
 
-// Of the main spindle or the driven tools'.
+// Speed ranges of the main spindle or of a driven tool.
 template <class Drive>
 std::vector<SpeedRange> ranges_of(const Drive& drive) {
   const auto& c = drive.curve;

@@ -1,6 +1,6 @@
 // The part as a Timoshenko beam whose section varies, by Castigliano's theorem.
 //
-// Departures from the seed (Eqs. 6-8 there; why and by how much: docs/deflection.md):
+// Departures from [Valino 2008] (its Eqs. 6-8; why and by how much: docs/deflection.md):
 // both sides of the tool count between centres, the tailstock's reaction comes from the
 // real sections, and the couple of the feed force and all rotations are there.
 //
@@ -23,7 +23,7 @@ namespace {
 // Rounding in the caller's own sum of lengths, up to some thousand of them.
 constexpr double kEnd = 1e-12;
 
-// The least that is divided by: two bodies are both empty only at a rigid root.
+// The least divisor: two bodies are both empty only at a rigid root.
 constexpr double kTiny = std::numeric_limits<double>::min();
 
 void check(const part::Shaft& shaft) {
@@ -49,7 +49,7 @@ void check(const Supports& supports) {
     throw std::domain_error("Beam: the supports are no elastic body");
 }
 
-/// What a body adds to Eq. (3) at an end of the part, `arm_mm` from its centroid.
+/// Contribution of a body to Eq. (3) at an end of the part, `arm_mm` from its centroid.
 double seen_from(double arm_mm, const Body& body) {
   return body.X_mm_N + body.M_rad_Nmm * arm_mm * arm_mm;
 }
@@ -120,7 +120,7 @@ std::size_t Beam::piece_at(double a_mm, std::size_t hint) const {
 
 namespace {
 
-// Eq. (2) for what lies left of every position of a run.
+// Eq. (2) for the bodies left of every position of a run.
 void join(const Body& start, auto& run) {
   const auto [M0, d0, X0] = start;
   auto& left = run.left;

@@ -29,7 +29,7 @@ constexpr std::array<double, kGauss> kWeight = {
 // rho^-10 = 2e-18 times 10^3/6 for a pole of order four.
 constexpr double kPanel = 0.125;
 
-// A wall that closes to rounding would take panels without end: they are at least kLeast.
+// Panels are at least kLeast long, because a wall that closes would need infinitely many.
 constexpr double kLeast = std::numeric_limits<double>::epsilon();
 
 double length_to_panel_end(double x, double dx, double y, double dy) {
@@ -78,13 +78,13 @@ void solid_cone(const auto& piece, auto& run) {
   }
 }
 
-/// Stretches of a piece; `at` is the centroid's place, from the left end as `start`.
+/// Parts of a piece; `at` is the position of the centroid, from the left end as `start`.
 struct Stretches {
   Column start, length;
   Column M, at, X;
 };
 
-// Gauss' rule, moments about the middle of the stretch.
+// Gauss' rule, with moments about the middle of the length.
 void integrate(const auto& piece, std::size_t n, Stretches& s) {
   const double bend = piece.bend, shear = piece.shear, hollow = piece.shear_hollow;
   const double x0 = piece.left.wall_mm, x_mm = (piece.right.wall_mm - x0) / piece.h_mm;
@@ -110,8 +110,8 @@ void integrate(const auto& piece, std::size_t n, Stretches& s) {
   }
 }
 
-// The shorter side is integrated, the other is what it leaves of the whole: in a panel
-// that is a third of it and more, so the difference costs a digit at most.
+// The shorter side is integrated, and the other is the rest of the panel.  The rest is at
+// least a third of the panel, so the subtraction costs one digit at most.
 void hollow_cone(const auto& piece, auto& run) {
   const double h = piece.h_mm;
   Stretches s;

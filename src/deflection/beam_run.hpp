@@ -4,9 +4,9 @@
 
 namespace turnwright::deflection {
 
-// Positions within one piece are taken together, one array per quantity, so that the
-// compiler computes several at a time; the arithmetic per position is the same in any
-// company.
+// Positions within one piece are computed together, one array per quantity, so that the
+// compiler vectorises the loop; the arithmetic of a position does not depend on the
+// others.
 inline constexpr std::size_t kRun = 64;
 using Column = std::array<double, kRun>;
 
@@ -15,8 +15,8 @@ struct BeamBodies {
   Column M, d, X;
 };
 
-/// Positions t[i] behind the left end of a piece, and what lies between there and either
-/// end of the piece as the section at t[i] feels it.
+/// Positions t[i] behind the left end of a piece, and the bodies between them and either
+/// end of the piece.
 struct BeamRun {
   std::size_t n;
   Column t;

@@ -39,15 +39,15 @@ double largest_z(std::span<const PlaneTest> tests) {
   return Z > kLeastZ_mm ? Z : 100;
 }
 
-/// Rows in units of the largest force and |z| and over the root of their number, so that
-/// ranks mean something.
+/// Rows in units of the largest force and |z|, divided by the root of their number, so
+/// that singular values can be compared with a fixed threshold.
 struct Design {
   Rows X;
   VectorXd y;
   Vector3d unit;  // a parameter is unit times its scaled one
   std::vector<std::size_t> setup;
   std::vector<std::string> names;
-  double rounding;  // of y; residuals below it are none
+  double rounding;  // of y; residuals below it count as zero
 
   std::size_t tests() const { return setup.size(); }
   Eigen::Index rows() const { return X.rows(); }
@@ -102,7 +102,8 @@ Means means(const Design& d, const VectorXd& w) {
   return m;
 }
 
-/// What free offsets leave of the design: rows less their setup's mean, times sqrt(w).
+/// The design with the free offsets eliminated: rows less their setup's mean, times
+/// sqrt(w).
 struct Centred {
   Rows X;
   VectorXd y;
@@ -145,7 +146,7 @@ Fit least_squares(const Design& d, const VectorXd& w) {
   return {theta, residuals(d, c.mean, theta)};
 }
 
-/// Least absolute deviations, by reweighting; near enough for one start.
+/// Least absolute deviations by reweighting, good enough as one of the starts.
 Fit absolute_deviations(const Design& d) {
   Fit fit = least_squares(d, VectorXd::Ones(d.rows()));
   double floor = fit.r.cwiseAbs().maxCoeff();
@@ -208,8 +209,8 @@ VectorXd elemental(const Design& d, std::uint64_t start) {
   return w;
 }
 
-/// Least trimmed squares: of many starts, each led downhill by refitting to the h cuts
-/// that fit best.  A third of the cuts beyond the unknowns may be outliers.
+/// Least trimmed squares: the best of many starts, each improved by refitting to the h
+/// cuts that fit best.  A third of the cuts beyond the unknowns may be outliers.
 Fit least_trimmed(const Design& d) {
   const auto n = d.rows(), unknowns = static_cast<Eigen::Index>(3 + d.names.size());
   const Eigen::Index h = n - (n - unknowns) / 3;
@@ -224,7 +225,7 @@ Fit least_trimmed(const Design& d) {
       fit = std::move(next);
       t = std::move(lower);
     }
-    // h cuts that all lie in a plane of the design fit it whatever the others say
+    // h cuts that all lie in a plane of the design fit it, whatever the other cuts are
     if (t.sum < least && rank(centred(d, t.w)) == 3) {
       least = t.sum;
       best = std::move(fit);
@@ -260,7 +261,7 @@ Fit tukey(const Design& d, Fit fit, double s) {
   return fit;
 }
 
-/// Which cuts are used, the fit through them and what that leaves.
+/// The cuts used, the fit through them and its residuals.
 struct Chosen {
   std::vector<bool> used;
   Fit fit;
@@ -289,11 +290,11 @@ Chosen choose(const Design& d) {
   const Fit start = least_trimmed(d);
   const double s = scale(d, start.r);
   Chosen now = fit_through(d, within(tukey(d, start, s).r, kOutlier * s));
-  // Cuts that alone carry a parameter fit exactly and stay; where two such disagree, none
-  // can be told for the wrong one.
+  // A cut that alone determines a parameter fits exactly and is kept; where two such cuts
+  // disagree it cannot be decided which one is wrong.
   if (!now.tells()) return fit_through(d, std::vector<bool>(d.tests(), true));
-  // A cut's own pull on the fit is small beside kOutlier, so few rounds settle it; the
-  // count ends the rare case of two sets that lead to each other.
+  // A cut changes the fit by little compared with kOutlier, so few rounds suffice; their
+  // number ends the rare case of two sets that lead to each other.
   for (int round = 0; round < 20; ++round) {
     auto used = within(now.fit.r, kOutlier * now.s);
     if (used == now.used) break;
@@ -457,7 +458,7 @@ class Knowledge {
   Rows X_;
 };
 
-/// How many values there are, those nearer than 1e-6 of the largest counted once.
+/// The number of distinct values; those nearer than 1e-6 of the largest count once.
 int distinct(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   double largest = 0;
@@ -472,7 +473,7 @@ struct Candidate {
   PlaneTest cut;
 };
 
-/// Cuts worth a try beside those of one setup: its extreme ones, varied.
+/// Candidates for a further cut in a setup: variations of its extreme cuts.
 std::vector<Candidate> candidates(const std::vector<PlaneTest>& setup, double Z,
                                   Plane plane) {
   const auto force = [](const PlaneTest& t) { return std::abs(t.F_N); };
@@ -570,7 +571,7 @@ Identifiability identifiability(std::span<const PlaneTest> tests, Plane plane) {
   out.null_directions = null_directions(known, d, Z);
   out.one_force = setups_of_one_force(tests, d);
 
-  // More is asked of the setup that has most cuts already.
+  // Further cuts are proposed for the setup that has most cuts already.
   Eigen::Index most = 0;
   c.mean.weight.head(static_cast<Eigen::Index>(d.names.size())).maxCoeff(&most);
   const auto s = static_cast<std::size_t>(most);

@@ -72,7 +72,7 @@ MatrixXd columns(const Graph& g, int degree, const Places& places) {
   return X;
 }
 
-/// Orthonormal basis of a model and what it leaves of e.
+/// Orthonormal basis of a model, and the residual of e.
 struct Model {
   MatrixXd Q;
   VectorXd r;
@@ -99,8 +99,8 @@ struct Addition {
   double rss;
 };
 
-/// The best one more step: what it takes off RSS is (r.h)^2/|h - Q Q^T h|^2, with sums
-/// from the right that every place extends by one point.
+/// The best further step.  It reduces RSS by (r.h)^2/|h - Q Q^T h|^2, with sums from the
+/// right that every position extends by one point.
 std::optional<Addition> best_addition(const Graph& g, const Model& m,
                                       const Places& others) {
   std::optional<Addition> best;
@@ -120,7 +120,7 @@ std::optional<Addition> best_addition(const Graph& g, const Model& m,
   return best;
 }
 
-/// Moves one step at a time to where it is best, until none moves.
+/// Moves one step at a time to its best position, until none moves.
 void settle(const Graph& g, int degree, Places& places) {
   double rss = model(g, degree, places).rss();
   for (bool moved = true; moved;) {
@@ -131,8 +131,9 @@ void settle(const Graph& g, int degree, Places& places) {
       const auto better = best_addition(g, model(g, degree, others), others);
       if (!better || better->place == places[k]) continue;
       others.push_back(better->place);
-      // Of the model itself: an addition's own sum is a difference, of an exact graph's
-      // rounding alone.  Each move lowers it, over finitely many places.
+      // RSS of the whole model, because the reduction by one step is a difference, which
+      // for an exact graph is nothing but rounding.  Each move lowers RSS, and there are
+      // finitely many positions.
       if (const double now = model(g, degree, others).rss(); now < rss) {
         places[k] = better->place;
         rss = now;
@@ -167,14 +168,14 @@ std::optional<Places> best_places(const Graph& g, int degree, Places fewer) {
   return fewer;
 }
 
-/// How many places a step may stand at.
+/// The number of positions at which a step may stand.
 double places_for_one(const Graph& g) {
   double n = 0;
   for (Index k = 0; k + 1 < g.e.size(); ++k) n += may_stand(g, k, {});
   return n;
 }
 
-/// RSS, of which rounding leaves no less.
+/// RSS, but at least its rounding.
 double squares(const Graph& g, int degree, const Places& places) {
   return std::max(model(g, degree, places).rss(),
                   static_cast<double>(g.e.size()) * g.rounding * g.rounding);
@@ -228,7 +229,7 @@ int best_degree(const Graph& g, int largest, const Places& places) {
   return best;
 }
 
-/// R^2 about the mean; of nothing but rounding, 1.
+/// R^2 about the mean; 1 if e is nothing but rounding.
 double r2(double rss, const VectorXd& e, double rounding) {
   const double total = (e.array() - e.mean()).square().sum();
   return total > static_cast<double>(e.size()) * rounding * rounding ? 1 - rss / total
@@ -259,7 +260,8 @@ DeviationGraph described(const Graph& g, int degree, const Places& places) {
   DeviationGraph out;
   out.degrees_of_freedom = static_cast<long>(X.rows() - X.cols());
   out.s_mm = std::sqrt(r.squaredNorm() / static_cast<double>(out.degrees_of_freedom));
-  // Roots of the covariance: what is only rounding apart leaves no negative variance.
+  // Roots of the covariance never give a negative variance, also in the presence of
+  // rounding.
   const MatrixXd L = out.s_mm * root;
   const MatrixXd T = powers_of_z(g, degree);
   const VectorXd c = T.transpose() * a.head(powers);

@@ -79,7 +79,7 @@ std::vector<double> radius_errors_of_passes(double D_mm, const Flexibility& radi
   for (const double ap : ap_mm) {
     if (!(ap >= 0)) throw std::domain_error("passes: depths must be >= 0 mm");
     law.ap_mm = ap + left_over;
-    // a tool that meets nothing leaves what is there
+    // a tool that does not reach the surface leaves it as it is
     left_over = law.ap_mm > 0 ? equilibrium(D_mm, radial, tangential, law).radius_error_mm
                               : law.ap_mm;
     errors.push_back(left_over);

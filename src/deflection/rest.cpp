@@ -16,7 +16,8 @@ constexpr double kFree = std::numeric_limits<double>::infinity();
 bool turns_freely(const Side& s) { return std::isinf(s.M_rad_Nmm); }
 bool is_nothing(const Side& s) { return std::isinf(s.X_mm_N); }
 
-/// A side seen from a place farther on, also where it is nothing or turns freely.
+/// A side seen from a position farther on, also where the side is missing or turns
+/// freely.
 Side through(const Side& s, double length_mm, const Body& stretch) {
   if (is_nothing(s)) return s;
   if (!turns_freely(s)) return joined(s, length_mm, stretch);
@@ -41,8 +42,8 @@ double share(const Side& s, double c, double R, double m) {
   return ((X + M * d * d) * R + M * d * m) / (c + X + M * d * d);
 }
 
-/// What a force (w) and a couple (p) at the tool give: flexibilities, forces and couples
-/// that the left and the right side take at the tool.
+/// Response to a force (w) and a couple (p) at the tool: flexibilities, and the forces
+/// and couples that the left and the right side carry at the tool.
 struct Joined {
   double f_ww, f_wp, f_pp;
   double V_w, m_w, V_p, m_p;  // left

@@ -13,8 +13,8 @@ struct Extension {
   double outer_mm, inner_mm;
 };
 
-/// From the left end of `segments[first]`, how far the outer surface runs without a step
-/// and above d.
+/// Length over which the outer surface continues from the left end of `segments[first]`
+/// without a step and above d.
 double thick_length(std::span<const part::Segment> segments, std::size_t first,
                     double d) {
   double length = 0;
@@ -93,7 +93,7 @@ std::vector<part::Segment> shoulder_corrected(std::span<const part::Segment> seg
   std::vector<double> cuts = z;
   for (const Extension& e : extensions) cuts.insert(cuts.end(), {e.from_mm, e.to_mm});
   std::sort(cuts.begin(), cuts.end());
-  // z and L - (L - z) differ by rounding: slivers below 1e-12 L are none
+  // z and L - (L - z) differ by rounding: segments below 1e-12 L are left out
   const auto same = [L](double x, double y) { return y - x <= 1e-12 * L; };
   cuts.erase(std::unique(cuts.begin(), cuts.end(), same), cuts.end());
 

@@ -81,8 +81,8 @@ double critical_thrust_N(const part::Shaft& shaft, const Supports& supports) {
   const Beam beam(shaft);
   const std::vector<Place> at = places(shaft, beam);
   const Kernel K = kernel(at, beam, supports);
-  // Power iteration from the slope of a half wave; the modes' loads are a factor of two
-  // and more apart, so 60 steps leave nothing visible.
+  // Power iteration from the slope of a half wave; the critical loads of the modes differ
+  // by a factor of two and more, so 60 steps converge to rounding.
   std::vector<double> slope;
   for (const Place& x : at) slope.push_back(std::cos(3 * x.z / beam.length_mm()));
   double eigenvalue = 0;

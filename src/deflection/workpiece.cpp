@@ -8,7 +8,8 @@
 namespace turnwright::deflection {
 namespace {
 
-/// The part on the side of the tool that is uncut when the feed goes as told.
+/// The side of the tool on which the part is still uncut, for the given direction of
+/// feed.
 part::Shaft side(const part::Shaft& finished, const Workpiece::Options& options,
                  part::FeedTowards uncut_when) {
   part::Shaft body = finished;

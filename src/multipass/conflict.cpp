@@ -51,7 +51,7 @@ bool on_depth_alone(const Row& row) {
   return rest.isZero() && !row.g.a.isZero();
 }
 
-// Of a request one number stands behind a limit of roughing and of finishing.
+// One number of the request gives both the limit of roughing and that of finishing.
 std::string number_of(const Row& row) { return row.name.substr(row.name.find(':') + 1); }
 
 std::vector<Row> without(const std::vector<Row>& rows, const std::string& name) {
@@ -62,14 +62,15 @@ std::vector<Row> without(const std::vector<Row>& rows, const std::string& name) 
 
 Depths depths(const Problem& m, int n) { return {m.dt_mm, n}; }
 
-/// The first pass count from `first` to `last` that the rows leave something to; 0: none.
+/// The first pass count from `first` to `last` for which the rows can be kept; 0: none.
 int possible(const Problem& m, const std::vector<Row>& rows, int first, int last) {
   for (int n = first; n <= last; ++n)
     if (feasible(rows, depths(m, n))) return n;
   return 0;
 }
 
-/// What is left when every row that the others can do without is dropped, first to last.
+/// The rows that remain when, from first to last, every row is dropped without which the
+/// others are still in conflict.
 std::vector<Row> irreducible(const Problem& m, std::vector<Row> kept) {
   for (const Row& row : std::vector<Row>(kept)) {
     auto rest = without(kept, row.name);
@@ -124,7 +125,7 @@ bool feasible(const std::vector<Row>& rows, const Depths& depths) {
 
 std::vector<Relief> conflict(const Problem& m) {
   const std::vector<Row> all = rows(m);
-  // Each order of leaving out ends in an irreducible set; the shorter one says more.
+  // Each order of dropping ends in an irreducible set; the shorter one is reported.
   std::vector<Row> kept = irreducible(m, {all.rbegin(), all.rend()});
   std::reverse(kept.begin(), kept.end());
   if (auto other = irreducible(m, all); other.size() < kept.size())

@@ -6,17 +6,18 @@
 #include "rows.hpp"
 #include "turnwright/optimise/local.hpp"
 
-/// The problem as it stands, ln ds following from ln dr, for NLopt and for prices.
+/// The original problem with ln ds as a function of ln dr, for NLopt and for prices.
 namespace turnwright::multipass {
 
 Pass roughing(const Log& y);
-/// The finishing pass takes what is left, so that the depths add up to dt.
+/// The finishing pass removes the remaining depth, so that the depths add up to dt.
 Pass finishing(const Log& y, const Depths& depths);
 Log logarithms(const Pass& rough, const Pass& finish);
 double ln_cost(const Problem& problem, const Depths& depths, const Log& y);
 
 struct Best {
-  double ln_UC = std::numeric_limits<double>::infinity();  ///< infinity: nothing allowed
+  double ln_UC =
+      std::numeric_limits<double>::infinity();  ///< infinity: no feasible point
   Log y = Log::Zero();
 };
 
@@ -28,7 +29,7 @@ class LocalProblem {
                const Depths& depths);
 
   Best from(const Log& start) const;
-  /// d ln UC over a limit's opening, one for each row.
+  /// d ln UC over the relaxation of a limit, one for each row.
   std::vector<double> multipliers(const Log& y) const;
 
  private:

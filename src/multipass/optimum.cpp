@@ -35,8 +35,8 @@ class Search {
         box, kInfinity, [this](const Box& b, double cut) { return relax(b, cut); },
         {.gap = kSearchGap, .max_nodes = kMostNodes});
   }
-  /// The best point met, then with its depths and with those at the ends as far down as
-  /// the other conditions go.
+  /// The best point found, after its cost has been minimised over the other conditions
+  /// with its own depth and with the depths at both ends of the range.
   Best best(const Interval& ln_dr) {
     Log y = best_.y;
     if (!std::isfinite(best_.ln_UC)) return best_;
@@ -58,7 +58,7 @@ class Search {
     if (!(bound.lower_bound < cut)) return r;
     try_from(y, kSearchGap / 20);
     r.upper = best_.ln_UC;
-    // What the chords give away, by what each is worth in ln UC.
+    // The error of each chord, weighted by its effect on ln UC.
     const double depth = width(box[kLnDr]) > 0
                              ? bound.multipliers[0] * (depths_.finishing(y[kDr]) - y[kDs])
                              : 0;
@@ -71,8 +71,9 @@ class Search {
     return r;
   }
 
-  // Allowed points with the depths of y: the tangent of the mean life at the last one
-  // gives a cost that is nowhere too low, so each is no dearer than the one before.
+  // Feasible points with the depths of y.  The tangent of the mean life at the last point
+  // gives a cost that is nowhere too low, so each point costs at most as much as the one
+  // before.
   void try_from(const Log& y, double gap) {
     Best here;
     double s = programs_.life_ratio(y);

@@ -35,7 +35,7 @@ std::vector<Affine> depth_limits(const Depths& depths, const Interval& ln_dr);
 
 optimise::Monomials monomials(const std::vector<Affine>& rows);
 
-/// The programs of one n, with the limits as bounds where they hold a single variable.
+/// The programs of one n; limits of a single variable are bounds.
 class Relaxation {
  public:
   Relaxation(const Problem& problem, const std::vector<Row>& rows, const Depths& depths);
@@ -46,7 +46,8 @@ class Relaxation {
                                const Line& line) const;
 
   double life_ratio(const Log& y) const { return ratio_.at(y); }  ///< s
-  double tool_share(const Log& y) const;  ///< of the tool in UC, with the true mean life
+  double tool_share(
+      const Log& y) const;  ///< share of the tool in UC by the true mean life
 
  private:
   Depths depths_;

@@ -7,7 +7,8 @@
 namespace turnwright::multipass {
 namespace {
 
-// Share of dt/n that a pass keeps where no limit says so (conflicts leave limits out).
+// Least depth of a pass as a share of dt/n where no limit gives one, because the search
+// for conflicts omits limits.
 constexpr double kLeastShare = 1e-3;
 
 Affine monomial(Variable first, double factor, double V, double f, double d) {

@@ -12,7 +12,7 @@
 /// half space.
 namespace turnwright::multipass {
 
-inline constexpr double kFar = 100;       ///< ln of any condition worth looking at
+inline constexpr double kFar = 100;       ///< bound of ln of every condition
 inline constexpr double kBinding = 1e-7;  ///< margins below it bind
 
 enum Variable { kVr, kFr, kDr, kVs, kFs, kDs, kVariables };
@@ -35,7 +35,7 @@ Affine life(const Problem& problem, Variable first);
 Affine roughing_time(const Problem& problem, int n);
 Affine finishing_time(const Problem& problem);
 
-/// g(Y) <= 0, and what it is in the literature's units: value = limit exp(g), or
+/// A limit g(Y) <= 0, with its value in the literature's units: limit exp(g), or
 /// limit exp(-g) of a lower limit.
 struct Row {
   std::string name;
@@ -55,7 +55,7 @@ struct Depths {
   double slope(double ln_dr) const;
 };
 
-/// Range of ln dr that the rows on depths alone leave; none if they leave nothing.
+/// Range of ln dr that the rows on depths alone allow; none if they allow nothing.
 std::optional<Interval> roughing_depths(const std::vector<Row>& rows,
                                         const Depths& depths);
 

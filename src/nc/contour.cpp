@@ -10,9 +10,9 @@ namespace turnwright::nc {
 namespace {
 
 constexpr double kFar_mm = 1e4;
-constexpr double kTouch_mm = 1e-5;  // more than free_mm goes too far
+constexpr double kTouch_mm = 1e-5;  // larger than the tolerance of free_mm
 
-// An element as it is drawn.
+// An element of the nominal contour.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
   const auto& cut = cut_of(site, s);
   if (cut && cut->kind == part::CutKind::arc) {
@@ -30,7 +30,7 @@ std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) 
   return all;
 }
 
-// Adds pieces, and the step up or down to them.
+// Adds pieces, with the step up or down to them.
 void append(std::vector<Piece>& all, const std::vector<Piece>& more) {
   if (!all.empty() && !more.empty())
     all.push_back({all.back().to, more.front().from, {}});
@@ -93,7 +93,7 @@ std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t 
   std::vector<Piece> all;
   for (std::size_t j = 0; j <= k; ++j) {
     auto more = pieces(site, side, side.items[j]);
-    if (j == k) {  // its beginning alone
+    if (j == k) {  // only its beginning
       more.resize(1);
       more[0] = {more[0].from, more[0].from, {}};
     }
@@ -121,7 +121,8 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   const auto& s = site.outer.items[k];
   const auto own = pieces(site, site.outer, s).back();
   const auto behind = drawn_behind(site, site.outer, k);
-  // What is level behind is turned later from the other end, and its pass goes on to here.
+  // A level surface behind is turned later from the other end, and its pass comes up to
+  // here.
   const auto level = [&](const Piece& piece) {
     return !piece.arc && std::abs(piece.from.h_mm - own.to.h_mm) < kStands_mm &&
            std::abs(piece.to.h_mm - own.to.h_mm) < kStands_mm;

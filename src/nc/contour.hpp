@@ -4,13 +4,13 @@
 
 #include "site.hpp"
 
-/// What is drawn beside a pass.
+/// The nominal contour around a pass.
 namespace turnwright::nc {
 
-/// The finished line of an element with the plan's correction; of what is cut later its
-/// blank.
+/// The finished line of an element with the plan's correction; of a groove, thread or arc
+/// that is cut later the line of its blank.
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s);
-/// The plan's correction of a surface, in the setup that finishes it; empty: none is
+/// The plan's correction of a surface in the setup that finishes it; empty if none is
 /// proposed.
 const planning::Compensation::Table& correction(const Site& site,
                                                 const std::string& surface);
@@ -19,26 +19,26 @@ const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s);
 /// The arc drawn on an element.
 Arc drawn_arc(const Site& site, const Surface& s);
 
-/// What is drawn from the free end to the beginning of element k; outside the axis is the
-/// lowest.
+/// The nominal contour from the free end to the beginning of element k; outside, its
+/// lowest height is that of the axis.
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k);
-/// The last of the elements that follow on each other from element k; between bores from
-/// both ends is a gap.
+/// The last of the adjoining elements from element k on; there may be a gap between bores
+/// from both ends.
 std::size_t end_of_run(const Side& side, std::size_t k);
-/// Whether the hole goes on behind bores that end at a place and a height.
+/// Whether the hole continues behind bores that end at a position and height.
 bool hole_goes_on(const Site& site, const Side& side, double z_mm, double h_mm);
-/// What is drawn behind element k: elements as far as they follow on each other, and what
-/// is left of the hole.
+/// The nominal contour behind element k: the adjoining elements, and the rest of the
+/// hole.
 std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k);
-/// Nothing goes beyond a place.
+/// A wall at a position, which no tool passes.
 Piece wall(double z_mm);
-/// Tells in `site.cannot` if the jaws keep a tip from going as far as the end of element k
-/// needs, and no other setup takes off what is left there.
+/// Reports in `site.cannot` if the jaws prevent a tip from going as far as the end of
+/// element k requires, and no other setup removes the remaining material.
 void tell_jaws(Site& site, std::size_t k, const std::string& operation,
                double needed_z_mm);
 
-/// Whether a tool comes down to the beginning of a way and goes along it, past what is
-/// drawn.
+/// Whether a tool can come down to the beginning of a path and follow it without cutting
+/// the nominal contour.
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
               const Corner& corner);
 

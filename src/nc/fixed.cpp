@@ -58,8 +58,8 @@ Place place_of(Site& site, const std::string& id) {
   throw std::domain_error("nc: no element " + id);
 }
 
-// Whether material before the free end is in the way of what begins at a place; that is
-// told.
+// Whether material towards the free end is in the way of an operation that begins at a
+// position; if so it is reported as not programmable.
 bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
   if (!(site.front > 0 && z > 0)) return false;
   site.cannot.push_back(
@@ -99,7 +99,7 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   double room = INFINITY;
   for (std::size_t j = p.k; j-- > 0;) {
     const auto& e = p.side.items[j];
-    // A chamfer rises to the thread, which is cut into it.
+    // A chamfer may rise to the thread; the thread is then cut into it.
     const bool chamfer = e.h0 < e.h1 && !(p.side.top(e) > s.h0 + kSame_mm);
     if (chamfer || !(p.side.top(e) > root + kSame_mm)) continue;
     room = e.z1 - s.z0 - P / 2;
@@ -128,8 +128,9 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
-// A tool's way along an arc as far as it stays off what is before and behind; none if its
-// corner does not fit or its minor edge does not clear what is before.
+// Path of a tool along an arc as far as it does not cut the surfaces in front of it and
+// behind it; none if its corner does not fit, or its minor edge does not clear the
+// surface in front.
 std::optional<Arc> way_along(const Arc& arc, const std::vector<Piece>& before,
                              const std::vector<Piece>& behind, const Corner& corner) {
   const auto whole = tip_arc(arc, corner.re_mm);
@@ -143,8 +144,8 @@ std::optional<Arc> way_along(const Arc& arc, const std::vector<Piece>& before,
   return Arc{back.at(from), course.at(to), whole->centre, whole->convex};
 }
 
-// Where the way of an arc begins: along an arc that falls, level, or from above, as what is
-// drawn lets it.
+// Start of the path along an arc: along a falling arc, level, or from above, as the drawn
+// surfaces allow.
 std::optional<Point> beginning(const Arc& drawn, const Point& to,
                                const std::vector<Piece>& pieces, const Corner& corner) {
   const auto n = arc_normal(drawn, drawn.from);

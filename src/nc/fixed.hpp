@@ -5,11 +5,11 @@
 
 namespace turnwright::nc {
 
-/// Ways of an operation at fixed conditions; what cannot be programmed goes to
-/// `site.cannot`.
+/// Tool paths of an operation at fixed conditions; the reasons why one cannot be
+/// programmed are appended to `site.cannot`.
 void fixed(Site& site, std::size_t operation);
 
-/// What the operation's tool is for.
+/// The use of the operation's tool.
 catalogue::FixedUse use_of(const Site& site, const planning::OperationPlan& operation);
 
 }  // namespace turnwright::nc

@@ -12,19 +12,20 @@ constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upri
 
 double dot(const Normal& a, const Normal& b) { return a.h * b.h + a.z * b.z; }
 
-// Along the axis from a centre to where a circle has a height, or the other way round.
+// Distance along the axis from a centre to a point of its circle with a given height, or
+// the reverse.
 double half_chord(double radius_mm, double across_mm) {
   return std::sqrt(std::max(0.0, radius_mm * radius_mm - across_mm * across_mm));
 }
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kPoints = 64;  // looked at along an arc
+constexpr int kPoints = 64;  // tested along an arc
 
 double apart(const Point& a, const Point& b) {
   return std::hypot(a.h_mm - b.h_mm, a.z_mm - b.z_mm);
 }
 
-// Angle about a centre from one point to another, the shorter way round.
+// Angle about a centre from one point to another, by the shorter arc.
 double turn(const Point& centre, const Point& a, const Point& b) {
   const auto angle = [&](const Point& p) {
     return std::atan2(p.h_mm - centre.h_mm, p.z_mm - centre.z_mm);
@@ -32,13 +33,14 @@ double turn(const Point& centre, const Point& a, const Point& b) {
   return std::remainder(angle(b) - angle(a), kTurn);
 }
 
-// How far the disc of a corner is from a piece, at least: both lie between their ends.
+// Lower bound of the distance between the disc of a corner and a piece, from the extents
+// of both.
 double between_mm(const Piece& piece, const Point& centre, double r) {
   const auto [low, high] = std::minmax(piece.from.z_mm, piece.to.z_mm);
   return std::max(low - centre.z_mm, centre.z_mm - high) - r;
 }
 
-// Points of pieces by which a minor edge, a straight one, is held against them.
+// Points of the pieces that are tested against a straight minor edge.
 std::vector<Point> held(std::span<const Piece> pieces) {
   std::vector<Point> all;
   for (const auto& piece : pieces) {
@@ -51,7 +53,7 @@ std::vector<Point> held(std::span<const Piece> pieces) {
   return all;
 }
 
-// Of a point below the minor edge.
+// Depth of a point below the minor edge.
 double below_mm(const Point& p, const Point& centre, double r, double rises_rad) {
   const double c = std::cos(rises_rad), s = std::sin(rises_rad);
   const double h = p.h_mm - centre.h_mm, z = p.z_mm - centre.z_mm;
@@ -89,7 +91,7 @@ Crossing across(const Point& a, const Normal& m, const Point& b, const Normal& n
   if (std::abs(step) <= kRounding) return {tip(a, m, n, r), tip(b, m, n, r)};
   const auto &edge = step > 0 ? b : a, &other = step > 0 ? a : b;
   const auto &low = step > 0 ? m : n, &high = step > 0 ? n : m;
-  const double side = step > 0 ? 1 : -1;  // of the higher line, seen from the edge
+  const double side = step > 0 ? 1 : -1;  // side of the higher line, seen from the edge
   const double angle = dot(n, along(m));
   if (angle < -kRounding) {  // an inner corner, if the corner comes down to both lines
     const auto both = tip(moved(a, along(m), above(b, a, n) / angle), m, n, r);

@@ -32,13 +32,14 @@ std::string number(double value, int decimals) {
   return text == "-0" ? "0" : text;
 }
 
-// Cut off, with a breath for numbers that are whole but for their last bits.
+// A number cut off at its last decimal, with an allowance for the rounding of whole
+// numbers.
 std::string at_most(double value, int decimals) {
   const double scale = std::pow(10, decimals);
   return number(std::floor(value * scale * (1 + 1e-12)) / scale, decimals);
 }
 
-// As a control reads it: Fanuc may count what has no point in steps of its own.
+// A number as a control reads it.  Fanuc may count numbers without a point in steps.
 std::string pointed(std::string number, Control control) {
   const bool whole = number.find('.') == number.npos;
   return control == Control::fanuc && whole ? number + '.' : number;

@@ -3,20 +3,20 @@
 
 #include "site.hpp"
 
-/// Ways of the operations whose conditions the plan has chosen.
+/// Tool paths of the operations whose conditions the plan has chosen.
 namespace turnwright::nc {
 
-/// Whether the last pass of an operation goes on into the next one's without leaving the
-/// part: both finish in one pass with one tool, and meet at one height.
+/// Whether the last pass of an operation continues into that of the next one without
+/// leaving the part: both finish in one pass with one tool, and meet at one height.
 bool joined(const Site& site, std::size_t operation);
 
-/// Elements and bores.
+/// Turns an element or bores a bore.
 void turn(Site& site, std::size_t operation);
 
-/// The free end's face.
+/// Faces the free end.
 void face(Site& site, std::size_t operation);
 
-/// A face between two elements.
+/// Faces the shoulder between two elements.
 void face_shoulder(Site& site, std::size_t operation);
 
 /// Corner radius [mm] of an operation's tool.

@@ -26,7 +26,7 @@ struct Later {
 };
 
 // Enclosures of f, the constraints and the combinations over a box with their gradients,
-// and values at the points that serve each of them best; index 0 is f, then g, then the
+// and their values at the best centre c of each; index 0 is f, then g, then the
 // combinations (without their cut).
 class Functions {
  public:
@@ -65,7 +65,7 @@ class Functions {
     return true;
   }
 
-  // How much the functions move along variable j.
+  // The change of the functions along variable j.
   double sweep(std::size_t j) const {
     double s = 0;
     for (std::size_t k = 0; k < over_.size(); ++k) {

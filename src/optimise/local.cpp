@@ -35,14 +35,14 @@ void resize(Values& v, std::size_t n, std::size_t m) {
   v.dg.assign(m * n, 0.0);
 }
 
-// NLopt asks for objective and constraints apart; both come from one evaluation, kept
-// while the point stays.  Its C++ wrapper turns any exception of a callback into
-// "nlopt failure": the original is kept here and rethrown after the solve.
+// NLopt calls objective and constraints separately.  Both come from one evaluation, which
+// is cached for the current point.  NLopt's C++ wrapper turns any exception of a callback
+// into "nlopt failure"; the original is kept here and rethrown after the solve.
 struct Evaluator {
   const Problem* problem;
   Vec y;
   Values values;
-  double shift = 0;  // constraints are asked to stay below -shift
+  double shift = 0;  // constraints must stay below -shift
   int evaluations = 0;
   std::exception_ptr error;
 
@@ -97,7 +97,7 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
-  // CCSAQ solves an inner problem a step: near enough is enough for a foothold.
+  // CCSAQ solves an inner problem in each step; a coarse tolerance is enough for a start.
   solver.set_param("dual_maxeval", 300);
   solver.set_param("inner_maxeval", 10);
   double f = 0;
@@ -149,7 +149,8 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
   };
   Vec y = first;
   bool kept = keep(y, run(nlopt::LD_SLSQP, e, y, options));
-  // SLSQP ends a rounding error outside now and then: ask for that much more.
+  // SLSQP sometimes ends outside by a rounding error; the constraints are tightened by
+  // it.
   for (int tries = 0; !kept && tries < 2 && s.worst < 1e-6; ++tries) {
     e.shift += std::max(0.0, s.worst) + options.feasibility;
     kept = keep(y, run(nlopt::LD_SLSQP, e, y, options));
@@ -157,7 +158,8 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
   if (!kept && options.insist) {
     e.shift = 0;
     y = first;
-    auto brief = options;  // far slower a step, and only to find a foothold
+    auto brief =
+        options;  // its steps are far slower, and only a feasible start is needed
     brief.max_evaluations = std::min(40, options.max_evaluations);
     if (keep(y, run(nlopt::LD_CCSAQ, e, y, brief)))
       keep(y, run(nlopt::LD_SLSQP, e, y, options));
@@ -219,7 +221,7 @@ Fit fit(const Problem& problem, std::span<const double> y, const Values& at,
   std::vector<std::size_t> active;
   for (std::size_t i = 0; i < m; ++i)
     if (at.g[i] > -near) active.push_back(i);
-  // Bounds take part as constraints of their own, so that they carry their share.
+  // Active bounds take part as constraints with multipliers of their own.
   struct Bound {
     std::size_t variable;
     double sign;

@@ -131,9 +131,10 @@ Attempt attempt(const PreparedPart& p, Economy economy) {
   return a;
 }
 
-// Dinkelbach: the profit rate R is best when min C + R t equals the price; each step
-// takes the R of the plan before, which rises until the certificates' gap hides what is
-// left.  A part that earns nothing at least cost is made at least cost.
+// [Dinkelbach 1967]: the profit rate R is greatest when min C + R t equals the price.
+// Each step minimises with the R of the plan before; R rises until a further rise would
+// be hidden by the gap of the certificates.  A part that earns nothing at its least cost
+// is made at that cost.
 Attempt best_attempt(const PreparedPart& p) {
   constexpr double kRises = 1e-6;
   auto best = attempt(p, economy_of(p, 0));

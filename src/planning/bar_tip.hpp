@@ -3,7 +3,7 @@
 
 namespace turnwright::planning {
 
-/// What the tip of a boring bar does: y_w, y_p, y_t of chain.hpp (3), per passive, feed
+/// Compliance of a boring bar's tip: y_w, y_p, y_t of chain.hpp (3), per passive, feed
 /// and cutting force [mm/N].
 struct BarTip {
   double w = 0, p = 0, t = 0;

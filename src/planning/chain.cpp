@@ -18,7 +18,7 @@ struct Slopes {
   Interval law, depth;
 };
 
-// Depth and feed as variables of a box of their own.
+// Depth and feed as the variables of their own box.
 struct DepthAndFeed {
   std::array<Interval, 2> y;
   LogDual<2>::Half half;
@@ -52,8 +52,8 @@ Slopes slopes(const Box& law, const cutting::Cut& cut, const Interval& depth,
   return {law_over(law, F), gain};
 }
 
-// Where little of the depth yields: e = law(full - e) lies in law over the depths that a
-// guess of its range leaves, if that is inside the guess.
+// For a small yielding: if law maps the depths full - e, for all e in a guessed range,
+// into that range, the root e = law(full - e) lies in the image.
 std::optional<Yielding> little_yielding(const Box& law, const cutting::Cut& cut,
                                         const Interval& full, const Interval& f) {
   const auto size = [](const Interval& x) {
@@ -69,7 +69,7 @@ std::optional<Yielding> little_yielding(const Box& law, const cutting::Cut& cut,
   return Yielding{s.law, full - s.law, s.depth};
 }
 
-// True if d + law(d) misses full over all of [low, high], looked at in parts.
+// Whether d + law(d) differs from full over all of [low, high], shown part by part.
 bool no_root(const Box& law, const cutting::Cut& cut, const Interval& full,
              const Interval& f, double low, double high) {
   constexpr double kPart = 1.4, kRest = 0.1;  // of the upper end
@@ -82,9 +82,9 @@ bool no_root(const Box& law, const cutting::Cut& cut, const Interval& full,
   return true;
 }
 
-// A range of depth that holds every root of d + law(d) = full that yielding_mm can find:
-// about the roots at the ends of the intervals, proved by what lies beyond.  Empty if
-// that fails.
+// A range of depth that contains every root of d + law(d) = full that yielding_mm can
+// find. It lies around the roots at the ends of the intervals and is proved by the
+// absence of roots beyond it; empty if that proof fails.
 Interval bracket(const Box& law, const cutting::Cut& cut, const Interval& full,
                  const Interval& f) {
   const auto root = [&](const Point& c, double whole, double feed) {
@@ -104,7 +104,7 @@ Interval bracket(const Box& law, const cutting::Cut& cut, const Interval& full,
 
 }  // namespace
 
-// Solved for the depth that is left: that does not mind how wide `full` is.
+// Solved for the depth that is really cut, which works for any width of `full`.
 Yielding yielding_range(const Box& law, const cutting::Cut& cut, const Interval& full,
                         const Interval& f) {
   constexpr int kSteps = 4;
@@ -135,7 +135,7 @@ Dual<double, 1> along_depth(const Point& law, const cutting::Cut& cut, double de
 }
 
 constexpr double kDigits = 0x1p-29;  // of the last step; the root has twice as many
-constexpr double kWithoutEnd = 100;  // depths: no tolerance allows that
+constexpr double kWithoutEnd = 100;  // in depths; no tolerance allows so much
 }  // namespace
 
 double loop_gain(const Point& law, const cutting::Cut& cut, double depth, double f) {
@@ -145,7 +145,7 @@ double loop_gain(const Point& law, const cutting::Cut& cut, double depth, double
 double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double f,
                    double e_before) {
   const double full = ap + e_before;
-  if (!(full > 0)) return full;  // a tool that meets nothing leaves what is there
+  if (!(full > 0)) return full;  // a tool that does not reach the surface changes nothing
   const auto G = [&](double e) {
     const auto l = along_depth(law, cut, std::max(full - e, 1e-9 * full), f);
     return std::pair{e - l.v, 1 + l.d[0]};
@@ -155,7 +155,7 @@ double yielding_mm(const Point& law, const cutting::Cut& cut, double ap, double 
   if (first == 0) return 0;
   const double lower = 2 * std::min(0.0, first), upper = first > 0 ? full : 0;
   const double start = std::min(first / std::max(1.0, slope), full);
-  // Where the law has terms of both signs, G need not rise between its ends.
+  // If the law has terms of both signs, G need not be monotone between its ends.
   if (first < 0 && G(lower).first > 0) return -kWithoutEnd * full;
   return bracketed_root(G, lower, upper, start, kDigits);
 }

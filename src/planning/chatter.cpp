@@ -9,10 +9,10 @@ namespace turnwright::planning {
 namespace {
 
 constexpr int kPlaces = 33;
-constexpr double kNearWorst = 0.9;  // of the largest: may be it at another depth
+constexpr double kNearWorst = 0.9;  // of the largest: may be the largest at another depth
 constexpr int kParts = 4;           // of the ranges of depth and feed
 
-// What divides a static compliance to give that of regeneration, at any speed.
+// Divisor of a static compliance that gives the compliance of regeneration at any speed.
 double damped(const PreparedPart& p, double zeta) {
   return 2 * zeta * (1 + zeta) * p.chatter_times;
 }
@@ -44,7 +44,7 @@ double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
   return most;
 }
 
-// Whether p is nowhere below q.
+// Whether p >= q everywhere.
 bool covers(const Polynomial& p, const Polynomial& q) {
   double least = 0;
   for (std::size_t k = 0; k < std::max(p.c.size(), q.c.size()); ++k) {
@@ -54,7 +54,7 @@ bool covers(const Polynomial& p, const Polynomial& q) {
   return least >= 0;
 }
 
-// Adds a place unless another is nowhere below it, in place of those it is nowhere below.
+// Adds a position unless an existing one dominates it; removes those that it dominates.
 void add_place(double at_mm, Polynomial c, OperationModel& o) {
   auto& all = o.chatter_mm_N;
   if (std::any_of(all.begin(), all.end(), [&](auto& k) { return covers(k, c); })) return;
@@ -69,7 +69,7 @@ void add_place(double at_mm, Polynomial c, OperationModel& o) {
 
 }  // namespace
 
-// Of the error per passive force at places of a pass, over 2 zeta (1 + zeta).
+// Error per passive force, divided by 2 zeta (1 + zeta), at positions of a pass.
 std::vector<double> Feature::chatter_yields(const OperationModel& o, double left_mm,
                                             double uncut_mm,
                                             const std::vector<double>& places) const {
@@ -140,8 +140,8 @@ void Feature::limit_chatter_alike(const Chain& other, double a_mm, Chain& chain)
   }
 }
 
-// Material never makes a body yield more, so the finished one bounds every pass, and of
-// the passes of an operation the last one is the worst.
+// More material never makes a body yield more, so the finished body bounds every pass,
+// and the last pass of an operation is the worst.
 void Feature::limit_chatter(Chain& chain, std::optional<double> a_mm) const {
   const catalogue::Range a{a_mm.value_or(chain.a.lower), a_mm.value_or(chain.a.upper)};
   const double centre = (a.lower + a.upper) / 2, half = (a.upper - a.lower) / 2;

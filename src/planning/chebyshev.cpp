@@ -18,7 +18,8 @@ double angle(std::size_t k, std::size_t n) {
 }
 
 // Terms of the Chebyshev series of the polynomials through values at n points, without
-// those that are rounding: the monomials of high degrees would show it a thousandfold.
+// those that are only rounding, which monomials of high degree would magnify a
+// thousandfold.
 MatrixXd series(const std::function<Eigen::VectorXd(double u)>& values, std::size_t n) {
   const auto rows = static_cast<Index>(n);
   MatrixXd c;

@@ -26,7 +26,8 @@ std::string where(const PreparedPart& p, const Attempt& a, const std::string& su
   return fmt::format("setup {}, {}, {}", setup, clampings, surface);
 }
 
-// Of a limit: its own surface, or the first that is in trouble and has to keep it.
+// The place of a limit: its own surface, or the first surface in conflict to which it
+// applies.
 std::string surface_of(const PreparedPart& p, const RelaxableLimit& l,
                        const std::set<std::string>& troubled) {
   if (!l.surface.empty()) return l.surface;
@@ -47,9 +48,9 @@ std::string joined_names(const PreparedPart& p, const Feasibility& oracle,
   return out;
 }
 
-// What one member of a set would need.
+// The relaxation that one member of a set needs.
 struct Need {
-  std::optional<double> factor;  // for all else to be kept
+  std::optional<double> factor;  // for all other limits to be kept
   double in_set = 0;             // for the rest of its set to be kept
 };
 
@@ -75,7 +76,7 @@ class Explanation {
   }
 
  private:
-  // What the search broke least, where no set of limits conflicts by itself.
+  // The limits that the search violates least, if no set of limits conflicts by itself.
   void tell_nearest(ProcessPlan& result) const {
     for (const auto& s : a_.setups)
       for (const auto& f : s.chosen.features)
@@ -84,7 +85,7 @@ class Explanation {
               {"", where(p_, a_, f.task.feature.surface()), 0, 0, "", obstacle(p_, f)});
   }
 
-  // With the members of the other sets left out.
+  // Without the members of the other sets.
   std::vector<Need> needs(std::size_t k) {
     std::vector<Need> all;
     for (const std::size_t i : sets_[k]) {
@@ -106,7 +107,8 @@ class Explanation {
     return all;
   }
 
-  // Relaxed together, one of each set; if that is not enough, all by the same factor more.
+  // One of each set is relaxed, all together; if that is not enough, all by one more
+  // factor.
   void make_joint() {
     if (sets_.size() < 2) return;
     std::vector<std::size_t> chosen(sets_.size(), 0);

@@ -3,9 +3,14 @@
 
 #include "feature.hpp"
 
-/// The places where tolerances are asked, grown until they stand for the whole surface.
+/// A tolerance is a semi-infinite constraint: one inequality for every position on the
+/// surface.
 namespace turnwright::planning {
 
+/// The exchange (cutting-point) method for such constraints: the positions at which the
+/// tolerances are imposed so far.  The most violated positions are added until none is
+/// violated.
+/// Source: [Blankenship 1976], the method; the choice of positions derived here.
 class Exchange {
  public:
   Exchange(const Feature& feature, std::vector<Demand> demands);
@@ -13,18 +18,19 @@ class Exchange {
   const std::vector<double>& stations() const { return stations_; }
   const std::vector<Functional>& functionals() const { return functionals_; }
 
-  /// Asks every demand at its first places: the ends, the middle.
+  /// Imposes every tolerance at its first positions: the ends and the middle.
   void add_all();
 
-  /// Adds the worst places of every demand that an error breaks by more than the
-  /// optimiser leaves (5e-10 of its limit), and its first places with them; false if none
-  /// does.  A demand that no error breaks is asked nowhere and costs nothing.
+  /// Adds the most violated positions of every tolerance that the deflection under these
+  /// conditions violates by more than the optimiser's own tolerance (5e-10 of the limit),
+  /// together with the tolerance's first positions; returns false if none is violated.  A
+  /// tolerance that is never violated is imposed nowhere and costs nothing.
   bool add_violated(const Recipe& recipe, const Economy& economy,
                     const Choice<double>& choice);
 
  private:
   std::size_t station(double at_mm);
-  using Terms = std::vector<std::pair<double, double>>;  // place, weight
+  using Terms = std::vector<std::pair<double, double>>;  // position, weight
   void add(const Terms& terms, double limit, const Demand& d);
   void add_first(std::size_t demand);
 

@@ -98,7 +98,7 @@ class Feature {
   /// (3) of chain.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
   /// damping ratio of part and machine, zeta_b that of a boring bar.  Static compliances:
   /// whatever the frequencies, 2 zeta (1 + zeta) of the sum of modes' is at most the
-  /// limit of the modes together, at any spindle speed (docs/planning.md).
+  /// limit of the modes together, at any spindle speed (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
 
   /// The largest of the operations' chatter stiffness over its limit.

@@ -4,10 +4,10 @@
 #include "milled_search.hpp"
 #include "turnwright/cutting/spindle.hpp"
 
-/// One choice for a milled place: a way with so many passes, its limits and its cost.
+/// One choice for a milled place: a way and a number of passes, with its limits and cost.
 namespace turnwright::planning {
 
-/// A place in the setup that is to make it.
+/// A milled place in the setup that makes it.
 struct MilledSite {
   const PreparedPart& p;
   const MilledPlace& m;
@@ -17,7 +17,8 @@ struct MilledSite {
   double part_mm_N = 0;  ///< the part's compliance across the feed
 };
 
-/// With letters of cutting/milled.hpp and of milled_search.hpp, r passes of ap = depth/r:
+/// Limits and cost, in the symbols of cutting/milled.hpp and milled_search.hpp, for r
+/// passes of ap = depth/r:
 ///
 ///     t = r layer + plunge depth/kPlungeFeed, over fz z n                          (1)
 ///     fz <= hex/(hex/fz), feed_max/(z n), and by power, torque, strength and grip
@@ -25,10 +26,10 @@ struct MilledSite {
 ///     F <= F_max:  fz^(1-mc) <= F_max/(kc1.1 ap S)                                 (3)
 ///     W = ap (1 + margin) (1 + rho) kc1.1 (hm/fz)^-mc fz^-mc                       (4)
 ///
-/// sum' ae is the largest of ae (hm/fz)^-mc; rho the part's compliance across the feed
-/// at the place over the tool point's, which is taken to share its frequencies, at
-/// most 1. Grip: cutting/spindle.hpp with the whole of sqrt(1 + (Kn/Kt)^2) F along the
-/// part and around it, the spindle at rest.
+/// sum' ae is the largest of ae (hm/fz)^-mc.  rho, at most 1, is the ratio of the part's
+/// compliance across the feed at the place to that of the tool point, whose frequencies
+/// the part is assumed to have.  The grip is that of cutting/spindle.hpp with the spindle
+/// at rest, under sqrt(1 + (Kn/Kt)^2) F both along the part and around it.
 struct MilledChoice {
   const MilledWay* way;
   const catalogue::MillingCutter* cutter;
@@ -45,22 +46,22 @@ struct MilledChoice {
 };
 MilledChoice milled_choice(const MilledSite& site, const MilledWay& way, int passes);
 
-/// Largest compliance across the feed of the part as the setup leaves it, of three
-/// places.
+/// Largest compliance across the feed of the part after the setup, at three positions of
+/// the milled place.
 double part_mm_N(const PreparedPart& plan, const Milled& place, std::size_t setup,
                  Clamping clamping);
-/// Of a tool point, across the feed.
+/// Compliance of a tool point across the feed.
 double tip_mm_N(const std::vector<catalogue::TipMode>& modes);
 
-/// Speeds that cutter and driven spindle have in common; none if lower > upper.
+/// Speeds allowed by cutter and driven spindle; none if lower > upper.
 catalogue::Range speeds_rpm(const PreparedPart& plan,
                             const catalogue::MillingCutter& cutter);
 
-/// (1) to (4) in one range of the spindle.
+/// The optimisation problem (1) to (4) in one range of the spindle.
 MilledCase milled_case(const MilledSite& site, const MilledChoice& choice,
                        const cutting::SpeedRange& range);
 
-/// The choice at a speed and feed, its limits evaluated anew.
+/// The choice at a speed and feed, with its limits evaluated again.
 FixedOperation milled_operation(const MilledSite& site, const MilledChoice& choice,
                                 const MilledCase& c, double n_rpm, double fz_mm);
 

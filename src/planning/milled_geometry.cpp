@@ -12,7 +12,7 @@ Engagement engagement(double ae_mm, double dc_mm) {
   return {ae_mm, immersion, cutting::milled_chip(immersion)};
 }
 
-// Largest radius of the part between two places once a setup is done.
+// Largest radius of the part between two positions once a setup is done.
 double highest_mm(const PreparedPart& p, std::size_t setup, double z0, double z1) {
   const auto done = finished_after(p, setup);
   const double L = part::length_mm(p.drawing);

@@ -38,7 +38,8 @@ chatter::System system_of(const std::vector<catalogue::TipMode>& modes, int teet
   return s;
 }
 
-// Of unit force where the widest cut is; others have thinner chips and so more.
+// System with unit force for the widest cut; other cuts have thinner chips and so more
+// force.
 struct Forces {
   const PreparedPart& p;
   const catalogue::MillingCutter& cutter;
@@ -80,7 +81,7 @@ MilledWay way_of(const PreparedPart& p, const Milled& m, std::size_t index, int 
   return way;
 }
 
-// A cutter's ways with so many lanes, one for each stretch of feeds.
+// The ways of a cutter with a number of lanes, one for each range of feeds.
 void add_ways(const PreparedPart& p, const Milled& m, std::size_t index, int lanes,
               std::vector<MilledWay>& ways) {
   const auto& cutter = m.cutters[index];

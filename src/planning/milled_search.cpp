@@ -51,7 +51,7 @@ double least_feed_mm(const MilledCase& c, double stable) {
   return std::pow(c.load / stable, 1 / c.mc);
 }
 
-// What the losses known leave of a case's speeds.
+// The speeds of a case that the known losses have not ruled out.
 std::vector<Span> left_by(const MilledCase& c, const std::vector<Lost>& losses) {
   const auto whole = feedable(c, c.fz_min_mm);
   if (!whole) return {};
@@ -70,7 +70,7 @@ std::vector<Span> left_by(const MilledCase& c, const std::vector<Lost>& losses) 
             [](const Span& a, const Span& b) { return a.lo < b.lo; });
   std::vector<Span> left;
   double from = whole->lo;
-  bool cut = false;  // what is left begins where something was ruled out, itself too
+  bool cut = false;  // whether the rest begins at a speed that is itself ruled out
   const auto keep = [&](double to) {
     if (to > from * (1 + kRounding)) left.push_back({from, to});
   };
@@ -87,7 +87,7 @@ std::vector<Span> left_by(const MilledCase& c, const std::vector<Lost>& losses) 
   return left;
 }
 
-// Where a convex cost is least over the range of ln n: by golden sections.
+// The minimum of a convex cost over the range of ln n, by golden sections.
 double cheapest_speed(const MilledCase& c, const Span& s) {
   constexpr double kGolden = 0.6180339887498949;
   double a = std::log(s.lo), b = std::log(s.hi);
@@ -101,7 +101,7 @@ double cheapest_speed(const MilledCase& c, const Span& s) {
   return std::clamp(std::exp((a + b) / 2), s.lo, s.hi);
 }
 
-// The optimum of the relaxation, and a point of its interval off the excluded ends.
+// The optimum of the relaxation, and a point of its interval away from excluded ends.
 struct Try {
   double bound = kInfinity, n_rpm = 0;
 };
@@ -120,7 +120,8 @@ Try next_try(const MilledCase& c, const std::vector<Lost>& losses) {
   return best;
 }
 
-// Speeds about one: its margin's ends, and those between of a lattice for all speeds.
+// Speeds around one: the ends of its margin, and between them those of a lattice that is
+// the same for all speeds.
 std::vector<double> speeds_about(double n_rpm, double margin, double parts) {
   const double step = std::log1p(margin / parts);
   const double lo = n_rpm * (1 - margin), hi = n_rpm * (1 + margin);
@@ -134,8 +135,8 @@ std::vector<double> speeds_about(double n_rpm, double margin, double parts) {
   return u;
 }
 
-// The losses at some speeds within the margin of another that break (2) there, each
-// brought to within kBracket of where it begins to.
+// The losses within the margin of a speed that violate (2) there, each located to within
+// kBracket of the speed at which it begins.
 std::vector<Lost> losses_at(const MilledCase& c, const chatter::Lobes& lobes,
                             double n_rpm, const std::vector<double>& u) {
   const double W = load_N_mm(c, feed_mm(c, n_rpm));
@@ -161,7 +162,7 @@ std::vector<Lost> losses_at(const MilledCase& c, const chatter::Lobes& lobes,
   return all;
 }
 
-// Those of some lobes that stand against a speed: at the margin's ends, then between.
+// The losses of some lobes that exclude a speed: at the ends of its margin, then between.
 std::vector<Lost> losses_about(const MilledCase& c, const chatter::Lobes* lobes,
                                double n) {
   if (!lobes) return {};
@@ -209,7 +210,7 @@ double stable_around_N_mm(const MilledCase& c, double n_rpm, double enough) {
 
 MilledOptimum cheapest(const std::vector<MilledCase>& cases) {
   Losses losses;
-  // Bounds by the losses known when they were found: least first, then by index.
+  // Lower bounds by the losses known at the time: least first, then by index.
   using Open = std::tuple<double, std::size_t>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -228,7 +229,7 @@ MilledOptimum cheapest(const std::vector<MilledCase>& cases) {
     const auto& c = cases[i];
     auto& known = losses[c.lobes];
     const auto now = next_try(c, known);
-    if (now.bound > bound) {  // what others found has raised it
+    if (now.bound > bound) {  // losses found meanwhile have raised it
       if (now.bound < kInfinity) open.emplace(now.bound, i);
       continue;
     }
@@ -240,7 +241,7 @@ MilledOptimum cheapest(const std::vector<MilledCase>& cases) {
       open.emplace(bound, i);
       continue;
     }
-    // The case's optimum, but for the width of kInside.
+    // The optimum of the case, up to the width of kInside.
     best.lower_bound = std::min(best.lower_bound, bound);
     const double at = cost(c, now.n_rpm);
     if (!(at < best.cost)) continue;

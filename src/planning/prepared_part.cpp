@@ -10,7 +10,7 @@
 namespace turnwright::planning {
 namespace {
 
-// What the largest drill that fits leaves to each bore (setup_geometry.hpp).
+// The hole of the largest drill that fits, for each bore (setup_geometry.hpp).
 std::vector<double> drilled(const PlanRequest& r) {
   const double left = drilled_mm(r, part::End::left);
   const double right = drilled_mm(r, part::End::right);
@@ -29,7 +29,7 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
   return all;
 }
 
-// All but what is slow to find.
+// Everything except the parts that take long to compute.
 PreparedPart assigned(PlanRequest request) {
   PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
   choose_grips(p);

@@ -11,7 +11,7 @@ namespace {
 using optimise::Bound;
 using optimise::Box;
 
-// g over any scalar that has a logarithm; see violation().
+// g for any scalar type with a logarithm; see violation().
 template <class T>
 T g_of(Check check, const T& value, const T& limit) {
   using std::log;
@@ -23,16 +23,16 @@ Bound g_of(Check, const LogDual<optimise::kBoxVariables>& value,
   return log(value / limit);
 }
 
-// A region may be one point - a stock that two deepest cuts just take off - and is met
-// there only to rounding.
+// The feasible region may be a single point, such as a stock that two cuts of the largest
+// depth just remove; it is then reached only up to rounding.
 constexpr double kRounding = 1e-10;
 
 struct Span {
   double lower, upper;
 };
 Span logs(const catalogue::Range& r) {
-  // A hair beyond a range that is also a check, so that the check, which has a name, is
-  // what binds.
+  // Bounds lie slightly beyond ranges that are also checks, so that the check binds,
+  // which has a name.
   const double slack = r.lower < r.upper ? 0.01 : 0.0;
   return {std::log(r.lower) - slack, std::log(r.upper) + slack};
 }

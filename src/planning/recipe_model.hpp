@@ -7,13 +7,13 @@
 #include "turnwright/optimise/branch_and_bound.hpp"
 #include "turnwright/optimise/local.hpp"
 
-/// A recipe as a problem of optimise/: the one place where physics becomes f, g and
-/// boxes.
+/// A recipe as an optimisation problem: the one place where physics becomes the objective
+/// f, the constraints g and the boxes of optimise/.
 namespace turnwright::planning {
 
-/// What a constraint of the problem stands for.
+/// Meaning of a constraint of the problem.
 struct Row {
-  std::size_t operation = 0;  ///< or the functional, for Check::tolerance
+  std::size_t operation = 0;  ///< for Check::tolerance the linear constraint
   Check check = Check::force;
   bool speed = false;
 };
@@ -24,8 +24,8 @@ struct RowValue {
   double value = 0, limit = 0;
 };
 
-/// g of a row: ln(value/limit), and value/limit - 1 for tolerances and chatter, whose
-/// values have either sign; the two agree to first order where they bind.
+/// g of a row: ln(value/limit), but value/limit - 1 for tolerances and chatter, whose
+/// values may have either sign.  The two agree to first order where the row binds.
 double violation(const RowValue& r);
 
 /// Variables of the full problem: ln v, ln f of both operations, ln a.
@@ -34,30 +34,32 @@ inline constexpr int kConditions = 5;
 class RecipeModel {
  public:
   RecipeModel(Recipe recipe, Chain chain);
-  RecipeModel(const RecipeModel&) = delete;  // the problem's functions point here
+  RecipeModel(const RecipeModel&) =
+      delete;  // the problem's functions point to this object
   RecipeModel& operator=(const RecipeModel&) = delete;
 
   const Recipe& recipe() const { return recipe_; }
   const Chain& chain() const { return chain_; }
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// The full problem: speeds, feeds and the finishing depth, every check.
+  /// The full problem: speeds, feeds and the finishing depth, with every check.
   const optimise::Problem& problem() const { return problem_; }
-  /// The same with the speeds at their best, over (ln f, ln f, ln a).
+  /// The reduced problem, with the best speeds, over (ln f, ln f, ln a).
   optimise::Piece piece() const;
-  /// With the Lagrangian (weight 1) or refutation (weight 0) that multipliers of the full
-  /// problem make.
+  /// The reduced problem with the Lagrangian (weight 1) or the refutation (weight 0) by
+  /// multipliers of the full problem.
   optimise::Piece piece(double weight, const std::vector<double>& multipliers) const;
 
-  /// Conditions at a point of the full problem, and back.
+  /// Conversion between a point of the full problem and conditions.
   Choice<double> choice(const std::vector<double>& y) const;
   std::vector<double> point(const Choice<double>& c) const;
-  /// Start with feeds and depth at the given shares of their log ranges, best speeds.
+  /// Starting point with feeds and depth at the given fractions of their logarithmic
+  /// ranges, and the best speeds.
   std::vector<double> start(double feed_share, double depth_share) const;
 
   std::vector<RowValue> values(const Choice<double>& c) const;
   double objective(const Choice<double>& c) const;
-  /// ln(objective) with best speeds if every check is kept, else +infinity.
+  /// ln(objective) with the best speeds if every check is kept, otherwise +infinity.
   double feasible_value(Choice<double>& c) const;
 
  private:

@@ -28,7 +28,7 @@ struct Counts {
   int low = 1, high = 0;
 };
 
-// Those whose depths, equal or up to the tool's least and largest, sum up to `stock`.
+// The numbers of passes whose depths, within the tool's range, can add up to `stock`.
 Counts counts(const std::optional<int>& given, double least_stock, double most_stock,
               const Tool& t) {
   if (given) return {*given, *given};
@@ -37,7 +37,8 @@ Counts counts(const std::optional<int>& given, double least_stock, double most_s
   return {std::max(1, low), high};
 }
 
-// The one pass over what is left by the least depth of a shoulder or thinner than that.
+// The single pass over stock that is as thin as the least depth of a shoulder, or
+// thinner.
 Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t) {
   auto c = counts(given, stock, stock, t);
   c.high = std::max(c.low, c.high);

@@ -4,13 +4,13 @@
 
 #include "feature.hpp"
 
-/// In how many passes, with which speed ranges and which tools a surface may be made.
+/// The discrete choices of a surface: numbers of passes, speed ranges and tools.
 namespace turnwright::planning {
 
-/// What the request says about one surface: which operations, which tools.
+/// The part of the request about one surface: its operations and tools.
 struct Wanted {
-  bool rough = true, finish = true;  ///< allowed
-  bool given = false;                ///< by `operations`
+  bool rough = true, finish = true;  ///< whether these operations are allowed
+  bool given = false;                ///< whether `operations` gives them
   const catalogue::Tool *rough_tool = nullptr, *finish_tool = nullptr;
   Fixed fixed;
   std::vector<std::string> ids;  ///< of the given operations, rough first
@@ -24,9 +24,9 @@ std::vector<const catalogue::Tool*> tools_for(const PreparedPart& plan,
 /// Finishing passes that `auto` may take on an element or a bore.
 inline constexpr int kFinishingPasses = 2;
 
-/// Every number of passes that the depths of the tools allow, or as given, with every
-/// speed range; on elements and bores at most kFinishingPasses finishing passes unless
-/// given.
+/// Every number of passes that the depths of the tools allow, or the given number, with
+/// every speed range; on elements and bores at most kFinishingPasses finishing passes
+/// unless their number is given.
 std::vector<Recipe> recipes(const PreparedPart& plan, const Feature& feature,
                             const Wanted& wanted, const catalogue::Tool* rough,
                             const catalogue::Tool* finish);

@@ -171,7 +171,7 @@ double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
 // All but the cut needs more than there is.
 void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.verdict = Verdict::not_met;
-  r.seed_verdict = false;
+  r.published_verdict = false;
   r.predicted_mm = {taken_mm};
   r.allowed_mm = {width_mm(t)};
   r.margin_mm = width_mm(t) - taken_mm;
@@ -183,7 +183,7 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
   const auto c = judged(t, at, all.mm, half_angle);
   const auto cut = verdict(c, profile(at), profile(other));
   const auto made = verdict(c, as_made(at), as_made(other));
-  r.seed_verdict = cut.seed_verdict;
+  r.published_verdict = cut.published_verdict;
   r.margin_mm = made.margin_mm;
   const double rounding = kOver * width_mm(t);
   r.verdict = made.margin_mm < -rounding  ? Verdict::not_met
@@ -210,7 +210,7 @@ void not_made(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   const double off = at.inner ? d.stock.inner_mm - std::max(at.left_mm, at.right_mm)
                               : d.stock.outer_mm - std::min(at.left_mm, at.right_mm);
   r.verdict = Verdict::not_met;
-  r.seed_verdict = false;
+  r.published_verdict = false;
   r.P_conform = 0;
   r.margin_mm = -std::abs(off);
   r.predicted_mm = {std::abs(off)};

@@ -9,7 +9,8 @@
 namespace turnwright::planning {
 namespace {
 
-// What stands in the way of a tailstock, a centre or a steady rest, or nothing.
+// The surface in the way of a tailstock, a centre or a steady rest; empty if there is
+// none.
 std::string in_the_way(const PreparedPart& p, std::size_t setup, Clamping c,
                        const SetupWork& work) {
   const auto& d = p.drawing;
@@ -32,10 +33,10 @@ std::string in_the_way(const PreparedPart& p, std::size_t setup, Clamping c,
   return {};
 }
 
-// Beyond it the bound of thrust.hpp, (3), says too much.
+// Beyond it the bound (3) of thrust.hpp is too pessimistic.
 constexpr double kOfBuckling = 0.5;
 
-// The tailstock's thrust against what the part bears once the setup is done.
+// The tailstock's thrust compared with the buckling load of the part after the setup.
 std::string buckles(const PreparedPart& p, std::size_t setup, Clamping c,
                     const SetupWork& work, Finished done) {
   if (!has_tailstock(c) || !(p.machine.tail_thrust_N > 0)) return {};

@@ -5,8 +5,8 @@
 
 namespace turnwright::planning {
 
-/// Plans every changed request and says what it saves against `result`, which has their
-/// first-order answers already.
+/// Plans every changed request and stores what it saves against `result`, which already
+/// has the first-order estimates.
 void answer(const PreparedPart& plan, const std::vector<WhatIf>& what_if,
             ProcessPlan& result);
 

@@ -7,12 +7,13 @@ struct evp_md_ctx_st;  // OpenSSL's EVP_MD_CTX
 
 namespace turnwright::service {
 
-/// SHA-256 of bytes that come piece by piece.  Source: FIPS 180-4.
+/// SHA-256 of bytes that are added piece by piece.  Source: FIPS 180-4.
 class Sha256 {
  public:
   Sha256();
   void update(std::string_view bytes);
-  /// Of all bytes so far, as 64 lower-case hexadecimal digits; ends the digest.
+  /// The digest of all bytes as 64 lower-case hexadecimal digits; nothing may be added
+  /// then.
   std::string hex();
 
  private:

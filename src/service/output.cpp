@@ -34,7 +34,7 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-// No two writers may share it, wherever they run; it is never part of a result.
+// Different for any two writers on any machine; never part of a result.
 fs::path unfinished_name(const fs::path& folder, const fs::path& target) {
   std::random_device random;
   std::array<char, 17> suffix{};
@@ -42,7 +42,7 @@ fs::path unfinished_name(const fs::path& folder, const fs::path& target) {
   return folder / ('.' + target.filename().string() + '.' + suffix.data());
 }
 
-// The name of a new file is on the disk when its folder is.
+// A new file's name is on the disk once its folder has been flushed.
 bool flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -51,7 +51,7 @@ bool flush_folder(const fs::path& folder) {
   return good;
 }
 
-// What a link leads to.
+// The target of a link.
 fs::path resolved(const fs::path& file) {
   std::error_code unresolved;
   const auto target = fs::weakly_canonical(file, unresolved);

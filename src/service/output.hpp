@@ -14,16 +14,16 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that appears whole or not at all: written under a name of its own, renamed when
-/// it is complete.  Several processes, on several machines, may make the same file at
-/// once; the last one stands.  Links are followed.
+/// A file that appears whole or not at all: it is written under a temporary name and
+/// renamed when it is complete.  Several processes, on several machines, may write the
+/// same file at once; the last one wins.  Links are followed.
 class NewFile {
  public:
-  /// @param scratch  folder on the file's file system for what is not complete; "": the
-  ///   file's own.
+  /// @param scratch  folder for the incomplete file, on the same file system; "": the
+  ///   folder of the file.
   /// @throws OutputError here and below.
   explicit NewFile(std::filesystem::path file, const std::filesystem::path& scratch = {});
-  ~NewFile();  ///< leaves nothing of a file that was not published
+  ~NewFile();  ///< removes a file that was not published
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
@@ -39,28 +39,29 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// Puts `text` into the file whole or not at all.  What is no regular file (/dev/stdout,
-/// a pipe) is written straight.
+/// Writes `text` to the file, whole or not at all.  A device or pipe (/dev/stdout) is
+/// written directly.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
 struct NamedText {
   std::string name, text;
 };
 
-/// Makes the folder hold `files`, and of the names that `ours` knows no others: what an
-/// earlier run left goes.  Everything new is on the disk before the first old file goes,
-/// and every old one is gone before the first new one gets its name: whenever it is cut
-/// short, the folder never shows files of two runs.  Links are followed.
-/// @return the names that are gone, sorted.
+/// Writes `files` into the folder and removes all other files whose names `ours` accepts,
+/// which are those of an earlier run.  Everything new is on the disk before the first old
+/// file is removed, and every old file is removed before the first new one gets its name.
+/// So the folder never shows files of two runs, even after an interruption.  Links are
+/// followed.
+/// @return the names of removed files without a successor, sorted.
 /// @throws OutputError
 std::vector<std::string> replace_files(const std::filesystem::path& folder,
                                        const std::vector<NamedText>& files,
                                        const std::function<bool(std::string_view)>& ours);
 
-/// Makes the folder if it is missing, and those above it.
+/// Makes the folder and its parents if they are missing.
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes to standard output and makes sure that it arrived.
+/// Writes to standard output and checks that all was written.
 void print(const std::string& text);
 
 }  // namespace turnwright::service

@@ -12,16 +12,16 @@
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/nc/program.hpp"
 
-/// Every capability once: a pure function from a request document to a result document.
-/// The doors (command line, HTTP, batch) are generated from this table, so that adding a
-/// capability is adding a row.
+/// The table of capabilities, each a pure function from a request document to a result
+/// document.  Command line, HTTP and batches are generated from this table, so a new
+/// capability is one new row.
 namespace turnwright::service {
 
-/// What a request may refer to besides itself.
+/// Everything that the answer to a request depends on or needs, apart from the request.
 struct Context {
   const document::Catalogue& catalogue;
-  std::stop_token stop = {};  ///< asked for when nobody waits for the result any more
-  /// Called by long sweeps after every part of them, from their thread.
+  std::stop_token stop = {};  ///< requested when nobody waits for the result any more
+  /// Called by long sweeps after each of their parts, from their thread.
   std::function<void(std::size_t done, std::size_t all)> tell = {};
 };
 
@@ -31,26 +31,26 @@ using Picture = report::Figure;
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
-  nc::Programs programs = {};  ///< of plans
+  nc::Programs programs = {};  ///< for plans
 };
 
 struct Request {
   std::string name;     ///< as in `turnwright NAME` and `POST /v1/NAME`
-  std::string summary;  ///< one line for people
-  std::string example;  ///< a request document that can be sent as it stands
+  std::string summary;  ///< one line for the user
+  std::string example;  ///< a complete request document
   nlohmann::ordered_json (*result)(const nlohmann::json& request, const Context& context);
   std::string (*text)(const nlohmann::ordered_json& result) =
       nullptr;  ///< for a terminal
-  /// `result` with pictures, of rows that have any.
+  /// The result with pictures, for capabilities that have any.
   Drawn (*drawn)(const nlohmann::json& request, const Context& context) = nullptr;
-  /// The report for a browser or a printer, of rows that have one.
+  /// The report for a browser or a printer, for capabilities that have one.
   std::string (*html)(std::string_view name, const nlohmann::ordered_json& result,
                       const std::vector<Picture>& drawings) = nullptr;
 };
 
 std::span<const Request> requests();
 
-/// File names under schemas/ of what the row takes and gives.
+/// File names under schemas/ of the row's request and result.
 std::string request_schema(const Request& row);
 std::string result_schema(const Request& row);
 
@@ -60,8 +60,8 @@ std::string_view version();
 /// The row's result for a request document, with `format`, `turnwright_version` and
 /// `request_digest` (SHA-256 of the request's dump: sorted keys, no spaces), so that a
 /// stored result can be traced.
-/// @throws InputError, ModelRangeError as the row does; ModelRangeError if a number of the
-///   result is not finite.
+/// @throws InputError, ModelRangeError as the row does; ModelRangeError if a number of
+///   the result is not finite.
 nlohmann::ordered_json answer(const Request& row, const nlohmann::json& request,
                               const Context& context);
 

@@ -22,16 +22,16 @@ using Eigen::VectorXd;
 
 constexpr double kSeparation = 2;      // least tau_2/tau_1
 constexpr double kBlur = 1e-12;        // of the spread: keeps ln of a perfect fit finite
-constexpr double kAtBound = 1e-6;      // of ln tau or p: far below what a log can tell
+constexpr double kAtBound = 1e-6;      // of ln tau or p: far below the accuracy of a fit
 constexpr double kIntegrates = 100;    // lengths of the log
-constexpr double kDependent = 1e-9;    // of a column: the rest is rounding
+constexpr double kDependent = 1e-9;    // of a column: anything less is rounding
 constexpr double kMostAlike = 0.9999;  // largest rho: a memory of 10,000 rows
 
 // theta: ln tau_1 [, ln tau_2], ln tau_amb, p.  Linear k: K_1 [, K_2], b, a, c.  Together
 // they are the parameters, theta first.
 struct Shape {
   Index lags = 1;
-  bool ambient = true;  // it moves: b can be told
+  bool ambient = true;  // the ambient varies, so b can be fitted
   bool start = true;    // a is fitted
   Index tau_amb() const { return lags; }
   Index p() const { return lags + 1; }
@@ -244,7 +244,7 @@ std::vector<Parameter> named(const Shape& s, const FitOptions& o, const Bounds& 
   return out;
 }
 
-// Eq. (5), for the parameters inside their bounds; what depends on others stays 0.
+// Eq. (5) for the parameters inside their bounds; the entries of the others stay 0.
 void add_uncertainty(const MatrixXd& J, double factor, LagFit& fit) {
   std::vector<std::size_t> free;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
@@ -312,7 +312,7 @@ LagFit described(const Task& task, const FitOptions& o, const Bounds& limits,
   return fit;
 }
 
-// Which of kBlocks equal spans of time a row lies in.
+// The index of a row's block, one of kBlocks equal spans of time.
 std::size_t block_of(const std::vector<double>& time_s, Index row) {
   const double part = (time_s[static_cast<std::size_t>(row)] - time_s.front()) /
                       (time_s.back() - time_s.front());

@@ -37,7 +37,7 @@ Row standardised(const Network& net, const Row& x) {
   return z;
 }
 
-// Mean and standard deviation; a spread that is only rounding counts as none.
+// Mean and standard deviation; a spread that is only rounding counts as zero.
 std::pair<double, double> moments(std::span<const double> v) {
   double mean = 0, square = 0;
   for (const double x : v) mean += x / static_cast<double>(v.size());
@@ -86,7 +86,7 @@ std::vector<Row> outermost(const Network& net, std::span<const Row> rows) {
   for (int d = 0; d < kDirections; ++d) {
     Row direction{};
     for (double& x : direction) x = uniform(random);
-    // The axes come first, both ways.
+    // The axes come first, in both directions.
     if (d < static_cast<int>(2 * kInputs)) {
       direction = {};
       direction[static_cast<std::size_t>(d / 2)] = d % 2 ? -1 : 1;

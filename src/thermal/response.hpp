@@ -20,16 +20,16 @@ struct Heat {
   Eigen::VectorXd h, by_p;
 };
 
-/// @param argument whose inputs these are, "function: argument".
+/// @param argument names the inputs in messages, as "function: argument".
 /// @throws std::domain_error if the inputs differ in length or the times do not rise.
 void check(const Inputs& inputs, const std::string& argument);
 
 Heat heat(std::span<const double> rpm, double n_max_rpm, double p);
 
-/// x of (2), the heat held from row to row.
+/// x of (2), with the heat constant between rows.
 Response spindle(std::span<const double> time_s, const Heat& heat, double tau_s);
 
-/// w of (3), the ambient straight from row to row.
+/// w of (3), with the ambient temperature linear between rows.
 Response ambient(const Inputs& inputs, double T0_degC, double tau_s);
 
 /// exp(-(t - t_0)/tau).

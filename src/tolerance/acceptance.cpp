@@ -41,8 +41,8 @@ void check_case(const Case& c, Rule rule) {
 
 double um(double mm) { return units::um_from_mm(mm); }
 
-/// What is left once the numbers are compared; fills the part of the sentence that tells
-/// why, and the verdicts that follow from the margins.
+/// Last step of a verdict: the sentence that gives the reason, and the verdicts that
+/// follow from the margins.
 void conclude(Verdict& v, double guard_mm, const std::string& found, bool offset_helps) {
   v.accepted = v.margin_mm >= -guard_mm;
   v.accepted_after_offset = v.accepted || v.margin_after_offset_mm >= -guard_mm;
@@ -77,7 +77,8 @@ void judge_size(const Case& c, const Extremes& e, double guard_mm, Verdict& v) {
   v.room_mm = {l - low - guard_mm, u - high + guard_mm};
   v.margin_after_offset_mm = v.allowed_mm - v.measured_mm;
   v.offset_into_limits_mm = (u + l - high - low) / (2 * per);
-  v.seed_verdict = spread <= v.allowed_mm + guard_mm;  // seed Eqs. (11), (15)
+  v.published_verdict =
+      spread <= v.allowed_mm + guard_mm;  // [Valino 2008] Eqs. (11), (15)
   conclude(
       v, guard_mm,
       fmt::format("{} deviates by {:+.2f} to {:+.2f} um, limits {:+.2f} to {:+.2f} um",
@@ -138,12 +139,13 @@ void judge_zone(const Case& c, Rule rule, const Extremes& e, double guard_mm,
   conclude(v, guard_mm, fmt::format(fmt::runtime(found), um(v.measured_mm), um(t)),
            rule == Rule::profile);
   if (rule == Rule::range || rule == Rule::runout)
-    v.seed_verdict = range <= t + guard_mm;  // seed Eqs. (16), (19), (23), (24)
+    v.published_verdict =
+        range <= t + guard_mm;  // [Valino 2008] Eqs. (16), (19), (23), (24)
   else if (rule == Rule::profile)
-    v.seed_verdict = std::abs(e.max_mm) + std::abs(e.min_mm) <=
-                     t / cosine + guard_mm;  // seed Eq. (22)
+    v.published_verdict = std::abs(e.max_mm) + std::abs(e.min_mm) <=
+                          t / cosine + guard_mm;  // [Valino 2008] Eq. (22)
   else
-    v.seed_verdict = v.accepted;
+    v.published_verdict = v.accepted;
 }
 
 }  // namespace

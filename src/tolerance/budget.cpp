@@ -18,7 +18,7 @@
 namespace turnwright::tolerance {
 namespace {
 
-/// Of a distribution with value 1.
+/// Moments of a distribution with value 1.
 struct Moments {
   double mean, sigma, low, high;
 };
@@ -43,7 +43,7 @@ Moments moments(Distribution d) {
   throw std::domain_error("budget: not a distribution");
 }
 
-/// s_i a_i times the moments; a negative sensitivity turns low and high round.
+/// s_i a_i times the moments; a negative sensitivity exchanges low and high.
 Moments moments_um(const Source& s) {
   const double scale = s.sensitivity * s.value_um;
   const Moments m = moments(s.distribution);

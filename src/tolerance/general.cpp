@@ -14,7 +14,7 @@
 namespace turnwright::tolerance {
 namespace {
 
-/// No value: the standard leaves the cell empty.
+/// Marks a cell that is empty in the standard.
 constexpr double kNone = -1;
 
 // Part 1: upper ends of the ranges [mm] and deviations [mm] for f, m, c, v.
@@ -25,7 +25,7 @@ constexpr std::array<std::array<double, 8>, 4> kLinear{
      {0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 4},
      {kNone, 0.5, 1, 1.5, 2.5, 4, 6, 8}}};
 
-// Its radii and chamfers, and its angles [minutes].
+// Part 1: radii and chamfers [mm], and angles [minutes of arc].
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 3> kEdgeTo{3, 6, kNoEnd};
 constexpr std::array<std::array<double, 3>, 4> kEdge{

@@ -46,7 +46,7 @@ constexpr std::array<std::array<double, kRanges>, kGrades> kIT{{
   {1000, 1200, 1500, 1800, 2100, 2500, 3000, 3500, 4000, 4600, 5200, 5700, 6300},
   {1400, 1800, 2200, 2700, 3300, 3900, 4600, 5400, 6300, 7200, 8100, 8900, 9700}}};
 
-/// No value: the standard leaves the cell empty.
+/// Marks a cell that is empty in the standard.
 constexpr int kNone = -1;
 
 struct ByRange {
@@ -126,7 +126,7 @@ std::size_t index_of(double nominal_mm, const std::array<double, N>& up_to) {
                                   up_to.begin());
 }
 
-/// A size with its places in the tables, and the class it was asked for.
+/// A size with its rows in the tables, and the required tolerance class.
 struct Asked {
   double nominal_mm;
   std::size_t range, step;

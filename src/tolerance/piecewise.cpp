@@ -40,7 +40,8 @@ double bisect(const Polynomial& p, double a, double b) {
   }
 }
 
-/// Where p changes its sign in [0, 1], rising.  Where it only touches zero nothing turns.
+/// The sign changes of p in [0, 1], in rising order.  A root at which p only touches zero
+/// is no turning point.
 std::vector<double> roots(Polynomial p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
   if (p.size() < 2) return {};
@@ -59,13 +60,14 @@ struct Point {
   double x, y;
 };
 
-/// Piece k in t = s/h; x = x0 + dx t places it on the whole profile.
+/// Piece k in t = s/h; x = x0 + dx t is the position on the whole profile.
 struct Piece {
   Polynomial p;
   double x0, dx;
 };
 
-/// Pieces of the profile with its length scaled to 1, so that slopes and e are alike.
+/// Pieces of the profile with its length scaled to 1, so that slopes and e have the same
+/// order of magnitude.
 std::vector<Piece> pieces(const PiecewisePolynomial& f) {
   const double first = f.breaks_mm.front();
   const double length = f.breaks_mm.back() - first;
@@ -163,8 +165,8 @@ Zone minimum_zone_of(const PiecewisePolynomial& f, double magnitude) {
   const double length = f.breaks_mm.back() - f.breaks_mm.front();
   std::vector<Point> points = turning_points(all, 0);
   Zone best{.width_mm = std::numeric_limits<double>::infinity(), .slope = 0};
-  // Each round cuts the interval of possible slopes at least in half where the width is
-  // smooth in the slope, so that its error falls fourfold: 50 rounds reach 2^-100.
+  // Each round at least halves the interval of possible slopes.  Where the width is
+  // smooth in the slope its error falls by a factor of four: 50 rounds reach 2^-100.
   for (int round = 0; round < 50; ++round) {
     const Zone lower = zone_of(points);
     const std::vector<Point> next = turning_points(all, lower.slope);

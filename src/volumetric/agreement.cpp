@@ -13,7 +13,7 @@ double mean(const std::vector<double>& v) {
   return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
 
-/// Probability of a modulus of at least |t|.
+/// Two-sided probability of a value of at least |t|.
 double two_sided(double t, double dof) {
   return 2 * boost::math::cdf(boost::math::complement(
                  boost::math::students_t_distribution<>(dof), std::abs(t)));
@@ -50,7 +50,7 @@ std::optional<Correlation> correlation(const Runs& a, const Runs& b) {
   return c;
 }
 
-/// Of a run from the others, if it is far from them.
+/// Distance of a run from the others, if it is a jump.
 std::optional<double> jump(const Runs& runs, std::size_t run) {
   if (run >= runs.value.size() || !runs.value[run]) return std::nullopt;
   const std::vector<double> others = values(without_run(runs, run));

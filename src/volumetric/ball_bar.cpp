@@ -41,7 +41,7 @@ MatrixXd circle(const std::vector<double>& theta) {
   return A;
 }
 
-/// Between two circles about the centre that `zone` finds: minimum_zone or
+/// Width between two circles about the centre that `zone` finds, which is minimum_zone or
 /// least_squares_zone.
 double width(decltype(minimum_zone) zone, const std::vector<double>& theta,
              const std::vector<double>& path) {
@@ -49,7 +49,7 @@ double width(decltype(minimum_zone) zone, const std::vector<double>& theta,
   return zone({A.data(), static_cast<std::size_t>(A.size())}, 2, path).width;
 }
 
-/// Terms of (2) that both paths see alike, and those that change sign with dir.
+/// Terms of (2) that are the same on both paths, and those that change sign with dir.
 constexpr std::array<std::size_t, 7> kAlike = {0, 1, 2, 3, 4, 9, 10};
 constexpr std::array<std::size_t, 5> kOpposed = {5, 6, 7, 8, 11};
 
@@ -72,7 +72,7 @@ Basis basis(const Trace& t) {
   return b;
 }
 
-/// Least squares of one group of terms; `inverse`: the diagonal of (A^T A)^-1.
+/// Least squares of one group of terms; `inverse` is the diagonal of (A^T A)^-1.
 struct Part {
   Index rank = 0;
   VectorXd x, inverse;
@@ -186,9 +186,10 @@ Iso230_4 iso230_4(const Trace& t) {
           .D_mm = common[0]};
 }
 
-// Half the sum of both paths has only the terms alike, half their difference only those
-// opposed: sqrt 2 times them are the values turned by an orthogonal matrix, so that two
-// small fits, every row of which counts twice, are the least squares of the whole.
+// Half the sum of both paths contains only the terms that are the same on both, half
+// their difference only the opposed ones.  Multiplied by sqrt 2 they are the values
+// transformed by an orthogonal matrix, so two small fits, in which every row counts
+// twice, are the least squares of the whole.
 BallBarFit decompose(const Trace& t) {
   check(t);
   const Basis b = basis(t);

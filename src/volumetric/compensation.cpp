@@ -37,7 +37,7 @@ class Field {
     const auto add = [&](int number, const Vec3& vector) {
       Machine m = machine;
       m.tool_point_mm = m.tool_point_mm + vector;
-      if (setup.lathe)  // the spindle turns: its harmonics shift nothing in the mean
+      if (setup.lathe)  // the spindle turns, so its harmonics have no mean effect
         for (Axis& axis : m.axes)
           for (ErrorFunction& e : axis.errors) e.f.clear();
       tools_.emplace(number, Tool{Kinematics(m), m.tool_point_mm});
@@ -50,8 +50,8 @@ class Field {
 
   const Tool& tool(int number) const { return tools_.at(number); }
 
-  /// Length up to which a straight way between targets no farther out than `reach_mm`
-  /// needs no split.
+  /// Length up to which a straight path between targets within `reach_mm` need not be
+  /// split.
   double longest_straight_mm(const Vec3& reach_mm, double tolerance_mm) const {
     double bend = 0;
     for (const auto& [number, tool] : tools_) {
@@ -59,11 +59,12 @@ class Field {
       for (std::size_t k = 0; k < 3; ++k) q[k] = reach_mm[k] + std::abs(tool.point[k]);
       bend = std::max(bend, tool.kinematics.bend_at_most(q));
     }
-    // A chord of length h is off by bend h^2/8; half of it for products of errors.
+    // A chord of length h deviates by bend h^2/8; half of the tolerance is reserved for
+    // products of errors.
     return std::sqrt(4 * tolerance_mm / bend);
   }
 
-  /// Of the tip from `target` when commanded to `at`, along the machine's axes.
+  /// Error of the tip from `target` along the machine's axes when commanded to `at`.
   Vec3 error(const Tool& tool, const Vec3& at, const Vec3& sign,
              const Vec3& target) const {
     Position p;
@@ -86,11 +87,11 @@ struct Stop {
   const Tool* tool = nullptr;
   Vec3 from{}, target{};
   Vec3 asked{};                    // signs of the source's motion
-  Vec3 sign{};                     // and of the one made
-  Vec3 error{};                    // at the target, uncorrected, moving as asked
-  bool first = true, last = true;  // of its move's
-  bool stays = false;              // an axis, see Run::approach
-  bool takes_up = false;           // play, before a feed move
+  Vec3 sign{};                     // signs of the corrected motion
+  Vec3 error{};                    // at the target, uncorrected, with the source's signs
+  bool first = true, last = true;  // whether it is the first, the last stop of its move
+  bool stays = false;              // whether an axis stays, see Run::approach
+  bool takes_up = false;           // whether it takes up backlash before a feed move
   Vec3 command{};
 };
 
@@ -119,7 +120,7 @@ class Walk {
     int number = 0;
     tool_ = &field_.tool(number);
     unsplit_mm_ = field_.longest_straight_mm(reach(program), o_.tolerance_mm);
-    // Where the tip stands, how it came there, and its error.
+    // Position of the tip, signs of the motion to it, and its error.
     Vec3 from = program.start_mm, sign{},
          at_from = field_.error(*tool_, from, sign, from);
     for (const NcMove& m : program.moves) {
@@ -127,7 +128,8 @@ class Walk {
         visit(Stop{.move = &m});
         continue;
       }
-      if (m.tool != number) {  // the axes stand, another tip is looked at
+      if (m.tool !=
+          number) {  // the axes stand still, the position is that of another tip
         const Tool& next = field_.tool(m.tool);
         from = from + next.point - tool_->point;
         number = m.tool;
@@ -183,7 +185,7 @@ class Walk {
       return norm(error - (a.error + share * (b.error - a.error)));
     };
     const End middle = inside(0.5);
-    // Quarters as well: an odd bow has none in the middle.
+    // Quarters as well, because an odd bow is zero in the middle.
     if (!(bend(0.5, middle.error) > o_.tolerance_mm ||
           bend(0.25, inside(0.25).error) > o_.tolerance_mm ||
           bend(0.75, inside(0.75).error) > o_.tolerance_mm))
@@ -197,7 +199,7 @@ class Walk {
   const CompensationOptions& o_;
   const Tool* tool_ = nullptr;
   double unsplit_mm_ = 0;
-  std::vector<End> ends_;  // of the move at hand
+  std::vector<End> ends_;  // of the current move
 };
 
 /// The command by (1), from the error at the target.
@@ -207,8 +209,8 @@ void correct(const Field& field, int passes, const Vec3& error, Stop& s) {
     s.command = s.command - field.error(*s.tool, s.command, s.sign, s.target);
 }
 
-/// Of all moves' ends by the constant or affine map of least squares from the targets to
-/// the corrections they need by themselves.
+/// Corrections of all moves' ends by a constant or affine map, fitted by least squares to
+/// the corrections that the targets need by themselves.
 void fitted(Method method, const Field& field, int passes, std::vector<Stop>& stops) {
   std::vector<Stop*> moving;
   for (Stop& s : stops)
@@ -227,7 +229,7 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
           s.command[static_cast<std::size_t>(k)] - s.target[static_cast<std::size_t>(k)];
     }
   }
-  // Points in a plane leave the slope across it open: no matter in that plane.
+  // Points in a plane do not determine the slope across it, which has no effect there.
   Eigen::MatrixXd fit(n, 3);
   for (Eigen::Index k = 0; k < 3; ++k) fit.col(k) = A * least_squares(A, e.col(k)).x;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -236,8 +238,8 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
   }
 }
 
-/// The machine as the corrected program moves it: play lies where the motions made leave
-/// it, not where the source's would.
+/// The machine as the corrected program moves it; its backlash follows the corrected
+/// motions, not those of the source.
 class Run {
  public:
   Run(const Field& field, const NcWriter& writer, const CompensationOptions& options,
@@ -248,17 +250,17 @@ class Run {
         follows_(options.at_rest == AtRest::last),
         q_(start_mm - field.tool(0).point) {}
 
-  /// The command of a stop by (1), with the signs of the motions it makes.  An axis that
-  /// would have to go back if it went on, and on if it went back, stays where it is.
+  /// The command of a stop by (1), with the signs of the resulting motions.  An axis
+  /// whose correction would reverse its motion for either sign stays where it is.
   void approach(Stop& s) const {
     approach(s, signs(s.from, s.target, sign_, o_.at_rest));
   }
 
-  /// Before a feed move on which an axis turns back: the stops that take up play, so that
-  /// all of it lies from the start where the feed leaves it.  `s` gets its command anew.
-  /// Axes go to the start in the feed's own direction; one that would have to go against
-  /// it, or not far enough to be through its play, goes beyond and comes again, or, for a
-  /// rounding's worth, stays.
+  /// The stops that take up backlash before a feed move on which an axis reverses, so
+  /// that all axes start on the side on which the feed keeps them.  The command of `s` is
+  /// computed again.  Axes approach the start in the feed's own direction.  An axis that
+  /// would have to move against it, or not far enough to take up its backlash, overshoots
+  /// and comes back; for a distance within rounding it stays.
   std::vector<Stop> take_up(Stop& s) const {
     if (s.move->rapid || (s.sign == sign_ && !s.stays && !slack(*s.move))) return {};
     Stop start = s;
@@ -293,8 +295,8 @@ class Run {
     return out;
   }
 
-  /// Goes to a command as written; the stop's signs become those of the motions made, or
-  /// where play is taken up those of the feed to come.
+  /// Moves to a command as written.  The signs of the stop become those of the motion,
+  /// or, where backlash is taken up, those of the feed that follows.
   void go(Stop& s) {
     const Vec3 to = s.command - s.tool->point;
     if (follows_) {
@@ -310,18 +312,19 @@ class Run {
   }
 
  private:
-  // Steps of the last decimal: ends of a way, as written; and what is not worth a way.
+  // Steps of the last decimal: the rounding of a motion's ends, and the least motion that
+  // is made.
   static constexpr double kWritten = 1.01, kRounding = 1.5;
 
-  /// Whether the last motions left play to go through.
+  /// Whether backlash remains to be taken up after the last motions.
   bool slack(const NcMove& move) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (slack_mm_[k] > kWritten * writer_.step_mm(move, k)) return true;
     return false;
   }
 
-  /// Way of an axis in a direction until the tip follows, after one with the sign `from`.
-  /// An axis that overshoots its turns has no play.
+  /// Travel of an axis in a direction until the tip follows, after a motion with the sign
+  /// `from`.  An axis with a negative lost motion has no backlash.
   double play_mm(const Stop& s, const Vec3& sign, std::size_t k, double from) const {
     Vec3 before = sign;
     before[k] = from;
@@ -330,13 +333,13 @@ class Run {
     return std::max(turn[k] * sign[k], 0.0);
   }
 
-  /// As much of it as the motions made have left.
+  /// The part of it that remains after the last motions.
   double play_to_go_mm(const Stop& s, const Vec3& sign, std::size_t k) const {
     return sign[k] == sign_[k] ? slack_mm_[k] : play_mm(s, sign, k, sign_[k]);
   }
 
-  /// Axes whose sign is not the start's go to the target, and farther if they could not
-  /// come from there through their play; the others to the start.
+  /// Axes whose sign differs from that of the start move to the target, or farther if
+  /// they could not take up their backlash on the way back; the others move to the start.
   Stop gone_beyond(const Stop& start, Stop s) const {
     s.error = field_.error(*s.tool, s.target, s.sign, s.target);
     correct(field_, o_.passes, s.error, s);
@@ -357,7 +360,7 @@ class Run {
     return motion(s, s.command - s.tool->point - q_, sign_);
   }
 
-  /// The signs of a way; those of axes that rest.
+  /// The signs of a motion, and for axes at rest their last signs.
   Vec3 motion(const Stop& s, const Vec3& way, const Vec3& at_rest) const {
     Vec3 out = at_rest;
     for (std::size_t k = 0; k < 3; ++k)
@@ -413,9 +416,9 @@ class Run {
   const Field& field_;
   const NcWriter& writer_;
   const CompensationOptions& o_;
-  const bool follows_;  // the play; else signs are the source's
+  const bool follows_;  // whether backlash is followed; otherwise signs are the source's
   Vec3 q_, sign_{};
-  Vec3 slack_mm_{};  // play left in the direction of the last motion
+  Vec3 slack_mm_{};  // backlash that remains in the direction of the last motion
 };
 
 /// Greatest and root mean square of distances.
@@ -457,7 +460,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
                             " moves; a wider tolerance makes fewer");
     const double is = norm(s.error),
                  left = norm(field.error(*s.tool, s.command, s.sign, s.target));
-    // A rounded coordinate is off by 0.5e-3 mm at most.
+    // The rounding of a coordinate is 0.5e-3 mm at most.
     if (full && !s.stays && !s.takes_up && !(left <= is / 2 + 1e-3))
       throw ModelRangeError("compensate: line " + std::to_string(s.move->line) +
                             ": errors too large to be corrected by iteration");
@@ -468,7 +471,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
     out.distances_mm.push_back({static_cast<float>(is), static_cast<float>(left)});
     if (!s.last) ++out.added;
   };
-  std::vector<Stop> stops;  // of the methods that look at all at once
+  std::vector<Stop> stops;  // for the methods that need all stops at once
   Walk(field, options).run(program, [&](Stop s) {
     if (!full) {
       stops.push_back(s);

@@ -40,8 +40,8 @@ Eigen::Map<const Errors> array(const std::array<double, kDirections>& v) {
 }
 Vec3 values(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Below 0.01 rad by series: what they leave out, a^7/5040 and a^8/40320, is less than a
-/// double shows.
+/// Below 0.01 rad by series, whose neglected terms a^7/5040 and a^8/40320 are below
+/// rounding.
 Turn turn(double a) {
   const double x = a * a;
   if (x < 1e-4)
@@ -52,7 +52,7 @@ Turn turn(double a) {
 
 Turn back(const Turn& t) { return {t.cos, -t.sin}; }
 
-/// Turns a vector about one of the axes.
+/// Rotates a vector about one of the axes.
 void rotate(Vector3d& v, std::size_t axis, const Turn& t) {
   const auto j = static_cast<Eigen::Index>((axis + 1) % 3),
              k = static_cast<Eigen::Index>((axis + 2) % 3);
@@ -71,7 +71,7 @@ Matrix3d matrix(std::size_t axis, const Turn& t) {
   return R;
 }
 
-/// Rz(C) Ry(B) Rx(A) v, by the three turns about x, y, z.
+/// Rz(C) Ry(B) Rx(A) v, by the three rotations about x, y, z.
 void tilt(Vector3d& v, const std::array<Turn, 3>& t) {
   rotate(v, 0, t[0]);
   rotate(v, 1, t[1]);
@@ -249,8 +249,8 @@ Vec3 Kinematics::tip_error_mm(const Position& at) const {
   return values(vector(actual_tip_mm(at)) - vector(nominal(at).tip_mm));
 }
 
-// The nominal tip and its error are carried together, joint by joint; where one turns,
-// R_i^T (P - p_i) and R_fw^T R_i of (4) arise of themselves.
+// The nominal tip and its error are carried together, joint by joint; their rotation
+// gives R_i^T (P - p_i) and R_fw^T R_i of (4).
 Vec3 Kinematics::tip_error_first_order_mm(const Position& at) const {
   Vector3d tip = vector(tool_point_), e = Vector3d::Zero();
   const auto added = [&](const Joint& j) -> Vector3d {
@@ -269,7 +269,7 @@ Vec3 Kinematics::tip_error_first_order_mm(const Position& at) const {
   for (auto j = tool_.rbegin(); j != tool_.rend(); ++j) {
     if (j->axis > 2) turned(*j);
     e += added(*j);
-    // A linear joint's own travel moves tip and reference point alike.
+    // The travel of a linear joint moves tip and reference point by the same amount.
     if (j->axis < 3) tip[static_cast<Eigen::Index>(j->axis)] += at.q[j->axis];
   }
   for (const Joint& j : work_) {
@@ -285,7 +285,7 @@ double Kinematics::bend_at_most(const Vec3& reach_mm) const {
   double sum = 0;
   for (const auto* joints : {&tool_, &work_})
     for (const Joint& j : *joints) {
-      if (j.axis > 2) continue;  // at rest: its lever runs straight
+      if (j.axis > 2) continue;  // at rest: its lever changes linearly
       const double t = reach_mm[j.axis] * j.inverse_Q;
       const auto& c = j.errors.c;
       const Errors slope = j.inverse_Q * (array(c[1]).abs() + 2 * t * array(c[2]).abs() +

@@ -75,7 +75,7 @@ std::vector<double> square_to(const Surface& s, const DatumAxis& d) {
   });
 }
 
-/// The worst range around at one place along.
+/// The largest range around the axis at any position along the generator.
 double worst_circle(const Surface& s, const std::vector<double>& e) {
   const std::size_t m = s.r_mm.size();
   double out = 0;
@@ -105,7 +105,7 @@ Surface turned(const Kinematics& machine, const Vec3& tool_point_mm, const Gener
   if (!(length > 0) || !(g.r_start_mm >= 0) || !(g.r_end_mm >= 0) || around < 8 ||
       along < 2)
     throw std::domain_error("turned: a generator beside the axis, 8 x 2 points or more");
-  // The normal that looks outwards, on faces to +Z.
+  // The outward normal; on faces that to +Z.
   const bool face = dz == 0;
   const double nr = face ? 0 : std::abs(dz) / length,
                nz = face ? 1 : -dr / length * (dz > 0 ? 1 : -1);

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The model with its constant, columns that depend on others left out.
+/// The model with its constant, without columns that depend on others.
 struct Model {
   MatrixXd A;
   std::vector<Index> kept;  // columns of the whole model
@@ -34,7 +34,7 @@ Model model_of(std::span<const double> basis, std::size_t columns,
   if (k > 0) whole.rightCols(k) = Eigen::Map<const Rows>(basis.data(), n, k);
   Model m{.A = {}, .kept = {}, .whole = k + 1};
   MatrixXd Q(n, 0);
-  constexpr double kDependent = 1e-10;  // what rounding leaves of a dependent column
+  constexpr double kDependent = 1e-10;  // size of a dependent column by rounding
   for (Index j = 0; j <= k && Q.cols() < n; ++j) {
     VectorXd rest = whole.col(j);
     const double norm = rest.norm();
@@ -77,7 +77,8 @@ MatrixXd dual_basis(const MatrixXd& A, const Reference& ref) {
   return B;
 }
 
-/// Independent points by pivoting and one more, with the signs of their dependence.
+/// Independent points by pivoting and one further point, with the signs of the linear
+/// dependence between them.
 Reference first_reference(const MatrixXd& A) {
   const Index m = A.cols();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(A.transpose());
@@ -101,8 +102,8 @@ VectorXd best_uniform(const MatrixXd& A, const VectorXd& v) {
   Reference ref = first_reference(A);
   VectorXd x = VectorXd::Zero(m), target = VectorXd::Unit(m + 1, m);
   const double rounding = 1e-14 * v.cwiseAbs().maxCoeff();
-  // Exchanges with the worst point end after some ten; degenerate references, where an
-  // exchange gains nothing, could go round for ever and are left by Bland's rule.
+  // Exchanges with the worst point end after about ten.  Degenerate references, where an
+  // exchange gains nothing, could cycle; Bland's rule prevents that.
   const Index patience = 50 * (m + 1), most = 100 * A.rows() + patience;
   for (Index step = 0; step < most; ++step) {
     const Eigen::PartialPivLU<MatrixXd> lu(dual_basis(A, ref));

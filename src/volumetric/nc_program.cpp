@@ -31,8 +31,8 @@ struct Fault {
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
 
-/// The text's first characters, `bytes` of UTF-8 and what ends the last, in quotation
-/// marks.
+/// The first characters of the text in quotation marks: `bytes` of UTF-8, and the rest of
+/// the last character.
 std::string quoted(std::string_view text, std::size_t bytes) {
   const auto inside = [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
@@ -85,8 +85,8 @@ void parse(std::string_view line, Block& block) {
   }
 }
 
-/// By code: the number of its group, whose codes exclude each other in a block; 0 for
-/// codes that are not read.
+/// The modal group of a code; two codes of one group exclude each other in a block.  0
+/// for codes that are not interpreted.
 constexpr auto kGroups = [] {
   using Codes = std::initializer_list<std::size_t>;
   std::array<unsigned, 100> group{};
@@ -143,7 +143,7 @@ class Interpreter {
     try {
       take(text);
     } catch (const Fault& fault) {
-      motion_ = motion;  // so that one fault is told once
+      motion_ = motion;  // so that one fault is reported once
       program_.problems.push_back({number, fault.got, fault.expected});
     }
   }
@@ -207,14 +207,14 @@ class Interpreter {
     move(motion.has_value());
   }
 
-  /// Controls differ in what follows the end: another program, or nothing.
+  /// Controls differ in their treatment of lines after the end of the program.
   void require_going() const {
     if (ended_ && !block_.words.empty())
       throw Fault{std::string(block_.words[0].text),
                   "nothing but % and comments after M2 or M30"};
   }
 
-  /// G words have their groups, of M words controls take several.
+  /// G words have their groups; a block may have several M words.
   void require_single() const {
     unsigned seen = 0;
     for (const Word& w : block_.words) {
@@ -247,13 +247,13 @@ class Interpreter {
     append(before_, text);
   }
 
-  /// The tip stays, its coordinates change.
+  /// The tip stays, and its coordinates change.
   void shift(const Vec3& origin) {
     for (std::size_t k = 0; k < 3; ++k) tip_[k] += origin_[k] - origin[k];
     origin_ = origin;
   }
 
-  /// The axes stay; another tip, elsewhere, is looked at.
+  /// The axes stay; the position then is that of another tip.
   void select(int number) {
     const auto vector = [this](int n) {
       const auto found = setup_.tool_offsets_mm.find(n);
@@ -266,7 +266,8 @@ class Interpreter {
     tool_ = number;
   }
 
-  /// % with nothing but comments: controls differ in what they make of more.
+  /// A line of % may contain only comments, because controls differ in their treatment of
+  /// anything else.
   void tape_end(std::string_view text) {
     parse(text.substr(text.find('%') + 1), block_);
     if (!block_.words.empty())
@@ -274,7 +275,8 @@ class Interpreter {
     pass(text);
   }
 
-  /// Of G43, whose H must be there; H without it would select in silence.
+  /// G43 and its H, each of which requires the other: H alone would silently select an
+  /// offset.
   void length(bool asked) {
     const auto h = std::ranges::find(block_.words, 'H', &Word::letter);
     if (asked && h == block_.words.end()) throw Fault{"G43", "its offset number H"};
@@ -283,8 +285,8 @@ class Interpreter {
     if (asked) select(whole(*h));
   }
 
-  /// Dwell and speed limit: lines that go through as they stand, so that nothing modal
-  /// may be among them.
+  /// Dwell and speed limit.  Their lines are passed on unchanged and so must not contain
+  /// modal codes.
   void special(std::string_view text) {
     int codes = 0;
     bool dwell = false;
@@ -301,7 +303,8 @@ class Interpreter {
     pass(text);
   }
 
-  /// A line that the control may leave out: only what moves and selects nothing.
+  /// A line that the control may omit (block delete) must neither move nor select
+  /// anything.
   void deleted(std::string_view text) {
     auto rest = text.substr(text.find('/') + 1);
     if (!rest.empty() && rest.front() >= '1' && rest.front() <= '9')
@@ -373,7 +376,8 @@ class Interpreter {
     append(before_, w.text);
   }
 
-  /// Whether the code acts after its block's motion, as what stops or switches off does.
+  /// Whether the code acts after the motion of its block, as codes that stop or switch
+  /// off do.
   static bool machine_code(const Word& w) {
     const int m = whole(w);
     // Subprograms, repetition, stored modal states.
@@ -455,7 +459,7 @@ class Interpreter {
     return {1, 2, 0};
   }
 
-  /// Of an arc of radius R through both ends, ccw; the long way round if R < 0.
+  /// Centre of an arc of radius R through both ends, ccw; the longer arc if R < 0.
   std::array<double, 2> centre_of(double du, double dv, double R, bool ccw) const {
     const double half = std::hypot(du, dv) / 2;
     if (!(2 * half > kSame_mm))
@@ -494,7 +498,7 @@ class Interpreter {
     if (std::hypot(du, dv) <= kSame_mm) sweep = 0;
     if (ccw && sweep <= 0) sweep += 2 * pi;
     if (!ccw && sweep >= 0) sweep -= 2 * pi;
-    // Shares of the sweep: where an axis reverses, and the end.
+    // Fractions of the sweep at which an axis reverses, and the end.
     std::vector<double> stops;
     for (int q = -8; q <= 8; ++q) {
       const double share = (q * pi / 2 - a0) / sweep;

@@ -18,7 +18,7 @@ constexpr std::array<double, 12> kPowers = {1,   1e1, 1e2, 1e3, 1e4,  1e5,
 
 double power(int decimals) { return kPowers[static_cast<std::size_t>(decimals)]; }
 
-/// What one written is [mm].
+/// Length of one written unit [mm].
 double unit_mm(const NcMove& move, std::size_t axis) {
   const double unit = move.inch ? 25.4 : 1;
   return axis == 0 && move.diameter ? unit / 2 : unit;
@@ -65,8 +65,9 @@ std::string NcWriter::block(const NcMove& move, Vec3& tip_mm, bool first, bool l
   return line_;
 }
 
-/// Appends a number and returns what was written.  As a whole number of its last
-/// decimals, which is exact and some five times as fast as rounding decimal by decimal.
+/// Appends a number and returns its value as written.  It is formatted as an integer
+/// number of its last decimals, which is exact and about five times as fast as rounding
+/// decimal by decimal.
 double NcWriter::append(double value, int decimals) {
   const double scale = power(decimals);
   const double scaled = std::abs(value) * scale + 0.5;

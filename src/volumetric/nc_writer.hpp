@@ -9,19 +9,19 @@ namespace turnwright::volumetric {
 /// Straight moves as blocks of ISO 6983.
 class NcWriter {
  public:
-  /// @param decimals  of a mm, 0 to 9; inches get two more.
+  /// @param decimals  for mm, 0 to 9; inches get two more.
   NcWriter(const NcSetup& setup, int decimals);
 
-  /// The block of a move to `tip_mm`, which becomes what is written: with the words
-  /// before the coordinates if it is the `first` of its source's, those after if the
-  /// `last`.
-  /// @throws ModelRangeError if a coordinate is too far to be written.
+  /// Appends the block of a move to `tip_mm`, which is set to the position as written.
+  /// The block has the words before the coordinates if it is the `first` one of the
+  /// source's move, and the words after them if it is the `last` one.
+  /// @throws ModelRangeError if a coordinate is too large to be written.
   std::string block(const NcMove& move, Vec3& tip_mm, bool first, bool last);
 
-  /// What a block would write of `tip_mm`.
+  /// `tip_mm` as a block would write it.
   Vec3 written(const NcMove& move, const Vec3& tip_mm) const;
 
-  /// One in the last decimal of a coordinate [mm].
+  /// One unit of the last decimal of a coordinate [mm].
   double step_mm(const NcMove& move, std::size_t axis) const;
 
  private:

@@ -22,9 +22,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr std::string_view kAxes = "XYZBC";
-constexpr double kLever = 100;  // of angles against shifts [mm]
-// Above it a null vector moves an unknown.  Directions that are null but for 1e-7 drag
-// all others along by up to 2e-6, what they really move by more than 1e-3.
+constexpr double kLever = 100;  // length that makes angles comparable with shifts [mm]
+// Above this component a null vector changes an unknown.  Directions that are null up to
+// 1e-7 have components of up to 2e-6 in unknowns that they do not change, and above 1e-3
+// in those they do.
 constexpr double kMoves = 5e-5;
 constexpr std::size_t kCoefficients = 10'000'000;  // seconds, and 80 MB a matrix
 
@@ -92,7 +93,7 @@ Vector3d sensitivity(const Parameter& p, const std::vector<AxisEffect>& effects,
   }
 }
 
-/// Where the axes stand with a tip at `target`, and how they came there.
+/// Positions of the axes with a tip at `target`, and the signs of the motion to it.
 Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
                   const Vec3& target, const std::array<double, 3>& sign) {
   const Vector3d q = R * vector(target) - vector(stylus);
@@ -239,7 +240,7 @@ VectorXd scales(const std::vector<std::string>& unknowns) {
   return s;
 }
 
-/// Rows of N span the null space; back to a basis of few components each, by
+/// Rows of N span the null space.  Returns a basis with few components in each vector, by
 /// elimination with complete pivoting.
 std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknowns) {
   std::vector<NullVector> out;
@@ -253,7 +254,7 @@ std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknow
   }
   for (Index i = 0; i < N.rows(); ++i) {
     VectorXd v = N.row(i).normalized();
-    // The first of the largest components is positive, whatever rounding made of them.
+    // The first of the largest components is positive, independently of rounding.
     const double largest = v.cwiseAbs().maxCoeff() * (1 - 1e-9);
     Index first = 0;
     while (std::abs(v[first]) < largest) ++first;

@@ -136,5 +136,24 @@ TEST(Docs, LinksAndTestsTheyNameExist) {
   EXPECT_GT(named, 20);
 }
 
+TEST(Docs, SourcesTheyCiteAreInTheBibliography) {
+  namespace fs = std::filesystem;
+  const std::string key = R"(\[([A-Z][a-z]+ (?:19|20)\d\d)\])";
+  const auto listed = found(text_of(kRoot / "docs" / "bibliography.md"), key);
+  const std::set<std::string> known(listed.begin(), listed.end());
+  int cited = 0;
+  for (const auto* folder : {"include", "src", "docs", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const auto kind = entry.path().extension();
+      if (kind != ".hpp" && kind != ".cpp" && kind != ".md") continue;
+      if (entry.path().filename() == "bibliography.md") continue;
+      for (const auto& source : found(text_of(entry.path()), key)) {
+        ++cited;
+        EXPECT_TRUE(known.contains(source)) << entry.path() << ": " << source;
+      }
+    }
+  EXPECT_GT(cited, 40);
+}
+
 }  // namespace
 }  // namespace turnwright

@@ -469,7 +469,7 @@ TEST(Beam, RefusesWhatIsNoBody) {
   const Beam beam({210000, 0.3, {good}});
   for (const double a : {-1e-3, 100.001, kNaN})
     EXPECT_THROW(beam.at(a, {}), std::domain_error);
-  // the seed's own springs: S is indefinite, no elastic body
+  // the springs of [Valino 2008]: S is indefinite, no elastic body
   for (const Root& root : {Root{-1, 0, 1}, Root{1, 0, -1}, Root{1, 1.1, 1},
                            Root{0, 1e-9, 0}, Root{kNaN, 0, 1}, Root{1, kNaN, 1}})
     EXPECT_THROW(beam.at(50, {Method::chuck, root, 0, 0}), std::domain_error);

@@ -535,55 +535,59 @@ TEST(Springs, HaveTheErrorsOfTheCompliance) {
   }
 }
 
-// The seed's section III as printed (N/mm and N mm/rad).
-struct SeedSprings {
+// Section III of [Valino 2008] as printed (N/mm and N mm/rad).
+struct PaperSprings {
   double k1, k2, k3;
 };
-constexpr SeedSprings kSeedRadial{-1.6e5, 1.28e9, -1.52e10},
-    kSeedTangential{-1.026e5, 1.564e9, 1.317e10};
-constexpr double kSeedA = 5.733e-7, kSeedB = 1.226e-4, kSeedC = 92.834;
+constexpr PaperSprings kPaperRadial{-1.6e5, 1.28e9, -1.52e10},
+    kPaperTangential{-1.026e5, 1.564e9, 1.317e10};
+constexpr double kPaperA = 5.733e-7, kPaperB = 1.226e-4, kPaperC = 92.834;
 
-Root seed_root(const SeedSprings& k, double Lc) {
+Root paper_root(const PaperSprings& k, double Lc) {
   return {1 / k.k1 + Lc * Lc / k.k2, Lc / k.k2, 1 / k.k2 + 1 / k.k3};
 }
 
-TEST(SeedChuck, ItsFiguresAreOneSet) {
+TEST(Valino2008Chuck, ItsFiguresAreOneSet) {
   // A = F (1/k2 + 1/k3): the same force in both planes, to the digits printed
-  const auto force = [](const SeedSprings& k) { return kSeedA / (1 / k.k2 + 1 / k.k3); };
-  EXPECT_NEAR(force(kSeedRadial), 801.3, 0.05);
-  EXPECT_NEAR(force(kSeedTangential), 801.5, 0.05);
+  const auto force = [](const PaperSprings& k) {
+    return kPaperA / (1 / k.k2 + 1 / k.k3);
+  };
+  EXPECT_NEAR(force(kPaperRadial), 801.3, 0.05);
+  EXPECT_NEAR(force(kPaperTangential), 801.5, 0.05);
   // without a feed force, B = 2 F Lc/k2: two arms for one chuck
-  const auto arm = [](const SeedSprings& k, double F) { return kSeedB * k.k2 / (2 * F); };
-  EXPECT_NEAR(arm(kSeedRadial, 801.3), 97.9, 0.05);
-  EXPECT_NEAR(arm(kSeedTangential, 801.5), 119.6, 0.05);
+  const auto arm = [](const PaperSprings& k, double F) {
+    return kPaperB * k.k2 / (2 * F);
+  };
+  EXPECT_NEAR(arm(kPaperRadial, 801.3), 97.9, 0.05);
+  EXPECT_NEAR(arm(kPaperTangential, 801.5), 119.6, 0.05);
   // half of it is a plausible whole cutting force on 0.8 mm x 0.2 mm of carbon steel
-  EXPECT_NEAR(force(kSeedRadial) / 2 / (0.8 * 0.2), 2500, 10);
+  EXPECT_NEAR(force(kPaperRadial) / 2 / (0.8 * 0.2), 2500, 10);
   // C in mm cannot be a deflection; it lies under the 100 mm bar's diameter
-  EXPECT_LT(kSeedC, 100);
-  EXPECT_GT(kSeedC, 90);
+  EXPECT_LT(kPaperC, 100);
+  EXPECT_GT(kPaperC, 90);
   // the springs k1 stand for a datum error of a few micrometres
-  EXPECT_NEAR(801.3 / kSeedRadial.k1, -0.0050, 0.00005);
-  EXPECT_NEAR(801.5 / kSeedTangential.k1, -0.0078, 0.00005);
+  EXPECT_NEAR(801.3 / kPaperRadial.k1, -0.0050, 0.00005);
+  EXPECT_NEAR(801.5 / kPaperTangential.k1, -0.0078, 0.00005);
 }
 
-TEST(SeedChuck, IsNoElasticBody) {
+TEST(Valino2008Chuck, IsNoElasticBody) {
   // radially for no arm at all; tangentially not below 379 mm
   for (const double Lc : {0.0, 50.0, 98.0, 200.0, 400.0, 1000.0, 1e5})
-    EXPECT_FALSE(elastic(seed_root(kSeedRadial, Lc))) << Lc;
-  EXPECT_FALSE(elastic(seed_root(kSeedTangential, 378)));
-  EXPECT_TRUE(elastic(seed_root(kSeedTangential, 380)));
+    EXPECT_FALSE(elastic(paper_root(kPaperRadial, Lc))) << Lc;
+  EXPECT_FALSE(elastic(paper_root(kPaperTangential, 378)));
+  EXPECT_TRUE(elastic(paper_root(kPaperTangential, 380)));
   // A and B alone would allow one, with 8.2e-6 mm/N and more at the jaws
-  const double c2 = kSeedA / 801.3, c1 = kSeedB / (2 * 801.3);
+  const double c2 = kPaperA / 801.3, c1 = kPaperB / (2 * 801.3);
   EXPECT_NEAR(c1 * c1 / c2, 8.18e-6, 0.02e-6);
   EXPECT_TRUE(elastic({8.3e-6, c1, c2}));
 }
 
-TEST(SeedChuck, ItsTestCannotTellK1) {
+TEST(Valino2008Chuck, ItsTestCannotTellK1) {
   // one cut along the bar: one force, one setup
   std::vector<PlaneTest> tests;
   for (int i = 1; i <= 14; ++i) {
     const double z = 10.0 * i;
-    tests.push_back({"1", z, 801.3, 0, (kSeedA * z + kSeedB) * z + (kSeedC - 92.834)});
+    tests.push_back({"1", z, 801.3, 0, (kPaperA * z + kPaperB) * z + (kPaperC - 92.834)});
   }
   const auto can = identifiability(tests, Plane::radial);
   EXPECT_EQ(can.rank, 2);

@@ -70,8 +70,8 @@ TEST(DeviationGraph, TakesTheLowestDegreeThatExplains) {
   }
 }
 
-// The sentence of the seed: steps of 10 to 20 um where the section changes are not the
-// part's. A bar with three sections, deflected, has none; with the carriage's it has two.
+// The statement of [Valino 2008]: steps of 10 to 20 um where the section changes are not
+// the part's. A bar with three sections, deflected, has none; with the carriage's it has two.
 TEST(DeviationGraph, ASteppedBarMakesNoStepsACarriageDoes) {
   const Workpiece part(
       {210000, 0.3, {{40, 32, 32, 0, 0}, {40, 27, 27, 0, 0}, {40, 22, 22, 0, 0}}});

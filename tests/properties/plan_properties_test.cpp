@@ -44,8 +44,9 @@ RC_GTEST_PROP(AnyPlan, KeepsItsLimitsAsPredicted, (const RandomShaft& shaft)) {
       for (const auto& c : o.constraints) RC_ASSERT(c.margin >= -1e-9);
 }
 
-// What makes the harder part makes the easier one too; but where only a corrected path
-// made it, an easier part that can do without is planned without, see docs/planning.md.
+// A plan of the harder part also makes the easier one.  Where only a corrected path makes
+// the harder part, an easier part that needs none is planned without, see
+// docs/planning-proof.md.
 void no_dearer(const ProcessPlan& easier, const ProcessPlan& harder) {
   if (!made(harder) || !harder.compensation.empty()) return;
   RC_ASSERT(made(easier));

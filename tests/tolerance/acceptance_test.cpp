@@ -42,33 +42,34 @@ Case cone(std::vector<double> e_mm, double value_mm, double half_angle_deg) {
 }
 
 struct Expected {
-  bool accepted, after_offset, seed;
+  bool accepted, after_offset, published;
 };
 
 void expect(const Case& c, const Expected& wanted) {
   const Verdict v = verdict(c);
   EXPECT_EQ(v.accepted, wanted.accepted) << v.why;
   EXPECT_EQ(v.accepted_after_offset, wanted.after_offset) << v.why;
-  EXPECT_EQ(v.seed_verdict, wanted.seed) << v.why;
+  EXPECT_EQ(v.published_verdict, wanted.published) << v.why;
 }
 
 constexpr Expected kGood{true, true, true};
-constexpr Expected kShift{false, true, true};  // the seed passes what is out of limits
+constexpr Expected kShift{false, true,
+                          true};  // [Valino 2008] passes what is out of limits
 constexpr Expected kHopeless{false, false, false};
 
 constexpr double kUm = 0.001;
 /// A thousandth of a nanometre: far below any shop, far above rounding.
 constexpr double kBit = 1e-9;
 
-// --- The seed passes bad parts -----------------------------------------------------
+// --- [Valino 2008] passes bad parts ------------------------------------------------
 
 // e = +4 .. +11 um on a diameter 0 .. +16 um: 8 .. 22 um, six too big; the spread of 14
 // um satisfies Eq. (15).
-TEST(Seed, Eq15PassesAShaftThatIsTooBig) {
+TEST(Valino2008, Eq15PassesAShaftThatIsTooBig) {
   const Verdict v = verdict(sized(diameter, {0.004, 0.011}, 0, 0.016));
   EXPECT_FALSE(v.accepted);
   EXPECT_TRUE(v.accepted_after_offset);
-  EXPECT_TRUE(v.seed_verdict);
+  EXPECT_TRUE(v.published_verdict);
   EXPECT_NEAR(v.offset_mm, -7.5 * kUm, 1e-18);
   EXPECT_NEAR(v.offset_into_limits_mm, -3.5 * kUm, 1e-18);  // 8 .. 22 to 1 .. 15 um
   EXPECT_NEAR(v.margin_mm, -6 * kUm, 1e-17);
@@ -83,53 +84,53 @@ TEST(Seed, Eq15PassesAShaftThatIsTooBig) {
 }
 
 // 30 k6, +2 .. +15 um, the one-sided class: a part on its nominal size is too small.
-TEST(Seed, Eq15PassesAShaftBelowAOneSidedClass) {
+TEST(Valino2008, Eq15PassesAShaftBelowAOneSidedClass) {
   const Limits k6 = fit_limits_mm(30, "k6");
   expect(sized(diameter, {0, 0.004}, k6.lower_mm, k6.upper_mm), kShift);
 }
 
-// 25 H7, 0 .. +21 um: a bore 6 um too small passes the seed.
-TEST(Seed, Eq15PassesATightBore) {
+// 25 H7, 0 .. +21 um: a bore 6 um too small passes [Valino 2008].
+TEST(Valino2008, Eq15PassesATightBore) {
   const Limits H7 = fit_limits_mm(25, "H7");
   expect(sized(diameter, {-0.003, 0.002}, H7.lower_mm, H7.upper_mm), kShift);
 }
 
 // A cylinder without any form error, 1 mm too big: the spread is 0.
-TEST(Seed, Eq15PassesAnyOversizeWithoutForm) {
+TEST(Valino2008, Eq15PassesAnyOversizeWithoutForm) {
   expect(sized(diameter, {0.5, 0.5}, -0.1, 0.1), kShift);
 }
 
 // Two true faces, each 0.2 mm too far out, on a length of +-0.1 mm.
-TEST(Seed, Eq11PassesALengthThatIsTooLong) {
+TEST(Valino2008, Eq11PassesALengthThatIsTooLong) {
   Case c = sized(length, {0.2, 0.2}, -0.1, 0.1);
   c.other_mm = samples({0.2});
   expect(c, kShift);
 }
 
 // A cone 9 um high all over in a zone of 10 um about the nominal: |9| + |0| <= 10.15.
-TEST(Seed, Eq22PassesAConeOfTwiceTheError) {
+TEST(Valino2008, Eq22PassesAConeOfTwiceTheError) {
   expect(cone({0, 0.009}, 0.010, 10), kShift);
 }
 
 // All of the surface 7 um low in a zone of 16 um at 60 deg: 14 <= 32 and 7 cos 60 = 3.5
 // <= 8 is right; at 20 um low 40 <= 32 is not, ours 10 <= 8 is neither.
-TEST(Seed, Eq22AgreesWhereItShould) {
+TEST(Valino2008, Eq22AgreesWhereItShould) {
   expect(cone({-0.007, -0.007}, 0.016, 60), kGood);
   expect(cone({-0.020, -0.020}, 0.016, 60), {false, true, false});
 }
 
 // 6 um off and true to shape: the moduli add up to more than t, a bad part both say.
-TEST(Seed, Eq22RefusesWhatAnOffsetWouldCure) {
+TEST(Valino2008, Eq22RefusesWhatAnOffsetWouldCure) {
   expect(cone({0.0060, 0.0061}, 0.012, 0), {false, true, false});
 }
 
-// At 75 deg t/cos(alpha) is nearly 4 t: 19 um at one end passes the seed at t = 5 um,
-// where 19 cos 75 = 4.92 > 2.5.
-TEST(Seed, Eq22PassesOnASteepCone) { expect(cone({0, 0.019}, 0.005, 75), kShift); }
+// At 75 deg t/cos(alpha) is nearly 4 t: 19 um at one end passes the paper's test at
+// t = 5 um, where 19 cos 75 = 4.92 > 2.5.
+TEST(Valino2008, Eq22PassesOnASteepCone) { expect(cone({0, 0.019}, 0.005, 75), kShift); }
 
-// The table "Bad parts that the seed passes" of docs/tolerances.md: each row, the case it
-// stands for and by how much it is out [um], worked out by hand.
-TEST(Seed, PassesTheBadPartsOfTheDocs) {
+// The table "Bad parts that the published equations pass" of docs/tolerances.md: each
+// row, the case it stands for and by how much it is out [um], worked out by hand.
+TEST(Valino2008, PassesTheBadPartsOfTheDocs) {
   std::ifstream file(TURNWRIGHT_SOURCE_DIR "/docs/tolerances.md");
   const std::string docs(std::istreambuf_iterator<char>(file), {});
   const auto class_of = [](double size_mm, const char* c, std::vector<double> e_mm) {
@@ -170,7 +171,7 @@ TEST(Seed, PassesTheBadPartsOfTheDocs) {
     EXPECT_NEAR(verdict(row.value).margin_mm, -row.out_um * kUm, 1e-7);
     EXPECT_NE(docs.find(std::string("\n| ") + row.part + " |"), std::string::npos);
   }
-  const auto from = docs.find("## Bad parts that the seed passes");
+  const auto from = docs.find("## Bad parts that the published equations pass");
   const auto to = docs.find("\n## ", from + 1);
   std::size_t lines = 0;
   for (auto at = docs.find("\n| ", from); at < to; at = docs.find("\n| ", at + 1))
@@ -180,7 +181,7 @@ TEST(Seed, PassesTheBadPartsOfTheDocs) {
 
 // g = 0.2 um/mm2 (rho - 20)^2 over 10 .. 30 mm: no slope at the mean diameter, 20 um
 // apart.
-TEST(Seed, Eq12OverlooksAVertex) {
+TEST(Valino2008, Eq12OverlooksAVertex) {
   const PiecewisePolynomial g{.breaks_mm = {10, 30},
                               .coefficients = {{0.02, -4e-3, 2e-4}}};
   const double slope_at_20 = -4e-3 + 2 * 2e-4 * (20 - 10);
@@ -191,7 +192,7 @@ TEST(Seed, Eq12OverlooksAVertex) {
 }
 
 // Eq. (12): a face of constant slope, D_m = 20 to D_M = 60 mm: e = 20 tan(theta).
-TEST(Seed, Eq12IsTheConstantSlopeOfAFace) {
+TEST(Valino2008, Eq12IsTheConstantSlopeOfAFace) {
   const double tan_theta = 3e-4;
   const PiecewisePolynomial g{.breaks_mm = {10, 30}, .coefficients = {{0.5, tan_theta}}};
   const Case c{.kind = flatness, .e_mm = g, .value_mm = (60 - 20) / 2 * tan_theta};
@@ -326,7 +327,7 @@ TEST(Boundaries, TotalRunoutsAddTheMachine) {
     c.machine_mm = 0.004;
     expect(c, kGood);
     c.machine_mm = 0.004 + kBit;
-    expect(c, {false, false, true});  // the seed has no machine term
+    expect(c, {false, false, true});  // the paper has no machine term
     EXPECT_EQ(verdict(c).why,
               "peak to valley and machine 10.00 um of 10.00 um: 0.00 um too much, and no "
               "constant offset changes it");
@@ -435,7 +436,7 @@ std::vector<Case> random_cases() {
 void same(const Verdict& a, const Verdict& b) {
   EXPECT_EQ(a.accepted, b.accepted) << a.why << '\n' << b.why;
   EXPECT_EQ(a.accepted_after_offset, b.accepted_after_offset);
-  EXPECT_EQ(a.seed_verdict, b.seed_verdict);
+  EXPECT_EQ(a.published_verdict, b.published_verdict);
 }
 
 /// e -> factor e + shift, the tolerance with it.
@@ -506,15 +507,15 @@ TEST(Invariances, TheOffsetKeepsItsPromise) {
   EXPECT_GT(hopeless, 30);
 }
 
-// The seed's conditions are necessary ones: what they refuse is bad.
-TEST(Invariances, TheSeedRefusesNoGoodPart) {
+// The conditions of [Valino 2008] are necessary ones: what they refuse is bad.
+TEST(Invariances, ThePublishedEquationsRefuseNoGoodPart) {
   int passed_bad = 0;
   for (const Case& c : random_cases()) {
     const Verdict v = verdict(c);
     if (v.accepted) {
-      EXPECT_TRUE(v.seed_verdict) << v.why;
+      EXPECT_TRUE(v.published_verdict) << v.why;
     }
-    passed_bad += v.seed_verdict && !v.accepted;
+    passed_bad += v.published_verdict && !v.accepted;
   }
   EXPECT_GT(passed_bad, 30);
 }

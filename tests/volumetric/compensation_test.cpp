@@ -291,8 +291,8 @@ TEST(NcProgram, ModesOfOneProgram) {
   EXPECT_EQ(good.moves[8].before, "N80 G21 G94 G97 S900");
 }
 
-/// The seed's scales and squareness, with bows along all axes.
-Machine seed_machine() {
+/// The scales and squareness of [Jha], with bows along all axes.
+Machine paper_machine() {
   Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
   m.axes[0].errors[0].c = {0, 9e-3, 1e-3, -2e-4};
   m.axes[1].errors[1].c = {0, 11.25e-3, -8e-4, 1e-4};
@@ -305,7 +305,7 @@ Machine seed_machine() {
   return m;
 }
 
-// 8 x 8 x 8 points over the seed's moves, each reached from below.
+// 8 x 8 x 8 points over the moves of [Jha], each reached from below.
 std::vector<std::string> grid() {
   std::vector<std::string> out;
   for (int i = 0; i < 8; ++i)
@@ -321,11 +321,11 @@ Lines views(const std::vector<std::string>& lines) {
   return {lines.begin(), lines.end()};
 }
 
-TEST(Compensation, MethodsOnTheSeedsVolume) {
+TEST(Compensation, MethodsOnThePapersVolume) {
   const auto lines = grid();
   const NcProgram p = read_nc(views(lines), {});
   const auto run = [&](Method method, int passes) {
-    return compensate(p, seed_machine(), {}, {.method = method, .passes = passes});
+    return compensate(p, paper_machine(), {}, {.method = method, .passes = passes});
   };
   const auto average = run(Method::average, 1), affine = run(Method::affine, 1),
              one = run(Method::full_field, 1), two = run(Method::full_field, 2);
@@ -335,7 +335,7 @@ TEST(Compensation, MethodsOnTheSeedsVolume) {
   EXPECT_LT(one.after.rms_mm, affine.after.rms_mm / 10);
   EXPECT_LT(two.after.max_mm, 1e-6);
   // A shift changes no distance between points.
-  const Kinematics k(seed_machine());
+  const Kinematics k(paper_machine());
   const auto stretch = [&](const Compensated& c) {
     const auto first = targets(read_nc(views(c.lines), {}));
     const auto goal = targets(p);
@@ -394,7 +394,7 @@ TEST(Compensation, LinearFieldsHaveClosedForms) {
 
 // The corrected program, read again and run on the machine, goes where the source should.
 TEST(Compensation, CorrectedProgramReachesItsTargets) {
-  Machine m = seed_machine();
+  Machine m = paper_machine();
   m.axes[0].errors[0].b = -2e-3;
   m.axes[1].errors[0].b = 1e-3;
   const std::vector<std::string_view> source = {
@@ -456,7 +456,7 @@ std::vector<Vec3> made(const Machine& m, const std::vector<Vec3>& written, Vec3 
 // corrected program does is what it is said to do, with lost motion or overshoot.
 TEST(Compensation, AxesThatFollowABowTurnBackToo) {
   for (const double b : {-5e-3, 2e-3}) {
-    Machine m = seed_machine();
+    Machine m = paper_machine();
     m.axes[0].errors[1].c = {0, 0, 0.02, 0.004};
     m.axes[1].errors[1].b = b;
     m.axes[2].errors[2].b = b / 2;
@@ -540,7 +540,7 @@ TEST(Compensation, PlayTakenUpLeavesNoneToTheFeed) {
     return low + (high - low) * std::generate_canonical<double, 53>(random);
   };
   for (int i = 0; i < 200; ++i) {
-    Machine m = seed_machine();
+    Machine m = paper_machine();
     for (Axis& axis : m.axes)
       for (std::size_t j = 0; j < 6; ++j) {
         const double size = j < 3 ? 1 : 1e-3;

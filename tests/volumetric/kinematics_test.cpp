@@ -249,8 +249,9 @@ TEST(Kinematics, SquarenessTurnsTheDirectionOnly) {
   EXPECT_NEAR(tip[1] / tip[0], 1e-2, 1e-15);
 }
 
-TEST(Kinematics, SeedExampleOfThreeMoves) {
-  // Scales and squareness that give the seed's sums 0.018 + 0.006, 0.007 + 0.023, 0.045.
+TEST(Kinematics, PapersExampleOfThreeMoves) {
+  // Scales and squareness that give the sums of [Jha]: 0.018 + 0.006, 0.007 + 0.023,
+  // 0.045.
   Machine m{"wfXYZt", {}, {{'X', {}, 100}, {'Y', {}, 100}, {'Z', {}, 100}}};
   m.axes[0].errors[0].c[1] = 0.018 / 2;  // EXX over 200 mm
   m.axes[1].errors[1].c[1] = 0.045 / 4;  // EYY over 400 mm
@@ -273,7 +274,7 @@ TEST(Kinematics, SeedExampleOfThreeMoves) {
   EXPECT_LE(distance(other, first), 1e-6);
 }
 
-// The seed's D-H chain, table 1: each link Rz(x) Tz(d) Tx(a) Rx(t); its frame (x, z, y)
+// The D-H chain of [Jha], table 1: each link Rz(x) Tz(d) Tx(a) Rx(t); its frame (x, z, y)
 // is mirrored against ISO 841's (x, y, z).
 Eigen::Matrix4d link(double d, double a, double x, double t) {
   Eigen::Matrix4d T;
@@ -286,7 +287,7 @@ Eigen::Matrix4d link(double d, double a, double x, double t) {
   return T;
 }
 
-TEST(Kinematics, SeedDenavitHartenbergChainIsASpecialCase) {
+TEST(Kinematics, PapersDenavitHartenbergChainIsASpecialCase) {
   const double h = units::kPi / 2, am = 31, a1 = 17, a2 = -12, a3 = 23, dm = 8, L = 140,
                tx = 3, tz = -5, ty = 7, theta = 0.7;
   const auto chain = [&](double X, double Z, double Y, double turned) {
@@ -297,7 +298,7 @@ TEST(Kinematics, SeedDenavitHartenbergChainIsASpecialCase) {
                            link(0, 0, turned, h) * Eigen::Vector4d(0, 0, L, 1));
   };
   // Three linear axes and the head as A axis: the product's last joint turns the tool
-  // from -y to +z about the X direction (table 2 of the seed says Z).  Its axis passes
+  // from -y to +z about the X direction (table 2 of [Jha] says Z).  Its axis passes
   // through p, where the product puts frame 4 at zero.
   const Eigen::Vector4d zero = chain(0, 0, 0, 0);
   const Vec3 tool{zero[0], zero[2], zero[1]};   // ISO order x, y, z
@@ -307,14 +308,14 @@ TEST(Kinematics, SeedDenavitHartenbergChainIsASpecialCase) {
             {{'X', {}, 100}, {'Z', {}, 100}, {'Y', {}, 100}, {'A', p, units::kPi}}};
   const Kinematics k(m);
   for (const double q : {0.0, 1.0, -2.5}) {
-    const Eigen::Vector4d seed = chain(200 * q, 300 * q, 400 * q, theta * q);
+    const Eigen::Vector4d paper = chain(200 * q, 300 * q, 400 * q, theta * q);
     // From -y to +z is a negative turn about x in ISO's right-handed frame.
     const Vec3 tip = k.nominal({.q = {200 * q, 400 * q, 300 * q, -theta * q}}).tip_mm;
-    EXPECT_LE(distance(tip, {seed[0], seed[2], seed[1]}), 1e-12);
-    // Eq. (14) of the seed, with the homogeneous row it lacks.
-    EXPECT_NEAR(seed[0], -a2 + 200 * q + tx, 1e-12);
-    EXPECT_NEAR(seed[1], L * std::sin(theta * q) - am + a3 + 300 * q + tz, 1e-12);
-    EXPECT_NEAR(seed[2], -L * std::cos(theta * q) + a1 + dm + 400 * q + ty, 1e-12);
+    EXPECT_LE(distance(tip, {paper[0], paper[2], paper[1]}), 1e-12);
+    // Eq. (14) of [Jha], with the homogeneous row it lacks.
+    EXPECT_NEAR(paper[0], -a2 + 200 * q + tx, 1e-12);
+    EXPECT_NEAR(paper[1], L * std::sin(theta * q) - am + a3 + 300 * q + tz, 1e-12);
+    EXPECT_NEAR(paper[2], -L * std::cos(theta * q) + a1 + dm + 400 * q + ty, 1e-12);
   }
   // Eq. (13), atan(-k/j), loses the quadrant that atan2(k, -j) keeps.
   for (const double angle : {0.3, 2.0, -2.6}) {

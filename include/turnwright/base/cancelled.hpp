@@ -5,20 +5,21 @@
 
 namespace turnwright {
 
-/// Nobody waits for the answer any more.
+/// Thrown to end a computation whose answer nobody waits for any more.
 class Cancelled : public std::exception {
  public:
   const char* what() const noexcept override { return "cancelled"; }
 };
 
-/// To be called between pieces of long work.  @throws Cancelled if `stop` was asked for.
+/// Cancellation point, to be called between pieces of long work.
+/// @throws Cancelled if a stop was requested.
 inline void leave_if(const std::stop_token& stop) {
   if (stop.stop_requested()) throw Cancelled();
 }
 
-/// While it lives, long work of this thread listens to `stop`, which must outlive it: the
-/// loops of a search look there by leave_if_asked() and need not be handed the token.
-/// Nothing that is computed depends on it.
+/// While an object of this class lives, long work of its thread can be stopped by `stop`,
+/// which must outlive the object.  The loops of a search call leave_if_asked(), so the
+/// token need not be passed through every function.  No computed value depends on it.
 class Listening {
  public:
   explicit Listening(const std::stop_token& stop)
@@ -27,7 +28,7 @@ class Listening {
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
 
-  /// What this thread listens to, if anything.
+  /// The token of this thread; null if it has none.
   static const std::stop_token*& heard() {
     thread_local const std::stop_token* stop = nullptr;
     return stop;
@@ -37,7 +38,8 @@ class Listening {
   const std::stop_token* before_;
 };
 
-/// @throws Cancelled if this thread listens to a stop that was asked for.
+/// Cancellation point for a thread that has a Listening object.
+/// @throws Cancelled if its stop was requested.
 inline void leave_if_asked() {
   if (const auto* stop = Listening::heard()) leave_if(*stop);
 }

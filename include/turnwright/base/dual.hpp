@@ -10,14 +10,14 @@ namespace turnwright {
 constexpr double sqr(double x) { return x * x; }
 constexpr double mid(double x) { return x; }
 
-/// A value with its gradient to N variables (forward differentiation), over V = double
-/// for exact gradients or V = Interval for enclosures of value and gradient over a box.
+/// A value with its gradient to N variables (forward-mode automatic differentiation).
+/// V = double gives exact gradients, V = Interval encloses value and gradient over a box.
 ///
 ///     (u, u') (v, v') = (u v, u' v + u v'),   F(u)' = F'(u) u'
 ///
-/// `min`, `max` and `branch` take one side's gradient where the sides differ and the hull
-/// of both where an interval cannot tell: a generalised gradient, right for the mean
-/// value theorem of continuous functions with kinks.
+/// `min`, `max` and `branch` take the gradient of the side that applies, and the hull of
+/// both gradients where an interval contains both sides.  That is a generalised gradient,
+/// for which the mean value theorem of continuous functions with kinks holds.
 template <class V, int N>
 struct Dual {
   V v{};
@@ -28,7 +28,7 @@ struct Dual {
   Dual(V value, std::array<V, N> gradient) : v(value), d(gradient) {}
 };
 
-/// A number or a number with its gradient: no enclosure.
+/// Whether T is a number, with or without a gradient, and not an enclosure.
 template <class T>
 inline constexpr bool is_point = std::is_floating_point_v<T>;
 template <int N>

@@ -5,15 +5,15 @@
 
 namespace turnwright {
 
-/// One thing wrong with a document, told so that the reader can find and mend it.
+/// One error in a document, described so that its author can find and correct it.
 struct Problem {
   std::string pointer;   ///< JSON pointer into the document, "" for the whole of it
-  std::string got;       ///< what stands there, as text, with unit where it has one
-  std::string expected;  ///< what is wanted, with unit and limits
+  std::string got;       ///< the value in the document, as text, with its unit if any
+  std::string expected;  ///< the values that are allowed, with unit and limits
   std::string code;      ///< machine-readable kind: "type", "range", "unknown-key", ...
 };
 
-/// A document that cannot be read: all its problems, not only the first.
+/// Thrown for a document that cannot be read; lists all its problems, not only the first.
 class InputError : public std::runtime_error {
  public:
   /// @param document  name of the file or request, shown before every problem.
@@ -26,7 +26,7 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// A model asked outside the range it was made for (a hard limit).
+/// Thrown when a model is used outside the range for which it holds.
 class ModelRangeError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

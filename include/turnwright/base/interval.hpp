@@ -10,13 +10,14 @@ namespace turnwright {
 /// Closed interval [lo, hi]: arithmetic on it encloses the arithmetic of every pair of
 /// members, so a function written once over a scalar type can be bounded over a box.
 ///
-/// Results are not rounded outwards: each operation may be short by one unit in the last
-/// place.  Whoever proves something with an interval leaves a margin for that (the
-/// certificates of optimise/ keep 1e-11 in logarithms, a thousand times what a few
-/// hundred operations can lose).  Boost.Interval rounds outwards by switching the
-/// processor's rounding mode, which costs ten times this arithmetic.
-/// Where an operation has no meaning on part of its argument (log, sqrt, pow below zero)
-/// the rest of it is enclosed; where infinities leave nothing known, the whole line.
+/// Results are not rounded outwards: each operation may be too narrow by one unit in the
+/// last place.  A proof by intervals must leave a margin for that (the certificates of
+/// optimise/ keep 1e-11 in logarithms, a thousand times the loss of a few hundred
+/// operations).  Boost.Interval rounds outwards by switching the processor's rounding
+/// mode, which costs ten times this arithmetic.
+/// Where an operation is undefined on part of its argument (log, sqrt, pow below zero)
+/// the values on the rest are enclosed; where infinities make the result unknown it is
+/// the whole line.
 struct Interval {
   double lo = 0, hi = 0;
 
@@ -35,7 +36,7 @@ constexpr double width(const Interval& x) { return x.hi - x.lo; }
 constexpr Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
-/// Common part; callers know the two overlap (two enclosures of one value).
+/// Intersection of two intervals that overlap, such as two enclosures of one value.
 constexpr Interval intersect(const Interval& a, const Interval& b) {
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
@@ -50,11 +51,11 @@ constexpr Interval operator-(const Interval& a, const Interval& b) {
 constexpr Interval operator*(const Interval& a, const Interval& b) {
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
   const double sum = p + q + r + s;
-  if (sum != sum) return Interval::whole();  // 0 times infinity among them
+  if (sum != sum) return Interval::whole();  // one product is 0 times infinity
   return {std::min(std::min(p, q), std::min(r, s)),
           std::max(std::max(p, q), std::max(r, s))};
 }
-/// The whole line where the divisor holds zero.
+/// The quotient is the whole line where the divisor contains zero.
 constexpr Interval operator/(const Interval& a, const Interval& b) {
   if (!(b.lo > 0 || b.hi < 0)) return Interval::whole();
   return a * Interval{1 / b.hi, 1 / b.lo};
@@ -67,7 +68,7 @@ inline Interval log(const Interval& x) {
 inline Interval sqrt(const Interval& x) {
   return {std::sqrt(std::max(x.lo, 0.0)), std::sqrt(std::max(x.hi, 0.0))};
 }
-/// Falling on [-1, 1].
+/// Arc cosine, which falls on [-1, 1]; arguments beyond are clamped.
 inline Interval acos(const Interval& x) {
   return {std::acos(std::clamp(x.hi, -1.0, 1.0)), std::acos(std::clamp(x.lo, -1.0, 1.0))};
 }
@@ -88,7 +89,7 @@ inline Interval pow(const Interval& x, double p) {
   const double a = std::pow(std::max(x.lo, 0.0), p), b = std::pow(std::max(x.hi, 0.0), p);
   return p >= 0 ? Interval{a, b} : Interval{b, a};
 }
-/// x^2, without the loss of x * x where x changes sign.
+/// x^2, which is narrower than x * x where x changes sign.
 constexpr Interval sqr(const Interval& x) {
   const double a = x.lo * x.lo, b = x.hi * x.hi;
   if (x.lo <= 0 && x.hi >= 0) return {0, std::max(a, b)};

@@ -12,14 +12,15 @@ namespace turnwright {
 ///
 ///     (u v)' = u' + v',  (u^p)' = p u',  (u + v)' = u' + w (v' - u'),  w = v/(u + v) (1)
 ///
-/// so a product of powers is enclosed without error on any box, and a sum by shares of
-/// what its terms are: the gradient of a cost or a force stays within the hull of its
-/// exponents where Dual<Interval> would multiply and divide the widths of its values.
-/// With the value at the middle of the box, `centre`, every result is also
+/// so a product of powers is enclosed without error on any box, and the gradient of a sum
+/// is a weighted mean of the gradients of its terms.  The gradient of a cost or a force
+/// therefore stays within the hull of its exponents, where Dual<Interval> would multiply
+/// and divide the widths of its values.  With the value at the middle of the box,
+/// `centre`, every result is also
 ///
 ///     ln v in centre + sum_j (elasticity_j) [-h_j, h_j],  h the box's half widths    (2)
 ///
-/// Rounding as in Interval.  Zero is ln v = -infinity and the neutral element of +.
+/// Rounding is that of Interval.  Zero has ln v = -infinity and is neutral under +.
 /// Source: derived here; log_dual_test samples boxes.
 template <int N>
 struct LogDual {
@@ -27,9 +28,9 @@ struct LogDual {
   using Half = std::array<double, N>;
 
   Interval ln;
-  double centre = 0;  ///< NaN: not known, (2) is not used
+  double centre = 0;  ///< ln at the middle of the box; NaN: unknown, (2) is not used
   Gradient d{};
-  const Half* half = nullptr;  ///< of the box, which outlives the number
+  const Half* half = nullptr;  ///< half widths of the box, which must outlive the number
 
   LogDual() = default;   ///< one
   LogDual(double value)  // NOLINT: a number is a constant
@@ -37,7 +38,7 @@ struct LogDual {
     ln = Interval(centre);
   }
 
-  /// exp of variable number i over its interval.
+  /// exp(y_i) of variable number i over its interval.
   static LogDual variable(const Interval& y, int i, const Half& half) {
     LogDual x(1.0);
     x.ln = y;
@@ -55,7 +56,8 @@ struct LogDual {
   bool zero() const { return ln.hi == -std::numeric_limits<double>::infinity(); }
 };
 
-/// A quantity of either sign that goes with T: T itself, Dual<Interval> beside LogDual.
+/// The scalar type for quantities of either sign in computations with T: Dual<Interval>
+/// for LogDual, which can only be positive, and T itself otherwise.
 template <class T>
 struct SignedOf {
   using Type = T;
@@ -79,7 +81,7 @@ double reach(const std::array<Interval, N>& d, const std::array<double, N>* half
         r += std::max(std::abs(d[j].lo), std::abs(d[j].hi)) * (*half)[j];
   return r;
 }
-// (2); an unknown centre leaves ln as it is.
+// Narrows ln by (2), unless the centre is unknown.
 template <int N>
 LogDual<N> centred(LogDual<N> x) {
   const double r = reach<N>(x.d, x.half);
@@ -87,7 +89,7 @@ LogDual<N> centred(LogDual<N> x) {
   if (x.centre + r < x.ln.hi) x.ln.hi = x.centre + r;
   return x;
 }
-// x exp(c): what holds of x holds shifted.
+// x exp(c): every bound of ln x is shifted by c.
 template <int N>
 LogDual<N> scaled(LogDual<N> x, double c) {
   x.ln = {x.ln.lo + c, x.ln.hi + c};
@@ -137,7 +139,7 @@ LogDual<N> sqr(const LogDual<N>& x) {
   return pow(x, 2.0);
 }
 
-/// Eq. (1), the share of b from ln(b/a).
+/// Eq. (1), with the weight w of b from ln(b/a).
 template <int N>
 LogDual<N> operator+(const LogDual<N>& a, const LogDual<N>& b) {
   if (a.zero()) return b;
@@ -243,7 +245,7 @@ LogDual<N> operator+(double a, const LogDual<N>& b) {
   return LogDual<N>(a) + b;
 }
 
-/// A rising or falling function of x: ln of its value, and its elasticity over ln x.
+/// A monotone function of x, given by ln of its value and by its elasticity over ln x.
 template <int N, class Value, class Elasticity>
 LogDual<N> monotone(const LogDual<N>& x, const Value& ln_value, const Elasticity& slope) {
   LogDual<N> r = x;
@@ -255,15 +257,15 @@ LogDual<N> monotone(const LogDual<N>& x, const Value& ln_value, const Elasticity
   return detail::centred(r);
 }
 
-/// See Dual.  Each side is enclosed over its own part of the box, where (2) does not
-/// hold.
+/// As `branch` of Dual.  Each side is enclosed over its own part of the box, to which (2)
+/// does not apply.
 template <int N, class Below, class Above>
 LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
                   const Above& above) {
   const double edge = std::log(at);
   if (x.ln.hi <= edge) return below(x);
   if (x.ln.lo >= edge) return above(x);
-  LogDual<N> low = x, high = x, middle;  // the last: where (2) starts from
+  LogDual<N> low = x, high = x, middle;  // `middle` is the centre that (2) needs
   low.ln.hi = high.ln.lo = edge;
   low.centre = high.centre = detail::kUnknown;
   middle.ln = Interval(x.centre);
@@ -279,8 +281,8 @@ LogDual<N> branch(const LogDual<N>& x, double at, const Below& below,
   return detail::centred(r);
 }
 
-/// The same quantity where sums change sign, and back for one that is positive, x.v.lo >
-/// 0.
+/// Converts to the scalar type for quantities of either sign, and `positive` converts
+/// back, for x.v.lo > 0.
 template <int N>
 Dual<Interval, N> linear(const LogDual<N>& x) {
   Dual<Interval, N> r;

@@ -4,11 +4,13 @@
 
 #include "turnwright/base/units.hpp"
 
-/// Random numbers that are alike with every standard library; its distributions are not.
+/// Random numbers that are the same with every standard library, which the distributions
+/// of <random> are not.
 namespace turnwright {
 
-/// Number k = 0, 1, .. of SplitMix64 started at `state`, without those before it.
-/// Source: Rosetta Code, "Pseudo-random numbers/Splitmix64", which lists the first five.
+/// Number k = 0, 1, .. of SplitMix64 started at `state`, computed without the numbers
+/// before it.
+/// Source: [Rosetta], which lists the first five.
 constexpr std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k) {
   std::uint64_t z = state + (k + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -16,7 +18,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t state, std::uint64_t k) {
   return z ^ (z >> 31);
 }
 
-/// A number in (0, 1] from 64 random bits; 1 by rounding, once in 2^53.
+/// A number in (0, 1] from 64 random bits; it rounds to 1 once in 2^53.
 constexpr double uniform_draw(std::uint64_t bits) {
   return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
 }

@@ -3,12 +3,13 @@
 
 namespace turnwright {
 
-/// A root of g in [low, high], where g(low) <= 0 <= g(high): Newton's steps, halving where
-/// they leave the bracket; a bracket that begins at 0 is cut to its thousandth, as its
-/// root may be of any size.  g need not be monotone, nor its slope finite at the ends.
+/// A root of g in [low, high], where g(low) <= 0 <= g(high), by Newton's method; steps
+/// that leave the bracket are replaced by bisection.  A bracket that begins at 0 is cut
+/// to a thousandth instead, because its root may have any order of magnitude.  g need not
+/// be monotone, nor its slope finite at the ends.
 /// @param g         g(x) -> pair of value and slope.
-/// @param at        where to start, in [low, high].
-/// @param relative  of x, the last step; halving alone reaches any double.
+/// @param at        starting point in [low, high].
+/// @param relative  the search ends once a step is smaller than this share of x.
 template <class G>
 double bracketed_root(const G& g, double low, double high, double at, double relative) {
   for (int step = 0; step < 2200; ++step) {

@@ -1,8 +1,8 @@
 #pragma once
 #include <numbers>
 
-/// The one place where units are converted.  Inside: mm, N, MPa, s, rad; cutting keeps
-/// its own (m/min, mm/rev, min, um, degC), and so do the documents.
+/// The one place where units are converted.  Mechanics computes in mm, N, MPa, s, rad;
+/// cutting and the documents keep their usual units (m/min, mm/rev, min, um, degC).
 namespace turnwright::units {
 
 inline constexpr double kPi = std::numbers::pi;

@@ -11,27 +11,27 @@ namespace turnwright::catalogue {
 
 enum class FixedUse { centring, drilling, grooving, threading, profiling, parting };
 
-/// Conditions that the catalogue gives for some groups of materials.
+/// Cutting conditions that the catalogue gives for some groups of materials.
 struct FixedConditions {
   std::vector<IsoGroup> groups;
   double vc_m_min = 0;
-  double f_mm_rev = 0;  ///< of drills and centre drills: per mm of diameter
-  double T_min = 0;     ///< life at these conditions
+  double f_mm_rev = 0;  ///< feed; for drills and centre drills per mm of diameter
+  double T_min = 0;     ///< tool life at these conditions
 };
 
-/// A tool whose conditions are not optimised.
+/// A tool that is used at fixed conditions, which are not optimised.
 struct FixedTool {
   std::string id, name;
   FixedUse use = FixedUse::centring;
   bool inner = false;      ///< works in a bore
-  double min_bore_mm = 0;  ///< of an inner tool
-  /// Diameters of drills (of centre drills the countersink's), widths of blades, in
+  double min_bore_mm = 0;  ///< smallest bore that an inner tool enters
+  /// Diameters of drills (for centre drills of the countersink) or widths of blades, in
   /// rising order; empty for threading and profiling.
   std::vector<double> sizes_mm;
-  Range pitch_mm;            ///< of threads
-  double reach = 0;          ///< deepest cut: drills in diameters, blades in mm
-  double point_deg = 0;      ///< of drills
-  double ap_mm = 0;          ///< deepest pass of profiling
+  Range pitch_mm;            ///< pitches of threads that it cuts
+  double reach = 0;          ///< deepest cut: of drills in diameters, of blades in mm
+  double point_deg = 0;      ///< point angle of a drill
+  double ap_mm = 0;          ///< largest depth of a profiling pass
   double re_mm = 0;          ///< corner radius of profiling tools
   double passes_per_mm = 0;  ///< infeeds of a thread per mm of pitch
   double gamma_deg = 0;      ///< rake

@@ -23,21 +23,21 @@ struct CentreCompliance {
 /// Three-jaw chuck: compliance and grip (VDI 3106).
 struct Chuck {
   RootCompliance radial, tangential;
-  double axial_mm_N = 0;            ///< axial compliance of part in jaws and spindle
+  double axial_mm_N = 0;            ///< axial compliance of the held part and the spindle
   double grip_force_N = 0;          ///< total gripping force at rest, Fsp0
   double jaw_mass_radius_kg_m = 0;  ///< sum of m r over all jaws
   double friction = 0;              ///< mu_sp between jaws and part
   double n_max_rpm = 0;
-  Range diameter_mm;  ///< what it can hold
+  Range diameter_mm;  ///< diameters that it can hold
 };
 
-/// Spindles of the turret for milling cutters.
+/// Driven spindles of the turret, for milling cutters.
 struct DrivenTools {
   double n_min_rpm = 0, n_max_rpm = 0;
-  std::vector<CurvePoint> curve;  ///< as of the main spindle
+  std::vector<CurvePoint> curve;  ///< as for the main spindle
   double efficiency = 0;
   double feed_max_mm_min = 0;
-  std::map<std::string, std::vector<TipMode>> modes;  ///< measured here, by cutter
+  std::map<std::string, std::vector<TipMode>> modes;  ///< measured, by id of the cutter
 };
 
 /// Eccentricity of a part that is held anew, standard deviation of each component [um].
@@ -79,14 +79,14 @@ struct Lathe {
   double swing_mm = 0, between_centres_mm = 0;
   Chuck chuck;
   CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;
-  double tail_thrust_N = 0;  ///< of the tailstock on the part
-  double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
+  double tail_thrust_N = 0;  ///< thrust of the tailstock on the part
+  double tool_rr_mm_N = 0;   ///< toolpost: radial deflection per radial force
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   ShopBudget budget = {};
   std::optional<GeometricErrors> errors = {};
   std::optional<DrivenTools> driven_tools = {};
-  std::optional<double> damping_ratio = {};  ///< of slender work and bars in it
+  std::optional<double> damping_ratio = {};  ///< of slender work and boring bars
   std::vector<std::string> clampings;        ///< "chuck", "chuck-tailstock", ...
   bool has(std::string_view clamping) const {
     return std::find(clampings.begin(), clampings.end(), clamping) != clampings.end();

@@ -24,7 +24,7 @@ struct Material {
   double hardness_HB = 0;
   double E_MPa = 0, nu = 0, rho_kg_m3 = 0, expansion_1_K = 0;
   Kienzle kc;                     ///< cutting force: kc1.1, mc
-  double gamma0_deg = 0;          ///< rake that kc1.1 belongs to
+  double gamma0_deg = 0;          ///< rake for which kc1.1 holds
   double kc_uncertainty_pct = 0;  ///< one standard deviation
   std::optional<Kienzle> kf, kp;  ///< feed and passive force, both or neither
   Taylor taylor;

@@ -14,14 +14,14 @@ struct Range {
   double lower = 0, upper = 0;
 };
 
-/// A stretch of a boring bar's shank, from the tool block outwards.
+/// One segment of a boring bar's shank, counted from the tool block outwards.
 struct BarSegment {
   double length_mm = 0, diameter_mm = 0;
   double bore_mm = 0;  ///< coolant bore, 0: none
 };
 
-/// Symmetric positive semi-definite compliance [[c0, c1], [c1, c2]] of what holds a body:
-/// deflection and rotation at its root per unit force and couple there.
+/// Symmetric positive semi-definite compliance [[c0, c1], [c1, c2]] of the support of a
+/// body: deflection and rotation at its root per unit force and couple there.
 struct RootCompliance {
   double c0_mm_N = 0, c1_rad_N = 0, c2_rad_Nmm = 0;
 };
@@ -30,26 +30,29 @@ struct RootCompliance {
 struct BoringBar {
   double E_MPa = 0, nu = 0;
   std::vector<BarSegment> segments;
-  double tip_offset_mm = 0;        ///< corner from the bar's axis
+  double tip_offset_mm = 0;        ///< distance of the corner from the bar's axis
   double min_bore_mm = 0;          ///< smallest hole it enters
-  RootCompliance holder;           ///< in both planes
-  std::optional<double> tip_mm_N;  ///< measured at the tip, in place of shank and holder
-  std::optional<double> damping_ratio;  ///< of the bar; absent: as that of the part
+  RootCompliance holder;           ///< the same in both planes
+  std::optional<double> tip_mm_N;  ///< measured at the tip; replaces shank and holder
+  std::optional<double> damping_ratio;  ///< absent: that of the part
 };
 
-/// An edge of a chip breaker's window, straight in logarithms: f <= or >= f1 ap^exponent.
+/// An edge of a chip breaker's window, straight in logarithms: f <= f1 ap^exponent, or
+/// f >= f1 ap^exponent.
 struct ChipEdge {
   double f1_mm_rev = 0, exponent = 0;
   bool upper = true;  ///< <=
 };
 
-/// A piece of such a window, convex in logarithms: its ranges and its other edges.
+/// A piece of a chip breaker's window that is convex in logarithms: its ranges of depth
+/// and feed, and its sloping edges.
 struct ChipPiece {
   Range ap_mm, f_mm_rev;
   std::vector<ChipEdge> edges;
 };
 
-/// A turning tool: holder and insert, ISO 13399 symbols, and what its maker allows.
+/// A turning tool: holder and insert in symbols of ISO 13399, and its permitted
+/// conditions.
 struct Tool {
   std::string id, name;
   std::string insert;  ///< ISO 1832 designation
@@ -62,17 +65,17 @@ struct Tool {
   double alpha_deg = 0;  ///< clearance
   double re_mm = 0;      ///< corner radius RE
   bool wiper = false;
-  Range f_mm_rev, ap_mm;         ///< chip-breaker window, or what holds it
-  std::vector<ChipPiece> chip;   ///< its pieces where it is a polygon
-  Range vc_m_min;                ///< of the grade, all materials
+  Range f_mm_rev, ap_mm;         ///< chip breaker's window, or the range that contains it
+  std::vector<ChipPiece> chip;   ///< convex pieces of a window that is a polygon
+  Range vc_m_min;                ///< cutting speeds of the grade over all materials
   double Fc_max_N = 0;           ///< strength of insert and holder
   Range T_min;                   ///< tool life window [min]
   double change_min = 0;         ///< time to change a worn edge [min]
   double edge_cost = 0;          ///< cost of one cutting edge
-  std::optional<BoringBar> bar;  ///< of a tool for boring
+  std::optional<BoringBar> bar;  ///< for boring tools
 };
 
-/// What an ISO 1832 designation of an indexable insert says about geometry.
+/// Geometry of an indexable insert as its ISO 1832 designation gives it.
 struct Insert1832 {
   char shape = 'C';
   double included_angle_deg = 0;  ///< corner angle

@@ -30,69 +30,70 @@ struct SpeedRange {
 
 struct ChartRequest {
   System system;
-  std::optional<Cutter> cutter;  ///< with what `system` does not hold
+  std::optional<Cutter> cutter;  ///< helix, pitches, runout and damping, if any
   Method method = Method::fundamental_matrix;
   int resolution = 0;               ///< elements or intervals of a reference method
-  std::optional<double> ap_max_mm;  ///< searched up to there; given if there are speeds
+  std::optional<double> ap_max_mm;  ///< end of the search; required if there are speeds
   std::vector<double> speeds_rpm;
-  std::vector<double> depths_mm;  ///< multipliers are counted there at each speed
+  std::vector<double> depths_mm;  ///< at which multipliers are counted for each speed
   std::optional<Bands> bands;
-  std::optional<SpeedRange> machine;  ///< speeds that the machine reaches; absent: all
+  std::optional<SpeedRange> machine;  ///< speeds of the machine; absent: all
   std::vector<OperatingPoint> points;
 
-  /// Whether depth and delay enter by more than one number, see cutter.hpp.
+  /// Whether depth and delay enter by more than one number kappa, see cutter.hpp.
   bool shaped() const;
 };
 
-/// What is told of one speed.
+/// Result for one speed.
 struct ChartSpeed {
   std::size_t index = 0;  ///< in speeds_rpm
   SpeedLimits limits;
   std::optional<UncertainLimit> uncertain;  ///< if there are bands
 };
 
-/// What is told of one cut.
+/// Result for one cut.
 struct ChartPoint {
   OperatingPoint at;
-  std::optional<int> unstable;  ///< multipliers, if the method tells
+  std::optional<int> unstable;  ///< unstable multipliers, if the method counts them
   double spectral_radius = 0;
   bool stable = false;
-  std::vector<Surface> walls;  ///< of a stable cut by a cutter with a feed
+  std::vector<Surface> walls;  ///< for a stable cut by a cutter with a feed
 };
 
 /// A speed or point outside the method's range.
 struct Undecided {
   std::size_t index = 0;  ///< in speeds_rpm or points
-  OperatingPoint at;      ///< of a speed: ap_max
+  OperatingPoint at;      ///< for a speed with ap_max as depth
   std::string why;        ///< empty if it was not tried
-  double harder_rpm = 0;  ///< then: a speed that would take too long, and this one longer
+  double harder_rpm = 0;  ///< if not tried: a faster speed that already takes too long
 };
 
 struct StabilityChart {
-  std::vector<ChartSpeed> speeds;  ///< those decided, in the order of the request
+  std::vector<ChartSpeed> speeds;  ///< the decided ones, in the order of the request
   std::vector<ChartPoint> points;
   std::vector<Undecided> undecided_speeds, undecided_points;
-  /// The machine's speed that removes most, and its depth: n times the depth up to the
-  /// first loss is greatest.  None if the machine reaches none of them.
+  /// The machine's speed of the highest rate of material removal and its depth: n times
+  /// the depth up to the first loss is greatest.  None if the machine reaches no speed.
   std::optional<OperatingPoint> best;
-  bool best_is_limited_by_chatter = false;  ///< else by ap_max
+  bool best_is_limited_by_chatter = false;  ///< false: by ap_max
   std::vector<OperatingPoint>
       magic;  ///< local maxima of the limit over the speed, rising
 };
 
-/// So many of the speeds and points are done.
+/// Called with the number of speeds and points that are done.
 using ChartProgress = std::function<void(std::size_t done, std::size_t all)>;
 
-/// Speeds are searched from the highest down, for slow ones take longest: once a search
-/// would take too long, slower ones at as great depths are not tried.
-/// @throws Cancelled soon after `stop` was asked for.
+/// Computes a chart.  Speeds are searched from the highest down, because slow ones take
+/// longest: once a search would take too long, slower ones at the same or greater depths
+/// are not tried.
+/// @throws Cancelled soon after a stop was requested.
 StabilityChart stability_chart(const ChartRequest& request,
                                const std::stop_token& stop = {},
                                const ChartProgress& tell = {});
 
 /// Depth [mm] below which turning with one mode is stable at every speed,
-/// 2 k zeta (1 + zeta)/K.  Source: least -1/Re G of one mode, as in any text on
-/// regenerative chatter.
+/// 2 k zeta (1 + zeta)/K.  Source: [Tlusty 1963], the least -1/(2 Re G), here of one
+/// mode.
 /// @param system  with a constant force and one mode.
 double absolute_limit_mm(const System& system);
 

@@ -4,10 +4,10 @@
 
 namespace turnwright::chatter {
 
-/// What an approximate method tells of the multipliers.
+/// Multipliers by an approximate method.
 struct Dominant {
   std::complex<double> multiplier;  ///< of largest modulus
-  std::optional<int> unstable;  ///< multipliers outside the circle, if the method tells
+  std::optional<int> unstable;      ///< number outside the unit circle, if it is counted
 };
 
 }  // namespace turnwright::chatter

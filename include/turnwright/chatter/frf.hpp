@@ -4,10 +4,11 @@
 #include <variant>
 #include <vector>
 
-/// Modes from a frequency response measured at the cut, force and motion along one axis.
+/// Modal parameters from a frequency response measured at the cut, with force and motion
+/// along one axis.
 namespace turnwright::chatter {
 
-/// Y(w) = (i w)^d H(w): what moves under a force e^(+i w t).
+/// A frequency response Y(w) = (i w)^d H(w): the motion under a force e^(+i w t).
 struct FrequencyResponse {
   int derivative = 0;           ///< d: 0 receptance, 1 mobility, 2 accelerance
   std::vector<double> w_rad_s;  ///< rising, > 0
@@ -26,26 +27,26 @@ struct FittedMode {
 struct ModalFit {
   std::vector<FittedMode> modes;  ///< rising in frequency
   Measured above_mm_N;            ///< c of (1): modes above the lines
-  Measured below_mm_N_s2;         ///< b of (1): what moves below the lines
-  /// f of (3); none: errors alike at every line.
+  Measured below_mm_N_s2;         ///< b of (1): modes below the lines, free motion
+  /// f of (3); none: the errors are equal at every line.
   std::optional<double> error_floor;
   double explained = 0;     ///< 1 - sum |e|^2 / sum |Y|^2
   double rms_measured = 0;  ///< of |Y|
   double rms_left = 0;      ///< of |e|
-  /// Of e/s at neighbouring lines, in [-1, 1]: near 0 if what is left is noise.  Where it
-  /// is not the uncertainties are too small.
+  /// Correlation of e/s at neighbouring lines, in [-1, 1]: near 0 if the residual is
+  /// noise; otherwise the uncertainties are too small.
   double correlation = 0;
 };
 
-/// Why there is no fit, with the frequency that tells it, if one does.
+/// The reason why there is no fit, with the frequency at which it appears, if any.
 struct NoFit {
   enum class Why {
     too_few_lines,  ///< fewer than 3 n + 2 for n modes
     no_peak,        ///< no mode explains the lines better than (1) without any
-    negative,       ///< a drive point's mode has a stiffness > 0, so Im H < 0 at its peak
-    not_told,       ///< a standard uncertainty above half of the value, a peak below
-                    ///< 1e-3 of the highest, or (2) no less than with one mode less
-    other_quantity  ///< taken for another `derivative` it leaves less than a tenth
+    negative,       ///< a negative stiffness, which no mode at the driving point can have
+    not_told,       ///< not determined: a standard uncertainty above half of the value, a
+                    ///< peak below 1e-3 of the highest, or (2) as large as without it
+    other_quantity  ///< as another `derivative` the residual is less than a tenth
   } why = Why::no_peak;
   double w_rad_s = 0;
   int derivative = 0;
@@ -56,40 +57,46 @@ struct NoFit {
 ///     H(w) = sum_r (1/k_r) / (1 - (w/wn_r)^2 + 2 i zeta_r w/wn_r) + c - b/w^2        (1)
 ///
 /// over the lines: sum |Y - (i w)^d H|^2 / s^2 = sum |e|^2 / s^2 is least.  c stands for
-/// modes above the lines, b for those below and for free motion.  Levenberg and
-/// Marquardt's method in ln wn, ln zeta, 1/k, c, b. Modes are added one by one, each
-/// where it explains most of what is left apart from small changes of those before, and
-/// all are fitted anew; the starts tried are the best three of these and each mode split
-/// in two.
+/// modes above the lines, b for those below and for free motion.  The method is that of
+/// Levenberg and Marquardt in ln wn, ln zeta, 1/k, c, b.  Modes are added one by one,
+/// each at the frequency where it explains most of the residual that small changes of the
+/// modes before cannot explain, and all are fitted again; the starting points tried are
+/// the best three of these frequencies, and each mode split in two.
 ///
 /// Standard uncertainties: roots of the diagonal of t^2 (J^T J)^-1, t^2 = sum |e|^2 / s^2
 /// / (2 L - 3 n - 2), for L lines, J of the rows over s.
 ///
-/// Without `modes` their number n is the least that one more does not improve by the
-/// criterion of Schwarz,
+/// Without `modes` their number n, the order of the model, is chosen by the Bayesian
+/// information criterion: it is the least n for which n + 1 modes do not lower
 ///
 ///     2 L ln(sum |e|^2 / s^2 / 2 L) + (5 n + 2) ln(2 L)                              (2)
 ///
-/// (5, not 3, as the best of 2 L places fits noise better than a given one)
-/// or that leaves nothing but rounding (1e-12 of |Y|), among those all of whose modes the
-/// lines hold and tell and whose stiffness is positive; at most kMostModes.  Modes whose
-/// peak |1/(2 zeta k)| is below 1e-3 of the highest are then left out: they move no
-/// limit, and rounding of printed values looks like that.  A mode of negative stiffness
-/// is told as a refusal if its peak is above a twentieth of the highest and if without it
-/// and what came after four times as much is left.
+/// or for which the residual is nothing but rounding (1e-12 of |Y|).  A mode counts 5 in
+/// (2), not its 3 parameters, because a mode placed at the best of 2 L lines fits noise
+/// better than a mode at a given line.  Only fits are considered whose modes all lie
+/// inside the band, have positive stiffness and are determined by the lines (see NoFit);
+/// at most kMostModes modes.  Modes whose peak |1/(2 zeta k)| is below 1e-3 of the
+/// highest are then left out: they move no limit, and rounding of printed values looks
+/// like them.
+/// A mode of negative stiffness is a reason to refuse the response if its peak is above a
+/// twentieth of the highest and if the residual without it and the modes after it is four
+/// times as large.
 ///
-/// s, what errors go like, is 1 first.  If errors that grow with the response,
+/// s, the relative size of the errors, is 1 at first.  If errors that grow with the
+/// response,
 ///
 ///     s^2 = |Y_fit|^2 / max |Y_fit|^2 + f^2,     f one of 0.001, 0.003, .. 0.1 (3)
 ///
-/// make what is left likelier - 2 L ln(sum |e|^2 / s^2 / 2 L) + 4 sum ln s less by more
-/// than 5 ln(2 L) -, all is fitted anew with them, at most twice.
+/// make the residual likelier, that is, if 2 L ln(sum |e|^2 / s^2 / 2 L) + 4 sum ln s
+/// falls by more than 5 ln(2 L), all is fitted again with them, at most twice.
 ///
-/// A response of which less than 0.98 is explained, or none, is fitted as the other two
-/// derivatives as well, and refused if one of these leaves less than a tenth.
+/// A response of which less than 0.98 is explained, or nothing, is fitted as each of the
+/// other two derivatives as well, and refused if one of these leaves less than a tenth of
+/// the residual.
 ///
-/// Valid for damping that couples no modes (k real).  Source: derived here; (2) as in any
-/// text on the choice of models; checked in frf_test on responses of known modes.
+/// Valid for damping that couples no modes (k real).  Source: [Levenberg 1944],
+/// [Marquardt 1963]; [Schwarz 1978] for (2), the weight 5 derived here; checked in
+/// frf_test on responses of known modes.
 std::variant<ModalFit, NoFit> modal_fit(const FrequencyResponse& response,
                                         std::optional<int> modes = {});
 inline constexpr int kMostModes = 8;

@@ -7,32 +7,30 @@
 
 namespace turnwright::chatter {
 
-/// How deep a cutter may go at a spindle speed before the first loss of stability,
-/// whatever it does there: a lens of instability that opens and closes again ends the
-/// depth, islands beyond are not used.
+/// Depth of cut at the first loss of stability for a spindle speed.  A closed island of
+/// instability is such a loss, too; stable depths above it are not used.
 ///
-/// Motion and limits depend on depth times force alone, so the system is taken with a
-/// unit force: what is told is w Kt [N/mm], w the axial depth and Kt the tangential
-/// stiffness of the chip, for a given Kn/Kt.
+/// Motion and limits depend on the product of depth and force alone, so the system has a
+/// unit force and the results are w Kt [N/mm], with the axial depth w and the tangential
+/// force coefficient Kt, for a given ratio Kn/Kt.
 ///
-/// What was found is remembered; the same question is answered the same in any order and
-/// from any thread.
+/// Results are cached; they do not depend on the order of the calls or on the thread.
 class Lobes {
  public:
-  /// @param systems  of unit force (LinearForce{1, Kn/Kt}); a cut passes through all of
-  ///   them, the least counts.
+  /// @param systems  with unit force (LinearForce{1, Kn/Kt}); a cut passes through all of
+  ///   them, and the least limit counts.
   explicit Lobes(std::vector<System> systems);
 
-  /// The first loss [N/mm], `enough` if there is none up to it.  Where limits cannot be
-  /// told (ModelRangeError of speed_limits) it is a depth up to which they were.
+  /// The first loss [N/mm], or `enough` if there is none up to that.  Where limits cannot
+  /// be computed (ModelRangeError of speed_limits) it is a depth up to which they were.
   double stable_to_N_mm(double n_rpm, double enough) const;
 
   const std::vector<System>& systems() const { return systems_; }
 
  private:
   struct Known {
-    double searched = 0;  // up to here
-    bool lost = false;    // there
+    double searched = 0;  // end of the search
+    bool lost = false;    // whether stability is lost there
   };
   Known search(const System& system, double n_rpm, Known known, double enough) const;
 

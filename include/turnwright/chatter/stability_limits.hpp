@@ -4,11 +4,11 @@
 
 namespace turnwright::chatter {
 
-/// A depth at which the cut turns from stable to unstable or back.
+/// A depth at which the cut changes between stable and unstable.
 struct Crossing {
   double ap_mm = 0;
-  bool loss = true;           ///< stable below, unstable above; else the other way about
-  bool flip = false;          ///< the multiplier is -1; else a pair e^(+-i theta)
+  bool loss = true;           ///< true: stable below, unstable above; false: the reverse
+  bool flip = false;          ///< true: the multiplier is -1; false: a pair e^(+-i theta)
   double theta_rad = 0;       ///< argument of the multiplier, in (0, pi]
   double frequency_Hz = 0;    ///< of the chatter, (1) of limits.hpp
   double relative_error = 0;  ///< estimated, of ap_mm
@@ -18,8 +18,8 @@ struct Crossing {
 struct SpeedLimits {
   double n_rpm = 0;
   std::vector<Crossing> crossings;  ///< rising
-  std::vector<int> unstable;        ///< multipliers outside the circle at depths asked
-  /// The first loss; none if the cut is stable up to the depth asked about.
+  std::vector<int> unstable;        ///< unstable multipliers at the requested depths
+  /// The first loss; none if the cut is stable up to the largest depth.
   std::optional<double> limit_mm() const;
 };
 

@@ -4,7 +4,8 @@
 
 #include "turnwright/base/errors.hpp"
 
-/// Regenerative vibration of a tool or workpiece that cuts its own waves:
+/// Regenerative vibration: a tool cuts the waves that its own vibration has left on the
+/// workpiece.
 ///
 ///     eta_i'' + 2 zeta_i wn_i eta_i' + wn_i^2 eta_i = (wn_i^2 / k_i) F_axis(i)      (1)
 ///     F = -w sum_j g_j h(phi_j) (q(t) - q(t - tau)),   q_a = sum of eta_i on axis a (2)
@@ -43,9 +44,7 @@ struct LinearForce {
 ///     h = C gamma (v tau)^(gamma - 1) sin^gamma(phi) (normal_ratio sin(phi) + cos(phi))
 ///                                                                                   (5)
 ///
-/// Source: Ozoegwu, Omenyi, Ofochebe, "Time Finite Element Chatter Stability
-/// Characterization of a Three Tooth Plastic End-Milling CNC Machine", Eq. (3), whose
-/// third tooth has lost "[0.3 sin +" in print.
+/// Source: [Ozoegwu 2013], Eq. (3), whose third tooth has lost "[0.3 sin +" in print.
 struct PowerLawForce {
   double C = 0;               ///< [N m^-(1 + gamma)], > 0
   double gamma = 0;           ///< in (0, 1]
@@ -53,7 +52,7 @@ struct PowerLawForce {
   double normal_ratio = 0;    ///< normal over tangential force, >= 0
 };
 
-/// One factor for ever, along x: turning and boring.
+/// A constant factor along x, for turning and boring.
 struct ConstantForce {
   double K_MPa = 0;  ///< > 0
 };
@@ -63,39 +62,40 @@ using Force = std::variant<LinearForce, PowerLawForce, ConstantForce>;
 struct System {
   std::vector<Mode> modes;
   int teeth = 1;
-  double entry_rad = 0, exit_rad = 0;  ///< 0 <= entry < exit <= pi: where a tooth cuts
+  double entry_rad = 0, exit_rad = 0;  ///< a tooth cuts from entry to exit, in [0, pi]
   Force force;
 };
 
-/// Where a tooth is in the cut; immersion = radial depth over diameter, in (0, 1].
+/// Angles between which a tooth cuts; immersion = radial depth over diameter, in (0, 1].
 struct Engagement {
   double entry_rad = 0, exit_rad = 0;
 };
 Engagement up_milling(double immersion);    ///< 0 to acos(1 - 2 immersion)
 Engagement down_milling(double immersion);  ///< acos(2 immersion - 1) to pi
 
-/// A period holds so many vibrations that a search would take more than a few seconds;
-/// at slower speeds and greater depths it holds more.
+/// Thrown if a period has so many vibrations that a search would take more than a few
+/// seconds; at slower speeds and greater depths it has more.
 class TooManyVibrations : public ModelRangeError {
  public:
   using ModelRangeError::ModelRangeError;
 };
 
-/// tau of (3) [s].
+/// The tooth period tau of (3) [s].
 double period_s(const System& system, double n_rpm);
 
-/// A stretch of a period in which the same teeth cut, so that h is smooth inside it.
+/// A part of a period in which the same teeth cut, so that h is smooth inside it.
 struct Arc {
   double begin_rad = 0, end_rad = 0;  ///< of the angle 2 pi n t / 60
-  std::vector<double> offsets_rad;    ///< of the teeth in the cut; none: free flight
-  bool root_at_begin = false;  ///< h goes like a broken power of the distance there
+  std::vector<double> offsets_rad;    ///< of the teeth in the cut; none: no tooth cuts
+  bool root_at_begin =
+      false;  ///< h behaves like a fractional power of the distance there
   bool root_at_end = false;
 };
 
 /// The arcs of one period in their order.  The first begins where a tooth enters.
 std::vector<Arc> arcs(const System& system);
 
-/// sum_j g_j h(phi_j) [MPa] at an angle of an arc.
+/// Directional factors: sum_j g_j h(phi_j) [MPa] at an angle of an arc.
 struct Directional {
   double xx = 0, xy = 0, yx = 0, yy = 0;
 };

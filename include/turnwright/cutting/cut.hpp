@@ -5,22 +5,22 @@
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
-/// One tool in one material: chip, forces, tool life, surface.  Functions are written
-/// over a scalar type, so that the same line gives the number, its gradient and
-/// its enclosure over a box.
+/// One tool in one material: chip, forces, tool life, roughness.  The functions are
+/// templates over a scalar type, so that the same formula gives the number, its gradient
+/// and its enclosure over a box.
 namespace turnwright::cutting {
 
 using catalogue::Kienzle;
 
-/// Corner radius and tool cutting edge angle of a tool with what follows from the angle.
+/// Corner radius and tool cutting edge angle of a tool, with values derived from them.
 struct Corner {
   double re_mm = 0, kapr_rad = 0;
   double sine = 0, cotangent = 0, half_tangent = 0;
-  double depth_mm = 0;  ///< r (1 - cos kappa), where the engaged edge leaves the arc
+  double depth_mm = 0;  ///< r (1 - cos kappa), beyond which the straight edge cuts, too
 };
 Corner corner_of(double re_mm, double kapr_rad);
 
-/// Constants of a cut, made by `cut_of`.
+/// Constants of a tool in a material, made by `cut_of`.
 struct Cut {
   Kienzle kc;  ///< kc1.1 [MPa] times K_gamma, and mc
   std::optional<Kienzle> kf, kp;
@@ -31,11 +31,12 @@ struct Cut {
   double surface_factor = 1;  ///< 0.5 with a wiper edge
 };
 
-/// K_gamma = 1 - (gamma - gamma0)/100 with the angles in degrees, held at 0.7 .. 1.3,
-/// where the rule of thumb ends.
+/// Constants of this tool in this material.  The correction for the rake is
+/// K_gamma = 1 - (gamma - gamma0)/100 with the angles in degrees, limited to 0.7 .. 1.3,
+/// the range of this rule of thumb.
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool);
 
-/// Angle of an arc of the corner from its height over the radius: acos(1 - x).
+/// Angle of an arc of the corner by its height x in units of the radius: acos(1 - x).
 template <class T>
 T arc_angle(const T& x) {
   using std::acos;
@@ -55,12 +56,13 @@ LogDual<N> arc_angle(const LogDual<N>& x) {
       });
 }
 
-/// Engaged edge L [mm] of a corner radius r and tool cutting edge angle kappa:
+/// Engaged length L [mm] of an edge with corner radius r and tool cutting edge angle
+/// kappa:
 ///
 ///     ap < r (1 - cos kappa):  L = r acos(1 - ap/r) + f/2                            (1)
 ///     else                     L = ap/sin(kappa) + r (kappa - tan(kappa/2)) + f/2    (2)
 ///
-/// which are the arc and the arc with the straight edge; they meet with equal slope.
+/// (1) is the arc alone, (2) the arc and the straight edge; they join with equal slope.
 /// Valid for 0 < kappa < 133 deg (where kappa > tan(kappa/2)) and ap > 0.
 /// Source: geometry of the corner, derived here; cut_test joins the two.
 template <class T>
@@ -78,14 +80,14 @@ T engaged_edge_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
 template <class T>
 struct Forces {
   T Fc_N{}, Ff_N{};
-  Signed<T> Fp_N{};  ///< may pull the tool in
+  Signed<T> Fp_N{};  ///< negative if it pulls the tool towards the work
 };
 
-/// Cutting force [N] by Kienzle on the equivalent chip b = L, h = ap f/L:
+/// Cutting force [N] by Kienzle's law for the equivalent chip b = L, h = ap f/L:
 ///
 ///     Fc = kc1.1 b h^(1-mc) K_gamma = kc1.1 K_gamma L^mc (ap f)^(1-mc)               (3)
 ///
-/// Source: Kienzle (1952); equivalent chip thickness after Brammertz/Woxen.
+/// Source: [Kienzle 1952]; equivalent chip thickness after [Woxen 1932].
 template <class T>
 T kienzle_N(const Kienzle& k, const T& L_mm, const T& ap_mm, const T& f_mm_rev) {
   using std::pow;
@@ -94,12 +96,14 @@ T kienzle_N(const Kienzle& k, const T& L_mm, const T& ap_mm, const T& f_mm_rev) 
   return k.k11_MPa * pow(L_mm, k.m) * pow(A, 1 - k.m);  // enclosed without error
 }
 
-/// cot(kappa_eff) = u of the chip's flow, normal to the chord of the engaged edge:
+/// u = cot(kappa_eff), where kappa_eff is the angle of the chip's flow, normal to the
+/// chord of the engaged edge:
 ///
 ///     u = (x + f/2)/ap                                                               (4)
 ///     x/ap = sqrt(2 r/ap - 1) on the arc, cot(kappa) + (r/ap) tan(kappa/2) beyond
 ///
-/// x is the axial extent of the edge; u < 0 where an obtuse edge pulls the tool in.
+/// x is the axial extent of the edge; u < 0 where an edge with kappa > 90 deg pulls the
+/// tool towards the work.
 template <class T>
 T flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   using std::sqrt;
@@ -115,7 +119,7 @@ T flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   return r > 0 ? branch(ap_mm, c.corner.depth_mm, arc, straight) : straight(ap_mm);
 }
 
-/// Eq. (5) below.
+/// The three forces by Eq. (5) below.
 template <class T>
 Forces<T> chip_flow_forces_N(const Cut& c, const T& Fc_N, const T& ap_mm,
                              const T& f_mm_rev) {
@@ -124,8 +128,8 @@ Forces<T> chip_flow_forces_N(const Cut& c, const T& Fc_N, const T& ap_mm,
   const T Ff = 0.5 * Fc_N / sqrt(sqr(u) + 1.0);
   return {Fc_N, Ff, Ff * u};
 }
-/// Enclosed by elasticities where u > 0; where an obtuse edge may pull, by the values of
-/// sine and cosine at the ends of u.
+/// Enclosure of (5): by elasticities where u > 0; where the edge may pull the tool in, by
+/// the values of sine and cosine at the ends of u.
 template <int N>
 Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
                                       const LogDual<N>& ap_mm,
@@ -160,13 +164,13 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
   return {Fc_N, Ff, linear(F_D) * cosine};
 }
 
-/// All three forces, divided by `per`.  Ff and Fp by the material's own kf1.1 and kp1.1
-/// where it has them; else by the chip-flow direction:
+/// All three forces, divided by `per`.  Ff and Fp follow from the material's own kf1.1
+/// and kp1.1 where it has them, and otherwise from the direction of chip flow:
 ///
 ///     F_D = 0.5 Fc,  Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)               (5)
 ///
-/// Carried with +-30 %.
-/// Source: Colwell (1954), "Predicting the angle of chip flow".
+/// (5) has an uncertainty of +-30 %.
+/// Source: [Colwell 1954].
 template <class T>
 Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
                    const T& per = T(1.0)) {
@@ -178,22 +182,22 @@ Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
   return chip_flow_forces_N(c, force(c.kc), ap_mm, f_mm_rev);
 }
 
-/// What the passive force answers to a radial motion w of the edge against the surface
-/// that the turn before left, the stiffness of regenerative chatter [N/mm]:
+/// Stiffness of regenerative chatter [N/mm]: change of the passive force per radial
+/// motion w of the edge relative to the surface of the turn before:
 ///
 ///     dA = (x + f/2) dw,  K = Fp/(ap f) (x + f/2) = (Fp/f) u                         (6)
 ///
 /// A = ap f is the chip's section, x + f/2 the edge's axial extent, u = cot(kappa_eff) of
-/// (4).  Against an edge offset by w the section loses (x - f/2) w' to the wave w' of the
-/// turn before; x + f/2 in its place is on the safe side.  The slope of (3) at constant b
-/// is (1 - mc) of K: safe too, by less than the +-30 % of Fp.
+/// (4).  The wave w' of the turn before changes the section by (x - f/2) w'; x + f/2 in
+/// its place is on the safe side.  The slope of (3) at constant b is (1 - mc) K, so the
+/// secant K is on the safe side, too, by less than the +-30 % of Fp.
 /// Source: derived here; cut_test measures the section of two profiles.
 template <class T>
 Signed<T> chatter_stiffness_N_mm(const Cut& c, const Forces<T>& F, const T& ap_mm,
                                  const T& f_mm_rev) {
   return F.Fp_N * flow_cotangent(c, ap_mm, f_mm_rev) / f_mm_rev;
 }
-/// Enclosed by elasticities where u > 0.
+/// Enclosure of (6), by elasticities where u > 0.
 template <int N>
 Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const Forces<LogDual<N>>& F,
                                          const LogDual<N>& ap_mm,
@@ -216,7 +220,7 @@ Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const Forces<LogDual<N>>&
   return linear(0.5 * F.Fc_N * flow / f_mm_rev);
 }
 
-/// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: Taylor (1907), extended form.
+/// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: [Taylor 1907], extended form.
 template <class T>
 T tool_life_min(const Cut& c, const T& vc_m_min, const T& f_mm_rev, const T& ap_mm) {
   using std::pow;
@@ -232,13 +236,14 @@ T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& a
   return t.C * std::pow(T_min, -t.n) / (pow(f_mm_rev, t.a) * pow(ap_mm, t.b));
 }
 
-/// Roughness depth Rz [um] of the corner radius, with Brammertz' floor:
+/// Roughness Rz [um] that the corner radius generates, with the floor by the least chip
+/// thickness hmin:
 ///
 ///     Rt = f^2/(8 r) + (hmin/2)(1 + r hmin/f^2),  least value hmin at f = sqrt(2 r hmin)
 ///
-/// times the wiper factor.  Exact for f <= 2 r sin(kappa'); beyond, the straight minor
-/// edge lies below the arc's continuation and shaves the ridge, so the formula stays
-/// safe. Source: Brammertz (1961).
+/// times the wiper factor.  Exact for f <= 2 r sin(kappa'); at greater feeds the straight
+/// minor edge lies below the arc's continuation and cuts off the ridge, so the formula is
+/// on the safe side.  Source: [Brammertz 1961].
 template <class T>
 T Rz_um(const Cut& c, const T& f_mm_rev) {
   const double r = c.corner.re_mm, h = c.hmin_mm;
@@ -247,15 +252,15 @@ T Rz_um(const Cut& c, const T& f_mm_rev) {
   return Rt * (1000 * c.surface_factor);
 }
 
-/// Ra [um]: for the parabolic profile Ra = Rt 8/(18 sqrt 3), f^2/(18 sqrt(3) r) without
-/// the floor.
+/// Ra [um] of the parabolic profile: Rt 8/(18 sqrt 3), which is f^2/(18 sqrt(3) r)
+/// without the floor.
 template <class T>
 T Ra_um(const Cut& c, const T& f_mm_rev) {
   return Rz_um(c, f_mm_rev) * (8 / (18 * std::sqrt(3.0)));
 }
 
-/// Life [min] of least cost: (1/n - 1)(t_change + c_edge/c_minute), where w_edge/w_minute
-/// are the objective's weights of an edge and a minute.  Source: d cost/d vc = 0.
+/// Tool life of least cost [min]: (1/n - 1)(t_change + c_edge/c_minute), with the
+/// objective's weights of an edge and of a minute.  Source: d cost/d vc = 0.
 double economic_life_min(const Cut& c, double change_min, double edge_over_minute);
 
 }  // namespace turnwright::cutting

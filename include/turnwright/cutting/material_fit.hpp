@@ -12,23 +12,23 @@ struct Estimate {
   double value = 0, lower = 0, upper = 0;
 };
 
-/// What a fit rests on.
+/// Measurements and scatter on which a fit rests.
 struct Evidence {
   std::vector<std::size_t> used;      ///< indices of the measurements
-  std::vector<std::size_t> outliers;  ///< left out; rising
+  std::vector<std::size_t> outliers;  ///< indices left out of the fit, rising
   int degrees_of_freedom = 0;
   double s = 0;             ///< standard deviation of the logarithm of one measurement
-  double s_prediction = 0;  ///< the same of the next one at the middle of the cuts
+  double s_prediction = 0;  ///< the same of a further cut at the mean of the conditions
 };
 
-/// A constant that the cuts cannot tell, and a cut that would.
+/// A constant that the cuts do not determine, and a cut that would.
 struct Missing {
   std::string parameter, test;
 };
 
 struct FitOptions {
   double confidence = 0.95;  ///< of every interval
-  double outlier_p = 0.01;   ///< chance to call a good set of cuts spoilt; 0: keep all
+  double outlier_p = 0.01;   ///< chance to find an outlier in good cuts; 0: keep all
 };
 
 struct ForcePoint {
@@ -46,16 +46,17 @@ struct KienzleFit {
 ///
 ///     ln(F/(b h)) = ln k1.1 - m ln h                                                 (1)
 ///
-/// whose error is the relative error of the force, alike for large and small ones.
-/// Intervals by Student's t.  Not identifiable: both, where the thickest chip is less
-/// than 1.05 times the thinnest, or with fewer than three cuts.
+/// whose error is the relative error of the force, equally large for all forces.
+/// Intervals are by Student's t.  Neither constant can be identified where the thickest
+/// chip is less than 1.05 times the thinnest, or with fewer than three cuts.
 ///
 /// Outliers: the measurement with the largest externally studentised residual is left
-/// out while that is less likely than outlier_p over the number of measurements
-/// (Bonferroni), up to a fifth of them, never below three beyond the unknowns.
-/// Source: regression as in any textbook; derived here, material_fit_test covers.
+/// out as long as such a residual is less likely than outlier_p divided by the number of
+/// measurements (Bonferroni).  At most a fifth is left out, and at least three more than
+/// the unknowns are kept.
+/// Source: linear regression; checked in material_fit_test.
 /// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
-///   the measurements do not tell the exponents apart.
+///   the measurements do not separate the exponents.
 KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& options = {});
 
 struct LifePoint {
@@ -65,7 +66,7 @@ struct LifePoint {
 /// Constants of T = (C/(vc f^a ap^b))^(1/n).
 struct TaylorFit {
   std::optional<Estimate> C, n;  ///< none: see `missing`
-  std::optional<Estimate> a, b;  ///< none: taken as given
+  std::optional<Estimate> a, b;  ///< none: the given values were used
   std::vector<Missing> missing;
   Evidence evidence;
 };
@@ -74,15 +75,17 @@ struct TaylorFit {
 ///
 ///     ln T = (ln C)/n - (1/n) ln vc - (a/n) ln f - (b/n) ln ap                       (2)
 ///
-/// for lives scatter and conditions do not.  a and b come out where feed and depth moved
-/// apart from the speed (a standard deviation of 0.02 in what is left of their logarithm
-/// after the others); else their given values stay.  n is -1 over a coefficient, the
-/// others are ratios of two, ln C = -c0/c1: their intervals are Fieller's, exact for
-/// normal errors.  Not identifiable: n and C, where the speed hardly moved or the life
-/// does not fall with it beyond doubt. Source: Fieller (1954) for ratios; derived here
-/// from (2), material_fit_test covers.
+/// because lives scatter and conditions do not.  a and b are fitted where feed and depth
+/// varied independently of the speed, that is, where the part of their logarithm that the
+/// other variables do not explain has a standard deviation of 0.02; otherwise the given
+/// values are kept.  n is -1 over a coefficient and the other constants are ratios of
+/// two, such as ln C = -c0/c1; their intervals are Fieller's, exact for normal errors.  n
+/// and C cannot be identified where the speed hardly varied, or where the life does not
+/// fall with it beyond doubt.
+/// Source: [Fieller 1954] for ratios; derived here from (2), checked in
+/// material_fit_test.
 /// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
-///   the measurements do not tell the exponents apart.
+///   the measurements do not separate the exponents.
 TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double given_b,
                      const FitOptions& options = {});
 

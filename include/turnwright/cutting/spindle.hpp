@@ -6,28 +6,29 @@
 #include "turnwright/base/units.hpp"
 #include "turnwright/catalogue/machine.hpp"
 
-/// Spindle, power, grip, and the time a sweep takes under constant surface speed.
+/// Spindle speed, power, grip, and the time of a pass at constant surface speed.
 namespace turnwright::cutting {
 
-/// Power at the cut [kW] that one segment of the curves allows: P(n) = c n^s.
+/// Power at the cut [kW] that one segment of a curve allows: P(n) = c n^s.
 struct PowerLine {
   double c = 0, s = 0;
   bool torque = false;  ///< from the torque curve
 };
 
-/// A range of spindle speeds over which the available power is the least of some lines.
+/// A range of spindle speeds over which the available power is the minimum of some lines.
 struct SpeedRange {
   double n_min_rpm = 0, n_max_rpm = 0;
   std::vector<PowerLine> lines;
 };
 
-/// Power and torque curves, log-log between their points, times the efficiency, below the
-/// first point at its torque.  Segments of a log-concave curve support it, so the least
-/// of their lines is the curve; a curve with dips is cut into ranges where that holds.
+/// Power and torque curves times the efficiency, interpolated log-log between their
+/// points, with constant torque below the first point.  A log-concave curve is the
+/// minimum of the lines through its segments; a curve with dips is cut into ranges in
+/// which that holds.
 std::vector<SpeedRange> speed_ranges(const catalogue::Lathe& machine);
 std::vector<SpeedRange> speed_ranges(const catalogue::DrivenTools& spindle);
 
-/// A path of the tool over diameters that change linearly along it (or not at all).
+/// A straight path of the tool, along which the diameter changes linearly or not at all.
 template <class T>
 struct Sweep {
   double path_mm = 0;
@@ -36,8 +37,9 @@ struct Sweep {
   bool reaches_axis = false;  ///< D_small = 0, the face of a solid part
 };
 
-/// Spindle speed [1/min] of a sweep at which a power line is tightest: the lowest, at
-/// D_large, for s >= 0; the highest, min(n_cap, 1000 v/(pi D_small)), for s < 0.
+/// Spindle speed [1/min] of a sweep at which a power line is most restrictive: the lowest
+/// speed, at D_large, for s >= 0; the highest, min(n_cap, 1000 v/(pi D_small)), for s <
+/// 0.
 template <class T>
 T decisive_rpm(const PowerLine& l, const Sweep<T>& s, const T& vc_m_min,
                const T& n_cap_rpm) {
@@ -48,14 +50,15 @@ T decisive_rpm(const PowerLine& l, const Sweep<T>& s, const T& vc_m_min,
   return min(n_cap_rpm, T(vc_m_min / s.D_small_mm * per_D));
 }
 
-/// True where the speed plays no part: P ~ n, a constant torque.
+/// Whether the line is one of constant torque, P ~ n, on which the speed has no effect.
 inline bool constant_torque(const PowerLine& l) { return std::abs(l.s - 1) < 1e-9; }
 
-/// Cutting speed [m/min] at which a line is just kept, not for constant torque:
+/// Cutting speed [m/min] at which the cut uses exactly the power of a line that is not of
+/// constant torque:
 ///
-///     Fc v/60000 = c n^s, n the decisive one (1)
+///     Fc v/60000 = c n^s, with the most restrictive n (1)
 ///
-/// An upper limit of v for s < 1, a lower one for s > 1.
+/// It is an upper limit of v for s < 1 and a lower limit for s > 1.
 template <class T>
 T speed_at_power_m_min(const PowerLine& l, const T& Fc_N, const Sweep<T>& s,
                        const T& n_cap_rpm) {
@@ -71,7 +74,7 @@ T speed_at_power_m_min(const PowerLine& l, const T& Fc_N, const Sweep<T>& s,
   return s.reaches_axis ? at_cap : max(at_cap, at(s.D_small_mm));
 }
 
-/// Needed over available power of a line, <= 1 where it is kept.
+/// Required power divided by the power that a line allows; at most 1 where it is enough.
 template <class T>
 T power_share(const PowerLine& l, const T& Fc_N, const Sweep<T>& s, const T& vc_m_min,
               const T& n_cap_rpm) {
@@ -84,10 +87,10 @@ T power_share(const PowerLine& l, const T& Fc_N, const Sweep<T>& s, const T& vc_
 /// Grip of a three-jaw chuck on the outside, after VDI 3106:
 ///
 ///     Fsp(n) = Fsp0 - sum(m r) (pi n/30)^2 >= Sz F/mu,  Sz = 1.5                     (2)
-///     F = hypot(Fc d_cut/d_grip, Ff): what friction must carry around and along
+///     F = hypot(Fc d_cut/d_grip, Ff): load on the friction, around and along the axis
 ///     centrifugal loss <= 0.67 Fsp0
 ///
-/// The tilting moment of the passive force is not part of this model.
+/// The tilting moment of the passive force is not modelled.
 struct Grip {
   double force_N = 0;  ///< Fsp0; 0 = nothing is gripped (between centres)
   double mr_kg_m = 0;
@@ -111,8 +114,8 @@ T grip_loss_N(const Grip& g, const T& n_rpm) {
   return sqr(n_rpm * (units::kPi / 30)) * g.mr_kg_m;
 }
 
-/// Spindle speed [1/min] at which (2) holds with equality; the needed force is taken as
-/// at most 0.999 of Fsp0 (beyond, the check at rest fails anyway).
+/// Spindle speed [1/min] at which (2) holds with equality.  The required force is limited
+/// to 0.999 of Fsp0; where it is larger the check at rest fails anyway.
 template <class T>
 T grip_rpm(const Grip& g, const T& needed_N) {
   using std::sqrt;
@@ -126,17 +129,18 @@ struct Duty {
   T time_min{}, edges{};
 };
 
-/// Constant surface speed v with the spindle held at n_cap where the diameter is small.
-/// Along the path dt = ds/(f n), n = min(n_cap, 1000 v/(pi D)), and an edge wears at the
-/// rate 1/T of the speed it meets, v_eff = pi D n/1000, T ~ v^(-1/n_T):
+/// Duty of a pass at constant surface speed v, with the spindle limited to n_cap where
+/// the diameter is small.  Along the path dt = ds/(f n), n = min(n_cap, 1000 v/(pi D)),
+/// and the edge wears at the rate 1/T of the actual speed v_eff = pi D n/1000, T ~
+/// v^(-1/n_T):
 ///
 ///     time  = (l/(f dD)) [ (D_s - D_1)/n_cap + pi (D_2^2 - D_s^2)/(2000 v) ]         (3)
 ///     edges = (l/(f dD T(v))) [ (D_s (D_s/D_c)^q - D_1 (D_1/D_c)^q)/((q + 1) n_cap)
 ///                               + pi (D_2^2 - D_s^2)/(2000 v) ],  q = 1/n_T          (4)
 ///     D_c = 1000 v/(pi n_cap),  D_s = D_c held in [D_1, D_2]
 ///
-/// Cylinder: time = pi D l/(1000 v f), edges = time/T; its v must not ask for more than
-/// n_cap.  Source: derived here; spindle_test integrates numerically.
+/// For a cylinder time = pi D l/(1000 v f) and edges = time/T; its v must not require
+/// more than n_cap.  Source: derived here; spindle_test integrates numerically.
 template <class T>
 Duty<T> duty(const Sweep<T>& s, const T& vc_m_min, const T& f_mm_rev, const T& life_min,
              const T& n_cap_rpm, double taylor_n) {
@@ -160,8 +164,8 @@ Duty<T> duty(const Sweep<T>& s, const T& vc_m_min, const T& f_mm_rev, const T& l
 }
 
 namespace detail {
-// Minutes and wear of a sweep, T(v) = 1, per revolution of feed and diameter swept, split
-// at D_s into clamped and unclamped parts.
+// Minutes and wear of a sweep for T(v) = 1, per feed and per change of diameter, split at
+// D_s into the part at the limited speed (clamped) and the rest.
 struct Split {
   double clamped_time = 0, clamped_wear = 0, unclamped = 0;
 };
@@ -185,9 +189,9 @@ LogDual<N> between(double low, double high, double centre,
 }
 }  // namespace detail
 
-/// (3) and (4) enclosed: time falls with v and n_cap and rises with the diameters, wear
-/// rises with n_cap, and their elasticities are those of the clamped and the unclamped
-/// part in their shares w,
+/// Enclosure of (3) and (4).  Time falls with v and n_cap and rises with the diameters,
+/// wear rises with n_cap.  Their elasticities are the means of those of the part at the
+/// limited spindle speed and of the rest, weighted by the share w of the rest,
 ///
 ///     time' = w (D' - v') - (1 - w) n_cap',
 ///     wear' = w (D' - v') + (1 - w) ((q - 1) n_cap' + q (D' - v')),  less f' and T'. (5)

@@ -5,17 +5,18 @@
 
 namespace turnwright::deflection {
 
-/// The tip of a boring bar, z from the tool block, tip at z = L and f beside the axis:
+/// Deflection of the tip of a boring bar.  z counts from the tool block; the tip is at
+/// z = L, at the distance f from the bar's axis:
 ///
 ///     y_r = f_ww Fr - f_wp Fa f                                                 (1)
 ///     y_t = f_ww,t Ft + Ft f^2 int dz/GJ,  J = 2 I                              (2)
 ///     bore radius error = -y_r + y_t^2/D_bore                                   (3)
 ///
-/// Positive y_r: the bar gives way from the wall, the bore comes out smaller.
-/// Necks and coolant bores are segments of the bar.  The tool block is a root like a
-/// chuck; it is stiff against twist here.  A compliance measured at the tip (damped and
-/// carbide bars, whose EI is nowhere stated) stands for f_ww in both planes; the rotation
-/// f_wp and the twist stay those of the drawing.
+/// Positive y_r means that the bar yields away from the wall and the bore comes out
+/// smaller.  Necks and coolant bores are segments of the bar.  The tool block is a root
+/// like a chuck, assumed rigid in torsion.  A compliance measured at the tip replaces
+/// f_ww in both planes, for damped and carbide bars whose EI is unknown; the rotation
+/// f_wp and the twist are then still those of the drawing.
 /// Source: derived here from beam.hpp (4); St. Venant torsion of round bars.
 struct BoringBar {
   double tip_offset_mm = 0;                       ///< f

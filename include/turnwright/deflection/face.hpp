@@ -5,17 +5,19 @@
 
 namespace turnwright::deflection {
 
-/// Facing: the face's section turns under the forces and leaves a form [mm], material
-/// left standing positive, zero at the axis,
+/// Form error of a faced surface.  While it is cut, the section of the face rotates under
+/// the forces, which leaves the form [mm], positive where material remains and zero at
+/// the axis,
 ///
 ///     g(rho) = -f_wp Ff rho + f_pp Fp rho^2                                     (1)
 ///
 /// with Ff the radial force (feed) and Fp the axial one, on the tool at radius rho [mm].
-/// (The axial compliance of the clamping adds c_ax Fp everywhere: a matter of lengths.)
+/// The axial compliance of the clamping adds c_ax Fp everywhere, which is an error of the
+/// length and not of the form.
 /// Source: derived here from the rotation f_wp Fr + f_pp C of the section.
 struct FaceForm {
-  double peak_to_valley_mm = 0;      ///< over [rho_min, rho_max], the vertex counted
-  std::vector<double> rho_mm, g_mm;  ///< 33 even radii and the vertex if it lies between
+  double peak_to_valley_mm = 0;      ///< over [rho_min, rho_max], including the vertex
+  std::vector<double> rho_mm, g_mm;  ///< 33 equidistant radii, and the vertex if inside
 };
 
 struct Facing {
@@ -23,7 +25,7 @@ struct Facing {
   double Ff_N = 0, Fp_N = 0;
 };
 
-/// @param radial  flexibility of the section the face belongs to.
+/// @param radial  flexibility of the section of the face.
 /// @throws std::domain_error unless 0 <= rho_min < rho_max.
 FaceForm face_form(const Flexibility& radial, const Facing& facing);
 

@@ -6,7 +6,7 @@
 
 namespace turnwright::deflection {
 
-/// The same clamping in the two planes; its method is that of both.
+/// One clamping in both planes; both have the same method.
 struct Clamping {
   Supports radial, tangential;
 };
@@ -17,17 +17,17 @@ struct Load {
   double Fr_N = 0, Ft_N = 0, Fa_N = 0;
 };
 
-/// What a load at z = a does to an outside surface of diameter D.
+/// Response of an outside surface of diameter D to a load at z = a.
 ///
 ///     C = -Fa D/2                                  couple of the feed force     (1)
 ///     delta_r = f_ww Fr + f_wp C,  theta_r = f_wp Fr + f_pp C      (radial)     (2)
 ///     delta_t = f_ww Ft                                            (tangential) (3)
 ///     radius error e = delta_r + delta_t^2/D                                    (4)
 ///
-/// Positive delta: the part gives way, the radius comes out larger by e.  Eq. (4) is the
-/// first term of hypot(D/2 + delta_r, delta_t) - D/2; what it leaves out is
-/// delta_t^2 delta_r/D^2 and smaller.  Tool, toolpost and heat are not in it.
-/// Source: the seed's Eqs. 1 and 2, corrected as docs/deflection.md derives.
+/// Positive delta means that the part yields and the radius comes out larger by e.
+/// Eq. (4) is the expansion of hypot(D/2 + delta_r, delta_t) - D/2; the first neglected
+/// term is delta_t^2 delta_r/D^2.  Tool, toolpost and heat are not included.
+/// Source: [Valino 2008], Eqs. 1 and 2, corrected as docs/deflection.md derives.
 struct Response {
   double a_mm = 0, D_mm = 0;
   Flexibility radial, tangential;
@@ -36,12 +36,12 @@ struct Response {
   double tail_reaction_N = 0;  ///< of the tail centre in the radial plane, against Fr
 };
 
-/// Eqs. (1) to (4).  @throws std::domain_error unless D > 0.
+/// The response by Eqs. (1) to (4).  @throws std::domain_error unless D > 0.
 Response response(double a_mm, double D_mm, const Flexibility& radial,
                   const Flexibility& tangential, const Load& load);
 
-/// The same at positions on a workpiece; D is the finished diameter there, at a step the
-/// left segment's.
+/// The responses at positions on a workpiece.  D is the finished diameter there; at a
+/// step it is that of the left segment.
 std::vector<Response> responses(const Workpiece& part, const Clamping& clamping,
                                 std::span<const double> a_mm, const Load& load);
 

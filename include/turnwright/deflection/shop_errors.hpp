@@ -1,16 +1,17 @@
 #pragma once
 #include "turnwright/deflection/response.hpp"
 
-/// What else moves the edge or the surface on a lathe, each as a radius error e [mm],
-/// positive where more radius is left.
+/// Heat, wear and the toolpost's yielding as radius errors e [mm], positive where the
+/// radius comes out larger.
 namespace turnwright::deflection {
 
-/// A part turned warm by dT [K] above the temperature it is measured at shrinks by
+/// A part that is dT [K] warmer when it is turned than when it is measured has, after
+/// cooling, the radius error
 ///
 ///     e = -alpha dT D/2                                                         (1)
 ///
-/// of its radius, bores likewise.  Valid for an evenly warm section; a thin wall that is
-/// warm on one side only is bounded by the warmest dT.
+/// also in bores.  Valid for a uniformly warm section; for a thin wall that is warm on
+/// one side only, the largest dT gives a bound.
 /// Source: linear expansion.
 /// @throws std::domain_error unless alpha >= 0, D > 0, dT is finite.
 double heat_error_mm(double alpha_per_K, double dT_K, double D_mm);
@@ -20,13 +21,13 @@ struct Edge {
   double gamma_o_rad = 0;  ///< rake, negative for most inserts
 };
 
-/// How far a worn edge has gone back from the surface, VB the flank's wear land [mm]:
+/// Recession of a worn edge from the surface, with the width VB of the wear land [mm]:
 ///
 ///     r = VB tan(alpha_o)/(1 - tan(alpha_o) tan(gamma_o))                       (2)
 ///
-/// and e = r u between two corrections of the offset, u the share of the tool life used
-/// since the last one (0 to 1; the land is taken to grow evenly over the life).  In a
-/// bore the error is -e.
+/// Between two corrections of the offset the error is e = r u, with u the share of the
+/// tool life used since the last one (0 to 1; the land is assumed to grow linearly over
+/// the life).  In a bore the error is -e.
 /// Source: derived here.  The land lies along the cutting speed; at the depth r below the
 /// sharp corner the rake face has moved back by r tan(gamma_o), the flank by
 /// r/tan(alpha_o), and VB is the difference.
@@ -34,24 +35,24 @@ struct Edge {
 /// wedge), gamma_o > -pi/2, u in [0, 1].
 double wear_error_mm(double VB_mm, const Edge& edge, double life_used);
 
-/// Tool, holder, turret and slide as one compliance towards and away from the part.
+/// Tool, holder, turret and slide as one compliance in the radial direction:
 ///
 ///     e = c_rr Fr + c_rt Ft                                                     (3)
 ///
-/// c_rr = 1/k_tool; the cross term is how far the edge goes away from the part under Ft
-/// alone, mostly the shank bending down and the turret turning; negative where that
-/// brings the edge closer.
-/// Source: the seed's Eq. 5, corrected as docs/deflection.md derives.
+/// c_rr = 1/k_tool.  The cross term c_rt is the motion of the edge away from the part per
+/// Ft, caused mostly by the shank's bending and the turret's rotation; it is negative
+/// where that moves the edge closer.
+/// Source: [Valino 2008], Eq. 5, corrected as docs/deflection.md derives.
 struct Toolpost {
   double c_rr_mm_N = 0;
   double c_rt_mm_N = 0;
 };
 
-/// Eq. (3).  @throws std::domain_error unless c_rr >= 0.
+/// Radius error by Eq. (3).  @throws std::domain_error unless c_rr >= 0.
 double toolpost_error_mm(const Toolpost& post, const Load& load);
 
-/// The part as the cut feels it with the toolpost in the same loop: Eq. (3) with
-/// Ft = (Ft/Fr) Fr is a further f_ww = c_rr + c_rt (Ft/Fr), for `equilibrium`.
+/// Flexibility of part and toolpost together, for `equilibrium`: with Ft = (Ft/Fr) Fr
+/// Eq. (3) adds c_rr + c_rt (Ft/Fr) to f_ww.
 Flexibility with_toolpost(const Flexibility& radial, const Toolpost& post,
                           double Ft_over_Fr);
 

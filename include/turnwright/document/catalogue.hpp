@@ -12,12 +12,12 @@
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
-/// Materials, tools and machines as documents: schemas/material.json, schemas/tool.json,
-/// schemas/fixed-tool.json, schemas/milling-cutter.json and schemas/lathe.json say which
-/// keys there are.
+/// Materials, tools and machines as documents, whose keys are defined by
+/// schemas/material.json, schemas/tool.json, schemas/fixed-tool.json,
+/// schemas/milling-cutter.json and schemas/lathe.json.
 namespace turnwright::document {
 
-/// All that a request may refer to by id; each list in the order of ids.
+/// Everything that a request may refer to by id; each list is in the order of ids.
 struct Catalogue {
   std::vector<catalogue::Material> materials;
   std::vector<catalogue::Tool> tools;
@@ -33,8 +33,8 @@ struct Catalogue {
 ///   file, "materials/C45.json#/kienzle/mc".
 Catalogue load_catalogue(const std::filesystem::path& folder);
 
-/// Where the catalogue lies: `given`, else the environment's TURNWRIGHT_DATA, else
-/// share/turnwright of the installation, else the source tree this was built from.
+/// The folder of the catalogue: `given`; otherwise TURNWRIGHT_DATA of the environment,
+/// then share/turnwright of the installation, then the source tree of the build.
 /// @throws InputError if `given` or TURNWRIGHT_DATA has no materials/, or none is found.
 std::filesystem::path data_folder(
     const std::optional<std::filesystem::path>& given = std::nullopt);

@@ -5,7 +5,7 @@
 
 namespace turnwright::document {
 
-/// The door `geometry`: a kinematic chain with its errors and positions -> tip and
+/// The capability `geometry`: a kinematic chain with its errors and positions -> tip and
 /// direction errors.  Computed by volumetric/kinematics.hpp; the documents are described
 /// by schemas/geometry.request.json and schemas/geometry.result.json.
 /// @throws InputError with every problem of the request.

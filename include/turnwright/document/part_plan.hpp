@@ -8,11 +8,11 @@
 /// The part document (schemas/part.json): request of `plan` and `predict`.
 namespace turnwright::document {
 
-/// Everything resolved and checked: ids to materials, machines and tools; fits to
-/// deviations (ISO 286) and open sizes to the general tolerance (ISO 2768), each as a
-/// tolerance "<element>:diameter" or "part:length"; defaults filled in and told in
-/// `assumed`.
-/// @throws InputError with all that is wrong, cross-references included.
+/// The document with everything resolved and checked: ids to materials, machines and
+/// tools; fits to deviations (ISO 286) and sizes without limits to the general tolerance
+/// (ISO 2768), each as a tolerance "<element>:diameter" or "part:length"; defaults are
+/// filled in and listed in `assumed`.
+/// @throws InputError with all errors, including those of cross-references.
 LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
                           const std::string& document, Purpose purpose = Purpose::plan);
 

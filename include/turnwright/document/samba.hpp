@@ -3,9 +3,9 @@
 
 namespace turnwright::document {
 
-/// The door `samba`: strategy -> what it can find; with readings, the parameters with
-/// their uncertainties.  Computed by volumetric/samba.hpp; the documents are described by
-/// schemas/samba.request.json and schemas/samba.result.json.
+/// The capability `samba`: strategy -> identifiable parameters; with readings, the
+/// parameters with their uncertainties.  Computed by volumetric/samba.hpp; the documents
+/// are described by schemas/samba.request.json and schemas/samba.result.json.
 /// @throws InputError with every problem of the request.
 nlohmann::json samba(const nlohmann::json& request);
 

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-/// The literature's multi-pass turning problem (Shin and Joo 1992; Chen and Tsai 1996):
-/// n equal roughing passes and a finishing pass take the depth dt off a bar, and speed,
-/// feed and depth of both are wanted at the least cost of a piece.
+/// The literature's multi-pass turning problem, [Shin 1992] in the form of [Chen 1996]:
+/// n equal roughing passes and a finishing pass remove the depth dt from a bar.  Speed,
+/// feed and depth of both are chosen for the least cost per piece.
 namespace turnwright::multipass {
 
-/// How a pass uses up the tool: t/Tp with the mean life Tp = theta Tr + (1 - theta) Ts as
-/// the literature has it, or the sum of t/T over the passes.
+/// How tool wear is counted: t/Tp with the mean life Tp = theta Tr + (1 - theta) Ts of
+/// the literature, or the sum of t/T over the passes.
 enum class Cost { literal, physical };
 
 struct Range {
@@ -27,10 +27,10 @@ struct Range {
 ///     1000 fs^2/(8 R) <= SRu                                                        (7)
 ///     Vs >= k3 Vr,  fr >= k4 fs,  dr >= k5 ds,  n dr + ds = dt                      (8)
 ///
-/// and the ranges of V, f, d, T; (4) to (6) for roughing and finishing alike.  A factor
-/// k3, k4, k5 or a limit SC of zero asks for nothing.
-/// Source: the equations and the values below as the literature repeats them, from
-/// memory; the papers were not opened.
+/// and the ranges of V, f, d, T.  (4) to (6) hold for roughing and for finishing.  A
+/// factor k3, k4, k5 or a limit SC of zero imposes nothing.
+/// Source: the equations and the values below are those that the literature repeats,
+/// recalled from memory; the papers were not opened.
 struct Problem {
   double D_mm = 50, L_mm = 300, dt_mm = 6;
   Cost cost = Cost::literal;
@@ -50,20 +50,20 @@ struct Pass {
   double V = 0, f = 0, d = 0;
 };
 
-/// What a pass needs.
+/// Tool life, force, power, stability and temperature of a pass.
 struct Load {
   double T = 0, F = 0, P = 0, stability = 0, Q = 0;
 };
 Load load(const Problem& problem, const Pass& pass);
 
-/// Eq. (1).
+/// The cost per piece by Eq. (1).
 double unit_cost(const Problem& problem, int n, const Pass& rough, const Pass& finish);
 
-/// A limit and how the passes stand to it.
+/// A limit with its value at the chosen passes.
 struct Limit {
   std::string name;  ///< "rough:PU", "finish:T_min", "k4"
   double value = 0, limit = 0;
-  double margin = 0;  ///< ln of what is left, < 0: violated
+  double margin = 0;  ///< ln(limit/value) of an upper limit; < 0: violated
   bool binding = false;
   double price = 0;  ///< d ln UC / d ln limit; 0 where it does not bind
 };
@@ -73,21 +73,21 @@ struct PassCount {
   enum class Status { optimal, infeasible, unsettled };
   int n = 0;
   Status status = Status::infeasible;
-  std::optional<double> UC;  ///< none if infeasible, or if no point was met
-  double lower_bound = 0;    ///< of no meaning if infeasible
-  Pass rough, finish;        ///< where UC is
+  std::optional<double> UC;  ///< none if infeasible, or if no feasible point was found
+  double lower_bound = 0;    ///< without meaning if infeasible
+  Pass rough, finish;        ///< the passes that cost UC
   long nodes = 0;
 };
 
-/// By how much the request's number behind a limit of a conflict, for roughing and
-/// finishing alike, would have to open, the others as they are.
+/// Relaxation of one limit of a conflict: the value that the number of the request would
+/// need, for roughing and finishing alike, with all other numbers as they are.
 struct Relief {
   std::string limit;
   double now = 0;
-  std::optional<double> needed;  ///< none: opening it alone never suffices
+  std::optional<double> needed;  ///< none: relaxing this limit alone never suffices
 };
 
-/// No `best` and a conflict: infeasible.
+/// The answer to a problem; an infeasible one has no `best` and a conflict.
 struct Answer {
   std::optional<PassCount> best;
   std::vector<PassCount> per_count;  ///< n = 1 .. n_max
@@ -98,25 +98,25 @@ struct Answer {
   std::vector<Relief> conflict;  ///< irreducible
 };
 
-/// Relative gap that a certificate keeps.
+/// Relative gap of a certificate.
 inline constexpr double kGap = 1e-6;
 /// A limit is kept if ln(value/limit) is at most this.
 inline constexpr double kFeasibility = 1e-9;
 
 /// The global optimum with its proof.
 ///
-/// In logarithms of V, f, d everything is linear but three things: UC is a convex sum of
-/// exponentials (physical) or, over the mean tool life, not convex (literal), and the
-/// depths must add up to dt.  For each n a best-first search splits ranges of ln dr and,
-/// if literal, of s = ln(Ts/Tr).  On a part of them ln ds lies between the chord and
-/// three tangents of ln(dt - n exp(ln dr)), which is concave, and
+/// In logarithms of V, f, d all limits are linear.  UC is a convex sum of exponentials
+/// (physical) or, with the mean tool life, not convex (literal), and the depths must add
+/// up to dt.  For each n a best-first search splits ranges of ln dr and, if literal, of
+/// s = ln(Ts/Tr).  On each part ln ds lies between the chord and three tangents of the
+/// concave ln(dt - n exp(ln dr)), and
 ///
 ///     ln(theta + (1 - theta) exp(s)) <= its chord alpha + beta s                   (9)
 ///
 /// so UC is bounded below by the optimum of a sum of exponentials under linear limits,
 /// for which optimise::minimise gives a proved bound.  Both errors shrink with the square
-/// of the range.  With ln dr held and the tangent of (9) instead of its chord the same
-/// program gives allowed points; the best is refined by optimise::local_minimum on (1).
+/// of the range.  With fixed ln dr and the tangent of (9) instead of its chord the same
+/// program gives feasible points; the best is refined by optimise::local_minimum on (1).
 /// Source: derived here; independent searches in multipass tests.
 /// @throws std::domain_error if the problem is not finite and in range.
 Answer optimum(const Problem& problem);

@@ -19,11 +19,11 @@ struct PowerLimit {
   bool upper = true;  ///< law <= limit, else law >= limit
 };
 
-/// One pass whose cost is a sum of powers of speed and feed, as Ermer (1971) put it:
+/// One pass whose cost is a sum of powers of speed and feed [Ermer 1971]:
 ///
 ///     min sum_k c_k V^a_k f^b_k,  limits, V and f in their ranges
 ///
-/// in whatever units the constants were made for.
+/// in the units of the constants.
 struct SinglePass {
   std::vector<PowerLaw> cost;
   std::vector<PowerLimit> limits;
@@ -37,9 +37,9 @@ struct SinglePassAnswer {
   std::vector<std::string> conflict;  ///< irreducible
 };
 
-/// The global optimum: in logarithms one convex program (optimise::minimise).
-/// @throws std::domain_error if a constant is not positive and finite or a range not in
-///   order.
+/// The global optimum, by one convex program in logarithms (optimise::minimise).
+/// @throws std::domain_error if a constant is not positive and finite, or a range is not
+///   in order.
 SinglePassAnswer optimum(const SinglePass& problem);
 
 }  // namespace turnwright::multipass

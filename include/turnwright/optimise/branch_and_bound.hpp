@@ -7,8 +7,9 @@
 
 #include "turnwright/base/dual.hpp"
 
-/// Spatial branch and bound over boxes of at most three log variables and any number of
-/// discrete pieces: the certificate for problems that are not convex.
+/// Spatial branch and bound over boxes of at most three logarithmic variables and any
+/// number of discrete choices.  It gives the certificate for problems that are not
+/// convex.
 namespace turnwright::optimise {
 
 inline constexpr int kBoxVariables = 3;
@@ -18,9 +19,9 @@ using Box = std::array<Interval, kBoxVariables>;
 using Point = std::array<double, kBoxVariables>;
 using Bound = Dual<Interval, kBoxVariables>;
 
-/// A combination that every feasible point better than the incumbent keeps below zero:
-/// weight (f - cut) + sum multipliers_i g_i <= 0.  weight 1 with an optimum's multipliers
-/// is its Lagrangian; weight 0 with those of a least violation refutes a box.
+/// A weighted sum that is at most zero at every feasible point better than the incumbent:
+/// weight (f - cut) + sum multipliers_i g_i <= 0.  Weight 1 with the multipliers of an
+/// optimum is its Lagrangian; weight 0 with those of a least violation refutes a box.
 struct Combination {
   double weight = 0;
   std::vector<double> multipliers;
@@ -30,21 +31,21 @@ struct Combination {
 struct Piece {
   Box box;
   std::size_t constraints = 0;
-  /// Encloses ln of the objective and every g_i, with gradients, over a box.  One more g
-  /// than `constraints` is a function nowhere above f that combinations use in its place:
-  /// where f has a kink, a smooth one ends the search sooner.
+  /// Encloses ln of the objective and every g_i, with gradients, over a box.  A g beyond
+  /// `constraints` is a function nowhere above f that combinations use in place of f:
+  /// where f has a kink, a smooth function ends the search sooner.
   std::function<void(const Box&, Bound& f, std::vector<Bound>& g)> bound;
   /// The same at a point.
   std::function<void(const Point&, double& f, std::vector<double>& g)> value;
   /// Value of the objective at a feasible point near the middle of a box, or +infinity.
-  /// May note the point for the caller.
+  /// The function may store the point for the caller.
   std::function<double(const Box&)> try_point;
   std::vector<Combination> combinations;
 };
 
 struct SearchOptions {
   double gap = 2e-5;        ///< in ln(objective): smaller = more nodes
-  long max_nodes = 200000;  ///< past it the answer is what was proved until then
+  long max_nodes = 200000;  ///< after which the search ends with the bound proved so far
 };
 
 struct SearchResult {
@@ -52,28 +53,28 @@ struct SearchResult {
       0;  ///< of ln(objective) over all pieces; +infinity: no feasible point
   double upper_bound = 0;  ///< best feasible value known; +infinity: none found
   long nodes = 0;
-  bool complete = false;             ///< every box settled
-  std::vector<double> piece_bounds;  ///< what was proved per piece, capped at the cut
+  bool complete = false;             ///< whether every box was settled
+  std::vector<double> piece_bounds;  ///< lower bound per piece, capped at the cut
 };
 
 /// Proves a lower bound of the best feasible value over all pieces.
 ///
 /// `incumbent` is a feasible value known beforehand (+infinity: none).  A box is settled
 /// when the natural or the mean value extension of a constraint or combination shows that
-/// it holds no feasible point below the cut, upper_bound - gap; otherwise it is narrowed
-/// by the mean value form, solved for each variable,
+/// it contains no feasible point below the cut, upper_bound - gap.  Otherwise it is
+/// narrowed by the mean value form, solved for each variable,
 ///
 ///     h(y) in h(c) + sum_j H_j (y_j - c_j),   H = gradient over the box (1)
 ///
-/// with c, of each function, at the lower end of the variables along which it rises, at
-/// the upper end of those along which it falls and in the middle of the others: a
-/// function monotone over the box is bounded without error,
-/// and halved across the variable that moves the functions most.  Boxes are taken lowest
-/// bound first; ties in the order of birth, so the result is the same on every run.
-/// Near an optimum the Lagrangian's gradient vanishes and (1) errs by the square of the
-/// box, which is what ends the search.  Rounding: 1e-11 is left at every comparison.
-/// Source: Neumaier, "Interval Methods for Systems of Equations" (1990), mean value form;
-/// Lagrangian cut derived here.
+/// and halved across the variable that changes the functions most.  For each function c
+/// is at the lower end of the variables along which it rises, at the upper end of those
+/// along which it falls, and in the middle of the others, so that a function monotone
+/// over the box is bounded without error.  Boxes are processed lowest bound first, ties
+/// in the order of their creation, so the result is the same on every run.
+/// Near an optimum the gradient of the Lagrangian vanishes and the error of (1) is of
+/// second order in the width of the box; this ends the search.  Every comparison allows
+/// 1e-11 for rounding.
+/// Source: [Neumaier 1990], mean value form; Lagrangian cut derived here.
 SearchResult branch_and_bound(std::vector<Piece>& pieces, double incumbent,
                               const SearchOptions& options = {});
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-/// Smooth problems in log variables, solved locally by NLopt, and what their optimum
-/// proves.  Knows nothing of machining.
+/// Local optimisation of smooth problems in logarithmic variables by NLopt, and the lower
+/// bounds that follow from an optimum.  This library knows nothing of machining.
 namespace turnwright::optimise {
 
 /// ln of the objective and the constraints g_i <= 0 with their gradients at one point.
@@ -24,13 +24,13 @@ struct Problem {
 };
 
 struct Options {
-  double feasibility = 1e-10;  ///< largest g counted as kept; smaller = more solver steps
-  double f_tolerance = 1e-13;  ///< stop when f moves less; larger = looser certificates
-  int max_evaluations = 150;   ///< of one solve
-  bool insist = true;  ///< CCSAQ behind SLSQP: slow where there is no feasible point
+  double feasibility = 1e-10;  ///< largest g that counts as kept; smaller = more steps
+  double f_tolerance = 1e-13;  ///< stop when f changes less; larger = looser certificates
+  int max_evaluations = 150;   ///< of one run of the solver
+  bool insist = true;  ///< try CCSAQ after SLSQP: slow where no feasible point exists
 };
 
-/// A local solver cannot prove that no allowed point exists, only that it met none.
+/// A local solver cannot prove that no feasible point exists, only that it found none.
 enum class Status { converged, budget_spent, no_feasible_point_met };
 
 struct Solution {
@@ -43,26 +43,27 @@ struct Solution {
   int evaluations = 0;
 };
 
-/// Local minimum by SLSQP, behind it CCSAQ where SLSQP leaves no feasible point, from
-/// `start` (clamped into the box).  Every constraint is evaluated again at the answer:
-/// NLopt's codes do not prove feasibility.  An exception of `evaluate` comes out
-/// unchanged.
+/// Local minimum from `start` (clamped into the box) by SLSQP [Kraft 1988], followed by
+/// CCSAQ [Svanberg 2002] where SLSQP finds no feasible point.  Every constraint is
+/// evaluated again at the answer, because NLopt's return codes do not prove feasibility.
+/// An exception of `evaluate` is passed on unchanged.
 /// @throws std::domain_error if sizes disagree, bounds are not in order, or a bound or
 ///   start is not finite.
 Solution local_minimum(const Problem& problem, std::span<const double> start,
                        const Options& options = {});
 
-/// Least violation: min s subject to g_i(y) <= s, s >= `floor`.  f of the result is s;
-/// the multipliers sum to one and name the conflicting constraints.
+/// Least violation: min s subject to g_i(y) <= s, s >= `floor`.  f of the result is s.
+/// The multipliers sum to one and identify the conflicting constraints.
 Solution least_violation(const Problem& problem, std::span<const double> start,
                          double floor, const Options& options = {});
 
-/// Multipliers lambda >= 0 of the constraints near their limit (g > -near, or up to 1000
-/// near if that leaves y not stationary), by non-negative least squares:
+/// Multipliers lambda >= 0 of the constraints close to their limit (g > -near, or up to
+/// 1000 near if y is not stationary with these alone), by non-negative least squares:
 ///
 ///     min | df + sum lambda_i dg_i + (bounds active at y) |,  lambda >= 0
 ///
-/// Rows whose variable sits at a bound may keep a residual of the sign the bound carries.
+/// Rows whose variable is at a bound may keep a residual of the sign that the bound
+/// allows.
 std::vector<double> multipliers_at(const Problem& problem, std::span<const double> y,
                                    const Values& at, double near = 1e-6);
 
@@ -72,8 +73,8 @@ std::vector<double> multipliers_at(const Problem& problem, std::span<const doubl
 ///             + sum_j min(r_j (lower_j - y*_j), r_j (upper_j - y*_j))                (1)
 ///     r = df* + sum lambda_i dg_i*
 ///
-/// Valid for any lambda >= 0; tight at an optimum.  Source: convexity of the Lagrangian,
-/// derived here.
+/// Valid for any lambda >= 0; tight at an optimum.  Source: weak duality, [Boyd 2004];
+/// (1) derived here.
 double convex_lower_bound(const Problem& problem, std::span<const double> y,
                           const Values& at, std::span<const double> multipliers);
 

@@ -2,8 +2,9 @@
 #include <Eigen/Core>
 #include <limits>
 
-/// Sums of products of powers under limits that are products of powers: in logarithms a
-/// convex problem with linear limits, small, dense and solved many times over.
+/// Geometric programs: sums of products of powers under limits that are products of
+/// powers.  In logarithms they are convex with linear limits.  The problems are small and
+/// dense, and many of them are solved.
 namespace turnwright::optimise {
 
 /// Rows c_k + a_k . y, the logarithms of products of powers of exp(y).
@@ -20,7 +21,7 @@ struct Posynomial {
 
 struct PosynomialOptions {
   double gap = 1e-10;  ///< in f; smaller = more steps
-  /// Stop as soon as nothing below it is possible.
+  /// The solver stops as soon as no value below this one is possible.
   double cutoff = std::numeric_limits<double>::infinity();
 };
 
@@ -29,25 +30,25 @@ struct PosynomialOptimum {
   double f = 0;
   double violation = 0;         ///< largest limit at y, or 0
   Eigen::VectorXd multipliers;  ///< of the limits, >= 0
-  /// Of f over all allowed y: convex_lower_bound with y and the multipliers, true
-  /// whether or not the solver came to its end.
+  /// Lower bound of f over all feasible y: convex_lower_bound with y and the multipliers.
+  /// It holds whether or not the solver converged.
   double lower_bound = -std::numeric_limits<double>::infinity();
 };
 
 /// The optimum by a primal-dual interior point method with Mehrotra's corrector.
 ///
-/// Every limit may be passed by one common t >= 0 at the price w t, so that there is
-/// always an inside to walk in, also where two limits leave a single value (a tool life
-/// that is prescribed) or nothing at all:
+/// Every limit may be exceeded by one common t >= 0 at the price w t, so that the
+/// feasible set always has an interior, also where two limits admit a single value (a
+/// prescribed tool life) or none at all:
 ///
 ///     min f(y) + w t,  limits_i(y) <= t                                           (1)
 ///
-/// While t does not vanish the price is raised from 1e3 to 1e7; t left above 1e-9 then
-/// says that no y is allowed, as does a lower bound above any value f can have in the
-/// box. Cost: 20 to 40 factorisations of the size of y; no solver of the house gives
-/// multipliers, of which the bound is made.
-/// Source: Boyd and Vandenberghe, "Convex Optimization" (2004), sections 4.5 (geometric
-/// programs) and 11.7 (primal-dual method); (1) is their 11.4, as one problem.
+/// The price is raised from 1e3 to 1e7 while t does not vanish.  If t then remains above
+/// 1e-9 no y is feasible; the same follows from a lower bound above every value of f in
+/// the box.  The cost is 20 to 40 factorisations of the size of y.  NLopt cannot be used
+/// here because it does not return the multipliers, which the bound needs.
+/// Source: [Boyd 2004], geometric programs and primal-dual methods, whose two phases (1)
+/// combines; [Mehrotra 1992].
 /// @throws std::domain_error if sizes disagree or a bound is not finite and ordered.
 PosynomialOptimum minimise(const Posynomial& problem,
                            const PosynomialOptions& options = {});

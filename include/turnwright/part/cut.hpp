@@ -1,8 +1,8 @@
 #pragma once
 #include <numbers>
 
-/// What is cut at fixed conditions into an element once it is turned or bored: the
-/// element itself is then the blank.
+/// Grooves, threads and arcs: shapes that are cut into an element at fixed conditions
+/// after it has been turned or bored.  The element itself is then their blank.
 namespace turnwright::part {
 
 enum class CutKind { groove, thread, arc };
@@ -15,21 +15,21 @@ struct Ends {
 struct Cut {
   CutKind kind = CutKind::groove;
   Ends drawn = {};  ///< floor of a groove, nominal diameter of a thread, an arc's ends
-  Ends core = {};   ///< diameters that a beam may count on: never too stiff
-  double depth_mm = 0;   ///< on the radius, where it is deepest
+  Ends core = {};   ///< diameters of the load-bearing core: as a beam never too stiff
+  double depth_mm = 0;   ///< largest depth, on the radius
   double pitch_mm = 0;   ///< of a thread
   double radius_mm = 0;  ///< of an arc
   bool convex = true;    ///< an arc bulges outwards
   double path_mm = 0;    ///< length of an arc
-  /// Slope at which an arc falls at most on the way to an end: 0 if it only rises.
+  /// Steepest slope at which an arc falls towards an end; 0 if it only rises.
   double falls_to_left_rad = 0, falls_to_right_rad = 0;
 };
 
-/// Slope that a profiling tool is taken to clear behind its corner: a 35 deg insert in
-/// any of the usual holders does.
+/// Steepest falling slope that a profiling tool is assumed to clear behind its corner; a
+/// 35 deg insert in any of the usual holders does.
 inline constexpr double kProfilingClears_rad = std::numbers::pi / 6;
 
-/// A blank with its cut.
+/// A blank with the shape that is cut into it.
 struct Shaped {
   Ends blank;
   Cut cut;
@@ -37,7 +37,7 @@ struct Shaped {
 
 enum class Where { outside, inside };
 
-/// Groove with a floor, in a blank of a diameter.
+/// A groove with the given diameter of its floor, in a cylindrical blank.
 Shaped groove(double blank_mm, double floor_mm);
 
 /// ISO metric thread of nominal diameter d and pitch P, H = (sqrt 3/2) P:
@@ -49,8 +49,8 @@ Shaped groove(double blank_mm, double floor_mm);
 /// the handbook's tables.
 Shaped thread(double d_mm, double pitch_mm, Where where);
 
-/// Arc of radius R through two ends of diameters left and right, `length` apart.  With
-/// c the chord, s = R - sqrt(R^2 - c^2/4) its sagitta and rc the centre's height:
+/// Arc of radius R through two ends of given diameters, `length` apart.  With c the
+/// chord, s = R - sqrt(R^2 - c^2/4) its sagitta and rc the centre's height:
 ///
 ///     convex:  turned to a cylinder of its largest diameter; the chord is the core (3)
 ///     concave: turned to the chord, depth s c/length; a cylinder of its least
@@ -59,8 +59,8 @@ Shaped thread(double d_mm, double pitch_mm, Where where);
 ///     slope where it is steepest, at an end: asin(distance from the centre / R) (6)
 ///
 /// Source: derived here, cut_test measures points on the circle.
-/// @throws std::domain_error naming what cannot be: R below half the chord, an arc that
-///         reaches beyond its ends along the axis, or one that meets the axis.
+/// @throws std::domain_error naming the reason: R is below half the chord, the arc
+///         reaches beyond its ends along the axis, or it meets the axis.
 Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex);
 
 }  // namespace turnwright::part

@@ -7,8 +7,8 @@
 #include "turnwright/part/cut.hpp"
 #include "turnwright/part/tolerance_kind.hpp"
 
-/// What the drawing says, left to right along the axis, z = 0 at the left end of the
-/// finished part.  Plain values; document/ fills and checks them.
+/// The content of the drawing, left to right along the axis, with z = 0 at the left end
+/// of the finished part.  Plain values; document/ reads and checks them.
 namespace turnwright::part {
 
 enum class ElementKind { cylinder, cone };
@@ -18,8 +18,8 @@ struct Limits {
   double lower_mm = 0, upper_mm = 0;
 };
 
-/// One outer element; a cylinder has left_mm == right_mm (diameters).  With a cut these
-/// are the blank's.
+/// One outer element.  A cylinder has left_mm == right_mm (diameters).  With a groove,
+/// thread or arc cut into it the diameters are those of the blank.
 struct OuterElement {
   std::string id;
   ElementKind kind = ElementKind::cylinder;
@@ -33,7 +33,8 @@ struct OuterElement {
 
 enum class End { left, right };
 
-/// One inner element, listed from its end inwards; left_mm and right_mm along the part.
+/// One inner element.  Elements are listed from the end of the part inwards; left_mm and
+/// right_mm are its diameters in the direction of the axis.
 struct InnerElement {
   std::string id;
   ElementKind kind = ElementKind::cylinder;
@@ -68,8 +69,8 @@ struct Stock {
   StockKind kind = StockKind::bar;
   double outer_mm = 0, inner_mm = 0;  ///< inner 0 for a bar
   double length_mm = 0;
-  double left_allowance_mm = 0;  ///< material left of z = 0
-  /// The first setup ends with parting off at the held end, which leaves this there.
+  double left_allowance_mm = 0;  ///< stock to the left of z = 0
+  /// If set, the first setup parts off at the held end and leaves this allowance there.
   std::optional<double> parted_mm = {};
 };
 
@@ -79,7 +80,7 @@ struct Drawing {
   std::vector<OuterElement> outer;
   std::vector<InnerElement> inner;
   std::vector<Face> faces;
-  std::vector<Tolerance> tolerances;  ///< sizes of elements included, ids unique
+  std::vector<Tolerance> tolerances;  ///< with the sizes of the elements; ids are unique
 };
 
 /// Length of the finished part [mm]: the sum of the outer elements.
@@ -88,24 +89,25 @@ double length_mm(const Drawing& drawing);
 double left_z_mm(const Drawing& drawing, std::size_t i);
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
-/// Largest diameter [mm] of stock's hole and inner elements between two places.
+/// Largest diameter [mm] of the stock's hole and the inner elements between two positions.
 double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
-/// Diameters that the finished element has at its ends, where it has a cut its core.
+/// Diameters at the ends of the finished element; of one with a groove, thread or arc,
+/// those of its core.
 template <class Element>
 Ends core(const Element& e) {
   return e.cut ? e.cut->core : Ends{e.left_mm, e.right_mm};
 }
-/// Whether a fixed operation cuts into the element of this id.
+/// Whether a groove, thread or arc is cut into the element of this id.
 bool has_cut(const Drawing& drawing, const std::string& id);
-/// Where an element lies and the diameters at its ends.
+/// Position of an element along the axis, and the diameters at its ends.
 struct Extent {
   double z0_mm = 0, z1_mm = 0;
   double left_mm = 0, right_mm = 0;
   bool inner = false;
 };
-/// Of the element of this id; nothing for a face or an id nobody has.
+/// Extent of the element of this id; nothing for a face or an unknown id.
 std::optional<Extent> extent(const Drawing& drawing, const std::string& id);
-/// Material right of the finished right end [mm].
+/// Stock to the right of the finished right end [mm].
 double right_allowance_mm(const Drawing& drawing);
 
 }  // namespace turnwright::part

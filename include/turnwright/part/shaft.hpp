@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-/// The bare body of revolution that a clamping holds.
+/// The body of revolution that a clamping holds, as a beam sees it.
 namespace turnwright::part {
 
 /// One segment; diameters are linear between its ends, inner 0 = solid.
@@ -12,7 +12,7 @@ struct Segment {
   double inner_left_mm = 0, inner_right_mm = 0;
 };
 
-/// Body of a material; the first segment is at the jaws or the headstock centre.
+/// A body of one material; its first segment is at the jaws or the headstock centre.
 struct Shaft {
   double E_MPa = 0, nu = 0;
   std::vector<Segment> segments;
@@ -20,19 +20,19 @@ struct Shaft {
 
 double length_mm(std::span<const Segment> segments);
 
-/// z [mm] of the ends of the segments: 0 first, the length last, one more than segments.
-/// Summed with compensation (Neumaier), so every z is the rounded true sum.
+/// z [mm] of the ends of the segments, from 0 to the length; one more value than
+/// segments.  Compensated (Neumaier) summation makes every z the rounded true sum.
 std::vector<double> ends_mm(std::span<const Segment> segments);
 
-/// Two shafts' worth of one segment: what lies left and right of a cut at distance
-/// `at_mm` from its left end.
+/// The two parts into which a plane at the distance `at_mm` from its left end divides a
+/// segment.
 /// @throws std::domain_error unless 0 < at_mm < length.
 struct Halves {
   Segment left, right;
 };
 Halves split(const Segment& segment, double at_mm);
 
-/// The segments with every outer diameter larger by 2 ap [mm]: not yet cut.
+/// The segments before a cut of depth ap: every outer diameter is larger by 2 ap [mm].
 /// @throws std::domain_error if ap is negative or not finite.
 std::vector<Segment> uncut(std::span<const Segment> finished, double ap_mm);
 

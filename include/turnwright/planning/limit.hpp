@@ -7,12 +7,12 @@
 
 namespace turnwright::planning {
 
-/// A number of a request that bounds what a cut may do, as one would change it.
+/// A limit of a request: a number that restricts the cuts and that the user can change.
 struct Limit {
   std::string name;    ///< "t1", "roughness Ra of d1", "power of lathe-medium"
   std::string called;  ///< in a sentence: "opening t1, the cylindricity of d1,"
   std::string unit;
-  bool at_most = true;  ///< more is more room
+  bool at_most = true;  ///< an upper limit, which a larger value relaxes
   double now = 0;
   std::function<void(PlanRequest&, double factor)> scale;
 };
@@ -22,7 +22,8 @@ struct Limit {
 /// speed and the grip of each setup; depth, feed, speed, force and life of each tool.
 ///
 /// The curve of power and torque is scaled at all its points; the largest spindle speed
-/// with the curve's last point along its own line.  A size is opened about its middle.
+/// is scaled together with the curve's last point, which moves along its own line.  A
+/// size is relaxed about its middle.
 std::vector<Limit> limits(const PreparedPart& part);
 
 }  // namespace turnwright::planning

@@ -5,11 +5,11 @@
 
 #include "turnwright/planning/setup_geometry.hpp"
 
-/// Where places are milled, and with what.
+/// The setups in which keyways, slots and flats are milled, and the cutters that fit.
 namespace turnwright::planning {
 
-/// Why a place cannot be milled in a setup held so: its element is not turned before, or
-/// jaws or a steady rest stand on it.  Empty if it can.
+/// The reason why a place cannot be milled in a setup and clamping: its element is not
+/// turned before, or jaws or a steady rest stand on it.  Empty if it can be milled.
 std::string milled_obstacle(const PreparedPart& part, const Milled& place,
                             std::size_t setup, Clamping clamping);
 
@@ -20,14 +20,14 @@ std::optional<std::size_t> milled_setup(const PreparedPart& part, const Milled& 
 std::optional<std::size_t> gripped_later(const PreparedPart& part,
                                          const MilledPlace& place);
 
-/// Share of its stiffness in bending, the softest way, that the section keeps where a
-/// place is, with the places beside it.  Later cuts do not count what is lost.
+/// Remaining share of the section's bending stiffness in its softest direction at a
+/// milled place, with the places beside it.  The loss is not counted in later cuts.
 double stiffness_kept(const PlanRequest& request, const Milled& place);
 
 /// Largest radial step of a lane over the cutter's diameter, in a flat.
 inline constexpr double kLaneStep = 0.7;
 
-/// The cutters that fit and their lanes, with limits of stability of their own:
+/// The cutters that fit with their lanes, and the limits of stability of each:
 ///
 ///     keyway, slot:  D <= w <= 2 D, one lane of ae = D; if D < w both sides after it,
 ///                    down-milled, ae = (w - D)/2                                   (1)
@@ -35,18 +35,19 @@ inline constexpr double kLaneStep = 0.7;
 ///                    also twice as many                                           (2)
 ///
 /// A cutter fits if it has conditions for the material, reaches the floor, has no larger
-/// corner than the place allows, is shorter across than a closed place is long, and cuts
-/// over its centre where it must plunge, and its tool point yields across the feed, as
-/// the part does.  Tool points are those measured on the machine, else the cutter's.
+/// corner than the place allows, is not wider than a closed place is long, cuts over its
+/// centre if it must plunge, and if its tool point has a compliance across the feed.
+/// Tool points are those measured on the machine, otherwise those of the cutter's
+/// document.
 ///
-/// Kn/Kt changes with the feed where the material's mf is not its mc.  The feeds are then
-/// split into ways over each of which it changes by kRatioStep at most, their lobes the
-/// least of those at both ends.
+/// Kn/Kt changes with the feed if the material's mf differs from its mc.  The feeds are
+/// then split into ranges over which the ratio changes by kRatioStep at most; the
+/// stability of each range is the lesser one of its two ends.
 std::vector<MilledWay> milled_ways(const PreparedPart& plan, const Milled& place);
 
 inline constexpr double kRatioStep = 0.05;
 
-/// Why a cutter does not fit; empty if it does.
+/// The reason why a cutter does not fit; empty if it fits.
 std::string does_not_fit(const PreparedPart& plan, const Milled& place,
                          const catalogue::MillingCutter& cutter);
 

@@ -42,14 +42,14 @@ struct SetupRequest {
   Jaws jaws = Jaws::soft;
 };
 
-/// What else moves the edge or the part in this shop, besides the cut and the machine's
-/// geometry.  Offsets are taken to be set so that what drifts one way runs from one side
-/// of its middle to the other.
+/// Errors of the shop in addition to those of the cut and of the machine's geometry.
+/// Offsets are assumed to be set so that a drift in one direction runs from one side of
+/// its middle to the other.
 struct ShopErrors {
   double drift_um = 0;  ///< edge against spindle between two corrections, +-, radial
-  double drift_axial_um = 0;        ///< and along the axis
-  double repeatability_um = 0;      ///< edge's place from part to part, one sigma
-  double part_warm_K = 0;           ///< finishing finds the part up to this much too warm
+  double drift_axial_um = 0;    ///< and along the axis
+  double repeatability_um = 0;  ///< position of the edge from part to part, one sigma
+  double part_warm_K = 0;       ///< largest excess temperature of the part at finishing
   double life_between_offsets = 0;  ///< share of an edge's life used between corrections
   double wear_land_mm = 0.3;        ///< VB at the end of the life (ISO 3685's criterion)
   catalogue::Rechucking rechucking = {0, 0, 0, 0};  ///< in a later setup
@@ -65,7 +65,8 @@ const char* name(OperationKind kind);
 enum class Direction { to_chuck, from_chuck };
 const char* name(Direction direction);
 
-/// What the planner has fixed of an operation; absent = to be chosen.
+/// Conditions of an operation that the request fixes; absent ones are chosen by the
+/// planner.
 struct Conditions {
   std::optional<int> passes;
   std::optional<double> ap_mm, f_mm_rev, vc_m_min;
@@ -88,8 +89,8 @@ enum class MilledKind {
 };
 const char* name(MilledKind kind);
 
-/// A place milled into an outer cylinder once that is turned, by a driven tool whose axis
-/// crosses the part's at a right angle, fed along the part.
+/// A keyway, slot or flat, milled into a turned outer cylinder by a driven tool whose
+/// axis crosses that of the part at a right angle, and which is fed along the part.
 struct Milled {
   std::string id;
   MilledKind kind = MilledKind::keyway;
@@ -100,10 +101,10 @@ struct Milled {
   double angle_deg = 0;             ///< of its middle about the axis
   std::optional<double> corner_mm;  ///< largest corner radius at the floor
   std::optional<std::size_t> given_setup;  ///< absent: the first that leaves it free
-  double depth_margin = 0.2;               ///< stable so much deeper, relative,
-  double speed_margin = 0.02;              ///< at every speed so much slower or faster
-  std::vector<catalogue::MillingCutter> cutters;  ///< one that is given, or all there are
-  std::optional<int> passes, lanes;               ///< given, else chosen
+  double depth_margin = 0.2;               ///< relative margin of stability in depth,
+  double speed_margin = 0.02;              ///< at all speeds within this relative margin
+  std::vector<catalogue::MillingCutter> cutters;  ///< a given one, or all
+  std::optional<int> passes, lanes;               ///< absent: chosen by the planner
   std::optional<double> n_rpm, fz_mm;
 };
 
@@ -115,7 +116,8 @@ struct PlanRequest {
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
   std::vector<catalogue::FixedTool> fixed_tools = {};
-  std::vector<catalogue::Tool> spare_tools = {};  ///< of the catalogue, not asked for
+  std::vector<catalogue::Tool> spare_tools =
+      {};  ///< of the catalogue, not in the request
   std::vector<SetupRequest> setups;
   std::vector<Milled> milled = {};
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
@@ -123,17 +125,16 @@ struct PlanRequest {
   std::optional<double> batch;  ///< absent: preparing the machine is left out of a part
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
-  double machine_share_um =
-      0;                       ///< of every tolerance, besides what `machine.errors` take
-  double window_percent = 5;   ///< how far above its optimum an operation's window goes
-  bool window_curves = false;  ///< with limits and lines of equal cost, to be drawn
-  double damping_ratio = 0.03;  ///< of what the part stands in, for chatter
-  /// Limits of chatter are taken so many times as high: 1, but where an explanation asks
-  /// what chatter alone rules out.
+  double machine_share_um = 0;  ///< of every tolerance, in addition to `machine.errors`
+  double window_percent = 5;    ///< extra cost allowed within an operation's window
+  bool window_curves = false;   ///< with limits and lines of equal cost, for drawings
+  double damping_ratio = 0.03;  ///< of part and machine, for chatter
+  /// Factor on the limits of chatter: 1, but larger where an explanation examines what
+  /// chatter alone excludes.
   double chatter_times = 1;
   ShopErrors shop;
   double conformance = 0.9973;
-  bool robust = true;  ///< ask for `conformance` in every tolerance, not only nominally
+  bool robust = true;  ///< require `conformance` of every tolerance, not only nominally
   std::size_t pareto = 0;  ///< corners of cost against time to find, 0: none
 };
 

@@ -15,7 +15,8 @@ class Lobes;
 /// A request with everything that follows from it before anything is planned.
 namespace turnwright::planning {
 
-/// What a setup cuts: elements in the order of the tool, from the free end inwards.
+/// The surfaces that a setup cuts; elements in the tool's order, from the free end
+/// inwards.
 struct SetupWork {
   std::vector<std::size_t> elements;  ///< indices into drawing.outer
   bool end_face = false;              ///< the face of the free end
@@ -28,7 +29,7 @@ struct SetupWork {
 struct Assignment {
   std::vector<SetupWork> setups;
   std::vector<std::string>
-      unreachable;  ///< one sentence per element or face nobody can cut
+      unreachable;  ///< one sentence per element or face that no setup can cut
 };
 
 /// Forces of all jaws of a setup at rest [N].
@@ -38,7 +39,7 @@ struct JawForces {
   bool eased = false;      ///< finishing_N is the planner's own choice, below roughing_N
 };
 
-/// Where the surface of a tolerance is cut.
+/// The setup and support in which the surface of a tolerance is cut.
 struct MachinePlace {
   std::string tolerance;  ///< its id
   std::size_t setup = 0;
@@ -46,49 +47,50 @@ struct MachinePlace {
   auto operator<=>(const MachinePlace&) const = default;
 };
 
-/// What the machine's geometric errors take of a tolerance's width.
+/// Share of a tolerance's width that the machine's geometric errors take.
 struct MachineTake {
-  double fixed_um = 0;  ///< as calibrated
-  double u_um = 0;      ///< standard uncertainty of it
+  double fixed_um = 0;  ///< by the calibrated errors
+  double u_um = 0;      ///< its standard uncertainty
 };
 
-/// A way of milling a place: cutter, lanes side by side, and what they bear at feeds per
-/// tooth of which none changes the ratio of the forces by much.
+/// A way of milling a place: cutter, number of lanes, and limits of stability for a range
+/// of feeds per tooth over which the ratio of the forces hardly changes.
 struct MilledWay {
   std::size_t cutter = 0;  ///< of Milled::cutters
   int lanes = 1;
   double fz_from_mm = 0, fz_to_mm = 0;
   double normal = 0;  ///< largest Kn/Kt of its cuts and feeds
   std::shared_ptr<const chatter::Lobes> lobes;
-  std::shared_ptr<const chatter::Lobes> between;  ///< of cuts on the way, if any
+  std::shared_ptr<const chatter::Lobes> between;  ///< of intermediate cuts, if any
 };
 
 /// A milled place with the setup that makes it.
 struct MilledPlace : Milled {
-  std::optional<std::size_t> setup;  ///< none: every setup's jaws or rest stand on it
+  std::optional<std::size_t> setup;  ///< none: in all setups jaws or a rest stand on it
   std::vector<MilledWay> ways;       ///< those that fit
 };
 
-/// Made by `prepare` alone and not changed afterwards: a changed request is a copy of the
-/// PlanRequest in it, prepared anew.
+/// A prepared request.  It is made only by `prepare` and not changed afterwards: to
+/// change a request, copy its PlanRequest and prepare the copy.
 struct PreparedPart : PlanRequest {
-  std::vector<double> grips_mm;    ///< of the held end in the jaws, one a setup
-  Assignment work;                 ///< of every surface to a setup
-  std::vector<double> drilled_mm;  ///< before each bore of drawing.inner is bored; 0: not
-  std::vector<JawForces> jaws;     ///< one a setup
+  std::vector<double> grips_mm;    ///< length of the held end in the jaws, one per setup
+  Assignment work;                 ///< the setup of every surface
+  std::vector<double> drilled_mm;  ///< hole drilled before boring drawing.inner; 0: none
+  std::vector<JawForces> jaws;     ///< one per setup
   std::map<MachinePlace, MachineTake> machine_takes;  ///< empty without machine.errors
-  std::vector<MilledPlace> milled_places;             ///< of `milled`, in its order
+  std::vector<MilledPlace> milled_places;             ///< in the order of `milled`
 };
 
 PreparedPart prepare(PlanRequest request);
 
-/// Of a request that differs from the one of `like` only in numbers that move no surface:
-/// limits of tolerances, roughness, machine, tools and operations, prices, the objective.
-/// What the machine takes and the ways of milling, the two that are slow to find, are
-/// taken over from `like`.
+/// Prepares a request that differs from that of `like` only in numbers that move no
+/// surface: limits of tolerances, roughness, machine, tools and operations, prices, the
+/// objective. The machine's shares and the ways of milling, which take long to compute,
+/// are copied from `like`.
 PreparedPart prepare(PlanRequest request, const PreparedPart& like);
 
-/// Hole [mm] that boring finds at an inner element: the stock's or a drill's.
+/// Diameter [mm] of the hole in which boring of an inner element starts: that of the
+/// stock or of the drill.
 double hole_mm(const PreparedPart& part, std::size_t inner);
 
 }  // namespace turnwright::planning

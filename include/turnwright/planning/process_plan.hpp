@@ -145,7 +145,7 @@ struct ToleranceResult {
   double margin_mm = 0;
   double width_mm = 0;  ///< of the tolerance, which the shares are of
   Verdict verdict = Verdict::met;
-  bool seed_verdict = true;
+  bool published_verdict = true;
   std::vector<Share> shares;
   double P_conform = 1;
 };

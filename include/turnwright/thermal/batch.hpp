@@ -6,32 +6,34 @@
 
 namespace turnwright::thermal {
 
-/// Parts measured, or finished, one each cycle.
+/// A batch of parts that are finished at equal intervals.
 struct Batch {
-  double first_s = 0;  ///< the first part, on the clock of the inputs
-  double cycle_s = 0;  ///< from one part to the next
+  double first_s = 0;  ///< time of the first part, on the clock of the inputs
+  double cycle_s = 0;  ///< time from one part to the next
   std::size_t parts = 0;
-  std::size_t offset_every = 0;  ///< the tool is reset on the 1st of so many; 0: once
+  std::size_t offset_every = 0;  ///< parts between two resets of the tool offset; 0: one
+                                 ///< reset on the first part alone
 };
 
-/// What the drift leaves on the parts, for the budget of a tolerance.
+/// Effect of the drift on the parts, for the error budget of a tolerance.
 ///
 ///     range           = max e - min e over all the parts                             (7)
-///     between_offsets = the largest of (7) within one offset's parts                 (8)
+///     between_offsets = the largest of (7) within the parts of one offset            (8)
 ///
-/// e is along the direction of the probe: of a radius its own measure, of a diameter
-/// half.
+/// e is measured along the direction of the probe: it is the error of a radius, and half
+/// the error of a diameter.
 struct BatchDrift {
   std::vector<double> time_s, drift_um;
-  std::vector<double> since_offset_um;  ///< of each part, against the part reset on
+  std::vector<double> since_offset_um;  ///< drift of each part since the last reset
   double range_um = 0;
   double between_offsets_um = 0;
   double largest_step_um = 0;  ///< from one part to the next
 };
 
-/// Of a model driven by `inputs`, which must cover the batch.  One part drifts by 0.
+/// Drift of a batch by a model with `inputs`, which must cover the batch.  A single part
+/// has the drift 0.
 /// @throws std::domain_error if the batch is empty, its cycle is not positive or it
-///   leaves the inputs.
+///   extends beyond the inputs.
 BatchDrift batch_drift(const LagModel& model, const Inputs& inputs, const Batch& batch);
 
 }  // namespace turnwright::thermal

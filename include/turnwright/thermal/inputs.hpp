@@ -4,7 +4,7 @@
 namespace turnwright::thermal {
 
 /// Rows of a log or of a plan, at rising times.  The spindle keeps rpm[i] from time_s[i]
-/// to time_s[i + 1]; the ambient runs straight from one row to the next.
+/// to time_s[i + 1]; the ambient temperature is linear between the rows.
 struct Inputs {
   std::vector<double> time_s, rpm, ambient_degC;
 };

@@ -4,14 +4,13 @@
 
 #include "turnwright/thermal/inputs.hpp"
 
-/// Thermal drift of a spindle from what the control already knows: speed and ambient
-/// temperature.
+/// Thermal drift of a spindle from its speed and the ambient temperature.
 namespace turnwright::thermal {
 
-/// One heat store of the spindle: its share of the drift, and how slowly it fills.
+/// One heat store of the spindle.
 struct Lag {
-  double tau_s = 0;
-  double K_um = 0;  ///< its drift when soaked at n_max
+  double tau_s = 0;  ///< time constant
+  double K_um = 0;   ///< its part of the drift in thermal equilibrium at n_max
 };
 
 /// Drift e [um] of the tool against the part, by first-order lags:
@@ -22,13 +21,14 @@ struct Lag {
 ///
 /// Symbols: t time [s], t_0 the first row's, n spindle speed [1/min], p exponent of the
 /// heat over speed, T_amb ambient [degC], w the low-passed ambient's distance from T0
-/// [K], b [um/K], c [um] the drift of a cold spindle in a machine soaked at T0.  a [um]
-/// is what remains of the past at t_0: the structure is a/b [K] from its ambient; it is
-/// the same as leaving w(t_0) free.
+/// [K], b [um/K], c [um] the drift of a cold spindle in a machine in equilibrium at T0.
+/// a [um] represents the time before t_0, when the structure was a/b [K] away from its
+/// ambient; it is equivalent to a free w(t_0).
 ///
-/// Valid for a spindle that is cold at the first row, within the speeds and ambients of
-/// the log.  Neglects the heat of the cut and of the coolant, and growth that follows a
-/// speed at once (centrifugal), but for what a lag as short as the sampling takes up.
+/// Valid for a spindle that is cold at the first row, within the speeds and ambient
+/// temperatures of the log.  Neglects the heat of the cut and of the coolant, and
+/// centrifugal growth that follows the speed at once, except where a lag as short as the
+/// sampling time represents it.
 ///
 /// Degenerate input: one row gives b w + a + c there.
 ///
@@ -44,16 +44,16 @@ struct LagModel {
   double T0_degC = 20;
 };
 
-/// e [um] at every row.  Exact: between rows (2) and (3) have closed forms, so the step
-/// does not matter.
+/// e [um] at every row.  It is exact for any step, because (2) and (3) have closed forms
+/// between rows.
 /// @throws std::domain_error if the inputs differ in length or the times do not rise.
 std::vector<double> drift_um(const LagModel& model, const Inputs& inputs);
 
-/// The same inputs with rows at `times_s` too, those outside the inputs left out.
+/// The inputs with additional rows at `times_s`; times outside the inputs are omitted.
 Inputs with_rows_at(const Inputs& inputs, std::span<const double> times_s);
 
-/// `later` beginning where `first` ends, its times counted from there; its own first row
-/// takes the place of the last row of `first`.
+/// `first` followed by `later`, whose times count from the end of `first`; the first row
+/// of `later` replaces the last row of `first`.
 Inputs joined(const Inputs& first, const Inputs& later);
 
 }  // namespace turnwright::thermal

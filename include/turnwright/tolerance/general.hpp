@@ -5,11 +5,11 @@
 
 #include "turnwright/part/drawing.hpp"
 
-/// ISO 2768: what a drawing allows where it says nothing but "ISO 2768-mK".
+/// General tolerances of ISO 2768, which apply where a drawing says only "ISO 2768-mK".
 /// The numbers agree with public transcriptions of its tables (scribd.com, documents
-/// 151864629 and 320059830: all but a run-out, and 0.15 mm for c of 0.5 .. 3 mm, where
-/// others have the 0.2 mm taken here); run-outs are handbook values.  None was compared
-/// with the printed standard.
+/// 151864629 and 320059830), except a run-out, and 0.15 mm for c of 0.5 .. 3 mm, where
+/// other transcriptions have the 0.2 mm used here.  Run-outs are handbook values.
+/// Nothing was compared with the printed standard.
 namespace turnwright::tolerance {
 
 enum class LinearClass { f, m, c, v };    ///< part 1: fine, medium, coarse, very coarse
@@ -38,8 +38,8 @@ part::Limits general_edge_limits_mm(double nominal_mm, LinearClass tolerance_cla
 /// @throws std::domain_error unless leg > 0 mm.
 double general_angle_rad(double leg_mm, LinearClass tolerance_class);
 
-/// Straightness or flatness [mm] of a feature, by its length; the diameter of a round
-/// face.
+/// Straightness or flatness [mm] of a surface, by its length, for a round face by its
+/// diameter.
 /// @throws std::domain_error unless 0 < length <= 3000 mm.
 double general_straightness_mm(double length_mm, GeometricalClass tolerance_class);
 
@@ -47,7 +47,7 @@ double general_straightness_mm(double length_mm, GeometricalClass tolerance_clas
 /// @throws std::domain_error unless 0 < length <= 3000 mm.
 double general_perpendicularity_mm(double length_mm, GeometricalClass tolerance_class);
 
-/// Symmetry [mm], by the length of the shorter feature.
+/// Symmetry [mm], by the length of the shorter surface.
 /// @throws std::domain_error unless 0 < length <= 3000 mm.
 double general_symmetry_mm(double length_mm, GeometricalClass tolerance_class);
 

@@ -5,14 +5,14 @@
 
 /// ISO 286-1: standard tolerances and limit deviations of shafts and bores, to 500 mm.
 ///
-/// Source and honesty: the numbers were typed from general knowledge of the ISO 286
-/// system (the 1988 and DIN form: cd, ef, fg to 10 mm only) and held against public
+/// Source: the numbers were typed from general knowledge of the ISO 286
+/// system (the 1988 and DIN form: cd, ef, fg to 10 mm only) and compared with public
 /// transcriptions (a textbook's tables of fundamental deviations, a table after EN ISO
 /// 286-1, corrigendum 1 to ISO 286-2:1988) and, value by value, against the system's
 /// generating formulas.  They were not compared with the printed standard itself.
 namespace turnwright::tolerance {
 
-/// An enum, so that a size and a grade cannot be swapped in a call.
+/// Tolerance grade; an enum, so that a size and a grade cannot be exchanged in a call.
 enum class Grade {
   IT01,
   IT0,
@@ -59,7 +59,7 @@ double it_um(double nominal_mm, Grade grade);
 /// Valid for 0 < D <= 500 mm and only where the tables have a value: j for IT5..IT8, J
 /// for IT6..IT8, t above 24 mm, v above 14, y above 18, cd, ef and fg to 10, a, b (A, B)
 /// and N coarser than IT8 above 1, K coarser than IT8 to 3, K..ZC from IT3.
-/// @throws std::domain_error that says what of this was broken, in a machinist's words.
+/// @throws std::domain_error naming the condition that is not met.
 part::Limits fit_limits_mm(double nominal_mm, std::string_view tolerance_class);
 
 }  // namespace turnwright::tolerance

@@ -13,10 +13,10 @@
 ///
 ///     q = centre + R (u cos theta + v sin theta),  theta_k = theta0 + 2 pi k/n       (1)
 ///
-/// counter-clockwise (dir = +1) and clockwise (-1), the third axis at rest; the
-/// signs of motion are s_U = -dir sgn(sin theta), s_V = dir sgn(cos theta), |sin| and
-/// |cos| below 1e-12 counting as 0.  A value is the bar's length less R, both paths by
-/// the same angles.
+/// counter-clockwise (dir = +1) and clockwise (-1), with the third axis at rest.  The
+/// signs of motion are s_U = -dir sgn(sin theta), s_V = dir sgn(cos theta), where |sin|
+/// and |cos| below 1e-12 count as 0.  A value is the length of the bar less R; both paths
+/// have the same angles.
 namespace turnwright::volumetric {
 
 enum class Plane { XY, YZ, ZX };
@@ -27,11 +27,11 @@ struct BallBarTest {
   Plane plane = Plane::XY;
   double R_mm = 150;
   std::size_t n = 72;
-  /// pi/n unless given: for n divisible by 4 no point lies where an axis reverses.
+  /// Default pi/n: for n divisible by 4 no point then lies where an axis reverses.
   std::optional<double> theta0_rad = {};
-  std::vector<double> theta_rad = {};  ///< if any: the angles instead of n and theta0
-  Vec3 centre_mm{};                    ///< where X, Y, Z stand at the circle's centre
-  /// Of the workpiece ball from the nominal centre, in the workpiece frame.
+  std::vector<double> theta_rad = {};  ///< unless empty: the angles, instead of n, theta0
+  Vec3 centre_mm{};                    ///< positions of X, Y, Z at the circle's centre
+  /// Offset of the workpiece ball from the nominal centre, in the workpiece frame.
   Vec3 centre_offset_mm{};
 };
 
@@ -41,13 +41,13 @@ struct Trace {
   std::vector<double> theta_rad, ccw_mm, cw_mm;
 };
 
-/// |tip - nominal tip at the centre - o| - R in the workpiece frame, the tool point at
-/// the origin at q = 0 whatever the machine says.
+/// Simulated trace: |tip - nominal tip at the centre - o| - R in the workpiece frame.
+/// The tool point is taken at the origin at q = 0, whatever the machine's document has.
 /// @throws std::domain_error as Kinematics, if there are no angles, R is not > 0, or the
 ///   chain lacks an axis of the plane.
 Trace simulate(const Machine& machine, const BallBarTest& test);
 
-/// Circles are least squares on D + e_u cos + e_v sin [mm].
+/// Values of ISO 230-4; circles are least-squares fits of D + e_u cos + e_v sin [mm].
 struct Iso230_4 {
   double G_ccw_mm = 0, G_cw_mm = 0;        ///< range of a path about its own circle
   double G_ccw_mz_mm = 0, G_cw_mz_mm = 0;  ///< the least range over e_u, e_v
@@ -59,13 +59,13 @@ struct Iso230_4 {
 /// @throws std::domain_error if the trace's lists are empty or differ in length.
 Iso230_4 iso230_4(const Trace& trace);
 
-/// Terms of the decomposition, in the order of all its arrays; centre and reversals [mm],
-/// EVU2, EUV2 [mm per (100 mm)^2], square [rad].
+/// Terms of the decomposition in the order of all its arrays: centre and reversals in mm,
+/// EVU2 and EUV2 in mm per (100 mm)^2, square in rad.
 inline constexpr std::array<std::string_view, 12> kBallBarTerms = {
     "centre_u", "centre_v", "scale_u", "scale_v", "square", "EUUb",
     "EVVb",     "EVUb",     "EUVb",    "EVU2",    "EUV2",   "servo"};
 
-/// What one effect does to the trace by itself.
+/// Effect of one cause by itself on the trace.
 struct Contribution {
   std::string name;  ///< "backlash_u", "squareness", ..
   double range_mm = 0;
@@ -73,29 +73,30 @@ struct Contribution {
 
 struct BallBarFit {
   std::array<double, kBallBarTerms.size()> value{}, u{};  ///< with standard uncertainty
-  double rms_mm = 0;                                      ///< of what the fit leaves
+  double rms_mm = 0;                                      ///< of the residuals
   std::vector<Contribution> ranking;                      ///< largest first
 };
 
-/// Both paths together, unweighted, c = cos theta, s = sin theta, Q = 100 mm:
+/// Decomposition of a trace into the causes of its deviations, by an unweighted fit to
+/// both paths together, with c = cos theta, s = sin theta, Q = 100 mm:
 ///
 ///     v = centre_u c + centre_v s + R scale_u c^2 + R scale_v s^2 + R square s c
 ///         - EUUb dir sgn(s) c + EVVb dir sgn(c) s - EVUb dir |s| + EUVb dir |c|
 ///         + EVU2 (R/Q)^2 c^2 s + EUV2 (R/Q)^2 s^2 c + 2 servo dir s c                (2)
 ///
-/// Coefficients are relative, tool minus workpiece; centre = -o.  square = u_U . u_V: the
-/// angle from +U to +V is 90 deg - square.  Uncertainties: s^2 (A^T A)^-1 with s^2 = sum
-/// of squared residuals/(values - 12).
+/// Coefficients are relative, tool minus workpiece; centre = -o.  square = u_U . u_V, so
+/// the angle from +U to +V is 90 deg - square.  Uncertainties follow from s^2 (A^T A)^-1
+/// with s^2 = sum of squared residuals/(values - 12).
 ///
-/// (2) is the tip's first-order error along the bar.  It confounds what kConfounded
-/// lists: a trace cannot tell such terms apart, whatever its length.
-/// @throws ModelRangeError if the angles do not tell the twelve terms apart.
+/// (2) is the tip's first-order error along the bar.  The effects listed by confounded()
+/// cannot be separated by one circle, however many points it has.
+/// @throws ModelRangeError if the angles do not separate the twelve terms.
 BallBarFit decompose(const Trace& trace);
 
-/// Eq. (2) at an angle of a path, dir = +1 counter-clockwise [mm].
+/// The fitted trace (2) [mm] at an angle of a path; dir = +1 is counter-clockwise.
 double fitted_mm(const BallBarFit& fit, double R_mm, double theta_rad, double dir);
 
-/// Sentences on what one circle cannot separate.
+/// Sentences that name the effects that one circle cannot separate.
 std::vector<std::string> confounded(Plane plane);
 
 }  // namespace turnwright::volumetric

@@ -6,8 +6,8 @@
 
 namespace turnwright::volumetric {
 
-/// Programmed positions [mm, rad] and signs of motion, each by kLetters; those of axes
-/// that the chain lacks do not count.
+/// Programmed positions [mm, rad] and signs of motion, in the order of kLetters; those of
+/// axes that are not in the chain are ignored.
 struct Position {
   std::array<double, kDirections> q{};
   std::array<double, kDirections> sign{};
@@ -19,22 +19,22 @@ struct ToolPose {
   Vec3 direction{0, 0, 1};  ///< (0, 0, 1) at q = 0
 };
 
-/// What unit errors of one axis do to the tip, to first order, in the workpiece frame:
-/// the columns of d tip/d(EX, EY, EZ, EA, EB, EC) [mm/mm, mm/rad].  A rotary axis'
-/// location errors act by the same columns.
+/// First-order effect of the errors of one axis on the tip, in the workpiece frame: the
+/// columns of d tip/d(EX, EY, EZ, EA, EB, EC) [mm/mm, mm/rad].  The location errors of a
+/// rotary axis act by the same columns.
 struct AxisEffect {
   char axis = 'X';
   std::array<Vec3, kDirections> error{};
-  /// Of a linear axis, by EA0, EB0, EC0 [mm/rad]; the one along the axis is zero.
+  /// For a linear axis the effect of EA0, EB0, EC0 [mm/rad]; the one along the axis is 0.
   std::array<Vec3, 3> squareness{};
 };
 
-/// An angle by its cosine and sine.
+/// A rotation by an angle, given by its cosine and sine.
 struct Turn {
   double cos = 1, sin = 0;
 };
 
-/// A machine's chain made ready to be evaluated at many positions.
+/// A machine's kinematic chain, prepared for evaluation at many positions.
 ///
 /// With sigma = +1 for joints between bed and tool, -1 between bed and workpiece, a joint
 /// moves by
@@ -53,33 +53,36 @@ struct Turn {
 ///     rotary:  d_i = R_i [(EX, EY, EZ) + l],
 ///              r_i = R_i [(EA, EB, EC) + (EA0, EB0, EC0)]
 ///
-/// P the nominal tip, R_i the nominal rotation of the joints between the bed and joint i,
-/// p_i its reference point as they carry it and, if linear, its own travel.
+/// with P the nominal tip, R_i the nominal rotation of the joints between the bed and
+/// joint i, and p_i the reference point of joint i, moved by these joints and, if joint i
+/// is linear, by its own travel.
 ///
 /// Valid for rigid bodies.  (4) neglects products of errors, 0.01 um for 100 urad over a
-/// lever of 1 m; the gap shrinks fourfold when the errors halve.
+/// lever of 1 m; the difference falls by a factor of four when the errors are halved.
 /// Source: products of homogeneous transformations in the zero-position form, derived
 /// here; checked against dual quaternions in kinematics_test.
 class Kinematics {
  public:
-  /// @throws std::domain_error if the chain has a fault (chain_fault), its axes are not
-  ///   those of the machine, a Q is not > 0, or an axis has errors it cannot have.
+  /// @throws std::domain_error if the chain is invalid (chain_fault), its axes are not
+  ///   those of the machine, a Q is not > 0, or an axis has errors that do not apply to
+  ///   it.
   explicit Kinematics(const Machine& machine);
 
   ToolPose nominal(const Position& at) const;
-  /// By (1) and (2).
+  /// The exact pose, by (1) and (2).
   ToolPose actual(const Position& at) const;
   Vec3 actual_tip_mm(const Position& at) const;
   /// actual - nominal of the tip [mm], in the workpiece frame.
   Vec3 tip_error_mm(const Position& at) const;
-  /// By (4).
+  /// The same to first order, by (4).
   Vec3 tip_error_first_order_mm(const Position& at) const;
-  /// No less than the second derivative of (4) along any straight way [1/mm], rotary axes
-  /// at 0 and each linear axis within +-`reach_mm`:
+  /// Upper bound of the second derivative of (4) along any straight path [1/mm], with
+  /// rotary axes at 0 and each linear axis within +-`reach_mm`:
   ///
   ///     |e''| <= sum |d''| + |r''| |P - p| + 2 |r'|                                  (5)
   double bend_at_most(const Vec3& reach_mm) const;
-  /// One for each axis of the chain, from the bed to the tool, then to the workpiece.
+  /// The effects of all axes of the chain, from the bed to the tool, then to the
+  /// workpiece.
   std::vector<AxisEffect> effects(const Position& at) const;
 
  private:
@@ -97,7 +100,7 @@ class Kinematics {
     Vec3 travel{};               // u of a linear axis
     std::array<Turn, 3> tilt{};  // EA0, EB0, EC0 of a rotary axis
     Polynomial errors{};
-    Polynomial small{};  // R_i^T d_i and R_i^T r_i of (4): errors with what is constant
+    Polynomial small{};  // R_i^T d_i and R_i^T r_i of (4), constants included
   };
   template <bool kDirection>
   ToolPose pose(const Position& at) const;

@@ -18,11 +18,12 @@ using catalogue::letter_index;
 using catalogue::Vec3;
 using Machine = catalogue::KinematicChain;
 
-/// What is wrong with a chain of letters, "" if nothing: it begins with w, ends with t,
-/// has one f between, and axes of kLetters, each at most once.
+/// The fault of a chain of letters, "" if it is valid: it begins with w, ends with t,
+/// has one f in between, and axes of kLetters, each at most once.
 std::string chain_fault(std::string_view chain);
 
-/// sigma of an axis of a chain: 1 between bed and tool, -1 between bed and workpiece.
+/// Sign sigma of an axis of a chain: 1 between bed and tool, -1 between bed and
+/// workpiece.
 double sense(std::string_view chain, char axis);
 
 }  // namespace turnwright::volumetric

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kPowers = 120;  // of z at most
 constexpr double kRounding = 1e-13;   // of f, relative to sum |d_l|
-constexpr double kBeyond = 1.1;       // |t| asked about: boxes overlap
+constexpr double kBeyond = 1.1;       // largest |t| needed, because boxes overlap
 
 /// d_l of (1); the multipliers come in conjugate pairs.
 std::vector<double> coefficients(const std::vector<Complex>& multipliers) {
@@ -34,7 +34,7 @@ int outside(const std::vector<Complex>& multipliers) {
       std::ranges::count_if(multipliers, [](Complex mu) { return std::norm(mu) > 1; }));
 }
 
-/// T_k and its first three derivatives by t at one place.
+/// T_k and its first three derivatives by t at one t.
 struct Chebyshev {
   std::vector<double> T, T1, T2, T3;
 };
@@ -112,7 +112,7 @@ std::optional<CharacteristicInterpolant> CharacteristicInterpolant::sampled(
     }
     if (left > tail * scale) continue;
 
-    // Powers of z that rounding hides.
+    // Drops powers of z that are below rounding.
     double dropped = 0;
     while (series.size() > 2 && dropped + size_of(series.back()) < kRounding * scale) {
       dropped += size_of(series.back());

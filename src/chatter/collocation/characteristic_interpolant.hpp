@@ -7,19 +7,19 @@
 
 namespace turnwright::chatter {
 
-/// Multipliers of a cut by its depth, those too small to matter left out.
+/// Multipliers of a cut by its depth, without those too small to matter.
 using MultipliersAt = std::function<std::vector<Complex>(double w_mm)>;
 
-/// The characteristic function of a delayed motion
+/// Interpolant of the characteristic function of a delayed motion
 ///
 ///     f(z, w) = prod_i (1 - z mu_i(w)) = sum_l d_l(w) z^l                            (1)
 ///
-/// which is entire in z, so that its d_l fall off, over depths from a to b:
+/// over depths from a to b.  f is entire in z, so its coefficients decay:
 ///
 ///     d_l(w) = sum_k d_lk T_k(t),   t = (2 w - a - b)/(b - a)                        (2)
 ///
-/// with Chebyshev's polynomials through samples at their extrema.  Its zeros inside the
-/// unit circle are the unstable multipliers, as those of taylor_patch.hpp are.
+/// with Chebyshev polynomials through samples at their extrema.  Zeros inside the unit
+/// circle belong to the unstable multipliers, as in taylor_patch.hpp.
 /// Source: derived here.
 class CharacteristicInterpolant {
  public:
@@ -33,11 +33,11 @@ class CharacteristicInterpolant {
   int unstable_at_from() const { return below_; }
   int unstable_at_to() const { return above_; }
 
-  /// Errors of f are smaller: the tail of (2) and rounding.
+  /// Bound of the errors of f: the tail of (2) and rounding.
   double noise() const { return noise_; }
 
-  /// g = e^(i s theta) f(e^(-i theta), w) with the whole number s by which g turns
-  /// slowly, as taylor_patch.hpp tells of it.
+  /// g = e^(i s theta) f(e^(-i theta), w) over a box, as in taylor_patch.hpp, with the
+  /// integer s for which the argument of g varies slowly.
   Local at(const Box& box, Complex u) const;
 
  private:

@@ -121,8 +121,8 @@ Spectrum of_all(const Map& map) {
   return {.radius = std::abs(all.multiplier), .outside = *all.unstable};
 }
 
-/// The same of Ritz values; how far the least settled of those asked for still moves,
-/// relative to the largest, is |next| times its vector's last entry in the basis.
+/// The same of Ritz values.  The error of the least converged one of those wanted,
+/// relative to the largest, is |next| times the last entry of its vector in the basis.
 std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
   const Eigenpairs ritz = eigenpairs(h);
   const Eigen::ArrayXd moduli = ritz.values.cwiseAbs();
@@ -144,7 +144,7 @@ Spectrum by_arnoldi(const Map& map) {
   for (Index i = 0; i < map.size(); ++i)
     basis(i, 0) = 1 + 0.5 * std::cos(7 * std::pow(static_cast<double>(i), 2));
   basis.col(0).normalize();
-  Index look = 30;  // at which size of the basis
+  Index look = 30;  // size of the basis at which convergence is tested
   for (Index k = 0; k < most; ++k) {
     leave_if_asked();
     VectorXd next = map(basis.col(k));

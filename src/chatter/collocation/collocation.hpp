@@ -3,29 +3,29 @@
 
 namespace turnwright::chatter {
 
-/// Multipliers of one cut as collocation has them.
+/// Multipliers of one cut by collocation.
 struct Spectrum {
   double radius = 0;  ///< the largest modulus
-  int outside = 0;    ///< how many have a modulus above 1
+  int outside = 0;    ///< number of multipliers with a modulus above 1
 };
 
-/// The largest multipliers, by collocation of the delayed motion on the nodes
-/// of collocation_grid.hpp: what the tool has left at the nodes of one period and its state
-/// at the end are mapped to those of the next, and the largest eigenvalue of that map is
-/// found by Arnoldi's method, with all beyond the unit circle (of a small map, all are).
+/// The largest multipliers, by collocation of the delayed motion on the nodes of
+/// collocation_grid.hpp.  The displacements at the nodes of one period and the state at
+/// its end are mapped to those of the next period.  Arnoldi's method finds the largest
+/// eigenvalue of that map and all eigenvalues outside the unit circle; for a small map
+/// all eigenvalues are computed.
 ///
-/// On a stretch, with (2) of collocation_grid.hpp for the Volterra matrix K, H of the
-/// directional factors and d the displacements a period before,
+/// On a collocation interval, with the Volterra matrix K of (2) of collocation_grid.hpp,
+/// H of the directional factors and the displacements d of the period before,
 ///
 ///     (1 + w K H) q = e^(A t) u(begin) + w K H d                                    (1)
 ///     u(end) = e^(A length) u(begin) - w int e^(A (length - s)) B (q - d) ds        (2)
 ///
-/// Valid at any speed: nothing grows over a period but what is unstable.
+/// Valid at any speed, because only unstable motions grow over a period.
 /// Source: derived here; checked in multipliers_test against a closed form and in
 /// reference_methods_test against simulation.
-/// @throws ModelRangeError if a period needs too many nodes, or several multipliers are
-/// so
-///   near to each other in modulus that the largest does not settle to 1e-6.
+/// @throws ModelRangeError if a period needs too many nodes, or if several multipliers
+///   have so similar moduli that the largest does not converge to 1e-6.
 Spectrum spectrum(const System& system, double n_rpm, double ap_mm);
 
 }  // namespace turnwright::chatter

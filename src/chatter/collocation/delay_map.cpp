@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// p of (4).
+/// The number of nodes p of (4).
 std::size_t nodes_for(double phase, double error) {
   constexpr std::size_t kFewest = 4, kMost = 40;
   double left = 2;
@@ -69,9 +69,9 @@ std::vector<double> DelayMap::longest(double n_rpm, const Range& range) const {
   return out;
 }
 
-/// How fast the motion turns or decays, for depths up to that of the contact [1/s]: the
-/// free modes and, with the force, those stiffer; the directional factors twice with the
-/// spindle.
+/// Largest rate at which the motion oscillates or decays, for depths up to that of the
+/// engagement [1/s]: that of the free modes, of the modes stiffened by the force, and
+/// twice that of the spindle for the directional factors.
 double DelayMap::turns(const CutterEngagement& contact) const {
   double fastest = 0, push = 0;
   for (const Mode& m : cutter_.system.modes) {
@@ -122,7 +122,7 @@ void DelayMap::lay_out(double turns, const std::vector<double>& longest,
   }
 }
 
-// The state at the begin of each piece by what lies before.
+// The state at the beginning of each piece by the unknowns before it.
 void DelayMap::connect() {
   Matrix state = Matrix::Zero(states_, size_);
   state.leftCols(states_).setIdentity();

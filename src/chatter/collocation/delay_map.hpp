@@ -9,35 +9,35 @@
 
 namespace turnwright::chatter {
 
-/// How finely a motion is collocated, (4).
+/// Fineness of the collocation of a motion, (4).
 struct Fineness {
   double phase_rad = 0;
   double error = 0;
 };
 inline constexpr Fineness kPlain{14, 1e-10}, kFiner{12, 1e-13};
-/// Where kinks that no node knows leave an error, see cutter_limits.cpp.
+/// For errors by kinks that do not lie at nodes, see cutter_limits.cpp.
 inline constexpr std::array kFinest{Fineness{9, 1e-14}, Fineness{6.5, 1e-15},
                                     Fineness{4.5, 1e-16}, Fineness{3.2, 1e-16}};
 
-/// The motion of one period collocated, with several delays and damping.  Unknown are the
-/// state u_0 at the begin of the period and the forces f at Gauss nodes of the pieces
-/// between the contact's breaks; displacements and velocities at any time follow from
-/// them by
+/// Collocation of the motion of one period, with several delays and damping.  The
+/// unknowns are the state u_0 at the beginning of the period and the forces f at Gauss
+/// nodes of the pieces between the breaks of the engagement.  Displacements and
+/// velocities at any time follow from them by
 ///
 ///     q(t) = C e^(A (t - t_p)) u(t_p) + int_t_p^t C e^(A (t - s)) B f(s) ds          (1)
 ///
-/// from the begin t_p of the piece, with f the polynomial through the nodes.  With a
-/// multiplier mu = 1/z, q before the period is z q a period later, and
+/// from the beginning t_p of the piece, with f the polynomial through the nodes.  For a
+/// multiplier mu = 1/z, q before the period is z times q one period later, and
 ///
 ///     f(t) = -sum_l H_l (q(t) - q(t - tau_l)) - D q'(t),   u_0 = z u(end)            (2)
 ///
-/// reads (M_0 + z M_1)(u_0, f) = 0.  M_1 has rows only for u_0 and for the nodes in which
-/// a delay reaches before the period, so that few rows W are left of the map:
+/// becomes (M_0 + z M_1)(u_0, f) = 0.  M_1 has rows only for u_0 and for the nodes at
+/// which a delay reaches before the period, so that the map reduces to few rows W:
 ///
 ///     mu are the eigenvalues of -M_1,W (M_0^-1)_W                                    (3)
 ///
-/// A piece turns what it holds by 2 `phase_rad` at most and has as many nodes p as make
-/// the error of interpolation
+/// Over a piece the phase of the motion changes by 2 `phase_rad` at most, and the number
+/// of nodes p is chosen so that the error of interpolation is
 ///
 ///     2 (phase/2)^p / p! <= error                                                   (4)
 ///
@@ -45,8 +45,9 @@ inline constexpr std::array kFinest{Fineness{9, 1e-14}, Fineness{6.5, 1e-15},
 /// cut into slices.
 class DelayMap {
  public:
-  /// Depths over which the pieces stay the same in number and nodes, so that the
-  /// multipliers of the map, and not only of the motion, are smooth in the depth.
+  /// Depths over which the number of pieces and their nodes stay the same, so that the
+  /// multipliers of the map, and not only of the motion, are smooth functions of the
+  /// depth.
   struct Range {
     double from_mm = 0, to_mm = 0;
   };
@@ -59,13 +60,13 @@ class DelayMap {
 
   const CutterEngagement& contact() const { return contact_; }
 
-  /// Operations that the multipliers take, about.
+  /// Approximate number of operations needed for the multipliers.
   double work() const;
 
-  /// By falling modulus; those below 1e-12 left out.
+  /// The multipliers by falling modulus, without those below 1e-12.
   std::vector<std::complex<double>> multipliers() const;
 
-  /// Displacement in the stable periodic motion that the feed forces.
+  /// Displacement in the stable periodic motion forced by the feed.
   class Forced {
    public:
     std::array<double, 2> displacement_mm(double angle_rad) const;
@@ -91,7 +92,8 @@ class DelayMap {
   };
 
   double turns(const CutterEngagement& contact) const;
-  /// Of the pieces between breaks, over the range [rad]; the first is void.
+  /// Largest lengths of the pieces between breaks over the range [rad]; the first is
+  /// void.
   std::vector<double> longest(double n_rpm, const Range& range) const;
   void lay_out(double turns, const std::vector<double>& longest,
                const Fineness& fineness);

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kProductGrowth = 6;  // ln of the digits that products may lose
 
-constexpr std::size_t kWork = 30'000'000;  // entries of stretches evaluated: seconds
+constexpr std::size_t kWork = 30'000'000;  // entries of intervals evaluated: seconds
 
 using Matrix = std::vector<Complex>;  // row by row
 
-/// Phi of a stretch by Horner's rule.
+/// Phi of an interval by Horner's rule.
 void evaluate(const SubArc& stretch, std::size_t entries, Complex kappa, Matrix& out) {
   const double* c = &stretch.coefficients[stretch.degree * entries];
   out.assign(c, c + entries);
@@ -42,8 +42,8 @@ struct Scaled {
   }
 };
 
-/// Gaussian elimination with row pivoting of the first `pivots` columns of `a`; the
-/// product of the pivots with the sign of the row exchanges.
+/// Gaussian elimination with row pivoting of the first `pivots` columns of `a`.  Returns
+/// the product of the pivots with the sign of the row exchanges.
 Scaled eliminate(Matrix& a, std::size_t rows, std::size_t columns, std::size_t pivots) {
   Scaled det;
   for (std::size_t k = 0; k < pivots; ++k) {
@@ -69,7 +69,8 @@ Scaled eliminate(Matrix& a, std::size_t rows, std::size_t columns, std::size_t p
   return det;
 }
 
-/// L u_0 + M u_K = 0 is what the period says of its two ends; pivots as in `eliminate`.
+/// The relation L u_0 + M u_K = 0 between the two ends of the period; pivots as in
+/// `eliminate`.
 struct Condensed {
   Matrix L, M;
   Scaled pivots;
@@ -109,7 +110,8 @@ Condensed condensed(const Propagator& p, Complex kappa) {
   return out;
 }
 
-/// Phi of the whole period, and ln of what its rounding errors may have grown by.
+/// Phi of the whole period, and ln of the factor by which its rounding errors may have
+/// grown.
 struct Product {
   Matrix phi;
   double log_growth = 0;
@@ -147,7 +149,7 @@ Complex root_of_unity(std::size_t k, std::size_t n) {
                     2 * units::kPi * static_cast<double>(k) / static_cast<double>(n));
 }
 
-/// c_1 .. c_(m-1) from f at the m-th roots of unity, where c_0 and c_m fall together.
+/// c_1 .. c_(m-1) from f at the m-th roots of unity, where c_0 and c_m add up.
 void interpolate(const std::vector<Scaled>& f, Coefficients& out) {
   const std::size_t m = f.size();
   double log_scale = 0;

@@ -19,17 +19,17 @@ struct Coefficients {
 ///
 ///     f(z, kappa) = det(I - z Phi(kappa)) = sum_i c_i(kappa) z^i                    (1)
 ///
-/// mu = 1/z is a multiplier at the depth w if f(z, w (1 - z)) = 0, and as that function
-/// of z is entire, 1 at z = 0, its zeros inside the unit circle are the unstable
+/// mu = 1/z is a multiplier at the depth w if f(z, w (1 - z)) = 0.  That function of z is
+/// entire and 1 at z = 0, so its zeros inside the unit circle belong to the unstable
 /// multipliers.  c_0 = 1 and c_m = det Phi are known (Liouville).
 ///
-/// Small Phi is multiplied out.  Once the growth over the period would cost digits, the
-/// stretches are eliminated one by one with pivoting instead, as in multiple shooting;
-/// (1) is then the determinant of what is left times the pivots.
+/// A small Phi is multiplied out.  Where the growth over the period would cost digits,
+/// the intervals are eliminated one by one with pivoting instead, as in multiple
+/// shooting; (1) is then the determinant of the remaining system times the pivots.
 class Characteristic {
  public:
   Characteristic(const System& system, double n_rpm, const Resolution& resolution);
-  /// @param arcs  those of the system at that speed.
+  /// @param arcs  the arcs of the system at that speed.
   Characteristic(const System& system, std::vector<ArcLoad> arcs, double n_rpm,
                  const Resolution& resolution);
 
@@ -41,8 +41,8 @@ class Characteristic {
   }
 
   /// @param kappa_max  at least |kappa|.  Values at one kappa differ by the error of the
-  ///   method from one kappa_max to another; at one kappa_max they are smooth.
-  /// @throws ModelRangeError once a search has asked for so much that it takes seconds.
+  ///   method for different kappa_max; for one kappa_max they are smooth.
+  /// @throws ModelRangeError once the evaluations of a search have taken seconds.
   Coefficients at(Complex kappa, double kappa_max) const;
 
   /// f(z, w (1 - z)) times a positive number that is 1 unless f would overflow.

@@ -10,12 +10,12 @@
 namespace turnwright::chatter {
 namespace {
 
-constexpr double kGrowth = 4;  // most of ln |Phi| that one stretch may add
-constexpr std::size_t kFewest = 6, kMost = 20;  // nodes of a stretch without roots
+constexpr double kGrowth = 4;  // largest contribution of one interval to ln |Phi|
+constexpr std::size_t kFewest = 6, kMost = 20;  // nodes of an interval without roots
 constexpr double kStretches = 20000;            // of a period: a bound on time and memory
 
-/// Response of the modes to the cut: |q| after unit force for a time t is at most
-/// min(impulse t, push t^2 / 2).
+/// Response of the modes to the cut: under a unit force |q| is at most
+/// min(impulse t, push t^2 / 2) after a time t.
 struct Receptance {
   double impulse = 0, push = 0;
 };
@@ -45,14 +45,14 @@ double largest_factor_MPa(const System& system, double n_rpm, const Arc& arc) {
   return largest;
 }
 
-/// Times of the nodes in a stretch and the Jacobian dt/ds there [s].
+/// Times of the nodes in an interval, and the Jacobian dt/ds there [s].
 struct Nodes {
   std::vector<double> t, jacobian;
 };
 
 enum class Grading { none, at_begin, at_end };
 
-// q of t = l s^q such that gamma q is whole if a small q can do it.
+// The q of t = l s^q for which gamma q is an integer, if a small q has that property.
 double grading_power(const System& system) {
   const double gamma = std::get<PowerLawForce>(system.force).gamma;
   for (int q = 2; q <= 8; ++q)
@@ -73,7 +73,7 @@ Nodes graded_nodes(const Quadrature& rule, double length, Grading grading, doubl
   return nodes;
 }
 
-/// Nodes of (1).
+/// Number of nodes by (1).
 std::size_t nodes_for(double phase, double error) {
   double left = 1;
   for (std::size_t p = 1; p < kMost; ++p) {
@@ -111,11 +111,12 @@ class Stretcher {
     const double force = kappa_max_ * load.largest_MPa;
     const double by_force =
         kGrowth / std::min(force * r.impulse, std::sqrt(force * r.push));
-    // Green's function turns with the free modes, the motion faster by the force, the
-    // directional factors twice with the spindle.
+    // Phases: Green's function has those of the free modes, the motion faster ones by the
+    // force, and the directional factors twice that of the spindle.
     const double turns =
         fastest_ + std::sqrt(fastest_ * fastest_ + force * r.push) + 2 / seconds_per_rad_;
-    // s^q makes the motion of higher degree; and a root slows convergence beside it too.
+    // s^q raises the degree of the motion, and a root slows convergence in its
+    // neighbourhood.
     const bool rooted = arc.root_at_begin || arc.root_at_end;
     const double phase = resolution_.phase_rad / (rooted ? 2 : 1);
     const double longest = std::min(2 * phase / turns, by_force);

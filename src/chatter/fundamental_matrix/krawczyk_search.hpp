@@ -38,7 +38,7 @@ struct Judged {
   double s = 0, t = 0;  // of the zero, in half widths of the box
 };
 
-/// What the local bounds tell of the zeros of g in the box.
+/// Decides by the local bounds whether g has no zero or exactly one in the box.
 inline Judged judge(const Local& g, const Box& box, double noise) {
   const Complex D = g.g_w * box.w_half, E = g.g_theta * box.theta_half;
   const double ww = g.ww * box.w_half * box.w_half,
@@ -57,8 +57,8 @@ inline Judged judge(const Local& g, const Box& box, double noise) {
                                  distance(g.g + E, D), distance(g.g - E, D)});
     if (far > rest) return {Verdict::none};
   }
-  // Krawczyk: with Y = (D E)^-1, x -> x - Y g(x) contracts by q in the box, which it maps
-  // into the Newton point +- (q + noise).
+  // [Krawczyk 1969]: with Y = (D E)^-1 the map x -> x - Y g(x) contracts by q in the box,
+  // and sends the box into the Newton point +- (q + noise).
   const double row = std::max(size_D, size_E) / std::abs(det);
   const double q = row * (ww + 2 * wt + tt + g.unseen), slack = q + row * noise;
   if (!(q < 1)) return {};
@@ -67,17 +67,18 @@ inline Judged judge(const Local& g, const Box& box, double noise) {
   return {};
 }
 
-/// g is real at 0 and at pi: boxes about these lines reach as far beyond.
+/// g is real at theta = 0 and pi; boxes at these lines are symmetric about them.
 enum class Line { none, at_zero, at_pi };
 
-/// @tparam Source  tells of g: `Patch`, and `pick` a patch for a box or none.
+/// @tparam Source  provides g: a type `Patch`, and `pick`, which returns a patch for a
+///   box, or none.
 template <class Source>
 class Search {
  public:
   using Patch = typename Source::Patch;
   explicit Search(Source source) : source_(std::move(source)) {}
 
-  /// All zeros with w in [from, to], those at theta = 0 if asked for.
+  /// Finds all zeros with w in [from, to], with those at theta = 0 only if `with_zero`.
   void strip(double from, double to, const Patch* patch, bool with_zero = false) {
     const double half = (to - from) / 2, w = from + half;
     constexpr double kLine = units::kPi / 6;  // half height of the box about a line
@@ -104,7 +105,8 @@ class Search {
           "more than " +
           std::to_string(kBoxes) +
           " boxes; ask for a smaller ap_max_mm or a higher speed");
-    constexpr double kInflation = 1.01;  // so that zeros on the borders of boxes are met
+    constexpr double kInflation =
+        1.01;  // so that zeros on the borders of boxes are found
     Box wide = box;
     wide.w_half *= kInflation;
     wide.theta_half *= kInflation;

@@ -11,14 +11,16 @@ namespace {
 constexpr double kDropped = 1e-17;  // terms of the series relative to Phi
 constexpr std::size_t kDegree = 60;
 
-/// out = matrix f for a matrix of `rows` rows, column by column, and f row by row with M
-/// columns; rows go kRows at a time, so that sums do not wait for each other.
+/// out = matrix f for a matrix of `rows` rows, stored column by column, and f row by row
+/// with M columns.  kRows rows are computed at a time, so that their sums are
+/// independent.
 template <std::size_t M, std::size_t kRows>
 void multiply(const double* matrix, std::size_t rows, std::span<const double> f,
               double* out) {
   const std::size_t p = f.size() / M;
   for (std::size_t first = 0; first < rows; first += kRows) {
-    const std::size_t i = std::min(first, rows - kRows);  // the last may be done twice
+    const std::size_t i =
+        std::min(first, rows - kRows);  // the last rows may be done twice
     double sum[M][kRows] = {};
     for (std::size_t j = 0; j < p; ++j)
       for (std::size_t c = 0; c < M; ++c)
@@ -42,7 +44,7 @@ void multiply(const double* matrix, std::size_t rows, std::size_t columns,
         out[i * columns + c] += matrix[j * rows + i] * f[j * columns + c];
 }
 
-/// Neumann series of the stretches of one system.
+/// Neumann series of the intervals of one system.
 class Expansion {
  public:
   Expansion(const System& system, const Stretches& stretches, double kappa_max)
@@ -72,7 +74,7 @@ class Expansion {
         free[1] = kernel.from_begin[k * p + i].xv;
       }
     }
-    // An axis without a mode does not move, and its force moves nothing.
+    // An axis without a mode does not move, and a force along it has no effect.
     const std::size_t from = stretches_.used[0] ? 0 : p,
                       to = stretches_.used[1] ? 2 * p : p;
     const std::span moving(&force[from * m], (to - from) * m);
@@ -103,7 +105,7 @@ class Expansion {
   }
 
  private:
-  // A free flight in closed form, after the stretch.
+  // Free vibration after the interval, in closed form.
   void fly(double length, SubArc& last) const {
     const std::size_t m = states_;
     for (std::size_t k = 0; k < system_.modes.size(); ++k) {

@@ -5,7 +5,7 @@
 
 namespace turnwright::chatter {
 
-/// The fundamental matrix of a stretch of the period, as a polynomial in kappa:
+/// The fundamental matrix of an interval of the period, as a polynomial in kappa:
 ///
 ///     Phi(kappa) = sum_j P_j kappa^j,   coefficients[j m^2 + row m + column]
 struct SubArc {
@@ -13,8 +13,8 @@ struct SubArc {
   std::vector<double> coefficients;
 };
 
-/// One period, cut into stretches; Phi of the period is their product, the last leftmost.
-/// States: (eta_i, eta_i'/wn_i) of the modes in their order; m of them.
+/// One period, divided into intervals; Phi of the period is their product, the last
+/// leftmost.  The m states are (eta_i, eta_i'/wn_i) of the modes in their order.
 struct Propagator {
   std::size_t states = 0;
   double log_det =
@@ -27,14 +27,14 @@ struct Propagator {
 ///     u' = (A - kappa B(t)) u,   kappa = w (1 - 1/mu)                              (1)
 ///
 /// with the matrix A of free vibration, and B of the directional factors.  On each
-/// stretch Phi is the Neumann series of the Volterra equation
+/// interval Phi is the Neumann series of the Volterra equation
 ///
 ///     Phi(t) = e^(A t) - kappa int_0^t e^(A (t - s)) B(s) Phi(s) ds                (2)
 ///
-/// on Gauss-Legendre nodes.  Where h goes like a broken power of the distance from an end
-/// the nodes are s^q apart from it, which makes the integrand smooth.
+/// on Gauss-Legendre nodes.  Where h behaves like a fractional power of the distance from
+/// an end the nodes are graded as s^q, which makes the integrand smooth.
 ///
-/// Only q enters B, so (2) is iterated for q alone.  Good for |kappa| <= kappa_max_mm.
+/// Only q enters B, so (2) is iterated for q alone.  Valid for |kappa| <= kappa_max_mm.
 /// Source: derived here; checked in accuracy_test against Bulirsch and Stoer's method.
 Propagator propagator(const System& system, const std::vector<ArcLoad>& arcs,
                       double n_rpm, double kappa_max_mm, const Resolution& resolution);

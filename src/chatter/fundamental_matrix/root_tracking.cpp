@@ -28,8 +28,9 @@ struct Step {
   }
 };
 
-/// Whether the disc holds one zero for every depth of the step; F_zz = f_zz - 2 w f_kz +
-/// w^2 f_kk, F_zw = (1 - z)(f_kz - w f_kk) - f_k, F_ww = (1 - z)^2 f_kk.
+/// Whether the disc contains exactly one zero for every depth of the step, with F_zz =
+/// f_zz - 2 w f_kz + w^2 f_kk, F_zw = (1 - z)(f_kz - w f_kk) - f_k, F_ww = (1 - z)^2
+/// f_kk.
 bool shown(const Patch& patch, const Step& step) {
   const Patch::Point p =
       patch.point(step.z, step.middle * (1.0 - step.z), step.disc().radius, step.radius);
@@ -64,7 +65,7 @@ Complex zero_near(const Characteristic& f, double w_mm, Complex z) {
 
 namespace {
 
-/// Newton's method inside a patch, for a zero near z; NaN if it leaves the patch.
+/// A zero near z by Newton's method inside a patch; NaN if it leaves the patch.
 Complex zero_in(const Patch& patch, double w, Complex z) {
   constexpr int kSteps = 20;
   for (int i = 0; i < kSteps; ++i) {
@@ -78,7 +79,7 @@ Complex zero_in(const Patch& patch, double w, Complex z) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The largest patch about the disc that is precise, or none.
+/// The largest patch about the disc that has the required precision, or none.
 std::optional<Patch> patch_around(const Characteristic& f, const Disc& disc) {
   constexpr double kGrowth = 8;
   double radius = std::max(std::abs(disc.centre), disc.radius);

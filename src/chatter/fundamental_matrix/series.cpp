@@ -13,7 +13,7 @@ constexpr double kDropped = 1e-18;  // of a polynomial relative to its largest t
 
 using Poly = std::vector<double>;
 
-/// sum += sign a b, as far as kSeriesTerms.
+/// sum += sign a b, up to kSeriesTerms terms.
 void add_product(Poly& sum, double sign, const Poly& a, const Poly& b) {
   const std::size_t terms = std::min(a.size() + b.size() - 1, kSeriesTerms);
   if (sum.size() < terms) sum.resize(terms, 0);
@@ -46,7 +46,7 @@ PolyMatrix scaled(const SubArc& stretch, std::size_t m, double kappa_max) {
   return out;
 }
 
-/// Cuts off what is lost in the largest term; false if nothing can be.
+/// Drops terms that are lost in the rounding of the largest one; false if there are none.
 bool trim(PolyMatrix& a) {
   const auto largest = [&](std::size_t j) {
     double most = 0;
@@ -187,7 +187,7 @@ std::optional<Series> series(const Propagator& propagator, double kappa_max_mm) 
         row += std::abs(phi.coefficients[j * m * m + r * m + c]);
       out.size[j] = std::max(out.size[j], row);
     }
-  constexpr double kEach = 4;  // roundings of a stretch, in units of the last place
+  constexpr double kEach = 4;  // rounding of an interval, in units of the last place
   out.rounding = kEach * (1 + static_cast<double>(propagator.stretches.size())) *
                  std::numeric_limits<double>::epsilon();
   return out;
@@ -197,7 +197,7 @@ std::optional<DeepSeries> series_up_to(const System& system,
                                        const std::vector<ArcLoad>& arcs, double n_rpm,
                                        double ap_max_mm) {
   constexpr double kReach = 2.2;     // kappa over depth, with room for boxes at the edge
-  constexpr double kGrowth = 100;    // as `growth` has it: beyond no series will do
+  constexpr double kGrowth = 100;    // by `growth`: beyond it no series is precise enough
   constexpr double kPrecise = 1e-7;  // noise accepted
   if (system.modes.size() > 2) return std::nullopt;
   for (double w = ap_max_mm; w > 1e-6 * ap_max_mm; w /= 2) {

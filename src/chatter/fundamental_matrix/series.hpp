@@ -11,22 +11,22 @@ namespace turnwright::chatter {
 inline constexpr std::size_t kSeriesTerms = 96;  ///< at most
 
 /// The coefficients of f(z, kappa) = det(I - z Phi(kappa)) = sum_i c_i(kappa) z^i as real
-/// polynomials about kappa = 0, which serve every depth and every multiplier at once:
+/// polynomials about kappa = 0, valid for every depth and every multiplier at once:
 ///
 ///     c_i(kappa) = sum_j c[i][j] (kappa/radius)^j,   |kappa| <= radius              (1)
 ///
-/// The stretches are multiplied as polynomials, so that what rounding leaves of a
-/// coefficient is small beside the sum of moduli it was made of, and errors fall with
-/// |kappa| as (1) does.  c_0 = 1 and c_m = det Phi are known.
+/// The intervals are multiplied as polynomials.  So the rounding error of a coefficient
+/// is small compared with the sum of moduli of its terms, and errors fall with |kappa| as
+/// (1) does.  c_0 = 1 and c_m = det Phi are known.
 /// Source: derived here.
 struct Series {
   double radius_mm = 0;
   std::vector<std::vector<double>> c;
-  std::vector<double> size, minors;  ///< bound |Phi| and its minors of order 2, as c c_i
-  double rounding = 0;               ///< of Phi, relative to that bound
+  std::vector<double> size, minors;  ///< bounds of |Phi| and of its minors of order 2
+  double rounding = 0;               ///< rounding of Phi, relative to its bound
 
   std::size_t states() const { return c.size() - 1; }
-  /// Errors of f are smaller for |z| <= 1.
+  /// Bound of the errors of f for |z| <= 1.
   double noise(double kappa_abs) const;
 };
 
@@ -37,13 +37,13 @@ struct SeriesValue {
 SeriesValue value(const Series& series, std::complex<double> z,
                   std::complex<double> kappa_mm);
 
-/// None if there are more than two modes (the minors of Phi become too many) or if f
-/// needs more terms than are worth it.
-/// @param kappa_max  for which the propagator was made.
+/// The series; none if there are more than two modes, because Phi then has too many
+/// minors, or if f needs too many terms.
+/// @param kappa_max  the value for which the propagator was made.
 std::optional<Series> series(const Propagator& propagator, double kappa_max_mm);
 
-/// The series of one spindle speed for depths up to `depth_mm`, as deep as it is precise
-/// but not deeper than asked; none if there is none.
+/// The series of one spindle speed for depths up to `depth_mm`, which is ap_max or the
+/// depth at which the series ceases to be precise; none if there is no series.
 struct DeepSeries {
   Series series;
   double depth_mm = 0;

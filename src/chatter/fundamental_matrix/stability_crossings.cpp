@@ -15,9 +15,9 @@ namespace {
 
 using units::kPi;
 
-constexpr double kNoisy = 1e-4;  // noise of a patch relative to its values: renew it
+constexpr double kNoisy = 1e-4;  // relative noise above which a patch is replaced
 
-/// Patches on demand: those of the boxes above are reused while they are good.
+/// Patches on demand; those of enclosing boxes are reused while they are precise.
 class Patches {
  public:
   using Patch = chatter::Patch;
@@ -32,7 +32,7 @@ class Patches {
   }
   const Patch* pick(const Patch* above, const Disc& inner,
                     std::optional<Patch>& own) const {
-    constexpr double kFar = 24;  // from here on bounds of third order are too wide
+    constexpr double kFar = 24;  // beyond it bounds of third order are too wide
     if (above && holds(above->disc(), inner)) {
       if (kFar * inner.radius > above->disc().radius) return above;
       const double room =
@@ -52,7 +52,7 @@ class Patches {
 
  private:
   std::optional<Patch> measured(const Disc& disc) const {
-    constexpr double kHopeless = 14;  // of growth across the disc
+    constexpr double kHopeless = 14;  // growth across the disc beyond which none is tried
     if (f_->growth(disc.radius) > kHopeless) return std::nullopt;
     return Patch::sampled(*f_, disc, rho_);
   }
@@ -123,7 +123,7 @@ OnCircle polished(const Characteristic& coarse, const Characteristic& fine,
   return out;
 }
 
-/// As above on the series.
+/// The same on the series.
 OnCircle polished(const Series& series, const Box& zero) {
   constexpr int kSteps = 30;
   constexpr Complex kI(0, 1);
@@ -198,7 +198,7 @@ SpeedLimits charted(const std::vector<OnCircle>& zeros, const System& system,
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
                                 double from_mm, double to_mm) {
   Search<Patches> search(Patches(coarse, 1));
-  // The disc about w of radius w holds kappa for every depth up to w and |z| <= 1.
+  // The disc about w of radius w contains kappa for every depth up to w and |z| <= 1.
   constexpr double kReach = 1.6;
   std::optional<Patch> first;
   if (from_mm == 0) first = search.source().sampled({to_mm, kReach * to_mm});
@@ -211,7 +211,8 @@ std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characterist
 
 std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coarse,
                                 const Characteristic& fine, double to_mm) {
-  constexpr double kLarge = 1e-9;  // error: polish without the series
+  constexpr double kLarge =
+      1e-9;  // error above which zeros are refined without the series
   Search<Patches> search{Patches(series)};
   search.strip(0, to_mm, nullptr);
   std::vector<OnCircle> zeros;
@@ -224,13 +225,13 @@ std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coar
 
 namespace {
 
-/// Turns of g along the half circle, chord by chord.
+/// The change of the argument of g along the half circle, chord by chord.
 class Winding {
  public:
   Winding(const Patches& patches, double w, double rho)
       : patches_(patches), w_(w), rho_(rho) {}
 
-  /// The angle by which g turns over [0, pi].
+  /// The change of the argument of g over [0, pi].
   double angle() {
     constexpr double kFew = 4;
     double sum = 0;
@@ -275,7 +276,7 @@ int whole_turns(double angle, std::size_t m) {
   const double turns = static_cast<double>(m / 2) - angle / kPi,
                whole = std::round(turns);
   if (!(std::abs(turns - whole) < 1e-3))
-    throw ModelRangeError(kOnCircle);  // rounding turns the chords
+    throw ModelRangeError(kOnCircle);  // the chords' angles are only rounding
   return static_cast<int>(whole);
 }
 

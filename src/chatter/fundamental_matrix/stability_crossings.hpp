@@ -17,13 +17,13 @@ inline constexpr const char* kOnCircle =
 struct OnCircle {
   double w_mm = 0;
   double theta = 0;  ///< of mu, in (0, pi]
-  int change = 0;    ///< of the number of unstable multipliers as w rises past it
+  int change = 0;    ///< change of the number of unstable multipliers as w rises past it
   double relative_error = 0;                ///< estimated, of w
-  std::optional<double> frequency_Hz = {};  ///< where more is known than theta
+  std::optional<double> frequency_Hz = {};  ///< if it is known and not only theta
   bool flip() const;                        ///< mu = -1
 };
 
-/// What a depth on the circle is to a chart: a loss of stability, or a gain.
+/// The crossing of a chart for a depth on the circle: a loss of stability, or a gain.
 Crossing crossing(const OnCircle& at, bool loss, const System& system, double tau_s);
 
 /// The crossings among all rising depths on the circle, and counts at `depths_mm`.
@@ -32,31 +32,31 @@ SpeedLimits charted(const std::vector<OnCircle>& zeros, const System& system,
 
 /// Every depth in (from, to] at which a multiplier lies on the unit circle, rising.
 ///
-/// g(w, theta) of taylor_patch.hpp is searched for zeros over (from, to] x [0, pi], box by
-/// box.  A box is put aside once its linear part stays farther from 0 than the remainder can
-/// reach, or once Krawczyk's operator shows that it holds one zero or none; otherwise it
-/// is halved.  So no zero is missed unless the bound on rounding errors fails.  Zeros are
-/// then polished by Newton's method on `fine`, and the step from the zero of `coarse` to
-/// that of `fine` is the error estimate.
+/// g(w, theta) of taylor_patch.hpp is searched for zeros over (from, to] x [0, pi], box
+/// by box.  A box is settled once its linear part is farther from 0 than the remainder
+/// can reach, or once Krawczyk's operator shows that it holds exactly one zero or none;
+/// otherwise it is halved.  So no zero is missed unless the bound on rounding errors
+/// fails. Zeros are then refined by Newton's method on `fine`; the difference between the
+/// zeros of `coarse` and `fine` is the error estimate.
 ///
-/// Zeros at mu = -1 lie on the border of the search, where g is real: the border's box
-/// reaches as far beyond, so that a single zero in it lies on the border.
-/// At theta = 0 there are none, for kappa = 0 whatever w: a cyclic fold cannot occur.
+/// Zeros at mu = -1 lie on the border of the search, where g is real.  The boxes at the
+/// border are symmetric about it, so a single zero in one lies on the border.  At theta =
+/// 0 there are no zeros, because kappa = 0 for every w: a cyclic fold cannot occur.
 ///
-/// Source: derived here; Krawczyk's operator as in any text on interval analysis.
-/// @throws ModelRangeError if the search has to look at more than `kBoxes` boxes, see
+/// Source: [Krawczyk 1969], the operator; the search derived here.
+/// @throws ModelRangeError if the search needs more than `kBoxes` boxes, see
 ///   krawczyk_search.hpp.
 std::vector<OnCircle> on_circle(const Characteristic& coarse, const Characteristic& fine,
                                 double from_mm, double to_mm);
 
-/// The same in (0, to] by a series that holds kappa up to 2.2 `to`.  The zeros' errors
-/// are what the noise of the series may make; where that is large they are polished as
+/// The same in (0, to] by a series that is valid for kappa up to 2.2 `to`.  The errors of
+/// the zeros follow from the noise of the series; where that is large they are refined as
 /// above.
 std::vector<OnCircle> on_circle(const Series& series, const Characteristic& coarse,
                                 const Characteristic& fine, double to_mm);
 
 /// Number of zeros z of f(z, w (1 - z)) inside |z| = rho, that is of multipliers outside
-/// |mu| = 1/rho: the winding number of g, whose chords stand for arcs that are shown to
+/// |mu| = 1/rho: the winding number of g.  Its chords represent arcs that are shown to
 /// stay on one side of 0.
 /// @throws ModelRangeError if a zero lies on the circle to within rounding.
 int multipliers_outside(const Characteristic& f, double w_mm, double rho = 1);

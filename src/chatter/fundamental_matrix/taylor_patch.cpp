@@ -58,7 +58,7 @@ const std::vector<std::array<double, kSeriesTerms>>& pascal() {
   return kAll;
 }
 
-/// out_j = sum_k (j + k over k) c_(j+k) at^k: the polynomial about another centre.
+/// The polynomial about another centre: out_j = sum_k (j + k over k) c_(j+k) at^k.
 void shift(std::span<const double> c, Complex at, Complex* out) {
   std::array<double, kSeriesTerms> real, imaginary;
   const std::size_t n = c.size();
@@ -116,7 +116,7 @@ std::optional<Patch> Patch::sampled(const Characteristic& f, const Disc& disc,
   }
   const double largest = *std::ranges::max_element(size);
   if (!(largest < 1e300)) return std::nullopt;
-  // What the last quarter holds is rounding if the series has come down before.
+  // If the series has decayed before, the last quarter of its terms is rounding.
   const double floor = *std::max_element(size.end() - kSamples / 4, size.end());
   if (!(floor < kFloor * largest)) return std::nullopt;
   std::size_t terms = kSamples;
@@ -290,8 +290,8 @@ Patch::Point Patch::point(Complex z, Complex kappa, double reach, double dz) con
             by_u * by_u};
 }
 
-// F = u^(-m/2) f, E and E2 are what u d/du makes of it once and twice at one kappa, _k is
-// the derivative by kappa.  With u_theta = -i u, kappa_theta = i w rho u:
+// F = u^(-m/2) f; E and E2 are the results of applying u d/du once and twice at constant
+// kappa; _k is the derivative by kappa.  With u_theta = -i u, kappa_theta = i w rho u:
 //   g_w = F_k (1 - rho u),  g_theta = i (w rho u F_k - E),
 //   g_ww = F_kk (1 - rho u)^2,
 //   g_wt = i (rho u F_k + (1 - rho u)(w rho u F_kk - E_k)),

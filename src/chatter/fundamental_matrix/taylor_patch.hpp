@@ -9,31 +9,31 @@
 
 namespace turnwright::chatter {
 
-/// |x| without hypot's care for numbers that overflow when squared: there are none here.
+/// |x| without hypot's protection against overflow, which is not needed here.
 inline double modulus(Complex x) { return std::sqrt(std::norm(x)); }
 
-/// What a count at the depths w and on the circle |z| = rho needs to know of
+/// Local expansion of
 ///
 ///     g(w, theta) = u^(-m/2) f(z, kappa),  u = e^(-i theta),  z = rho u,            (1)
 ///     kappa = w (1 - z)
 ///
-/// at one point and around it; m is the degree of f in z, an even number, and the factor
-/// makes g turn slowly.
+/// over a box of depths w and angles theta on the circle |z| = rho.  m is the degree of f
+/// in z, an even number; the factor makes the argument of g vary slowly.
 struct Local {
   Complex g;                      ///< value at the centre of the box
   Complex g_w, g_theta;           ///< derivatives there
   double ww = 0, wt = 0, tt = 0;  ///< bounds on the second derivatives in all of the box
-  double unseen = 0;  ///< what g hides in its slopes times the half widths: bound
+  double unseen = 0;  ///< bound of the errors of the slopes times the half widths
 };
 
-/// w within w_half of w, theta within theta_half of theta.
+/// A box: depths within w_half of w, angles within theta_half of theta.
 struct Box {
   double w = 0, w_half = 0;
   double theta = 0, theta_half = 0;
   Complex u() const { return std::polar(1.0, -theta); }
 };
 
-/// A disc that holds the kappa of every point of the box; u is that of the box.
+/// A disc that contains the kappa of every point of the box; u is that of the box.
 struct Disc {
   Complex centre;
   double radius = 0;
@@ -43,24 +43,24 @@ inline bool holds(const Disc& outer, const Disc& inner) {
   return modulus(inner.centre - outer.centre) + inner.radius <= outer.radius;
 }
 
-/// Taylor series in kappa of the coefficients of f, good in a disc:
+/// Taylor polynomials in kappa of the coefficients of f, valid in a disc:
 ///
 ///     f(z, kappa) = sum_i (z/rho)^i sum_j c_ij ((kappa - centre)/radius)^j (2)
 ///
-/// found by sampling on the rim.  Bounds on derivatives are the sums of moduli, so they
-/// hold for every point of the disc, and are the sharper the smaller it is.
+/// computed from samples on the rim.  Bounds on derivatives are sums of moduli, so they
+/// hold at every point of the disc; they are sharper in smaller discs.
 class Patch {
  public:
-  /// f at one point and bounds on the moduli of its second derivatives nearby.
+  /// f at one point, with bounds on the moduli of its second derivatives nearby.
   struct Point {
     Complex f, f_z, f_kappa;
     double kk = 0, kz = 0, zz = 0;
   };
 
-  /// @param disc  inside the circle of the series.
+  /// @param disc  inside the circle of convergence of the series.
   static Patch of(const Series& series, const Disc& disc, double rho);
 
-  /// None if the disc is too large for the series to be precise at its centre.
+  /// A patch from samples; none if the disc is too large for the required precision.
   static std::optional<Patch> sampled(const Characteristic& f, const Disc& disc,
                                       double rho);
 
@@ -68,18 +68,18 @@ class Patch {
   Patch shifted(const Disc& disc) const;
 
   const Disc& disc() const { return disc_; }
-  /// Errors of g in the disc are smaller.
+  /// Bound of the errors of g in the disc.
   double noise() const { return noise_; }
-  /// By how much g changes over the disc, to first order: noise far below that is none.
+  /// First-order change of g over the disc; noise far below it does not matter.
   double change() const;
-  /// |g| at the disc's centre and some z, for telling whether the noise matters.
+  /// |g| at the disc's centre for some z, with which the noise is compared.
   double scale() const;
 
-  /// @param box  its disc must lie in this one; u is that of the box.
+  /// @param box  a box whose disc lies in this one; u is that of the box.
   Local at(const Box& box, Complex u) const;
 
-  /// Bounds hold within `reach` of kappa and `dz` of z, as far as that is inside the disc
-  /// and |z| <= rho.
+  /// f at a point; the bounds hold within `reach` of kappa and `dz` of z, inside the disc
+  /// and for |z| <= rho.
   Point point(Complex z, Complex kappa, double reach, double dz) const;
 
  private:
@@ -93,7 +93,7 @@ class Patch {
   };
   Coefficient coefficient(std::size_t i, Complex t) const;
   void keep(std::size_t terms);
-  /// Leaves out the last terms as far as their sizes add up to less than `most`.
+  /// Drops the last terms as long as their sizes add up to less than `most`.
   void drop(std::span<const double> size, double most);
   void bound();
 

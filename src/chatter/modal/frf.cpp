@@ -34,12 +34,13 @@ struct Model {
   double left = std::numeric_limits<double>::infinity();  // sum |e|^2
 };
 
-/// What errors go like at each line.
+/// Relative size of the errors at each line.
 using Sizes = std::vector<double>;
 
 Sizes alike(const FrequencyResponse& r) { return Sizes(r.w_rad_s.size(), 1.0); }
 
-/// The lines as rows: real parts, then imaginary ones, over the sizes of their errors.
+/// The lines as rows: real parts, then imaginary parts, divided by the size of their
+/// errors.
 class Lines {
  public:
   Lines(const FrequencyResponse& r, const Sizes& sizes) : w_(r.w_rad_s), y_(2 * rows()) {
@@ -144,7 +145,7 @@ Model moved(Model m, const VectorXd& step) {
   return m;
 }
 
-/// 1/k, c and b are linear: the best ones for the peaks' places.
+/// The best 1/k, c and b, which are linear, for given frequencies and damping ratios.
 Model with_heights(const Lines& lines, Model m) {
   for (Peak& p : m.peaks) p.a = 0;
   m.c = m.b = 0;
@@ -160,8 +161,8 @@ Model with_heights(const Lines& lines, Model m) {
   return m;
 }
 
-/// Levenberg and Marquardt; what a last step changes is far below rounding or what is
-/// left.
+/// [Levenberg 1944], [Marquardt 1963]; the changes by the last step are far below
+/// rounding or below the residual.
 Model fitted(const Lines& lines, Model m, int steps) {
   constexpr double kSmall = 1e-14, kUnfelt = 1e-9, kStiff = 1e12;
   VectorXd e = lines.left(m);
@@ -196,8 +197,8 @@ Model without_peaks(const Lines& lines) {
   return m;
 }
 
-/// Where one more peak explains most of what is left, as far as small changes of those
-/// there are cannot: the best places, apart from each other.
+/// The best frequencies of one more peak, apart from each other: those where it explains
+/// most of the residual that small changes of the present peaks cannot explain.
 std::vector<Peak> places(const Lines& lines, const Model& m) {
   constexpr Eigen::Index kTried = 250;
   constexpr std::array kDamping{0.004, 0.02, 0.1};
@@ -205,7 +206,7 @@ std::vector<Peak> places(const Lines& lines, const Model& m) {
   const MatrixXd J = lines.jacobian(m);
   const Normal normal(J);
   const VectorXd e = lines.left(m);
-  std::vector<std::pair<double, Peak>> all;  // what it explains
+  std::vector<std::pair<double, Peak>> all;  // with the sum of squares it explains
   const Eigen::Index stride = 1 + lines.rows() / kTried;
   for (Eigen::Index i = 0; i < lines.rows(); i += stride) {
     std::pair<double, Peak> best;
@@ -275,7 +276,7 @@ bool nothing_left(const Lines& lines, const Model& m) {
   return m.left <= kRounding * kRounding * lines.y().squaredNorm();
 }
 
-/// What speaks against a fit: the first peak that does not stand.
+/// The reason against a fit: its first invalid peak.
 std::optional<NoFit> fault(const Lines& lines, const Model& m) {
   constexpr double kHeavy = 0.5, kVague = 0.5;
   if (m.peaks.empty() || !std::isfinite(m.left)) return NoFit{Why::no_peak, 0};
@@ -299,8 +300,8 @@ double highest(const Model& m) {
   return out;
 }
 
-/// Whether a mode of negative stiffness stands out of a model that leaves so much less
-/// than another without it.
+/// Whether a mode of negative stiffness is significant: its model leaves a far smaller
+/// residual than the model without it.
 bool stands_out(const Model& m, const Model& without) {
   constexpr double kShare = 0.05, kLeft = 0.25;
   return m.left < kLeft * without.left &&
@@ -309,7 +310,7 @@ bool stands_out(const Model& m, const Model& without) {
          });
 }
 
-/// Too low beside the highest peak to move a limit.
+/// Whether a peak is too low compared with the highest one to change a limit.
 constexpr double kLow = 1e-3;
 
 Model without_low_peaks(const Lines& lines, Model m) {
@@ -319,9 +320,9 @@ Model without_low_peaks(const Lines& lines, Model m) {
   return m;
 }
 
-/// A drive point takes in power at every line: what is in quadrature with the force, the
-/// receptance's lag, has one sign.  Summed over the lines, so that noise of one does not
-/// tell; the line that speaks loudest against it.
+/// At a driving point the structure absorbs power at every line, so the part of the
+/// response in quadrature with the force has one sign.  Returns the line that contradicts
+/// this most; the sum over the lines decides, so that noise at one line does not matter.
 std::optional<NoFit> wrong_way(const FrequencyResponse& r) {
   constexpr std::array<Complex, 3> kTurn{Complex(1, 0), Complex(0, -1), Complex(-1, 0)};
   double taken = 0, all = 0, worst = 0, at = 0;
@@ -335,13 +336,13 @@ std::optional<NoFit> wrong_way(const FrequencyResponse& r) {
   return std::nullopt;
 }
 
-/// Real and imaginary part as two rows apart, squared and added.
+/// Sum of the squares of real and imaginary part, which are separate rows.
 VectorXd squares(const VectorXd& y) {
   const Eigen::Index L = y.size() / 2;
   return y.head(L).cwiseAbs2() + y.tail(L).cwiseAbs2();
 }
 
-/// sum e_i e_(i+1) over sum e_i^2, each part by itself.
+/// sum e_i e_(i+1) over sum e_i^2, for real and imaginary parts separately.
 double correlation(const VectorXd& e) {
   double together = 0;
   for (Eigen::Index k = 0; k < e.size() - 1; ++k)
@@ -373,12 +374,12 @@ ModalFit described(const FrequencyResponse& r, const Lines& lines, Model m) {
   return out;
 }
 
-/// Whether there are lines for so many modes.
+/// Whether there are enough lines for a number of modes.
 bool enough(const Lines& lines, int modes) { return lines.rows() >= 3 * modes + 2; }
 
 struct Choice {
   Model model;
-  std::optional<NoFit> no;  // what speaks against it
+  std::optional<NoFit> no;  // the reason against it
 };
 
 Choice asked(const Lines& lines, int modes) {
@@ -396,11 +397,11 @@ Choice asked(const Lines& lines, int modes) {
   return {m, {}};
 }
 
-/// Goes on over a model that does not stand, which modes still missing may cause.
+/// Continues past an invalid model, because modes that are still missing may cause that.
 Choice chosen(const Lines& lines) {
   constexpr std::size_t kAhead = 3;
   Model best = without_peaks(lines), m = best;
-  std::optional<NoFit> first;  // what speaks against the first model that does not stand
+  std::optional<NoFit> first;  // the reason against the first invalid model
   for (int n = 1; n <= kMostModes && enough(lines, n) && !nothing_left(lines, m) &&
                   m.peaks.size() < best.peaks.size() + kAhead;
        ++n) {
@@ -419,8 +420,8 @@ Choice chosen(const Lines& lines) {
   return {without_low_peaks(lines, std::move(best)), {}};
 }
 
-/// Eq. (3), with the floor under which what is left by the model is likeliest; none if
-/// errors alike are not clearly less likely.
+/// Eq. (3), with the floor for which the residuals are likeliest; none if equal errors
+/// are not clearly less likely.
 std::optional<double> error_floor(const FrequencyResponse& r, const Model& m) {
   const Lines lines(r, alike(r));
   const VectorXd e = lines.left(m), left = squares(e), fit = squares(lines.y() - e);
@@ -448,7 +449,8 @@ Sizes sizes(const FrequencyResponse& r, const Model& m, double floor) {
   return out;
 }
 
-/// A fit with errors alike, then with those it leaves, until their floor stays.
+/// A fit with equal errors, repeated with errors estimated from its residuals until their
+/// floor does not change.
 std::variant<ModalFit, NoFit> best_fit(const FrequencyResponse& r,
                                        std::optional<int> modes) {
   constexpr int kRounds = 3;
@@ -470,7 +472,7 @@ std::variant<ModalFit, NoFit> best_fit(const FrequencyResponse& r,
   }
 }
 
-/// What is left of a response's squares if it is taken for another derivative.
+/// The residual sum of squares of a response taken for another derivative.
 double left_as(FrequencyResponse r, int derivative) {
   r.derivative = derivative;
   const Lines lines(r, alike(r));
@@ -479,7 +481,7 @@ double left_as(FrequencyResponse r, int derivative) {
   return choice.no ? lines.y().squaredNorm() : choice.model.left;
 }
 
-/// The derivative that leaves far less than `left`, if one does.
+/// The derivative with a far smaller residual than `left`, if there is one.
 std::optional<NoFit> other_quantity(const FrequencyResponse& r, double left) {
   constexpr double kFarLess = 0.1;
   std::optional<NoFit> out;
@@ -493,8 +495,8 @@ std::optional<NoFit> other_quantity(const FrequencyResponse& r, double left) {
   return out;
 }
 
-/// What a response that moves before its force is: another quantity, or one of the other
-/// sign.
+/// The explanation of a response whose motion leads the force: another quantity, or the
+/// opposite sign.
 NoFit turned(const FrequencyResponse& r, const NoFit& negative) {
   FrequencyResponse other = r;
   for (Complex& y : other.value) y = -y;

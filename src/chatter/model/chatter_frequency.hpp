@@ -3,8 +3,8 @@
 
 namespace turnwright::chatter {
 
-/// Of the chatter frequencies of a multiplier e^(i theta), limits.hpp (1), the one
-/// nearest a natural frequency [Hz].
+/// The chatter frequency [Hz] of a multiplier e^(i theta): the one of limits.hpp (1) that
+/// is nearest to a natural frequency.
 double chatter_frequency_Hz(const System& system, double tau_s, double theta_rad);
 
 }  // namespace turnwright::chatter

@@ -7,14 +7,14 @@ namespace turnwright::chatter {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// With the vectors as columns, of length 1.
+/// Eigenvalues with their eigenvectors as columns of length 1.
 struct Eigenpairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
 };
 Eigenpairs eigenpairs(const Eigen::MatrixXd& matrix);
 
-/// Largest eigenvalue, and how many lie outside the unit circle.
+/// The largest eigenvalue, and the number outside the unit circle.
 Dominant dominant(const Eigen::MatrixXd& monodromy);
 
 }  // namespace turnwright::chatter

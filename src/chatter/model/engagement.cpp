@@ -132,7 +132,7 @@ template <class F>
 void CutterEngagement::for_each_met(double angle, F visit) const {
   for (const Segment& segment : segments_) {
     const double phi = angle + place_[segment.tooth], low = phi - lag_ * ap_;
-    // Turns k that bring some height into the segment.
+    // Numbers k of turns for which some height lies in the segment.
     const double first = std::ceil((low - segment.end) / (2 * kPi)),
                  last = std::floor((phi - segment.begin) / (2 * kPi));
     for (double k = first; k <= last; ++k) {
@@ -226,7 +226,7 @@ std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_m
   std::ranges::sort(out);
   const auto same = [&](double a, double b) { return b - a < 1e-9 * ap_max_mm; };
   out.erase(std::unique(out.begin(), out.end(), same), out.end());
-  constexpr std::size_t kMost = 40;  // with more the depths lie too close
+  constexpr std::size_t kMost = 40;  // with more the depths are too close to each other
   if (out.size() > kMost) out.clear();
   return out;
 }

@@ -6,47 +6,49 @@
 
 namespace turnwright::chatter {
 
-/// What the cut does to the tool at one angle of the spindle, (1) of cutter.hpp: a force
-/// N = fed - sum_l regenerative_l (q(t) - q(t - tau_l)) - damping q'(t).
+/// Force on the tool at one angle of the spindle by (1) of cutter.hpp:
+/// F = fed - sum_l regenerative_l (q(t) - q(t - tau_l)) - damping q'(t).
 struct Load {
-  std::vector<Directional> regenerative;  ///< of each delay [N/mm]
+  std::vector<Directional> regenerative;  ///< for each delay [N/mm]
   Directional damping;                    ///< [N s/mm]
-  double fed_x_N = 0, fed_y_N = 0;        ///< by the chip that the feed leaves
+  double fed_x_N = 0, fed_y_N = 0;        ///< force by the nominal chip of the feed
 };
 
 /// A point of a tooth's edge at an angle of the work.
 struct Passage {
-  double angle_rad = 0;  ///< of the spindle then
+  double angle_rad = 0;  ///< angle of the spindle at that moment
   double offset_mm = 0;  ///< of the tooth's radius
 };
 
-/// How far an edge lags behind its tip, over the height [rad/mm].
+/// Lag angle of an edge behind its tip, per height [rad/mm].
 double lag_rad_mm(const Cutter& cutter);
 
-/// C/v of cutter.hpp (1), a depth [N s/mm2]; 0 without indentation.
+/// C/v of cutter.hpp (1), per depth of cut [N s/mm2]; 0 without indentation.
 double flank_damping_N_s_mm2(const Cutter& cutter, double n_rpm);
 
-/// Where and how the edges of a cutter meet the work at one depth.  Angles are those of
-/// the spindle, from 0 to `period_rad`; over height every integral is in closed form.
+/// Engagement of the edges of a cutter with the work at one depth of cut.  Angles are
+/// those of the spindle, from 0 to `period_rad`; all integrals over the height are closed
+/// forms.
 class CutterEngagement {
  public:
   CutterEngagement(const Cutter& cutter, double n_rpm, double ap_mm);
 
   double period_rad() const { return period_; }
-  /// Distinct delays as angles, at most a period.
+  /// The different delays as angles, each at most a period.
   const std::vector<double>& delays_rad() const { return delays_; }
-  /// Angles between which the load is smooth, from 0 to the period; and, of straight
-  /// edges, those a delay later, for the motion is not smooth there.
+  /// Angles between which the load is smooth, from 0 to the period.  For straight edges
+  /// also the angles one delay later, at which the motion is not smooth.
   std::vector<double> breaks() const;
-  /// Where the edge's tip begins or ends to cut, rising.
+  /// Angles at which the tip of an edge begins or ceases to cut, rising.
   std::vector<double> ends() const;
   Load load(double angle_rad) const;
   bool cuts(double angle_rad) const;
-  /// Of the teeth, at the height z.
+  /// Passages of the teeth at the height z.
   std::vector<Passage> passages(double phi_rad, double z_mm) const;
 
  private:
-  /// Angles of an edge's point in which it cuts what was made so long ago.
+  /// Angles between which a point of an edge cuts a surface that is one certain delay
+  /// old.
   struct Segment {
     std::size_t tooth = 0;
     double begin = 0, end = 0;
@@ -71,8 +73,8 @@ class CutterEngagement {
   std::vector<Segment> segments_;
 };
 
-/// Depths at which the order of the ends of contact changes: the load is not smooth
-/// there.
+/// Depths at which the order of the ends of engagement changes, so that the load is not a
+/// smooth function of the depth.
 std::vector<double> kinks_mm(const Cutter& cutter, double n_rpm, double ap_max_mm);
 
 }  // namespace turnwright::chatter

@@ -8,13 +8,13 @@ struct Transition {
   double xx = 1, xv = 0, vx = 0, vv = 1;
 };
 
-/// Any t, also negative; zeta below, at and above 1.  Derived here:
+/// The transition for any t, also negative, and zeta below, at and above 1:
 ///
 ///     exp(A t) = e^(-zeta wn t) (C + zeta S, S; -S, C - zeta S)
 ///     C = cos(b wn t), S = sin(b wn t)/b, b^2 = 1 - zeta^2  (cosh, sinh if negative)
 Transition transition(const Mode& mode, double t_s);
 
-/// How fast the mode changes [1/s]: its solutions are sums of e^(r t), |r| <= rate.
+/// Largest rate of the mode [1/s]: its solutions are sums of e^(r t) with |r| <= rate.
 double rate(const Mode& mode);
 
 }  // namespace turnwright::chatter

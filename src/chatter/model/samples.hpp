@@ -11,9 +11,9 @@ struct Sample {
   Directional h;
 };
 
-/// Nodes by which to integrate h times smooth functions over [from, to] of a period whose
-/// time 0 is the start of the first arc: Gauss-Legendre on each part of an arc, with
-/// nodes graded towards an end where h is a broken power.  Free flight has none.
+/// Nodes for integrals of h times smooth functions over [from, to] of a period whose time
+/// 0 is the start of the first arc: Gauss-Legendre nodes on each part of an arc, graded
+/// towards an end where h is a fractional power.  Where no tooth cuts there are no nodes.
 std::vector<Sample> samples(const System& system, double n_rpm,
                             const std::vector<Arc>& arcs, double from_s, double to_s);
 

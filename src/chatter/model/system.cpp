@@ -8,7 +8,7 @@
 namespace turnwright::chatter {
 namespace {
 
-constexpr double kNoArc = 1e-12;  // of a period: rounding of angles, no stretch
+constexpr double kNoArc = 1e-12;  // of a period: shorter arcs are rounding of angles
 
 double remainder_of(double x, double period) {
   return x - period * std::floor(x / period);
@@ -38,7 +38,7 @@ std::vector<Arc> arcs(const System& system) {
     return {{.begin_rad = 0, .end_rad = pitch, .offsets_rad = {0}}};
   const double begin = remainder_of(system.entry_rad, pitch);
   const double width = system.exit_rad - system.entry_rad;
-  const double more = remainder_of(width, pitch);  // the last tooth's way to its exit
+  const double more = remainder_of(width, pitch);  // from the last tooth to its exit
   const bool roots = std::holds_alternative<PowerLawForce>(system.force);
 
   std::vector<Arc> out;

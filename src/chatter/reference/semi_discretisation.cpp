@@ -52,8 +52,8 @@ Dominant semi_discretisation(const System& system, double n_rpm, double ap_mm,
     const double from = static_cast<double>(i) * step;
     for (const Sample& s : samples(system, n_rpm, all_arcs, from, from + step))
       h += s.weight_s / step * Eigen::Matrix2d{{s.h.xx, s.h.xy}, {s.h.yx, s.h.yy}};
-    // u' = M u + F (q_old + s dq/step): the exponential of the chain gives both
-    // integrals.
+    // u' = M u + F (q_old + s dq/step): the exponential of the augmented matrix gives
+    // both integrals.
     MatrixXd chain = MatrixXd::Zero(m + 4, m + 4);
     chain.topLeftCorner(m, m) = (x.A - ap_mm * x.in * h * x.out) * step;
     chain.block(0, m, m, 2) = ap_mm * x.in * h * step;

@@ -19,7 +19,7 @@ struct Vector {
   double x = 0, y = 0;
 };
 
-/// A displacement with its velocity: what the history keeps.
+/// A displacement with its velocity, as the history stores them.
 struct Kept {
   Vector q, rate;
 };
@@ -44,7 +44,7 @@ Vector between(const Kept& a, const Kept& b, double step, double x) {
           h0 * a.q.y + h1 * b.q.y + g0 * a.rate.y + g1 * b.rate.y};
 }
 
-/// The period cut into steps none of which crosses the end of an arc.
+/// The period divided into steps, none of which crosses the end of an arc.
 struct Grid {
   std::vector<double> step;
   std::vector<Directional> h;  // at begin, middle and end of each step
@@ -69,8 +69,8 @@ Grid grid(const System& system, double n_rpm, double steps_per_rad) {
   return out;
 }
 
-/// The dominant multiplier of the linear map that takes each state to the next, within
-/// the space that they span.
+/// The dominant multiplier of the linear map from each state to the next, within the
+/// space that the states span.
 std::complex<double> largest_multiplier(const std::vector<State>& seen) {
   constexpr double kNegligible = 1e-6;  // of a direction, beside the largest
   const auto pairs = static_cast<Eigen::Index>(seen.size()) - 1;
@@ -98,7 +98,7 @@ Dominant simulation(const System& system, double n_rpm, double ap_mm,
   const std::size_t size = steps.step.size();
   State u(2 * system.modes.size());
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1 + 0.37 * static_cast<double>(i);
-  // The history before: at rest away from 0, which no mode can stay in.
+  // The history: at rest away from 0, a state in which no mode can remain.
   std::vector<Kept> before(size + 1, {kept(system, u).q, {}}), now(size + 1);
   boost::numeric::odeint::runge_kutta4<State> stepper;
   constexpr int kSeen = 9;

@@ -1,5 +1,5 @@
-// Departures from the paper: any number of modes, each with its own Hermite coefficients;
-// integrals of h by Gauss quadrature that knows its kinks.
+// Departures from [Ozoegwu 2013]: any number of modes, each with its own Hermite
+// coefficients; integrals of h by Gauss quadrature between its kinks.
 #include <Eigen/Dense>
 #include <array>
 

@@ -6,8 +6,8 @@
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
-/// Each reads one document of the catalogue; what is wrong with it goes to the reader's
-/// problems.
+/// Readers of the catalogue's documents, one document each; errors are added to the
+/// reader's problems.
 namespace turnwright::document {
 
 catalogue::Material read_material(Reader document);

@@ -5,13 +5,13 @@
 #include "document/json/reader.hpp"
 #include "turnwright/document/catalogue.hpp"
 
-/// Entries of the catalogue, which a request names by id or gives as documents.  What is
-/// wrong goes to the problems of `value`.
+/// Entries of the catalogue, which a request names by id or gives as documents.  Errors
+/// are added to the problems of `value`.
 namespace turnwright::document {
 
 catalogue::Material material_of(const Catalogue& catalogue, const Reader& value);
 catalogue::Lathe machine_of(const Catalogue& catalogue, const Reader& value);
-/// An unknown id is told with those of tools for fixed operations, too.
+/// An unknown id is reported with the ids of tools for fixed operations, too.
 catalogue::Tool tool_of(const Catalogue& catalogue, const Reader& value);
 catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& value);
 catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value);

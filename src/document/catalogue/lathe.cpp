@@ -137,8 +137,8 @@ void read_shop_budget(Reader group, catalogue::ShopBudget& b) {
   finish_group(group);
 }
 
-// The machine's own geometry, with the keys of `geometry`; a chain with problems is left
-// out.
+// The machine's own geometry, with the keys of `geometry`; a chain with problems is
+// omitted.
 void read_geometry(Reader group, catalogue::Lathe& m) {
   const auto problems = group.problems().list.size();
   std::vector<catalogue::Axis> fitted;

@@ -19,7 +19,7 @@ const Bounds kShift = within(-1e3, 1e3, "mm"), kTurn = within(-10, 10, "rad"),
              kShiftU = within(0, 1e3, "mm"), kTurnU = within(0, 10, "rad"),
              kPlace = within(-1e6, 1e6, "mm"), kAngle = within(-1e6, 1e6, "rad");
 
-/// What the numbers of an axis' errors are; `side` is -1 of axes between bed and
+/// Meaning of the numbers of an axis' errors; `side` is -1 for axes between bed and
 /// workpiece.
 struct Meaning {
   bool uncertainty = false;
@@ -43,8 +43,8 @@ std::string error_name(std::size_t direction, const char* of, char axis) {
   return std::string("E") + kLetters[direction] + of + axis;
 }
 
-/// Whether `axis` has the location key of `direction`: any of a rotary axis, of a linear
-/// one the turns across it.
+/// Whether `axis` has the location key of `direction`: all directions for a rotary axis,
+/// the rotations across it for a linear one.
 bool has_location(char axis, std::size_t direction) {
   return is_rotary(axis) || (direction > 2 && direction != letter_index(axis) + 3);
 }

@@ -15,24 +15,24 @@
 /// {"table": {"q": [..], "plus": [..], "minus": [..], "unit": "um", "sign": "physical"}}.
 namespace turnwright::document {
 
-/// Members "chain" and "axes".  A machine with problems is not fit for Kinematics.
-/// @param fitted_u  gets the standard uncertainties of errors that tables tell.
+/// Members "chain" and "axes".  A machine with problems must not be given to Kinematics.
+/// @param fitted_u  receives the standard uncertainties of errors fitted to tables.
 volumetric::Machine read_chain(Reader& r,
                                std::vector<volumetric::Axis>* fitted_u = nullptr);
 
-/// Member "u", absent or axes of the chain with the standard uncertainties of their
-/// errors: "name", "err", "sq" and "loc" as above, without tables, nothing negative.
-/// Those of tables, `fitted`, where it has none.
+/// The optional member "u": axes of the chain with the standard uncertainties of their
+/// errors, "name", "err", "sq" and "loc" as above, without tables and not negative.
+/// Uncertainties that it does not have are those of tables, `fitted`.
 std::vector<volumetric::Axis> read_uncertainties(
     Reader& r, const volumetric::Machine& machine,
     const std::vector<volumetric::Axis>& fitted);
 
 volumetric::Vec3 read_vec3(Reader& r, std::string_view key, const Bounds& bounds);
 
-/// {"q": {"X": 10}, "sign": {"X": 1}}; axes left out are at 0 and at rest.
+/// {"q": {"X": 10}, "sign": {"X": 1}}; axes that are not named are at 0 and at rest.
 volumetric::Position read_position(Reader r, const volumetric::Machine& machine);
 
-/// The machine as read_chain reads it; what is zero is left out.
+/// The machine as read_chain reads it, without zeros.
 nlohmann::json chain_json(const volumetric::Machine& machine);
 
 /// One number of a calibration: "EXX1" to "EXX3" (c1 to c3 with Q = 100 mm or pi), "EXXb"
@@ -46,7 +46,7 @@ struct Calibrated {
 /// A chain without errors.
 catalogue::GeometricErrors blank_errors(const std::string& chain);
 
-/// Takes the place of what the model had; its axis is one of the chain.
+/// Replaces a value of the model; its axis is one of the chain.
 void put(const Calibrated& found, catalogue::GeometricErrors& errors);
 
 /// The member "errors" of a machine document, which read_lathe reads.

@@ -75,7 +75,7 @@ std::vector<Line> lines_of(const Reader& csv) {
   return lines;
 }
 
-/// Whether the lines are text; the first character that is none is reported.
+/// Whether the lines are text; the first invalid character is reported.
 bool is_text(const Reader& csv, const std::vector<Line>& lines) {
   const auto control = [](char c) {
     return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7f';
@@ -92,7 +92,7 @@ bool is_text(const Reader& csv, const std::vector<Line>& lines) {
   return true;
 }
 
-/// The cells without their quotes; nothing if those are out of place.
+/// The cells without their quotes; nothing if quotes are misplaced.
 std::optional<std::vector<std::string>> cells(std::string_view line, char separator) {
   std::vector<std::string> out;
   for (;;) {
@@ -144,7 +144,7 @@ std::string list(const std::vector<CsvColumn>& columns) {
   return out;
 }
 
-/// What the header's columns hold; nothing if it is wrong.
+/// The meaning of the header's columns; nothing if the header is wrong.
 std::optional<Header> read_header(const Reader& csv, const Line& line,
                                   const std::vector<CsvColumn>& columns,
                                   OtherColumns others) {
@@ -176,7 +176,7 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
   return good ? std::optional(out) : std::nullopt;
 }
 
-/// A number, or the text as it stands.
+/// A number, or the unchanged text.
 nlohmann::json value_of(std::string_view cell) {
   std::string_view digits = cell;
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
@@ -194,8 +194,8 @@ bool has_decimal_comma(std::string cell) {
   return value_of(cell).is_number();
 }
 
-/// The row of a line; false once a decimal comma tells that the table's numbers have
-/// them.
+/// The row of a line; false if a decimal comma shows that all numbers of the table have
+/// decimal commas.
 bool add_row(const Reader& csv, const Line& line, const Header& header,
              std::vector<CsvRow>& rows) {
   const auto row_cells = cells_of(csv, line, header.separator, header.columns.size());

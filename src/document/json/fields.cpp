@@ -87,7 +87,7 @@ catalogue::RootCompliance read_compliance(Reader r) {
       .c1_rad_N = r.number("c1_rad_N", within(-0.01, 0.01, "rad/N")),
       .c2_rad_Nmm = r.number("c2_rad_Nmm", within(0, 1e-3, "rad/(N mm)"))};
   r.finish();
-  // The work done by a force and a couple is never negative; equality up to rounding.
+  // The work of a force and a couple is never negative, up to rounding.
   const double product = c.c0_mm_N * c.c2_rad_Nmm;
   if (c.c1_rad_N * c.c1_rad_N > product * (1 + 1e-12))
     r.problem("c0_mm_N times c2_rad_Nmm at least c1_rad_N squared", "conflict");

@@ -10,13 +10,13 @@
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
-/// Fields that several kinds of documents have in common.
+/// Fields that are common to several kinds of documents.
 namespace turnwright::document {
 
-/// Letters, digits and "_.+-", at most 64: what ids may consist of.
+/// An id, which consists of at most 64 letters, digits and "_.+-".
 std::string read_id(Reader& r, std::string_view key = "id");
 
-/// "format", which must be `format` if it is there.
+/// The member "format", which must be `format` if present.
 void read_format(Reader& r, const std::string& format);
 void read_required_format(Reader& r, const std::string& format);
 
@@ -24,7 +24,7 @@ void read_required_format(Reader& r, const std::string& format);
 catalogue::Range read_range(Reader& r, std::string_view key, const Bounds& bounds);
 
 /// "source", "note" and the returned "uncertainty_pct" of a group of numbers; refuses
-/// what the group holds beyond the keys asked for so far.
+/// other keys of the group that have not been read before.
 double finish_group(Reader& group);
 
 /// Eccentricities of a part that is held anew, by what holds it.
@@ -32,7 +32,7 @@ catalogue::Rechucking read_rechucking_by_jaws(Reader r);
 
 const Choices<catalogue::IsoGroup>& iso_groups();
 
-/// {"c0_mm_N", "c1_rad_N", "c2_rad_Nmm"}: a compliance that does no negative work.
+/// {"c0_mm_N", "c1_rad_N", "c2_rad_Nmm"}: a positive semi-definite compliance.
 catalogue::RootCompliance read_compliance(Reader r);
 
 /// Damping ratio of a mode of slender work or of a bar, "damping_ratio".

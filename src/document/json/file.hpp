@@ -5,9 +5,9 @@
 
 namespace turnwright::document {
 
-/// The JSON value in a file; `name` (by default the path) stands before every problem.
+/// The JSON value in a file; `name` (by default the path) precedes every problem.
 /// @throws InputError if the file cannot be read, is larger than ParseLimits allow, or is
-///   no JSON that parse() accepts.
+///   not JSON that parse() accepts.
 nlohmann::json parse_file(const std::filesystem::path& path, std::string name = "");
 
 }  // namespace turnwright::document

@@ -31,8 +31,8 @@ std::string printable(std::string text) {
   return text;
 }
 
-// The part of nlohmann's text that says what went wrong: without its number, the place
-// (told by us) and the token in full.
+// The reason in nlohmann's message, without its number, the place (which is reported
+// separately) and the whole token.
 std::string reason(const std::string& what) {
   std::string text = what;
   for (const std::string_view lead : {"syntax error while parsing ", "] "})
@@ -44,7 +44,7 @@ std::string reason(const std::string& what) {
     const auto to = text.find("'; expected ", from);
     text.erase(from, to == text.npos ? to : to + 1 - from);
   }
-  // "object key - unexpected '}'" reads better the other way round.
+  // "object key - unexpected '}'" reads better in the reverse order.
   if (const auto dash = text.find(" - "); dash != text.npos) {
     const auto end = std::min(text.find("; expected "), text.size());
     text = text.substr(dash + 3, end - dash - 3) + " in " + text.substr(0, dash) +
@@ -53,7 +53,7 @@ std::string reason(const std::string& what) {
   return printable(text);
 }
 
-// What number_word() finds is no JSON, though other languages write it.
+// number_word() finds words that are not JSON but numbers in other languages.
 constexpr std::array<std::string_view, 3> kNoNumbers{"nan", "inf", "infinity"};
 
 /// "NaN", "-Infinity" or the like, if the byte before `end` is in such a word.
@@ -83,7 +83,8 @@ bool nonzero(const std::string& digits) {
   return mantissa.find_first_of("123456789") != mantissa.npos;
 }
 
-// Builds the value while it watches for what a json object could no longer tell.
+// Builds the value and reports errors that the finished value would not show, such as
+// duplicate keys.
 class Builder : public nlohmann::json_sax<json> {
  public:
   Builder(std::string_view text, Problems& problems, const ParseLimits& limits)

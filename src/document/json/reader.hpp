@@ -10,23 +10,24 @@
 
 #include "turnwright/base/errors.hpp"
 
-/// Reads a JSON document and collects everything wrong with it, so that one run shows the
-/// machinist all faults.  Use:
+/// Reads a JSON document and collects all its errors, so that one run shows them all.
+/// Use:
 ///
 ///     Problems problems{.document = "part.json"};
 ///     Reader r(json, problems);
 ///     part.length_mm = r.number("length_mm", above(0, "mm"));
-///     r.finish();                // refuses the keys nobody asked for
+///     r.finish();                // refuses keys that were not read
 ///     problems.throw_if_any();
 ///
-/// A value that cannot be read is reported once and replaced by a harmless stand-in (NaN,
-/// 0, "", the first choice), which throw_if_any() keeps from leaving the loader.
-/// Cross-checks are therefore written so that NaN stays silent: `if (a >= b)
+/// A value that cannot be read is reported once and replaced by a harmless placeholder
+/// (NaN, 0, "", the first choice); throw_if_any() prevents placeholders from leaving the
+/// loader. Cross-checks are therefore written so that NaN reports nothing: `if (a >= b)
 /// r.problem(...)`.
 namespace turnwright::document {
 
-/// All that is wrong with one document, in the order found; after kListed of them only
-/// counted, so that a hostile document does not make an endless answer.
+/// All errors of one document in the order in which they are found.  After kListed of
+/// them they are only counted, so that a hostile document does not cause an endless
+/// answer.
 struct Problems {
   static constexpr std::size_t kListed = 100;
   std::string document;
@@ -37,7 +38,7 @@ struct Problems {
   void throw_if_any() const;
 };
 
-/// The numbers a key may hold, and their unit.
+/// The permitted range of a number, and its unit.
 struct Bounds {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -59,10 +60,10 @@ std::string expected_number(const Bounds& bounds);  ///< "a number > 0 and <= 20
 template <class E>
 using Choices = std::vector<std::pair<std::string_view, E>>;
 
-/// The word of `known` that `word` is most likely a slip of; "" if none is near.
+/// The word of `known` that `word` most likely misspells; "" if none is similar.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// A number as a drawing writes it: 20 rather than 20.0, else all its digits.
+/// A number as on a drawing: 20 instead of 20.0, otherwise with all its digits.
 std::string number_text(double x);
 
 /// A value as a problem shows it: numbers, short strings and short
@@ -94,12 +95,13 @@ class Reader {
   bool is_object() const { return value_ && value_->is_object(); }
   bool is_array() const { return value_ && value_->is_array(); }
   bool is_number() const { return value_ && value_->is_number(); }
-  /// The value was missing or of the wrong type and is reported already.
+  /// Whether the value is missing or of the wrong type, which has then been reported.
   bool broken() const { return value_ == nullptr; }
 
-  // Its members; every key asked for counts as known to finish().
+  // Members; every key that is read counts as known to finish().
   bool has(std::string_view key);
-  /// A member that must be there; broken, and reported as expecting `expected`, if not.
+  /// A required member.  If it is missing this is reported with `expected`, and the
+  /// reader returned is broken.
   Reader at(std::string_view key, std::string_view expected = "a value");
   std::optional<Reader> find(std::string_view key);
 
@@ -143,7 +145,7 @@ class Reader {
   std::vector<double> numbers(std::string_view key, const Bounds& bounds, std::size_t min,
                               std::size_t max);
 
-  /// Reports every member that nobody asked for, with the nearest known key.
+  /// Reports every member that was not read, with the most similar known key.
   void finish() const;
 
   /// Reports the value itself, or its member `key`; `got` is the value as written unless

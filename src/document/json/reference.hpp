@@ -7,8 +7,9 @@
 /// Ids in a document that refer to something else by its name.
 namespace turnwright::document {
 
-/// Reads the id under `key` and reports it unless it is in `known`: `what` ("a tool of
-/// this request") with the nearest or the list.  Nothing is judged if `known` is empty.
+/// Reads the id under `key` and reports it unless it is in `known`, with `what` ("a tool
+/// of this request") and the most similar id or the list.  Nothing is reported if `known`
+/// is empty.
 std::string checked_reference(const Reader& id, const std::vector<std::string>& known,
                               const std::string& what);
 

@@ -35,7 +35,8 @@ bool is_cutter(const Draft& draft, const Reader& item) {
                      [&](const auto& c) { return item.json() == c.id; });
 }
 
-// What fixed operations need and the request lists no tool for, the catalogue has.
+// For fixed operations for which the request lists no tool those of the catalogue are
+// used.
 void add_fixed_tools_of_the_catalogue(Draft& draft) {
   auto& tools = draft.plan().fixed_tools;
   const auto listed = tools;

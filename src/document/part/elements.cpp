@@ -17,7 +17,7 @@ const Bounds kSize = above_up_to(0, 20000, "mm");
 
 enum class Side { outer, inner };
 
-// How an element is read: what is turned, or what is cut into it besides.
+// How an element is read: its turned shape, or the groove, thread or arc cut into it.
 struct Shape {
   ElementKind turned = ElementKind::cylinder;
   std::optional<CutKind> cut = {};

@@ -33,7 +33,8 @@ std::optional<double> coarse_pitch_mm(double d_mm) {
   return std::nullopt;
 }
 
-// What the drawing asks of a surface that catalogue conditions make is told, not judged.
+// Sizes and roughness of a surface that is made at catalogue conditions are listed under
+// `assumed` and not judged.
 void leave_to_the_tool(Draft& draft, Reader& r) {
   for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
     if (const auto value = r.find(key); value && !value->broken())
@@ -56,7 +57,7 @@ struct Size {
   double P_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Digits that the pattern below has found, with a point in any locale.
+// A number found by the pattern below, with a point in any locale.
 double number(const std::ssub_match& digits) {
   double x = 0;
   std::from_chars(&*digits.first, &*digits.first + digits.length(), x);
@@ -194,14 +195,14 @@ bool same_bore(const part::InnerElement& a, const part::InnerElement& b) {
 bool rightwards(const part::OuterElement&) { return true; }
 bool rightwards(const part::InnerElement& e) { return e.from == part::End::left; }
 
-// The diameter that element k shows to groove i.
+// The diameter of element k at its side towards groove i.
 template <class Element>
 double towards(const std::vector<Element>& list, std::size_t k, std::size_t i) {
   const bool on_the_right = (k > i) == rightwards(list[i]);
   return on_the_right ? list[k].left_mm : list[k].right_mm;
 }
 
-// Of the nearest elements that are no grooves the smaller, inside the larger.
+// The smaller (inside the larger) of the nearest elements that are not grooves.
 template <class Element>
 std::optional<std::size_t> neighbour(const std::vector<Element>& list, std::size_t i,
                                      Where where) {

@@ -12,12 +12,12 @@ using deflection::Slot;
 
 constexpr std::size_t kSlots = 12;
 
-// Half the angle that a slot opens at the rim.
+// Half the angle of a slot at the rim.
 double half_opening_rad(const Slot& slot, double outer_mm) {
   return std::asin(slot.width_mm / outer_mm);
 }
 
-// Slots as rectangles from floor to rim: whether one of a's sides parts it from b.
+// Slots as rectangles from floor to rim: whether one of a's sides separates it from b.
 bool parts(const Slot& a, const Slot& b, double between_rad, double outer_mm) {
   const auto rim = [&](const Slot& s) {
     return std::sqrt(outer_mm * outer_mm - s.width_mm * s.width_mm) / 2;
@@ -46,7 +46,7 @@ Slot read_slot(Reader r, const part::Segment& s) {
   return slot;
 }
 
-// Takes the slots of a cylinder with a wall out of its section.
+// Subtracts the slots of a cylinder with a wall from its section.
 void read_slots(Reader& r, const part::Segment& s, deflection::Section& section) {
   std::vector<Slot> slots;
   for (const Reader& item : r.items("slots", 1, kSlots)) {
@@ -77,7 +77,8 @@ ReadShaft read_milled_shaft(Reader r) {
   out.shaft = read_shaft(r, [&](Reader& segment, const part::Segment& s) {
     const bool cylinder =
         s.outer_left_mm == s.outer_right_mm && s.inner_left_mm == s.inner_right_mm;
-    const bool wall = s.outer_left_mm > s.inner_left_mm;  // none is told by read_shaft
+    const bool wall =
+        s.outer_left_mm > s.inner_left_mm;  // read_shaft reports a missing wall
     deflection::Stretch stretch{s.length_mm, {}};
     if (wall)
       stretch.section = deflection::round_section(s.outer_left_mm, s.inner_left_mm);

@@ -11,8 +11,9 @@ namespace turnwright::document {
 /// A shaft of cylinders with keyways and flats milled into some of them.
 using MilledShaft = std::vector<deflection::Stretch>;
 
-/// Reads "shaft" with `slots` (without a width: flats) in its segments: {"width_mm",
-/// "floor_mm", "angle_deg"} each, within the rim and clear of the bore and of each other.
+/// Reads "shaft" with `slots` in its segments: {"width_mm", "floor_mm", "angle_deg"},
+/// without a width for flats.  They must lie within the rim and meet neither the bore nor
+/// each other.
 /// @return the shaft, and its sections if any segment has slots.
 struct ReadShaft {
   part::Shaft shaft;
@@ -20,7 +21,7 @@ struct ReadShaft {
 };
 ReadShaft read_milled_shaft(Reader r);
 
-/// Whether two slots meet, at the rim or, where wide ones are deep, further in.
+/// Whether two slots meet, at the rim or, if they are wide and deep, further inside.
 bool meet(const deflection::Slot& a, const deflection::Slot& b, double outer_mm);
 
 }  // namespace turnwright::document

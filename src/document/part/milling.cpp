@@ -20,7 +20,7 @@ constexpr double kSlack = 1e-9;  // mm
 
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
-// Cylinders that nothing else cuts into.
+// Cylinders without a groove, thread or arc.
 std::vector<std::string> cylinders(const part::Drawing& drawing) {
   std::vector<std::string> out;
   for (const auto& e : drawing.outer)
@@ -32,7 +32,7 @@ deflection::Slot slot_of(const Milled& m, double diameter_mm) {
   return {m.width_mm, diameter_mm / 2 - m.depth_mm, units::rad_from_deg(m.angle_deg)};
 }
 
-// On the element, below its rim, above its hole.
+// Checks that a place lies on its element, below its rim and above its hole.
 void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
   const auto& e = d.outer[m.element];
   const double R = e.left_mm / 2, z0 = part::left_z_mm(d, m.element);
@@ -85,7 +85,7 @@ void check_others(const Draft& draft, Reader& r, const Milled& m) {
   }
 }
 
-// Of the driven spindle, where the machine has one.
+// Speeds of the driven spindle, if the machine has one.
 Bounds speeds(const Draft& draft) {
   const auto& driven = draft.loaded.plan.machine.driven_tools;
   return driven ? within(driven->n_min_rpm, driven->n_max_rpm, "1/min")

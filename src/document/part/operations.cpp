@@ -21,7 +21,8 @@ bool is_boring(OperationKind kind) {
   return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
 }
 
-// Grooves, threads and arcs; bores that are drilled; ends that are centred or parted off.
+// Targets of fixed operations: grooves, threads and arcs; drilled bores; ends that are
+// centred or parted off.
 std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
   std::vector<std::string> out;
   for (const auto& e : drawing.outer)
@@ -33,7 +34,7 @@ std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
 }
 
 std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind kind) {
-  if (features(drawing).empty()) return {};  // unreadable: nothing can be judged
+  if (features(drawing).empty()) return {};  // unreadable, so that nothing can be checked
   if (kind == OperationKind::fixed) return fixed_surfaces(drawing);
   std::vector<std::string> out;
   if (kind == OperationKind::face)
@@ -86,7 +87,7 @@ void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op
                    "conflict");
 }
 
-// Fixed operations take what is left out from their tool.
+// Fixed operations take conditions that are left out from their tool.
 void read_conditions(Draft& draft, Reader& r, OperationKind kind,
                      planning::Conditions& c) {
   const bool whole = draft.purpose == Purpose::predict && kind != OperationKind::fixed;
@@ -162,8 +163,8 @@ void check_pair(Reader r, const planning::OperationRequest& earlier,
                  "conflict");
 }
 
-// The held end is parted off, if the stock is; the free one gets a centre hole.  What is
-// drilled, centred or parted off takes one pass.
+// The held end may be parted off, if the stock is; the free end may get a centre hole.
+// Drilling, centring and parting off have one pass.
 void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
   if (op.kind != OperationKind::fixed || !(op.setup < draft.plan().setups.size())) return;
   const auto& drawing = draft.drawing();
@@ -186,8 +187,8 @@ void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
   }
 }
 
-// A groove that no operation turns is turned with the element whose diameter its blank
-// has.
+// A groove without a turning operation of its own is turned with the element whose
+// diameter its blank has.
 template <class Element>
 void turn_grooves(Draft& draft, const std::vector<Element>& list) {
   auto& operations = *draft.plan().operations;

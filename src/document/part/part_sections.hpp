@@ -15,7 +15,7 @@ struct Draft {
   const Catalogue& catalogue;
   Purpose purpose = Purpose::plan;
   LoadedPart loaded = {};
-  std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, else all
+  std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, or all
 
   planning::PlanRequest& plan() { return loaded.plan; }
   part::Drawing& drawing() { return loaded.plan.drawing; }
@@ -44,7 +44,7 @@ void read_operations(Draft& draft);  // after the setups
 void read_milling(Draft& draft);     // after the setups
 void read_what_if(Draft& draft);     // the form alone
 
-// What cross-references are held against.
+// Targets of cross-references.
 
 enum class Feature { cylinder, cone, face, fixed };  // fixed: a groove, thread or arc
 struct NamedFeature {
@@ -52,7 +52,7 @@ struct NamedFeature {
   Feature feature;
 };
 /// Elements, then faces ("left", "right" and the shoulders).  Empty if an element's id
-/// could not be read: then no reference can be judged.
+/// could not be read, so that references cannot be checked.
 std::vector<NamedFeature> features(const part::Drawing& drawing);
 
 /// "limits_mm": deviations [lower, upper] of a size, lower < upper.

@@ -36,8 +36,8 @@ void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
            "the largest drill that leaves 0.5 mm on the radius, and what is behind"});
 }
 
-// Why no clamping of the setup that the request gives can mill the place; empty if one
-// can.
+// The reason why the place cannot be milled in any clamping of the setup that the request
+// gives; empty if it can.
 std::string obstacle(const planning::PreparedPart& p, const planning::MilledPlace& m) {
   std::string why;
   for (const auto clamping : p.setups[*m.setup].clampings)

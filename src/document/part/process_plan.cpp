@@ -66,7 +66,7 @@ ordered_json json_of(const OperatingWindow& w) {
           {"limits", w.limits}};
 }
 
-// What is cut deeper than shown before stability is lost has no limit there.
+// Where the first loss of stability is deeper than the chart there is no limit.
 ordered_json json_of(const MilledCut& m) {
   return {{"kind", name(m.kind)},
           {"lanes", m.lanes},
@@ -163,7 +163,7 @@ ordered_json json_of(const ToleranceResult& t) {
           {"margin_mm", t.margin_mm},
           {"width_mm", t.width_mm},
           {"verdict", name(t.verdict)},
-          {"seed_verdict", t.seed_verdict},
+          {"published_verdict", t.published_verdict},
           {"shares", list(t.shares,
                           [](const Share& s) {
                             return ordered_json{{"source", s.source}, {"um", s.um}};
@@ -171,7 +171,7 @@ ordered_json json_of(const ToleranceResult& t) {
           {"P_conform", t.P_conform}};
 }
 
-// Compensation or Deviation.
+// The template type is Compensation or Deviation.
 template <class Table>
 ordered_json json_of_table(const Table& c) {
   return {{"on", c.on},

@@ -17,7 +17,7 @@ const Choices<Clamping>& clampings() {
   return kClampings;
 }
 
-// A rest is set up where the request names it.
+// A rest is set up only if the request names it.
 bool has_rest(Clamping c) {
   return c == Clamping::chuck_steady || c == Clamping::tailstock_follow;
 }
@@ -36,7 +36,7 @@ nlohmann::json words(const std::vector<Clamping>& list) {
   return out;
 }
 
-// What the jaws hold: the stock first, finished ends afterwards.
+// The body that the jaws hold: the stock at first, finished ends afterwards.
 double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
   if (setup == 0) return drawing.stock.outer_mm;
   if (drawing.outer.empty()) return 0;
@@ -102,7 +102,8 @@ void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& set
       force("finishing_grip_force_N", setup.grip_force_N.value_or(chuck), "the roughing");
 }
 
-// Where the steady rest stands: needed by its clamping and by no other.
+// The position of the steady rest, which is required by its clamping and allowed by no
+// other.
 void read_steady(Reader& r, planning::SetupRequest& setup) {
   const bool wanted = std::find(setup.clampings.begin(), setup.clampings.end(),
                                 Clamping::chuck_steady) != setup.clampings.end();

@@ -7,7 +7,7 @@ namespace {
 
 const Bounds kSize = above_up_to(0, 20000, "mm");
 
-// The pointer of the diameter is where the stock's cross-checks report.
+// Cross-checks of the stock report at the pointer of its diameter.
 const char* outer_key(const part::Stock& stock) {
   return stock.kind == part::StockKind::bar ? "diameter_mm" : "outer_mm";
 }
@@ -38,7 +38,7 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
 }
 
 void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
-  constexpr double kSum_mm = 1e-9;  // what summing lengths may be off by
+  constexpr double kSum_mm = 1e-9;  // rounding of sums of lengths
   const double least_mm = part::length_mm(drawing) + drawing.stock.left_allowance_mm;
   if (drawing.stock.length_mm < least_mm - kSum_mm)
     r.problem_at("length_mm",

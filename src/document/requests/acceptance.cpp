@@ -182,7 +182,7 @@ nlohmann::json acceptance(const nlohmann::json& request) {
                        {"accepted_after_offset", v.accepted_after_offset},
                        {"offset_mm", v.offset_mm},
                        {"offset_into_limits_mm", v.offset_into_limits_mm},
-                       {"seed_verdict", v.seed_verdict},
+                       {"published_verdict", v.published_verdict},
                        {"extremes_mm", {v.extremes_mm.min_mm, v.extremes_mm.max_mm}},
                        {"measured_mm", v.measured_mm},
                        {"allowed_mm", v.allowed_mm},

@@ -141,7 +141,8 @@ json fit_json(const BallBarFit& fit) {
   return out;
 }
 
-/// What instruments show: whole lost motions, and bows over the circle's radius.
+/// Values as instruments show them: whole lost motions, and bows over the circle's
+/// radius.
 json derived_json(const Trace& t, const json& fit) {
   const auto of = [&fit](const char* key) { return fit[key].get<double>(); };
   const double bow = t.R_mm / 100 * (t.R_mm / 100);
@@ -167,8 +168,8 @@ json analysis_json(const Trace& t, const BallBarFit& fit) {
           {"confounded", confounded(t.plane)}};
 }
 
-/// What a trace says of the machine's errors, physical: relative values change their sign
-/// on the workpiece's side.  The squareness is put to the plane's first axis.
+/// The physical errors of the machine by a trace: relative values change their sign on
+/// the workpiece's side.  The squareness is assigned to the plane's first axis.
 std::vector<Calibrated> calibrated(Plane plane, const BallBarFit& fit,
                                    const Machine& machine) {
   const auto [U, V] = axes_of(plane);
@@ -197,9 +198,10 @@ std::vector<Calibrated> calibrated(Plane plane, const BallBarFit& fit,
   return all;
 }
 
-/// The machine whose circle is the trace: what it has of other errors explains its part,
-/// what is found the rest.  Each round takes off what the last has left, products of
-/// errors and, off the origin, the slopes of bows.
+/// The machine whose circle is the trace.  Its other errors explain their part of the
+/// trace, and the errors found explain the rest.  Each round reduces the residual of the
+/// last one, which is due to products of errors and, away from the origin, to the slopes
+/// of bows.
 json with_trace(MachineDocument m, const Trace& t, const Vec3& centre_mm) {
   constexpr int kRounds = 4;
   const Plane plane = t.plane;

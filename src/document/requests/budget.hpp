@@ -7,10 +7,10 @@
 /// The member "budget" of a tolerance's case and of its result.
 namespace turnwright::document {
 
-/// Sources, wanted conformance, measuring uncertainty, seed and number of draws.
+/// Sources, required conformance, measuring uncertainty, seed and number of draws.
 tolerance::BudgetDemand read_budget(Reader r);
 
-/// null where the room has no lower end and for an index without spread.
+/// Values are null where the range has no lower end, and for an index without spread.
 nlohmann::json to_json(const tolerance::Budget& budget);
 
 }  // namespace turnwright::document

@@ -205,7 +205,7 @@ std::optional<Taylor> lives(const Request& q) {
   return out;
 }
 
-/// Reports what the cuts with a measured `column` cannot tell.
+/// Reports the constants that the cuts with a measured `column` do not determine.
 void refuse(const Request& q, std::size_t cuts, const std::string& column,
             const std::string& constants, const std::string& test, Problems& problems) {
   problems.add(
@@ -257,7 +257,7 @@ json described(const Taylor& t, const Request& q) {
   return out;
 }
 
-/// [least, largest] of what `value` gives over the cuts used.
+/// [least, largest] of `value` over the cuts used.
 template <class Fit, class Value>
 json range(const Request& q, const Fitted<Fit>& f, const Value& value) {
   double lo = HUGE_VAL, hi = 0;
@@ -320,8 +320,8 @@ void put_life(const Request& q, const Taylor& t, json& m) {
        note(q, t.fit.evidence, told("C", *t.fit.C) + ", " + told("n", *t.fit.n))}};
 }
 
-/// The material's document with what was measured; null, and why, if no material is like
-/// that.
+/// The material's document with the measured constants; null, with the reason, if they
+/// are impossible for a material.
 json material(const Request& q, const Fits& fits, json& warnings) {
   if (!q.material) {
     warnings.push_back("no material given, whose document the constants could go into");

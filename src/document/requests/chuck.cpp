@@ -25,9 +25,10 @@ const Bounds kPlace = within(0, 1e6, "mm"), kDiameter = above_up_to(0, 1e5, "mm"
              kForce = within(-1e6, 1e6, "N"), kError = within(-1000, 1000, "mm"),
              kArm = above_up_to(0, 1e6, "mm"), kTool = within(-1, 1, "mm/N");
 
-/// Above it a standard error of the predicted deflection gets a warning.
+/// Above this a standard error of the predicted deflection causes a warning.
 constexpr double kCoarse = 0.09;
-/// Above it the elastic fit's excess is no chance: three standard deviations, squared.
+/// Above this the excess of the elastic fit is not due to chance: three standard
+/// deviations, squared.
 constexpr double kContradiction = 9;
 
 struct Graph {
@@ -52,7 +53,7 @@ Load read_load(Reader& r) {
           .Fa_N = r.number("Fa_N", kForce)};
 }
 
-/// What a cut and a prediction have in common.
+/// Members that a cut and a prediction have in common.
 TestCut read_place(Reader& r, const Bounds& places) {
   TestCut cut;
   cut.z_mm = r.number("z_mm", places);
@@ -166,7 +167,7 @@ Request read_request(const json& document, Problems& problems) {
   return q;
 }
 
-/// One plane's cuts, what they can tell and, if measured, what they tell.
+/// The cuts of one plane, their identifiability and, if they are measured, their fit.
 struct PlaneAnswer {
   Plane plane = Plane::radial;
   std::vector<PlaneTest> tests;
@@ -183,7 +184,7 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return text;
 }
 
-/// The plane identified; a problem with the cuts that are missing where it cannot be.
+/// The fit of a plane, or a problem with the missing cuts.
 PlaneAnswer answer(PlaneAnswer out, const Request& q, Problems& problems) {
   for (const PlaneTest& t : out.tests)
     if (!std::isfinite(t.y_mm))
@@ -371,7 +372,7 @@ void add_fits(json& result, const Request& q, const PlaneAnswer& radial,
   result["predictions"] = std::move(predictions);
 }
 
-/// What the cuts tell, or could.
+/// The identifiability of the cuts and, if they are measured, the fit.
 void add_chuck(json& result, const Request& q, Problems& problems) {
   PlaneAnswer across{Plane::tangential, {}, {}, {}, {}};
   for (std::size_t i = 0; i < q.cuts.size(); ++i)

@@ -69,7 +69,7 @@ std::vector<CsvColumn> columns_of(const Reader& csv) {
   return out;
 }
 
-/// A line of a table; a run that it leaves blank it has not.
+/// A line of a table; a blank cell means that the run has no value.
 Row line_row(const CsvRow& line, const std::map<std::size_t, std::string>& run_columns,
              Problems& problems) {
   json named{{"name", line.value.value("param", "")}};
@@ -122,7 +122,7 @@ bool is_scale(const std::string& name) {
 Calibration read_calibration(Reader r) {
   Calibration c{.name = r.text("name"), .rows = {}};
   const double sign = r.choice_or<double>("sign", {{"as-named", 1}, {"opposite", -1}}, 1);
-  // Of b where B = -2 b, the lost motion, is written down.
+  // Converts the lost motion B = -2 b to b.
   const double reversal =
       r.choice_or<double>("reversal", {{"half", 1}, {"full", -0.5}}, 1);
   const auto length = r.optional_number("length_mm", within(1, 1e5, "mm"));
@@ -180,7 +180,7 @@ json agreement_json(const Row& a, const Row& b) {
   return out;
 }
 
-/// Common jumps of one calibration, with what leaving the run out does to the overlaps.
+/// Common jumps of one calibration, with the overlaps if the run is left out.
 void add_jumps(const Calibration& own, const Calibration& other, json& jumps,
                json& notes) {
   std::vector<std::pair<std::string, std::string>> groups;  // of one unit each

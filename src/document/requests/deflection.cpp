@@ -39,7 +39,7 @@ struct Steady {
   SteadyRest radial, tangential;
 };
 
-/// Passes in a row, and what the blank runs out.
+/// Successive passes, and the run-out of the blank.
 struct Passes {
   std::vector<double> ap_mm;
   double runout_mm = 0;
@@ -82,7 +82,7 @@ void read_centre(Reader& clamping, std::string_view key, double Supports::*compl
   r->finish();
 }
 
-/// A steady rest stands between the ends of the shaft.
+/// Checks that a steady rest stands between the ends of the shaft.
 std::optional<Steady> read_steady(Reader& clamping, const Bounds& on_shaft) {
   auto r = clamping.optional_object("steady");
   if (!r) return std::nullopt;
@@ -100,7 +100,7 @@ double widest_mm(const part::Shaft& shaft) {
   return d;
 }
 
-/// The bar turns its tip to the wall: where it is widest it takes D/2 + f of the bore.
+/// The bar's tip points to the wall, so its widest section needs D/2 + f of the bore.
 BoringBar read_bar(Reader& clamping, double widest_mm) {
   const BoringBar bar{.tip_offset_mm = clamping.number("tip_offset_mm", kInner),
                       .bore_diameter_mm = clamping.number("bore_diameter_mm", kOuter)};
@@ -182,8 +182,7 @@ std::optional<ForceLaw> read_force_law(Reader& request, std::optional<Passes>& p
   return law;
 }
 
-/// A number that passes its bounds by no more than the rounding of the caller's own sum
-/// is the bound.
+/// A number that exceeds its bounds only by the rounding of a sum becomes the bound.
 double read_rounded(const Reader& r, const Bounds& bounds) {
   constexpr double kRounding = 1e-12;
   const double x = r.is_number() ? r.json().get<double>() : 0;
@@ -196,7 +195,7 @@ double read_rounded(Reader& parent, std::string_view key, const Bounds& bounds) 
   return read_rounded(parent.at(key, expected_number(bounds)), bounds);
 }
 
-/// Radii a face at z can have: at a step those of either side.
+/// The radii that a face at z may have: at a step those of both sides.
 Bounds face_radii(const part::Shaft& shaft, double z_mm) {
   double outer = 0, bore = std::numeric_limits<double>::infinity();
   const std::vector<double> ends = part::ends_mm(shaft.segments);
@@ -250,7 +249,7 @@ Request read_request(const json& document) {
   auto read = read_milled_shaft(r.object("shaft"));
   q.shaft = std::move(read.shaft);
   q.milled = std::move(read.milled);
-  // A shaft that could not be read is no measure for the rest.
+  // Without a readable shaft the other members cannot be checked.
   const bool measured = problems.list.empty();
   if (!measured) q.shaft.segments.clear();
   const double length = part::length_mm(q.shaft.segments);
@@ -293,7 +292,7 @@ json flexibility(const Flexibility& f) {
           {"f_pp_rad_Nmm", f.f_pp_rad_Nmm}};
 }
 
-/// The part in its clamping: flexibilities of both planes at any places.
+/// The part in its clamping: flexibilities of both planes at any positions.
 struct Planes {
   std::vector<Flexibility> radial, tangential;
   std::vector<RestedFlexibility> rested;  ///< radial, with a steady rest
@@ -364,7 +363,7 @@ Load load_at(const Request& q, const json& answered) {
           .Fa_N = q.force_law->Fa_over_Fr * Fr};
 }
 
-/// The error each pass leaves, and of the blank's run-out what it keeps.
+/// The error after each pass, and the remaining run-out of the blank.
 void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tangential,
                 const Request& q, json& out) {
   out["errors_of_passes_mm"] =

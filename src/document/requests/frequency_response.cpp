@@ -26,7 +26,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t kRows = 20000, kLines = 5000;
 const Bounds kFrequency = within(0, 1e6, "Hz"), kPart = within(-1e12, 1e12);
 
-/// What a response is measured in: how often derived by time, in how many mm.
+/// Unit of a response: its order of derivative by time, and its length in mm.
 struct Unit {
   int derivative = 0;
   double mm = 1;
@@ -119,7 +119,7 @@ const char* quantity(int derivative) {
                            : "an accelerance";
 }
 
-/// Tells why there are no modes, at the line nearest to what tells it.
+/// Reports why there are no modes, at the line nearest to the frequency that shows it.
 void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
             std::optional<long> modes, int derivative) {
   const std::string f = short_Hz(no.w_rad_s);

@@ -50,7 +50,7 @@ void read_pre_moves(Reader r, SambaStrategy& s) {
   r.finish();
 }
 
-/// What a bar's length may be off the distance of its balls as they were given.
+/// Largest difference between a bar's length and the distance of its balls as given.
 constexpr double kBarOff = 0.02;
 
 void check_scale_bar(Reader& r, const SambaStrategy& s) {
@@ -195,7 +195,8 @@ Request read_request(const json& document) {
   return q;
 }
 
-/// Uncertainties are null where nothing tells them: no noise given, none left over.
+/// Uncertainties are null if they are unknown: no noise is given and there are no
+/// residuals.
 json values_json(const Identifiability& of, std::size_t from, std::size_t to,
                  const SambaFit* fit, bool uncertain) {
   json out = json::object();
@@ -210,8 +211,8 @@ json values_json(const Identifiability& of, std::size_t from, std::size_t to,
   return out;
 }
 
-/// What the machine has of other errors explains its part of the readings, what is found
-/// the rest.
+/// The machine's other errors explain their part of the readings, and the errors found
+/// explain the rest.
 json with_readings(const Request& q) {
   MachineDocument m = *q.machine;
   const auto calibrated = [&](const SambaFit& fit) {

@@ -19,7 +19,7 @@ using namespace stability_request;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// The walls that a stable cut leaves.
+/// The walls that a stable cut generates.
 ordered_json described(const std::vector<Surface>& walls) {
   ordered_json out = ordered_json::array();
   for (const Surface& wall : walls)
@@ -98,7 +98,7 @@ ordered_json described(const UncertainLimit& limit) {
           {"p95_mm", or_null(limit.p95_mm)}};
 }
 
-/// What the limits rest on where the request names it only.
+/// The data on which the limits rest, where the request only names them.
 void add_basis(const Request& q, ordered_json& out) {
   for (const MeasuredAxis& measured : q.measured)
     out["frf"].push_back(described(measured));

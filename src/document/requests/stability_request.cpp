@@ -34,7 +34,7 @@ double stiffness_N_mm(double mass_kg, double wn_rad_s) {
   return mass_kg * wn_rad_s * wn_rad_s / 1000;  // N/m to N/mm
 }
 
-/// Stiffness as such or as a mass.
+/// Stiffness, given directly or by a mass.
 double read_stiffness(Reader& r, double wn_rad_s) {
   const auto mass = r.optional_number("mass_kg", kMass);
   const auto stiffness = r.optional_number("stiffness_N_mm", kStiffness);
@@ -234,7 +234,7 @@ void read_edges(Reader& r, Cutter& cutter) {
     r.problem_at("feed_mm", "a feed per tooth, for runout_mm", "missing");
 }
 
-/// What a straight, even, sharp cutter does not have; none if no key asks for it.
+/// Helix, unequal pitches, runout or process damping; none if no key gives one of them.
 void read_cutter(Reader& r, const Named& named, Request& q) {
   constexpr std::array kEdges{"helix_deg", "pitch_deg", "runout_mm", "feed_mm"};
   const bool mill = q.model == Model::milling;
@@ -284,7 +284,7 @@ void read_speeds(Reader& r, Request& q) {
                                                    static_cast<double>(count - 1));
 }
 
-/// "depths": so many equal steps up to ap_max_mm.
+/// "depths": the number of equal steps up to ap_max_mm.
 void read_depths(Reader& r, Request& q) {
   if (!r.has("depths")) return;
   const long count = r.integer("depths", 1, kCounted);
@@ -320,7 +320,7 @@ void read_uncertainty(Reader& r, Request& q) {
   q.bands = bands;
 }
 
-/// The spindle's speeds, among which `best` is looked for.
+/// The spindle's speeds, among which `best` is chosen.
 void read_machine(Reader& r, Request& q) {
   auto found = r.find("machine_rpm");
   if (!found) return;

@@ -8,12 +8,12 @@
 #include "turnwright/chatter/chart.hpp"
 #include "turnwright/document/catalogue.hpp"
 
-/// The request of the door `stability`.
+/// The request of the capability `stability`.
 namespace turnwright::document::stability_request {
 
 enum class Model { milling, power_law, turning };
 
-/// The force that a material's law gives at the mean chip.
+/// The force coefficients by a material's law at the mean chip thickness.
 struct Chip {
   double hm_mm = 0;
   chatter::LinearForce force;

@@ -90,7 +90,7 @@ Columns read_csv_log(Reader& r) {
   return out;
 }
 
-/// As many rows in every column, at rising times.
+/// Checks that all columns have equally many rows, at rising times.
 void check_rows(Reader& r, const Columns& columns) {
   const auto time = columns.find("time_s");
   if (time == columns.end()) return;
@@ -256,7 +256,7 @@ json choice_json(const Choice& choice, const FitOptions& options) {
   return out;
 }
 
-/// How far predictions are off; of no rows: their number alone.
+/// Errors of predictions; without rows only their number.
 json errors_json(std::span<const double> residual_um) {
   json out{{"rows", residual_um.size()}};
   if (residual_um.empty()) return out;
@@ -361,7 +361,7 @@ json shift_json(const Request& q, const LagFit& fit) {
   return out;
 }
 
-/// Of rows beyond what the first `trained` rows of the log hold.
+/// Warnings of rows outside the ranges of the first `trained` rows of the log.
 void warn_of_range(const char* what, std::span<const double> seen,
                    std::span<const double> asked, const char* unit, const char* where,
                    json& warnings) {

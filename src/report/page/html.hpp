@@ -12,12 +12,12 @@ namespace turnwright::report {
 /// that needs nothing else: no script, no request, the pictures inside it.  Printed it
 /// takes two to four pages of A4.
 ///
-/// It says what text() (text.hpp) says, with the same numbers; every pass and constraint
-/// is in the result document alone.  Text of the request is escaped.  Figures are placed
-/// by their files' names: setup-<i>.svg beside its setup, budget.svg under the
-/// tolerances, window-<operation>.svg of the four operations that cost most at the end.
+/// It has the contents of text() (text.hpp) with the same numbers; single passes and
+/// constraints are only in the result document.  Text of the request is escaped.  Figures
+/// are placed by their file names: setup-<i>.svg beside its setup, budget.svg below the
+/// tolerances, window-<operation>.svg of the four most expensive operations at the end.
 /// Equal documents give equal bytes.
-/// @param name  of the part, as the request has it.
+/// @param name  name of the part in the request.
 std::string html(std::string_view name, const nlohmann::ordered_json& plan_result,
                  const std::vector<Figure>& figures);
 

@@ -6,7 +6,7 @@
 
 #include "report/picture/figure.hpp"
 
-/// What pages are put together from; all text is escaped.
+/// Elements of HTML pages; all text is escaped.
 namespace turnwright::report {
 
 using Figures = std::vector<Figure>;
@@ -14,15 +14,15 @@ using Figures = std::vector<Figure>;
 /// <name>text</name>
 std::string tag(const std::string& name, std::string_view text);
 
-/// The figure of that file as an image of its own, so that its styles and names stay
-/// apart from the page's; "" if there is none.
+/// The figure with that file name as an image element, which isolates its styles and
+/// names from those of the page; "" if there is none.
 std::string figure_named(const Figures& figures, const std::string& file,
                          const std::string& what);
 
 /// Figures two beside each other.
 std::string pairs(const std::string& figures);
 
-/// A heading over numbered sentences; "" without any.
+/// A heading above numbered sentences; "" if there are none.
 std::string section(const std::string& title, const std::vector<std::string>& sentences);
 
 struct Heading {
@@ -39,7 +39,7 @@ std::string number_cell(std::string_view text);
 std::string key_figure(const std::string& name, const std::string& value,
                        const std::string& unit);
 
-/// What a result document says it was made of, and by which version.
+/// The request and the version of the program from which a result comes.
 std::string origin(const nlohmann::ordered_json& result);
 
 /// The table of `assumed`.

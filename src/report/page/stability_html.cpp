@@ -17,10 +17,10 @@ std::string header(const ordered_json& result) {
   if (const auto& best = object(result, "best"); !best.empty()) {
     out += "<dl>\n";
     out += key_figure("Best speed", shown(number(best, "n_rpm"), 0), "1/min");
-    out +=
-        key_figure("Depth there", significant(number(best, "ap_mm")),
-                   word(best, "limited_by") == "chatter" ? "mm, where chatter begins"
-                                                         : "mm, the deepest asked about");
+    out += key_figure("Depth there", significant(number(best, "ap_mm")),
+                      word(best, "limited_by") == "chatter"
+                          ? "mm, where chatter begins"
+                          : "mm, the largest depth requested");
     out += "</dl>\n";
   }
   return out + origin(result);
@@ -70,13 +70,13 @@ std::string force(const ordered_json& result) {
                               significant(number(f, "Kn_MPa"))));
 }
 
-/// What is not to be trusted, and what was not told at all.
+/// Warnings, and speeds and points that are undecided.
 std::string warnings(const ordered_json& result) {
   std::string out;
   for (const auto& warning : list(result, "warnings"))
     if (warning.is_string()) out += tag("p", warning.get<std::string>());
   for (const auto& u : list(result, "undecided"))
-    out += tag("p", fmt::format("Not told: {} 1/min, {} mm ({}): {}.",
+    out += tag("p", fmt::format("Undecided: {} 1/min, {} mm ({}): {}.",
                                 significant(number(u, "n_rpm"), 6),
                                 significant(number(u, "ap_mm"), 6), word(u, "pointer"),
                                 word(u, "why")));
@@ -123,7 +123,7 @@ std::string points(const ordered_json& result) {
             words_cell(flag(all[i], "stable") ? "stable" : "unstable") +
             number_cell(shown(number(all[i], "unstable_multipliers"), 0)) +
             number_cell(shown(number(all[i], "spectral_radius"), 4)) + "</tr>\n";
-  std::string out = tag("h2", "Cuts asked about");
+  std::string out = tag("h2", "Requested cuts");
   if (all.size() > kMost)
     out += fmt::format("<p class=\"from\">The first {} of {}.</p>\n", kMost, all.size());
   return out +

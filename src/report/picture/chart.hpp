@@ -7,7 +7,7 @@
 /// Frames with scales for curves.
 namespace turnwright::report {
 
-/// A linear scale between two places of paper.
+/// A linear scale between two positions on paper.
 struct Scale {
   double low = 0, high = 1;  ///< values
   double from = 0, to = 1;   ///< their places

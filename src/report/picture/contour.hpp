@@ -8,7 +8,7 @@
 /// The part's outline between its setups.
 namespace turnwright::report {
 
-/// From z0 to z1 > z0 the radius goes straight from r0 to r1 [mm].
+/// A run from z0 to z1 > z0, over which the radius is linear from r0 to r1 [mm].
 struct Run {
   double z0 = 0, z1 = 0, r0 = 0, r1 = 0;
 };
@@ -19,16 +19,16 @@ struct Contour {
   Runs outer, inner;  ///< both over the whole length; inner 0 where there is no bore
 };
 
-/// As the part stands after `setup`: what no setup up to it has cut is stock.
+/// The part after `setup`; surfaces that no setup up to it has cut are stock.
 Contour contour_after(const planning::PreparedPart& part, std::size_t setup);
 
-/// An element as drawn: one run, of an arc a dozen chords of it.
+/// An element as drawn: one run, or for an arc a dozen chords.
 Runs outer_runs(const part::Drawing& drawing, std::size_t i);
 Runs inner_runs(const part::Drawing& drawing, std::size_t i);
 
-/// The line through the run, also beside it.
+/// The radius on the line through a run, also outside the run.
 double radius_mm(const Run& run, double z_mm);
-/// What lies between two places.
+/// The runs between two positions.
 Runs between(const Runs& runs, double from_z_mm, double to_z_mm);
 
 }  // namespace turnwright::report

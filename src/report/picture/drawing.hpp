@@ -7,20 +7,21 @@
 
 namespace turnwright::report {
 
-/// One picture (SVG 1.1, readable alone, 190 mm wide) for each setup of the plan: the
-/// part as it stands after the setup, half in section, in its stock and its clamping.
+/// One self-contained picture (SVG 1.1, 190 mm wide) for each setup of the plan: the part
+/// after the setup, half in section, with its stock and its clamping.
 ///
-/// Lengths are drawn `scale` paper mm to the mm, the same along and across.  The surface
-/// as made stands off the surface as drawn by
+/// Lengths are drawn with `scale` mm of paper per mm, along and across.  The distance of
+/// the real surface from the nominal one is drawn as
 ///
 ///     y = scale factor e        [paper mm]                                      (1)
 ///
-/// e: error of the radius [mm] of an outer element or bore that the setup cuts, outwards
-/// positive; factor: the largest of 1, 2, 5, 10, .. that keeps |y| within 6 mm in every
-/// setup of the plan, so that its pictures compare.  A corrected tool path is drawn
-/// alike, its correction dr in place of e.  Errors of faces are not drawn. Jaws are drawn
-/// as bored to what they hold.  An element that no setup has cut yet has its id without
-/// its size.  Equal plans give equal bytes. Source: derived here.
+/// with the radius error e [mm] of an outer element or bore that the setup cuts, positive
+/// outwards, and the largest factor of 1, 2, 5, 10, .. that keeps |y| within 6 mm in all
+/// setups of the plan, so that its pictures can be compared.  A corrected tool path is
+/// drawn in the same way, with its correction dr in place of e.  Errors of faces are not
+/// drawn. Jaws are drawn as soft jaws bored to the part.  An element that no setup has
+/// cut yet has its id without its size.  Equal plans give equal bytes.  Source: derived
+/// here.
 /// @throws std::domain_error if a number to be drawn is not finite, or there is no stock.
 std::vector<std::string> setup_drawings(const planning::PreparedPart& part,
                                         const planning::ProcessPlan& plan);

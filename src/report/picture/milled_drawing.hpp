@@ -5,10 +5,10 @@
 
 namespace turnwright::report {
 
-/// A picture (SVG 1.1) of how deep a milled place may be cut over the spindle's speeds:
-/// the first loss of stability, beyond it shaded, the pass that was chosen and the box of
-/// the margins asked for, in speed and depth, which stays below the line.
-/// @throws std::domain_error if the operation mills nothing.
+/// A picture (SVG 1.1) of the stable depth of a milled place over the spindle speed: the
+/// first loss of stability with the unstable depths shaded, the chosen pass, and the box
+/// of the required margins in speed and depth, which lies below the limit.
+/// @throws std::domain_error if it is not a milling operation.
 std::string milled_drawing(const planning::OperationPlan& operation);
 
 }  // namespace turnwright::report

@@ -153,9 +153,10 @@ class Chart {
     box("count" + std::to_string(kShades), {x + 4, y - 1.5}, {x + 8, y + 1.5});
     svg_.text({x + 9.5, y + 1}, Anchor::start, "unstable; more multipliers");
     svg_.text({kLeft, 9}, Anchor::start, "Stability of the cut", "title");
-    const bool untold = std::ranges::count(columns_, nullptr, &Column::speed) > 0;
-    svg_.text({kRight, kTop - 3}, Anchor::end,
-              untold ? "ticks: magic speeds; shaded: not told" : "ticks: magic speeds");
+    const bool undecided = std::ranges::count(columns_, nullptr, &Column::speed) > 0;
+    svg_.text(
+        {kRight, kTop - 3}, Anchor::end,
+        undecided ? "ticks: magic speeds; shaded: undecided" : "ticks: magic speeds");
   }
 
   std::string page() const {

@@ -4,17 +4,17 @@
 
 namespace turnwright::report {
 
-/// The chart of a `stability` result (schemas/stability.result.json) as one picture (SVG
-/// 1.1, readable alone, 190 mm wide): depth over spindle speed, unstable depths of each
-/// speed filled - the darker the more multipliers are unstable, where `depths_mm` were
-/// counted -, islands included; every crossing as a stroke, flip and Hopf told apart; the
-/// line of the first limit, and that of the robust limit if there is one; the points
-/// asked about, stable and unstable; the best point and the magic speeds; what the
-/// machine does not reach shaded.  A speed stands for the speeds half way to its
-/// neighbours.
+/// The chart of a `stability` result (schemas/stability.result.json) as one
+/// self-contained picture (SVG 1.1, 190 mm wide): depth over spindle speed.  Unstable
+/// depths of each speed, also of islands, are filled, and are darker where more
+/// multipliers are unstable if `depths_mm` were counted.  Every crossing is a stroke,
+/// with different strokes for flip and Hopf.  There are lines of the first limit and of
+/// the robust limit, if there is one, the requested points, stable and unstable, the best
+/// point and the magic speeds.  Speeds outside the machine's range are shaded.  Each
+/// speed represents the range half way to its neighbours.
 ///
-/// @param request  of the same result: ap_max_mm and machine_rpm.
-/// @returns "" of a result without speeds.  Equal results give equal bytes.
+/// @param request  the request of the result, with ap_max_mm and machine_rpm.
+/// @returns "" for a result without speeds.  Equal results give equal bytes.
 std::string stability_chart(const nlohmann::json& request,
                             const nlohmann::ordered_json& result);
 

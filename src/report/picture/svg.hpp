@@ -3,17 +3,17 @@
 #include <string_view>
 #include <vector>
 
-/// A page of SVG, written front to back.  Coordinates are mm of paper, y downwards.
+/// A page of SVG, written in order.  Coordinates are mm of paper, y downwards.
 namespace turnwright::report {
 
 struct Point {
   double x = 0, y = 0;
 };
 
-/// At most `decimals`, without trailing zeros: "30", "0.25".
+/// A number with at most `decimals`, without trailing zeros: "30", "0.25".
 std::string plain(double value, int decimals = 3);
 
-/// For text and attribute values of XML.
+/// Escapes text and attribute values of XML.
 std::string escaped(std::string_view text);
 
 enum class Anchor { start, middle, end };
@@ -25,11 +25,11 @@ class Svg {
   void line(const std::string& css_class, Point from, Point to);
   void text(Point at, Anchor anchor, std::string_view text,
             const std::string& css_class = {});
-  /// Reads upwards from `at`.
+  /// Text that reads upwards from `at`.
   void text_upwards(Point at, Anchor anchor, std::string_view text,
                     const std::string& css_class = {});
 
-  /// The file; `title` is what a reader that does not draw tells.
+  /// The file; `title` is its text for readers that do not show images.
   std::string page(double width, double height, std::string_view title) const;
 
  private:

@@ -10,25 +10,25 @@
 /// give equal bytes.
 namespace turnwright::report {
 
-/// A circular test: both paths about their common centre, with what the twelve terms make
-/// of them, at
+/// A circular test: both paths about their common centre, with their fit by the twelve
+/// terms, at
 ///
 ///     radius on paper = 42 mm + factor (v - e_u cos theta - e_v sin theta)          (1)
 ///
-/// v the values, e the common centre, factor the largest of 1, 2, 5, 10, .. that keeps
-/// the traces between 28 and 56 mm; beside it the amplitudes of the lobes, undulations
-/// 2 to 8 of a path, and the terms' ranking.
+/// with the values v, the common centre e, and the largest factor of 1, 2, 5, 10, .. that
+/// keeps the traces between 28 and 56 mm.  Beside it are the amplitudes of the
+/// undulations 2 to 8 of each path, and the ranking of the terms.
 /// @throws ModelRangeError as volumetric::decompose.
 std::string ball_bar_drawing(const volumetric::Trace& trace);
 
-/// Distances of the tip from where it should be, before and after the correction, along
-/// the program, on a logarithmic scale; of more moves than columns the largest of each.
-/// Values below 0.1 nm stand on the lower edge.
+/// Distances of the tip from its targets, before and after the correction, along the
+/// program, on a logarithmic scale.  If there are more moves than columns the largest
+/// value of each column is drawn.  Values below 0.1 nm are drawn on the lower edge.
 std::string compensation_drawing(const volumetric::Compensated& compensated);
 
-/// The errors of each axis over -Q to Q (machine.hpp (1)), shifts and turns apart, by
-/// direction of motion where they differ (no band: coefficients carry no uncertainty).
-/// Errors that are zero are left out.
+/// The errors of each axis over -Q to Q (machine.hpp (1)), linear and angular errors
+/// separately, and by direction of motion where they differ.  There is no band, because
+/// coefficients have no uncertainty here.  Errors that are zero are omitted.
 std::string error_map(const volumetric::Machine& machine);
 
 }  // namespace turnwright::report

@@ -5,10 +5,9 @@
 
 namespace turnwright::report {
 
-/// A picture (SVG 1.1) of an operation's window: speed across and feed upwards, both in
-/// logarithms; the polygon, the optimum, the limits around it and lines of equal cost,
-/// each with its name, as far as the window has them.  A name stands once for all edges
-/// and curves that bear it.
+/// A picture (SVG 1.1) of an operation's window, with logarithmic scales of speed and
+/// feed: the polygon, the optimum, the limits around it and lines of equal cost, if the
+/// window has them.  Each name appears once for all edges and curves to which it belongs.
 /// @throws std::domain_error if the operation has no window.
 std::string window_drawing(const planning::OperationPlan& operation);
 

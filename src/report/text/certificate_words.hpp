@@ -5,7 +5,7 @@
 /// A certificate in words.
 namespace turnwright::report {
 
-/// "0.12 %" for a global certificate, else its kind; "-" for no kind.
+/// "0.12 %" for a global certificate, otherwise its kind; "-" without a kind.
 std::string gap(const nlohmann::ordered_json& certificate);
 
 /// A sentence for the plan's certificate.

@@ -106,17 +106,17 @@ std::string fitted(const char* plane, const ordered_json& result) {
   return out + offsets(fit) + outliers(fit);
 }
 
-/// What cuts without errors could tell.
+/// Identifiability by planned cuts, for which no errors are given.
 std::string design(const char* plane, const ordered_json& result) {
   const ordered_json& can = object(object(result, "identifiability"), plane);
   if (can.empty() || result.contains("chuck")) return "";
   std::string out =
       paragraph(plane == kPlanes[0] ? "\nRADIAL  " : "\nTANGENTIAL  ",
-                fmt::format("{} of c0, c1, c2 can be told, {} degrees of freedom",
+                fmt::format("{} of c0, c1, c2 are determined, {} degrees of freedom",
                             shown(number(can, "rank"), 0),
                             shown(number(can, "degrees_of_freedom"), 0)));
   for (const auto& n : list(can, "null_directions"))
-    out += paragraph("  cannot be told: ", word(n, "words"));
+    out += paragraph("  not determined: ", word(n, "words"));
   if (const auto& missing = list(can, "missing"); !missing.empty())
     out += paragraph("  missing: ", joined_words(missing, " and "));
   if (const auto& one = list(can, "setups_of_one_force"); !one.empty())

@@ -22,10 +22,12 @@ std::optional<double> number(const nlohmann::ordered_json& parent, const char* k
 
 bool flag(const nlohmann::ordered_json& parent, const char* key);
 
-/// With so many decimals, beyond 1e7 with 4 digits and an exponent; "-" for no number.
+/// The number with a given number of decimals, beyond 1e7 with 4 digits and an exponent;
+/// "-" without a number.
 std::string shown(std::optional<double> value, int decimals);
 
-/// With so many significant digits, an exponent where that is shorter; "-" for no number.
+/// The number with a given number of significant digits, with an exponent if that is
+/// shorter; "-" without a number.
 std::string significant(std::optional<double> value, int digits = 4);
 
 /// "a, b, c"

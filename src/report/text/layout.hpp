@@ -3,19 +3,19 @@
 #include <string_view>
 #include <vector>
 
-/// Plain text inside a page's width.  Characters are code points of UTF-8; control
-/// characters count as blanks, so that a name cannot steer a terminal.
+/// Plain text within the width of a page.  Characters are code points of UTF-8; control
+/// characters are replaced by blanks, so that a name cannot control a terminal.
 namespace turnwright::report {
 
 inline constexpr std::size_t kPageWidth = 100;
 
 std::size_t characters(std::string_view text);
 
-/// Lines of at most `width` characters, broken at blanks, a longer word where it must;
-/// at least one line.
+/// The text in lines of at most `width` characters, broken at blanks, or within a word
+/// that is too long; at least one line.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// `text` wrapped behind `lead`, its further lines indented as deep.
+/// `text` wrapped behind `lead`, with its further lines indented by the width of `lead`.
 std::string paragraph(std::string_view lead, std::string_view text);
 
 /// The first `width` characters, the last three "..." where more follow; one line.
@@ -33,8 +33,8 @@ struct Row {
   std::string note;                ///< a paragraph below the row, if not empty
 };
 
-/// Columns as wide as their widest cell, indented by two.  Where that is wider than the
-/// page, the left-aligned columns give way and their cells wrap.
+/// A table with columns as wide as their widest cell, indented by two.  If it is wider
+/// than the page its left-aligned columns become narrower and their cells wrap.
 std::string table(const std::vector<Column>& columns, const std::vector<Row>& rows);
 
 }  // namespace turnwright::report

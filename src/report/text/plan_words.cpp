@@ -97,7 +97,8 @@ std::string verdict(const ordered_json& tolerance) {
 
 std::string other_verdict(const ordered_json& tolerance) {
   const bool accepted = word(tolerance, "verdict") != "not-met";
-  if (!tolerance.contains("seed_verdict") || flag(tolerance, "seed_verdict") == accepted)
+  if (!tolerance.contains("published_verdict") ||
+      flag(tolerance, "published_verdict") == accepted)
     return "";
   return accepted ? "not met" : "met";
 }

@@ -5,18 +5,18 @@
 
 #include "stack.hpp"
 
-/// What a plan's result says, in words and rounded numbers; the report for a terminal and
-/// the one for a browser say the same.
+/// Contents of a plan's result in words and rounded numbers, which are the same for the
+/// terminal and for the browser.
 namespace turnwright::report {
 
-/// The member's sentence; its limit where it has none.
+/// The sentence of a member; its limit if it has no sentence.
 std::string sentence_of(const nlohmann::ordered_json& member);
 std::vector<std::string> sentences_of(const nlohmann::ordered_json& members);
 
-/// Limits in conflict, each with its set where there are several.
+/// The limits in conflict, each with its set if there are several.
 std::vector<std::string> conflict_sentences(const nlohmann::ordered_json& result);
 
-/// What would have to give, the smallest opening first, with its size in percent.
+/// The relaxations that would make the part feasible, smallest first, in percent.
 std::vector<std::string> opening_sentences(const nlohmann::ordered_json& result);
 
 /// Whether the members belong to more than one set.
@@ -27,10 +27,10 @@ std::string micrometres(const nlohmann::ordered_json& tolerance, const char* key
 
 std::string verdict(const nlohmann::ordered_json& tolerance);
 
-/// The published equations' verdict, where it is another.
+/// The verdict of the published equations, if it differs.
 std::string other_verdict(const nlohmann::ordered_json& tolerance);
 
-/// A sentence, where the probability does not round to certainty.
+/// A sentence with the probability, unless it rounds to certainty.
 std::string conformance(const nlohmann::ordered_json& tolerance);
 
 /// Whether fewer parts keep some tolerance than are wanted.
@@ -43,7 +43,7 @@ std::string kept(const nlohmann::ordered_json& result);
 /// Preparing the machine, and what each part bears of it; empty if nothing is known.
 std::string setting_up(const nlohmann::ordered_json& result);
 
-/// What takes the tolerance's width.
+/// The shares of the tolerance's width.
 Stack stack_of(const nlohmann::ordered_json& tolerance);
 
 /// Minutes and money of one kind, per part.
@@ -58,7 +58,7 @@ std::vector<SpendingRow> spending(const nlohmann::ordered_json& result);
 /// ", 30.000 of them to prepare the machine", where that takes anything.
 std::string preparing(const nlohmann::ordered_json& result);
 
-/// A string bare, anything else as JSON.
+/// A string without quotation marks, anything else as JSON.
 std::string value_text(const nlohmann::ordered_json& value);
 
 }  // namespace turnwright::report

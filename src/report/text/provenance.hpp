@@ -2,10 +2,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Lines that the reports of several doors have in common.
+/// Lines that the reports of several capabilities have in common.
 namespace turnwright::report {
 
-/// The program and the request a result comes from; "" where the result does not say.
+/// The program's version and the request from which a result comes; "" if it has neither.
 std::string made_by(const nlohmann::ordered_json& result);
 
 /// The list `warnings`; "" if it is empty.

@@ -11,7 +11,7 @@ namespace turnwright::report {
 /// "left end in the chuck, 25 mm gripped, jaws with 60 kN"
 std::string holding(const nlohmann::ordered_json& setup);
 
-/// Passes that follow each other with the same depth, feed and speed.
+/// Successive passes with the same depth, feed and speed.
 struct Passes {
   const nlohmann::ordered_json* first = nullptr;
   std::size_t count = 0;
@@ -19,10 +19,11 @@ struct Passes {
 };
 std::vector<Passes> runs(const nlohmann::ordered_json& passes);
 
-/// Spindle speed of the run, or from its least to its most.
+/// Spindle speed of the run, or its range.
 std::string speeds(const Passes& run);
 
-/// What the operation cuts, which limits bind it, and where its proof is wanting.
+/// The surface that the operation cuts, the limits that bind it, and any gap of its
+/// proof.
 std::string note(const nlohmann::ordered_json& operation);
 
 }  // namespace turnwright::report

@@ -3,31 +3,30 @@
 #include <utility>
 #include <vector>
 
-/// What takes a tolerance's width, end to end.
+/// The shares of a tolerance's width, stacked end to end.
 namespace turnwright::report {
 
 using Shares = std::vector<std::pair<std::string, double>>;  ///< source, um on its own
 
 struct Stack {
   Shares slices;       ///< deflection first
-  double left_um = 0;  ///< of the width; below 0: so much more than there is
+  double left_um = 0;  ///< rest of the width; negative if the shares exceed it
 
-  /// More is taken than there is; a margin used up to its end is none by rounding.
+  /// Whether the shares exceed the width by more than rounding.
   bool over() const { return left_um < -1e-3; }
 };
 
-/// Shares of one tolerance so that they and what is left add up to its width. Independent
-/// sources add by squares, so together they take less than the sum of what each would on
-/// its own: all but the deflection are reduced in proportion,
+/// Shares of one tolerance such that they and the rest add up to its width.  Independent
+/// sources add by squares, so together they take less than the sum of their single
+/// shares; all shares but the deflection are therefore reduced in proportion,
 ///
 ///     left = ends margin,   slice = share (width - deflection - left)/(sum of those) (1)
 ///
-/// A tolerance that the cut has no part in yet (no "deflection" among the shares) keeps
-/// its shares as they are.
-/// @param ends  2 of a size, whose margin is that at its nearer limit; 1 of a zone.
+/// If there is no "deflection" among the shares they are not changed.
+/// @param ends  2 for a size, whose margin is that at its nearer limit; 1 for a zone.
 Stack stack(double width_um, double margin_um, int ends, const Shares& shares);
 
-/// Sources in the order they first come in.
+/// All sources in the order of their first appearance.
 std::vector<std::string> sources(const std::vector<Stack>& stacks);
 
 }  // namespace turnwright::report

@@ -12,7 +12,7 @@
 namespace turnwright::service {
 namespace {
 
-// Few lines are lost with the process, yet short lines share a write to the disk.
+// A compromise: few lines are lost with the process, and short lines share a disk write.
 constexpr std::size_t kTogether = 64;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(200);
 constexpr int kNice = 5;
@@ -50,7 +50,7 @@ Batches::Batches(JobStore& store, const document::Catalogue& catalogue, unsigned
     workers_.emplace_back([this, &own](const std::stop_token& stop) { work(stop, own); });
 }
 
-Batches::~Batches() = default;  // the threads are asked to stop, then joined
+Batches::~Batches() = default;  // requests the threads to stop and joins them
 
 void Batches::wake() {
   {
@@ -79,8 +79,8 @@ void Batches::stop_lines(std::int64_t id) {
     if (line.job == id) line.stop.request_stop();
 }
 
-// Under the lock: a job cannot be cancelled between the taking of its line and the note
-// of what stops it.
+// Under the lock, so that a job cannot be cancelled after its line has been taken and
+// before its stop source is stored.
 std::optional<JobStore::Line> Batches::next(UnderWay& own) {
   const std::lock_guard lock(mutex_);
   auto lines = store_.take(1);
@@ -100,7 +100,8 @@ void Batches::work(const std::stop_token& stop, UnderWay& own) {
     }
     try {
       if (work_some(stop, own)) continue;
-    } catch (const std::exception& error) {  // a full disk; what was taken stays open
+    } catch (
+        const std::exception& error) {  // a full disk; lines that were taken stay open
       log_event("batches wait for a wake", error.what());
     }
     std::unique_lock lock(mutex_);

@@ -13,24 +13,24 @@
 
 namespace turnwright::service {
 
-/// Works through the jobs of a store until it is destroyed; then leaves what is under
-/// way, to be taken again by the next process.
+/// Computes the jobs of a store until it is destroyed.  Lines that are then being
+/// computed are abandoned and computed again by the next process.
 class Batches {
  public:
-  /// @param threads  at least 1; they give way to interactive work.
+  /// @param threads  at least 1; they have a lower priority than interactive work.
   Batches(JobStore& store, const document::Catalogue& catalogue, unsigned threads);
   ~Batches();
 
   JobStore& store() { return store_; }
-  /// As of the store; lines of the job that are being computed are stopped, without a
-  /// record.
+  /// As the functions of the store; lines of the job that are being computed are stopped
+  /// and get no record.
   bool cancel(std::int64_t id);
   bool remove(std::int64_t id);
-  /// Tells the workers that there are new lines.
+  /// Wakes the workers because there are new lines.
   void wake();
 
  private:
-  /// What a worker computes, or has computed last.
+  /// The line that a worker computes, or has computed last.
   struct UnderWay {
     std::int64_t job = 0;
     std::stop_source stop{std::nostopstate};

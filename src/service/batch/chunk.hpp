@@ -10,16 +10,17 @@
 #include "service/digest.hpp"
 #include "service/output.hpp"
 
-/// The records of consecutive lines in a file that appears at once and tells by itself
-/// whether it is whole: behind the records a line seals them,
+/// The records of consecutive lines, in a file that appears at once and shows by itself
+/// whether it is complete: behind the records a last line seals them,
 ///
 ///     {"ok": 97, "infeasible": 2, "errors": 1, "sha256": ..}
 ///
-/// with the SHA-256 over the chunk's key, the records and the three counts.  The key says
-/// what the records answer (batch_folder.hpp); a file of another key is not accepted.
+/// with the SHA-256 over the chunk's key, the records and the three counts.  The key
+/// identifies the requests that the records answer (folder.hpp); a file with another key
+/// is not accepted.
 namespace turnwright::service {
 
-/// How lines ended.
+/// Numbers of lines by their status.
 struct BatchCounts {
   std::int64_t ok = 0, infeasible = 0, errors = 0;
 
@@ -33,7 +34,7 @@ class ChunkWriter {
   /// @throws OutputError here and below.
   explicit ChunkWriter(const std::filesystem::path& file) : file_(file) {}
 
-  /// @param record  with its line's end.
+  /// @param record  a record with the end of its line.
   void add(std::string_view record, BatchStatus status);
   void publish(std::string_view key);
 
@@ -43,8 +44,10 @@ class ChunkWriter {
   BatchCounts counts_;
 };
 
-/// What the chunk in `file` counts; none if it is missing, not whole, or of another key.
-/// @param records  gets the records piece by piece; void where none is returned.
+/// The counts of the chunk in `file`; none if it is missing, incomplete, or has another
+/// key.
+/// @param records  receives the records piece by piece; they are void if none is
+///   returned.
 std::optional<BatchCounts> read_chunk(
     const std::filesystem::path& file, std::string_view key,
     const std::function<void(std::string_view)>& records = {});

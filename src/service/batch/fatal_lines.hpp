@@ -8,26 +8,27 @@
 
 namespace turnwright::service {
 
-/// Lines of jobs that end the process.  While an object lives, a fault of the process
-/// (out of stack, abort()) first notes in a file which line its thread computes, so that
-/// the next process can go on without it.  A kill from outside (SIGKILL) notes nothing:
-/// it says nothing about the line.  One object at a time.
+/// Lines of jobs that end the process.  While an object of this class lives, a fault of
+/// the process (out of stack, abort()) first notes in a file which line its thread
+/// computes, so that the next process can continue without it.  A kill from outside
+/// (SIGKILL) notes nothing, because the line is not its cause.  There may be one object
+/// at a time.
 class FatalLines {
  public:
   struct Line {
     std::int64_t job = 0, number = 0;
   };
 
-  /// @param notes  made when there is something to note.
+  /// @param notes  file that is created when there is something to note.
   explicit FatalLines(const std::filesystem::path& notes);
   ~FatalLines();
   FatalLines(const FatalLines&) = delete;
   FatalLines& operator=(const FatalLines&) = delete;
 
-  /// What is noted in the file; nothing if there is none.
+  /// The lines noted in the file; none if there is no file.
   static std::vector<Line> noted(const std::filesystem::path& notes);
 
-  /// While it lives, this thread computes the line.
+  /// Marks the line that this thread computes while the object lives.
   class Computing {
    public:
     explicit Computing(const Line& line);
@@ -37,7 +38,7 @@ class FatalLines {
 
    private:
     Line line_;
-    std::array<char, 32'768> stack_;  ///< that a fault is noted on: no other may be left
+    std::array<char, 32'768> stack_;  ///< stack of the handler, as the other may be full
     stack_t before_{};
   };
 };

@@ -105,7 +105,7 @@ BatchSummary read_summary(const fs::path& file) {
   return summary;
 }
 
-// Under a name with a dot and a number lies what is not complete yet (NewFile).
+// Incomplete files have a name with a dot and a number (NewFile).
 bool is_of_work(const std::string& name) {
   static const std::regex kNames(
       R"(\d+\.jsonl|slurm\.sh|slurm-\d+\.log|\.(\d+\.jsonl|slurm\.sh|manifest\.json|)"
@@ -113,8 +113,8 @@ bool is_of_work(const std::string& name) {
   return std::regex_match(name, kNames);
 }
 
-/// Removes the batch's own files in its folder `work`, and the folder if it is empty
-/// then. Follows no link.  What stays is found again by the next run.
+/// Removes the batch's own files from its folder `work`, and the folder if it is then
+/// empty. Follows no link.  Files that could not be removed are removed by the next run.
 void remove_work(const fs::path& work) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(work, error))) return;
@@ -125,7 +125,8 @@ void remove_work(const fs::path& work) {
   fs::remove(work, error);
 }
 
-/// Whether a run left this folder `work` that ended before its manifest was there.
+/// Whether this folder `work` is from a run that ended before it had written its
+/// manifest.
 bool is_before_manifest(const fs::path& work) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(work, error))) return false;
@@ -136,7 +137,7 @@ bool is_before_manifest(const fs::path& work) {
       });
 }
 
-/// A file or folder of a name that a batch uses, and of no batch if there is no manifest.
+/// A file or folder with a name that batches use; without a manifest it is of no batch.
 std::optional<fs::path> stranger(const fs::path& folder) {
   const auto there = [](const fs::path& file) {
     std::error_code error;
@@ -187,7 +188,8 @@ BatchFolder::BatchFolder(fs::path folder, const BatchInput::Contents& input,
   manifest_.data_sha256 = data_sha256;
   if (chunk_lines) manifest_.chunk_lines = *chunk_lines;
   const auto file = folder_ / "manifest.json";
-  // Looked for before the manifest: another shard may begin the batch meanwhile.
+  // This is tested before the manifest, because another shard may start the batch
+  // meanwhile.
   const auto strange = stranger(folder_);
   if (fs::exists(file)) {
     const Stored begun = read_manifest(file);

@@ -10,14 +10,14 @@
 
 /// The folder of a batch:
 ///
-///     manifest.json    what is answered: input, data, version; lines a chunk has
+///     manifest.json    input, data and version; number of lines per chunk
 ///     work/N.jsonl     chunk N (from 0), while the batch is not complete
 ///     results.jsonl    every record, in the order of lines; appears at once
-///     summary.json     how many of each kind, length and SHA-256 of results.jsonl
+///     summary.json     records of each kind, length and SHA-256 of results.jsonl
 ///
-/// All of it is a function of the input, the data and the version; nothing is changed
-/// once it has its name.  So whoever is killed, cut off or started twice does no harm,
-/// on one machine or on many that share the folder.
+/// Everything is a function of the input, the data and the version, and no file is
+/// changed once it has its name.  So a run that is killed, cut off or started twice does
+/// no harm, on one machine or on several that share the folder.
 namespace turnwright::service {
 
 struct BatchManifest {
@@ -25,7 +25,7 @@ struct BatchManifest {
   std::string data_sha256;  ///< of materials, tools and machines
   std::int64_t chunk_lines = 100;
 
-  std::string text() const;  ///< as in manifest.json, with the version
+  std::string text() const;  ///< content of manifest.json, with the version
   std::int64_t chunks() const { return (input.lines + chunk_lines - 1) / chunk_lines; }
 };
 
@@ -35,16 +35,17 @@ struct BatchSummary {
   std::string sha256;
 };
 
-/// SHA-256 over names and contents of all that load_catalogue() reads.
+/// SHA-256 over names and contents of all files that load_catalogue() reads.
 std::string data_sha256(const std::filesystem::path& data_folder);
 
 class BatchFolder {
  public:
-  /// Begins a batch in the folder, or goes on with it.
-  /// @param chunk_lines  none: as the batch was begun, else BatchManifest's default.
-  /// @throws InputError if the batch was begun with another input, other data, version or
-  ///   chunks, or if the folder holds one of a batch's names and no manifest;
-  ///   OutputError.
+  /// Starts a batch in the folder, or continues it.
+  /// @param chunk_lines  none: the number the batch was started with, or the default of
+  ///   BatchManifest for a new batch.
+  /// @throws InputError if the batch was started with another input, other data, version
+  ///   or chunks, or if the folder has no manifest but a file with a name that batches
+  ///   use; OutputError.
   BatchFolder(std::filesystem::path folder, const BatchInput::Contents& input,
               const std::string& data_sha256, std::optional<std::int64_t> chunk_lines);
 
@@ -53,16 +54,16 @@ class BatchFolder {
   std::filesystem::path work() const { return folder_ / "work"; }
   std::filesystem::path chunk_file(std::int64_t chunk) const;
 
-  /// A digest that makes the chunk's key when it has got the chunk's lines.
+  /// A digest that becomes the chunk's key once it has received the chunk's lines.
   Sha256 key_of(std::int64_t chunk) const;
-  /// The key of the chunk whose lines come next; goes behind them.
+  /// The key of the chunk whose lines come next; the input is then behind them.
   std::string read_key(std::int64_t chunk, BatchInput& input) const;
 
   /// The summary of a complete batch; none if it is not complete.
-  /// @throws InputError if results.jsonl is not what the batch wrote.
+  /// @throws InputError if results.jsonl was changed.
   std::optional<BatchSummary> complete() const;
 
-  /// Puts the chunks together; what the batch wrote into `work/` goes.
+  /// Puts the chunks together and removes the batch's files from `work/`.
   /// @throws OutputError; InputError if a chunk is missing or the input has changed.
   BatchSummary assemble(BatchInput& input) const;
 
@@ -72,7 +73,7 @@ class BatchFolder {
   std::string id_;
 };
 
-/// Keeps a second run out of the folder while it lives, also one that was killed.
+/// A lock that excludes a second run from the folder; it also ends with a killed process.
 class FolderLock {
  public:
   /// @throws OutputError if another run holds it.

@@ -8,26 +8,26 @@
 
 namespace turnwright::service {
 
-/// The lines of a file, one at a time: what it holds in memory does not depend on their
+/// Reads the lines of a file one at a time, in memory that does not depend on their
 /// number.
 class BatchInput {
  public:
-  /// @throws InputError if there is no regular file that can be read, here and below.
+  /// @throws InputError if the file is not a readable regular file, here and below.
   explicit BatchInput(const std::filesystem::path& file);
   ~BatchInput();
   BatchInput(const BatchInput&) = delete;
   BatchInput& operator=(const BatchInput&) = delete;
 
-  /// Goes to the next line, false behind the last one.  Every byte of it goes to
-  /// `digest`; `text`, where wanted, gets it without its end, cut where it is longer than
-  /// any request may be (document::ParseLimits) and one byte.
+  /// Reads the next line; false behind the last one.  `digest` receives all its bytes.
+  /// `text`, if given, receives the line without its end, but at most one byte more than
+  /// the largest request (document::ParseLimits).
   bool next(Sha256& digest, std::string* text = nullptr);
 
-  /// Where the next line begins [bytes].
+  /// Position of the next line [bytes].
   std::int64_t position() const { return position_; }
   void seek(std::int64_t position);
 
-  /// Of the whole file; goes to its beginning and back.
+  /// Digest and size of the whole file; the position is kept.
   struct Contents {
     std::string sha256;
     std::int64_t bytes = 0, lines = 0;

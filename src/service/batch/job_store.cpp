@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSchemaVersion = 2;
 
-// A key is found by comparing it with others: what may be long stays out of it.
+// Long texts are kept out of keys, because a key is found by comparisons.
 constexpr const char* kTables = R"(
 CREATE TABLE job (id INTEGER PRIMARY KEY AUTOINCREMENT, state TEXT NOT NULL,
                   data TEXT NOT NULL, lines INTEGER NOT NULL, open INTEGER NOT NULL,
@@ -27,7 +27,7 @@ CREATE UNIQUE INDEX line_number ON line(job, number);
 CREATE INDEX line_digest ON line(digest) WHERE digest IS NOT NULL;
 )";
 
-// A job is gone on with as long as all its records come from the same data.
+// A job is continued as long as all its records come from the same data.
 constexpr const char* kAdopt =
     "UPDATE job SET data = ?1 WHERE state = 'running' AND NOT EXISTS "
     "(SELECT 1 FROM line WHERE line.job = job.id AND record IS NOT NULL)";

@@ -9,16 +9,16 @@
 namespace turnwright::service {
 
 /// Records by the digest of their request, in a temporary SQLite file of this process
-/// ($SQLITE_TMPDIR, $TMPDIR, /var/tmp, ..) that no one else sees and that ends with it:
-/// memory stays that of SQLite's page cache.  Where the disk refuses or 4 GB are reached,
-/// it keeps no more.  Safe from several threads.
+/// ($SQLITE_TMPDIR, $TMPDIR, /var/tmp, ..) that is private to it and ends with it.
+/// Memory is that of SQLite's page cache.  If the disk is full or 4 GB are reached no
+/// more records are kept.  May be used from several threads.
 class KnownAnswers {
  public:
   KnownAnswers();
   ~KnownAnswers();
 
   std::optional<BatchRecord> find(const std::string& digest) const;
-  /// Errors are not kept: they cost nothing to find again.
+  /// Keeps a record, unless it is an error, which is found again at no cost.
   void keep(const std::string& digest, const BatchRecord& record);
 
  private:

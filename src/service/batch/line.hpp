@@ -13,11 +13,11 @@ namespace turnwright::service {
 struct BatchRequest {
   const Request* row = nullptr;
   nlohmann::json document;
-  std::string digest;  ///< SHA-256 over version, name and document: equal, equal answer
+  std::string digest;  ///< SHA-256 over version, name and document; determines the answer
 };
 
-/// What the line asks for.
-/// @throws InputError if it is no JSON, or names no row, or holds other members.
+/// The request of a line.
+/// @throws InputError if it is not JSON, names no capability, or has other members.
 BatchRequest read_batch_line(const std::string& line);
 
 enum class BatchStatus { ok, infeasible, error };
@@ -27,23 +27,23 @@ struct BatchRecord {
   BatchStatus status = BatchStatus::ok;
 };
 
-/// The record of a line without its number: "status" is "ok", "infeasible" or "error";
-/// with "name" and "result" or with the problem's "title", "detail" and "errors".  Bad
-/// input is a record, never the end of a batch.
-/// @throws Cancelled if `stop` is asked for; std::bad_alloc, which says nothing about the
-///   line.
+/// The record of a line without its number: "status" is "ok", "infeasible" or "error",
+/// with "name" and "result" or with the problem's "title", "detail" and "errors".  Wrong
+/// input gives an error record and never ends a batch.
+/// @throws Cancelled if a stop is requested; std::bad_alloc, which need not be the fault
+///   of the line.
 BatchRecord batch_record(const BatchRequest& request, const Context& context);
 
 /// The record of a line that read_batch_line refused.
 BatchRecord batch_record(const InputError& error);
 
-/// The record of a line that there was no memory for.
+/// The record of a line for which there was not enough memory.
 BatchRecord batch_record(const std::bad_alloc& error);
 
 /// The record of a line that ended the process.
 BatchRecord fatal_record();
 
-/// A record's text as the results show it: {"line": number, ..}.
+/// The text of a record in the results: {"line": number, ..}.
 std::string numbered(std::int64_t number, const std::string& text);
 
 }  // namespace turnwright::service

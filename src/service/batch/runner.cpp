@@ -13,13 +13,13 @@
 namespace turnwright::service {
 namespace {
 
-// A line that takes long holds up those behind it only when so many wait for their turn.
+// So many lines may wait behind one that takes long before the pipeline stops.
 constexpr std::size_t kInFlightPerJob = 64;
 
-// What is found again faster than it is looked up need not be kept.
+// Answers that are computed faster than they are looked up are not kept.
 constexpr auto kWorthKeeping = std::chrono::milliseconds(1);
 
-/// A line on its way; a blank one has no record.
+/// A line in the pipeline; a blank one has no record.
 struct Item {
   std::int64_t chunk = 0, number = 0;  ///< the line's number, from 1
   std::string text;                    ///< the line, then its record
@@ -28,7 +28,7 @@ struct Item {
   std::int64_t found = 0;  ///< lines before it that earlier runs have answered
 };
 
-// What BatchInput has cut may have more in it than the blanks that it begins with.
+// A line that BatchInput has cut off is not blank, even if it begins with blanks.
 bool blank(const std::string& line) {
   return line.size() <= document::ParseLimits{}.bytes &&
          line.find_first_not_of(" \t\r") == std::string::npos;
@@ -55,7 +55,8 @@ class Missing {
     item.chunk = next_ - 1;
     item.number = ++number_;
     item.found = found_;
-    // A line that is gone meanwhile leaves a chunk that its input's digest refuses.
+    // If a line has disappeared meanwhile the chunk is refused by the digest of its
+    // input.
     input_.next(key_, &item.text);
     if (--left_ == 0) item.key = key_.hex();
     return true;

@@ -25,7 +25,7 @@ std::string quoted(const fs::path& path) {
   return text + '\'';
 }
 
-/// What a shell's command prints; none if it fails.
+/// The output of a shell command; none if it fails.
 std::optional<std::string> output_of(const std::string& command) {
   std::FILE* pipe = ::popen(command.c_str(), "re");
   if (!pipe) return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<std::string> output_of(const std::string& command) {
   return text;
 }
 
-/// "1-3,7": numbers in rising order as Slurm takes them.
+/// Numbers in rising order in Slurm's notation: "1-3,7".
 std::string ranges(const std::vector<std::int64_t>& numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size();) {
@@ -68,9 +68,9 @@ std::optional<std::vector<Queued>> queue(const std::string& name) {
   return tasks;
 }
 
-// A task whose node died is held for two minutes, in case the node comes back.  One that
-// a node refused, or that was requeued too often, is held for good: out of the queue with
-// it, to be submitted anew.
+// A task whose node died is held for two minutes, in case the node comes back.  A task
+// that a node refused, or that was requeued too often, is held for good; it is cancelled
+// and submitted again.
 void release(const Queued& task) {
   if (task.reason == "BeginTime")
     output_of("scontrol update JobId=" + task.task + " StartTime=now 2>/dev/null");

@@ -102,7 +102,7 @@ Reply answer_request(const Request& row, Answer answer, const Call& call,
 
 }  // namespace
 
-/// What the path gave for each {..} of the route.
+/// The value of each {..} of the route in the path.
 using Arguments = std::vector<std::string_view>;
 
 struct HttpApi::Route {
@@ -110,7 +110,7 @@ struct HttpApi::Route {
   std::string method;
   std::function<Reply(const HttpApi&, const Call&, const Arguments&, std::stop_token)>
       reply;
-  std::string parameter = {};  ///< of its query, an integer >= 1; "": it takes none
+  std::string parameter = {};  ///< of the query, an integer >= 1; "": no query is allowed
 
   /// The arguments, if the path is of this route.
   std::optional<Arguments> match(const std::vector<std::string_view>& given) const {
@@ -135,7 +135,7 @@ Reply missing(const Call& call) {
   return problem(404, "not-found", "nothing is at " + std::string(call.path()), call);
 }
 
-/// What the path is answered as.
+/// The route of a path.
 std::string method_of(const Call& call) {
   return call.method == "HEAD" ? "GET" : call.method;
 }
@@ -144,7 +144,7 @@ Reply methods(const std::string& allowed) {
   return {204, "", "", {{"Allow", allowed + ", OPTIONS"}}};
 }
 
-/// What is wrong with a call's query, if anything; `parameter` may be in it, once.
+/// The errors of a call's query, in which `parameter` may appear once.
 std::optional<Reply> wrong_query(const std::string& parameter, const Call& call) {
   std::vector<Problem> wrong;
   bool given = false;

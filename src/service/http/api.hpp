@@ -15,7 +15,7 @@ namespace turnwright::service {
 /// The HTTP API without sockets:
 ///
 ///     POST   /v1/{name}                     every row of the request table
-///     POST   /v1/{name}/report              as HTML, of rows that have a report
+///     POST   /v1/{name}/report              as HTML, for rows that have a report
 ///     GET    /v1/materials|tools|machines|parts[/{id}]
 ///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, job
 ///     GET    /v1/batches[/{id}[/results?from=n]]
@@ -23,11 +23,11 @@ namespace turnwright::service {
 ///     DELETE /v1/batches/{id}
 ///     GET    /healthz, /readyz, /metrics, /openapi.json, /
 ///
-/// HEAD is GET without the body; OPTIONS tells the methods of a path, OPTIONS * all there
-/// are.  Everything wrong is a problem document.  Safe from several threads.
+/// HEAD is GET without the body; OPTIONS lists the methods of a path, OPTIONS * all
+/// methods. Every error is a problem document.  May be called from several threads.
 class HttpApi {
  public:
-  /// Gives the page at "/"; called for every answer.
+  /// Returns the page at "/"; called for every answer.
   using Page = std::function<std::string()>;
 
   /// @param batches  nullptr: this server takes no batches (404).
@@ -35,20 +35,20 @@ class HttpApi {
   HttpApi(const std::filesystem::path& data_folder, const document::Catalogue& catalogue,
           Batches* batches, Page page = built_in_page);
 
-  /// The answer that takes no computing: to OPTIONS, and to a method, path or query that
-  /// is not of this API; none to other calls.
+  /// The answer to calls that need no computing: OPTIONS, and methods, paths or queries
+  /// that are not part of this API; none for other calls.
   std::optional<Reply> at_once(const Call& call) const;
 
-  /// The answer; `stop` cuts long computations short.  /readyz and /metrics are the
-  /// server's own to answer.
-  /// @throws Cancelled if `stop` was asked for.
+  /// The answer to a call; `stop` ends long computations.  /readyz and /metrics are
+  /// answered by the server itself.
+  /// @throws Cancelled if a stop was requested.
   Reply reply(const Call& call, std::stop_token stop) const;
 
-  /// Largest body this call may bring [bytes].
+  /// Largest permitted body of a call [bytes].
   static std::size_t body_limit(const Call& call);
 
-  /// The path with ids replaced by their names, "/v1/parts/{id}"; "other" for paths that
-  /// are not of this API.  For metrics: the number of different values is small.
+  /// The path with ids replaced by placeholders, "/v1/parts/{id}"; "other" for paths that
+  /// are not part of this API.  It is used for metrics, which need few different values.
   std::string route(const Call& call) const;
 
  private:

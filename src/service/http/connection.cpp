@@ -21,8 +21,8 @@ using Parser = http::request_parser<http::string_body>;
 using beast::error_code;
 using Clock = std::chrono::steady_clock;
 
-/// Cancels what the socket is doing after a time.  (Beast's own timeouts close the
-/// socket, and then nothing can be said to the client.)
+/// Cancels the socket's operation after a time.  (Beast's own timeouts close the socket,
+/// so that no answer can be sent to the client.)
 class Alarm {
  public:
   Alarm(tcp::socket& socket, std::chrono::milliseconds after)
@@ -69,7 +69,7 @@ bool is_request_id(beast::string_view id) {
   return std::all_of(id.begin(), id.end(), is_of_name);
 }
 
-/// The call as far as its header tells; the caller's own id is kept where it has one.
+/// The call as far as its header determines it, with the caller's own id if it has one.
 Call call_of(const Parser& parser, ServerState& state) {
   const auto& message = parser.get();
   const auto id = message["X-Request-Id"];
@@ -107,8 +107,8 @@ asio::awaitable<bool> write(ServerState& state, Connection& connection, const Ca
   co_return !ec;
 }
 
-/// Lets the client read the last answer before the connection is reset: what it still
-/// sends is read and dropped, for a while.
+/// Lets the client read the last answer before the connection is reset: bytes that it
+/// still sends are read and dropped for a limited time.
 asio::awaitable<void> close(Connection& connection) {
   constexpr auto kPatience = std::chrono::seconds(2);
   constexpr std::size_t kDropped = 4'000'000;
@@ -124,13 +124,13 @@ asio::awaitable<void> close(Connection& connection) {
 /// A call on its way through the pool.
 struct Pending {
   explicit Pending(asio::io_context& io) : done(io) {}
-  asio::steady_timer done;  ///< cancelled when there is news
+  asio::steady_timer done;  ///< cancelled when the answer is ready or the client has gone
   std::optional<Reply> reply;
   std::stop_source stop;
   bool gone = false;  ///< the client left
 };
 
-/// What is said of a fault of this program, even where there is no memory to say it.
+/// The answer to a fault of this program, which must be possible without free memory.
 Reply fault(const Call& call, const char* what) {
   try {
     log_fault(call, what);
@@ -140,7 +140,7 @@ Reply fault(const Call& call, const char* what) {
   }
 }
 
-/// Nothing is thrown: a thread of the pool has nobody to catch it.
+/// Does not throw, because nothing catches exceptions of the pool's threads.
 Reply answer(const HttpApi& api, const Call& call, const std::stop_token& stop) {
   try {
     Reply reply = api.reply(call, stop);
@@ -206,7 +206,8 @@ std::optional<Reply> refused(const ServerState& state, const Call& call) {
   return state.api.at_once(call);
 }
 
-/// What needs no computing and must be answered when the pool is busy.
+/// The answer to calls that need no computing and must be answered while the pool is
+/// busy.
 std::optional<Reply> at_once(const ServerState& state, const Call& call) {
   if (auto reply = refused(state, call)) return reply;
   const auto path = call.path();
@@ -223,12 +224,12 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
   return reply;
 }
 
-/// The answer to a header that is HTTP and yet not to be followed (RFC 9112, 3.2
-/// and 6.1), or that a page from elsewhere had a browser send; none otherwise.
+/// The refusal of an ambiguous request (RFC 9112, 3.2 and 6.1) or of one that a page of
+/// another origin made a browser send; none for other requests.
 std::optional<Reply> objection(const ServerState& state, const Parser& parser,
                                const Call& call) {
   const auto& message = parser.get();
-  if (call.method == "CONNECT")  // what follows would be for somebody else
+  if (call.method == "CONNECT")  // the bytes that follow would be for another server
     return problem(501, "method", "CONNECT is not for this server", call);
   for (const auto field :
        {http::field::host, http::field::content_type, http::field::content_encoding,
@@ -248,7 +249,8 @@ std::optional<Reply> objection(const ServerState& state, const Parser& parser,
   const auto encoding = text(message[http::field::content_encoding]);
   if (!encoding.empty() && !beast::iequals(encoding, "identity"))
     return problem(415, "content-coding", "got '" + encoding + "', expected none", call);
-  if (!state.options.keys.empty()) return std::nullopt;  // no browser sends one unasked
+  if (!state.options.keys.empty())
+    return std::nullopt;  // no browser sends a key by itself
   const auto origin = text(message[http::field::origin]);
   if (!origin.empty() && !origin_is(origin, call.host))
     return problem(403, "origin", "pages of " + origin + " may not ask here", call);
@@ -261,7 +263,7 @@ std::optional<Reply> objection(const ServerState& state, const Parser& parser,
   return std::nullopt;
 }
 
-/// The answer to what could not be read; none where the client just left.
+/// The answer to a call that could not be read; none if the client has gone.
 std::optional<Reply> refusal(const error_code& ec, const Call& call) {
   const auto megabytes = HttpApi::body_limit(call) / 1'000'000;
   if (ec == beast::error::timeout)
@@ -279,7 +281,7 @@ std::optional<Reply> refusal(const error_code& ec, const Call& call) {
   return std::nullopt;
 }
 
-/// Reads the rest of a call whose header is there.
+/// Reads the rest of a call whose header has been read.
 asio::awaitable<error_code> read_call_body(const ServerState& state,
                                            Connection& connection, Parser& parser,
                                            Call& call) {
@@ -309,8 +311,8 @@ asio::awaitable<error_code> read_call_header(const ServerState& state,
   co_return alarm.rang() ? error_code(beast::error::timeout) : ec;
 }
 
-/// The answer to a refused call whose body is not worth waiting for: only its header has
-/// been read, and who has no key cannot fill the memory.
+/// Answers a refused call without reading a large body.  Only its header has been read,
+/// so a client without a key cannot fill the memory.
 std::optional<Reply> refused_unread(const ServerState& state, const Parser& parser,
                                     const Call& call) {
   constexpr std::uint64_t kReadAnyway = 65'536;  // keeps the connection for more calls
@@ -345,7 +347,7 @@ asio::awaitable<bool> serve_call(ServerState& state, Connection& connection) {
     reply = refusal(ec, call);
   else if (taken && !(reply = at_once(state, call)))
     reply = co_await computed(state, connection, call);
-  // A client of HTTP/1.0 would have to be told that it may send more.
+  // A client of HTTP/1.0 would need a header that allows it to send more.
   const bool keep_alive = taken && !ec && parser.get().version() >= 11 &&
                           parser.get().keep_alive() &&
                           (!state.draining || has_arrived(connection));

@@ -5,8 +5,8 @@
 
 namespace turnwright::service {
 
-/// Whether the value of an Authorization header carries one of the keys.  Takes the same
-/// time whatever the header says.
+/// Whether the value of an Authorization header contains one of the keys, in a time that
+/// does not depend on the header.
 bool authorized(const std::vector<std::string>& keys, std::string_view authorization);
 
 }  // namespace turnwright::service

@@ -6,27 +6,28 @@
 
 #include "turnwright/base/errors.hpp"
 
-/// HTTP without the network: what came in, what goes out.
+/// Requests and replies of HTTP, without the network.
 namespace turnwright::service {
 
 struct Call {
   std::string method;           ///< "GET"
   std::string target;           ///< "/v1/parts/pump-shaft?x=1"
-  std::string content_type;     ///< "" where the client gave none
-  std::string accept_encoding;  ///< "" where the client gave none
+  std::string content_type;     ///< "" if absent
+  std::string accept_encoding;  ///< "" if absent
   std::string authorization;    ///< the header's value
   std::string request_id;       ///< names this call in the log and in errors
   std::string body;
-  std::string host = {};  ///< who is asked: of the target, else of the header
+  std::string host = {};  ///< of an absolute target, otherwise of the Host header
 
-  /// The target without its query; "" if it is no path ("*").
+  /// The target without its query; "" if it is not a path ("*").
   std::string_view path() const;
-  /// Names and values of the query's parameters.  Not percent-decoded: no parameter of
-  /// this service needs it.
+  /// Names and values of the query's parameters, not percent-decoded, which no parameter
+  /// of this service needs.
   std::vector<std::pair<std::string_view, std::string_view>> query() const;
 };
 
-/// Whether a Content-Type (RFC 9110, 8.3) is `type`, and UTF-8 where it names a charset.
+/// Whether a Content-Type (RFC 9110, 8.3) is `type`, with UTF-8 as charset if it names
+/// one.
 bool is_type(std::string_view content_type, std::string_view type);
 
 struct Reply {
@@ -44,7 +45,8 @@ Reply problem(int status, const std::string& kind, const std::string& detail,
 /// The reason phrase of a status this service uses.
 std::string_view reason(int status);
 
-/// The body gzipped (RFC 1952) where the client takes gzip and it is long enough to gain.
+/// Compresses the body by gzip (RFC 1952) if the client accepts that and the body is long
+/// enough.
 void compress_for(const Call& call, Reply& reply);
 
 }  // namespace turnwright::service

@@ -8,7 +8,7 @@
 
 namespace turnwright::service {
 
-/// What the server counts, for Prometheus.
+/// The server's metrics for Prometheus.
 class Metrics {
  public:
   Metrics();

@@ -7,12 +7,12 @@
 /// The planner's page: one HTML file with its styles and its script inside.
 namespace turnwright::service {
 
-/// As built into the program (web/dist/index.html).
+/// The page that is built into the program (web/dist/index.html).
 std::string built_in_page();
 
-/// What the page may do (Content Security Policy, level 3): run the scripts and use the
-/// styles that stand in it, known by their SHA-256, show data: and blob: images, ask this
-/// server, nothing else.
+/// The page's Content Security Policy (level 3): it may run the scripts and use the
+/// styles that it contains, known by their SHA-256, show data: and blob: images, and call
+/// this server; nothing else.
 std::string content_security_policy(std::string_view html);
 
 /// The page with its policy.

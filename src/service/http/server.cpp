@@ -32,7 +32,7 @@ asio::ip::address address_of(const ServerOptions& options) {
   return address;
 }
 
-/// Listens from here on.
+/// Starts to listen.
 void bind(tcp::acceptor& acceptor, const ServerOptions& options) {
   const tcp::endpoint endpoint(address_of(options), options.port);
   try {
@@ -55,7 +55,7 @@ void admit(ServerState& state, tcp::socket socket) {
   try {
     asio::co_spawn(state.io, (room ? serve : turn_away)(state, std::move(socket)),
                    asio::detached);
-  } catch (const std::bad_alloc&) {  // this one is closed, the next may fare better
+  } catch (const std::bad_alloc&) {  // this connection is closed, the next may succeed
   }
 }
 
@@ -66,14 +66,14 @@ asio::awaitable<void> accept(ServerState& state) {
         asio::redirect_error(asio::use_awaitable, ec));
     if (!ec) {
       admit(state, std::move(socket));
-    } else {  // out of file descriptors, or the client left: others may fare better
+    } else {  // out of file descriptors, or the client has gone; others may succeed
       asio::steady_timer pause(state.io, std::chrono::milliseconds(20));
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ec));
     }
   }
 }
 
-/// Connections that the system has taken for us may carry calls.
+/// Accepts connections that the system has already queued, because they may carry calls.
 void admit_waiting(ServerState& state) {
   boost::system::error_code ec;
   state.acceptor.non_blocking(true, ec);
@@ -83,7 +83,7 @@ void admit_waiting(ServerState& state) {
   }
 }
 
-/// Ends the waiting of idle connections; the others have until the drain's end.
+/// Closes idle connections; the others have time until the end of the drain.
 void drain_connections(ServerState& state) {
   boost::system::error_code ec;
   for (auto* connection : state.connections)
@@ -104,7 +104,7 @@ void begin_drain(ServerState& state) {
   admit_waiting(state);
   state.acceptor.close(ec);
   state.signals.cancel(ec);
-  // By then whoever was admitted is among the connections.
+  // By then every admitted client is among the connections.
   asio::post(state.io, [&state] { drain_connections(state); });
 }
 

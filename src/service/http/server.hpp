@@ -9,9 +9,9 @@
 
 namespace turnwright::service {
 
-/// The keys in a file: one a line, of 16 to 200 visible characters; blank lines and lines
-/// that begin with # are skipped.
-/// @throws InputError if it cannot be read, holds none or a wrong one.
+/// Reads keys from a file: one per line, of 16 to 200 visible characters; blank lines and
+/// lines that begin with # are skipped.
+/// @throws InputError if it cannot be read, or contains no key or an invalid one.
 std::vector<std::string> read_keys(const std::filesystem::path& file);
 
 struct ServerState;
@@ -19,9 +19,9 @@ struct ServerState;
 /// HTTP/1.1 on one address.  One thread reads and writes, `threads` compute.
 class Server {
  public:
-  /// Binds, so that clients can connect from here on.  `api` must outlive the server.
-  /// @throws InputError if the address is none, if it is not of this machine alone and
-  ///   there is no key, or if it cannot be bound.
+  /// Binds the address, so that clients can connect.  `api` must outlive the server.
+  /// @throws InputError if the address is invalid or cannot be bound, or if it can be
+  ///   reached from other machines and there is no key.
   Server(const ServerOptions& options, const HttpApi& api);
   ~Server();
 

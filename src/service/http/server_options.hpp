@@ -9,9 +9,9 @@ namespace turnwright::service {
 struct ServerOptions {
   std::string address = "127.0.0.1";  ///< numeric, IPv4 or IPv6
   std::uint16_t port = 8080;          ///< 0: any that is free
-  unsigned threads = 0;            ///< that compute; 0: as many as the machine has cores
-  std::size_t queue = 256;         ///< calls that may wait for a thread; more get 503
-  std::size_t connections = 4096;  ///< open at once; more get 503 and are closed
+  unsigned threads = 0;               ///< computing threads; 0: one per core
+  std::size_t queue = 256;         ///< calls that may wait for a thread; others get 503
+  std::size_t connections = 4096;  ///< open at once; others get 503 and are closed
   std::size_t header_bytes = 16'384;           ///< of request line and header together
   std::chrono::milliseconds idle{60'000};      ///< between two calls of a connection
   std::chrono::milliseconds header{10'000};    ///< from the first byte to the last header

@@ -20,14 +20,15 @@ using asio::ip::tcp;
 struct Connection {
   explicit Connection(tcp::socket accepted) : socket(std::move(accepted)) {}
   tcp::socket socket;
-  beast::flat_buffer buffer{65'536};  ///< the most that may come before it is understood
-  bool idle = false;  ///< between two calls: may be closed without losing one
+  beast::flat_buffer buffer{65'536};  ///< largest amount of bytes that is not yet parsed
+  bool idle = false;  ///< between two calls, so that it may be closed without losing one
 };
 
-/// Eight random hexadecimal digits: ids of calls tell one process from the next.
+/// Eight random hexadecimal digits, by which ids of calls identify the process.
 std::string process_name();
 
-/// Everything but `pool`'s work is touched by the one thread that runs `io`.
+/// State of a server.  Only the thread that runs `io` accesses it, apart from the work of
+/// `pool`.
 struct ServerState {
   ServerState(const ServerOptions& given, const HttpApi& api_)
       : options(given), api(api_), pool(given.threads) {}
@@ -52,7 +53,7 @@ struct ServerState {
 /// Answers the calls of one connection until it ends.
 asio::awaitable<void> serve(ServerState& state, tcp::socket socket);
 
-/// Tells a client that there are too many, and closes.
+/// Refuses a client because there are too many, and closes the connection.
 asio::awaitable<void> turn_away(ServerState& state, tcp::socket socket);
 
 }  // namespace turnwright::service

@@ -53,7 +53,7 @@ ProcessPlan every_field() {
   size.margin_mm = 0.01;
   size.width_mm = 0.05;
   size.verdict = Verdict::met_with_offset;
-  size.seed_verdict = false;
+  size.published_verdict = false;
   size.shares = {{"deflection", 21}};
   size.P_conform = 0.99;
   ToleranceResult form = size;
@@ -108,11 +108,11 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("reason":"budget"}}]}],)"
       R"("tolerances":[{"id":"d1:diameter","kind":"diameter","of":"d1",)"
       R"("predicted_mm":[-0.01,0.01],"allowed_mm":[-0.02,0.02],"margin_mm":0.01,)"
-      R"("width_mm":0.05,"verdict":"met-with-offset","seed_verdict":false,"shares":[)"
+      R"("width_mm":0.05,"verdict":"met-with-offset","published_verdict":false,"shares":[)"
       R"({"source":"deflection","um":21.0}],"P_conform":0.99},)"
       R"({"id":"d1:diameter","kind":"total-radial-runout","of":"d1",)"
       R"("predicted_mm":0.004,"allowed_mm":0.01,"margin_mm":0.01,"width_mm":0.05,)"
-      R"("verdict":"not-met","seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
+      R"("verdict":"not-met","published_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
       R"("P_conform":0.99}],)"
       R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
       R"("offsets":[{"on":"d1","setup":1,"offset_mm":-0.004}],)"

@@ -51,7 +51,7 @@ TEST(Acceptance, SpecifiedExample) {
   EXPECT_EQ(v["accepted_after_offset"], true);
   EXPECT_DOUBLE_EQ(v["offset_mm"], -0.0075);
   EXPECT_DOUBLE_EQ(v["offset_into_limits_mm"], -0.0035);
-  EXPECT_EQ(v["seed_verdict"], true);
+  EXPECT_EQ(v["published_verdict"], true);
   EXPECT_EQ(v["extremes_mm"], json({0.004, 0.011}));
   EXPECT_DOUBLE_EQ(v["measured_mm"], 0.014);
   EXPECT_DOUBLE_EQ(v["allowed_mm"], 0.016);
@@ -115,7 +115,7 @@ TEST(Acceptance, OptionalKeysReachTheVerdict) {
   c["machine_mm"] = 0.003;
   EXPECT_EQ(one(c)["accepted"], false);
   EXPECT_EQ(one(c)["accepted_after_offset"], false);
-  EXPECT_EQ(one(c)["seed_verdict"], true);
+  EXPECT_EQ(one(c)["published_verdict"], true);
   c = {{"tolerance", "perpendicularity"}, {"e_mm", {0.0, 0.01}}, {"value_mm", 0.009}};
   EXPECT_EQ(one(c)["accepted"], false);
   c["controlled"] = "axis";

@@ -29,7 +29,7 @@ ordered_json feasible() {
     "tolerances": [
       {"id": "t1", "kind": "straightness", "of": "d2", "predicted_mm": 0.004,
        "allowed_mm": 0.01, "margin_mm": 0.006, "width_mm": 0.01, "verdict": "met",
-       "seed_verdict": false, "shares": [{"source": "deflection", "um": 4}],
+       "published_verdict": false, "shares": [{"source": "deflection", "um": 4}],
        "P_conform": 0.9973}],
     "prices": [{"limit": "power", "sentence": "raising power saves 0.02 per part"}],
     "assumed": [{"pointer": "/batch", "value": 1, "why": "default"}],

@@ -33,7 +33,7 @@ TEST(StabilityHtml, SaysTheNumbersOfTheDocument) {
       stability_html("part", result(), {{"stability.svg", "<svg>chart</svg>"}});
   EXPECT_EQ(page.rfind("<!doctype html>", 0), 0u);
   for (const char* what :
-       {"7000 <small>1/min", "the deepest asked about", "922.04 \u00b1 0.031",
+       {"7000 <small>1/min", "the largest depth requested", "922.04 \u00b1 0.031",
         "9000.4 \u00b1 12", "31 lines from 700 to 1300 Hz", "99.991 %", "Kt 4512 MPa",
         "loss 1.25 (flip, 900 Hz)", "none", "unstable</td>", "1.2500", "/a&lt;b",
         "data:image/svg+xml,%3Csvg%3Echart", "request 0123456789abcdef"})
@@ -48,7 +48,7 @@ TEST(StabilityHtml, SaysWhatIsNotToBeTrustedOrNotTold) {
       {{"pointer", "/points/1"}, {"n_rpm", 8000}, {"ap_mm", 1.5}, {"why", "on a limit"}}};
   const auto page = stability_html("part", r, {});
   EXPECT_NE(page.find("explain 62 % &lt; 90 %"), std::string::npos);
-  EXPECT_NE(page.find("Not told: 8000 1/min, 1.5"), std::string::npos);
+  EXPECT_NE(page.find("Undecided: 8000 1/min, 1.5"), std::string::npos);
   EXPECT_NE(page.find("(/points/1): on a limit."), std::string::npos);
 }
 

@@ -62,10 +62,10 @@ TEST(StabilityChart, ShadesASpeedThatIsUndecided) {
                      "141.500,104.000 60.500,104.000\"/>"),
             std::string::npos)
       << svg;
-  EXPECT_NE(svg.find("shaded: not told"), std::string::npos);
+  EXPECT_NE(svg.find("shaded: undecided"), std::string::npos);
   const std::string all_told = stability_chart(kRequest, result());
   EXPECT_EQ(times(svg, "<polyline"), times(all_told, "<polyline") - 1);
-  EXPECT_EQ(all_told.find("not told"), std::string::npos);
+  EXPECT_EQ(all_told.find("undecided"), std::string::npos);
 }
 
 TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {

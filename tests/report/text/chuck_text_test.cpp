@@ -76,8 +76,8 @@ TEST(ChuckText, ADesignTellsWhatIsMissing) {
         "missing": [], "setups_of_one_force": [], "condition": 12.3456,
         "largest_u_per_s": 1.75, "most_useful": "a cut at another force in setup A"}},
     "warnings": []})"));
-  EXPECT_TRUE(has(text, "RADIAL  2 of c0, c1, c2 can be told, 3 degrees of freedom"));
-  EXPECT_TRUE(has(text, "cannot be told: c0 with the setups' offsets"));
+  EXPECT_TRUE(has(text, "RADIAL  2 of c0, c1, c2 are determined, 3 degrees of freedom"));
+  EXPECT_TRUE(has(text, "not determined: c0 with the setups' offsets"));
   EXPECT_TRUE(
       has(text, "missing: a cut at another force in setup A and a cut at a third"));
   EXPECT_TRUE(has(text, "setups of one force: A, B"));

@@ -56,10 +56,10 @@ ordered_json feasible() {
     "tolerances": [
       {"id": "d1:diameter", "kind": "diameter", "of": "d1", "predicted_mm": [-0.0105, 0.0025],
        "allowed_mm": [-0.016, 0.016], "margin_mm": 0.0055, "verdict": "met",
-       "seed_verdict": true, "shares": [{"source": "deflection", "um": 5}],
+       "published_verdict": true, "shares": [{"source": "deflection", "um": 5}],
        "P_conform": 0.9973},
       {"id": "t1", "kind": "straightness", "of": "d2", "predicted_mm": 0.004,
-       "allowed_mm": 0.0095, "margin_mm": 0.0055, "verdict": "met", "seed_verdict": false,
+       "allowed_mm": 0.0095, "margin_mm": 0.0055, "verdict": "met", "published_verdict": false,
        "shares": [], "P_conform": 1}],
     "compensation": [{"on": "d2", "setup": 0, "table_mm": [[30, 0.001], [60, -0.00225]]}],
     "prices": [{"limit": "s0-rough-d2: power", "now": 5, "unit": "kW",
@@ -268,7 +268,7 @@ TEST(Text, TheUsualTolerancesKeepTheirWordsWhole) {
   t["of"] = "left .. right";
   t["predicted_mm"] = {-0.15, 0.15};
   t["allowed_mm"] = {-0.15, 0.15};
-  t["seed_verdict"] = false;
+  t["published_verdict"] = false;
   const auto out = text(result);
   for (const auto* word : {"d1:diameter", "circular", "radial", "runout", "left ..",
                            "right", "-150.0..150.0"})
@@ -281,7 +281,7 @@ TEST(Text, ThePapersVerdictShowsOnlyWhereItDiffers) {
   auto& t = result["tolerances"][0];
   const auto end = [&](const char* verdict, bool paper) {
     t["verdict"] = verdict;
-    t["seed_verdict"] = paper;
+    t["published_verdict"] = paper;
     const auto line = row(text(result), "d1:diameter");
     return line.substr(line.find(" 5.5 ") + 5);
   };

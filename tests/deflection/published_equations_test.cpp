@@ -1,7 +1,5 @@
-// The seed's equations 1 to 8 as printed, against what this program uses instead
-// (docs/deflection.md tells each story).  Seed: Valino, Blanco, Alvarez, Mateos,
-// "Machining Error Predictive Model in a CAPP system for turning: Formulation and Initial
-// Tests".
+// Equations 1 to 8 of [Valino 2008] as printed, against what this program uses instead;
+// docs/deflection.md explains each difference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +83,7 @@ std::vector<part::Shaft> stepped_shafts() {
   return all;
 }
 
-TEST(Seed, Equation1SlopeOfTheEnvelopeIsTwiceTheRotationOfTheSection) {
+TEST(Valino2008, Equation1SlopeOfTheEnvelopeIsTwiceTheRotationOfTheSection) {
   // Without couple and shear: d(F a^3/3EI)/da = F a^2/EI, the section turns by half of it
   const Beam wire(bar(1000, 1));
   const double a = 600, h = 0.01;
@@ -111,13 +109,13 @@ struct Springs {
   double k1, k2, k3, Lc;
 };
 
-/// The seed's Eq. 3 as printed, deflection at z on the springs.
+/// Eq. 3 of [Valino 2008] as printed, deflection at z on the springs.
 double printed_3(const Springs& k, double D, double Fr, double Fa, double z) {
   return (Fr / k.k2 + Fr / k.k3) * z * z + Fa / 2 * (D / k.k3 - (D - 2 * Fr) / k.k2) * z +
          (Fr / k.k1 - Fa * D * k.Lc / (2 * k.k2) + Fr * k.Lc * k.Lc / k.k2);
 }
 
-TEST(Seed, Equation3IsTheThreeSpringsOneByOne) {
+TEST(Valino2008, Equation3IsTheThreeSpringsOneByOne) {
   // A rigid part: k1 slides, k2 turns about z = -Lc, k3 about z = 0; each spring sees its
   // own force or moment of Fr and C at z, and what it gives moves z by its arm.
   const Springs k{1.2e5, 1.28e9, 3e9, 110};
@@ -131,7 +129,7 @@ TEST(Seed, Equation3IsTheThreeSpringsOneByOne) {
   }
 }
 
-TEST(Seed, Equation3AsPrintedHasTheThirdCoupleBackwardsAndMixesUnits) {
+TEST(Valino2008, Equation3AsPrintedHasTheThirdCoupleBackwardsAndMixesUnits) {
   const double z = 150, D = 60, Fr = 250, Fa = 180;
   // k3 alone gives: the couple -Fa D/2 turns the part towards the tool
   const Springs third{1e30, 1e30, 3e9, 0};
@@ -144,7 +142,7 @@ TEST(Seed, Equation3AsPrintedHasTheThirdCoupleBackwardsAndMixesUnits) {
   EXPECT_GT(std::abs(1000 * m / mm - 1), 0.1);
 }
 
-TEST(Seed, Equation5ShorteningIsLostBesideTheShanksBending) {
+TEST(Valino2008, Equation5ShorteningIsLostBesideTheShanksBending) {
   // 20 x 20 shank, 32 mm out (SCLCR 2020 K09): a tenth of a micrometre against several
   const double l = 32, A = 400, I = 20.0 * 20 * 20 * 20 / 12, E = 210000;
   const double shortening = 250 * l / (A * E), bending = 600 * l * l * l / (3 * E * I);
@@ -152,7 +150,7 @@ TEST(Seed, Equation5ShorteningIsLostBesideTheShanksBending) {
   EXPECT_GT(bending / shortening, 20);
 }
 
-TEST(Seed, Equation6HoldsForTheForceAndLacksTheCouple) {
+TEST(Valino2008, Equation6HoldsForTheForceAndLacksTheCouple) {
   for (const auto& shaft : stepped_shafts()) {
     const Beam beam(shaft);
     for (const double u : {0.2, 0.7, 1.0}) {
@@ -193,7 +191,7 @@ Errors errors(double (*printed)(const part::Shaft&, double), Method method) {
   return {sum / count, factor};
 }
 
-TEST(Seed, Equation7CountsOneHalfOfTheBeam) {
+TEST(Valino2008, Equation7CountsOneHalfOfTheBeam) {
   // on a bar the printed sum is a/L of a^2 b^2/(3 L EI)
   const part::Shaft wire = bar(1000, 1);
   for (const double a : {100.0, 500.0, 900.0})
@@ -214,7 +212,7 @@ TEST(Seed, Equation7CountsOneHalfOfTheBeam) {
   }
 }
 
-TEST(Seed, Equation8StopsAtTheToolAndTakesAUniformReaction) {
+TEST(Valino2008, Equation8StopsAtTheToolAndTakesAUniformReaction) {
   // on a bar its integrand is right, but the stretch from the tool to the tail is
   // missing: there the moment is R (L - z), R = a^2 (3 L - a)/2 L^3
   const part::Shaft wire = bar(1000, 1);
@@ -230,7 +228,7 @@ TEST(Seed, Equation8StopsAtTheToolAndTakesAUniformReaction) {
   EXPECT_GT(e.factor, 4.5);
 }
 
-TEST(Seed, TheProfileIsOfThirdOrderOnlyForAUniformCantilever) {
+TEST(Valino2008, TheProfileIsOfThirdOrderOnlyForAUniformCantilever) {
   // forward differences of order n + 1 vanish for a polynomial of degree n
   const Beam wire(bar(1000, 1));
   const auto difference = [&](Method m, int order) {

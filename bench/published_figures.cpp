@@ -1,5 +1,5 @@
-// Figures 2, 5, 6 and 7 of Ozoegwu, Omenyi, Ofochebe (milling/system.hpp) from our own
-// computation: seed_figures FOLDER writes them there and prints the tables of
+// Figures 2, 5, 6 and 7 of [Ozoegwu 2013] from our own
+// computation: published_figures FOLDER writes them there and prints the tables of
 // docs/milling.md.
 #include <fmt/format.h>
 
@@ -114,7 +114,7 @@ std::string figure_5(int elements, const std::vector<Cut>& cuts) {
 /// How E elements place the simulated cuts.
 struct Placed {
   int elements = 0;
-  int right = 0;   ///< stable ones called stable, what the seed counts
+  int right = 0;   ///< stable ones called stable, what [Ozoegwu 2013] counts
   int unsafe = 0;  ///< unstable ones called stable
 };
 
