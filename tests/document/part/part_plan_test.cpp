@@ -6,6 +6,7 @@
 
 #include "../schema_check.hpp"
 #include "document/json/file.hpp"
+#include "turnwright/base/errors.hpp"
 
 namespace turnwright::document {
 namespace {
