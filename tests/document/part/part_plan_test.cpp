@@ -7,6 +7,7 @@
 #include "../schema_check.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 namespace {
