@@ -10,6 +10,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "schema_check.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {

@@ -187,10 +187,16 @@ TEST(General, ImpliesNoFormThatASizeOrZoneHoldsAsClosely) {
   d.outer[0].limits = part::Limits{-0.2, 0.2};   // the radius varies by 0.2
   d.outer[1].limits = part::Limits{-0.2, 0.21};  // by 0.205
   EXPECT_EQ(implied(d, K)[0], "d2:straightness 0.20");
-  d.tolerances = {
-      {.id = "t1", .kind = total_radial_runout, .of = "d2", .value_mm = 0.2},
-      {.id = "t2", .kind = perpendicularity, .of = "left", .value_mm = 0.21},
-      {.id = "t3", .kind = total_axial_runout, .of = "right", .value_mm = 0.1}};
+  const auto add = [&](part::ToleranceKind kind, const std::string& of, double value_mm) {
+    part::Tolerance t;
+    t.kind = kind;
+    t.of = of;
+    t.value_mm = value_mm;
+    d.tolerances.push_back(std::move(t));
+  };
+  add(total_radial_runout, "d2", 0.2);
+  add(perpendicularity, "left", 0.21);
+  add(total_axial_runout, "right", 0.1);
   EXPECT_EQ(implied(d, K), Ids{"left:flatness 0.20"});
   d.tolerances[0].kind = circularity;  // holds no generatrix
   EXPECT_EQ(implied(d, K)[0], "d2:straightness 0.20");

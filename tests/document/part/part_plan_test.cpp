@@ -6,6 +6,8 @@
 
 #include "../schema_check.hpp"
 #include "document/json/file.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 namespace {
