@@ -23,8 +23,8 @@
 ///     straightness           (6)  W <= t                              the same
 ///     profile                (7)  max |e| cos(alpha) <= t/2           r cos(alpha) <= t
 ///     profile without datum  (8)  r cos(alpha) <= t                   the same
-///     circularity, angularity, position, coaxiality, circular runouts, perpendicularity
-///       of an axis           (9)  m <= t                              the same
+///     perpendicularity of an axis, and what is left of part/tolerance_kind.hpp
+///                            (9)  m <= t                              the same
 ///
 /// with r = e_max - e_min, l and u the limits of the size.  In (6) a cone's W is radial,
 /// 1/cos(alpha) of the zone across it: on the safe side.  In (9) the cut's deflection
