@@ -65,6 +65,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION
   set_source_files_properties(src/service/http/connection.cpp src/service/http/server.cpp
     PROPERTIES COMPILE_OPTIONS -fno-sanitize=all SKIP_PRECOMPILE_HEADERS ON)
 endif()
+
+# Switches over kinds of tolerance and over checks name every one of them.
+foreach(domain IN ITEMS part tolerance planning nc document)
+  target_compile_options(turnwright_${domain} PRIVATE -Wswitch-enum)
+endforeach()
+
 include(cmake/page.cmake)
 
 file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)

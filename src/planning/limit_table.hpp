@@ -64,7 +64,7 @@ struct LimitRow {
   std::optional<LimitNumber> relaxed_by = {};
   /// Takes the limit away.  Absent: it is scaled so far that it counts as none.
   void (*take_away)(PlanRequest&, std::size_t owner) = nullptr;
-  /// Whether a request has the limit to relax; absent: if an owner has the number.
+  /// Whether a request has the limit to relax; absent: if it has a number of it.
   bool (*applies)(const PlanRequest&) = nullptr;
   bool is_width = false;         ///< of a zone or size, which opens about its middle
   const char* reason = nullptr;  ///< why it is never relaxed

@@ -28,11 +28,19 @@ void add_each(const PreparedPart& p, Owner owner, std::vector<RelaxableLimit>& a
         all.push_back({&row, i, surface_of(p, row, i)});
 }
 
+bool applies(const PreparedPart& p, const LimitRow& row) {
+  if (row.applies) return row.applies(p);
+  if (row.relaxed_by) return true;
+  const auto& number = row.numbers[0];
+  for (std::size_t i = 0; i < owners(p, number.owner); ++i)
+    if (number.now(p, i)) return true;
+  return false;
+}
+
 void add_common(const PreparedPart& p, bool windows, std::vector<RelaxableLimit>& all) {
   for (const auto& row : limit_table())
     if (row.relaxing != Relaxing::never && !apart(row) &&
-        (row.relaxing == Relaxing::to_given) == windows &&
-        (!row.applies || row.applies(p)))
+        (row.relaxing == Relaxing::to_given) == windows && applies(p, row))
       all.push_back({&row});
 }
 

@@ -261,7 +261,7 @@ struct WhatIfAnswer {
   std::optional<double> saves_per_part, saves_per_batch,
       saves_min_per_part;  ///< if both have a plan, per batch if there is one
   std::optional<double>
-      first_order_saves_per_part;  ///< first_order.hpp, of the objective
+      first_order_saves_per_part;  ///< sensitivity.hpp, of the objective
   std::string sentence;
 };
 

@@ -24,8 +24,8 @@
 ///     straightness           (6)  W <= t                              the same
 ///     profile                (7)  max |e| cos(alpha) <= t/2           r cos(alpha) <= t
 ///     profile without datum  (8)  r cos(alpha) <= t                   the same
-///     circularity, angularity, position, coaxiality, circular runouts, perpendicularity
-///       of an axis           (9)  m <= t                              the same
+///     perpendicularity of an axis, and what is left of part/tolerance_kind.hpp
+///                            (9)  m <= t                              the same
 ///
 /// with r = e_max - e_min and l, u the limits of the size.  In (6) the W of a cone is
 /// radial, 1/cos(alpha) times the zone across it, which is on the safe side.  In (9) the
