@@ -77,7 +77,8 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
 }
 
 // The limit [1/min] that the plan's conditions stand under.
-double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
+double spindle_limit_rpm(const Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
   const auto& m = site.part.machine;
   const double n = o.passes[0].n_rpm;
   double cap = m.n_max_rpm;
@@ -96,7 +97,7 @@ double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
   cap = std::min({cap, m.n_max_rpm, m.chuck.n_max_rpm, keeps_a_third});
   const auto D = swept(site, o);
   if (o.kind == OperationKind::fixed || !(D.small_mm < D.large_mm)) return cap;
-  double sum = 0;
+  double sum = later_mm(site, operation, o.on[0]);
   for (const auto& pass : o.passes) sum += pass.ap_mm;
   const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
   const double needed = cutting::grip_needed_N(grip, o.passes[0].Fc_N, o.passes[0].Ff_N,
@@ -272,7 +273,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
     step.tool = tool.number;
     step.constant_surface_speed = constant_surface_speed(site, o);
     step.S = step.constant_surface_speed ? o.passes[0].vc_m_min : o.passes[0].n_rpm;
-    step.n_max_rpm = spindle_limit_rpm(site, o);
+    step.n_max_rpm = spindle_limit_rpm(site, i);
     step.f_mm_rev = o.passes[0].f_mm_rev;
     step.in_cut = in_cut(site, o);
     site.moves.clear();

@@ -31,8 +31,7 @@ double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
 double Side::highest(double from_z, double to_z) const {
   double h = -INFINITY;
   for (const auto& s : items)
-    if (s.z0 > from_z && s.z1 < to_z)
-      h = std::max(h, to_z <= s.low_z + kSame_mm ? top1(s) : top(s));
+    if (s.z0 > from_z && s.z1 < to_z) h = std::max(h, top(s));
   return h;
 }
 

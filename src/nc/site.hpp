@@ -27,10 +27,8 @@ struct Surface {
   bool inner = false;
   std::size_t index = 0;  ///< in the drawing
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool stock = true;         ///< nothing has been taken off yet
-  double left = 0;           ///< what a pass has left on it
-  double left_end = 0;       ///< and at its end towards the chuck,
-  double low_z = -INFINITY;  ///< from here on no higher than there
+  bool stock = true;  ///< nothing has been taken off yet
+  double left = 0;    ///< what a pass has left on it
 };
 
 /// Outside or in the bores.
@@ -40,7 +38,7 @@ struct Side {
   std::vector<Surface> items;  ///< from the free end inwards
 
   double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
-  double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left_end; }
+  double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
   double top(const Surface& s) const;
   /// Of what stands over a stretch of the axis.
   double highest(double from_z, double to_z) const;

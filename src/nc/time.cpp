@@ -61,7 +61,9 @@ void add_feed(const Step& s, const Move& a, const Move& b, Minutes& sum) {
   const auto part = in_cut(s.in_cut, a, b);
   const double cut = between(part.from, part.to);
   sum.cutting += cut;
-  sum.air += between(0, part.from) + between(part.to, 1);
+  const double air = between(0, part.from) + between(part.to, 1);
+  sum.air += air;
+  if (b.entering) sum.entering += air;
 }
 
 }  // namespace

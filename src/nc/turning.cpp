@@ -35,16 +35,6 @@ double minor_edge_rad(const Site& site, const OperationPlan& o) {
   return units::rad_from_deg(tool->minor_kapr_deg);
 }
 
-// What operations after this one take off the same surface.
-double later_mm(const Site& site, std::size_t operation, const std::string& surface) {
-  const auto& all = site.answer().operations;
-  double sum = 0;
-  for (std::size_t k = operation + 1; k < all.size(); ++k)
-    if (all[k].kind != OperationKind::fixed && is_on(all[k], surface))
-      sum += depth_mm(all[k]);
-  return sum;
-}
-
 std::size_t place(const Side& side, const std::string& id) {
   return static_cast<std::size_t>(
       std::find_if(side.items.begin(), side.items.end(),
@@ -93,7 +83,6 @@ struct Pass {
   std::size_t operation, k;  // k: the element's place in the tool's order
   double left_mm, re_mm;
   bool last;  // makes what is drawn
-  bool ends;  // of its operation
 
   Surface& surface() const { return side.items[k]; }
   bool from_before() const {
@@ -104,42 +93,10 @@ struct Pass {
   Corner tool() const { return {re_mm, minor_edge_rad(site, plan())}; }
 };
 
-// What roughing leaves on the next element, if that begins where this one ends and is
-// roughed deeper.
-std::optional<double> deeper_next_mm(const Pass& p) {
-  if (p.last || !p.ends || p.k + 1 >= p.side.items.size()) return std::nullopt;
-  const auto &s = p.surface(), &next = p.side.items[p.k + 1];
-  if (std::abs(s.h1 - next.h0) > kSame_mm || std::abs(s.z1 - next.z0) > kSame_mm)
-    return std::nullopt;
-  const auto& all = p.site.answer().operations;
-  for (std::size_t i = p.operation + 1; i < all.size(); ++i) {
-    if (all[i].kind != p.plan().kind || !is_on(all[i], next.id)) continue;
-    const double left = later_mm(p.site, i, next.id);
-    return left < p.left_mm - kStands_mm ? std::optional(left) : std::nullopt;
-  }
-  return std::nullopt;
-}
-
-// Roughing goes down at its end to where the next element's begins, which then need not
-// come in from before this one: down a slope that the minor edge clears, on a cone level.
 std::vector<Point> contour(const Pass& p) {
-  auto& s = p.surface();
-  if (p.last) return corrected(p.site, p.side, s);
-  const Point from{s.h0 + p.left_mm, s.z0}, to{s.h1 + p.left_mm, s.z1};
-  const auto next = deeper_next_mm(p);
-  if (!next) return {from, to};
-  const double low = s.h1 + *next;
-  const double down = (p.left_mm - *next) / std::tan(*p.tool().rises_rad);
-  if (s.h1 > s.h0 && low > from.h_mm + kStands_mm) {
-    s.low_z = s.z0;
-    s.left_end = *next;
-    return {from, at_h(from, to, low), {low, s.z1}};
-  }
-  const double level = kBefore_mm + 2 * p.re_mm;
-  if (s.h1 != s.h0 || s.z0 - s.z1 < level + down + kBefore_mm) return {from, to};
-  s.low_z = s.z1 + level;
-  s.left_end = *next;
-  return {from, {from.h_mm, s.low_z + down}, {low, s.low_z}, {low, s.z1}};
+  if (p.last) return corrected(p.site, p.side, p.surface());
+  const auto& s = p.surface();
+  return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
 }
 
 // How far from a step down of the corrections the minor edge keeps the corner.
@@ -183,7 +140,8 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
 // material before the free end; not where a blank before is higher than the pass.  What
 // roughing has left on a long element it enters down a slope that the minor edge clears.
-void start_clear(const Pass& p, std::vector<Point>& way) {
+// The number of moves over elements before.
+std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
   const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
   double from = z;
@@ -191,25 +149,24 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   for (std::size_t j = p.k; j-- > 0;) {
     auto& s = p.side.items[j];
     if (blank(s) > h + kStands_mm) break;
-    if (!s.stock && z + 2 * p.re_mm <= s.low_z + kSame_mm &&
-        p.side.top1(s) <= h + kStands_mm)
-      break;
     const double top = p.side.top(s);
     if (!(top > h + kStands_mm)) continue;
     const double slope_z = from + (top - h) / std::tan(*p.tool().rises_rad);
     if (!s.stock && slope_z < s.z0 + kBefore_mm) {
       if (from > z) way.insert(way.begin(), {h, from});
       way.insert(way.begin(), {top, slope_z});
-      return;
+      return from > z ? 2 : 1;
     }
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
-    s.left = s.left_end = h - blank(s);
+    s.left = h - blank(s);
   }
+  const std::size_t entered = from > z ? 1 : 0;
   if (first && from < p.site.front + kBefore_mm && p.site.front > 0)
     from = p.site.front + kBefore_mm;
   if (from > z) way.insert(way.begin(), {h, from});
+  return entered;
 }
 
 // Where roughing ends: what is behind the element stands higher, or the hole goes on.
@@ -258,7 +215,12 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
   clip(way, {{wall(p.site.root_z)}}, {p.re_mm});
 }
 
-std::vector<Point> way_of(const Pass& p) {
+struct Way {
+  std::vector<Point> points;
+  std::size_t entered = 0;  // moves over elements before
+};
+Way way_of(const Pass& p) {
+  std::size_t entered = 0;
   const auto c = contour(p);
   auto way = tips(c, p.re_mm);
   if (p.from_before()) {
@@ -269,7 +231,7 @@ std::vector<Point> way_of(const Pass& p) {
   } else {
     lead_in(p, c, way);
     if (way.size() < 2) return {};
-    start_clear(p, way);
+    entered = start_clear(p, way);
   }
   if (p.goes_on()) {
     const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
@@ -279,24 +241,25 @@ std::vector<Point> way_of(const Pass& p) {
       way.erase(way.end() - 2);
   }
   lead_out(p, way);
-  return way;
+  return {way, entered};
 }
 
 void pass(const Pass& p) {
   auto& s = p.surface();
-  s.low_z = -INFINITY;
-  const auto way = way_of(p);
+  const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
     if (p.from_before())
       p.site.to(Kind::feed, p.side, way.front());
     else
       p.site.approach(p.side, way.front(), p.re_mm);
-    for (std::size_t i = 1; i < way.size(); ++i) p.site.to(Kind::feed, p.side, way[i]);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      p.site.to(Kind::feed, p.side, way[i]);
+      p.site.moves.back().entering = i <= entered;
+    }
   }
   if (!p.goes_on()) p.site.lift(p.side);
   s.stock = false;
   s.left = p.left_mm;
-  if (!std::isfinite(s.low_z)) s.left_end = p.left_mm;
 }
 
 // A facing pass over contact points from the axis outwards, tool coming from outside; its
@@ -358,6 +321,15 @@ void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
 
 }  // namespace
 
+double later_mm(const Site& site, std::size_t operation, const std::string& surface) {
+  const auto& all = site.answer().operations;
+  double sum = 0;
+  for (std::size_t k = operation + 1; k < all.size(); ++k)
+    if (all[k].kind != OperationKind::fixed && is_on(all[k], surface))
+      sum += depth_mm(all[k]);
+  return sum;
+}
+
 double corner_mm(const Site& site, const OperationPlan& o) {
   for (const auto& t : site.part.tools)
     if (t.id == o.tool) return t.re_mm;
@@ -403,7 +375,7 @@ void turn(Site& site, std::size_t operation) {
       left -= o.passes[i].ap_mm;
       const bool last = finishes && i + 1 == o.passes.size();
       pass({site, side, operation, place(side, id), last ? 0 : left, corner_mm(site, o),
-            last, i + 1 == o.passes.size()});
+            last});
     }
   }
 }

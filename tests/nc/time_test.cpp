@@ -125,7 +125,8 @@ bool mills(const planning::SetupPlan& s) {
 }
 
 /// The largest difference between plan and program of a setup, relative; told where it is
-/// more than a per cent.
+/// more than a per cent.  What a program enters down a slope, between surfaces that go on
+/// from each other and are left unlike by roughing, is apart.
 double apart(const std::string& name, const Planned& p, const Programs& all) {
   double most = 0;
   for (const auto& program : all.setups) {
@@ -133,7 +134,7 @@ double apart(const std::string& name, const Planned& p, const Programs& all) {
     if (mills(s)) continue;
     const auto& m = program.minutes;
     const auto& b = s.breakdown;
-    const double off = machine_min(b) / m.total() - 1;
+    const double off = machine_min(b) / (m.total() - m.entering) - 1;
     most = std::max(most, std::abs(off));
     if (std::getenv("TURNWRIGHT_TELL") || !(std::abs(off) <= 0.01))
       fmt::print(

@@ -49,6 +49,8 @@ struct Move {
   double x_mm = 0, z_mm = 0;  ///< radius and place in the program
   Point centre = {};          ///< of an arc: its radius in h_mm, its place in z_mm
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
+  /// Over what roughing has left on the elements before, which is deeper than here.
+  bool entering = false;
 };
 
 /// Where a tool is in the cut: between two places along the axis, or between two radii.
@@ -82,6 +84,7 @@ struct TableTool {
 struct Minutes {
   double cutting = 0;         ///< feed over the surface that an operation makes
   double air = 0;             ///< feed beside it, and rapids
+  double entering = 0;        ///< of that over what is left before, which no plan weighs
   double tool_changes = 0;    ///< the ways to where tools are changed are in the air
   double operator_stops = 0;  ///< M0 for what changes in the clamping
   double total() const { return cutting + air + tool_changes + operator_stops; }
