@@ -319,9 +319,8 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    const double middle = (c.a.lower + c.a.upper) / 2;
-    double left = 0;
-    for (const auto& pass : o.passes) left += pass.left_mm(middle) / n;
+    // Rapids count heights as if all passes were as deep as each other.
+    const double left = stock / (nr + nf) * ((n - 1) / 2.0 + (o.finishing ? 0 : nf));
     const auto b = ways(o, n, &o == &c.operations.back(), left);
     o.fed = std::max(1.0, b.fed_mm / (n * path));
     o.economic_life_min /= o.fed;

@@ -361,9 +361,9 @@ double SetupPlanner::least_besides_cutting(const Tools& tools) const {
   return besides(between(order));
 }
 
-// Centre hole and drilling stand between the faces and the rest.  Where the planner chooses
-// which surfaces are roughed, the way over all of them counts: the tools alone then say
-// what lies between.
+// Centre hole and drilling stand between the faces and the rest.  A tool that is used in a
+// place goes the way over all surfaces of that place, so that the tools alone say what lies
+// between.
 Between SetupPlanner::between(const ToolOrder& order) const {
   Order all(p_, setup_, clamping_, front_mm_);
   for (std::size_t place = 0; place < order.size(); ++place) {
@@ -372,11 +372,13 @@ Between SetupPlanner::between(const ToolOrder& order) const {
     const auto& tools = order[place];
     const auto used = std::find_if(tools.begin(), tools.end(), [](auto* t) { return t; });
     if (used == tools.end()) continue;
+    const bool one_tool = std::all_of(tools.begin(), tools.end(),
+                                      [&](auto* t) { return !t || t == *used; });
     for (std::size_t j = 0; j < tools.size(); ++j) {
       const auto& feature = jobs_[j].feature;
       const bool here = place_in_setup(feature.kind(), false) == place ||
                         place_in_setup(feature.kind(), true) == place;
-      const Tool* t = tools[j] || p_.operations || !here ? tools[j] : *used;
+      const Tool* t = tools[j] || !one_tool || !here ? tools[j] : *used;
       if (t) all.add(feature.in_order(*t, place == 1 || place == 4));
     }
   }

@@ -68,11 +68,10 @@ TEST(Groove, TakesTheTimeOfItsRings) {
   // From 1 mm above at feed, down to there from 2 mm outside the stock of 42 mm and back.
   const double above = 1 / (at.f_mm_rev * 1000 * at.vc_m_min / (units::kPi * 30));
   const double way = 2 * (21 + 2 - 15 - 1) + 2 + 1;
-  EXPECT_NEAR(
-      o.cost,
-      1.0 * (time + above + way / p.machine.rapid_mm_min + edges * t.change_min) +
-          edges * t.edge_cost,
-      1e-12);
+  EXPECT_NEAR(o.cost,
+              1.0 * (time + above + way / p.machine.rapid_mm_min + edges * t.change_min) +
+                  edges * t.edge_cost,
+              1e-12);
 }
 
 TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
@@ -153,8 +152,8 @@ TEST(FixedOperations, TimeOfAPartIsTheSumOfItsParts) {
   EXPECT_NEAR(b.setup_share.time_min, 2 * m.setup_min / *p.batch, 1e-12);
   EXPECT_EQ(b.operator_stops.time_min, 0);
   // And the ways to where the tools are changed, 50 mm outside, across and along the part.
-  const double ways = besides - b.tool_changes.time_min - b.loading.time_min -
-                      b.setup_share.time_min;
+  const double ways =
+      besides - b.tool_changes.time_min - b.loading.time_min - b.setup_share.time_min;
   EXPECT_GE(ways, tools * 4 * 48 / m.rapid_mm_min);
   EXPECT_LE(ways, tools * (4 * 50 + 2 * 117) / m.rapid_mm_min);
   const auto total = b.total();
