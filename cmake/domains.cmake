@@ -111,7 +111,8 @@ if(BUILD_TESTING)
     PROPERTIES TIMEOUT 600)
 
   # What holds of any part, tried on random ones: here a few, more by RC_PARAMS.
-  add_executable(properties_test tests/properties/plan_properties_test.cpp)
+  add_executable(properties_test tests/properties/plan_properties_test.cpp
+    tests/properties/remedies_test.cpp)
   target_link_libraries(properties_test PRIVATE turnwright::document rapidcheck tw_dev
     GTest::gtest_main)
   target_compile_definitions(properties_test PRIVATE
