@@ -98,7 +98,7 @@ void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
                              readable(grip_mm), readable(p.grips_mm[s]), s)});
 }
 
-// Jaws as far as the nearest element that the setup cuts.
+// Jaws as far as the nearest element that the setup cuts, or the rest.
 void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
   const auto& work = p.work.setups[s];
@@ -109,6 +109,9 @@ void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>&
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, free > root ? z0 - root : root - z1);
   }
+  const auto& clampings = p.setups[s].clampings;
+  if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
+    room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
   const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
   if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
     add_grip(p, s, grip, all);
