@@ -19,7 +19,7 @@ inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
 
 /// An element in the tool's order: z0 > z1, heights of its blank, or once it is cut there
-/// of what is drawn.
+/// of what is drawn, in the middle of its size's limits and with the plan's offset.
 struct Surface {
   std::string id;
   bool inner = false;
@@ -41,6 +41,9 @@ struct Side {
   /// Of what stands over a stretch of the axis.
   double highest(double from_z, double to_z) const;
 };
+
+/// The offset that the plan gives the tool at a surface; 0 if none.
+double offset_mm(const planning::ProcessPlan& plan, const std::string& surface);
 
 class Site {
  public:

@@ -270,7 +270,10 @@ void face_pass(Site& site, const std::vector<Point>& contact, double re,
 std::vector<Point> face_contour(const Site& site, const std::string& id, double z,
                                 double from, double to, bool last) {
   const auto& table = correction(site, id);
-  if (!last || table.empty()) return {{from, z}, {to, z}};
+  if (!last || table.empty()) {
+    const double moved = z + offset_mm(site.plan, id);
+    return {{from, moved}, {to, moved}};
+  }
   std::vector<Point> all{{from, z + planning::interpolated(table, from)}};
   for (const auto& [rho, dz] : table)
     if (rho > from && rho < to) all.push_back({rho, z + dz});

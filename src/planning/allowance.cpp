@@ -41,12 +41,6 @@ bool sees_lobes(ToleranceKind kind) {
   }
 }
 
-bool sees_eccentricity(ToleranceKind kind) {
-  return kind == ToleranceKind::coaxiality ||
-         kind == ToleranceKind::circular_radial_runout ||
-         kind == ToleranceKind::total_radial_runout;
-}
-
 // How far a radius error moves a size, or a face's error a length.
 double sensitivity(const PreparedPart& p, const Tolerance& t) {
   if (t.kind == ToleranceKind::diameter) return 2;
@@ -75,6 +69,15 @@ double heat_um(const PreparedPart& p, const Tolerance& t) {
   const auto at = *part::extent(d, t.of);  // a size that is no length is an element's
   const double D = std::max(at.left_mm, at.right_mm);
   return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
+}
+
+double face_diameter_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return d.outer.front().left_mm;
+  if (face == "right") return d.outer.back().right_mm;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face)
+      return std::max(d.outer[k - 1].right_mm, d.outer[k].left_mm);
+  return 0;
 }
 
 bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
@@ -109,8 +112,68 @@ double wear_um(const PreparedPart& p, const catalogue::Tool& tool) {
          2;
 }
 
-bool datum_elsewhere(const PreparedPart& p, const Tolerance& t, const Making& making) {
-  return !t.datum.empty() && setup_of(p, t.datum) != making.setup;
+double rechucking_um(const PreparedPart& p, std::size_t setup, Clamping clamping) {
+  const auto& by = p.shop.rechucking;
+  if (clamping == Clamping::between_centres) return by.centres_um;
+  switch (p.setups[setup].jaws) {
+    case Jaws::hard:
+      return by.hard_jaws_um;
+    case Jaws::soft:
+      return by.soft_jaws_um;
+    case Jaws::collet:
+      return by.collet_um;
+  }
+  return by.hard_jaws_um;
+}
+
+// How an eccentricity of the part in its jaws shows: e of the part is 2 e of a run-out.
+// Jaws, or centres, that err by e at each of two places l apart tilt it by sqrt(2) e/l, a face of
+// diameter D, or an axis so long, by D times that.
+double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t held,
+                       Clamping clamping) {
+  const auto at = part::extent(p.drawing, t.of);
+  const double across = at ? at->z1_mm - at->z0_mm : face_diameter_mm(p.drawing, t.of);
+  const double apart = clamping == Clamping::between_centres ? part::length_mm(p.drawing)
+                                                             : p.setups[held].grip_mm;
+  switch (t.kind) {
+    case ToleranceKind::coaxiality:
+    case ToleranceKind::position:
+    case ToleranceKind::circular_radial_runout:
+    case ToleranceKind::total_radial_runout:
+      return 2;
+    case ToleranceKind::profile:
+      return sensitivity(p, t);
+    case ToleranceKind::perpendicularity:
+    case ToleranceKind::parallelism:
+    case ToleranceKind::angularity:
+    case ToleranceKind::circular_axial_runout:
+    case ToleranceKind::total_axial_runout:
+      return std::sqrt(2.0) * across / apart;
+    default:
+      return 0;
+  }
+}
+
+// Adds what it takes that a datum was cut, or is cut later, in another setup: the part is
+// held anew in the later of the two, if that is not this one in whichever of its clampings
+// is worst.
+void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& making,
+                    Allowance& a) {
+  if (t.datum.empty()) return;
+  const auto datum = setup_of(p, t.datum);
+  if (!datum || *datum == making.setup) return;
+  const std::size_t later = std::max(*datum, making.setup);
+  tolerance::Source worst{"rechucking", Distribution::rayleigh, 0, 0};
+  const auto held = [&](Clamping c) {
+    const double um = rechucking_um(p, later, c), s = sees_rechucking(p, t, later, c);
+    if (um * s > worst.value_um * worst.sensitivity)
+      worst.value_um = um, worst.sensitivity = s;
+  };
+  if (later == making.setup)
+    held(making.clamping);
+  else
+    std::ranges::for_each(p.setups[later].clampings, held);
+  if (worst.value_um > 0) a.spread.push_back(std::move(worst));
 }
 
 // Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
@@ -194,9 +257,7 @@ Allowance allowance(const PreparedPart& p, std::size_t tolerance, const Making& 
       spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
-  if (shop.rechucking_um > 0 && sees_eccentricity(t.kind) &&
-      datum_elsewhere(p, t, making))
-    spread("rechucking", Distribution::rayleigh, shop.rechucking_um, 2);
+  add_rechucking(p, t, making, a);
   return a;
 }
 
@@ -241,13 +302,10 @@ double left_mm(const PreparedPart& p, std::size_t tolerance, const Allowance& a,
   if (!(h > 0)) return 0;
   const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
   const double r = cut == Cut::none ? 0 : force_spread(p);
-  const auto end = p.other_ends.find(p.drawing.tolerances[tolerance].id);
-  const bool one_sided = a.ends == 1 || (!corrected && end == p.other_ends.end());
   const tolerance::Spread spread(a.spread);
   const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
     const double up = corrected ? h : h - e;
-    const double down = one_sided ? kInfinity : corrected ? h : h + end->second * e;
-    return spread.within({-down, up}, r * e) >= wanted;
+    return spread.within({a.ends == 1 ? -kInfinity : -up, up}, r * e) >= wanted;
   });
   return units::mm_from_um(a.ends * E);
 }

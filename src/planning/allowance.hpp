@@ -34,7 +34,9 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     repeatability normal                         sizes
 ///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
-///     rechucking    rayleigh, twice: run-out and coaxiality to a datum of another setup
+///     rechucking    rayleigh, to a datum of another setup: twice of run-out, coaxiality
+///                   and position, once of a profile; of what tilts, sqrt(2) D/grip, D
+///                   the face's diameter or the axis' length
 ///
 /// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
 /// cut by one tool, with the same edge; both look at the free end, so that their errors
@@ -77,12 +79,15 @@ enum class Cut { none, error, corrected };
 ///     P(S + r E Z <= h - E) = p                                                     (1)
 ///
 /// S the spread, Z standard normal; each face of a length may fail with (1 - p)/faces.
-/// No plan conforms without (1), and zones that keep it conform.  A size also fails at
-/// its other limit: where its error reaches from E down to b E (`other_ends`),
+/// A size also fails at its other limit,
 ///
-///     P(-h - b E <= S + r E Z <= h - E) = p                                         (2)
+///     P(-h + E <= S + r E Z <= h - E) = p                                           (2)
 ///
-/// suffices, with b = -1 whatever the error is.  With the path corrected E leaves nothing
+/// With a constant offset (demand.hpp) the error reaches equally far to both sides and E
+/// is half its range: (2) is then what P_conform is asked to be, no more and no less.
+/// Without one E is the end that goes further, for which (2) suffices.  What a force or
+/// stiffness that is not known scales is what the offset leaves: it is set by gauging the
+/// first part, which shows the middle as it is.  With the path corrected E leaves nothing
 /// but what is not known of it,
 ///
 ///     P(|S + r E Z| <= h) = p                                                       (3)

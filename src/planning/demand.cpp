@@ -18,7 +18,6 @@ double middle_mm(const Tolerance& t) {
 Demand demand(const PreparedPart& p, std::size_t index, std::optional<double> half_angle,
               Offset offset, const Making& making) {
   const Tolerance& t = p.drawing.tolerances[index];
-  const bool free = offset == Offset::free;
   const auto others = allowance(p, index, making);
   const double cosine = std::cos(half_angle.value_or(0));
   using Shape = Demand::Shape;
@@ -31,9 +30,11 @@ Demand demand(const PreparedPart& p, std::size_t index, std::optional<double> ha
   leave(Cut::error);
   const auto size = [&](double factor, double share) {
     d.factor = factor;
-    d.shape = free && !p.robust ? Shape::range : Shape::size;
-    if (free && p.robust) d.upper = left_mm(p, index, others, Cut::corrected);
-    d.upper *= d.shape == Shape::range ? share : share / 2;
+    const bool known = offset == Offset::constant || p.shop.first_part_gauged;
+    const bool centred = offset != Offset::none && (known || !p.robust);
+    d.shape = centred ? Shape::centred : Shape::size;
+    if (offset == Offset::path) d.upper = left_mm(p, index, others, Cut::corrected);
+    d.upper *= share / 2;
     d.lower = -d.upper;
   };
   switch (t.kind) {
@@ -82,6 +83,10 @@ bool face_is_cut(const PreparedPart& p, const std::string& face) {
   if (face == "left") return face_stock_mm(p, part::End::left) > 1e-9;
   if (face == "right") return face_stock_mm(p, part::End::right) > 1e-9;
   return true;
+}
+
+Offset free_offset(const PreparedPart& p) {
+  return p.shop.first_part_gauged ? Offset::constant : Offset::none;
 }
 
 std::vector<Demand> demands(const PreparedPart& p, const std::string& surface,

@@ -10,10 +10,11 @@
 /// What the drawing's tolerances ask of the error e of one surface.
 namespace turnwright::planning {
 
-/// size:  lower <= factor e <= upper at every place;  range: factor (max e - min e) <=
-/// upper; straightness: width of the minimum zone <= upper;  none: no term of the cut.
+/// size:  lower <= factor e <= upper at every place;  centred: factor (max e - min e)/2 <=
+/// upper, a size whose tool may have an offset;  range: factor (max e - min e) <= upper;
+/// straightness: width of the minimum zone <= upper;  none: no term of the cut.
 struct Demand {
-  enum class Shape { size, range, straightness, none };
+  enum class Shape { size, centred, range, straightness, none };
   std::size_t tolerance = 0;  ///< index into drawing.tolerances
   Shape shape = Shape::none;
   double factor = 1;
@@ -22,9 +23,15 @@ struct Demand {
   double taken_mm = 0;   ///< of the width, by all but the cut
 };
 
-/// With a free offset of the tool a size asks only for its range, or in a robust plan for
-/// an error that is known well enough to be corrected.
-enum class Offset { none, free };
+/// What moves the tool of a surface off the drawn place: nothing, one number for all of
+/// the surface, or a correction from place to place.  With either of these a size asks
+/// only for the range of its error.  The constant offset is the machinist's wear offset at
+/// that size, set once the first part is measured: it costs nothing, and every pass of the
+/// surface is moved by it, so that no depth of cut changes.
+enum class Offset { none, constant, path };
+
+/// The offset that a plan may use freely: a constant one if the first part is gauged.
+Offset free_offset(const PreparedPart& plan);
 
 /// The tolerances that bear on an outer element or on a face ("left", "right", "d1|d2"),
 /// after m, what all else takes (allowance.hpp), is off their width:

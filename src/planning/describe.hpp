@@ -19,7 +19,7 @@ CheckName check_name(Check check);
 struct SolvedFeature {
   FeatureTask task;
   FeatureAnswer answer;
-  bool compensated = false;                ///< the tool path takes out the error's mean
+  Offset offset = Offset::none;            ///< that its sizes were asked with
   std::vector<std::string> operation_ids;  ///< given ids, rough first; may be empty
 };
 

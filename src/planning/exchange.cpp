@@ -12,6 +12,15 @@ namespace {
 constexpr double kAllowed = 5e-10;  // of a limit: half of what a plan may be over
 constexpr std::size_t kGrid = 33;
 
+// What a demand makes of the error: of a centred size half of its range.
+double weight(const Demand& d) {
+  return d.shape == Demand::Shape::centred ? d.factor / 2 : d.factor;
+}
+
+bool of_range(const Demand& d) {
+  return d.shape == Demand::Shape::range || d.shape == Demand::Shape::centred;
+}
+
 struct Place {
   double at, value;
 };
@@ -76,14 +85,14 @@ void Exchange::add_first(std::size_t demand) {
   asked_[demand] = true;
   const Demand& d = demands_[demand];
   const double low = feature_->low_mm(), high = feature_->high_mm();
-  const double middle = (low + high) / 2, w = d.factor;
+  const double middle = (low + high) / 2, w = weight(d);
   using enum Demand::Shape;
   if (d.shape == size)
     for (const double z : {low, high}) {
       add({{z, w}}, d.upper, d);
       add({{z, -w}}, -d.lower, d);
     }
-  if (d.shape == range) {
+  if (of_range(d)) {
     add({{low, w}, {high, -w}}, d.upper, d);
     add({{high, w}, {low, -w}}, d.upper, d);
   }
@@ -117,11 +126,11 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
   using enum Demand::Shape;
   for (std::size_t i = 0; i < demands_.size(); ++i) {
     const Demand& d = demands_[i];
-    const double w = d.factor;
+    const double w = weight(d);
     if (d.shape == size) {
       if (w * top.value > d.upper) add_if_broken({{top.at, w}}, d.upper, i);
       if (w * bottom.value > -d.lower) add_if_broken({{bottom.at, -w}}, -d.lower, i);
-    } else if (d.shape == range) {
+    } else if (of_range(d)) {
       if (w * (top.value + bottom.value) > d.upper)
         add_if_broken({{top.at, w}, {bottom.at, -w}}, d.upper, i);
     } else if (d.shape == straightness) {

@@ -357,6 +357,7 @@ double worst_excess(const std::vector<Demand>& demands,
   for (const auto& d : demands) {
     if (d.shape == none) continue;
     double value = d.factor * (x.max_mm - x.min_mm);
+    if (d.shape == centred) value /= 2;
     if (d.shape == size) value = d.factor * std::max(x.max_mm, -x.min_mm);
     if (d.shape == straightness) value = tolerance::minimum_zone(e).width_mm;
     worst = std::max(worst, value / std::max(d.upper, 1e-12) - 1);

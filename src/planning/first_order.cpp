@@ -73,8 +73,7 @@ std::optional<double> change(const PreparedPart& plan, const SolvedFeature& f,
   if (!chain) return {};
   chain->functionals = a.model->chain().functionals;
   feature.limit_chatter_alike(a.model->chain(), a.choice.a, *chain);
-  const auto offset = f.compensated ? Offset::free : Offset::none;
-  if (!take_limits(f.task.demands, demands(changed, feature.surface(), offset, making),
+  if (!take_limits(f.task.demands, demands(changed, feature.surface(), f.offset, making),
                    chain->functionals))
     return {};
   const auto before = lagrangian(a, a.model->chain()), after = lagrangian(a, *chain);

@@ -18,6 +18,18 @@ const char* name(Clamping c) {
   return "";
 }
 
+const char* name(Jaws jaws) {
+  switch (jaws) {
+    case Jaws::hard:
+      return "hard";
+    case Jaws::soft:
+      return "soft";
+    case Jaws::collet:
+      return "collet";
+  }
+  return "";
+}
+
 const char* name(OperationKind k) {
   switch (k) {
     case OperationKind::face:

@@ -26,6 +26,13 @@ struct Totals {
 /// Time and cost of a setup, per part.
 Totals totals(const PreparedPart& plan, const SolvedSetup& setup);
 
+/// Preparing the machine for all setups.
+SettingUp setting_up(const PlanRequest& plan);
+
+/// Of the tolerances, the first of those that fewest parts keep.
+std::optional<WorstConformance> worst_conformance(
+    const PlanRequest& plan, const std::vector<ToleranceResult>& tolerances);
+
 /// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
 /// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
 std::vector<OperationPlan> operations_in_order(const PreparedPart& plan,
@@ -52,6 +59,9 @@ std::vector<ToleranceResult> tolerance_results(const PreparedPart& plan,
 /// The error of every surface at 21 places, as it is made; not of blanks.
 std::vector<Deviation> deviations(const PreparedPart& plan,
                                   const std::vector<SolvedSetup>& setups);
+
+/// Offsets of the tool that sizes need, where a constant one was to be had.
+std::vector<ToolOffset> offsets(const std::vector<SolvedSetup>& setups);
 
 /// Correction of the tool path where a tolerance needs it.
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);

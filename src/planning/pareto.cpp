@@ -15,7 +15,7 @@ Corner cheapest(const PreparedPart& p, double minute) {
   PlanRequest dearer = p;
   dearer.objective = Objective::cost;
   dearer.machine_per_min += minute;
-  const auto r = conforming(prepare(std::move(dearer), p), {}, Why::untold);
+  const auto r = planned(prepare(std::move(dearer), p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   const double time = r.time_per_part_min;
   return ParetoPoint{r.cost_per_part - minute * time, time, minute};
@@ -24,7 +24,7 @@ Corner cheapest(const PreparedPart& p, double minute) {
 Corner fastest(const PreparedPart& p) {
   PlanRequest quick = p;
   quick.objective = Objective::time;
-  const auto r = conforming(prepare(std::move(quick), p), {}, Why::untold);
+  const auto r = planned(prepare(std::move(quick), p), {}, Why::untold);
   if (r.status != PlanStatus::ok) return {};
   return ParetoPoint{r.cost_per_part, r.time_per_part_min, {}};
 }

@@ -102,8 +102,7 @@ bool add_missed(ProcessPlan& result) {
 
 std::optional<double> first_order_saving(const PreparedPart& p,
                                          const std::vector<SolvedSetup>& solved,
-                                         PreparedPart changed) {
-  changed.other_ends = p.other_ends;
+                                         const PreparedPart& changed) {
   const auto costs = first_order(p, solved, changed);
   if (!costs) return {};
   return -*costs;
@@ -139,12 +138,15 @@ ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if, W
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);
+  result.worst_conformance = worst_conformance(p, result.tolerances);
+  result.setting_up = setting_up(p);
   result.cost_per_part = a.total.cost;
   result.time_per_part_min = a.total.minutes;
   if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
   result.deviations = deviations(p, chosen);
+  result.offsets = offsets(chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
   for (std::size_t k = 0; k < what_if.size(); ++k)

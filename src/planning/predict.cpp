@@ -178,7 +178,10 @@ ProcessPlan predict(const PreparedPart& p) {
   result.certificate.reason = "conditions as given";
   if (feasible(setups)) {
     result.tolerances = tolerance_results(p, setups);
+    result.worst_conformance = worst_conformance(p, result.tolerances);
+    result.setting_up = setting_up(p);
     result.deviations = deviations(p, setups);
+    result.offsets = offsets(setups);
     result.compensation = compensations(setups);
     for (const auto& s : setups) {
       const auto t = totals(p, s);

@@ -52,7 +52,6 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
   p.machine_takes = like.machine_takes;
   for (std::size_t i = 0; i < p.milled_places.size(); ++i)
     p.milled_places[i].ways = like.milled_places.at(i).ways;
-  p.other_ends = like.other_ends;
   return p;
 }
 

@@ -74,10 +74,14 @@ Price price(const PreparedPart& p, const Limit& l, double gain,
             std::vector<std::string> binds_in) {
   const double then = l.at_most ? l.now * 1.1 : l.now / 1.1;
   const auto sentence = fmt::format(
-      "{} from {} to {}{}{} saves {:.4f}{} per part, {} per batch of {}", l.called,
-      readable(l.now), readable(then), l.unit.empty() ? "" : " ", l.unit, gain,
-      unit_of_objective(p), readable(gain * p.batch), readable(p.batch));
-  return {l.name, l.now, l.unit, gain, gain * p.batch, std::move(binds_in), sentence};
+      "{} from {} to {}{}{} saves {:.4f}{} per part{}", l.called, readable(l.now),
+      readable(then), l.unit.empty() ? "" : " ", l.unit, gain, unit_of_objective(p),
+      p.batch ? fmt::format(", {} per batch of {}", readable(gain * *p.batch),
+                            readable(*p.batch))
+              : "");
+  std::optional<double> batch;
+  if (p.batch) batch = gain * *p.batch;
+  return {l.name, l.now, l.unit, gain, batch, std::move(binds_in), sentence};
 }
 
 }  // namespace

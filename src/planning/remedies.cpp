@@ -140,7 +140,7 @@ std::vector<Remedy> remedies(const PreparedPart& p, const Attempt& attempt) {
     const auto changed = prepare(std::move(plan));
     Feasibility part(changed);
     if (!part.with(Openings(part.limits().size(), 1))) continue;
-    const auto planned_with = conforming(changed, {}, Why::untold);
+    const auto planned_with = planned(changed, {}, Why::untold);
     if (planned_with.status != PlanStatus::ok) continue;
     remedy.cost_per_part = planned_with.cost_per_part;
     remedy.time_per_part_min = planned_with.time_per_part_min;

@@ -54,7 +54,8 @@ std::size_t place_in_setup(Feature::Kind kind, bool rough) {
 double minutes_besides_cutting(const PreparedPart& plan, Clamping clamping,
                                int indexings) {
   const auto& m = plan.machine;
-  double t = indexings * m.index_min + m.load_min + m.setup_min / plan.batch;
+  double t = indexings * m.index_min + m.load_min;
+  if (plan.batch) t += m.setup_min / *plan.batch;
   if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
   if (clamping == Clamping::between_centres) t += m.centres_min;
   if (clamping == Clamping::chuck_steady) t += m.steady_min;
@@ -171,7 +172,7 @@ std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& 
 }
 
 bool SetupPlanner::can_be_made(const std::function<bool(const FeatureTask&)>& makes) {
-  const auto offset = compensate_ ? Offset::free : Offset::none;
+  const auto offset = compensate_ ? Offset::path : free_offset(p_);
   std::map<std::pair<std::size_t, ToolPair>, bool> known;
   const auto made = [&](std::size_t j, const Tools& tools) {
     const auto [it, fresh] = known.try_emplace({j, tools_of(j, tools)});
@@ -196,10 +197,11 @@ SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&),
                                    const std::set<std::string>& corrected) {
   SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
-    const bool free = corrected.contains(jobs_[j].feature.surface());
-    auto t = task(j, {}, free ? Offset::free : Offset::none);
+    const bool follows = corrected.contains(jobs_[j].feature.surface());
+    const auto offset = follows ? Offset::path : free_offset(p_);
+    auto t = task(j, {}, offset);
     auto a = answer(t);
-    s.features.push_back({std::move(t), std::move(a), free, jobs_[j].wanted.ids});
+    s.features.push_back({std::move(t), std::move(a), offset, jobs_[j].wanted.ids});
   }
   s.fixed = fixed_;
   s.indexings = indexings(s);
@@ -286,7 +288,7 @@ Entry& SetupPlanner::entry(std::size_t j, const Tools& tools) {
   auto& memory = memory_[j];
   if (jobs_[j].feature.kind() == Feature::Kind::end_face) {
     const auto [it, fresh] = shared_.faces.try_emplace(key.second);
-    if (fresh) it->second.bound = least_objective(task(j, tools, Offset::none));
+    if (fresh) it->second.bound = least_objective(task(j, tools, free_offset(p_)));
     return it->second;
   }
   const auto [it, fresh] = memory.try_emplace(key);
@@ -305,24 +307,23 @@ const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
     t.boxes = std::max(t.boxes - boxes_, kLeastBoxes);
     auto answer = optimise_feature(t, kGap, most);
     boxes_ += answer.certificate.nodes;
-    return SolvedFeature{std::move(t), std::move(answer), offset == Offset::free,
-                         jobs_[j].wanted.ids};
+    return SolvedFeature{std::move(t), std::move(answer), offset, jobs_[j].wanted.ids};
   };
   // What can be made without compensation at any cost is not compensated.
   if (compensate_) most = kInfinity;
   if (explain_ && !(e.solved && e.solved->answer.feasible)) {
-    e.solved = attempt(compensate_ ? Offset::free : Offset::none);
+    e.solved = attempt(compensate_ ? Offset::path : free_offset(p_));
     return *e.solved;
   }
   if (!settled()) {
     e.most = most;
-    e.solved = attempt(Offset::none);
+    e.solved = attempt(free_offset(p_));
   }
   if (!compensate_ || e.solved->answer.feasible || e.compensated ||
       e.solved->task.demands.empty())
     return *e.solved;
   e.compensated = true;
-  auto compensated = attempt(Offset::free);
+  auto compensated = attempt(Offset::path);
   if (compensated.answer.feasible) e.solved = std::move(compensated);
   return *e.solved;
 }

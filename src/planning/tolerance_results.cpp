@@ -38,9 +38,33 @@ tolerance::Profile profile(const Found& f) {
   return f.feature->answer.profile;
 }
 
-// With the tool's path corrected where the plan says so.
+// What centres an error about zero.
+double to_middle_mm(const tolerance::PiecewisePolynomial& e) {
+  const auto x = tolerance::extremes(e);
+  return -(x.min_mm + x.max_mm) / 2;
+}
+
+tolerance::PiecewisePolynomial moved(tolerance::PiecewisePolynomial e, double by_mm) {
+  for (auto& piece : e.coefficients) piece[0] += by_mm;
+  return e;
+}
+
+// None where every size keeps its limits without.
+double offset_mm(const SolvedFeature& f) {
+  if (f.offset != Offset::constant || !f.answer.model) return 0;
+  const auto x = tolerance::extremes(f.answer.profile);
+  const double most = std::max(x.max_mm, -x.min_mm);
+  const bool needed = std::ranges::any_of(f.task.demands, [&](const Demand& d) {
+    return d.shape == Demand::Shape::centred && d.factor * most > d.upper * (1 + kOver);
+  });
+  return needed ? to_middle_mm(f.answer.profile) : 0;
+}
+
+// With the tool's offset, or its path corrected, where the plan says so.
 tolerance::Profile as_made(const Found& f) {
-  if (!f.feature || !f.feature->compensated) return profile(f);
+  if (!f.feature) return profile(f);
+  if (f.feature->offset != Offset::path)
+    return moved(f.feature->answer.profile, offset_mm(*f.feature));
   const auto& a = f.feature->answer;
   const auto& task = f.feature->task;
   return task.feature.corrected_profile(a.model->recipe(), task.economy, a.choice,
@@ -126,12 +150,20 @@ double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
   return c.kind == ToleranceKind::profile ? zone / 2 : zone;
 }
 
-// What is not known of forces and stiffness is not known of a correction either.
+// The error that forces and stiffness which are not known scale: of a corrected path all
+// that it corrects, but for its middle if the first part shows that.
+tolerance::Profile scaled_with_forces(const PreparedPart& p, const Found& f) {
+  if (!f.feature || f.feature->offset != Offset::path) return as_made(f);
+  const auto& e = f.feature->answer.profile;
+  return p.shop.first_part_gauged ? moved(e, to_middle_mm(e)) : e;
+}
+
 double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
                   const Found& other, const Taken& all) {
   if (!(all.fixed_mm < width_mm(t) && (at.feature || other.feature))) return 0;
   const auto c = judged(t, at, all.fixed_mm, half_angle_rad(p.drawing, t.of).value_or(0));
-  const double scaled = scaled_mm(c, verdict(c, profile(at), profile(other)));
+  const double scaled =
+      scaled_mm(c, verdict(c, scaled_with_forces(p, at), scaled_with_forces(p, other)));
   return tolerance::Spread(all.by.spread)
       .within(tolerance::room_um(verdict(c, as_made(at), as_made(other))),
               force_spread(p) * units::um_from_mm(scaled));
@@ -252,13 +284,15 @@ std::vector<Deviation> deviations(const PreparedPart& p,
       for (int k = 0; k < kPlaces; ++k)
         places.push_back(feature.low_mm() +
                          (feature.high_mm() - feature.low_mm()) * k / (kPlaces - 1));
+      const bool follows = f.offset == Offset::path;
+      const double by = offset_mm(f);
       const auto e =
-          f.compensated ? feature.corrected(recipe, f.task.economy, f.answer.choice,
-                                            places, correction(f))
-                        : feature.errors(recipe, f.task.economy, f.answer.choice, places);
+          follows ? feature.corrected(recipe, f.task.economy, f.answer.choice, places,
+                                      correction(f))
+                  : feature.errors(recipe, f.task.economy, f.answer.choice, places);
       Deviation d{feature.surface(), s.setup, {}};
       for (std::size_t k = 0; k < places.size(); ++k)
-        d.table_mm.emplace_back(places[k], e[k]);
+        d.table_mm.emplace_back(places[k], e[k] + by);
       all.push_back(std::move(d));
     }
   return all;
@@ -272,11 +306,20 @@ double interpolated(const Compensation::Table& table, double at) {
   return dr0 + (dr1 - dr0) * (std::clamp(at, z0, z1) - z0) / (z1 - z0);
 }
 
+std::vector<ToolOffset> offsets(const std::vector<SolvedSetup>& setups) {
+  std::vector<ToolOffset> all;
+  for (const auto& s : setups)
+    for (const auto& f : s.features)
+      if (const double by = offset_mm(f); by != 0)
+        all.push_back({f.task.feature.surface(), s.setup, by});
+  return all;
+}
+
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups) {
   std::vector<Compensation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features)
-      if (f.compensated && f.answer.feasible)
+      if (f.offset == Offset::path && f.answer.feasible)
         all.push_back({f.task.feature.surface(), s.setup, correction(f)});
   return all;
 }

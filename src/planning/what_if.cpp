@@ -33,9 +33,12 @@ std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIf
       std::abs(*a.saves_per_part) <= kCertificates * own.cost_per_part &&
       std::abs(*a.saves_min_per_part) <= kCertificates * own.time_per_part_min;
   if (same) return fmt::format("{}: changes nothing", a.name);
-  return fmt::format("{}: {} per part, {} per batch of {}; {} per part", a.name,
-                     saves(*a.saves_per_part, ""), readable(std::abs(*a.saves_per_batch)),
-                     readable(p.batch), saves(seconds, " s"));
+  return fmt::format(
+      "{}: {} per part{}; {} per part", a.name, saves(*a.saves_per_part, ""),
+      p.batch ? fmt::format(", {} per batch of {}",
+                            readable(std::abs(*a.saves_per_batch)), readable(*p.batch))
+              : "",
+      saves(seconds, " s"));
 }
 
 }  // namespace
@@ -45,13 +48,13 @@ void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
   const bool both = result.status == PlanStatus::ok;
   for (std::size_t k = 0; k < what_if.size(); ++k) {
     auto& a = result.what_if[k];
-    const auto changed = conforming(what_if[k].part);
+    const auto changed = planned(what_if[k].part);
     a.feasible = changed.status == PlanStatus::ok;
     a.cost_per_part = changed.cost_per_part;
     a.time_per_part_min = changed.time_per_part_min;
     if (a.feasible && both) {
       a.saves_per_part = result.cost_per_part - changed.cost_per_part;
-      a.saves_per_batch = *a.saves_per_part * p.batch;
+      if (p.batch) a.saves_per_batch = *a.saves_per_part * *p.batch;
       a.saves_min_per_part = result.time_per_part_min - changed.time_per_part_min;
     }
     a.sentence = sentence(p, result, a, changed);

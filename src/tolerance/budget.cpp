@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "turnwright/base/random.hpp"
 #include "turnwright/base/units.hpp"
@@ -140,6 +142,66 @@ std::optional<double> index(const Budget& b) {
                   (b.Q50_um - b.room_um.down_um) / below);
 }
 
+double normal_below(double x, double sigma) {
+  if (!(sigma > 0)) return x >= 0 ? 1 : 0;
+  return std::erfc(-x / sigma / std::sqrt(2.0)) / 2;
+}
+
+/// I_n of Eq. (9).
+double smoothed_power(double t, int n, double sigma) {
+  if (!(sigma > 0)) {
+    double power = t > 0 ? 1 : 0;
+    for (int k = 1; k <= n; ++k) power *= t / k;
+    return power;
+  }
+  const double z = t / sigma;
+  double before = std::exp(-z * z / 2) / std::sqrt(2 * units::kPi) / sigma;
+  double last = normal_below(t, sigma);
+  for (int k = 1; k <= n; ++k)
+    before = std::exchange(last, (t * last + sigma * sigma * before) / k);
+  return last;
+}
+
+/// Eq. (9) of half widths that fall.
+double uniforms_below(double x, std::span<const double> widths, double variance) {
+  constexpr double kNarrow = 1e-3, kSigmas = 9;
+  double reach = kSigmas * std::sqrt(variance);
+  for (const double w : widths) reach += w;
+  std::vector<double> wide;
+  for (const double w : widths)
+    if (w >= kNarrow * reach)
+      wide.push_back(w);
+    else
+      variance += w * w / 3;
+  const double sigma = std::sqrt(variance);
+  reach = kSigmas * sigma + std::accumulate(wide.begin(), wide.end(), 0.0);
+  if (!(x > -reach)) return 0;
+  if (!(x < reach)) return 1;
+  const auto n = static_cast<int>(wide.size());
+  double sum = 0, scale = 1;
+  for (const double w : wide) scale *= 2 * w;
+  for (unsigned signs = 0; signs < 1u << n; ++signs) {
+    double at = x, sign = 1;
+    for (int i = 0; i < n; ++i) {
+      const bool minus = signs >> i & 1u;
+      at +=
+          minus ? -wide[static_cast<std::size_t>(i)] : wide[static_cast<std::size_t>(i)];
+      if (minus) sign = -sign;
+    }
+    sum += sign * smoothed_power(at, n, sigma);
+  }
+  return std::clamp(sum / scale, 0.0, 1.0);
+}
+
+/// Eq. (10).
+double rayleigh_below(double x, double a, double sigma) {
+  if (!(x > -INFINITY)) return 0;
+  if (!(sigma > 0)) return x > 0 ? -std::expm1(-x * x / (2 * a * a)) : 0;
+  const double s = std::hypot(a, sigma);
+  return normal_below(x, sigma) -
+         a / s * std::exp(-x * x / (2 * s * s)) * normal_below(x * a / s, sigma);
+}
+
 }  // namespace
 
 Span room_um(const Verdict& v) {
@@ -199,17 +261,34 @@ Span rss_um(std::span<const Source> sources) {
 
 Spread::Spread(std::span<const Source> sources, const Draws& draws) {
   check(sources);
+  constexpr std::size_t kMostUniform = 6;
   std::vector<Source> rest;
+  bool other = false;
   for (const Source& s : sources) {
-    if (s.distribution != Distribution::normal && s.distribution != Distribution::fixed) {
-      rest.push_back(s);
+    const Moments m = moments_um(s);
+    const double a = std::abs(s.sensitivity * s.value_um);
+    if (!(a > 0)) continue;
+    using enum Distribution;
+    if (s.distribution == normal || s.distribution == fixed) {
+      mean_um_ += m.mean;
+      variance_um2_ += m.sigma * m.sigma;
       continue;
     }
-    const Moments m = moments_um(s);
-    mean_um_ += m.mean;
-    variance_um2_ += m.sigma * m.sigma;
+    rest.push_back(s);
+    if (s.distribution == uniform)
+      uniform_um_.push_back(a);
+    else if (s.distribution == triangular)
+      uniform_um_.insert(uniform_um_.end(), 2, a / 2);
+    else if (s.distribution == rayleigh && s.sensitivity > 0 && !(rayleigh_um_ > 0))
+      rayleigh_um_ = a;
+    else
+      other = true;
   }
-  drawn_um_ = rest.empty() ? std::vector{0.0} : rising_sum_um(rest, draws);
+  std::ranges::sort(uniform_um_, std::greater<>{});
+  if (!other && uniform_um_.size() <= kMostUniform &&
+      !(rayleigh_um_ > 0 && !uniform_um_.empty()))
+    return;
+  drawn_um_ = rising_sum_um(rest, draws);
   constexpr std::size_t kNeighbours = 20;
   if (drawn_um_.size() % kNeighbours != 0) {
     means_um_ = drawn_um_;
@@ -219,9 +298,20 @@ Spread::Spread(std::span<const Source> sources, const Draws& draws) {
     means_um_.push_back(std::accumulate(at, at + kNeighbours, 0.0) / kNeighbours);
 }
 
+// Eqs. (9), (10).
+double Spread::below(double x, double variance) const {
+  if (rayleigh_um_ > 0) return rayleigh_below(x, rayleigh_um_, std::sqrt(variance));
+  return uniforms_below(x, uniform_um_, variance);
+}
+
 double Spread::within(const Span& room, double further_sigma_um) const {
   const Span left{room.down_um - mean_um_, room.up_um - mean_um_};
   const double variance = variance_um2_ + further_sigma_um * further_sigma_um;
+  if (closed()) {
+    if (!(variance > 0) && uniform_um_.empty() && !(rayleigh_um_ > 0))
+      return left.down_um <= 0 && left.up_um >= 0 ? 1 : 0;
+    return std::max(0.0, below(left.up_um, variance) - below(left.down_um, variance));
+  }
   if (!(variance > 0)) return share_within(drawn_um_, left);
   const double scale = std::sqrt(2 * variance);
   double sum = 0;

@@ -192,7 +192,25 @@ class Check {
 
   planning::Clamping clamping() const { return p_.plan.setups[setup_].clamping; }
 
+  // What a radius is cut to beside what is drawn: the middle of its limits, the offset of
+  // the tool and the correction at a place.
   double correction(const std::string& id, double z) const {
+    double sum = 0;
+    for (const auto& t : p_.part.drawing.tolerances)
+      if (t.of == id && t.kind == part::ToleranceKind::diameter && !cut(id))
+        sum += (t.limits->lower_mm + t.limits->upper_mm) / 2 / 2;
+    for (const auto& o : p_.plan.offsets)
+      if (o.on == id) sum += o.offset_mm;
+    return sum + path_correction(id, z);
+  }
+
+  bool cut(const std::string& id) const {
+    const auto is = [&](const auto& e) { return e.id == id && e.cut; };
+    return std::ranges::any_of(p_.part.drawing.outer, is) ||
+           std::ranges::any_of(p_.part.drawing.inner, is);
+  }
+
+  double path_correction(const std::string& id, double z) const {
     for (const auto& c : p_.plan.compensation) {
       if (c.on != id) continue;
       const auto& t = c.table_mm;
@@ -207,8 +225,8 @@ class Check {
   }
 
   bool corrected(const std::string& id) const {
-    return std::any_of(p_.plan.compensation.begin(), p_.plan.compensation.end(),
-                       [&](const auto& c) { return c.on == id; });
+    const auto is_on = [&](const auto& c) { return c.on == id; };
+    return std::ranges::any_of(p_.plan.compensation, is_on) || correction(id, 0) != 0;
   }
 
   // Radius drawn at a place of an element.

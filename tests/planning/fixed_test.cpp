@@ -143,7 +143,7 @@ TEST(FixedOperations, TimeOfAPartIsTheSumOfItsParts) {
       in = o.tool;
     }
   }
-  EXPECT_NEAR(besides, 2 * (m.load_min + m.setup_min / p.batch) + tools * m.index_min,
+  EXPECT_NEAR(besides, 2 * (m.load_min + m.setup_min / *p.batch) + tools * m.index_min,
               1e-9);
 }
 
@@ -425,7 +425,7 @@ json& given_operation(json& d, const std::string& id) {
 }
 
 TEST(Given, DrillsOfHolesKeepTheirIds) {
-  auto d = given_back(bush());
+  auto d = given_back(nominal(bush()));
   given_operation(d, "s0-drill-b1")["id"] = "hole";
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);

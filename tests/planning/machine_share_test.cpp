@@ -138,7 +138,7 @@ TEST(MachineShare, OffsetsDropOutIfTheFirstPartIsGauged) {
   d["machine"] = lathe(off);
   // 2 (2 + 1) um of setting and play, and the taper from 20 to 120 mm.
   EXPECT_NEAR(take(part(d)).fixed_um, 2 * (2 * 3 + 2 * 0.020 * 120), 2 * kUm);
-  d["budget"] = {{"first_part_gauged", true}};
+  d["budget"]["first_part_gauged"] = true;
   EXPECT_NEAR(take(part(d)).fixed_um, 2 * 0.020 * 100, kUm);
 }
 
@@ -199,7 +199,7 @@ TEST(MachineShare, OfAProfileCountsItsPlaceAndOfAnAngleItsForm) {
   EXPECT_NEAR(um(zone("angularity", "right", "d2"), {{"X", square("EB0X", 20e-6)}}), 0.50,
               kUm);
   auto gauged = tube();
-  gauged["budget"] = {{"first_part_gauged", true}};
+  gauged["budget"]["first_part_gauged"] = true;
   EXPECT_NEAR(take(with(zone("profile", "d2", "right"), taper, gauged)).fixed_um, 2.0,
               kUm);
 }

@@ -23,7 +23,25 @@ inline nlohmann::json reference_part(const std::string& name) {
   return file("parts/" + name + ".json");
 }
 
-/// A short pin of two cylinders, turned round once in the chuck.
+/// No errors of the shop, sizes programmed at the middle of their limits.
+inline nlohmann::json no_shop_errors() {
+  return {{"drift_um", 0},
+          {"drift_axial_um", 0},
+          {"repeatability_um", 0},
+          {"part_warm_K", 0},
+          {"rechucking_um", 0},
+          {"life_between_offsets", 0},
+          {"first_part_gauged", false}};
+}
+
+/// A part of parts/, likewise.
+inline nlohmann::json nominal(nlohmann::json document) {
+  document["budget"] = no_shop_errors();
+  document["robust"] = false;
+  return document;
+}
+
+/// A short pin of two cylinders, turned round once in the chuck, planned nominally.
 inline nlohmann::json pin() {
   return {{"format", "turnwright-part/1"},
           {"name", "Pin"},
@@ -45,7 +63,9 @@ inline nlohmann::json pin() {
           {"objective", "cost"},
           {"batch", 10},
           {"rates", {{"machine_per_min", 1.0}, {"price", 30}}},
-          {"machine_share_um", 1}};
+          {"machine_share_um", 1},
+          {"budget", no_shop_errors()},
+          {"robust", false}};
 }
 
 /// A plan's own conditions, given back whole.

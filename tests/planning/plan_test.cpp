@@ -187,7 +187,7 @@ TEST(Plan, CostAgainstTimeOfARobustPlanIsOfRobustPlans) {
   auto d = pin();
   d["rates"]["machine_per_min"] = 0.15;
   d["outer"][1]["limits_mm"] = {-0.015, 0.015};
-  d["budget"] = {{"repeatability_um", 2.2}};
+  d["budget"]["repeatability_um"] = 2.2;
   d["robust"] = true;
   d["pareto"] = 4;
   const auto p = part(d);
@@ -239,6 +239,12 @@ TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   EXPECT_GE(r.cost_per_part, planned(pin()).cost_per_part * (1 - 1e-4));
 }
 
+const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
+  for (const auto& t : p.tolerances)
+    if (t.id == id) return t;
+  throw std::out_of_range(id);
+}
+
 nlohmann::json long_pin(const std::vector<std::string>& clampings) {
   auto d = pin();
   d["stock"]["length_mm"] = 202;
@@ -282,6 +288,76 @@ TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
   EXPECT_EQ(held.setups[0].rejected[0].clamping, Clamping::chuck);
 }
 
+// A size off its middle by much more than it varies: one number puts it right.
+TEST(Plan, AnOffsetCentresASizeBeforeAnythingGetsDearer) {
+  auto d = long_pin({"chuck"});
+  d["outer"][1]["limits_mm"] = {-0.012, 0.012};
+  const auto without = planned(d);
+  d["budget"]["first_part_gauged"] = true;
+  const auto with = planned(d);
+  ASSERT_EQ(with.status, PlanStatus::ok);
+  EXPECT_TRUE(with.compensation.empty());
+  ASSERT_EQ(with.offsets.size(), 1u);
+  EXPECT_EQ(with.offsets[0].on, "d2");
+  EXPECT_EQ(with.offsets[0].setup, 0u);
+  EXPECT_LT(with.offsets[0].offset_mm, 0);  // the pin springs back and is left too large
+  const auto& t = tolerance(with, "d2:diameter");
+  EXPECT_EQ(t.verdict, Verdict::met_with_offset);
+  EXPECT_NEAR(t.predicted_mm[0] + t.predicted_mm[1], 0, 1e-12);
+  if (without.status == PlanStatus::ok) {
+    EXPECT_LE(with.cost_per_part, without.cost_per_part * (1 + 1e-4));
+  }
+  // The same conditions without it: the band is as wide, and off by the offset.
+  auto given = as_planned(d, with);
+  const auto again = predict(part_to_predict(given));
+  ASSERT_EQ(again.offsets.size(), 1u);
+  EXPECT_NEAR(again.offsets[0].offset_mm, with.offsets[0].offset_mm, 1e-9);
+  given["outer"][1]["limits_mm"] = {-0.2, 0.2};
+  const auto bare = predict(part_to_predict(given));
+  EXPECT_TRUE(bare.offsets.empty());
+  for (const std::size_t end : {0u, 1u})
+    EXPECT_NEAR(
+        tolerance(bare, "d2:diameter").predicted_mm[end] + 2 * with.offsets[0].offset_mm,
+        t.predicted_mm[end], 1e-9);
+  for (std::size_t k = 0; k < bare.deviations.size(); ++k) {
+    const double by = bare.deviations[k].on == "d2" ? with.offsets[0].offset_mm : 0;
+    for (std::size_t i = 0; i < bare.deviations[k].table_mm.size(); ++i)
+      EXPECT_NEAR(with.deviations[k].table_mm[i].second,
+                  bare.deviations[k].table_mm[i].second + by, 1e-9);
+  }
+}
+
+// Preparing the machine is the same whatever is chosen: only its share is left out.
+TEST(Plan, WithoutABatchPreparingTheMachineIsToldApart) {
+  auto d = pin();
+  const auto ten = planned(d);
+  d.erase("batch");
+  const auto none = planned(d);
+  ASSERT_EQ(none.status, PlanStatus::ok);
+  EXPECT_NEAR(none.setting_up.minutes, 2 * 20, 1e-12);  // lathe-medium, two setups
+  EXPECT_NEAR(none.setting_up.cost, 40, 1e-12);         // at 1.0 per minute
+  EXPECT_FALSE(none.setting_up.minutes_per_part);
+  EXPECT_NEAR(none.time_per_part_min + 4, ten.time_per_part_min, 1e-9);
+  EXPECT_NEAR(none.cost_per_part + 4, ten.cost_per_part, 1e-9);
+  EXPECT_NEAR(*ten.setting_up.minutes_per_part, 4, 1e-12);
+  EXPECT_NEAR(*ten.setting_up.cost_per_part, 4, 1e-12);
+  ASSERT_FALSE(none.prices.empty());
+  EXPECT_FALSE(none.prices[0].saves_per_batch_for_10_percent);
+  EXPECT_EQ(none.prices[0].sentence.find("batch"), std::string::npos);
+}
+
+TEST(Plan, TheWorstConformanceIsThatOfTheToleranceFewestPartsKeep) {
+  auto d = pin();
+  d["outer"][1]["limits_mm"] = {-0.02, 0};
+  const auto r = planned(d);
+  ASSERT_TRUE(r.worst_conformance);
+  double least = 1;
+  for (const auto& t : r.tolerances) least = std::min(least, t.P_conform);
+  EXPECT_EQ(r.worst_conformance->P_conform, least);
+  EXPECT_EQ(tolerance(r, r.worst_conformance->tolerance).P_conform, least);
+  EXPECT_EQ(r.worst_conformance->wanted, 0.9973);
+}
+
 // A pin of one diameter in the chuck, both operations given.
 nlohmann::json given_pin(const std::string& direction) {
   auto d = long_pin({"chuck"});
@@ -302,12 +378,6 @@ nlohmann::json given_pin(const std::string& direction) {
       {{"id", "d"}, {"setup", 1}, {"kind", "finish"}, {"on", {"d1"}}, {"tool", tool}}};
   d["damping_ratio"] = 0.5;
   return d;
-}
-
-const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
-  for (const auto& t : p.tolerances)
-    if (t.id == id) return t;
-  throw std::out_of_range(id);
 }
 
 // What a force and a couple do at the end of a stepped cantilever of cylinders.
@@ -449,7 +519,7 @@ TEST(Plan, AHoleNoBarEntersIsTold) {
 }
 
 TEST(Plan, ASteadyRestHoldsWhereNoCentreCan) {
-  auto d = reference_part("roller-tube");
+  auto d = nominal(reference_part("roller-tube"));
   d["damping_ratio"] = 0.5;
   const auto r = planned(d);
   ASSERT_EQ(r.status, PlanStatus::ok);
@@ -592,7 +662,7 @@ TEST(Plan, ACorrectedPathLeavesNothing) {
 // Three sigma leave nothing for the cut, but most parts conform: a normal source alone.
 TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
   auto d = pin();
-  d["budget"] = {{"repeatability_um", 2}};
+  d["budget"]["repeatability_um"] = 2;
   d["outer"][1]["limits_mm"] = {-0.1, 0};
   d = as_planned(d, planned(d));
   const auto size = [&](double half_mm) {

@@ -83,7 +83,7 @@ class SetupSearch {
     }
   }
 
-  /// With `Offset::free` the path of the tool may follow the error of a surface that the
+  /// With `Offset::path` the path of the tool may follow the error of a surface that the
   /// tools tried cannot make otherwise.
   SetupFound best(Offset offset) {
     SetupFound best{clamping_, {}, 0, kInfinity};
@@ -111,7 +111,8 @@ class SetupSearch {
       const bool follows =
           std::any_of(compensation.begin(), compensation.end(),
                       [&](const auto& c) { return c.on == features_[k].surface(); });
-      s.surfaces.push_back(as_planned(k, plan, follows ? Offset::free : Offset::none));
+      s.surfaces.push_back(
+          as_planned(k, plan, follows ? Offset::path : planning::free_offset(p_)));
       s.objective += s.surfaces.back().objective;
     }
     s.indexings = indexings(s);
@@ -182,12 +183,13 @@ class SetupSearch {
   }
 
   const SurfaceFound& solved(std::size_t k, Tools t, Offset offset) {
-    const auto [it, missing] = solved_.try_emplace({k, t.first, t.second, Offset::none});
-    if (missing) it->second = cheapest(k, t, Offset::none);
-    if (offset == Offset::none || std::isfinite(it->second.objective)) return it->second;
-    const auto [free, first] = solved_.try_emplace({k, t.first, t.second, Offset::free});
-    if (first) free->second = cheapest(k, t, Offset::free);
-    return free->second;
+    const auto without = planning::free_offset(p_);
+    const auto [it, missing] = solved_.try_emplace({k, t.first, t.second, without});
+    if (missing) it->second = cheapest(k, t, without);
+    if (offset != Offset::path || std::isfinite(it->second.objective)) return it->second;
+    const auto [path, first] = solved_.try_emplace({k, t.first, t.second, Offset::path});
+    if (first) path->second = cheapest(k, t, Offset::path);
+    return path->second;
   }
 
   SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
@@ -346,7 +348,7 @@ Found search(const PreparedPart& p, const Effort& effort) {
         clampings.emplace_back(p, s, c, work.setups[s], done, economy, effort);
     SetupFound best;
     best.objective = kInfinity;
-    for (const auto offset : {Offset::none, Offset::free}) {
+    for (const auto offset : {planning::free_offset(p), Offset::path}) {
       if (std::isfinite(best.objective)) break;
       for (auto& clamping : clampings) {
         auto one = clamping.best(offset);

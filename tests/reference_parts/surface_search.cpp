@@ -173,7 +173,8 @@ double SurfaceSearch::excess_of(const std::vector<double>& e, double reserve) co
       for (double& x : m) x = -x;
       value = d.factor * std::max(largest(e), largest(m));
     } else {
-      value = d.shape == range ? d.factor * span(e) : strip_width(e);
+      value = d.shape == straightness ? strip_width(e) : d.factor * span(e);
+      if (d.shape == centred) value /= 2;
     }
     worst = std::max(worst, excess(value, limit));
   }

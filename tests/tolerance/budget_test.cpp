@@ -261,6 +261,60 @@ TEST(Conformity, ASpreadGivesEveryRoomItsShare) {
   EXPECT_NEAR(normals.within({-kInfinity, 1}, 1.6), normal_cdf(1), 1e-15);
 }
 
+// Three uniform widths and a normal by integrating over all but the last; a triangular
+// one is two halves.
+TEST(Conformity, UniformSourcesAddUpInClosedForm) {
+  const double a = 2, b = 0.7, c = 0.05, sigma = 0.6;
+  const Spread three(std::vector{source(uniform, a), source(uniform, b, -1),
+                                 source(uniform, c), source(normal, sigma)});
+  const Spread sharp(std::vector{source(uniform, a), source(triangular, b)});
+  constexpr int n = 400;
+  const auto mid = [](double half, int k) { return half * (2 * (k + 0.5) / n - 1); };
+  for (const double up : {-2.9, -1.0, 0.0, 0.3, 2.0, 2.7, 3.5}) {
+    double P = 0, Q = 0;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) {
+        const double x = up - mid(a, i) - mid(b, k);
+        // c by its own integral of the normal's share to third order.
+        const double d = normal_cdf((x + c) / sigma) + normal_cdf((x - c) / sigma);
+        P += (4 * normal_cdf(x / sigma) + d) / 6 / n / n;
+        const double t = mid(b, k);
+        Q += (1 - std::abs(t) / b) * 2 / n *
+             std::clamp((up - t + a) / (2 * a), 0.0, 1.0) / n;
+      }
+    EXPECT_NEAR(three.within({-kInfinity, up}), P, 1e-5) << up;
+    EXPECT_NEAR(sharp.within({-kInfinity, up}), Q, 1e-5) << up;
+  }
+  EXPECT_NEAR(three.within({-20, 20}), 1, 1e-12);
+}
+
+TEST(Conformity, AnEccentricityAndANormalAddUpInClosedForm) {
+  const double a = 2, sigma = 0.8;
+  const Spread both(std::vector{source(rayleigh, 1, 2), source(normal, sigma)});
+  for (const double up : {-1.0, 0.5, 2.0, 5.0, 9.0}) {
+    double P = 0;
+    constexpr int n = 20000;
+    for (int k = 0; k < n; ++k) {
+      const double r = 12 * a * (k + 0.5) / n;
+      P += r / a / a * std::exp(-r * r / 2 / a / a) * normal_cdf((up - r) / sigma) * 12 *
+           a / n;
+    }
+    EXPECT_NEAR(both.within({-kInfinity, up}), P, 1e-7) << up;
+  }
+}
+
+// What is neither is drawn.
+TEST(Conformity, OtherSumsAreDrawn) {
+  const Spread drawn(std::vector{source(uniform, 1), source(rayleigh, 2)});
+  double P = 0;
+  constexpr int n = 20000;
+  for (int k = 0; k < n; ++k) {
+    const double left = 4 - (2 * (k + 0.5) / n - 1);
+    P += -std::expm1(-left * left / 8) / n;
+  }
+  EXPECT_NEAR(drawn.within({-kInfinity, 4}), P, 4 * std::sqrt(P * (1 - P) / 20000));
+}
+
 TEST(Conformity, WithoutSpreadIsAllOrNothing) {
   const Budget in = budget({.sources = {source(fixed, 2)}}, {-1, 2});
   EXPECT_EQ(in.P_conform, 1);

@@ -40,6 +40,23 @@ struct DrivenTools {
   std::map<std::string, std::vector<TipMode>> modes;  ///< measured here, by cutter
 };
 
+/// Eccentricity of a part that is held anew, standard deviation of each component [um].
+struct Rechucking {
+  double hard_jaws_um = 0, soft_jaws_um = 0, collet_um = 0, centres_um = 0;
+};
+
+/// What else than the cut moves sizes and run-outs on a machine in ordinary production,
+/// for requests that do not say; here the estimate for machines that do not say either
+/// (machines/lathe-medium.json has its sources).
+struct ShopBudget {
+  Rechucking rechucking = {6, 2, 1.5, 0.7};
+  double drift_um = 1.5;               ///< between two corrections, radial, +-
+  double drift_axial_um = 3;           ///< and along the axis
+  double repeatability_um = 0.5;       ///< edge's place from part to part, one sigma
+  double part_warm_K = 2;              ///< finishing finds the part so much too warm
+  double life_between_offsets = 0.05;  ///< share of an edge's life between corrections
+};
+
 struct Lathe {
   std::string id, name;
   double n_min_rpm = 0, n_max_rpm = 0;
@@ -62,6 +79,7 @@ struct Lathe {
   double tool_rr_mm_N = 0;   ///< toolpost: radial yield per radial force
   double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
+  ShopBudget budget = {};
   std::optional<GeometricErrors> errors = {};
   std::optional<DrivenTools> driven_tools = {};
   std::optional<double> damping_ratio = {};  ///< of slender work and bars in it

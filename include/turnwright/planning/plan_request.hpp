@@ -24,6 +24,14 @@ enum class Clamping {
 };
 const char* name(Clamping clamping);
 
+/// What the chuck's jaws are, as far as they centre the part.
+enum class Jaws {
+  hard,   ///< hardened, ground
+  soft,   ///< bored in place to the diameter they hold
+  collet  ///< or a collet chuck
+};
+const char* name(Jaws jaws);
+
 struct SetupRequest {
   part::End hold = part::End::left;  ///< the end in the jaws or at the headstock
   double grip_mm = 0;                ///< jaws hold the outermost grip_mm of that end
@@ -31,6 +39,7 @@ struct SetupRequest {
   double steady_z_mm = 0;            ///< where a steady rest stands, with chuck_steady
   std::optional<double> grip_force_N = {};  ///< all jaws at rest; absent: the chuck's
   std::optional<double> finishing_grip_force_N = {};  ///< once roughing is done
+  Jaws jaws = Jaws::soft;
 };
 
 /// What else moves the edge or the part in this shop, besides the cut and the machine's
@@ -43,10 +52,11 @@ struct ShopErrors {
   double part_warm_K = 0;           ///< finishing finds the part up to this much too warm
   double life_between_offsets = 0;  ///< share of an edge's life used between corrections
   double wear_land_mm = 0.3;        ///< VB at the end of the life (ISO 3685's criterion)
-  double rechucking_um = 0;     ///< eccentricity in a later setup, each component's sigma
+  catalogue::Rechucking rechucking = {0, 0, 0, 0};  ///< in a later setup
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
-  bool first_part_gauged =
-      false;  ///< offsets take out the machine's mean error of a size
+  /// Offsets are set by gauging the first part: they take out the machine's mean error of
+  /// a size, and that of the cut.
+  bool first_part_gauged = true;
 };
 
 enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed, mill };
@@ -110,7 +120,7 @@ struct PlanRequest {
   std::vector<Milled> milled = {};
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
   Objective objective = Objective::cost;
-  double batch = 1;
+  std::optional<double> batch;  ///< absent: preparing the machine is left out of a part
   double machine_per_min = 0;   ///< cost of a machine minute
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um =
@@ -123,7 +133,7 @@ struct PlanRequest {
   double chatter_times = 1;
   ShopErrors shop;
   double conformance = 0.9973;
-  bool robust = false;  ///< ask for `conformance` in every tolerance, not only nominally
+  bool robust = true;  ///< ask for `conformance` in every tolerance, not only nominally
   std::size_t pareto = 0;  ///< corners of cost against time to find, 0: none
 };
 

@@ -77,8 +77,6 @@ struct PreparedPart : PlanRequest {
   std::vector<JawForces> jaws;     ///< one a setup
   std::map<MachinePlace, MachineTake> machine_takes;  ///< empty without machine.errors
   std::vector<MilledPlace> milled_places;             ///< of `milled`, in its order
-  /// Of a robust plan, by the tolerance's id: allowance.hpp (2).
-  std::map<std::string, double> other_ends;
 };
 
 PreparedPart prepare(PlanRequest request);

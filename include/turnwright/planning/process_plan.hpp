@@ -138,6 +138,15 @@ struct Compensation {
   std::size_t setup = 0;
   Table table_mm;
 };
+/// What every pass over a surface is moved by, on the radius or along the axis, so that
+/// its size lies in the middle of its limits: the tool's offset at that size, which the
+/// first part confirms.
+struct ToolOffset {
+  std::string on;
+  std::size_t setup = 0;
+  double offset_mm = 0;
+};
+
 /// Of a correction at a place; beyond its ends as at the nearest.
 double interpolated(const Compensation::Table& table, double at);
 
@@ -154,8 +163,9 @@ struct Price {
   std::string limit;  ///< "d1:diameter", "roughness Ra of d2", "power of lathe-medium"
   double now = 0;
   std::string unit;
-  double saves_per_part_for_10_percent = 0, saves_per_batch_for_10_percent = 0;
-  std::vector<std::string> binds_in;  ///< operations
+  double saves_per_part_for_10_percent = 0;
+  std::optional<double> saves_per_batch_for_10_percent;  ///< of a request with a batch
+  std::vector<std::string> binds_in;                     ///< operations
   std::string sentence;
 };
 
@@ -218,16 +228,24 @@ struct WhatIfAnswer {
   bool feasible = false;
   double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
   std::optional<double> saves_per_part, saves_per_batch,
-      saves_min_per_part;  ///< if both have a plan
+      saves_min_per_part;  ///< if both have a plan, per batch if there is one
   std::optional<double>
       first_order_saves_per_part;  ///< first_order.hpp, of the objective
   std::string sentence;
 };
 
-/// What a plan would take that keeps its tolerances only nominally.
-struct Robustness {
-  double conformance = 0;
-  double nominal_cost_per_part = 0, nominal_time_per_part_min = 0;
+/// The tolerance that fewest parts keep.
+struct WorstConformance {
+  std::string tolerance;
+  double P_conform = 1;
+  double wanted = 0;  ///< of every tolerance
+};
+
+/// Preparing the machine, once for the whole batch.
+struct SettingUp {
+  double minutes = 0, cost = 0;
+  /// What each part bears of it, in time and cost per part; none without a batch.
+  std::optional<double> minutes_per_part, cost_per_part;
 };
 
 enum class PlanStatus { ok, infeasible };
@@ -236,15 +254,17 @@ struct ProcessPlan {
   PlanStatus status = PlanStatus::ok;
   double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
   std::optional<double> profit_per_min;
+  SettingUp setting_up;
+  std::optional<WorstConformance> worst_conformance;  ///< if anything is toleranced
   Certificate certificate;
   std::vector<SetupPlan> setups;
   std::vector<ToleranceResult> tolerances;
   std::vector<Deviation> deviations;
+  std::vector<ToolOffset> offsets;
   std::vector<Compensation> compensation;
-  std::vector<Price> prices;             ///< largest saving first
-  std::vector<WhatIfAnswer> what_if;     ///< as asked
-  std::optional<Robustness> robustness;  ///< of a robust plan
-  std::vector<ParetoPoint> pareto;       ///< cheapest first, if asked for
+  std::vector<Price> prices;          ///< largest saving first
+  std::vector<WhatIfAnswer> what_if;  ///< as asked
+  std::vector<ParetoPoint> pareto;    ///< cheapest first, if asked for
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
   std::vector<Remedy> remedies;  ///< cheapest first

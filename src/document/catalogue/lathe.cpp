@@ -125,6 +125,17 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.stiffness_uncertainty_pct = finish_group(group);
 }
 
+void read_shop_budget(Reader group, catalogue::ShopBudget& b) {
+  const auto error = within(0, 1000, "um");
+  b.rechucking = read_rechucking_by_jaws(group.at("rechucking_um", "an object"));
+  b.drift_um = group.number("drift_um", error);
+  b.drift_axial_um = group.number("drift_axial_um", error);
+  b.repeatability_um = group.number("repeatability_um", error);
+  b.part_warm_K = group.number("part_warm_K", within(0, 200, "K"));
+  b.life_between_offsets = group.number("life_between_offsets", within(0, 1));
+  finish_group(group);
+}
+
 // The machine's own geometry, with the keys of `geometry`; a chain with problems is left
 // out.
 void read_geometry(Reader group, catalogue::Lathe& m) {
@@ -181,6 +192,7 @@ catalogue::Lathe read_lathe(Reader r) {
   read_stiffness(r.object("stiffness"), m);
   if (auto driven = r.optional_object("driven_tools"))
     m.driven_tools = read_driven_tools(*driven);
+  if (auto budget = r.optional_object("budget")) read_shop_budget(*budget, m.budget);
   if (auto errors = r.optional_object("errors")) read_geometry(*errors, m);
   r.finish();
   return m;

@@ -63,6 +63,17 @@ double finish_group(Reader& group) {
   return uncertainty_pct;
 }
 
+catalogue::Rechucking read_rechucking_by_jaws(Reader r) {
+  const auto error = within(0, 1000, "um");
+  r = r.as_object();
+  const catalogue::Rechucking by{.hard_jaws_um = r.number("hard_jaws", error),
+                                 .soft_jaws_um = r.number("soft_jaws", error),
+                                 .collet_um = r.number("collet", error),
+                                 .centres_um = r.number("centres", error)};
+  r.finish();
+  return by;
+}
+
 const Choices<catalogue::IsoGroup>& iso_groups() {
   using enum catalogue::IsoGroup;
   static const Choices<catalogue::IsoGroup> kGroups{{"P", P}, {"M", M}, {"K", K},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reader.hpp"
+#include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
@@ -25,6 +26,9 @@ catalogue::Range read_range(Reader& r, std::string_view key, const Bounds& bound
 /// "source", "note" and the returned "uncertainty_pct" of a group of numbers; refuses
 /// what the group holds beyond the keys asked for so far.
 double finish_group(Reader& group);
+
+/// Eccentricities of a part that is held anew, by what holds it.
+catalogue::Rechucking read_rechucking_by_jaws(Reader r);
 
 const Choices<catalogue::IsoGroup>& iso_groups();
 

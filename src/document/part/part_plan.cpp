@@ -55,8 +55,12 @@ void read_economics(Draft& draft) {
                                                  {"time", Objective::time},
                                                  {"profit", Objective::profit}}),
       Objective::cost, "cost");
-  plan.batch = static_cast<double>(
-      or_assumed(draft, "batch", r.optional_integer("batch", 1, 1'000'000), 1L, 1));
+  const bool no_batch = r.has("batch") && r.at("batch").json().is_null();
+  if (r.has("batch") && !no_batch)
+    plan.batch = static_cast<double>(r.integer("batch", 1, 1'000'000));
+  else if (!no_batch)
+    draft.assume("/batch", nullptr,
+                 "none: preparing the machine is told beside what a part costs");
   read_rates(draft);
   plan.machine_share_um =
       or_assumed(draft, "machine_share_um",
@@ -71,7 +75,8 @@ void read_economics(Draft& draft) {
   if (draft.root.has("robust"))
     plan.robust = draft.root.boolean("robust");
   else
-    draft.assume("/robust", false, "default");
+    draft.assume("/robust", plan.robust,
+                 "every tolerance is kept with the probability conformance");
   plan.conformance = or_assumed(draft, "conformance",
                                 r.optional_number("conformance", at_least_below(0.5, 1)),
                                 plan.conformance, plan.conformance);
@@ -90,16 +95,50 @@ void read_damping(Draft& draft) {
       machines ? "the machine's own" : "slender parts and bars in a chuck or holder");
 }
 
+// One number for whatever holds the part, or one for each.
+catalogue::Rechucking read_rechucking(const Reader& given) {
+  if (given.is_object()) return read_rechucking_by_jaws(given);
+  const double um = given.as_number(within(0, 1000, "um"));
+  return {um, um, um, um};
+}
+
+nlohmann::json json_of(const planning::ShopErrors& shop) {
+  const auto& r = shop.rechucking;
+  return {{"drift_um", shop.drift_um},
+          {"drift_axial_um", shop.drift_axial_um},
+          {"repeatability_um", shop.repeatability_um},
+          {"part_warm_K", shop.part_warm_K},
+          {"life_between_offsets", shop.life_between_offsets},
+          {"wear_land_mm", shop.wear_land_mm},
+          {"rechucking_um",
+           {{"hard_jaws", r.hard_jaws_um},
+            {"soft_jaws", r.soft_jaws_um},
+            {"collet", r.collet_um},
+            {"centres", r.centres_um}}},
+          {"measurement_U_um", shop.measurement_U_um},
+          {"first_part_gauged", shop.first_part_gauged}};
+}
+
+// What the request leaves open is the machine's own.
 void read_budget(Draft& draft) {
-  auto budget = draft.root.optional_object("budget");
-  if (!budget) {
-    draft.assume("/budget", nlohmann::json::object(),
-                 "nothing but the cut, the machine's share and the clamping");
-    return;
-  }
   auto& shop = draft.plan().shop;
+  const auto& machine = draft.plan().machine;
+  const auto& own = machine.budget;
+  shop.drift_um = own.drift_um;
+  shop.drift_axial_um = own.drift_axial_um;
+  shop.repeatability_um = own.repeatability_um;
+  shop.part_warm_K = own.part_warm_K;
+  shop.life_between_offsets = own.life_between_offsets;
+  shop.rechucking = own.rechucking;
+  auto given = draft.root.optional_object("budget");
+  bool all = given.has_value();
+  const auto has = [&](const char* key) {
+    const bool is = given && given->has(key);
+    all = all && is;
+    return is;
+  };
   const auto read = [&](const char* key, double& value, const Bounds& bounds) {
-    if (const auto given = budget->optional_number(key, bounds)) value = *given;
+    if (has(key)) value = given->number(key, bounds);
   };
   const auto error = within(0, 1000, "um");
   read("drift_um", shop.drift_um, error);
@@ -108,10 +147,16 @@ void read_budget(Draft& draft) {
   read("part_warm_K", shop.part_warm_K, within(0, 200, "K"));
   read("life_between_offsets", shop.life_between_offsets, within(0, 1));
   read("wear_land_mm", shop.wear_land_mm, within(0, 2, "mm"));
-  read("rechucking_um", shop.rechucking_um, error);
+  if (has("rechucking_um")) shop.rechucking = read_rechucking(given->at("rechucking_um"));
   read("measurement_U_um", shop.measurement_U_um, error);
-  shop.first_part_gauged = budget->boolean_or("first_part_gauged", false);
-  budget->finish();
+  if (has("first_part_gauged"))
+    shop.first_part_gauged = given->boolean("first_part_gauged");
+  if (given) given->finish();
+  if (!all)
+    draft.assume("/budget", json_of(shop),
+                 "where the part does not say: " + machine.id +
+                     " in ordinary production, no measurement counted, offsets set by "
+                     "the first part");
 }
 
 }  // namespace

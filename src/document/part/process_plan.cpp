@@ -171,32 +171,40 @@ ordered_json json_of(const ParetoPoint& x) {
   return out;
 }
 
+ordered_json or_null(const std::optional<double>& x) {
+  if (!x) return nullptr;
+  return *x;
+}
+
+ordered_json json_of(const SettingUp& s) {
+  return {{"min", s.minutes},
+          {"cost", s.cost},
+          {"min_per_part", or_null(s.minutes_per_part)},
+          {"cost_per_part", or_null(s.cost_per_part)}};
+}
+
 ordered_json json_of(const Price& p) {
   return {{"limit", p.limit},
           {"now", p.now},
           {"unit", p.unit},
           {"saves_per_part_for_10_percent", p.saves_per_part_for_10_percent},
-          {"saves_per_batch_for_10_percent", p.saves_per_batch_for_10_percent},
+          {"saves_per_batch_for_10_percent", or_null(p.saves_per_batch_for_10_percent)},
           {"binds_in", p.binds_in},
           {"sentence", p.sentence}};
 }
 
 ordered_json json_of(const WhatIfAnswer& a) {
-  const auto if_known = [](const std::optional<double>& x) -> ordered_json {
-    if (!x) return nullptr;
-    return *x;
-  };
   const auto if_planned = [&](double x) {
-    return if_known(a.feasible ? std::optional(x) : std::nullopt);
+    return or_null(a.feasible ? std::optional(x) : std::nullopt);
   };
   return {{"name", a.name},
           {"status", word(a.feasible ? PlanStatus::ok : PlanStatus::infeasible)},
           {"cost_per_part", if_planned(a.cost_per_part)},
           {"time_per_part_min", if_planned(a.time_per_part_min)},
-          {"saves_per_part", if_known(a.saves_per_part)},
-          {"saves_per_batch", if_known(a.saves_per_batch)},
-          {"saves_min_per_part", if_known(a.saves_min_per_part)},
-          {"first_order_saves_per_part", if_known(a.first_order_saves_per_part)},
+          {"saves_per_part", or_null(a.saves_per_part)},
+          {"saves_per_batch", or_null(a.saves_per_batch)},
+          {"saves_min_per_part", or_null(a.saves_min_per_part)},
+          {"first_order_saves_per_part", or_null(a.first_order_saves_per_part)},
           {"sentence", a.sentence}};
 }
 
@@ -259,18 +267,19 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
                    {"cost_per_part", if_planned(plan.cost_per_part)},
                    {"time_per_part_min", if_planned(plan.time_per_part_min)}};
   if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
-  if (const auto& r = plan.robustness)
-    out["robustness"] = {
-        {"conformance", r->conformance},
-        {"nominal_cost_per_part", r->nominal_cost_per_part},
-        {"nominal_time_per_part_min", r->nominal_time_per_part_min},
-        {"price_per_part", plan.cost_per_part - r->nominal_cost_per_part}};
+  if (plan.time_per_part_min > 0) out["setting_up"] = json_of(plan.setting_up);
+  if (const auto& w = plan.worst_conformance)
+    out["worst_conformance"] = {
+        {"tolerance", w->tolerance}, {"P_conform", w->P_conform}, {"wanted", w->wanted}};
   out["certificate"] = json_of(plan.certificate);
   out["setups"] = list(plan.setups, [](const SetupPlan& s) { return json_of(s); });
   out["tolerances"] =
       list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
   out["deviations"] =
       list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
+  out["offsets"] = list(plan.offsets, [](const ToolOffset& o) {
+    return ordered_json{{"on", o.on}, {"setup", o.setup}, {"offset_mm", o.offset_mm}};
+  });
   out["compensation"] =
       list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });
   if (!plan.pareto.empty())

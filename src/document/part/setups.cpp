@@ -52,6 +52,11 @@ double default_grip_mm(const part::Drawing& drawing, std::size_t setup, part::En
 
 std::string text(double mm) { return number_text(mm) + " mm"; }
 
+bool has_jaws(const planning::SetupRequest& setup) {
+  return std::any_of(setup.clampings.begin(), setup.clampings.end(),
+                     [](Clamping c) { return c != Clamping::between_centres; });
+}
+
 void check_setup(const Draft& draft, const Reader& at, std::size_t i,
                  const planning::SetupRequest& setup, bool grip_given) {
   const auto& drawing = draft.loaded.plan.drawing;
@@ -63,14 +68,11 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
         "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
             text(length_mm),
         "conflict");
-  const bool jaws =
-      std::any_of(setup.clampings.begin(), setup.clampings.end(),
-                  [](Clamping c) { return c != Clamping::between_centres; });
   const auto& machine = draft.loaded.plan.machine;
   if (machine.id.empty()) return;  // unknown, reported already
   const auto& range = machine.chuck.diameter_mm;
   const double d_mm = held_mm(drawing, i, setup.hold);
-  if (jaws && readable && (d_mm < range.lower || d_mm > range.upper))
+  if (has_jaws(setup) && readable && (d_mm < range.lower || d_mm > range.upper))
     at.problem("a diameter of " + text(d_mm) + " in the jaws",
                "what the chuck of " + machine.id + " holds, " + text(range.lower) +
                    " to " + text(range.upper),
@@ -129,6 +131,17 @@ void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
                  "conflict");
 }
 
+// The part is held anew from the second setup on.
+void read_jaws(Draft& draft, Reader& r, std::size_t i, planning::SetupRequest& setup) {
+  using planning::Jaws;
+  static const auto kJaws = named({Jaws::hard, Jaws::soft, Jaws::collet});
+  if (const auto jaws = r.optional_choice<Jaws>("jaws", kJaws))
+    setup.jaws = *jaws;
+  else if (i > 0 && has_jaws(setup))
+    draft.assume(r.pointer_of("jaws"), name(setup.jaws),
+                 "bored in place to the diameter they hold");
+}
+
 planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   planning::SetupRequest setup;
   r = r.as_object();
@@ -143,6 +156,7 @@ planning::SetupRequest read_setup(Draft& draft, Reader r, std::size_t i) {
   }
   read_clampings(draft, r, setup);
   read_grip_forces(draft, r, setup);
+  read_jaws(draft, r, i, setup);
   read_steady(r, setup);
   if (draft.purpose == Purpose::predict && setup.clampings.size() > 1) {
     setup.clampings = {setup.clampings.front()};

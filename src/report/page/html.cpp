@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "html_parts.hpp"
@@ -21,9 +22,11 @@ using nlohmann::ordered_json;
 std::string header(std::string_view name, const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = tag("h1", name);
-  out += "<p class=\"status" + std::string(feasible ? "" : " infeasible") + "\">" +
-         (feasible ? "Every limit is kept" : "Infeasible: no plan keeps every limit") +
-         "</p>\n";
+  const bool bad = !feasible || keeps_too_few(result);
+  auto status = feasible ? kept(result) : "infeasible: no plan keeps every limit";
+  status[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(status[0])));
+  out += "<p class=\"status" + std::string(bad ? " infeasible" : "") + "\">" +
+         escaped(status) + "</p>\n";
   if (feasible) {
     out += "<dl>\n";
     out += key_figure("Cost", shown(number(result, "cost_per_part"), 4), "per part");
@@ -31,12 +34,13 @@ std::string header(std::string_view name, const ordered_json& result) {
         key_figure("Time", shown(number(result, "time_per_part_min"), 3), "min per part");
     if (const auto profit = number(result, "profit_per_min"))
       out += key_figure("Profit", shown(profit, 4), "per minute");
-    const auto& robust = object(result, "robustness");
-    if (const auto p = number(robust, "conformance"))
-      out += key_figure(
-          "Robust", shown(100 * *p, 2),
-          "% kept, for " + shown(number(robust, "price_per_part"), 4) + " per part");
+    const auto& worst = object(result, "worst_conformance");
+    if (const auto p = number(worst, "P_conform"))
+      out += key_figure("Worst tolerance", shown(100 * *p, 2),
+                        "% of the parts keep " + word(worst, "tolerance"));
     out += "</dl>\n";
+    if (const auto words = setting_up(result); !words.empty())
+      out += tag("p", "Preparing the machine: " + words + ".");
   }
   if (const auto& c = object(result, "certificate"); !c.empty())
     out += tag("p", "Proof: " + proof(c) + ".");
@@ -153,8 +157,8 @@ std::string tolerances(const ordered_json& result, const Figures& figures) {
       out += "<tr><td class=\"note\" colspan=\"9\">" + escaped(p) + "</td></tr>\n";
   }
   return out + kTableFoot +
-         "<p class=\"from\">offset: met once the tool path is corrected; paper: the "
-         "published acceptance equations, where they judge otherwise</p>\n" +
+         "<p class=\"from\">offset: met with the tool's offset or corrected path; "
+         "paper: the published acceptance equations, where they judge otherwise</p>\n" +
          figure_named(figures, "budget.svg", "What takes each tolerance's width");
 }
 
@@ -188,6 +192,21 @@ std::string stability(const ordered_json& result, const Figures& figures) {
       out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
                           "Stable depth over speed of " + word(o, "id"));
   return out.empty() ? "" : tag("h2", "Stability of milled places") + pairs(out);
+}
+
+std::string offsets(const ordered_json& result) {
+  std::string rows;
+  for (const auto& o : list(result, "offsets"))
+    rows += "<tr>" + words_cell(word(o, "on")) +
+            number_cell(shown(number(o, "setup"), 0)) +
+            number_cell(shown(units::um_from_mm(number(o, "offset_mm").value_or(0)), 1)) +
+            "</tr>\n";
+  if (rows.empty()) return "";
+  return tag("h2", "Offsets: every pass is moved to the middle of the size") +
+         table_head({{"on", "", false}, {"setup", ""}, {"offset", "\u00b5m"}}) + rows +
+         kTableFoot +
+         "<p class=\"from\">on the radius, or along the axis; the first part shows what "
+         "is still missing</p>\n";
 }
 
 std::string compensation(const ordered_json& result) {
@@ -240,8 +259,8 @@ std::string html(std::string_view name, const ordered_json& result,
          prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
-         compensation(result) + stability(result, figures) + windows(result, figures) +
-         assumptions(result);
+         offsets(result) + compensation(result) + stability(result, figures) +
+         windows(result, figures) + assumptions(result);
   return page(std::string(name) + " - process plan", out);
 }
 

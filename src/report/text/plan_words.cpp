@@ -108,6 +108,36 @@ std::string conformance(const ordered_json& tolerance) {
   return fmt::format("conforms with a probability of {} %", shown(100 * *p, 2));
 }
 
+bool keeps_too_few(const ordered_json& result) {
+  constexpr double kRounding = 1e-6;
+  const auto& worst = object(result, "worst_conformance");
+  const auto p = number(worst, "P_conform"), wanted = number(worst, "wanted");
+  return p && wanted && *p < *wanted - kRounding;
+}
+
+std::string kept(const ordered_json& result) {
+  const auto& worst = object(result, "worst_conformance");
+  const auto p = number(worst, "P_conform");
+  if (!p) return "every limit is kept";
+  const auto percent = shown(100 * *p, 2), id = word(worst, "tolerance");
+  if (keeps_too_few(result))
+    return fmt::format("kept nominally only: {} % of the parts keep {}, wanted are {} %",
+                       percent, id, shown(100 * *number(worst, "wanted"), 2));
+  return fmt::format("every limit is kept, {} by the fewest parts, {} %", id, percent);
+}
+
+std::string setting_up(const ordered_json& result) {
+  const auto& s = object(result, "setting_up");
+  const auto minutes = number(s, "min"), cost = number(s, "cost");
+  if (!minutes || !cost) return "";
+  const auto once =
+      fmt::format("{} min and {} once per batch", shown(minutes, 1), shown(cost, 2));
+  const auto share = number(s, "min_per_part");
+  if (!share) return once + "; no batch is given: in no part's time or cost";
+  return fmt::format("{}, {} min and {} of it in each part", once, shown(share, 3),
+                     shown(number(s, "cost_per_part"), 4));
+}
+
 Stack stack_of(const ordered_json& tolerance) {
   Shares shares;
   for (const auto& s : list(tolerance, "shares"))

@@ -33,6 +33,16 @@ std::string other_verdict(const nlohmann::ordered_json& tolerance);
 /// A sentence, where the probability does not round to certainty.
 std::string conformance(const nlohmann::ordered_json& tolerance);
 
+/// Whether fewer parts keep some tolerance than are wanted.
+bool keeps_too_few(const nlohmann::ordered_json& result);
+
+/// What the limits of a feasible plan come to: kept, by what share of the parts the
+/// tolerance that fewest of them keep.
+std::string kept(const nlohmann::ordered_json& result);
+
+/// Preparing the machine, and what each part bears of it; empty if nothing is known.
+std::string setting_up(const nlohmann::ordered_json& result);
+
 /// What takes the tolerance's width.
 Stack stack_of(const nlohmann::ordered_json& tolerance);
 

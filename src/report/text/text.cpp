@@ -28,18 +28,14 @@ std::string header(const ordered_json& result) {
     if (const auto c = result.find("certificate"); c != result.end())
       out += paragraph("proof   ", proof(*c));
   } else {
-    out += paragraph("status  ", "every limit is kept");
+    out += paragraph("status  ", kept(result));
     out += paragraph("cost    ", shown(number(result, "cost_per_part"), 4) + " per part");
     out += paragraph("time    ",
                      shown(number(result, "time_per_part_min"), 3) + " min per part");
     if (const auto profit = number(result, "profit_per_min"))
       out += paragraph("profit  ", shown(profit, 4) + " per minute");
-    if (const auto robust = result.find("robustness"); robust != result.end())
-      out += paragraph("robust  ",
-                       fmt::format("every tolerance is kept with {} %, for {} per part "
-                                   "more than nominally",
-                                   shown(100 * *number(*robust, "conformance"), 2),
-                                   shown(number(*robust, "price_per_part"), 4)));
+    if (const auto words = setting_up(result); !words.empty())
+      out += paragraph("set up  ", words);
     const auto certificate = result.find("certificate");
     if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
   }
@@ -92,8 +88,9 @@ std::string tolerances(const ordered_json& result) {
   return "\nTOLERANCES\n" +
          paragraph(
              "  ",
-             "predicted, allowed and margin in um; offset: met once the tool path is "
-             "corrected; paper: the published acceptance equations, where they judge "
+             "predicted, allowed and margin in um; offset: met with the tool's offset "
+             "or corrected path; paper: the published acceptance equations, where they "
+             "judge "
              "otherwise") +
          table({{"id", Align::left},
                 {"kind", Align::left},
@@ -159,6 +156,22 @@ std::string across(const ordered_json& rows) {
   return out;
 }
 
+std::string offsets(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& o : list(result, "offsets")) {
+    const double um = units::um_from_mm(number(o, "offset_mm").value_or(0));
+    rows.push_back({{word(o, "on"), shown(number(o, "setup"), 0), shown(um, 1)}, ""});
+  }
+  if (rows.empty()) return "";
+  return "\nOFFSETS\n" +
+         paragraph(
+             "  ",
+             "um on the radius, or along the axis, by which every pass over the "
+             "surface is moved to the middle of its size; the first part shows what "
+             "is still missing") +
+         table({{"on", Align::left}, {"setup"}, {"offset"}}, rows);
+}
+
 std::string compensation(const ordered_json& result) {
   std::string out;
   for (const auto& c : list(result, "compensation"))
@@ -209,8 +222,8 @@ std::string assumptions(const ordered_json& result) {
 std::string text(const ordered_json& plan_result) {
   return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
          remedies(plan_result) + setups(plan_result) + tolerances(plan_result) +
-         budget(plan_result) + compensation(plan_result) + prices(plan_result) +
-         what_if(plan_result) + assumptions(plan_result);
+         budget(plan_result) + offsets(plan_result) + compensation(plan_result) +
+         prices(plan_result) + what_if(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

@@ -240,12 +240,31 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   EXPECT_EQ(shop.part_warm_K, 4);
   EXPECT_EQ(shop.life_between_offsets, 0.5);
   EXPECT_EQ(shop.wear_land_mm, 0.2);
-  EXPECT_EQ(shop.rechucking_um, 6);
+  EXPECT_EQ(shop.rechucking.hard_jaws_um, 6);
+  EXPECT_EQ(shop.rechucking.centres_um, 6);
   EXPECT_EQ(shop.measurement_U_um, 7);
   EXPECT_TRUE(shop.first_part_gauged);
+}
+
+TEST(PartPlan, WhatTheBudgetLeavesOpenIsTheMachines) {
+  auto document = full();
+  document["machine"] = "lathe-medium";
   document["budget"] = {{"drift_um", 1}};
-  EXPECT_FALSE(load(document).plan.shop.first_part_gauged);
-  EXPECT_EQ(load(document).plan.shop.wear_land_mm, 0.3);
+  const auto loaded = load(document);
+  const auto own = parse_file(source_path("machines/lathe-medium.json"))["budget"];
+  const auto& shop = loaded.plan.shop;
+  EXPECT_EQ(shop.drift_um, 1);
+  EXPECT_EQ(shop.repeatability_um, own["repeatability_um"]);
+  EXPECT_EQ(shop.rechucking.soft_jaws_um, own["rechucking_um"]["soft_jaws"]);
+  EXPECT_EQ(shop.wear_land_mm, 0.3);
+  EXPECT_EQ(shop.measurement_U_um, 0);
+  EXPECT_TRUE(shop.first_part_gauged);
+  const auto told = std::ranges::find(loaded.assumed, "/budget", &Assumption::pointer);
+  ASSERT_NE(told, loaded.assumed.end());
+  EXPECT_EQ(told->value["drift_um"], 1);
+  EXPECT_EQ(told->value["rechucking_um"], own["rechucking_um"]);
+  document["budget"] = {{"rechucking_um", {{"hard_jaws", 4}}}};
+  EXPECT_NE(SchemaCheck("part.json").fault(document), "");
 }
 
 TEST(PartPlan, AListedSizeTakesTheGeneralOnesPlace) {
@@ -296,6 +315,10 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
   }
   // 165 mm stock for 162 mm; jaws on 50 mm stock, then on the finished 46 mm.
   const json all{"chuck", "chuck-tailstock", "between-centres"};
+  auto budget = parse_file(source_path("machines/lathe-medium.json"))["budget"];
+  for (const auto* text : {"source", "note", "uncertainty_pct"}) budget.erase(text);
+  budget.update(
+      {{"wear_land_mm", 0.3}, {"measurement_U_um", 0.0}, {"first_part_gauged", true}});
   EXPECT_EQ(told, json({{"/name", "part"},
                         {"/machine", "lathe-medium"},
                         {"/tools", {"test-rougher"}},
@@ -305,11 +328,11 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                           {{"hold", "right"}, {"grip_mm", 23.0}, {"clampings", all}}}},
                         {"/operations", "auto"},
                         {"/objective", "cost"},
-                        {"/batch", 1},
+                        {"/batch", nullptr},
                         {"/rates/machine_per_min", 1.0},
                         {"/machine_share_um", 0.0},
-                        {"/budget", json::object()},
-                        {"/robust", false},
+                        {"/budget", budget},
+                        {"/robust", true},
                         {"/window_percent", 5.0},
                         {"/damping_ratio", 0.03},
                         {"/conformance", 0.9973}}));
@@ -317,7 +340,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
   EXPECT_EQ(loaded.plan.setups[1].grip_mm, 23);
   EXPECT_EQ(loaded.plan.setups[1].clampings.size(), 3U);
   EXPECT_EQ(loaded.plan.machine_per_min, 1);
-  EXPECT_EQ(loaded.plan.batch, 1);
+  EXPECT_FALSE(loaded.plan.batch.has_value());
   EXPECT_FALSE(loaded.plan.operations.has_value());
 }
 

@@ -20,6 +20,8 @@ ProcessPlan every_field() {
   p.cost_per_part = 1.5;
   p.time_per_part_min = 2.5;
   p.profit_per_min = 3.5;
+  p.setting_up = {40, 48, 0.4, {}};
+  p.worst_conformance = WorstConformance{"d1:diameter", 0.99, 0.9973};
   p.certificate = {CertificateKind::global, 1.4, 0.06, 7, "convex", ""};
   OperationPlan op;
   op.id = "rough d1";
@@ -61,6 +63,7 @@ ProcessPlan every_field() {
   form.verdict = Verdict::not_met;
   p.tolerances = {size, form};
   p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
+  p.offsets = {{"d1", 1, -0.004}};
   p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
   p.prices = {{"d1: diameter", 26, "mm", 27, 270, {"op1"}, "saves"}};
   p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash", 1},
@@ -85,6 +88,8 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
   EXPECT_EQ(
       to_json(every_field(), kAssumed).dump(),
       R"({"status":"ok","cost_per_part":1.5,"time_per_part_min":2.5,"profit_per_min":3.5,)"
+      R"("setting_up":{"min":40.0,"cost":48.0,"min_per_part":0.4,"cost_per_part":null},)"
+      R"("worst_conformance":{"tolerance":"d1:diameter","P_conform":0.99,"wanted":0.9973},)"
       R"("certificate":{"kind":"global","lower_bound":1.4,"gap":0.06,"nodes":7,)"
       R"("engine":"convex"},)"
       R"("setups":[{"hold":"right","clamping":"chuck-tailstock",)"
@@ -110,6 +115,7 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("verdict":"not-met","seed_verdict":false,"shares":[{"source":"deflection","um":21.0}],)"
       R"("P_conform":0.99}],)"
       R"("deviations":[{"on":"d1","setup":1,"table_mm":[[22.0,0.5],[24.0,0.25]]}],)"
+      R"("offsets":[{"on":"d1","setup":1,"offset_mm":-0.004}],)"
       R"("compensation":[{"on":"d1","setup":1,"table_mm":[[22.0,23.0],[24.0,25.0]]}],)"
       R"("prices":[{"limit":"d1: diameter","now":26.0,"unit":"mm",)"
       R"("saves_per_part_for_10_percent":27.0,"saves_per_batch_for_10_percent":270.0,)"
@@ -145,7 +151,8 @@ TEST(ProcessPlan, TheSchemaTakesWhatIsWritten) {
   EXPECT_FALSE(json.contains("profit_per_min"));
   EXPECT_EQ(schema.fault(json), "");
   for (const auto& [key, value] : json.items()) {
-    if (key == "remedies") continue;  // there where something would help
+    // There where something would help, or where there is a plan.
+    if (key == "remedies" || key == "setting_up" || key == "worst_conformance") continue;
     auto without = json;
     without.erase(key);
     EXPECT_NE(schema.fault(without), "") << key;

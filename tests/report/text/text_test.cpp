@@ -155,6 +155,44 @@ TEST(Text, HeadSaysWhatThePlanCostsAndWhatIsProven) {
   expect_printable(out);
 }
 
+TEST(Text, HeadNamesTheToleranceThatFewestPartsKeep) {
+  auto result = feasible();
+  result["worst_conformance"] = {
+      {"tolerance", "d2:diameter"}, {"P_conform", 0.99734}, {"wanted", 0.9973}};
+  EXPECT_TRUE(
+      has_line(text(result),
+               "status  every limit is kept, d2:diameter by the fewest parts, 99.73 %"));
+  result["worst_conformance"]["P_conform"] = 0.5;
+  const auto half = text(result);
+  EXPECT_FALSE(has(half, "every limit is kept"));
+  EXPECT_TRUE(
+      has(squeezed(half),
+          "kept nominally only: 50.00 % of the parts keep d2:diameter, wanted are "
+          "99.73 %"));
+}
+
+TEST(Text, HeadTellsThePreparingOfTheMachineApart) {
+  auto result = feasible();
+  result["setting_up"] = {
+      {"min", 40}, {"cost", 48}, {"min_per_part", 0.8}, {"cost_per_part", 0.96}};
+  EXPECT_TRUE(has(squeezed(text(result)),
+                  "set up 40.0 min and 48.00 once per batch, 0.800 min and 0.9600 of it "
+                  "in each part"));
+  result["setting_up"]["min_per_part"] = nullptr;
+  result["setting_up"]["cost_per_part"] = nullptr;
+  EXPECT_TRUE(has(squeezed(text(result)),
+                  "once per batch; no batch is given: in no part's time or cost"));
+}
+
+TEST(Text, OffsetsAreListedInMicrometres) {
+  auto result = feasible();
+  result["offsets"] = {{{"on", "d2"}, {"setup", 0}, {"offset_mm", -0.0125}}};
+  const auto out = text(result);
+  EXPECT_TRUE(has(out, "OFFSETS"));
+  EXPECT_TRUE(has(squeezed(out), "d2 0 -12.5"));
+  EXPECT_FALSE(has(text(feasible()), "OFFSETS"));
+}
+
 TEST(Text, NameAndGripShowWhereTheDocumentHasThem) {
   auto result = feasible();
   result["name"] = "Welle \xc3\xbc";

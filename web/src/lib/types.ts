@@ -164,10 +164,13 @@ export interface Plan {
   status: 'ok' | 'infeasible';
   cost_per_part: number | null;
   time_per_part_min: number | null;
+  worst_conformance?: { tolerance: string; P_conform: number; wanted: number };
+  setting_up?: { min: number; cost: number; min_per_part: number | null; cost_per_part: number | null };
   certificate: Certificate;
   setups: Setup[];
   tolerances: Tolerance[];
   deviations: OnSurface[];
+  offsets: { on: string; setup: number; offset_mm: number }[];
   compensation: OnSurface[];
   pareto?: Corner[];
   prices: Price[];
