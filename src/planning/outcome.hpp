@@ -33,6 +33,13 @@ SettingUp setting_up(const PreparedPart& plan);
 std::optional<WorstConformance> worst_conformance(
     const PreparedPart& plan, const std::vector<ToleranceResult>& tolerances);
 
+/// Preparing the machine for all setups.
+SettingUp setting_up(const PlanRequest& plan);
+
+/// Of the tolerances, the first of those that fewest parts keep.
+std::optional<WorstConformance> worst_conformance(
+    const PlanRequest& plan, const std::vector<ToleranceResult>& tolerances);
+
 /// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
 /// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
 std::vector<OperationPlan> operations_in_order(const PreparedPart& plan,
