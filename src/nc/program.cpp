@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "contour.hpp"
 #include "fixed.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
@@ -59,8 +61,24 @@ Diameters swept(const Site& site, const OperationPlan& o) {
   return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
 }
 
+// Where an operation's tool is in the cut, before it has cut.
+InCut in_cut(const Site& site, const OperationPlan& o) {
+  const auto D = swept(site, o);
+  if (o.kind == OperationKind::face) return {true, D.small_mm / 2, D.large_mm / 2};
+  if (drills(site, o)) return {false, -INFINITY, site.front};
+  if (o.kind == OperationKind::fixed && use_of(site, o) == FixedUse::parting)
+    return {true, D.small_mm / 2, D.large_mm / 2};
+  const auto& s = surface_of(site, o.on[0]);
+  if (o.kind != OperationKind::fixed || use_of(site, o) != FixedUse::grooving)
+    return {false, s.z1, s.z0};
+  const auto [small, large] =
+      std::minmax({std::abs(s.h0), cut_of(site, s)->drawn.left_mm / 2});
+  return {true, small, large};
+}
+
 // The limit [1/min] that the plan's conditions stand under.
-double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
+double spindle_limit_rpm(const Site& site, std::size_t operation) {
+  const auto& o = site.answer().operations[operation];
   const auto& m = site.part.machine;
   const double n = o.passes[0].n_rpm;
   double cap = m.n_max_rpm;
@@ -79,7 +97,7 @@ double spindle_limit_rpm(const Site& site, const OperationPlan& o) {
   cap = std::min({cap, m.n_max_rpm, m.chuck.n_max_rpm, keeps_a_third});
   const auto D = swept(site, o);
   if (o.kind == OperationKind::fixed || !(D.small_mm < D.large_mm)) return cap;
-  double sum = 0;
+  double sum = later_mm(site, operation, o.on[0]);
   for (const auto& pass : o.passes) sum += pass.ap_mm;
   const bool outside = o.kind == OperationKind::rough || o.kind == OperationKind::finish;
   const double needed = cutting::grip_needed_N(grip, o.passes[0].Fc_N, o.passes[0].Ff_N,
@@ -129,10 +147,11 @@ std::string clamping_change(const Site& site) {
   return "";
 }
 
-Step stop(std::string told) {
+Step stop(std::string told, double minutes) {
   Step s;
   s.comments = {std::move(told)};
   s.stop = true;
+  s.stop_min = minutes;
   return s;
 }
 
@@ -142,7 +161,8 @@ Step mill_here(const OperationPlan& o) {
   return stop(
       fmt::format("stop: not in this program: {} with {}, {} x {:.4g} mm, {:.0f} 1/min, "
                   "{:.4g} mm/min",
-                  o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min));
+                  o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min),
+      0);
 }
 
 // Before each operation, where somebody changes the clamping.
@@ -155,12 +175,15 @@ std::vector<std::vector<Step>> stops(const Site& site) {
     auto& before = all.emplace_back();
     if (!clamped && !in_chuck_alone(site, o)) {
       clamped = true;
-      if (auto told = clamping_change(site); !told.empty()) before.push_back(stop(told));
+      if (auto told = clamping_change(site); !told.empty())
+        before.push_back(
+            stop(told, planning::clamping_min(site.part.machine, site.clamping)));
     }
     const double wanted_N =
         stage_of(site, o) == Stage::roughing ? s.grip_force_N : s.finishing_grip_force_N;
     if (wanted_N != force_N)
-      before.push_back(stop(fmt::format("stop: jaws to {:.1f} kN", wanted_N / 1000)));
+      before.push_back(stop(fmt::format("stop: jaws to {:.1f} kN", wanted_N / 1000),
+                            site.part.machine.jaws_min));
     force_N = wanted_N;
   }
   return all;
@@ -230,6 +253,8 @@ SetupProgram program(Site& site, Numbers& numbers) {
   SetupProgram p;
   p.setup = site.setup;
   p.comments = heading(site);
+  p.change_x_mm = site.at.h_mm;
+  p.change_z_mm = site.at.z_mm;
   const auto& operations = site.answer().operations;
   const auto changes = stops(site);
   for (std::size_t i = 0; i < operations.size(); ++i) {
@@ -248,8 +273,9 @@ SetupProgram program(Site& site, Numbers& numbers) {
     step.tool = tool.number;
     step.constant_surface_speed = constant_surface_speed(site, o);
     step.S = step.constant_surface_speed ? o.passes[0].vc_m_min : o.passes[0].n_rpm;
-    step.n_max_rpm = spindle_limit_rpm(site, o);
+    step.n_max_rpm = spindle_limit_rpm(site, i);
     step.f_mm_rev = o.passes[0].f_mm_rev;
+    step.in_cut = in_cut(site, o);
     site.moves.clear();
     way(site, i);
     const bool tool_stays = i + 1 < operations.size() && changes[i + 1].empty() &&
@@ -259,10 +285,31 @@ SetupProgram program(Site& site, Numbers& numbers) {
     step.moves = site.moves;
     p.steps.push_back(std::move(step));
   }
+  p.minutes = minutes(p, site.part.machine);
   return p;
 }
 
 }  // namespace
+
+void refuse_unprogrammed(const planning::PreparedPart& part,
+                         planning::ProcessPlan& plan) {
+  const auto outwards = [](const planning::SetupPlan& s) {
+    return std::any_of(s.operations.begin(), s.operations.end(), [](const auto& o) {
+      return o.direction == planning::Direction::from_chuck;
+    });
+  };
+  if (std::any_of(plan.setups.begin(), plan.setups.end(), outwards)) return;
+  const auto cannot = programs(part, plan).cannot;
+  if (cannot.empty()) return;
+  plan.status = planning::PlanStatus::infeasible;
+  plan.cost_per_part = plan.time_per_part_min = 0;
+  plan.profit_per_min.reset();
+  plan.breakdown = {};
+  for (auto& s : plan.setups) s.breakdown = {};
+  plan.certificate = {};
+  plan.certificate.reason = "the plan found cannot be programmed";
+  for (const auto& why : cannot) plan.conflicts.push_back({"program", "", 0, 0, "", why});
+}
 
 Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan) {
   Programs all;

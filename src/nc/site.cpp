@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace turnwright::nc {
 
@@ -75,7 +76,8 @@ void Site::to(Move::Kind kind, const Side& side, const Point& p) {
 }
 
 void Site::approach(const Side& side, const Point& p, double re_mm) {
-  const double stands = std::max(side.highest(p.z_mm, p.z_mm + 2 * re_mm), p.h_mm);
+  const double to_z = side.sign > 0 ? p.z_mm + 2 * re_mm : INFINITY;
+  const double stands = std::max(side.highest(p.z_mm, to_z), p.h_mm);
   approach(side, {stands + above(side), p.z_mm});
   to(Move::Kind::feed, side, p);
 }
@@ -87,19 +89,33 @@ void Site::approach(const Side& side, const Point& p) {
     rapid(at.h_mm, p.z_mm);
     rapid(x, p.z_mm);
   } else {
+    clear_bore();
     rapid(at.h_mm, std::max(at.z_mm, front + kClear_mm));
     rapid(x, at.z_mm);
     rapid(x, p.z_mm);
   }
 }
 
+void Site::clear_bore() {
+  const double h = inner.highest(at.z_mm, INFINITY) + kAboveBore_mm;
+  if (-at.h_mm < h - kSame_mm) rapid(-h, at.z_mm);
+}
+
 void Site::lift(const Side& side) {
   rapid(at.h_mm + side.sign * above(side), at.z_mm + above(side));
+}
+
+const Surface& surface_of(const Site& site, const std::string& id) {
+  for (const Side* side : {&site.outer, &site.inner})
+    for (const auto& s : side->items)
+      if (s.id == id) return s;
+  throw std::domain_error("nc: no element " + id);
 }
 
 void Site::home(bool from_bore) {
   const double x = outer.stock_h + kChange_mm, z_ = front + kChange_mm;
   if (from_bore) {
+    clear_bore();
     rapid(at.h_mm, z_);
     rapid(x, z_);
   } else {

@@ -1,20 +1,22 @@
 #pragma once
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "turnwright/nc/program.hpp"
+#include "turnwright/planning/approach.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
 /// A setup while it is programmed: what stands in the machine, in the program's own
 /// coordinates, and where the tool is.
 namespace turnwright::nc {
 
-inline constexpr double kBefore_mm = 2;       ///< a pass starts so far before its surface
-inline constexpr double kAbove_mm = 1;        ///< and comes in from so far above
-inline constexpr double kAboveBore_mm = 0.2;  ///< in a bore
-inline constexpr double kBehind_mm = 0.2;   ///< a pass ends so far behind a falling edge
-inline constexpr double kClear_mm = 2;      ///< rapids along the axis above the stock
-inline constexpr double kChange_mm = 50;    ///< from the stock, where tools are changed
+using planning::kAbove_mm;
+using planning::kAboveBore_mm;
+using planning::kBefore_mm;
+using planning::kBehind_mm;
+using planning::kChange_mm;
+using planning::kClear_mm;
 inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
 
@@ -72,6 +74,8 @@ class Site {
   void approach(const Side& side, const Point& p, double re_mm);
   /// From wherever it is to a point in the air.
   void approach(const Side& side, const Point& p);
+  /// In a bore away from its wall, as far as what stands before asks on the way out.
+  void clear_bore();
   /// Off a surface and out of a corner.
   void lift(const Side& side);
   /// To the place of tool change.
@@ -80,5 +84,9 @@ class Site {
     return side.sign > 0 ? kAbove_mm : kAboveBore_mm;
   }
 };
+
+/// The element of an id, as the setup has left it so far.
+/// @throws std::domain_error if there is none.
+const Surface& surface_of(const Site& site, const std::string& id);
 
 }  // namespace turnwright::nc

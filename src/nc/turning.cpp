@@ -35,16 +35,6 @@ double minor_edge_rad(const Site& site, const OperationPlan& o) {
   return units::rad_from_deg(tool->minor_kapr_deg);
 }
 
-// What operations after this one take off the same surface.
-double later_mm(const Site& site, std::size_t operation, const std::string& surface) {
-  const auto& all = site.answer().operations;
-  double sum = 0;
-  for (std::size_t k = operation + 1; k < all.size(); ++k)
-    if (all[k].kind != OperationKind::fixed && is_on(all[k], surface))
-      sum += depth_mm(all[k]);
-  return sum;
-}
-
 std::size_t place(const Side& side, const std::string& id) {
   return static_cast<std::size_t>(
       std::find_if(side.items.begin(), side.items.end(),
@@ -148,8 +138,10 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
 }
 
 // Starts a pass clear of what elements before still carry, which it takes off, and of the
-// material before the free end; not where a blank before is higher than the pass.
-void start_clear(const Pass& p, std::vector<Point>& way) {
+// material before the free end; not where a blank before is higher than the pass.  What
+// roughing has left on a long element it enters down a slope that the minor edge clears.
+// The number of moves over elements before.
+std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
   const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
   double from = z;
@@ -157,15 +149,24 @@ void start_clear(const Pass& p, std::vector<Point>& way) {
   for (std::size_t j = p.k; j-- > 0;) {
     auto& s = p.side.items[j];
     if (blank(s) > h + kStands_mm) break;
-    if (!(p.side.top(s) > h + kStands_mm)) continue;
+    const double top = p.side.top(s);
+    if (!(top > h + kStands_mm)) continue;
+    const double slope_z = from + (top - h) / std::tan(*p.tool().rises_rad);
+    if (!s.stock && slope_z < s.z0 + kBefore_mm) {
+      if (from > z) way.insert(way.begin(), {h, from});
+      way.insert(way.begin(), {top, slope_z});
+      return from > z ? 2 : 1;
+    }
     from = std::max(from, s.z0 + kBefore_mm);
     first = first || j == 0;
     s.stock = false;
     s.left = h - blank(s);
   }
+  const std::size_t entered = from > z ? 1 : 0;
   if (first && from < p.site.front + kBefore_mm && p.site.front > 0)
     from = p.site.front + kBefore_mm;
   if (from > z) way.insert(way.begin(), {h, from});
+  return entered;
 }
 
 // Where roughing ends: what is behind the element stands higher, or the hole goes on.
@@ -214,7 +215,12 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
   clip(way, {{wall(p.site.root_z)}}, {p.re_mm});
 }
 
-std::vector<Point> way_of(const Pass& p) {
+struct Way {
+  std::vector<Point> points;
+  std::size_t entered = 0;  // moves over elements before
+};
+Way way_of(const Pass& p) {
+  std::size_t entered = 0;
   const auto c = contour(p);
   auto way = tips(c, p.re_mm);
   if (p.from_before()) {
@@ -225,7 +231,7 @@ std::vector<Point> way_of(const Pass& p) {
   } else {
     lead_in(p, c, way);
     if (way.size() < 2) return {};
-    start_clear(p, way);
+    entered = start_clear(p, way);
   }
   if (p.goes_on()) {
     const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
@@ -235,21 +241,25 @@ std::vector<Point> way_of(const Pass& p) {
       way.erase(way.end() - 2);
   }
   lead_out(p, way);
-  return way;
+  return {way, entered};
 }
 
 void pass(const Pass& p) {
-  const auto way = way_of(p);
+  auto& s = p.surface();
+  const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
     if (p.from_before())
       p.site.to(Kind::feed, p.side, way.front());
     else
       p.site.approach(p.side, way.front(), p.re_mm);
-    for (std::size_t i = 1; i < way.size(); ++i) p.site.to(Kind::feed, p.side, way[i]);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      p.site.to(Kind::feed, p.side, way[i]);
+      p.site.moves.back().entering = i <= entered;
+    }
   }
   if (!p.goes_on()) p.site.lift(p.side);
-  p.surface().stock = false;
-  p.surface().left = p.left_mm;
+  s.stock = false;
+  s.left = p.left_mm;
 }
 
 // A facing pass over contact points from the axis outwards, tool coming from outside; its
@@ -307,6 +317,15 @@ void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
 }
 
 }  // namespace
+
+double later_mm(const Site& site, std::size_t operation, const std::string& surface) {
+  const auto& all = site.answer().operations;
+  double sum = 0;
+  for (std::size_t k = operation + 1; k < all.size(); ++k)
+    if (all[k].kind != OperationKind::fixed && is_on(all[k], surface))
+      sum += depth_mm(all[k]);
+  return sum;
+}
 
 double corner_mm(const Site& site, const OperationPlan& o) {
   for (const auto& t : site.part.tools)

@@ -19,6 +19,9 @@ void face(Site& site, std::size_t operation);
 /// A face between two elements.
 void face_shoulder(Site& site, std::size_t operation);
 
+/// What operations after one take off the same surface.
+double later_mm(const Site& site, std::size_t operation, const std::string& surface);
+
 /// Corner radius [mm] of an operation's tool.
 double corner_mm(const Site& site, const planning::OperationPlan& operation);
 

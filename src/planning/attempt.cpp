@@ -16,10 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyondRounding = 1e-6;
 
 // What a setup takes, in the terms of the objective.
-std::string takes(const PreparedPart& p, const Totals& t) {
-  if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.minutes);
+std::string takes(const PreparedPart& p, const Spending& t) {
+  if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.time_min);
   if (p.objective == Objective::profit)
-    return fmt::format("{:.4f} in {:.4f} min", t.cost, t.minutes);
+    return fmt::format("{:.4f} in {:.4f} min", t.cost, t.time_min);
   return fmt::format("{:.4f}", t.cost);
 }
 
@@ -27,9 +27,9 @@ std::string takes(const PreparedPart& p, const Totals& t) {
 RejectedClamping rejection(const PreparedPart& p, const SolvedSetup& s,
                            const SolvedSetup& best) {
   const char* verb = p.objective == Objective::time ? "takes" : "costs";
-  const auto least = takes(p, totals(p, best));
+  const auto least = takes(p, breakdown(p, best).total());
   if (s.feasible()) {
-    const auto t = totals(p, s);
+    const auto t = breakdown(p, s).total();
     return {s.clamping,
             fmt::format("{} {} against {} for this setup", verb, takes(p, t), least),
             t.cost};
@@ -124,9 +124,7 @@ Attempt attempt(const PreparedPart& p, Economy economy) {
     finish(done, p.work.setups[s]);
     if (!c.solved) a.lower_bound = kInfinity;
     if (!c.solved) continue;
-    const auto t = totals(p, c.chosen);
-    a.total.minutes += t.minutes;
-    a.total.cost += t.cost;
+    a.breakdown += breakdown(p, c.chosen);
     a.objective += c.chosen.objective;
     a.lower_bound += c.chosen.lower_bound;
   }
@@ -141,13 +139,15 @@ Attempt best_attempt(const PreparedPart& p) {
   auto best = attempt(p, economy_of(p, 0));
   if (p.objective != Objective::profit) return best;
   const auto rate = [&](const Attempt& a) {
-    return (*p.price - a.total.cost) / a.total.minutes;
+    const auto total = a.breakdown.total();
+    return (*p.price - total.cost) / total.time_min;
   };
   while (best.feasible && rate(best) > 0) {
     auto next = attempt(p, economy_of(p, rate(best)));
     if (!next.feasible || !(rate(next) > rate(best) * (1 + kRises))) {
       next.lower_bound = std::min(next.lower_bound, next.objective);
-      best.objective = best.total.cost + rate(best) * best.total.minutes;
+      const auto total = best.breakdown.total();
+      best.objective = total.cost + rate(best) * total.time_min;
       best.lower_bound = next.lower_bound;
       break;
     }

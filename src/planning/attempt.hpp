@@ -17,7 +17,7 @@ struct Comparison {
 struct Attempt {
   std::vector<Comparison> setups;
   bool feasible = true;
-  Totals total;
+  Breakdown breakdown;
   double objective = 0, lower_bound = 0;
 };
 

@@ -113,6 +113,7 @@ struct OperationModel {
   bool n_cap_of_grip = false;  ///< it is the loss that sets it
   double n_min_rpm = 0;
   double feed_force_max_N = 0;
+  /// Edge's life of least cost: a minute of feed in the air costs too, and wears nothing.
   double economic_life_min = 0;
   double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
   /// 1/limit of the chatter stiffness at the places where it is asked, over the finishing
@@ -126,7 +127,8 @@ struct OperationModel {
   catalogue::Range T_min;
   Affine depth_mm;
   std::vector<PassModel> passes;
-  double rapid_min = 0;                   ///< approach and return of all passes
+  double fed = 1;        ///< feed of the program's passes over that in the cut, >= 1
+  double rapid_min = 0;  ///< approach and return of all passes
   double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
   bool tapered = false, reaches_axis = false, face = false, finishing = false;
   bool inner = false;     ///< a bore: what is left makes it narrower
@@ -365,11 +367,17 @@ cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& 
   return sum;
 }
 
-/// Contribution of an operation to the objective: minutes in the cut, on approach and
-/// return, and changing edges.
+/// Minutes of an operation in the air: feed beside the surface, approach and return.
+template <class T>
+T air_min(const OperationModel& o, const cutting::Duty<T>& d) {
+  return d.time_min * (o.fed - 1) + o.rapid_min;
+}
+
+/// Contribution of an operation to the objective: minutes in the cut, in the air, and
+/// changing edges.
 template <class T>
 T objective(const OperationModel& o, const Weights& w, const cutting::Duty<T>& d) {
-  return w.minute * (d.time_min + o.rapid_min) +
+  return w.minute * (d.time_min * o.fed + o.rapid_min) +
          (w.minute * o.tool->change_min + w.edge * o.tool->edge_cost) * d.edges;
 }
 

@@ -214,7 +214,8 @@ Spent spent(const FeatureAnswer& answer) {
     const auto d = duty_of(x, i);
     const auto& o = x.chain.operations[i];
     const auto& tool = *o.tool;
-    s.minutes += d.time_min + o.rapid_min;
+    s.cut_min += d.time_min;
+    s.air_min += air_min(o, d);
     s.change_min += tool.change_min * d.edges;
     s.edges_cost += tool.edge_cost * d.edges;
   }
@@ -245,7 +246,7 @@ std::vector<OperationPlan> describe(const PreparedPart& plan, std::size_t setup,
     const auto d = duty_of(x, i);
     p.time_min = d.time_min;
     p.cost = rates.machine_per_min *
-                 (d.time_min + o.rapid_min + o.tool->change_min * d.edges) +
+                 (d.time_min + air_min(o, d) + o.tool->change_min * d.edges) +
              o.tool->edge_cost * d.edges;
     std::map<std::size_t, double> tolerance_price;
     for (std::size_t r = 0; r < values.size(); ++r) {

@@ -43,12 +43,9 @@ ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
 ConstraintValue constraint(std::string name, std::string unit, double value, double limit,
                            bool at_most = true);
 
-/// Minutes, edge cost and money of the answer's operations, approach included.
+/// Minutes and edge cost of the answer's operations.
 struct Spent {
-  double minutes = 0, edges_cost = 0, change_min = 0;
-  double cost(const Rates& r) const {
-    return r.machine_per_min * (minutes + change_min) + edges_cost;
-  }
+  double cut_min = 0, air_min = 0, change_min = 0, edges_cost = 0;
 };
 Spent spent(const FeatureAnswer& answer);
 

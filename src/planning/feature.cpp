@@ -110,6 +110,9 @@ Feature Feature::element(const PreparedPart& plan, std::size_t setup, Clamping c
   const auto& e = plan.drawing.outer[index];
   Feature f(plan, setup, clamping, Kind::element, e.id, fixed);
   f.take(e, index, part::left_z_mm(plan.drawing, index));
+  f.around_ = surroundings(plan, setup, clamping, work, {false, index});
+  const auto level = f.around_.level_behind;
+  f.goes_on_ = e.cut || (level && !before.outer[*level]);
   f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
   for (const auto place : {place_of(work.elements, index), work.elements.size()})
     f.bodies_.emplace_back(plan, setup, clamping,
@@ -124,6 +127,7 @@ Feature Feature::bore(const PreparedPart& plan, std::size_t setup, Clamping clam
   const auto& e = plan.drawing.inner[index];
   Feature f(plan, setup, clamping, Kind::bore, e.id, fixed);
   f.take(e, index, part::inner_left_z_mm(plan.drawing, index));
+  f.around_ = surroundings(plan, setup, clamping, work, {true, index});
   f.hole_mm_ = hole_mm(plan, index);
   f.stock_ = (f.D_large_ - f.hole_mm_) / 2;
   f.depth_mm_ =
@@ -174,6 +178,13 @@ Feature Feature::shoulder(const PreparedPart& plan, std::size_t setup, Clamping 
   f.D_large_ = large;
   f.low_ = small / 2;
   f.high_ = large / 2;
+  const std::size_t behind =
+      outer[index - 1].right_mm > outer[index].left_mm ? index - 1 : index;
+  const bool stands =
+      !before.outer[behind] && place_of(work.elements, behind) == work.elements.size();
+  f.top_h_ = (stands ? plan.drawing.stock.outer_mm : large) / 2;
+  f.face_z_ = -std::abs(part::left_z_mm(plan.drawing, index) - free_z_mm(plan, setup));
+  for (const auto& t : plan.tools) f.around_.r_most = std::max(f.around_.r_most, t.re_mm);
   return f;
 }
 
@@ -268,6 +279,7 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
     c.operations.back().Ra_um = Ra_um_;
     c.operations.back().Rz_um = Rz_um_;
   }
+  if (!c.operations.empty() && !ends_before_jaws(*c.operations.back().tool)) return {};
   // Roughing leaves on a shoulder the least depth its tool can cut.
   if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
 
@@ -307,13 +319,21 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    const double way = o.inner ? depth_mm_ : path;  // a bar goes in and out all the way
-    o.rapid_min = n * 2 * (way + kApproach_mm) / plan_->machine.rapid_mm_min;
+    // Rapids count heights as if all passes were as deep as each other.
+    const double left = stock / (nr + nf) * ((n - 1) / 2.0 + (o.finishing ? 0 : nf));
+    const auto b = ways(o, n, &o == &c.operations.back(), left);
+    o.fed = std::max(1.0, b.fed_mm / (n * path));
+    o.economic_life_min /= o.fed;
+    o.rapid_min = b.rapid_mm / plan_->machine.rapid_mm_min;
   }
   c.stations.resize(stations.size());
   for (std::size_t i = 0; i < stations.size(); ++i) c.stations[i].at_mm = stations[i];
   add_laws(c, a_mm);
   return c;
+}
+
+bool Feature::ends_before_jaws(const catalogue::Tool& tool) const {
+  return kind_ != Kind::element || goes_on_ || clears_jaws(around_, tool.re_mm);
 }
 
 bool Feature::enters(const catalogue::Tool& tool) const {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "between.hpp"
 #include "chain.hpp"
 #include "demand.hpp"
 #include "turnwright/planning/process_plan.hpp"
@@ -78,6 +79,9 @@ class Feature {
 
   Holding holding() const;
 
+  /// An operation on it with a tool as those before and behind it in the setup see it.
+  InOrder in_order(const catalogue::Tool& tool, bool rough) const;
+
   /// The chain of a recipe without functionals; stations at the given places.  Over an
   /// open finishing depth the laws are polynomials in it that follow them to rounding
   /// (chebyshev.hpp).  Nothing if the recipe leaves no depth to choose.
@@ -139,6 +143,11 @@ class Feature {
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
+  // In feature_way.cpp: of some passes that leave so much on average, the last of them
+  // makes the surface.
+  Beside ways(const OperationModel& operation, int passes, bool last,
+              double left_mm) const;
+  Beside facing(const OperationModel& operation, int passes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].
   struct Values {
@@ -167,6 +176,7 @@ class Feature {
                                       double rest_mm_N) const;
   std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
   bool enters(const catalogue::Tool& tool) const;
+  bool ends_before_jaws(const catalogue::Tool& tool) const;
 
   const PreparedPart* plan_;
   std::size_t setup_;
@@ -182,7 +192,11 @@ class Feature {
   double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
-  double amplification_ = 1;       // by the tailstock's thrust
+  Surroundings around_;       // of an element; of a face but the largest corner nothing
+  double face_z_ = 0;         // of a face, in the program's coordinates
+  bool goes_on_ = false;      // into what another setup cuts as high
+  double top_h_ = 0;          // of a shoulder, radius of what stands behind it
+  double amplification_ = 1;  // by the tailstock's thrust
   std::vector<SetupBody> bodies_;  // while roughing, while finishing
 };
 

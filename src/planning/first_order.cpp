@@ -85,8 +85,8 @@ std::optional<double> change(const PreparedPart& plan, const SolvedFeature& f,
 // Of the objective of a setup, all but its surfaces.
 double besides(const PreparedPart& p, const SolvedSetup& s, const FixedWork& fixed,
                const Economy& e) {
-  return e.minute *
-             (minutes_besides_cutting(p, s.clamping, s.indexings) + fixed.minutes()) +
+  return e.minute * (besides_cutting(p, s.clamping, s.between).total().time_min +
+                     fixed.minutes()) +
          e.edge * fixed.edges_cost();
 }
 

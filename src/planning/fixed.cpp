@@ -157,9 +157,16 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
   return all;
 }
 
-// Passes with their forces and the way of each, to an operation: Eq. (6).
+// What the passes run beside the cut, and where they begin and end (air.hpp).
+struct Way {
+  double fed_min = 0, rapid_mm = 0;
+  bool inner = false;
+  double from_mm = 0, to_mm = 0;
+};
+
+// Passes with their forces and their way to an operation: Eq. (6).
 FixedOperation operation(const Site& s, const Asked& a, const Fitted& f,
-                         std::vector<Pass> passes, double way_mm,
+                         std::vector<Pass> passes, const Way& way,
                          const std::vector<Duty>& duties) {
   FixedOperation o;
   auto& plan = o.plan;
@@ -175,14 +182,19 @@ FixedOperation operation(const Site& s, const Asked& a, const Fitted& f,
     plan.time_min += pass.time_min;
   }
   const double edges = plan.time_min / f.at.T_min;
-  const double rapid = static_cast<double>(passes.size()) * 2 * (way_mm + kApproach_mm) /
-                       s.p.machine.rapid_mm_min;
-  o.minutes = plan.time_min + rapid + f.tool->change_min * edges;
+  o.air_min = way.fed_min + way.rapid_mm / s.p.machine.rapid_mm_min;
+  o.change_min = f.tool->change_min * edges;
   o.edges_cost = f.tool->edge_cost * edges;
+  o.order = {f.size_mm > 0 ? fmt::format("{} {:g}", f.tool->id, f.size_mm) : f.tool->id,
+             s.stage,
+             sized_by_diameter(a.use),
+             way.inner,
+             way.from_mm,
+             way.to_mm};
   plan.passes = std::move(passes);
-  plan.cost = s.p.machine_per_min * o.minutes + o.edges_cost;
+  plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
   plan.constraints = limits(s, *f.tool, duties);
-  const double counted = s.p.objective == Objective::time ? o.minutes : plan.cost;
+  const double counted = s.p.objective == Objective::time ? o.minutes() : plan.cost;
   plan.certificate = {CertificateKind::global,
                       counted,
                       0,
@@ -215,10 +227,11 @@ FixedOperation drilled(const Site& s, const Asked& a, const Fitted& f, double de
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const Duty d{cutting::drill(kc, D, f.at.f_mm_rev, f.tool->point_deg),
                std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s)), D};
-  const double point = cutting::drill_point_mm(D, f.tool->point_deg);
-  const double path = depth_mm + point + kApproach_mm;
-  return operation(s, a, f, {pass_of(d, D / 2, path / (f.at.f_mm_rev * d.n_rpm))}, path,
-                   {d});
+  const double front = front_mm(s.p, s.setup, s.work);
+  const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
+  const double vf = f.at.f_mm_rev * d.n_rpm;
+  return operation(s, a, f, {pass_of(d, D / 2, path / vf)},
+                   {kBefore_mm / vf, kBefore_mm + path, true, 0, 0}, {d});
 }
 
 // Tools without any centre drill are those of a shop whose stock comes centred.
@@ -320,9 +333,10 @@ double sweep_min(double path_mm, double D_small, double D_large,
   return cutting::duty(sweep, at.vc_m_min, at.f_mm_rev, at.T_min, n_cap, 1.0).time_min;
 }
 
-// A blade from one diameter to another, `plunges` times: Eq. (3).
+// A blade from one diameter to another, `plunges` times, each with so much way in the air
+// at feed: Eq. (3).
 FixedOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
-                       double D_large, int plunges) {
+                       double D_large, int plunges, Way way) {
   const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
   std::vector<Duty> duties;
   for (const double D : {D_large, D_small})
@@ -332,7 +346,8 @@ FixedOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_
   const double t = sweep_min(depth, D_small, D_large, f.at, n_cap);
   const std::vector<Pass> passes(static_cast<std::size_t>(plunges),
                                  pass_of(duties[0], f.size_mm, t));
-  return operation(s, a, f, passes, depth, duties);
+  way.fed_min *= plunges / (f.at.f_mm_rev * duties[0].n_rpm);
+  return operation(s, a, f, passes, way, duties);
 }
 
 // An element with a cut: where it is, what it is asked.
@@ -340,9 +355,20 @@ struct CutElement {
   const std::string& id;
   const part::Cut& cut;
   bool inner;
+  std::size_t index;
   double length_mm, small_mm, large_mm;  // blank and drawn diameters together
   double bored_mm;                       // of the blank, what an inner tool enters
+  Surroundings around;
+  double root_h() const { return around.h0 - cut.depth_mm; }
 };
+
+// From the outside, or the mouth of a bore, down to an element and back.
+double down_and_back_mm(const CutElement& e) {
+  const auto& s = e.around;
+  if (e.inner) return 2 * (s.front + kClear_mm - s.z1);
+  return 2 * (s.stock_h + kClear_mm - std::max(s.h0, s.h1) - kAbove_mm);
+}
+double above_mm(const CutElement& e) { return e.inner ? kAboveBore_mm : kAbove_mm; }
 
 Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
             std::function<bool(const FixedTool&, double)> fits) {
@@ -354,6 +380,15 @@ Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
           [&e, fits](const FixedTool& t, double size) {
             return (!e.inner || t.min_bore_mm <= e.bored_mm) && fits(t, size);
           }};
+}
+
+// Whether material before the free end is in the way of what begins at a place.
+bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {
+  if (!(e.around.front > 0 && z > 0)) return false;
+  refuse(s, a,
+         fmt::format("the end that it begins at is not faced, {:.3g} mm stand before it",
+                     e.around.front));
+  return true;
 }
 
 int times(double whole, double part) {
@@ -392,7 +427,13 @@ void add_groove(Site& s, const CutElement& e) {
                   fmt::format("{} plunges of a blade of {:g} mm are less than its width, "
                               "{:g} mm",
                               *plunges, f.size_mm, e.length_mm));
-  if (plunges) s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges));
+  if (!plunges) return;
+  const double n = *plunges, step = n > 1 ? (e.length_mm - f.size_mm) / (n - 1) : 0;
+  const double back = e.cut.depth_mm + above_mm(e);
+  Way way{above_mm(e), n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step),
+          e.inner, e.around.z1, e.around.z1 + (n - 1) * step};
+  if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
+  s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges, way));
 }
 
 // Eq. (4).
@@ -419,21 +460,60 @@ void add_thread(Site& s, const CutElement& e) {
       passes_of(s, a, std::max(kLeastInfeeds, times(f.tool->passes_per_mm * P, 1)),
                 [&](double ap) { return times(sqr(e.cut.depth_mm), sqr(ap)); });
   if (!count) return;
+  const auto room = thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.root_h());
+  const double run_in = std::min(kRunIn * P, room.before_mm - P / 2);
+  if (!(run_in >= P))
+    return refuse(
+        s, a,
+        "it begins behind a larger diameter with less than one pitch of room for "
+        "the tool to come in");
+  if (unfaced(s, a, e, e.around.z0 + run_in)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
-  const double path = e.length_mm + kRunIn * P;
+  const double path = e.length_mm - (room.stands_behind ? P : 0);
   std::vector<Pass> passes;
   std::vector<Duty> duties;
+  Way way{*count * run_in / (P * n), down_and_back_mm(e), e.inner, e.around.z0 + run_in,
+          e.around.z0 + run_in};
+  if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
+  double deep = 0;
   for (const auto& infeed : cutting::thread_infeeds(kc, e.cut.depth_mm, *count, D)) {
     duties.push_back({infeed.load, n, D, true});
     passes.push_back(pass_of(duties.back(), infeed.depth_mm, path / (P * n)));
+    deep += infeed.depth_mm;
+    way.rapid_mm += 2 * (above_mm(e) + deep) + run_in + path;
   }
-  s.out.after.push_back(operation(s, a, f, std::move(passes), path, duties));
+  s.out.after.push_back(operation(s, a, f, std::move(passes), way, duties));
+}
+
+// Inclination of an arc at its end towards the chuck.
+double end_rad(const CutElement& e) {
+  const auto& s = e.around;
+  const bool left = s.mirrored;
+  const double a = (left ? e.cut.drawn.left_mm : e.cut.drawn.right_mm) / 2;
+  const double b = (left ? e.cut.drawn.right_mm : e.cut.drawn.left_mm) / 2;
+  const double length = s.z0 - s.z1, chord = std::hypot(length, b - a);
+  const double half = std::asin(std::min(1.0, chord / (2 * e.cut.radius_mm)));
+  return std::atan2(b - a, length) + (e.cut.convex ? -half : half);
+}
+
+// The corner rolls over the end of an arc unless something rises behind it.
+bool ends_before_jaws(const Site& s, const Asked& a, const CutElement& e, double re_mm) {
+  const double needed = re_mm * (1 - std::sin(end_rad(e)));
+  const double left = e.around.z1 - e.around.root_z;
+  const bool walled = e.around.touch_z == e.around.z1;
+  if (walled || left >= needed - 1e-5) return true;
+  refuse(s, a,
+         fmt::format("it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
+                     "mm: grip less",
+                     left, needed));
+  return false;
 }
 
 // Eq. (5).
 void add_arc(Site& s, const CutElement& e) {
-  auto a = asked(s, e, FixedUse::profiling, "arc",
-                 [](const FixedTool&, double) { return true; });
+  auto a = asked(s, e, FixedUse::profiling, "arc", [&](const FixedTool& t, double) {
+    return e.cut.convex || t.re_mm <= e.cut.radius_mm;
+  });
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(
@@ -447,10 +527,21 @@ void add_arc(Site& s, const CutElement& e) {
                   fmt::format("{} passes of {:.4g} mm are deeper than the {:g} mm of {}",
                               *count, ap, f.tool->ap_mm, f.tool->id));
   const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
+  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
+  if (!ends_before_jaws(s, a, e, f.tool->re_mm)) return;
   const Duty d{load_of(f, s.p, ap, D), n, D};
+  // Of the tip, which runs round the arc's centre beside the corner's own.
+  const double path =
+      e.cut.path_mm * (1 + (e.cut.convex ? 1 : -1) * f.tool->re_mm / e.cut.radius_mm);
   const std::vector<Pass> passes(static_cast<std::size_t>(*count),
-                                 pass_of(d, ap, e.cut.path_mm / (f.at.f_mm_rev * n)));
-  s.out.after.push_back(operation(s, a, f, passes, e.cut.path_mm, {d}));
+                                 pass_of(d, ap, path / (f.at.f_mm_rev * n)));
+  const double from = e.around.z0 + kBefore_mm, to = e.around.z1 + kAbove_mm;
+  s.out.after.push_back(
+      operation(s, a, f, passes,
+                {*count * (kAbove_mm + kBefore_mm) / (f.at.f_mm_rev * n),
+                 *count * (down_and_back_mm(e) + kAbove_mm) + (*count - 1) * (from - to),
+                 false, from, to},
+                {d}));
 }
 
 void add_parting(Site& s) {
@@ -478,11 +569,15 @@ void add_parting(Site& s) {
                   fmt::format("no blade of the tools is for {}, reaches {:g} mm deep and "
                               "fits between jaws and part, {:.4g} mm",
                               s.p.material.name, (D - hole) / 2, room));
-  s.out.after.push_back(plunged(s, a, f, hole, D, 1));
+  const double z = -part::length_mm(s.p.drawing) - *stock.parted_mm - f.size_mm;
+  s.out.after.push_back(plunged(
+      s, a, f, hole, D, 1,
+      {kAbove_mm, kClear_mm - kAbove_mm + (D - hole) / 2 + kClear_mm, false, z, z}));
 }
 
 template <class Element>
-void add_cut(Site& s, const Element& e, bool inner, part::CutKind kind) {
+void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
+             part::CutKind kind) {
   if (!e.cut || e.cut->kind != kind) return;
   if (s.p.operations && !given_on(s, e.id)) {
     s.out.conflicts.push_back(
@@ -494,8 +589,15 @@ void add_cut(Site& s, const Element& e, bool inner, part::CutKind kind) {
   }
   const auto [low, high] =
       std::minmax({e.left_mm, e.right_mm, e.cut->drawn.left_mm, e.cut->drawn.right_mm});
-  const CutElement c{
-      e.id, *e.cut, inner, e.length_mm, low, high, std::min(e.left_mm, e.right_mm)};
+  const CutElement c{e.id,
+                     *e.cut,
+                     inner,
+                     index,
+                     e.length_mm,
+                     low,
+                     high,
+                     std::min(e.left_mm, e.right_mm),
+                     surroundings(s.p, s.setup, s.clamping, s.work, {inner, index})};
   switch (kind) {
     case part::CutKind::groove:
       return add_groove(s, c);
@@ -519,17 +621,6 @@ bool stands_on_a_centre(Clamping c) {
   return has_tailstock(c) || c == Clamping::between_centres;
 }
 
-// Tools that follow each other without another one between.
-int brought_in(const std::vector<FixedOperation>& operations) {
-  int count = 0;
-  std::string in;
-  for (const auto& o : operations) {
-    if (o.plan.tool != in) ++count;
-    in = o.plan.tool;
-  }
-  return count;
-}
-
 }  // namespace
 
 std::vector<FixedOperation> FixedWork::all() const {
@@ -540,7 +631,7 @@ std::vector<FixedOperation> FixedWork::all() const {
 
 double FixedWork::minutes() const {
   double sum = 0;
-  for (const auto& o : all()) sum += o.minutes;
+  for (const auto& o : all()) sum += o.minutes();
   return sum;
 }
 
@@ -556,8 +647,6 @@ double FixedWork::open() const {
   return sum;
 }
 
-int FixedWork::indexings() const { return brought_in(before) + brought_in(after); }
-
 FixedWork fixed_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
                      const SetupWork& work, const Economy& economy) {
   FixedWork out;
@@ -572,8 +661,8 @@ FixedWork fixed_work(const PreparedPart& p, std::size_t setup, Clamping clamping
   s.stage = Stage::finishing;
   using enum part::CutKind;
   for (const auto kind : {arc, groove, thread}) {
-    for (const std::size_t i : work.elements) add_cut(s, d.outer[i], false, kind);
-    for (const std::size_t i : work.bores) add_cut(s, d.inner[i], true, kind);
+    for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
+    for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);
   }
   add_milled(p, setup, clamping, economy, out);
   if (setup == 0 && d.stock.parted_mm) add_parting(s);

@@ -13,9 +13,12 @@ namespace turnwright::planning {
 /// One of them with what it takes beside its entry in the result.
 struct FixedOperation {
   OperationPlan plan;
-  double minutes = 0;     ///< cut, approach, return and worn edges changed
+  double air_min = 0;     ///< feed beside the cut, approach and return
+  double change_min = 0;  ///< changing worn edges
   double edges_cost = 0;  ///< of worn edges
   double open = 0;        ///< objective less its lower bound
+  InOrder order = {};
+  double minutes() const { return plan.time_min + air_min + change_min; }
 };
 
 struct FixedWork {
@@ -24,19 +27,20 @@ struct FixedWork {
   std::vector<FixedOperation> all() const;
   double minutes() const;
   double edges_cost() const;
-  double open() const;    ///< of all, objective less lower bound
-  int indexings() const;  ///< tools brought in
+  double open() const;  ///< of all, objective less lower bound
 };
 
 /// What a setup does so, in order; milled places come before parting off.
 ///
 ///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P           (1)
-///     centre, drill:  t = (depth + D/2/tan(sigma/2) + 2)/(f n),  f = k D             (2)
+///     centre, drill:  t = (depth + D/2/tan(sigma/2))/(f n),  f = k D                 (2)
 ///     groove, part:  plunges = ceil(width/blade), each pi (r0^2 - r1^2)/(1000 vc f),
 ///                    with the spindle's limit as spindle.hpp (3)                     (3)
-///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each (l + 3 P)/(P n)         (4)
-///     arc:  passes = ceil(depth/ap) along its path at the blank's largest diameter   (5)
-///     minutes = sum t + 2 passes (way + 2)/rapid + change t/T,  edges = edge t/T     (6)
+///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each l/(P n), where the part
+///              rises behind (l - P)/(P n)                                            (4)
+///     arc:  passes = ceil(depth/ap) along the tip's path at the blank's largest
+///           diameter                                                                 (5)
+///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are

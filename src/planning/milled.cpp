@@ -167,7 +167,7 @@ void choose(const MilledSite& s, const std::vector<MilledChoice>& choices,
   const auto& k = cases[best.index];
   auto o = milled_operation(s, of[best.index], k, best.n_rpm, feed_mm(k, best.n_rpm));
   o.open = best.cost - best.lower_bound;
-  const double counted = s.p.objective == Objective::time ? o.minutes : o.plan.cost;
+  const double counted = s.p.objective == Objective::time ? o.minutes() : o.plan.cost;
   const double share = best.cost > 0 ? best.lower_bound / best.cost : 1;
   o.plan.certificate = {
       best.proved ? CertificateKind::global : CertificateKind::local,
@@ -176,6 +176,7 @@ void choose(const MilledSite& s, const std::vector<MilledChoice>& choices,
       best.steps,
       "branch-and-bound",
       best.proved ? "" : "the search of speeds ended before every one was settled"};
+  o.order = {.tool = o.plan.tool, .stage = Stage::finishing, .milled = true};
   out.after.push_back(std::move(o));
 }
 
@@ -185,11 +186,12 @@ void take(const MilledSite& s, const MilledChoice& c, FixedWork& out) {
   const auto k = milled_case(s, c, ranges.front());
   auto o = milled_operation(s, c, k, *s.m.n_rpm, *s.m.fz_mm);
   o.plan.certificate = {CertificateKind::global,
-                        s.p.objective == Objective::time ? o.minutes : o.plan.cost,
+                        s.p.objective == Objective::time ? o.minutes() : o.plan.cost,
                         0,
                         0,
                         "fixed",
                         "conditions as given"};
+  o.order = {.tool = o.plan.tool, .stage = Stage::finishing, .milled = true};
   out.after.push_back(std::move(o));
 }
 

@@ -225,9 +225,10 @@ FixedOperation milled_operation(const MilledSite& s, const MilledChoice& c,
   plan.passes.assign(static_cast<std::size_t>(c.passes), pass);
   plan.time_min = c.passes * pass.time_min;
   const double edges = plan.time_min / pass.T_min;
-  o.minutes = plan.time_min + back_min(s, c) + c.cutter->change_min * edges;
+  o.air_min = back_min(s, c);
+  o.change_min = c.cutter->change_min * edges;
   o.edges_cost = c.cutter->edge_cost * edges;
-  plan.cost = s.p.machine_per_min * o.minutes + o.edges_cost;
+  plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
   plan.milled = cut_at(s, c, k, n, fz);
   plan.constraints = limits(s, c, n, fz, plan.milled->limit_mm);
   return o;

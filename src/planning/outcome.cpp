@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -18,18 +19,58 @@ bool SolvedSetup::feasible() const {
                      [](const SolvedFeature& f) { return f.answer.feasible; });
 }
 
-Totals totals(const PreparedPart& p, const SolvedSetup& s) {
-  Totals t;
-  t.minutes = minutes_besides_cutting(p, s.clamping, s.indexings);
+namespace {
+
+constexpr std::array kShares{&Breakdown::cutting,      &Breakdown::air,
+                             &Breakdown::tool_changes, &Breakdown::operator_stops,
+                             &Breakdown::edges,        &Breakdown::loading,
+                             &Breakdown::setup_share};
+
+}  // namespace
+
+Breakdown& Breakdown::operator+=(const Breakdown& other) {
+  for (const auto share : kShares) {
+    (this->*share).time_min += (other.*share).time_min;
+    (this->*share).cost += (other.*share).cost;
+  }
+  return *this;
+}
+
+Spending Breakdown::total() const {
+  Spending sum;
+  for (const auto share : kShares) {
+    sum.time_min += (this->*share).time_min;
+    sum.cost += (this->*share).cost;
+  }
+  return sum;
+}
+
+Breakdown breakdown(const PreparedPart& p, const SolvedSetup& s) {
+  auto b = besides_cutting(p, s.clamping, s.between);
   for (const auto& f : s.features) {
     if (!f.answer.feasible) continue;
     const auto u = spent(f.answer);
-    t.minutes += u.minutes + u.change_min;
-    t.cost += u.edges_cost;
+    b.cutting.time_min += u.cut_min;
+    b.air.time_min += u.air_min;
+    b.edges.time_min += u.change_min;
+    b.edges.cost += u.edges_cost;
   }
-  t.minutes += s.fixed.minutes();
-  t.cost += s.fixed.edges_cost() + p.machine_per_min * t.minutes;
-  return t;
+  for (const auto& o : s.fixed.all()) {
+    b.cutting.time_min += o.plan.time_min;
+    b.air.time_min += o.air_min;
+    b.edges.time_min += o.change_min;
+    b.edges.cost += o.edges_cost;
+  }
+  for (const auto share : kShares)
+    (b.*share).cost += p.machine_per_min * (b.*share).time_min;
+  return b;
+}
+
+void add_totals(const PreparedPart& p, ProcessPlan& result) {
+  const auto total = result.breakdown.total();
+  result.cost_per_part = total.cost;
+  result.time_per_part_min = total.time_min;
+  if (p.price) result.profit_per_min = (*p.price - total.cost) / total.time_min;
 }
 
 std::vector<OperationPlan> operations_in_order(const PreparedPart& p,

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "between.hpp"
 #include "describe.hpp"
 #include "fixed.hpp"
 
@@ -12,7 +13,7 @@ struct SolvedSetup {
   std::size_t setup = 0;
   Clamping clamping = Clamping::chuck;
   std::vector<SolvedFeature> features;
-  int indexings = 0;     ///< tools brought in
+  Between between = {};
   double objective = 0;  ///< of the whole setup
   double lower_bound = 0;
   std::vector<RejectedTool> rejected_tools = {};
@@ -20,11 +21,10 @@ struct SolvedSetup {
   bool feasible() const;
 };
 
-struct Totals {
-  double minutes = 0, cost = 0;
-};
-/// Time and cost of a setup, per part.
-Totals totals(const PreparedPart& plan, const SolvedSetup& setup);
+/// Where a setup's time and cost per part go.
+Breakdown breakdown(const PreparedPart& plan, const SolvedSetup& setup);
+/// Cost, time and profit of a result from its breakdown.
+void add_totals(const PreparedPart& plan, ProcessPlan& result);
 
 /// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
 /// finishing, shoulders, bores, then arcs, grooves, threads, parting off.

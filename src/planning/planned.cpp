@@ -93,6 +93,8 @@ bool add_missed(ProcessPlan& result) {
   if (result.conflicts.empty()) return false;
   result.status = PlanStatus::infeasible;
   result.cost_per_part = result.time_per_part_min = 0;
+  result.breakdown = {};
+  for (auto& s : result.setups) s.breakdown = {};
   result.profit_per_min.reset();
   result.certificate = {};
   result.certificate.reason =
@@ -139,9 +141,10 @@ ProcessPlan planned(const PreparedPart& p, const std::vector<WhatIf>& what_if, W
     return result;
   }
   result.tolerances = tolerance_results(p, chosen);
-  result.cost_per_part = a.total.cost;
-  result.time_per_part_min = a.total.minutes;
-  if (p.price) result.profit_per_min = (*p.price - a.total.cost) / a.total.minutes;
+  result.breakdown = a.breakdown;
+  for (std::size_t s = 0; s < chosen.size(); ++s)
+    result.setups[s].breakdown = breakdown(p, chosen[s]);
+  add_totals(p, result);
   result.certificate = total_certificate(a);
   if (add_missed(result)) return result;
   result.deviations = deviations(p, chosen);

@@ -180,14 +180,11 @@ ProcessPlan predict(const PreparedPart& p) {
     result.tolerances = tolerance_results(p, setups);
     result.deviations = deviations(p, setups);
     result.compensation = compensations(setups);
-    for (const auto& s : setups) {
-      const auto t = totals(p, s);
-      result.cost_per_part += t.cost;
-      result.time_per_part_min += t.minutes;
+    for (std::size_t s = 0; s < setups.size(); ++s) {
+      result.setups[s].breakdown = breakdown(p, setups[s]);
+      result.breakdown += result.setups[s].breakdown;
     }
-    if (p.price)
-      result.profit_per_min =
-          (*p.price - result.cost_per_part) / result.time_per_part_min;
+    add_totals(p, result);
   }
   if (!result.conflicts.empty()) result.status = PlanStatus::infeasible;
   return result;

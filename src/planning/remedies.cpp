@@ -67,7 +67,8 @@ void add_clampings(const PreparedPart& p, std::size_t s, const SetupWork& work,
   }
 }
 
-// Jaws as far as the nearest element that the setup cuts.
+// Jaws as far as the nearest element that the setup cuts, but for the largest corner that
+// has to roll over its end.
 void add_grip(const PreparedPart& p, std::size_t s, const SetupWork& work,
               std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
@@ -78,6 +79,9 @@ void add_grip(const PreparedPart& p, std::size_t s, const SetupWork& work,
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, free > root ? z0 - root : root - z1);
   }
+  double corner = 0;
+  for (const auto& t : p.tools) corner = std::max(corner, t.re_mm);
+  room -= corner;
   const double grip = std::floor((p.setups[s].grip_mm + room) / kDigit_mm) * kDigit_mm;
   if (work.elements.empty() || !(grip >= p.setups[s].grip_mm + kWorth_mm)) return;
   Variant v{p, {.change = Change::grip, .setup = s, .grip_mm = grip}};

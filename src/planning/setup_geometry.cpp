@@ -1,8 +1,14 @@
 #include "turnwright/planning/setup_geometry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "air.hpp"
+#include "recipes.hpp"
+#include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -37,6 +43,30 @@ bool reachable(const PlanRequest& p, std::size_t s, std::size_t i) {
   for (std::size_t k = left ? i + 1 : 0; k < (left ? e.size() : i); ++k)
     if (largest(e[k]) > outward + 1e-9) return false;
   return true;
+}
+
+// What a finishing tool's corner needs beyond the end of an element, and what the jaws
+// leave of it [mm].
+struct BeforeJaws {
+  double needed_mm = 0, left_mm = 0;
+  bool enough() const { return left_mm >= needed_mm - 1e-5; }
+};
+BeforeJaws before_jaws(const PlanRequest& p, std::size_t s, std::size_t i) {
+  const auto& e = drawing(p).outer[i];
+  const auto& clampings = p.setups[s].clampings;
+  const auto tools = tools_for(p, catalogue::ToolUse::finishing);
+  const bool centres = std::find(clampings.begin(), clampings.end(),
+                                 Clamping::between_centres) != clampings.end();
+  if (e.cut || centres || tools.empty()) return {};
+  const auto around = surroundings(p, s, Clamping::chuck, {}, {false, i});
+  if (const auto level = around.level_behind) {
+    bool made_before = false;
+    for (std::size_t t = 0; t < s; ++t) made_before |= reachable(p, t, *level);
+    if (!made_before) return {};
+  }
+  double corner = tools.front()->re_mm;
+  for (const auto* t : tools) corner = std::min(corner, t->re_mm);
+  return {needed_beyond_mm(around, corner), around.z1 - around.root_z};
 }
 
 // A bore opens to the free end and narrows inwards, itself and with all before it.
@@ -91,6 +121,24 @@ std::optional<std::size_t> place(const PlanRequest& p, const std::string& surfac
         surface + " cannot be cut in " +
         (p.operations ? "the setup of its operations: " : "any setup: ") + why);
   return {};
+}
+
+// Why no setup can cut an outer element.
+std::string why_not(const PlanRequest& p, std::size_t i) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    if (!wanted_in(p, s, drawing(p).outer[i].id) || !reachable(p, s, i)) continue;
+    if (!cleared(p, s, i))
+      return fmt::format(
+          "towards the chuck it falls by more than the {:.4g} deg that profiling tools "
+          "are taken to clear",
+          units::deg_from_rad(part::kProfilingClears_rad));
+    const auto room = before_jaws(p, s, i);
+    return fmt::format(
+        "in setup {} it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
+        "mm: grip less",
+        s, room.left_mm, room.needed_mm);
+  }
+  return "it lies in the jaws, or behind a larger diameter";
 }
 
 void assign_faces(const PlanRequest& p, Assignment& a) {
@@ -171,15 +219,10 @@ Assignment assign(const PlanRequest& p) {
   a.setups.resize(p.setups.size());
   const auto& outer = drawing(p).outer;
   for (std::size_t i = 0; i < outer.size(); ++i) {
-    bool clear = false;  // an arc that no setup clears is planned, not programmed
-    for (std::size_t s = 0; s < p.setups.size(); ++s)
-      clear = clear ||
-              (wanted_in(p, s, outer[i].id) && reachable(p, s, i) && cleared(p, s, i));
     const auto can = [&](std::size_t s) {
-      return reachable(p, s, i) && (!clear || cleared(p, s, i));
+      return reachable(p, s, i) && cleared(p, s, i) && before_jaws(p, s, i).enough();
     };
-    if (const auto s = place(p, outer[i].id,
-                             "it lies in the jaws, or behind a larger diameter", can, a))
+    if (const auto s = place(p, outer[i].id, why_not(p, i), can, a))
       a.setups[*s].elements.push_back(i);
   }
   const auto& inner = drawing(p).inner;
@@ -354,6 +397,22 @@ Planes planes(const catalogue::Lathe& m, Clamping clamping) {
   if (clamping == Clamping::between_centres)
     p.radial.method = p.tangential.method = deflection::Method::between_centres;
   return p;
+}
+
+double clamping_min(const catalogue::Lathe& m, Clamping clamping) {
+  switch (clamping) {
+    case Clamping::chuck:
+      break;
+    case Clamping::chuck_tailstock:
+      return m.tailstock_min;
+    case Clamping::between_centres:
+      return m.centres_min;
+    case Clamping::chuck_steady:
+      return m.steady_min;
+    case Clamping::tailstock_follow:
+      return m.tailstock_min + m.follow_min;
+  }
+  return 0;
 }
 
 bool has_tailstock(Clamping clamping) {

@@ -51,17 +51,6 @@ std::size_t place_in_setup(Feature::Kind kind, bool rough) {
   return rough ? 4 : 5;
 }
 
-double minutes_besides_cutting(const PreparedPart& plan, Clamping clamping,
-                               int indexings) {
-  const auto& m = plan.machine;
-  double t = indexings * m.index_min + m.load_min + m.setup_min / plan.batch;
-  if (clamping == Clamping::chuck_tailstock) t += m.tailstock_min;
-  if (clamping == Clamping::between_centres) t += m.centres_min;
-  if (clamping == Clamping::chuck_steady) t += m.steady_min;
-  if (clamping == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
-  return t;
-}
-
 SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping clamping,
                            const SetupWork& work, const Finished& before,
                            const Economy& economy, SharedMemory& shared)
@@ -70,6 +59,7 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       clamping_(clamping),
       economy_(economy),
       fixed_(fixed_work(p, setup, clamping, work, economy)),
+      front_mm_(front_mm(p, setup, work)),
       shared_(shared) {
   const auto& d = p.drawing;
   const auto add = [&](const std::string& surface, const auto& make) {
@@ -109,7 +99,7 @@ SolvedSetup SetupPlanner::best(double most) {
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  SolvedSetup best{setup_, clamping_, {}, 0, 0, kInfinity};
+  SolvedSetup best{setup_, clamping_, {}, {}, 0, kInfinity};
   bool any = false;
   double bound = kInfinity;
   std::size_t chosen = 0;
@@ -194,7 +184,7 @@ bool SetupPlanner::can_be_made(const std::function<bool(const FeatureTask&)>& ma
 
 SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&),
                                    const std::set<std::string>& corrected) {
-  SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+  SolvedSetup s{setup_, clamping_, {}, {}, 0, 0};
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     const bool free = corrected.contains(jobs_[j].feature.surface());
     auto t = task(j, {}, free ? Offset::free : Offset::none);
@@ -202,7 +192,7 @@ SolvedSetup SetupPlanner::as_given(FeatureAnswer (*answer)(const FeatureTask&),
     s.features.push_back({std::move(t), std::move(a), free, jobs_[j].wanted.ids});
   }
   s.fixed = fixed_;
-  s.indexings = indexings(s);
+  s.between = between(s);
   return s;
 }
 
@@ -330,7 +320,7 @@ const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
 // `least` bounds the setup from below and rises as features are solved; each has what
 // the others leave of `most`.
 SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
-  SolvedSetup s{setup_, clamping_, {}, 0, 0, 0};
+  SolvedSetup s{setup_, clamping_, {}, {}, 0, 0};
   s.lower_bound = least;
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     // One feature that cannot be made decides; the others are solved only to explain.
@@ -343,11 +333,11 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
     if (f.answer.feasible) s.objective += f.answer.objective;
   }
   s.fixed = fixed_;
-  s.indexings = indexings(s);
-  const double besides = besides_cutting(s.indexings);
-  s.objective += besides;
+  s.between = between(s);
+  const double besides_features = besides(s.between);
+  s.objective += besides_features;
   if (s.feasible()) {
-    s.lower_bound += besides - least_besides_cutting(tools);
+    s.lower_bound += besides_features - least_besides_cutting(tools);
   } else {
     s.objective = 0;
     for (const auto& f : s.features)
@@ -361,47 +351,57 @@ SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
 // Where the request leaves it open, a roughing tool is brought in: plans that do not
 // use it are those of the choice without one.
 double SetupPlanner::least_besides_cutting(const Tools& tools) const {
-  ToolOrder order(kPlaces);
+  ToolOrder order(kPlaces, std::vector<const Tool*>(jobs_.size()));
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     const auto [r, f] = tools_of(j, tools);
     const auto kind = jobs_[j].feature.kind();
-    order[place_in_setup(kind, false)].push_back(f);
-    if (!p_.operations) order[place_in_setup(kind, true)].push_back(r);
+    order[place_in_setup(kind, false)][j] = f;
+    if (!p_.operations && r) order[place_in_setup(kind, true)][j] = r;
   }
-  return besides_cutting(changes(order));
+  return besides(between(order));
 }
 
-// Tools brought in; centre hole and drilling stand between the faces and the rest.
-int SetupPlanner::changes(const ToolOrder& order) const {
-  int count = fixed_.indexings();
-  const Tool* in = nullptr;
+// Centre hole and drilling stand between the faces and the rest.  A tool that is used in a
+// place goes the way over all surfaces of that place, so that the tools alone say what lies
+// between.
+Between SetupPlanner::between(const ToolOrder& order) const {
+  Order all(p_, setup_, clamping_, front_mm_);
   for (std::size_t place = 0; place < order.size(); ++place) {
-    if (place == 1 && !fixed_.before.empty()) in = nullptr;
-    for (const Tool* t : order[place])
-      if (t && t != in) {
-        in = t;
-        ++count;
-      }
+    if (place == 1)
+      for (const auto& o : fixed_.before) all.add(o.order);
+    const auto& tools = order[place];
+    const auto used = std::find_if(tools.begin(), tools.end(), [](auto* t) { return t; });
+    if (used == tools.end()) continue;
+    const bool one_tool = std::all_of(tools.begin(), tools.end(),
+                                      [&](auto* t) { return !t || t == *used; });
+    for (std::size_t j = 0; j < tools.size(); ++j) {
+      const auto& feature = jobs_[j].feature;
+      const bool here = place_in_setup(feature.kind(), false) == place ||
+                        place_in_setup(feature.kind(), true) == place;
+      const Tool* t = tools[j] || !one_tool || !here ? tools[j] : *used;
+      if (t) all.add(feature.in_order(*t, place == 1 || place == 4));
+    }
   }
-  return count;
+  for (const auto& o : fixed_.after) all.add(o.order);
+  return all.done();
 }
 
-int SetupPlanner::indexings(const SolvedSetup& s) const {
-  ToolOrder order(kPlaces);
-  for (const auto& f : s.features) {
-    if (!f.answer.feasible) continue;
-    const auto& r = f.answer.model->recipe();
-    const auto kind = f.task.feature.kind();
-    order[place_in_setup(kind, true)].push_back(r.rough);
-    order[place_in_setup(kind, false)].push_back(r.finish);
+Between SetupPlanner::between(const SolvedSetup& s) const {
+  ToolOrder order(kPlaces, std::vector<const Tool*>(jobs_.size()));
+  for (std::size_t j = 0; j < s.features.size(); ++j) {
+    if (!s.features[j].answer.feasible) continue;
+    const auto& r = s.features[j].answer.model->recipe();
+    const auto kind = jobs_[j].feature.kind();
+    if (r.rough) order[place_in_setup(kind, true)][j] = r.rough;
+    if (r.finish) order[place_in_setup(kind, false)][j] = r.finish;
   }
-  return changes(order);
+  return between(order);
 }
 
 // In the terms of the objective, operations at fixed conditions included.
-double SetupPlanner::besides_cutting(int indexings) const {
-  return economy_.minute *
-             (minutes_besides_cutting(p_, clamping_, indexings) + fixed_.minutes()) +
+double SetupPlanner::besides(const Between& between) const {
+  return economy_.minute * (besides_cutting(p_, clamping_, between).total().time_min +
+                            fixed_.minutes()) +
          economy_.edge * fixed_.edges_cost();
 }
 

@@ -80,6 +80,7 @@ class SetupPlanner {
     Feature feature;
     Wanted wanted;
   };
+  // For each place in the setup the tool of each job, if it has any there.
   using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
 
   bool any(Feature::Kind kind) const;
@@ -94,15 +95,16 @@ class SetupPlanner {
   std::vector<RejectedTool> rejected(const std::vector<Considered>& all,
                                      const Considered& best) const;
   double least_besides_cutting(const Tools& tools) const;
-  int changes(const ToolOrder& order) const;
-  int indexings(const SolvedSetup& s) const;
-  double besides_cutting(int indexings) const;
+  Between between(const ToolOrder& order) const;
+  Between between(const SolvedSetup& s) const;
+  double besides(const Between& between) const;
 
   const PreparedPart& p_;
   std::size_t setup_;
   Clamping clamping_;
   Economy economy_;
   FixedWork fixed_;
+  double front_mm_;
   bool compensate_ = false, explain_ = false;
   long boxes_ = 0;  // bounded so far
   Tools nearest_;
@@ -112,10 +114,6 @@ class SetupPlanner {
   std::map<std::tuple<std::size_t, const catalogue::Tool*, Offset>, std::vector<Demand>>
       demands_;
 };
-
-/// Minutes of a setup beside its operations: tools brought in, loading, preparing.
-double minutes_besides_cutting(const PreparedPart& plan, Clamping clamping,
-                               int indexings);
 
 /// Where a surface's operations stand in the order of a setup: faces first, then all
 /// roughing, all finishing, shoulders, and the bores in the same way.

@@ -148,9 +148,16 @@ constexpr const char* kCalibrateExample = R"({
     {"vc_m_min": 260, "f_mm_rev": 0.3, "ap_mm": 2, "Fc_N": 1263, "T_min": 11.5},
     {"vc_m_min": 320, "f_mm_rev": 0.2, "ap_mm": 2, "Fc_N": 941, "T_min": 8.6}]})";
 
+// A plan is one that can be programmed.
+planning::ProcessPlan planned(const document::PreparedDocument& part) {
+  auto plan = planning::plan(part.part, part.what_if);
+  nc::refuse_unprogrammed(part.part, plan);
+  return plan;
+}
+
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "plan");
-  return document::to_json(planning::plan(part.part, part.what_if), part.assumed);
+  return document::to_json(planned(part), part.assumed);
 }
 
 ordered_json predict(const json& request, const Context& context) {
@@ -201,7 +208,7 @@ Drawn drawn_plan(const json& request, const Context& context) {
   auto loaded = document::load_part_plan(request, context.catalogue, "plan");
   loaded.plan.window_curves = true;
   const auto part = document::prepared(std::move(loaded), context.catalogue);
-  return drawn(part, planning::plan(part.part, part.what_if));
+  return drawn(part, planned(part));
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {

@@ -285,14 +285,12 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
 
   for (const auto& [groove_mm, pitch_mm] : {std::pair{0.0, 1.5}, {3.0, 2.5}}) {
     const auto tight = behind_a_cylinder(groove_mm, pitch_mm);
-    ASSERT_EQ(tight.plan.status, planning::PlanStatus::ok);
-    const auto none = programs(tight.part, tight.plan);
-    EXPECT_TRUE(none.setups.empty());
-    ASSERT_EQ(none.cannot.size(), 1U);
-    EXPECT_TRUE(none.cannot[0].ends_with(
-        "thread t1 begins behind a larger diameter with less than one pitch of room for "
-        "the tool to come in"))
-        << none.cannot[0];
+    EXPECT_EQ(tight.plan.status, planning::PlanStatus::infeasible);
+    EXPECT_TRUE(programs(tight.part, tight.plan).setups.empty());
+    ASSERT_EQ(tight.plan.conflicts.size(), 1U);
+    EXPECT_EQ(tight.plan.conflicts[0].sentence,
+              "thread t1: it begins behind a larger diameter with less than one pitch of "
+              "room for the tool to come in");
   }
 }
 
@@ -379,7 +377,11 @@ TEST(NcPrograms, OfAwkwardPartsMakeTheirContoursOrTellWhyNot) {
     const auto name = one["part"]["name"].get<std::string>();
     const auto p = planned(one["part"]);
     if (p.plan.status != planning::PlanStatus::ok) {
-      EXPECT_TRUE(one.contains("infeasible")) << name;
+      std::string conflicts;
+      for (const auto& c : p.plan.conflicts) conflicts += c.sentence + '\n';
+      const auto told = one.value("told", std::string());
+      EXPECT_TRUE(one.contains("infeasible") || one.contains("told")) << name;
+      EXPECT_NE(conflicts.find(told), std::string::npos) << name << ": " << conflicts;
       continue;
     }
     const auto all = programs(p.part, p.plan);
@@ -433,13 +435,13 @@ TEST(NcPrograms, FollowArcsThatFall) {
 
 TEST(NcPrograms, AnArcThatFallsTooSteeplyIsNone) {
   const auto p = with_arc(44, 44, 10, 7, "convex", 15);
-  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
-  const auto all = programs(p.part, p.plan);
-  ASSERT_EQ(all.cannot.size(), 1U);
-  EXPECT_EQ(all.cannot[0],
-            "setup 0, s0-arc-a1: arc a1 falls towards the chuck by more than the 30 deg "
-            "that profiling tools are taken to clear");
-  EXPECT_TRUE(all.setups.empty());
+  EXPECT_EQ(p.plan.status, planning::PlanStatus::infeasible);
+  ASSERT_EQ(p.plan.conflicts.size(), 1U);
+  EXPECT_EQ(
+      p.plan.conflicts[0].sentence,
+      "a1 cannot be cut in any setup: towards the chuck it falls by more than the 30 "
+      "deg that profiling tools are taken to clear");
+  EXPECT_TRUE(programs(p.part, p.plan).setups.empty());
 }
 
 // Two places on one pin: turned first, then a stop for each, with the spindle at rest,

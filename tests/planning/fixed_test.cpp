@@ -65,8 +65,11 @@ TEST(Groove, TakesTheTimeOfItsRings) {
                   5 * std::pow(at.f_mm_rev, 1 - p.material.kc.m),
               1e-6);
   const double edges = time / at.T_min;
+  // From 1 mm above at feed, down to there from 2 mm outside the stock of 42 mm and back.
+  const double above = 1 / (at.f_mm_rev * 1000 * at.vc_m_min / (units::kPi * 30));
+  const double way = 2 * (21 + 2 - 15 - 1) + 2 + 1;
   EXPECT_NEAR(o.cost,
-              1.0 * (time + 2 * (2 + 2) / p.machine.rapid_mm_min + edges * t.change_min) +
+              1.0 * (time + above + way / p.machine.rapid_mm_min + edges * t.change_min) +
                   edges * t.edge_cost,
               1e-12);
 }
@@ -80,7 +83,7 @@ TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
   EXPECT_EQ(operation(r, "s0-groove-g1").passes.size(), 3U);  // of 6 mm
 }
 
-TEST(Thread, TurnsItsLengthAndRunInPitchByPitch) {
+TEST(Thread, TurnsItsLengthPitchByPitch) {
   const auto p = part(grooved());
   const auto o = operation(plan(p), "s0-thread-th1");
   const auto& at = *tool(p, "THREAD-EXT-60").conditions_in(p.material.group);
@@ -89,7 +92,7 @@ TEST(Thread, TurnsItsLengthAndRunInPitchByPitch) {
   double depth = 0;
   for (const auto& pass : o.passes) {
     EXPECT_NEAR(pass.n_rpm, n, 1e-9);
-    EXPECT_NEAR(pass.time_min, (20 + 4.5) / (1.5 * n), 1e-12);
+    EXPECT_NEAR(pass.time_min, 20 / (1.5 * n), 1e-12);
     EXPECT_EQ(pass.f_mm_rev, 1.5);
     depth += pass.ap_mm;
   }
@@ -143,8 +146,19 @@ TEST(FixedOperations, TimeOfAPartIsTheSumOfItsParts) {
       in = o.tool;
     }
   }
-  EXPECT_NEAR(besides, 2 * (m.load_min + m.setup_min / p.batch) + tools * m.index_min,
-              1e-9);
+  const auto& b = r.breakdown;
+  EXPECT_NEAR(b.tool_changes.time_min, tools * m.index_min, 1e-12);
+  EXPECT_NEAR(b.loading.time_min, 2 * m.load_min, 1e-12);
+  EXPECT_NEAR(b.setup_share.time_min, 2 * m.setup_min / p.batch, 1e-12);
+  EXPECT_EQ(b.operator_stops.time_min, 0);
+  // And the ways to where the tools are changed, 50 mm outside, across and along the part.
+  const double ways =
+      besides - b.tool_changes.time_min - b.loading.time_min - b.setup_share.time_min;
+  EXPECT_GE(ways, tools * 4 * 48 / m.rapid_mm_min);
+  EXPECT_LE(ways, tools * (4 * 50 + 2 * 117) / m.rapid_mm_min);
+  const auto total = b.total();
+  EXPECT_NEAR(total.time_min, r.time_per_part_min, 1e-12);
+  EXPECT_NEAR(total.cost, r.cost_per_part, 1e-12);
 }
 
 TEST(Centre, IsDrilledWhereATailstockStands) {
@@ -160,7 +174,7 @@ TEST(Centre, IsDrilledWhereATailstockStands) {
   const auto& t = tool(p, "DIN333-A");
   const auto& at = *t.conditions_in(p.material.group);
   const double D = 10.6;  // the largest below 0.35 of 32 mm
-  const double path = D + D / 2 / std::tan(units::rad_from_deg(60)) + 2;
+  const double path = D + D / 2 / std::tan(units::rad_from_deg(60));
   const double n = 1000 * at.vc_m_min / (units::kPi * D);
   EXPECT_NEAR(o.time_min, path / (at.f_mm_rev * D * n), 1e-12);
   EXPECT_NEAR(o.passes[0].ap_mm, D / 2, 1e-12);
@@ -230,7 +244,7 @@ TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   EXPECT_EQ(o.tool, "DRILL-HM-5D");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double f = at.f_mm_rev * 19, n = 1000 * at.vc_m_min / (units::kPi * 19);
-  const double path = 40 + 9.5 / std::tan(units::rad_from_deg(70)) + 2;
+  const double path = 40 + 9.5 / std::tan(units::rad_from_deg(70));
   EXPECT_NEAR(o.time_min, path / (f * n), 1e-12);
   double bored = 0;  // what the bar takes from 19 to 22 mm
   for (const auto& s : r.setups)
@@ -332,7 +346,8 @@ TEST(Arc, PassesAreTheDepthOverTheDeepest) {
   const auto& at = *tool(p, "PROFILE-35").conditions_in(p.material.group);
   const double n = 1000 * at.vc_m_min / (units::kPi * 40);
   EXPECT_NEAR(o.passes[0].ap_mm, depth / static_cast<double>(o.passes.size()), 1e-9);
-  EXPECT_NEAR(o.passes[0].time_min, units::kPi / 2 * 6 / (at.f_mm_rev * n), 1e-9);
+  const double tip = 6 - tool(p, "PROFILE-35").re_mm;  // runs round the arc's centre
+  EXPECT_NEAR(o.passes[0].time_min, units::kPi / 2 * tip / (at.f_mm_rev * n), 1e-9);
 }
 
 // Once made, a groove, a thread and a drilled hole weaken the body, their blanks do not.

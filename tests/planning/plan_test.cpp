@@ -28,6 +28,13 @@ double length_of(const PreparedPart& p, const std::string& id) {
   throw std::out_of_range(id);
 }
 
+// How far a pass runs past its end: d2 has a wall behind, d1 an edge that falls, over which
+// go the finishing corner twice, the largest of the tools and 0.2 mm.
+double behind_mm(const std::string& id) { return id == "d1" ? 2 * 0.4 + 0.8 + 0.2 : 0; }
+
+// At feed 1 mm down to the pass and 2 mm before the surface.
+double fed(const std::string& id, double l) { return (1 + 2 + l + behind_mm(id)) / l; }
+
 TEST(Plan, CylinderCostsWhatItsPassesTake) {
   const auto p = part(pin());
   const auto r = plan(p);
@@ -38,7 +45,14 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
       const auto tool = std::find_if(p.tools.begin(), p.tools.end(),
                                      [&](const auto& t) { return t.id == o.tool; });
       const double l = length_of(p, o.on[0]);
-      double t = 0, edges = 0;
+      double t = 0, edges = 0, way = 0, later = 0, all = 0;
+      bool behind = false;
+      for (const auto& other : s.operations) {
+        if (other.on != o.on) continue;
+        all += static_cast<double>(other.passes.size());
+        if (behind) later += static_cast<double>(other.passes.size());
+        behind = behind || other.id == o.id;
+      }
       for (const auto& pass : o.passes) {
         const double D = 1000 * pass.vc_m_min / (units::kPi * pass.n_rpm);
         const double cut = units::kPi * D * l / (1000 * pass.vc_m_min * pass.f_mm_rev);
@@ -53,10 +67,17 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
         t += cut;
         edges += cut / pass.T_min;
       }
-      const double rapid =
-          2 * static_cast<double>(o.passes.size()) * (l + 2) / p.machine.rapid_mm_min;
+      // From 2 mm outside the stock of 42 mm to 1 mm above the pass, and back off; at
+      // heights as if all passes were as deep as each other.
+      const auto n = static_cast<double>(o.passes.size());
+      const double finished = o.on[0] == "d1" ? 20 : 16;
+      const double left = (21 - finished) / all * ((n - 1) / 2 + later);
+      way += n * (2 * (21 + 2 - finished - left - 1) + 1);
+      way += (n - 1) * (2 + l + behind_mm(o.on[0]) - 1);
+      const double rapid = way / p.machine.rapid_mm_min;
       EXPECT_NEAR(o.cost,
-                  1.0 * (t + rapid + edges * tool->change_min) + edges * tool->edge_cost,
+                  1.0 * (t * fed(o.on[0], l) + rapid + edges * tool->change_min) +
+                      edges * tool->edge_cost,
                   1e-9);
     }
 }
@@ -69,7 +90,7 @@ TEST(Plan, SinglePassHasTheEconomicLife) {
   const auto& pass = operation(r, "s1-finish-d1").passes.at(0);
   const auto& tool = p.tools.at(1);
   const double economic =
-      (1 / p.material.taylor.n - 1) * (tool.change_min + tool.edge_cost);
+      (1 / p.material.taylor.n - 1) * (tool.change_min + tool.edge_cost) / fed("d1", 40);
   EXPECT_NEAR(pass.ap_mm, 1, 1e-12);
   EXPECT_NEAR(pass.f_mm_rev, tool.f_mm_rev.upper, 1e-9);
   EXPECT_NEAR(pass.T_min, std::max(economic, tool.T_min.lower), 1e-6);

@@ -69,7 +69,8 @@ class SetupSearch {
         clamping_(clamping),
         economy_(economy),
         effort_(effort),
-        fixed_(planning::fixed_work(p, setup, clamping, work, economy)) {
+        fixed_(planning::fixed_work(p, setup, clamping, work, economy)),
+        front_mm_(planning::front_mm(p, setup, work)) {
     if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
     for (const std::size_t i : work.elements) {
       auto f = Feature::element(p, setup, clamping, work, done, i, {});
@@ -96,8 +97,9 @@ class SetupSearch {
         s.objective += s.surfaces.back().objective - bounds(k, t).least;
       }
       if (s.surfaces.size() < features_.size() || !std::isfinite(s.objective)) continue;
-      s.indexings = indexings(s);
-      s.objective += economy_.minute * (minutes(s.indexings) - minutes(0));
+      const auto lies = between(s);
+      s.indexings = lies.indexings;
+      s.objective += economy_.minute * (minutes(lies) - minutes({}));
       if (s.objective < best.objective) best = std::move(s);
     }
     return best;
@@ -114,8 +116,9 @@ class SetupSearch {
       s.surfaces.push_back(as_planned(k, plan, follows ? Offset::free : Offset::none));
       s.objective += s.surfaces.back().objective;
     }
-    s.indexings = indexings(s);
-    s.objective += economy_.minute * minutes(s.indexings) + fixed_edges();
+    const auto lies = between(s);
+    s.indexings = lies.indexings;
+    s.objective += economy_.minute * minutes(lies) + fixed_edges();
     return s;
   }
 
@@ -149,7 +152,8 @@ class SetupSearch {
         for (const auto* f : list(true, ToolUse::finishing, false))
           for (const auto* br : list(bores, ToolUse::boring, true))
             for (const auto* bf : list(bores, ToolUse::boring, false)) {
-              ToolChoice c{x, r, f, br, bf, economy_.minute * minutes(0) + fixed_edges()};
+              ToolChoice c{x,  r,  f,
+                           br, bf, economy_.minute * minutes({}) + fixed_edges()};
               for (std::size_t k = 0; k < features_.size(); ++k)
                 c.bound += bounds(k, tools(k, c)).least;
               if (std::isfinite(c.bound)) all.push_back(c);
@@ -258,14 +262,15 @@ class SetupSearch {
     return best;
   }
 
-  double minutes(int changes) const {
+  double minutes(const planning::Between& lies) const {
     const auto& m = p_.machine;
-    double t = changes * m.index_min + m.load_min + m.setup_min / p_.batch;
+    double t = lies.indexings * m.index_min + lies.rapid_mm / m.rapid_mm_min +
+               lies.eased * m.jaws_min + m.load_min + m.setup_min / p_.batch;
     if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
     if (clamping_ == Clamping::between_centres) t += m.centres_min;
     if (clamping_ == Clamping::chuck_steady) t += m.steady_min;
     if (clamping_ == Clamping::tailstock_follow) t += m.tailstock_min + m.follow_min;
-    for (const auto& o : fixed_.all()) t += o.minutes;
+    for (const auto& o : fixed_.all()) t += o.minutes();
     return t;
   }
 
@@ -276,28 +281,26 @@ class SetupSearch {
   }
 
   // The end face, centre hole and drilling, all roughing, all finishing, the shoulders,
-  // the bores, the rest at fixed conditions: a tool that differs from the one before is
-  // brought in.
-  int indexings(const SetupFound& s) const {
-    std::string before;
-    int count = 0;
-    const auto bring = [&](const std::string& tool) {
-      if (!tool.empty() && tool != before) {
-        ++count;
-        before = tool;
-      }
-    };
+  // the bores, the rest at fixed conditions; over all surfaces of a kind if over one.
+  planning::Between between(const SetupFound& s) const {
+    planning::Order order(p_, setup_, clamping_, front_mm_);
     for (const auto kind : {Feature::Kind::end_face, Feature::Kind::element,
                             Feature::Kind::shoulder, Feature::Kind::bore}) {
-      for (const bool rough : {true, false})
+      for (const bool rough : {true, false}) {
+        const Tool* used = nullptr;
         for (std::size_t k = 0; k < features_.size(); ++k)
-          if (features_[k].kind() == kind)
-            bring(rough ? s.surfaces[k].rough : s.surfaces[k].finish);
+          for (const auto& t : p_.tools)
+            if (features_[k].kind() == kind &&
+                t.id == (rough ? s.surfaces[k].rough : s.surfaces[k].finish))
+              used = &t;
+        for (const auto& f : features_)
+          if (used && f.kind() == kind) order.add(f.in_order(*used, rough));
+      }
       if (kind == Feature::Kind::end_face)
-        for (const auto& o : fixed_.before) bring(o.plan.tool);
+        for (const auto& o : fixed_.before) order.add(o.order);
     }
-    for (const auto& o : fixed_.after) bring(o.plan.tool);
-    return count;
+    for (const auto& o : fixed_.after) order.add(o.order);
+    return order.done();
   }
 
   const PreparedPart& p_;
@@ -306,6 +309,7 @@ class SetupSearch {
   planning::Economy economy_;
   Effort effort_;
   planning::FixedWork fixed_;
+  double front_mm_;
   std::vector<Feature> features_;
   std::map<std::tuple<std::size_t, const Tool*, const Tool*>, Bounds> bounds_;
   std::map<Key, SurfaceFound> solved_;

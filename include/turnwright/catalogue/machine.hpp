@@ -40,6 +40,10 @@ struct DrivenTools {
   std::map<std::string, std::vector<TipMode>> modes;  ///< measured here, by cutter
 };
 
+/// Minutes to change the jaws' force in the middle of a setup where a machine's document
+/// has none.  An estimate: turn the valve of the chuck's pressure, read the gauge, start.
+inline constexpr double kJaws_min = 0.25;
+
 struct Lathe {
   std::string id, name;
   double n_min_rpm = 0, n_max_rpm = 0;
@@ -47,14 +51,15 @@ struct Lathe {
   double efficiency = 0;          ///< spindle to cut
   double feed_force_max_N = 0;
   double rapid_mm_min = 0;
-  double index_min = 0;      ///< time to bring in another tool [min]
-  double load_min = 0;       ///< part in and out, per setup [min]
-  double tailstock_min = 0;  ///< extra with tailstock: its quill [min]
-  double centres_min = 0;    ///< extra between centres: held end centred, driver [min]
-  double steady_min = 0;     ///< extra with a steady rest: setting its rollers [min]
-  double follow_min = 0;     ///< extra with a follow rest: setting its jaws [min]
-  double setup_min = 0;      ///< preparing the machine, per setup and batch [min]
-  double cost_per_min = 0;   ///< used when the request gives no rate
+  double index_min = 0;         ///< time to bring in another tool [min]
+  double load_min = 0;          ///< part in and out, per setup [min]
+  double tailstock_min = 0;     ///< extra with tailstock: its quill [min]
+  double centres_min = 0;       ///< extra between centres: held end centred, driver [min]
+  double steady_min = 0;        ///< extra with a steady rest: setting its rollers [min]
+  double follow_min = 0;        ///< extra with a follow rest: setting its jaws [min]
+  double jaws_min = kJaws_min;  ///< stop to change the force of the jaws [min]
+  double setup_min = 0;         ///< preparing the machine, per setup and batch [min]
+  double cost_per_min = 0;      ///< used when the request gives no rate
   double swing_mm = 0, between_centres_mm = 0;
   Chuck chuck;
   CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;

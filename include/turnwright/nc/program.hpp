@@ -49,17 +49,27 @@ struct Move {
   double x_mm = 0, z_mm = 0;  ///< radius and place in the program
   Point centre = {};          ///< of an arc: its radius in h_mm, its place in z_mm
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
+  /// Over what roughing has left on the elements before, which is deeper than here.
+  bool entering = false;
+};
+
+/// Where a tool is in the cut: between two places along the axis, or between two radii.
+struct InCut {
+  bool across = false;            ///< radii
+  double from_mm = 0, to_mm = 0;  ///< from < to, in the program's own coordinates
 };
 
 /// One operation of the plan, or a stop: what is milled is not in a turning program.
 struct Step {
   std::vector<std::string> comments;
-  bool stop = false;  ///< M0: somebody changes the clamping, or mills
+  bool stop = false;    ///< M0: somebody changes the clamping, or mills
+  double stop_min = 0;  ///< how long that takes; milling is not counted
   int tool = 0;
   bool constant_surface_speed = false;
   double S = 0;          ///< m/min, or 1/min
   double n_max_rpm = 0;  ///< with constant surface speed
   double f_mm_rev = 0;   ///< of a thread its pitch
+  InCut in_cut;
   std::vector<Move> moves;
 };
 
@@ -70,12 +80,35 @@ struct TableTool {
   int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, 7 drills
 };
 
+/// Minutes that a program runs or waits, without loading and preparing.
+struct Minutes {
+  double cutting = 0;         ///< feed over the surface that an operation makes
+  double air = 0;             ///< feed beside it, and rapids
+  double entering = 0;        ///< of that over what is left before, which no plan weighs
+  double tool_changes = 0;    ///< the ways to where tools are changed are in the air
+  double operator_stops = 0;  ///< M0 for what changes in the clamping
+  double total() const { return cutting + air + tool_changes + operator_stops; }
+};
+
 struct SetupProgram {
   std::size_t setup = 0;
   std::vector<std::string> comments;
   std::vector<TableTool> tools;
+  double change_x_mm = 0, change_z_mm = 0;  ///< radius and place where tools are changed
   std::vector<Step> steps;
+  Minutes minutes;
 };
+
+/// Minutes of a program's own moves.  Feed per revolution at a constant surface speed v
+/// below the spindle's limit n_cap takes
+///
+///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                    (1)
+///
+/// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n).  A rapid
+/// takes its longer axis at the machine's rapid rate, another tool the machine's time to
+/// bring one in, the first included.  Source: derived here; time_test integrates
+/// numerically.
+Minutes minutes(const SetupProgram& program, const catalogue::Lathe& machine);
 
 struct Programs {
   std::vector<SetupProgram> setups;  ///< none of an infeasible plan
@@ -86,6 +119,10 @@ struct Programs {
 
 /// The ways of every setup of a plan.
 Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan);
+
+/// Makes a plan infeasible that no program can be made of; its conflicts tell why.  What
+/// the request itself asks for, turning from the chuck outwards, stays as it is.
+void refuse_unprogrammed(const planning::PreparedPart& part, planning::ProcessPlan& plan);
 
 /// The program's text, lines of printable ASCII.
 std::string text(const SetupProgram& program, Control control);

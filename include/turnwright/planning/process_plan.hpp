@@ -97,6 +97,25 @@ struct RejectedTool {
   std::optional<double> at_least;  ///< proved: the setup's objective with it
 };
 
+/// Minutes and money of a part.
+struct Spending {
+  double time_min = 0, cost = 0;
+};
+
+/// Where the time and the cost of a part go.
+struct Breakdown {
+  Spending cutting;         ///< feed over the surfaces
+  Spending air;             ///< feed beside them and rapids
+  Spending tool_changes;    ///< bringing in tools
+  Spending operator_stops;  ///< centres and rests brought up, jaws' force changed
+  Spending edges;           ///< changing worn edges, and the edges themselves
+  Spending loading;         ///< part in and out
+  Spending setup_share;     ///< preparing the machine, over the batch
+
+  Breakdown& operator+=(const Breakdown& other);
+  Spending total() const;
+};
+
 struct SetupPlan {
   part::End hold = part::End::left;
   Clamping clamping = Clamping::chuck;
@@ -105,6 +124,7 @@ struct SetupPlan {
   std::vector<RejectedClamping> rejected;
   std::vector<RejectedTool> rejected_tools;  ///< in the clamping chosen
   std::vector<OperationPlan> operations;
+  Breakdown breakdown;  ///< nothing where the part has no plan
 };
 
 enum class Verdict { met, met_with_offset, not_met };
@@ -235,6 +255,7 @@ enum class PlanStatus { ok, infeasible };
 struct ProcessPlan {
   PlanStatus status = PlanStatus::ok;
   double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
+  Breakdown breakdown;                              ///< of these, over all setups
   std::optional<double> profit_per_min;
   Certificate certificate;
   std::vector<SetupPlan> setups;

@@ -120,6 +120,9 @@ struct Planes {
 };
 Planes planes(const catalogue::Lathe& machine, Clamping clamping);
 
+/// Minutes to bring in what a clamping has beside the chuck: centres and rests.
+double clamping_min(const catalogue::Lathe& machine, Clamping clamping);
+
 /// Whether a tailstock presses on the part.
 bool has_tailstock(Clamping clamping);
 

@@ -83,6 +83,7 @@ void read_times(Reader group, catalogue::Lathe& m) {
   m.tailstock_min = group.number("tailstock_min", time);
   m.centres_min = group.number("centres_min", time);
   m.setup_min = group.number("setup_min", time);
+  m.jaws_min = group.number_or("jaws_min", time, catalogue::kJaws_min);
   if (m.has("chuck-steady") || group.has("steady_min"))
     m.steady_min = group.number("steady_min", time);
   if (m.has("tailstock-follow") || group.has("follow_min"))

@@ -48,6 +48,11 @@ ordered_json to_json(const nc::Programs& all, const planning::ProcessPlan& plan,
   for (const auto& p : all.setups)
     out["programs"].push_back({{"setup", p.setup},
                                {"name", file_name(p, control)},
+                               {"minutes",
+                                {{"cutting", p.minutes.cutting},
+                                 {"air", p.minutes.air},
+                                 {"tool_changes", p.minutes.tool_changes},
+                                 {"operator_stops", p.minutes.operator_stops}}},
                                {"text", nc::text(p, control)}});
   out["tool_table"] = nc::tool_table(all.setups);
   return out;

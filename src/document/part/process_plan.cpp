@@ -118,17 +118,34 @@ ordered_json json_of(const RejectedTool& r) {
   return out;
 }
 
+ordered_json json_of(const Spending& s) {
+  return {{"time_min", s.time_min}, {"cost", s.cost}};
+}
+
+ordered_json json_of(const Breakdown& b) {
+  return {{"cutting", json_of(b.cutting)},
+          {"air", json_of(b.air)},
+          {"tool_changes", json_of(b.tool_changes)},
+          {"operator_stops", json_of(b.operator_stops)},
+          {"edges", json_of(b.edges)},
+          {"loading", json_of(b.loading)},
+          {"setup_share", json_of(b.setup_share)}};
+}
+
 ordered_json json_of(const SetupPlan& s) {
-  return {{"hold", word(s.hold)},
-          {"clamping", name(s.clamping)},
-          {"grip_force_N", s.grip_force_N},
-          {"finishing_grip_force_N", s.finishing_grip_force_N},
-          {"rejected",
-           list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
-          {"rejected_tools",
-           list(s.rejected_tools, [](const RejectedTool& r) { return json_of(r); })},
-          {"operations",
-           list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
+  ordered_json out{
+      {"hold", word(s.hold)},
+      {"clamping", name(s.clamping)},
+      {"grip_force_N", s.grip_force_N},
+      {"finishing_grip_force_N", s.finishing_grip_force_N},
+      {"rejected",
+       list(s.rejected, [](const RejectedClamping& r) { return json_of(r); })},
+      {"rejected_tools",
+       list(s.rejected_tools, [](const RejectedTool& r) { return json_of(r); })},
+      {"operations",
+       list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
+  if (s.breakdown.total().time_min > 0) out["breakdown"] = json_of(s.breakdown);
+  return out;
 }
 
 // A size has [min, max], a form one value.
@@ -258,6 +275,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   ordered_json out{{"status", word(plan.status)},
                    {"cost_per_part", if_planned(plan.cost_per_part)},
                    {"time_per_part_min", if_planned(plan.time_per_part_min)}};
+  if (plan.time_per_part_min > 0) out["breakdown"] = json_of(plan.breakdown);
   if (plan.profit_per_min) out["profit_per_min"] = *plan.profit_per_min;
   if (const auto& r = plan.robustness)
     out["robustness"] = {

@@ -27,8 +27,8 @@ std::string header(std::string_view name, const ordered_json& result) {
   if (feasible) {
     out += "<dl>\n";
     out += key_figure("Cost", shown(number(result, "cost_per_part"), 4), "per part");
-    out +=
-        key_figure("Time", shown(number(result, "time_per_part_min"), 3), "min per part");
+    out += key_figure("Time", shown(number(result, "time_per_part_min"), 3),
+                      "min per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
       out += key_figure("Profit", shown(profit, 4), "per minute");
     const auto& robust = object(result, "robustness");
@@ -41,6 +41,18 @@ std::string header(std::string_view name, const ordered_json& result) {
   if (const auto& c = object(result, "certificate"); !c.empty())
     out += tag("p", "Proof: " + proof(c) + ".");
   return out + origin(result);
+}
+
+// Where time and cost per part go, what prepares the machine apart.
+std::string breakdown(const ordered_json& result) {
+  const auto rows = spending(result);
+  if (rows.empty()) return "";
+  std::string out = tag("h2", "Time and cost") +
+                    table_head({{"", "", false}, {"time", "min"}, {"cost", "per part"}});
+  for (const auto& r : rows)
+    out += "<tr>" + words_cell(r.name) + number_cell(shown(r.time_min, 3)) +
+           number_cell(shown(r.cost, 4)) + "</tr>\n";
+  return out + kTableFoot;
 }
 
 // The first run has the operation's name, time and cost; the last is followed by its
@@ -236,8 +248,8 @@ std::string html(std::string_view name, const ordered_json& result,
                    opening_sentences(result));
   out += section("What else would do, each alone, as planned with it",
                  sentences_of(list(result, "remedies")));
-  out += setup_figures(result, figures) + setups(result) + tolerances(result, figures) +
-         prices(result) +
+  out += breakdown(result) + setup_figures(result, figures) + setups(result) +
+         tolerances(result, figures) + prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
          compensation(result) + stability(result, figures) + windows(result, figures) +

@@ -118,6 +118,37 @@ Stack stack_of(const ordered_json& tolerance) {
                size ? 2 : 1, shares);
 }
 
+std::vector<SpendingRow> spending(const ordered_json& result) {
+  constexpr std::pair<const char*, const char*> kKinds[]{
+      {"cutting", "cutting"},
+      {"air", "in the air: approaches, overruns, rapids"},
+      {"tool_changes", "bringing in tools"},
+      {"operator_stops", "operator's stops"},
+      {"edges", "worn edges"},
+      {"loading", "loading"},
+      {"setup_share", "preparing the machine, share of the batch"}};
+  const auto& b = object(result, "breakdown");
+  std::vector<SpendingRow> rows;
+  SpendingRow sum{"together"};
+  for (const auto& [key, name] : kKinds) {
+    const auto& share = object(b, key);
+    const double time = number(share, "time_min").value_or(0),
+                 cost = number(share, "cost").value_or(0);
+    if (time > 0 || cost > 0) rows.push_back({name, time, cost});
+    sum.time_min += time;
+    sum.cost += cost;
+  }
+  if (!rows.empty()) rows.push_back(sum);
+  return rows;
+}
+
+std::string preparing(const ordered_json& result) {
+  const auto share =
+      number(object(object(result, "breakdown"), "setup_share"), "time_min");
+  if (!share || !(*share > 0)) return "";
+  return ", " + shown(share, 3) + " of them to prepare the machine";
+}
+
 std::string value_text(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);

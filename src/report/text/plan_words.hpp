@@ -36,6 +36,18 @@ std::string conformance(const nlohmann::ordered_json& tolerance);
 /// What takes the tolerance's width.
 Stack stack_of(const nlohmann::ordered_json& tolerance);
 
+/// Minutes and money of one kind, per part.
+struct SpendingRow {
+  std::string name;
+  double time_min = 0, cost = 0;
+};
+/// Where time and cost per part go, what takes nothing left out; the last row is their
+/// sum.  Empty where the result does not tell.
+std::vector<SpendingRow> spending(const nlohmann::ordered_json& result);
+
+/// ", 30.000 of them to prepare the machine", where that takes anything.
+std::string preparing(const nlohmann::ordered_json& result);
+
 /// A string bare, anything else as JSON.
 std::string value_text(const nlohmann::ordered_json& value);
 

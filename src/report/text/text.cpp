@@ -30,8 +30,8 @@ std::string header(const ordered_json& result) {
   } else {
     out += paragraph("status  ", "every limit is kept");
     out += paragraph("cost    ", shown(number(result, "cost_per_part"), 4) + " per part");
-    out += paragraph("time    ",
-                     shown(number(result, "time_per_part_min"), 3) + " min per part");
+    out += paragraph("time    ", shown(number(result, "time_per_part_min"), 3) +
+                                     " min per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
       out += paragraph("profit  ", shown(profit, 4) + " per minute");
     if (const auto robust = result.find("robustness"); robust != result.end())
@@ -44,6 +44,17 @@ std::string header(const ordered_json& result) {
     if (certificate != result.end()) out += paragraph("proof   ", proof(*certificate));
   }
   return out + made_by(result);
+}
+
+// Where time and cost per part go, what prepares the machine apart.
+std::string breakdown(const ordered_json& result) {
+  const auto rows = spending(result);
+  if (rows.empty()) return "";
+  std::vector<Row> lines;
+  for (const auto& r : rows)
+    lines.push_back({{r.name, shown(r.time_min, 3), shown(r.cost, 4)}, ""});
+  return "\nTIME AND COST  per part\n" +
+         table({{"", Align::left}, {"min"}, {"cost"}}, lines);
 }
 
 // One sentence of each member, in the order of importance.
@@ -207,10 +218,10 @@ std::string assumptions(const ordered_json& result) {
 }  // namespace
 
 std::string text(const ordered_json& plan_result) {
-  return header(plan_result) + conflicts(plan_result) + relaxations(plan_result) +
-         remedies(plan_result) + setups(plan_result) + tolerances(plan_result) +
-         budget(plan_result) + compensation(plan_result) + prices(plan_result) +
-         what_if(plan_result) + assumptions(plan_result);
+  return header(plan_result) + breakdown(plan_result) + conflicts(plan_result) +
+         relaxations(plan_result) + remedies(plan_result) + setups(plan_result) +
+         tolerances(plan_result) + budget(plan_result) + compensation(plan_result) +
+         prices(plan_result) + what_if(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

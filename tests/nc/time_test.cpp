@@ -1,0 +1,179 @@
+// How long a program runs, against its moves integrated step by step.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "plans.hpp"
+#include "random_parts.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+using namespace test;
+using Kind = Move::Kind;
+
+catalogue::Lathe lathe() {
+  catalogue::Lathe m;
+  m.rapid_mm_min = 12000;
+  m.index_min = 0.04;
+  return m;
+}
+
+Step turning(double vc, double n_max, double f, InCut in_cut, std::vector<Move> moves) {
+  Step s;
+  s.tool = 1;
+  s.constant_surface_speed = true;
+  s.S = vc;
+  s.n_max_rpm = n_max;
+  s.f_mm_rev = f;
+  s.in_cut = in_cut;
+  s.moves = std::move(moves);
+  return s;
+}
+
+/// Feed along a straight line by the rule of midpoints.
+double integrated(const Move& a, const Move& b, const Step& s) {
+  constexpr int kSteps = 200000;
+  const double l = std::hypot(b.x_mm - a.x_mm, b.z_mm - a.z_mm);
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = std::abs(std::lerp(a.x_mm, b.x_mm, (i + 0.5) / kSteps));
+    const double n = std::min(s.n_max_rpm, 1000 * s.S / (2 * M_PI * x));
+    sum += l / kSteps / (s.f_mm_rev * n);
+  }
+  return sum;
+}
+
+// From outside past the axis, along a cone through the spindle's limit, along the axis.
+TEST(MinutesOfAProgram, IntegrateTheFeedUnderTheSpindlesLimit) {
+  const std::vector<std::pair<Move, Move>> ways{
+      {{Kind::rapid, 40, 0}, {Kind::feed, -0.8, 0}},
+      {{Kind::rapid, 5, 2}, {Kind::feed, 35, -40}},
+      {{Kind::rapid, 4, 2}, {Kind::feed, 9, -3}},
+      {{Kind::rapid, 30, 2}, {Kind::feed, 30, -40}},
+      {{Kind::rapid, 6, 2}, {Kind::feed, 6, -40}}};
+  for (const auto& [from, to] : ways) {
+    SetupProgram p;
+    p.change_x_mm = from.x_mm;
+    p.change_z_mm = from.z_mm;
+    p.steps = {turning(220, 2500, 0.17, {false, -1e9, 1e9}, {to})};
+    const auto t = minutes(p, lathe());
+    EXPECT_NEAR(t.cutting, integrated(from, to, p.steps[0]), 1e-6 * t.cutting);
+    EXPECT_EQ(t.air, 0);
+    EXPECT_EQ(t.tool_changes, 0.04);
+  }
+}
+
+TEST(MinutesOfAProgram, CountAsCutWhatIsOverTheSurface) {
+  SetupProgram p;
+  p.change_x_mm = 80;
+  p.change_z_mm = 60;
+  p.steps = {turning(157.0796326794896619, 5000, 0.2, {false, -30, 0},
+                     {{Kind::rapid, 26, 60},
+                      {Kind::rapid, 26, 2},
+                      {Kind::feed, 25, 2},
+                      {Kind::feed, 25, -32},
+                      {Kind::rapid, 26, -31}})};
+  const auto t = minutes(p, lathe());
+  // 157.08 m/min on 50 mm are 1000 1/min, 200 mm/min.
+  EXPECT_NEAR(t.cutting, 30.0 / 200, 1e-12);
+  const double outwards =
+      integrated({Kind::rapid, 26, 2}, {Kind::feed, 25, 2}, p.steps[0]);
+  EXPECT_NEAR(t.air, 4.0 / 200 + outwards + (54.0 + 58.0 + 1.0) / 12000, 1e-9);
+}
+
+// A quarter of a circle at a constant spindle speed, a thread, a stop, another tool.
+TEST(MinutesOfAProgram, CountArcsThreadsStopsAndTools) {
+  SetupProgram p;
+  p.change_x_mm = 20;
+  p.change_z_mm = 0;
+  Step arc;
+  arc.tool = 3;
+  arc.S = 800;
+  arc.f_mm_rev = 0.25;
+  arc.in_cut = {false, -10, 0};
+  arc.moves = {{Kind::arc, 30, -10, {30, 0}, true}};
+  Step stop;
+  stop.stop = true;
+  stop.stop_min = 0.5;
+  Step thread = arc;
+  thread.tool = 4;
+  thread.f_mm_rev = 2;
+  thread.in_cut = {false, -30, -15};
+  thread.moves = {{Kind::rapid, 30, -9}, {Kind::thread, 30, -30}};
+  p.steps = {arc, stop, thread};
+  const auto t = minutes(p, lathe());
+  EXPECT_NEAR(t.cutting, M_PI / 2 * 10 / 200 + 15.0 / 1600, 1e-9);
+  EXPECT_NEAR(t.air, 1.0 / 12000 + 6.0 / 1600, 1e-12);
+  EXPECT_EQ(t.operator_stops, 0.5);
+  EXPECT_EQ(t.tool_changes, 2 * 0.04);
+  EXPECT_NEAR(t.total(), t.cutting + t.air + 0.58, 1e-15);
+}
+
+/// Minutes of a setup that its program has too.
+double machine_min(const planning::Breakdown& b) {
+  return b.cutting.time_min + b.air.time_min + b.tool_changes.time_min +
+         b.operator_stops.time_min;
+}
+
+// What is milled is planned, and no program.
+bool mills(const planning::SetupPlan& s) {
+  return std::any_of(s.operations.begin(), s.operations.end(),
+                     [](const auto& o) { return o.milled.has_value(); });
+}
+
+/// The largest difference between plan and program of a setup, relative; told where it is
+/// more than a per cent.  What a program enters down a slope, between surfaces that go on
+/// from each other and are left unlike by roughing, is apart.
+double apart(const std::string& name, const Planned& p, const Programs& all) {
+  double most = 0;
+  for (const auto& program : all.setups) {
+    const auto& s = p.plan.setups[program.setup];
+    if (mills(s)) continue;
+    const auto& m = program.minutes;
+    const auto& b = s.breakdown;
+    const double off = machine_min(b) / (m.total() - m.entering) - 1;
+    most = std::max(most, std::abs(off));
+    if (std::getenv("TURNWRIGHT_TELL") || !(std::abs(off) <= 0.01))
+      fmt::print(
+          "{} setup {}: {:+.2f} %, plan {:.4f} program {:.4f}; cut {:.4f} {:.4f}, "
+          "air {:.4f} {:.4f}, tools {:.3f} {:.3f}, stops {:.3f} {:.3f}\n",
+          name, program.setup, 100 * off, machine_min(b), m.total(), b.cutting.time_min,
+          m.cutting, b.air.time_min, m.air, b.tool_changes.time_min, m.tool_changes,
+          b.operator_stops.time_min, m.operator_stops);
+  }
+  return most;
+}
+
+constexpr double kAlike = 0.01;
+
+TEST(PlanAndProgram, OfReferencePartsTakeTheSameTime) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    const auto all = programs(p.part, p.plan);
+    EXPECT_TRUE(all.cannot.empty()) << name;
+    EXPECT_LE(apart(name, p, all), kAlike) << name;
+  }
+}
+
+// TURNWRIGHT_RANDOM_PARTS sets how many are tried.
+TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
+  const auto* given = std::getenv("TURNWRIGHT_RANDOM_PARTS");
+  const int parts = given ? std::atoi(given) : 40;
+  int made = 0;
+  for (int seed = 1; seed <= parts; ++seed) {
+    const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    ++made;
+    const auto all = programs(p.part, p.plan);
+    for (const auto& why : all.cannot) ADD_FAILURE() << seed << ": " << why;
+    EXPECT_LE(apart(std::to_string(seed), p, all), kAlike) << seed;
+  }
+  EXPECT_GT(made, parts / 4);
+}
+
+}  // namespace
+}  // namespace turnwright::nc
