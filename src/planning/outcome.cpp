@@ -73,23 +73,6 @@ void add_totals(const PreparedPart& p, ProcessPlan& result) {
   if (p.price) result.profit_per_min = (*p.price - total.cost) / total.time_min;
 }
 
-SettingUp setting_up(const PreparedPart& p) {
-  SettingUp all;
-  all.minutes = static_cast<double>(p.setups.size()) * p.machine.setup_min;
-  all.cost = p.machine_per_min * all.minutes;
-  if (!p.batch) return all;
-  all.minutes_per_part = all.minutes / *p.batch;
-  all.cost_per_part = all.cost / *p.batch;
-  return all;
-}
-
-std::optional<WorstConformance> worst_conformance(
-    const PreparedPart& p, const std::vector<ToleranceResult>& all) {
-  const auto worst = std::ranges::min_element(all, {}, &ToleranceResult::P_conform);
-  if (worst == all.end()) return {};
-  return WorstConformance{worst->id, worst->P_conform, p.conformance};
-}
-
 SettingUp setting_up(const PlanRequest& p) {
   SettingUp all;
   all.minutes = static_cast<double>(p.setups.size()) * p.machine.setup_min;

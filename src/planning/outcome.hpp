@@ -27,13 +27,6 @@ Breakdown breakdown(const PreparedPart& plan, const SolvedSetup& setup);
 void add_totals(const PreparedPart& plan, ProcessPlan& result);
 
 /// Preparing the machine for all setups.
-SettingUp setting_up(const PreparedPart& plan);
-
-/// Of the tolerances, the first of those that fewest parts keep.
-std::optional<WorstConformance> worst_conformance(
-    const PreparedPart& plan, const std::vector<ToleranceResult>& tolerances);
-
-/// Preparing the machine for all setups.
 SettingUp setting_up(const PlanRequest& plan);
 
 /// Of the tolerances, the first of those that fewest parts keep.
