@@ -48,14 +48,15 @@ const planning::Compensation::Table& correction(const Site& site,
 }
 
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
-  std::vector<Point> all{{s.h0, s.z0}, {s.h1, s.z1}};
+  const double by = side.sign * moved_mm(site, s.id);
+  std::vector<Point> all{{s.h0 + by, s.z0}, {s.h1 + by, s.z1}};
   const auto& table = correction(site, s.id);
   if (table.empty()) return all;
   all.clear();
   for (const auto& [part_z, dr] : table) {
     const double z = std::clamp(site.z(part_z), s.z1, s.z0);
     const double u = (s.z0 - z) / (s.z0 - s.z1);
-    all.push_back({s.h0 + (s.h1 - s.h0) * u + side.sign * dr, z});
+    all.push_back({s.h0 + by + (s.h1 - s.h0) * u + side.sign * dr, z});
   }
   std::sort(all.begin(), all.end(),
             [](const Point& a, const Point& b) { return a.z_mm > b.z_mm; });

@@ -10,8 +10,10 @@ using planning::SetupWork;
 
 namespace {
 
-// From the radius that is drawn to the middle of its limits.
+// From the radius that is drawn to the middle of its limits; none of what is cut into its
+// blank later.
 double to_middle_mm(const part::Drawing& d, const std::string& element) {
+  if (part::has_cut(d, element)) return 0;
   for (const auto& t : d.tolerances)
     if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
       return (t.limits->lower_mm + t.limits->upper_mm) / 4;
@@ -20,10 +22,10 @@ double to_middle_mm(const part::Drawing& d, const std::string& element) {
 
 }  // namespace
 
-double offset_mm(const planning::ProcessPlan& plan, const std::string& surface) {
-  for (const auto& o : plan.offsets)
-    if (o.on == surface) return o.offset_mm;
-  return 0;
+double moved_mm(const Site& site, const std::string& surface) {
+  for (const auto& o : site.plan.offsets)
+    if (o.on == surface) return o.offset_mm + to_middle_mm(site.part.drawing, surface);
+  return to_middle_mm(site.part.drawing, surface);
 }
 
 double Side::top(const Surface& s) const { return std::max(top0(s), top1(s)); }
@@ -62,10 +64,7 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const auto& e = elements[i];
       const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
-      const double by =
-          e.cut ? 0 : to_middle_mm(part.drawing, e.id) + offset_mm(plan, e.id);
-      const double ra = side.sign * (e.left_mm / 2 + by);
-      const double rb = side.sign * (e.right_mm / 2 + by);
+      const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
       side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0}
                                  : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0});
       if (auto& s = side.items.back();

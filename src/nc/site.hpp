@@ -21,7 +21,7 @@ inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
 
 /// An element in the tool's order: z0 > z1, heights of its blank, or once it is cut there
-/// of what is drawn, in the middle of its size's limits and with the plan's offset.
+/// of what is drawn.
 struct Surface {
   std::string id;
   bool inner = false;
@@ -43,9 +43,6 @@ struct Side {
   /// Of what stands over a stretch of the axis.
   double highest(double from_z, double to_z) const;
 };
-
-/// The offset that the plan gives the tool at a surface; 0 if none.
-double offset_mm(const planning::ProcessPlan& plan, const std::string& surface);
 
 class Site {
  public:
@@ -91,5 +88,10 @@ class Site {
 /// The element of an id, as the setup has left it so far.
 /// @throws std::domain_error if there is none.
 const Surface& surface_of(const Site& site, const std::string& id);
+
+/// How far a surface lies from what is drawn [mm], before its correction: in the middle of
+/// its size's limits and with the offset that the plan gives the tool there; on the
+/// radius, of a face along the part's axis.
+double moved_mm(const Site& site, const std::string& surface);
 
 }  // namespace turnwright::nc

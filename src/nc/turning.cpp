@@ -281,7 +281,7 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
                                 double from, double to, bool last) {
   const auto& table = correction(site, id);
   if (!last || table.empty()) {
-    const double moved = z + offset_mm(site.plan, id);
+    const double moved = z + moved_mm(site, id);
     return {{from, moved}, {to, moved}};
   }
   std::vector<Point> all{{from, z + planning::interpolated(table, from)}};

@@ -266,12 +266,6 @@ TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   EXPECT_GE(r.cost_per_part, planned(pin()).cost_per_part * (1 - 1e-4));
 }
 
-const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
-  for (const auto& t : p.tolerances)
-    if (t.id == id) return t;
-  throw std::out_of_range(id);
-}
-
 nlohmann::json long_pin(const std::vector<std::string>& clampings) {
   auto d = pin();
   d["stock"]["length_mm"] = 202;

@@ -64,7 +64,7 @@ TEST_P(ReferencePart, HasAPlanThatMeetsEveryTolerance) {
   ASSERT_EQ(plan.tolerances.size(), part.part.drawing.tolerances.size());
   for (const auto& t : plan.tolerances) {
     EXPECT_NE(t.verdict, Verdict::not_met) << t.id << ' ' << t.of;
-    EXPECT_GE(t.P_conform, part.plan.conformance - 1e-6) << t.id << ' ' << t.of;
+    EXPECT_GE(t.P_conform, part.part.conformance - 1e-6) << t.id << ' ' << t.of;
     EXPECT_GE(t.margin_mm, -kBeyond * std::abs(t.allowed_mm.back()))
         << t.id << ' ' << t.of;
   }

@@ -36,7 +36,7 @@ LoadedPart load(const json& document, Purpose purpose = Purpose::plan) {
 
 std::string refusal(const json& document, Purpose purpose = Purpose::plan) {
   try {
-    load(document, purpose);
+    prepared_part(document, test_catalogue(), "t", purpose);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -306,10 +306,20 @@ TEST(PartPlan, ListedTolerancesKeepFeatureDatumAndWidth) {
   EXPECT_EQ(assumed(loaded, "/tolerances/4/kind")->value, "profile-without-datum");
 }
 
+PreparedDocument prepared(const json& document) {
+  return prepared_part(document, test_catalogue(), "t");
+}
+
+json assumed_of(const PreparedDocument& loaded, const std::string& pointer) {
+  for (const auto& a : loaded.assumed)
+    if (a.pointer == pointer) return a.value;
+  return nullptr;
+}
+
 TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
   const auto document = smallest();
   EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
-  const auto loaded = load(document);
+  const auto loaded = prepared(document);
   json told = json::object();
   for (const auto& a : loaded.assumed) {
     EXPECT_FALSE(a.why.empty()) << a.pointer;
@@ -326,8 +336,10 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/tools", {"test-rougher"}},
                         {"/stock/left_allowance_mm", 1.5},
                         {"/setups",
-                         {{{"hold", "left"}, {"grip_mm", 25.0}, {"clampings", all}},
-                          {{"hold", "right"}, {"grip_mm", 23.0}, {"clampings", all}}}},
+                         {{{"hold", "left"}, {"clampings", all}},
+                          {{"hold", "right"}, {"clampings", all}}}},
+                        {"/setups/0/grip_mm", 25.0},
+                        {"/setups/1/grip_mm", 23.0},
                         {"/operations", "auto"},
                         {"/objective", "cost"},
                         {"/batch", nullptr},
@@ -338,22 +350,22 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/window_percent", 5.0},
                         {"/damping_ratio", 0.03},
                         {"/conformance", 0.9973}}));
-  EXPECT_EQ(loaded.plan.drawing.stock.left_allowance_mm, 1.5);
-  EXPECT_EQ(loaded.plan.setups[1].grip_mm, 23);
-  EXPECT_EQ(loaded.plan.setups[1].clampings.size(), 3U);
-  EXPECT_EQ(loaded.plan.machine_per_min, 1);
-  EXPECT_FALSE(loaded.plan.batch.has_value());
-  EXPECT_FALSE(loaded.plan.operations.has_value());
+  EXPECT_EQ(loaded.part.drawing.stock.left_allowance_mm, 1.5);
+  EXPECT_EQ(loaded.part.grips_mm[1], 23);
+  EXPECT_EQ(loaded.part.setups[1].clampings.size(), 3U);
+  EXPECT_EQ(loaded.part.machine_per_min, 1);
+  EXPECT_FALSE(loaded.part.batch.has_value());
+  EXPECT_FALSE(loaded.part.operations.has_value());
 }
 
 TEST(PartPlan, WhatWasAssumedMayBeWrittenDown) {
   // Every assumption put where its pointer says gives the same plan without assumptions.
   auto document = smallest();
-  for (const auto& a : load(document).assumed)
+  for (const auto& a : prepared(document).assumed)
     document[json::json_pointer(a.pointer)] = a.value;
-  const auto again = load(document);
+  const auto again = prepared(document);
   EXPECT_TRUE(again.assumed.empty());
-  EXPECT_EQ(again.plan.setups[0].grip_mm, 25);
+  EXPECT_EQ(again.part.setups[0].grip_mm, 25);
 }
 
 TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
@@ -361,9 +373,9 @@ TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
   document["stock"]["diameter_mm"] = 24;
   document["outer"] = {
       {{"id", "d"}, {"kind", "cylinder"}, {"length_mm", 80}, {"diameter_mm", 20}}};
-  const auto loaded = load(document);
-  EXPECT_EQ(loaded.plan.setups[0].grip_mm, 15);
-  EXPECT_EQ(loaded.plan.setups[1].grip_mm, 15);
+  const auto loaded = prepared(document);
+  EXPECT_EQ(loaded.part.grips_mm[0], 15);
+  EXPECT_EQ(loaded.part.grips_mm[1], 15);
 }
 
 // 18.8 + 152.9 is more than 171.7 by a rounding.
@@ -384,9 +396,9 @@ TEST(PartPlan, AGripThatNobodyGaveIsToldAsTheDefault) {
   document["stock"]["length_mm"] = 44;
   document["outer"] = {
       {{"id", "d"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 96}}};
-  const auto problems = refusal(document);
-  EXPECT_NE(problems.find("got no grip_mm, by default 50 mm"), std::string::npos)
-      << problems;
+  const auto loaded = prepared(document);
+  EXPECT_EQ(loaded.part.grips_mm[0], 22);  // half of the stock's length
+  EXPECT_EQ(assumed_of(loaded, "/setups/0/grip_mm"), 22);
 }
 
 // A shaft of 50 mm stock with what is cut at fixed conditions, tools of the catalogue.

@@ -63,6 +63,7 @@ ProcessPlan every_field() {
   form.verdict = Verdict::not_met;
   p.tolerances = {size, form};
   p.deviations = {{"d1", 1, {{22, 0.5}, {24, 0.25}}}};
+  p.breakdown.cutting = {41, 42};
   p.offsets = {{"d1", 1, -0.004}};
   p.compensation = {{"d1", 1, {{22, 23}, {24, 25}}}};
   p.prices = {{"d1: diameter", 26, "mm", 27, 270, {"op1"}, "saves"}};
@@ -86,7 +87,12 @@ const std::vector<Assumption> kAssumed{{"/batch", 1, "default"}};
 TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
   EXPECT_EQ(
       to_json(every_field(), kAssumed).dump(),
-      R"({"status":"ok","cost_per_part":1.5,"time_per_part_min":2.5,"profit_per_min":3.5,)"
+      R"({"status":"ok","cost_per_part":1.5,"time_per_part_min":2.5,"breakdown":{)"
+      R"("cutting":{"time_min":41.0,"cost":42.0},"air":{"time_min":0.0,"cost":0.0},)"
+      R"("tool_changes":{"time_min":0.0,"cost":0.0},)"
+      R"("operator_stops":{"time_min":0.0,"cost":0.0},"edges":{"time_min":0.0,"cost":0.0},)"
+      R"("loading":{"time_min":0.0,"cost":0.0},"setup_share":{"time_min":0.0,"cost":0.0}},)"
+      R"("profit_per_min":3.5,)"
       R"("setting_up":{"min":40.0,"cost":48.0,"min_per_part":0.4,"cost_per_part":null},)"
       R"("worst_conformance":{"tolerance":"d1:diameter","P_conform":0.99,"wanted":0.9973},)"
       R"("certificate":{"kind":"global","lower_bound":1.4,"gap":0.06,"nodes":7,)"
