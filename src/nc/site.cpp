@@ -10,7 +10,7 @@ using planning::SetupWork;
 
 namespace {
 
-// From the radius that is drawn to the middle of its limits.
+// Difference between the middle of a size's limits and the drawn radius.
 double to_middle_mm(const part::Drawing& d, const std::string& element) {
   for (const auto& t : d.tolerances)
     if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)

@@ -41,7 +41,7 @@ struct Surroundings {
   double touch_z = 0,
          touch_rad = 0;  ///< the surface that ends the last pass, and its inclination
   /// Inclinations of the neighbours from which and into which a finishing pass continues,
-  /// with their lengths.
+  /// and for each the smaller of its length and that of this element.
   std::optional<double> before_rad = {}, behind_rad = {};
   double before_long_mm = 0, behind_long_mm = 0;
   /// The next element if it has the same height: the setup that cuts it from the other end
