@@ -61,7 +61,8 @@ Diameters swept(const Site& site, const OperationPlan& o) {
   return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
 }
 
-// The range in which an operation's tool is in the cut; call it before the operation cuts.
+// The range in which an operation's tool is in the cut; call it before the operation
+// cuts.
 InCut in_cut(const Site& site, const OperationPlan& o) {
   const auto D = swept(site, o);
   if (o.kind == OperationKind::face) return {true, D.small_mm / 2, D.large_mm / 2};
@@ -105,8 +106,8 @@ double spindle_limit_rpm(const Site& site, std::size_t operation) {
   return std::min(cap, cutting::grip_rpm(grip, needed));
 }
 
-// Grooving and parting run at constant surface speed; drilling, threading and profiling at
-// the plan's spindle speed.
+// Grooving and parting run at constant surface speed; drilling, threading and profiling
+// at the plan's spindle speed.
 bool constant_surface_speed(const Site& site, const OperationPlan& o) {
   if (o.kind != OperationKind::fixed) return true;
   const auto use = use_of(site, o);

@@ -73,8 +73,8 @@ class Site {
   Point at;  ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
-  /// Moves from any position to above a point, clear of the material with the whole corner,
-  /// then at feed onto it.
+  /// Moves from any position to above a point, clear of the material with the whole
+  /// corner, then at feed onto it.
   void approach(const Side& side, const Point& p, double re_mm);
   /// Moves from any position to a point outside the material.
   void approach(const Side& side, const Point& p);

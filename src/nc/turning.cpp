@@ -108,9 +108,9 @@ double lost_mm(const Pass& p) {
   return std::max(step, 0.0) / std::tan(*p.tool().rises_rad);
 }
 
-// A finishing pass comes in along the element's own line, from as far away as the surfaces
-// in front allow; where they do not allow it, parallel to the axis.  A roughing pass comes
-// in along the axis.
+// A finishing pass comes in along the element's own line, from as far away as the
+// surfaces in front allow; where they do not allow it, parallel to the axis.  A roughing
+// pass comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
@@ -138,11 +138,11 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   if (comes_in({level, way.front()}, pieces, p.tool())) way.insert(way.begin(), level);
 }
 
-// Starts a pass clear of the material before the free end and of the stock left on elements
-// in front, which the pass then removes; elements whose blank is higher than the pass are
-// not affected.  On a long element that has been roughed the pass comes down through the
-// stock on a slope that the minor edge clears.  Returns the number of moves over elements in
-// front.
+// Starts a pass clear of the material before the free end and of the stock left on
+// elements in front, which the pass then removes; elements whose blank is higher than the
+// pass are not affected.  On a long element that has been roughed the pass comes down
+// through the stock on a slope that the minor edge clears.  Returns the number of moves
+// over elements in front.
 std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
   const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
@@ -266,8 +266,8 @@ void pass(const Pass& p) {
 }
 
 // A facing pass over contact points, which are ordered from the axis outwards; the tool
-// comes from outside.  Its corner continues a radius beyond the first point, independent of
-// the slope there, or as far as the surfaces `before` the face allow.
+// comes from outside.  Its corner continues a radius beyond the first point, independent
+// of the slope there, or as far as the surfaces `before` the face allow.
 void face_pass(Site& site, const std::vector<Point>& contact, double re,
                const std::vector<Piece>& before) {
   auto way = tips(contact, re);

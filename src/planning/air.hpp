@@ -12,17 +12,18 @@
 /// the chuck.  A corner of radius r that touches lines inclined by a and b
 /// has its tip, which is programmed, at
 ///
-///     z_tip = z + r (sin((a + b)/2)/cos((a - b)/2) - 1).                               (1)
+///     z_tip = z + r (sin((a + b)/2)/cos((a - b)/2) - 1).                             (1)
 ///
-/// Source: these are the lengths of the tool paths described in turnwright/nc/program.hpp.
+/// Source: these are the lengths of the tool paths described in
+/// turnwright/nc/program.hpp.
 namespace turnwright::planning {
 
 /// Lengths of the passes of an operation.
 struct Beside {
   double fed_mm = 0;    ///< at feed by all passes, in the cut or not
   double rapid_mm = 0;  ///< approaches and returns
-  /// Positions where the first pass begins and where the tool has left the last one: along
-  /// the axis, for bores radii.
+  /// Positions where the first pass begins and where the tool has left the last one:
+  /// along the axis, for bores radii.
   double from_mm = 0, to_mm = 0;
 };
 
@@ -44,8 +45,8 @@ struct Surroundings {
   /// and for each the smaller of its length and that of this element.
   std::optional<double> before_rad = {}, behind_rad = {};
   double before_long_mm = 0, behind_long_mm = 0;
-  /// The next element if it has the same height: the setup that cuts it from the other end
-  /// also removes the remainder that a pass leaves here.
+  /// The next element if it has the same height: the setup that cuts it from the other
+  /// end also removes the remainder that a pass leaves here.
   std::optional<std::size_t> level_behind = {};
 };
 Surroundings surroundings(const PreparedPart& plan, std::size_t setup, Clamping clamping,
@@ -78,7 +79,7 @@ ThreadRoom thread_room(const PreparedPart& plan, std::size_t setup, const SetupW
 /// Revolutions of a facing tool between two radii at constant surface speed, up to a
 /// factor; inside the diameter D_c the spindle runs at its limit,
 ///
-///     integral of max(2 |x|, D_c) dx.                                                 (2)
+///     integral of max(2 |x|, D_c) dx.                                                (2)
 double swept_mm2(double from_mm, double to_mm, double D_c_mm);
 
 /// Position where tools are changed: a radius, and z from the finished free end.

@@ -35,8 +35,8 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, to a datum that another setup cuts: twice for run-out,
-///                   coaxiality and position, once for a profile; sqrt(2) D/grip times for
-///                   tolerances of tilt, D the face's diameter or the axis' length
+///                   coaxiality and position, once for a profile; sqrt(2) D/grip times
+///                   for tolerances of tilt, D the face's diameter or the axis' length
 ///
 /// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
 /// cut by one tool, with the same edge; both look at the free end, so that their errors
@@ -72,11 +72,11 @@ double force_spread(const PreparedPart& plan);
 /// for which the tool path is corrected.
 enum class Cut { none, error, corrected };
 
-/// Room that a tolerance of width w leaves to the cut.  In a nominal plan it is w - taken.
-/// A robust plan judges the parts themselves, not their measurement: at each end, at the
-/// distance h = (w - fixed)/ends from the middle of a size or from 0 of a zone, it is the
-/// largest E with which parts whose force and stiffness spread by r keep the limit with the
-/// required probability p,
+/// Room that a tolerance of width w leaves to the cut.  In a nominal plan it is
+/// w - taken.  A robust plan judges the parts themselves, not their measurement: at each
+/// end, at the distance h = (w - fixed)/ends from the middle of a size or from 0 of a zone, it
+/// is the largest E with which parts whose force and stiffness spread by r keep the limit
+/// with the required probability p,
 ///
 ///     P(S + r E Z <= h - E) = p                                                     (1)
 ///
@@ -87,11 +87,11 @@ enum class Cut { none, error, corrected };
 ///     P(-h + E <= S + r E Z <= h - E) = p                                           (2)
 ///
 /// With a constant offset (demand.hpp) the error reaches equally far to both sides, and E
-/// is half its range: (2) is then necessary and sufficient for P_conform >= p.  Without an
-/// offset E is the larger extreme, for which (2) is sufficient.  Uncertain forces and
+/// is half its range: (2) is then necessary and sufficient for P_conform >= p.  Without
+/// an offset E is the larger extreme, for which (2) is sufficient.  Uncertain forces and
 /// stiffness scale only the error that the offset does not remove, because the offset is
-/// set by gauging the first part, which shows the true middle.  With a corrected path only
-/// the uncertainty of the deflection E remains,
+/// set by gauging the first part, which shows the true middle.  With a corrected path
+/// only the uncertainty of the deflection E remains,
 ///
 ///     P(|S + r E Z| <= h) = p                                                       (3)
 ///

@@ -13,7 +13,7 @@ namespace turnwright::planning {
 /// The constraint of one tolerance, by its shape:
 ///
 ///     size          lower <= factor e <= upper at every position
-///     centred       factor (max e - min e)/2 <= upper: a size whose tool may have an offset
+///     centred       factor (max e - min e)/2 <= upper: a size with an offset of its tool
 ///     range         factor (max e - min e) <= upper
 ///     straightness  width of the minimum zone <= upper
 ///     none          the cut has no part in it
@@ -27,11 +27,11 @@ struct Demand {
   double taken_mm = 0;   ///< share of the width that all other sources take
 };
 
-/// Displacement of the tool from the programmed middle of a size: none, one number for the
-/// whole surface, or a correction that varies along it.  With an offset a size constrains
-/// only the range of its error.  The constant offset is the machinist's wear offset at that
-/// size, set once the first part is measured: it costs nothing, and every pass over the
-/// surface is moved by it, so no depth of cut changes.
+/// Displacement of the tool from the programmed middle of a size: none, one number for
+/// the whole surface, or a correction that varies along it.  With an offset a size
+/// constrains only the range of its error.  The constant offset is the machinist's wear
+/// offset at that size, set once the first part is measured: it costs nothing, and every
+/// pass over the surface is moved by it, so no depth of cut changes.
 enum class Offset { none, constant, path };
 
 /// The offset that a plan may use at no cost: a constant one if the first part is gauged,

@@ -42,8 +42,8 @@ double clamping_rpm(const PreparedPart& plan, Clamping clamping);
 /// (VDI 3106).
 double grip_loss_rpm(const PreparedPart& plan, Clamping clamping, double force_N);
 
-/// The properties of a clamping that matter if deflection is not modelled: clampings equal
-/// in them have the same chains as long as no positions are imposed.
+/// The properties of a clamping that matter if deflection is not modelled: clampings
+/// equal in them have the same chains as long as no positions are imposed.
 struct Holding {
   double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
   double d_grip_mm = 0, n_max_rpm = 0;
@@ -99,8 +99,8 @@ class Feature {
   /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
   /// (3) of chain.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
   /// damping ratio of part and machine, zeta_b that of a boring bar.  The compliances are
-  /// static.  For modes of any frequencies and at any spindle speed the limit from the sum
-  /// of their compliances is at most that of the modes together
+  /// static.  For modes of any frequencies and at any spindle speed the limit from the
+  /// sum of their compliances is at most that of the modes together
   /// (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
 
@@ -108,7 +108,8 @@ class Feature {
   double chatter_share(const Chain& chain, const Choice<double>& choice) const;
 
   /// Imposes (1) on the operations of a chain that can reach it within their ranges; if
-  /// the depth is open, at every position that is the worst, or nearly so, for some depth.
+  /// the depth is open, at every position that is the worst, or nearly so, for some
+  /// depth.
   void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
   /// Imposes (1) at one depth, at the positions where it is imposed on another chain.
   void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;

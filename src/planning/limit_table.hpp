@@ -60,8 +60,8 @@ struct LimitRow {
   Relaxing relaxing = Relaxing::never;
   std::vector<LimitNumber> numbers = {};  ///< a reader of the request can change
   std::optional<Check> with = {};         ///< the numbers of this check set it as well
-  /// The number that is scaled to relax the limit, once for the plan; absent: the first of
-  /// the numbers, for every owner that has the limit.
+  /// The number that is scaled to relax the limit, once for the plan; absent: the first
+  /// of the numbers, for every owner that has the limit.
   std::optional<LimitNumber> relaxed_by = {};
   /// Removes the limit.  Absent: it is scaled so far that it never binds.
   void (*take_away)(PlanRequest&, std::size_t owner) = nullptr;

@@ -27,8 +27,8 @@ struct Considered {
   bool solved = false;
 };
 
-/// A surface with given tools: a lower bound over its recipes, and its solution once it is
-/// needed.
+/// A surface with given tools: a lower bound over its recipes, and its solution once it
+/// is needed.
 struct Entry {
   double bound = 0;
   double most = 0;           ///< objective that the solution had to be below
@@ -59,8 +59,9 @@ class SetupPlanner {
   /// first; those that cannot cost less than `most` are dropped as soon as that is known.
   SolvedSetup best(double most);
 
-  /// Whether some choice of tools makes every surface; `makes` decides it for one surface.
-  /// Surfaces that were not made before are tried first.
+  /// Whether some choice of tools makes every surface; `makes` decides it for one
+  /// surface.  Each surface is tried alone first, so one that no tools make ends the
+  /// search.
   bool can_be_made(const std::function<bool(const FeatureTask&)>& makes);
 
   /// Every surface with the given tools and conditions, solved by `answer`; the tool path

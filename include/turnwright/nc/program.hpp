@@ -17,10 +17,10 @@
 /// limit are cut off, never rounded up.  The paths need some rules in addition to the
 /// plan's numbers:
 ///
-///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), the last part at
-///                 feed; a pass that would start in the stock left on an element in front
-///                 comes down through it on a slope that the minor edge clears, or starts
-///                 in front of an element too short for that
+///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), the last part
+///                 at feed; a pass that would start in the stock left on an element in
+///                 front comes down through it on a slope that the minor edge clears, or
+///                 starts in front of an element too short for that
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
 ///                 pass ends where the corner touches the drawn contour behind, or r, the
 ///                 largest r of the plan's tools and 0.2 mm behind an edge that falls
@@ -103,7 +103,7 @@ struct SetupProgram {
 /// Minutes of a program's own moves.  Feed per revolution at a constant surface speed v
 /// below the spindle's limit n_cap takes
 ///
-///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                    (1)
+///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                  (1)
 ///
 /// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n).  A rapid
 /// takes its longer axis at the machine's rapid rate, another tool the machine's time to

@@ -229,8 +229,8 @@ struct RequestChange {
   std::string name = {}, key = {};
 };
 
-/// One change of the request, or two together where no single one was found, that makes an
-/// infeasible part feasible: it was planned with it.
+/// One change of the request, or two together where no single one was found, that makes
+/// an infeasible part feasible: it was planned with it.
 struct Remedy {
   std::vector<RequestChange> changes;  ///< one or two
   std::string sentence = {};

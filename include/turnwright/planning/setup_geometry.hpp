@@ -57,9 +57,9 @@ double face_stock_mm(const PreparedPart& part, part::End end);
 double face_stock_after_mm(const PreparedPart& part, std::size_t setup, part::End end);
 
 /// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
-/// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches their
-/// end, and whose point cuts neither a narrower bore nor a wall behind; 0 if nothing is
-/// drilled.
+/// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches
+/// their end, and whose point cuts neither a narrower bore nor a wall behind; 0 if
+/// nothing is drilled.
 double drilled_mm(const PlanRequest& request, part::End end);
 
 /// z of the jaws' end (between centres: of the held end) in part coordinates.
@@ -127,8 +127,8 @@ double clamping_min(const catalogue::Lathe& machine, Clamping clamping);
 /// Whether a tailstock presses on the part.
 bool has_tailstock(Clamping clamping);
 
-/// Bores nearer to each other than this [mm] are one through hole; no thinner wall is left
-/// standing.
+/// Bores nearer to each other than this [mm] are one through hole; no thinner wall is
+/// left standing.
 inline constexpr double kNoWall_mm = 0.01;
 
 /// Width of a steady rest along the axis [mm]; the surface below it is not cut.
