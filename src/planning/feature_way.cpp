@@ -8,7 +8,7 @@ namespace {
 
 // Diameter inside which the spindle keeps its limit, at the middle of the speeds allowed.
 double limited_mm(const OperationModel& o) {
-  const double vc = std::sqrt(o.vc.lower * o.vc.upper);
+  const double vc = std::sqrt(o.vc_window.lower * o.vc_window.upper);
   return 1000 * vc / (units::kPi * o.n_cap_rpm);
 }
 

@@ -73,7 +73,7 @@ void add_totals(const PreparedPart& p, ProcessPlan& result) {
   if (p.price) result.profit_per_min = (*p.price - total.cost) / total.time_min;
 }
 
-SettingUp setting_up(const PreparedPart& p) {
+SettingUp setting_up(const PlanRequest& p) {
   SettingUp all;
   all.minutes = static_cast<double>(p.setups.size()) * p.machine.setup_min;
   all.cost = p.machine_per_min * all.minutes;
@@ -84,7 +84,7 @@ SettingUp setting_up(const PreparedPart& p) {
 }
 
 std::optional<WorstConformance> worst_conformance(
-    const PreparedPart& p, const std::vector<ToleranceResult>& all) {
+    const PlanRequest& p, const std::vector<ToleranceResult>& all) {
   const auto worst = std::ranges::min_element(all, {}, &ToleranceResult::P_conform);
   if (worst == all.end()) return {};
   return WorstConformance{worst->id, worst->P_conform, p.conformance};

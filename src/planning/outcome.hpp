@@ -27,15 +27,14 @@ Breakdown breakdown(const PreparedPart& plan, const SolvedSetup& setup);
 void add_totals(const PreparedPart& plan, ProcessPlan& result);
 
 /// Time and cost of preparing the machine for all setups.
-SettingUp setting_up(const PreparedPart& plan);
+SettingUp setting_up(const PlanRequest& plan);
 
 /// The tolerance that the fewest parts keep; the first one if there are several.
 std::optional<WorstConformance> worst_conformance(
-    const PreparedPart& plan, const std::vector<ToleranceResult>& tolerances);
+    const PlanRequest& plan, const std::vector<ToleranceResult>& tolerances);
 
 /// The operations of a setup in the order of cutting: faces, centre hole and drilling,
-/// roughing,
-/// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
+/// roughing, finishing, shoulders, bores, then arcs, grooves, threads, parting off.
 std::vector<OperationPlan> operations_in_order(const PreparedPart& plan,
                                                const SolvedSetup& setup);
 

@@ -47,7 +47,7 @@ Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t
 
 }  // namespace
 
-std::vector<const Tool*> tools_for(const PreparedPart& p, ToolUse use) {
+std::vector<const Tool*> tools_for(const PlanRequest& p, ToolUse use) {
   std::vector<const Tool*> all;
   for (const auto& t : p.tools)
     if (fits(t, use, p.material.group)) all.push_back(&t);

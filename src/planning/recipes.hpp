@@ -18,7 +18,7 @@ struct Wanted {
 Wanted wanted(const PreparedPart& plan, std::size_t setup, const std::string& surface);
 
 /// The tools of the request for a use and the plan's material.
-std::vector<const catalogue::Tool*> tools_for(const PreparedPart& plan,
+std::vector<const catalogue::Tool*> tools_for(const PlanRequest& plan,
                                               catalogue::ToolUse use);
 
 /// Finishing passes that `auto` may take on an element or a bore.

@@ -98,7 +98,8 @@ void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
                              readable(grip_mm), readable(p.grips_mm[s]), s)});
 }
 
-// Jaws as far as the nearest element that the setup cuts.
+// Adds jaws that reach as far as the nearest element that the setup cuts, less the largest corner that has
+// to roll over its end, or as far as the rest.
 void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
   const auto& work = p.work.setups[s];
@@ -109,6 +110,12 @@ void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>&
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, free > root ? z0 - root : root - z1);
   }
+  double corner = 0;
+  for (const auto& t : p.tools) corner = std::max(corner, t.re_mm);
+  room -= corner;
+  const auto& clampings = p.setups[s].clampings;
+  if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
+    room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
   const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
   if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
     add_grip(p, s, grip, all);

@@ -45,12 +45,20 @@ TEST(ToleranceKind, SizesAndLocatedProfilesHaveTwoEnds) {
 }
 
 // A part off its axis, or of three lobes, is seen where the radius is compared around it.
-TEST(ToleranceKind, LobesAndEccentricityAreSeenAroundTheAxis) {
+TEST(ToleranceKind, LobesAndChuckingAnewAreSeenAroundTheAxis) {
   EXPECT_EQ(kinds_with([](const auto& row) { return row.sees_lobes; }),
             (Kinds{circularity, cylindricity, circular_radial_runout, total_radial_runout,
                    profile, profile_without_datum}));
-  EXPECT_EQ(kinds_with([](const auto& row) { return row.sees_eccentricity; }),
-            (Kinds{coaxiality, circular_radial_runout, total_radial_runout}));
+  EXPECT_EQ(
+      kinds_with([](const auto& row) { return row.rechucked == Rechucked::run_out; }),
+      (Kinds{position, coaxiality, circular_radial_runout, total_radial_runout}));
+  EXPECT_EQ(
+      kinds_with([](const auto& row) { return row.rechucked == Rechucked::tilted; }),
+      (Kinds{parallelism, perpendicularity, angularity, circular_axial_runout,
+             total_axial_runout}));
+  EXPECT_EQ(
+      kinds_with([](const auto& row) { return row.rechucked == Rechucked::displaced; }),
+      (Kinds{profile}));
 }
 
 TEST(ToleranceKind, AnAxisThatIsPerpendicularIsNoMatterOfTheCut) {

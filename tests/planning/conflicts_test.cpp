@@ -306,7 +306,7 @@ void expect_resolving(const json& d, const ProcessPlan& r) {
 
 // A size that the machine alone uses up conflicts alone, whatever else is asked.
 TEST(Conflicts, ASizeTheMachineUsesUpStandsAlone) {
-  auto d = reference_part("drilled-bush");
+  auto d = nominal(reference_part("drilled-bush"));
   d["machine"] = "lathe-worn";
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::infeasible);

@@ -440,7 +440,7 @@ json& given_operation(json& d, const std::string& id) {
 }
 
 TEST(Given, DrillsOfHolesKeepTheirIds) {
-  auto d = given_back(bush());
+  auto d = given_back(nominal(bush()));
   given_operation(d, "s0-drill-b1")["id"] = "hole";
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);

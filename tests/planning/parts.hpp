@@ -34,6 +34,13 @@ inline nlohmann::json no_shop_errors() {
           {"first_part_gauged", false}};
 }
 
+/// A part of parts/, likewise.
+inline nlohmann::json nominal(nlohmann::json document) {
+  document["budget"] = no_shop_errors();
+  document["robust"] = false;
+  return document;
+}
+
 /// A short pin of two cylinders, turned round once in the chuck, planned nominally.
 inline nlohmann::json pin() {
   return {{"format", "turnwright-part/1"},

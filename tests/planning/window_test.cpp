@@ -76,7 +76,7 @@ class Windows : public testing::TestWithParam<const char*> {};
 
 TEST_P(Windows, HoldWhatIsKeptAndNothingElse) {
   const std::string name = GetParam();
-  const Planned p(name == "pin" ? pin() : reference_part(name));
+  const Planned p(name == "pin" ? pin() : nominal(reference_part(name)));
   ASSERT_EQ(p.plan().status, PlanStatus::ok);
   std::mt19937 seed(5);
   std::uniform_real_distribution<double> unit(0, 1);

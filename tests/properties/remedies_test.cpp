@@ -69,11 +69,12 @@ class HardParts {
                             {"length_mm", l},
                             {"diameter_mm", diameters[static_cast<std::size_t>(i)]}});
     }
-    d["stock"] = {{"kind", tube ? "tube" : "bar"},
-                  {"diameter_mm", D + 3},
-                  {"length_mm", length + 2},
-                  {"left_allowance_mm", 1}};
-    if (tube) d["stock"]["inner_diameter_mm"] = uniform(40, 50);
+    d["stock"] = {{"length_mm", length + 2}, {"left_allowance_mm", 1}};
+    if (tube)
+      d["stock"].update(
+          {{"kind", "tube"}, {"outer_mm", D + 3}, {"inner_mm", uniform(40, 50)}});
+    else
+      d["stock"].update({{"kind", "bar"}, {"diameter_mm", D + 3}});
   }
 
   void draw_tolerances(json& d) {

@@ -267,7 +267,8 @@ class SetupSearch {
   double minutes(const planning::Between& lies) const {
     const auto& m = p_.machine;
     double t = lies.indexings * m.index_min + lies.rapid_mm / m.rapid_mm_min +
-               lies.eased * m.jaws_min + m.load_min + m.setup_min / p_.batch;
+               lies.eased * m.jaws_min + m.load_min +
+               (p_.batch ? m.setup_min / *p_.batch : 0);
     if (clamping_ == Clamping::chuck_tailstock) t += m.tailstock_min;
     if (clamping_ == Clamping::between_centres) t += m.centres_min;
     if (clamping_ == Clamping::chuck_steady) t += m.steady_min;

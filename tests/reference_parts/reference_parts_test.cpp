@@ -8,6 +8,7 @@
 #include "document/json/file.hpp"
 #include "global_search.hpp"
 #include "turnwright/document/catalogue.hpp"
+#include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/process_plan.hpp"
 
 // The plans of parts/ against an independent search, against costs.json (that search with

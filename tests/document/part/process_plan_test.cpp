@@ -69,16 +69,15 @@ ProcessPlan every_field() {
   p.conflicts = {{"t1", "op1", 28, 29, "mm", "clash", 1},
                  {"setups", "all setups", 0, 0, "", "no"}};
   p.relax = {{"t1", 30, 31, "mm", "open", 1}, {"t2", 32, 33, "mm", "wider"}};
-  p.remedies = {{.change = Remedy::Change::clamping,
-                 .setup = 1,
-                 .clamping = Clamping::chuck_steady,
-                 .steady_mm = 34,
-                 .sentence = "steady",
-                 .cost_per_part = 35,
-                 .time_per_part_min = 36},
-                {.change = Remedy::Change::grip, .setup = 2, .grip_mm = 37},
-                {.change = Remedy::Change::tool, .name = "T4"},
-                {.change = Remedy::Change::operation, .name = "op2", .key = "passes"}};
+  using Kind = RequestChange::Kind;
+  const RequestChange steady{.kind = Kind::clamping,
+                             .setup = 1,
+                             .clamping = Clamping::chuck_steady,
+                             .steady_mm = 34};
+  const RequestChange grip{.kind = Kind::grip, .setup = 2, .grip_mm = 37};
+  const RequestChange passes{.kind = Kind::operation, .name = "op2", .key = "passes"};
+  p.remedies = {{{steady}, "steady", 35, 36}, {{grip, passes}, "both", 38, 39}};
+  p.tried = {{{.kind = Kind::tool, .name = "T4"}, "the tool T4"}};
   return p;
 }
 
@@ -130,12 +129,10 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("remedies":[{"change":"clamping","setup":1,"clamping":"chuck-steady",)"
       R"("steady_mm":34.0,"sentence":"steady","cost_per_part":35.0,)"
       R"("time_per_part_min":36.0},)"
-      R"({"change":"grip","setup":2,"grip_mm":37.0,"sentence":"","cost_per_part":0.0,)"
-      R"("time_per_part_min":0.0},)"
-      R"({"change":"tool","tool":"T4","sentence":"","cost_per_part":0.0,)"
-      R"("time_per_part_min":0.0},)"
-      R"({"change":"operation","operation":"op2","leave":"passes","sentence":"",)"
-      R"("cost_per_part":0.0,"time_per_part_min":0.0}],)"
+      R"({"change":"grip","setup":2,"grip_mm":37.0,"together_with":)"
+      R"({"change":"operation","operation":"op2","leave":"passes"},"sentence":"both",)"
+      R"("cost_per_part":38.0,"time_per_part_min":39.0}],)"
+      R"("tried":[{"change":"tool","tool":"T4","sentence":"the tool T4"}],)"
       R"("assumed":[{"pointer":"/batch","value":1,"why":"default"}]})");
 }
 
