@@ -36,7 +36,7 @@ bool in_chuck_alone(const Site& site, const OperationPlan& o) {
   return (o.kind == OperationKind::face && !is_shoulder(o)) || drills(site, o);
 }
 
-// When the jaws have the force of which stage.
+// The stage whose jaw force an operation has.
 Stage stage_of(const Site& site, const OperationPlan& o) {
   const bool rough =
       o.kind == OperationKind::rough || o.kind == OperationKind::bore_rough;
@@ -47,7 +47,7 @@ struct Diameters {
   double small_mm = 0, large_mm = 0;
 };
 
-// That an operation's last pass sweeps.
+// Diameters that an operation's last pass sweeps.
 Diameters swept(const Site& site, const OperationPlan& o) {
   const auto& d = site.part.drawing;
   if (const auto e = part::extent(d, o.on[0]))
@@ -61,7 +61,8 @@ Diameters swept(const Site& site, const OperationPlan& o) {
   return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
 }
 
-// Where an operation's tool is in the cut, before it has cut.
+// The range in which an operation's tool is in the cut; call it before the operation
+// cuts.
 InCut in_cut(const Site& site, const OperationPlan& o) {
   const auto D = swept(site, o);
   if (o.kind == OperationKind::face) return {true, D.small_mm / 2, D.large_mm / 2};
@@ -76,7 +77,7 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
   return {true, small, large};
 }
 
-// The limit [1/min] that the plan's conditions stand under.
+// The spindle limit [1/min] that applies to the plan's conditions.
 double spindle_limit_rpm(const Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   const auto& m = site.part.machine;
@@ -105,8 +106,8 @@ double spindle_limit_rpm(const Site& site, std::size_t operation) {
   return std::min(cap, cutting::grip_rpm(grip, needed));
 }
 
-// Grooving and parting run at constant surface speed, what drills, cuts threads or
-// profiles at the plan's spindle speed.
+// Grooving and parting run at constant surface speed; drilling, threading and profiling
+// at the plan's spindle speed.
 bool constant_surface_speed(const Site& site, const OperationPlan& o) {
   if (o.kind != OperationKind::fixed) return true;
   const auto use = use_of(site, o);
@@ -155,7 +156,7 @@ Step stop(std::string told, double minutes) {
   return s;
 }
 
-// A turning program mills nothing: it stops where that is to be done.
+// A turning program does not mill: it stops where a place is to be milled.
 Step mill_here(const OperationPlan& o) {
   const auto& p = o.passes[0];
   return stop(
@@ -165,7 +166,7 @@ Step mill_here(const OperationPlan& o) {
       0);
 }
 
-// Before each operation, where somebody changes the clamping.
+// The stops before each operation at which the clamping is changed.
 std::vector<std::vector<Step>> stops(const Site& site) {
   const auto& s = site.answer();
   std::vector<std::vector<Step>> all;

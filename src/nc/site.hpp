@@ -7,8 +7,8 @@
 #include "turnwright/planning/approach.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
-/// A setup while it is programmed: what stands in the machine, in the program's own
-/// coordinates, and where the tool is.
+/// A setup while it is programmed: the part in the machine, in the program's own
+/// coordinates, and the position of the tool.
 namespace turnwright::nc {
 
 using planning::kAbove_mm;
@@ -27,20 +27,20 @@ struct Surface {
   bool inner = false;
   std::size_t index = 0;  ///< in the drawing
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool stock = true;  ///< nothing has been taken off yet
-  double left = 0;    ///< what a pass has left on it
+  bool stock = true;  ///< not cut yet
+  double left = 0;    ///< thickness that the last pass has left on it
 };
 
 /// Outside or in the bores.
 struct Side {
   double sign = 1;             ///< h = sign x
-  double stock_h = 0;          ///< of what nobody has cut
+  double stock_h = 0;          ///< height of the uncut stock
   std::vector<Surface> items;  ///< from the free end inwards
 
   double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
   double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
   double top(const Surface& s) const;
-  /// Of what stands over a stretch of the axis.
+  /// Largest height over a range of the axis.
   double highest(double from_z, double to_z) const;
 };
 
@@ -54,7 +54,7 @@ class Site {
   std::size_t setup;
   planning::Clamping clamping;
   double sign, free_z;  ///< z of the program = sign (z of the part - free_z)
-  double root_z;        ///< where jaws, or the held end, are
+  double root_z;        ///< end of the jaws, or the held end
   double front = 0;     ///< material before the free end
   double r_most = 0;    ///< largest corner of the plan's tools
   Side outer, inner;
@@ -64,28 +64,28 @@ class Site {
   double z(double part_z) const { return sign * (part_z - free_z); }
   Side& side(bool bore) { return bore ? inner : outer; }
 
-  // The tool's ways.
+  // The tool's path.
   std::vector<Move> moves;
   Point at;  ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
-  /// From wherever it is to a point over what stands there, its own corner clear, then at
-  /// feed onto it.
+  /// Moves from any position to above a point, clear of the material with the whole
+  /// corner, then at feed onto it.
   void approach(const Side& side, const Point& p, double re_mm);
-  /// From wherever it is to a point in the air.
+  /// Moves from any position to a point outside the material.
   void approach(const Side& side, const Point& p);
-  /// In a bore away from its wall, as far as what stands before asks on the way out.
+  /// Moves away from the wall of a bore, as far as narrower bores in front require.
   void clear_bore();
-  /// Off a surface and out of a corner.
+  /// Lifts the tool off a surface and out of a corner.
   void lift(const Side& side);
-  /// To the place of tool change.
+  /// Moves to the tool change position.
   void home(bool inner_first);
   double above(const Side& side) const {
     return side.sign > 0 ? kAbove_mm : kAboveBore_mm;
   }
 };
 
-/// The element of an id, as the setup has left it so far.
+/// The element with an id in its present state.
 /// @throws std::domain_error if there is none.
 const Surface& surface_of(const Site& site, const std::string& id);
 

@@ -42,7 +42,7 @@ std::size_t place(const Side& side, const std::string& id) {
       side.items.begin());
 }
 
-// What roughing and finishing leave before a shoulder that is faced later.
+// Thickness that turning leaves before a shoulder that is faced later.
 double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& side,
                          std::size_t k) {
   if (side.sign < 0 || k + 1 >= side.items.size()) return 0;
@@ -51,7 +51,7 @@ double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& si
                   later_mm(site, operation, b + "|" + a));
 }
 
-// Ends a way where the corner touches a piece.  Whether it does.
+// Ends a path where the corner touches a piece; returns whether it does.
 bool clip(std::vector<Point>& way, std::span<const Piece> pieces, const Corner& corner) {
   const auto course = along(way);
   const double free = free_mm(course, pieces, corner);
@@ -82,7 +82,7 @@ struct Pass {
   Side& side;
   std::size_t operation, k;  // k: the element's place in the tool's order
   double left_mm, re_mm;
-  bool last;  // makes what is drawn
+  bool last;  // makes the drawn contour
 
   Surface& surface() const { return side.items[k]; }
   bool from_before() const {
@@ -99,7 +99,7 @@ std::vector<Point> contour(const Pass& p) {
   return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
 }
 
-// How far from a step down of the corrections the minor edge keeps the corner.
+// Distance at which the minor edge keeps the corner from a step down of the corrections.
 double lost_mm(const Pass& p) {
   if (p.k == 0) return 0;
   const auto &s = p.side.items[p.k - 1], &t = p.surface();
@@ -108,8 +108,9 @@ double lost_mm(const Pass& p) {
   return std::max(step, 0.0) / std::tan(*p.tool().rises_rad);
 }
 
-// Comes in along the element's own line from as far as what is before it lets the corner,
-// and if that is not far, level; roughing comes in along the axis.
+// A finishing pass comes in along the element's own line, from as far away as the
+// surfaces in front allow; where they do not allow it, parallel to the axis.  A roughing
+// pass comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
@@ -137,10 +138,11 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   if (comes_in({level, way.front()}, pieces, p.tool())) way.insert(way.begin(), level);
 }
 
-// Starts a pass clear of what elements before still carry, which it takes off, and of the
-// material before the free end; not where a blank before is higher than the pass.  What
-// roughing has left on a long element it enters down a slope that the minor edge clears.
-// The number of moves over elements before.
+// Starts a pass clear of the material before the free end and of the stock left on
+// elements in front, which the pass then removes; elements whose blank is higher than the
+// pass are not affected.  On a long element that has been roughed the pass comes down
+// through the stock on a slope that the minor edge clears.  Returns the number of moves
+// over elements in front.
 std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   const auto [h, z] = way.front();
   const auto blank = [](const Surface& s) { return std::max(s.h0, s.h1); };
@@ -169,7 +171,8 @@ std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   return entered;
 }
 
-// Where roughing ends: what is behind the element stands higher, or the hole goes on.
+// z at which roughing ends: at a higher surface behind the element, or where a narrower
+// hole continues.
 std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
   const double h = side.items[k].h1 + kSame_mm;
   const auto last = end_of_run(side, k);
@@ -179,7 +182,7 @@ std::optional<double> wall_behind(const Site& site, const Side& side, std::size_
   return hole_goes_on(site, side, z, h) ? std::optional(z) : std::nullopt;
 }
 
-// What ends a pass of element k.
+// The pieces that end a pass over element k.
 std::vector<Piece> ends(const Pass& p, std::size_t k) {
   std::vector<Piece> all;
   if (p.last)
@@ -196,8 +199,8 @@ bool cut_later(const Site& site, const Surface& s) {
   return cut && cut->kind != part::CutKind::thread;
 }
 
-// Ends where the corner meets something, or where it has taken off what another corner may
-// have left behind an edge that falls.
+// Ends a pass where the corner touches a surface, or where it has removed the fillet that
+// another corner may have left behind a falling edge.
 void lead_out(const Pass& p, std::vector<Point>& way) {
   auto o = p.operation;
   auto k = p.k;
@@ -217,7 +220,7 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
 
 struct Way {
   std::vector<Point> points;
-  std::size_t entered = 0;  // moves over elements before
+  std::size_t entered = 0;  // moves over elements in front
 };
 Way way_of(const Pass& p) {
   std::size_t entered = 0;
@@ -262,9 +265,9 @@ void pass(const Pass& p) {
   s.left = p.left_mm;
 }
 
-// A facing pass over contact points from the axis outwards, tool coming from outside; its
-// corner goes a radius beyond the first, whatever the slope there, or as far as what is
-// `before` the face lets it.
+// A facing pass over contact points, which are ordered from the axis outwards; the tool
+// comes from outside.  Its corner continues a radius beyond the first point, independent
+// of the slope there, or as far as the surfaces `before` the face allow.
 void face_pass(Site& site, const std::vector<Point>& contact, double re,
                const std::vector<Piece>& before) {
   auto way = tips(contact, re);
@@ -276,7 +279,7 @@ void face_pass(Site& site, const std::vector<Point>& contact, double re,
   for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
 }
 
-// Contact points of a face at z between two radii, the last pass by the correction.
+// Contact points of a face at z between two radii; those of the last pass are corrected.
 std::vector<Point> face_contour(const Site& site, const std::string& id, double z,
                                 double from, double to, bool last) {
   const auto& table = correction(site, id);
@@ -291,8 +294,8 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
   return all;
 }
 
-// What stands where the tool for a shoulder before element k comes in: neighbours too that
-// are no longer than what is left before their own shoulders.
+// Radius to clear when approaching the shoulder before element k, including following
+// elements that are no longer than the stock before their own shoulders.
 double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
   const auto& side = site.outer;
   double top = side.top0(side.items[k]);
@@ -304,8 +307,8 @@ double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
   return top;
 }
 
-// Along the element before a shoulder to where turning has ended, or to its beginning, as
-// far as what is before it lets the corner.
+// Moves along the element before a shoulder to where turning has ended, or to its
+// beginning, as far as the surfaces in front of it allow.
 void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
   const auto& s = site.outer.items[k];
   if (cut_later(site, s) || !(to_z > site.at.z_mm)) return;
@@ -350,7 +353,8 @@ bool joined(const Site& site, std::size_t i) {
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);
   if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
-  // A shorter one may lie whole in the fillets at its ends; what is cut later has none.
+  // A shorter element may lie completely in the fillets at its ends; grooves and arcs,
+  // which are cut later, have none.
   const auto joins = [&](const Surface& s) {
     return std::hypot(s.h1 - s.h0, s.z1 - s.z0) >= 2 * corner_mm(site, a) &&
            !cut_later(site, s);
@@ -359,7 +363,7 @@ bool joined(const Site& site, std::size_t i) {
   if (!(std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
         joins(s) && joins(t)))
     return false;
-  // Deeper down beside a step the minor edge would cut what is before it.
+  // Further down beside a step the minor edge would cut the surface in front.
   const double falls =
       corrected(site, side, s).back().h_mm - corrected(site, side, t).front().h_mm;
   return falls <= corner_mm(site, a) * (1 - std::cos(minor_edge_rad(site, a)));

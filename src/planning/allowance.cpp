@@ -22,14 +22,14 @@ using tolerance::Distribution;
 constexpr int kJaws = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// How far a radius error moves a size, or a face's error a length.
+// Factor from an error of the radius to a size, or of a face to a length.
 double sensitivity(const PreparedPart& p, const Tolerance& t) {
   if (t.kind == ToleranceKind::diameter) return 2;
   if (t.kind == ToleranceKind::length) return 1;
   return std::cos(half_angle_rad(p.drawing, t.of).value_or(0));
 }
 
-// From the jaws to where an element begins; 0 where it reaches between them.
+// Distance from the jaws to the beginning of an element; 0 if it reaches between them.
 double beyond_jaws_mm(const PreparedPart& p, const std::string& surface,
                       const Making& m) {
   const auto at = part::extent(p.drawing, surface);
@@ -39,7 +39,8 @@ double beyond_jaws_mm(const PreparedPart& p, const std::string& surface,
   return std::max(0.0, left ? at->z0_mm - jaws : jaws - at->z1_mm);
 }
 
-// Half of what a warm part is too small by once it is cold, on one side of a size.
+// Half of the amount by which a warm part is too small once it is cold, on one side of a
+// size.
 double heat_um(const PreparedPart& p, const Tolerance& t) {
   const auto& d = p.drawing;
   const double alpha = p.material.expansion_1_K, dT = p.shop.part_warm_K;
@@ -68,8 +69,8 @@ bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
                      [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
 }
 
-// What the faces of a length that are cut in one setup, minutes apart, have in common
-// shifts both alike and leaves the length between them; both look at the free end.
+// Errors that two faces of a length have in common, cut in one setup minutes apart and
+// both facing the free end, shift both alike and do not change the length.
 struct Together {
   bool setup = false;  ///< both: the same drift
   bool tool = false;   ///< the same wear too
@@ -107,9 +108,10 @@ double rechucking_um(const PreparedPart& p, std::size_t setup, Clamping clamping
   return by.hard_jaws_um;
 }
 
-// How an eccentricity of the part in its jaws shows: e of the part is 2 e of a run-out.
-// Jaws, or centres, that err by e at each of two places l apart tilt it by sqrt(2) e/l, a face of
-// diameter D, or an axis so long, by D times that.
+// Factor from an eccentricity of the part in its jaws to a tolerance: e is 2 e of
+// run-out.  Jaws or centres that err by e at each of two positions l apart tilt the part
+// by sqrt(2) e/l; a face of diameter D, or an axis of that length, is off by D times
+// that.
 double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t held,
                        Clamping clamping) {
   const auto at = part::extent(p.drawing, t.of);
@@ -129,9 +131,9 @@ double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t he
   return 0;
 }
 
-// Adds what it takes that a datum was cut, or is cut later, in another setup: the part is
-// held anew in the later of the two, if that is not this one in whichever of its clampings
-// is worst.
+// Adds the share of re-chucking if the datum is cut in another setup.  The part is held
+// anew in the later of the two setups; if that is not this one, its worst clamping
+// counts.
 void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& making,
                     Allowance& a) {
   if (t.datum.empty()) return;
@@ -151,7 +153,7 @@ void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& mak
   if (worst.value_um > 0) a.spread.push_back(std::move(worst));
 }
 
-// Of the width; the lobes that the jaws leave behind in a tube.  A narrow grip is borne
+// Share of the width that the lobes of the jaws in a tube take.  A narrow grip is borne
 // by the tube beside it, 1/2 lambda wide at its end.
 double squeeze_um(const PreparedPart& p, const Tolerance& t, const Making& m,
                   double force_N) {
@@ -170,7 +172,7 @@ double squeeze_um(const PreparedPart& p, const Tolerance& t, const Making& m,
   return units::um_from_mm(lobes) * std::exp(-decay * beyond_jaws_mm(p, t.of, m));
 }
 
-// The largest E in [0, most] that suffices, of a condition that fails from some E on.
+// The largest E in [0, most] that meets a condition which fails from some E on.
 template <class Suffices>
 double largest(double most, const Suffices& suffices) {
   constexpr int kHalvings = 40;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyondRounding = 1e-6;
 
-// What a setup takes, in the terms of the objective.
+// Time or cost of a setup in the terms of the objective.
 std::string takes(const PreparedPart& p, const Spending& t) {
   if (p.objective == Objective::time) return fmt::format("{:.4f} min", t.time_min);
   if (p.objective == Objective::profit)
@@ -23,7 +23,7 @@ std::string takes(const PreparedPart& p, const Spending& t) {
   return fmt::format("{:.4f}", t.cost);
 }
 
-// Why a clamping loses to the best one.
+// The reason why a clamping is not chosen.
 RejectedClamping rejection(const PreparedPart& p, const SolvedSetup& s,
                            const SolvedSetup& best) {
   const char* verb = p.objective == Objective::time ? "takes" : "costs";
@@ -54,9 +54,9 @@ std::vector<SolvedSetup> best_of_each(std::vector<SetupPlanner>& planners) {
   return all;
 }
 
-// The stiffer clampings first: what a slender part could do in the chuck alone then has a
-// cost to beat, which is quicker to refute than that it can be made at all.
-// Compensation is proposed only where no clamping does without.
+// Stiffer clampings come first: a slender part in the chuck alone then has a cost to
+// beat, which is quicker to refute than its feasibility.
+// Compensation is proposed only where every clamping needs it.
 Comparison compare_clampings(const PreparedPart& p, std::size_t setup,
                              const SetupWork& work, const Finished& done,
                              Economy economy) {

@@ -4,29 +4,28 @@
 #include "air.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
-/// What a setup takes beside its operations.
+/// Time of a setup outside its operations.
 namespace turnwright::planning {
 
-/// What lies between the operations of a setup.
+/// Tool changes, stops and rapids between the operations of a setup.
 struct Between {
-  int indexings = 0;  ///< tools brought in
-  int eased = 0;      ///< stops to change the force of the jaws
-  double rapid_mm =
-      0;  ///< to and from where tools are changed, and on to the next surface
+  int indexings = 0;    ///< tools brought in
+  int eased = 0;        ///< stops to change the force of the jaws
+  double rapid_mm = 0;  ///< to and from the tool change position, and to the next surface
 };
 
-/// An operation as the one before and the one after it see it.
+/// The properties of an operation that decide what lies between it and its neighbours.
 struct InOrder {
   std::string tool;  ///< with its size, where it has several
   Stage stage = Stage::roughing;
   bool chuck_alone = false;  ///< before a centre or a rest comes in
   bool inner = false;
   double from_mm = 0, to_mm = 0;  ///< of air.hpp
-  bool milled = false;            ///< by hand or another program: nothing moves
+  bool milled = false;            ///< not in the turning program: no tool moves
 };
 
-/// Follows the operations of a setup.  The tool goes to where tools are changed before
-/// another tool, a stop and what is milled, and at the end.
+/// Follows the operations of a setup in their order.  The tool returns to the tool change
+/// position before another tool, a stop or a milled place, and at the end.
 class Order {
  public:
   Order(const PreparedPart& plan, std::size_t setup, Clamping clamping, double front_mm);
@@ -43,12 +42,12 @@ class Order {
   Home home_;
   Between sum_;
   double force_N_;
-  bool clamped_ = false, out_ = false;  // out_: of its home
+  bool clamped_ = false, out_ = false;  // out_: away from the tool change position
   InOrder last_;
 };
 
-/// Minutes of a setup beside its operations: what lies between them, the clamping, loading
-/// and preparing.  Costs are left at nothing.
+/// Minutes of a setup outside its operations: those between them, clamping, loading and
+/// preparing.  Costs stay 0.
 Breakdown besides_cutting(const PreparedPart& plan, Clamping clamping,
                           const Between& between);
 

@@ -10,8 +10,8 @@
 
 /// The operations that make one feature - roughing passes and finishing passes of an
 /// element, or the passes over a face - as functions of their conditions, over any
-/// scalar. Passes and tools are fixed here; what is left to choose is the speed and feed
-/// of each operation and how the stock is shared between them.
+/// scalar. Passes and tools are fixed here; speed and feed of each operation, and how the
+/// stock is divided between them, are open.
 namespace turnwright::planning {
 
 /// c0 + c1 a, a the finishing depth [mm].
@@ -39,38 +39,39 @@ struct Polynomial {
   }
 };
 
-/// Error of the surface per force at one place and pass:
+/// Error of the surface from the forces at one position and pass:
 ///
 ///     e = p Fp + q Ff + s Fc + r Fc^2                                                (1)
 ///
 /// Turning: p = f_ww + c_rr, q = -+ f_wp D/2, s = c_rt, r = f_ww,t^2/D; facing at radius
-/// rho: p = f_pp rho^2 + c_ax, q = -f_wp rho.  In bores e is the material left, less than
-/// nothing of radius: with the bar's y_w, y_p per Fp and Ff at its tip f and y_t per Fc,
+/// rho: p = f_pp rho^2 + c_ax, q = -f_wp rho.  In bores e is the material left standing,
+/// which makes the radius smaller: with the bar's y_w, y_p per Fp and Ff at its tip f and
+/// y_t per Fc,
 ///
 ///     p = f_ww + y_w + c_rr,  q = +-(f_wp D/2 - y_p f),  s = -c_rt,
 ///     r = -(f_ww,t + y_t)^2/D                                                        (3)
 ///
-/// Each depends on the finishing depth through the body that stands in the machine during
-/// the pass.
+/// Each coefficient depends on the finishing depth, through the body during the pass.
 struct Law {
   Polynomial p, q, s, r;
 };
 
-/// One place on the feature (z, or rho of a face) with its law in every pass.
+/// One position on the surface (z, or rho of a face) with its law in every pass.
 struct Station {
   double at_mm = 0;
   std::vector<Law> passes;
 };
 
-/// sum of weight_k e(station_k) <= limit: what a tolerance asks at some places.
+/// Linear constraint of a tolerance at some positions: sum of weight_k e(station_k) <=
+/// limit.
 struct Functional {
   std::vector<std::pair<std::size_t, double>> terms;
   double limit = 0;
   std::size_t tolerance = 0;  ///< index into the drawing's tolerances
 };
 
-/// What the conditions of an operation are held against; limit_table.hpp has a row for
-/// each.
+/// The limits against which the conditions of an operation are checked; limit_table.hpp
+/// has a row for each.
 enum class Check {
   depth_min,
   depth_max,
@@ -107,7 +108,7 @@ enum class Check {
 /// Whether a check's value may have either sign, or vanish.
 inline bool either_sign(Check c) { return c == Check::tolerance || c == Check::chatter; }
 
-/// One pass: what is left on the radius after it, and its path.
+/// One pass: the material left on the radius after it, and its path.
 struct PassModel {
   Affine left_mm;  ///< radius offset of the surface it leaves
   double path_mm = 0;
@@ -120,19 +121,20 @@ struct OperationModel {
   cutting::SpeedRange range;
   cutting::Grip grip;
   double n_cap_rpm = 0;        ///< machine, chuck and centrifugal loss
-  bool n_cap_of_grip = false;  ///< it is the loss that sets it
+  bool n_cap_of_grip = false;  ///< the centrifugal loss is the lowest of them
   double n_min_rpm = 0;
   double feed_force_max_N = 0;
-  /// Edge's life of least cost: a minute of feed in the air costs too, and wears nothing.
+  /// Tool life of least cost; it allows for feed in the air, which costs time but does
+  /// not wear the edge.
   double economic_life_min = 0;
-  double Ra_um = 0, Rz_um = 0;  ///< 0: not asked
-  /// 1/limit of the chatter stiffness at the places where it is asked, over the finishing
-  /// depth (Feature::limit_chatter).
+  double Ra_um = 0, Rz_um = 0;  ///< 0: not required
+  /// 1/limit of the chatter stiffness at the positions where it is imposed, over the
+  /// finishing depth (Feature::limit_chatter).
   std::vector<Polynomial> chatter_mm_N;
-  std::vector<double> chatter_at_mm;  ///< these places
+  std::vector<double> chatter_at_mm;  ///< these positions
   double chatter_inwards = 1;         ///< limit where K > 0 over that where K < 0
-  catalogue::Range vc, f;  ///< to choose from: the tool's, or what the request fixes
-  catalogue::Range vc_window, f_window, ap;  ///< what the tool allows
+  catalogue::Range vc, f;  ///< open ranges: the tool's, or as the request fixes them
+  catalogue::Range vc_window, f_window, ap;  ///< allowed by the tool
   std::vector<catalogue::ChipEdge> chip;     ///< and these of its chip breaker
   catalogue::Range T_min;
   Affine depth_mm;
@@ -141,10 +143,10 @@ struct OperationModel {
   double rapid_min = 0;  ///< approach and return of all passes
   double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
   bool tapered = false, reaches_axis = false, face = false, finishing = false;
-  bool inner = false;     ///< a bore: what is left makes it narrower
+  bool inner = false;     ///< a bore: material left makes it narrower
   double least_D_mm = 0;  ///< of a bore: the hole it starts from
 
-  /// Of all passes together.
+  /// Sum over all passes.
   Affine left_sum_mm() const {
     Affine sum;
     for (const auto& p : passes) {
@@ -408,12 +410,12 @@ Signed<T> law_mm(const Coefficients<Signed<T>>& c, const cutting::Forces<T>& for
   return forces.Fp_N * c.p + linear(forces.Ff_N) * c.q + Fc * c.s + sqr(Fc) * c.r;
 }
 
-/// Depth-of-cut feedback: the surface that yields by e is cut less deep by e,
+/// Depth-of-cut feedback: a surface that yields by e is cut less deep by e,
 ///
 ///     e = law(forces at depth ap + e_before - e),                                    (2)
-///         e_before the error the pass before left
+///         e_before the error that the pass before has left
 ///
-/// Where the part is pulled into the tool without end: a hundred depths too deep.
+/// Where the part is pulled into the tool without bound the result is a hundred depths.
 /// Source: derived here; the loop gain is d law/d depth.
 double yielding_mm(const Coefficients<double>& law, const cutting::Cut& cut, double ap,
                    double f, double e_before);
@@ -439,7 +441,7 @@ Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
   return r;
 }
 
-/// What is known of (2) where law, f and the full depth ap + e_before are intervals: the
+/// Enclosures of (2) where law, f and the full depth ap + e_before are intervals: the
 /// error, the depth full - e that is really cut, and the loop gain there.
 struct Yielding {
   Interval e = Interval::whole();
@@ -479,12 +481,12 @@ struct LastPass {
 LastPass last_pass(const Chain& chain, const Station& station,
                    const Choice<double>& choice);
 
-/// How far the path of a last pass must go towards the material for nothing to be left:
-/// the law at the depth that is then cut in full, s = law(full).  Not -e: cutting deeper
-/// yields more.  On a face the depth plays no part.
+/// Correction of the path of a last pass towards the material that leaves no error: the
+/// law at the full depth, which is then really cut, s = law(full).  It is not -e, because
+/// a deeper cut yields more.  On a face the depth has no influence.
 double correction_mm(const LastPass& pass);
-/// What is left with the path moved by s towards the material, (2) with a depth larger by
-/// s: y = law(full + s - y), e = y - s.
+/// Error that remains with the path moved by s towards the material, by (2) with a depth
+/// larger by s: y = law(full + s - y), e = y - s.
 double corrected_error_mm(const LastPass& pass, double s_mm);
 
 inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap,
@@ -492,8 +494,8 @@ inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, dou
   return yielding_mm(at(law, a), cut, ap, f, e_before);
 }
 
-/// Error of the finished surface at a station after all passes.  On faces there is no
-/// feedback: what yields along the axis is the length, not the depth.
+/// Error of the finished surface at a station after all passes.  Faces have no feedback:
+/// yielding along the axis changes the length, not the depth.
 template <class T>
 Signed<T> error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
                    const std::array<cutting::Forces<T>, 2>& F) {

@@ -56,7 +56,7 @@ ConstraintValue priced(ConstraintValue c, double multiplier) {
   return c;
 }
 
-// Chatter at conditions, against the largest stiffness that part and tool bear.
+// Chatter stiffness at conditions, against the largest that part and tool allow.
 ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
   const auto& limit = limit_row(Check::chatter);
   ConstraintValue c;
@@ -82,7 +82,7 @@ void merge(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
   it->shadow_price = price;
 }
 
-// A tolerance as constraint: what the whole surface shows against what the cut may use.
+// A tolerance as constraint: the error of the whole surface against the cut's room.
 ConstraintValue tolerance_constraint(const PreparedPart& plan, const Demand& d,
                                      const tolerance::PiecewisePolynomial& e,
                                      double price) {

@@ -7,15 +7,15 @@
 /// A feature's answer in the terms of the result document.
 namespace turnwright::planning {
 
-/// A surface that has been optimised, with what it was asked.
+/// An optimised surface with its task.
 struct SolvedFeature {
   FeatureTask task;
   FeatureAnswer answer;
-  Offset offset = Offset::none;            ///< that its sizes were asked with
+  Offset offset = Offset::none;            ///< with which its sizes were constrained
   std::vector<std::string> operation_ids;  ///< given ids, rough first; may be empty
 };
 
-/// Money per minute and what the objective counts.
+/// Cost per minute of the machine.
 struct Rates {
   double machine_per_min = 0;
 };
@@ -24,7 +24,7 @@ struct Rates {
 std::vector<OperationPlan> describe(const PreparedPart& plan, std::size_t setup,
                                     const SolvedFeature& solved, const Rates& rates);
 
-/// "t1 cylindricity" for a tolerance row, else the check's name.
+/// Name of a row: "t1 cylindricity" for a tolerance, otherwise the name of its check.
 std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& row);
 
 /// A row at a choice in its own unit, with its name.

@@ -12,7 +12,7 @@ namespace {
 constexpr double kAllowed = 5e-10;  // of a limit: half of what a plan may be over
 constexpr std::size_t kGrid = 33;
 
-// What a demand makes of the error: of a centred size half of its range.
+// The value of the error that a tolerance constrains; for a centred size half its range.
 double weight(const Demand& d) {
   return d.shape == Demand::Shape::centred ? d.factor / 2 : d.factor;
 }
@@ -25,7 +25,7 @@ struct Place {
   double at, value;
 };
 
-// Place of the largest sign * e: best of a grid, then refined between its neighbours.
+// Position of the largest sign * e: the best of a grid, refined between its neighbours.
 Place largest(const std::function<double(double)>& e, double low, double high,
               double sign) {
   const auto at = [&](std::size_t k) {
@@ -111,7 +111,7 @@ bool Exchange::add_violated(const Recipe& recipe, const Economy& economy,
   const auto e = [&](double z) { return evaluate(profile, z); };
   const Place top = largest(e, low, high, 1), bottom = largest(e, low, high, -1);
   const auto before = functionals_.size();
-  // The profile finds the places; what counts is the error itself there.
+  // The profile finds the positions; the constraint uses the exact error there.
   const auto add_if_broken = [&](const Terms& terms, double limit, std::size_t demand) {
     const Demand& d = demands_[demand];
     std::vector<double> places;

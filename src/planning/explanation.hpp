@@ -3,9 +3,9 @@
 
 namespace turnwright::planning {
 
-/// Adds to the result of a part that cannot be made why it cannot: limits that conflict,
-/// how far each would have to open, and what else would make it feasible.  Nothing where
-/// the plan is feasible.
+/// Adds an explanation to the result of a part that cannot be made: the limits that
+/// conflict, how far each would have to be relaxed, and changes of the request that make
+/// the part feasible.  A feasible result is not changed.
 void add_explanation(const PreparedPart& part, ProcessPlan& result);
 
 }  // namespace turnwright::planning

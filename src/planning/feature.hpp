@@ -14,7 +14,8 @@
 /// shoulder.
 namespace turnwright::planning {
 
-/// How a surface may be made: tools, passes and speed ranges are fixed, conditions open.
+/// A discrete choice for making a surface: tools, passes and speed ranges are fixed, the
+/// conditions are open.
 struct Recipe {
   const catalogue::Tool* rough = nullptr;   ///< absent: no roughing
   const catalogue::Tool* finish = nullptr;  ///< finishing or facing tool; may be absent
@@ -24,24 +25,25 @@ struct Recipe {
               finish_piece = 0;  ///< and of the tools' chip windows, if these have any
 };
 
-/// What the request has fixed of the operations on this surface.
+/// Conditions that the request fixes for the operations on a surface.
 struct Fixed {
   Conditions rough, finish;
   Direction rough_direction = Direction::to_chuck, finish_direction = Direction::to_chuck;
 };
 
-/// The objective's weights and what they make of a tool.
+/// Weights of the objective: of a minute, and of an edge.
 struct Economy {
   double minute = 0, edge = 0;
 };
 
 /// Fastest spindle speed [1/min] of machine and clamping.
 double clamping_rpm(const PreparedPart& plan, Clamping clamping);
-/// Where the centrifugal loss of the jaws' force reaches 67 % (VDI 3106).
+/// Spindle speed [1/min] at which the centrifugal loss of the jaws' force reaches 67 %
+/// (VDI 3106).
 double grip_loss_rpm(const PreparedPart& plan, Clamping clamping, double force_N);
 
-/// What a clamping is to the cut where nothing yields: two clampings that hold alike
-/// differ in no chain without stations.
+/// The properties of a clamping that matter if deflection is not modelled: clampings
+/// equal in them have the same chains as long as no positions are imposed.
 struct Holding {
   double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
   double d_grip_mm = 0, n_max_rpm = 0;
@@ -73,13 +75,13 @@ class Feature {
   double stock_mm() const {
     return stock_;
   }  ///< to take off: on the radius, or of the face
-  /// Material left is more radius outside (+1) and less in a bore (-1): the factor from
-  /// the chain's errors to those of the surface.
+  /// Factor from the errors of the chain to those of the surface's radius: material left
+  /// standing makes the radius larger outside (+1) and smaller in a bore (-1).
   double sign() const { return kind_ == Kind::bore ? -1 : 1; }
 
   Holding holding() const;
 
-  /// An operation on it with a tool as those before and behind it in the setup see it.
+  /// An operation on it, for the order of the setup.
   InOrder in_order(const catalogue::Tool& tool, bool rough) const;
 
   /// The chain of a recipe without functionals; stations at the given places.  Over an
@@ -89,25 +91,27 @@ class Feature {
                              const std::vector<double>& stations,
                              std::optional<double> a_mm = {}) const;
 
-  /// Largest chatter stiffness [N/mm] that each operation bears at a finishing depth:
+  /// Largest chatter stiffness [N/mm] allowed in each operation at a finishing depth:
   ///
   ///     K <= 1/C,                                                                    (1)
   ///     C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
   ///
   /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
   /// (3) of chain.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
-  /// damping ratio of part and machine, zeta_b that of a boring bar.  Static compliances:
-  /// whatever the frequencies, 2 zeta (1 + zeta) of the sum of modes' is at most the
-  /// limit of the modes together, at any spindle speed (docs/planning-chatter.md).
+  /// damping ratio of part and machine, zeta_b that of a boring bar.  The compliances are
+  /// static.  For modes of any frequencies and at any spindle speed the limit from the
+  /// sum of their compliances is at most that of the modes together
+  /// (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
 
   /// The largest of the operations' chatter stiffness over its limit.
   double chatter_share(const Chain& chain, const Choice<double>& choice) const;
 
-  /// Asks a chain for (1), of the operations of which some condition comes near it.  Over
-  /// an open depth at places that are the worst, or near it, somewhere.
+  /// Imposes (1) on the operations of a chain that can reach it within their ranges; if
+  /// the depth is open, at every position that is the worst, or nearly so, for some
+  /// depth.
   void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
-  /// At one depth, at the places where another chain is asked.
+  /// Imposes (1) at one depth, at the positions where it is imposed on another chain.
   void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;
 
   /// The error over the whole surface at chosen conditions, as a piecewise polynomial
@@ -121,8 +125,8 @@ class Feature {
                              const Choice<double>& choice,
                              const std::vector<double>& places) const;
 
-  /// (z or rho, dr): what to add to the radius (of a face: the length) of the last pass
-  /// for nothing to be left or taken too much at these places, linear between them.
+  /// Correction table (z or rho, dr): with dr added to the radius (of a face: the length)
+  /// of the last pass no error remains at these positions; linear between them.
   Compensation::Table corrections(const Recipe& recipe, const Economy& economy,
                                   const Choice<double>& choice) const;
   /// As `profile`, with the path of the last pass corrected.
@@ -130,7 +134,7 @@ class Feature {
       const Recipe& recipe, const Economy& economy, const Choice<double>& choice,
       const Compensation::Table& table) const;
 
-  /// And at given places.
+  /// The same at given positions.
   std::vector<double> corrected(const Recipe& recipe, const Economy& economy,
                                 const Choice<double>& choice,
                                 const std::vector<double>& places,
@@ -143,8 +147,8 @@ class Feature {
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
-  // In feature_way.cpp: of some passes that leave so much on average, the last of them
-  // makes the surface.
+  // In feature_way.cpp: lengths of passes that leave left_mm on average; `last`: the last
+  // of them makes the surface.
   Beside ways(const OperationModel& operation, int passes, bool last,
               double left_mm) const;
   Beside facing(const OperationModel& operation, int passes) const;
@@ -163,11 +167,11 @@ class Feature {
   std::vector<double> chatter_places() const;
   bool cut_to_chuck(const OperationModel& o) const;
   double x_mm(const OperationModel& o, double at_mm) const;  // from the root
-  // During a pass that leaves so much of what was uncut, at distances from the root.
+  // Compliances while a pass leaves left_mm of uncut_mm, at distances from the root.
   void yields(const OperationModel& o, double left_mm, double uncut_mm,
               const std::vector<double>& x, std::vector<deflection::Flexibility>& radial,
               std::vector<deflection::Flexibility>& tangential) const;
-  // Of the bodies left and right of the tool.
+  // Compliances from the bodies left and right of the tool.
   void yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
               const SetupBody& body, const std::vector<double>& x,
               std::vector<deflection::Flexibility>& radial,
@@ -192,11 +196,11 @@ class Feature {
   double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
-  Surroundings around_;       // of an element; of a face but the largest corner nothing
-  double face_z_ = 0;         // of a face, in the program's coordinates
-  bool goes_on_ = false;      // into what another setup cuts as high
-  double top_h_ = 0;          // of a shoulder, radius of what stands behind it
-  double amplification_ = 1;  // by the tailstock's thrust
+  Surroundings around_;            // of an element; of a face only the largest corner
+  double face_z_ = 0;              // of a face, in the program's coordinates
+  bool goes_on_ = false;           // into an equally high surface that another setup cuts
+  double top_h_ = 0;               // of a shoulder, largest radius behind it
+  double amplification_ = 1;       // by the tailstock's thrust
   std::vector<SetupBody> bodies_;  // while roughing, while finishing
 };
 

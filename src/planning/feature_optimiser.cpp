@@ -38,7 +38,7 @@ struct Best {
   bool found() const { return !y.empty(); }
 };
 
-// Conditions in the middle of a box; the speeds are set by what evaluates them.
+// Conditions in the middle of a box; the evaluation sets the speeds.
 Choice<double> middle(const optimise::Box& b) {
   return {{1, 1}, {std::exp(mid(b[0])), std::exp(mid(b[1]))}, std::exp(mid(b[2]))};
 }
@@ -49,7 +49,8 @@ std::shared_ptr<RecipeModel> without_tolerances(const FeatureTask& task,
   return chain ? std::make_shared<RecipeModel>(recipe, std::move(*chain)) : nullptr;
 }
 
-// Of ln(objective), tolerances left out; +infinity where no condition keeps some limit.
+// Bound of ln(objective) without tolerances; +infinity where no condition keeps some
+// limit.
 double root_bound(const FeatureTask& task, const Recipe& recipe) {
   const auto model = without_tolerances(task, recipe);
   if (!model) return kInfinity;
@@ -71,7 +72,7 @@ optimise::Solution least_violation(const RecipeModel& m) {
   return best;
 }
 
-// No answer cheaper than what is known to be the best.
+// The answer if no conditions are cheaper than the best known ones.
 FeatureAnswer not_below(const FeatureAnswer& known) {
   FeatureAnswer a;
   a.lower_bound = known.lower_bound;
@@ -94,9 +95,10 @@ FeatureAnswer with_profile(const FeatureTask& task, FeatureAnswer a) {
   return a;
 }
 
-// One task's search over recipes.  It starts without tolerances and chatter: what they
-// ask is asked only where an optimum breaks it, so a surface whose tolerances do not bind
-// never pays for its deflection in boxes.  Their places grow from round to round.
+// One task's search over recipes.  It starts without tolerances and chatter; their
+// constraints are imposed only where an optimum violates them, so a surface whose
+// tolerances do not bind is proved without deflection in boxes.  Their positions are
+// added from round to round.
 class FeatureSearch {
  public:
   FeatureSearch(const FeatureTask& task, double gap, double most)
@@ -121,7 +123,7 @@ class FeatureSearch {
         c.model.reset();
         c.local.reset();
       }
-      // The optimum before the new places is the best start, of its recipe first.
+      // The optimum before the new positions is the best start, its own recipe first.
       if (before_places.found())
         local_search(before_places.candidate, {before_places.y});
       else if (!all_.empty() && all_[0].bound < cut())
@@ -183,8 +185,8 @@ class FeatureSearch {
     }
   }
 
-  // A local minimum from the first start that leads to one; what it misses the search
-  // over boxes finds.
+  // A local minimum from the first start that leads to one; the search over boxes finds
+  // any better one.
   void local_search(std::size_t k, const std::vector<std::vector<double>>& starts,
                     const optimise::Options& options = {.insist = false}) {
     auto& c = all_[k];
@@ -197,7 +199,7 @@ class FeatureSearch {
     }
   }
 
-  // Settles what is left by boxes; may find better points on the way.
+  // Settles the remaining recipes by boxes; it may find better points.
   void certify() {
     std::vector<optimise::Piece> pieces;
     bound_ = kInfinity;
@@ -220,7 +222,7 @@ class FeatureSearch {
     }
   }
 
-  // With the Lagrangian of a local minimum, or what refutes that there is one.
+  // With the Lagrangian of a local minimum, or with the refutation of one.
   optimise::Piece with_multipliers(std::size_t k) {
     auto& c = all_[k];
     const auto& m = model(k);
@@ -312,8 +314,8 @@ class FeatureSearch {
   std::string unfinished_;
 };
 
-// Conditions that keep every limit of a recipe, `spare` if others nearby are to do as
-// well.
+// Conditions that keep every limit of a recipe; with `spare` those nearby have to keep
+// them too.
 std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool spare) {
   if (!spare)
     for (const auto& start : starts(m)) {

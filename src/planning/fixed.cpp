@@ -35,7 +35,7 @@ struct Site {
   FixedWork& out;
 };
 
-// What a tool is asked for.
+// Requirements on a tool.
 struct Asked {
   FixedUse use;
   const char* does;  // "groove": of ids and sentences
@@ -65,7 +65,8 @@ bool of_given_depth(const Asked& a, double size) {
   return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
 }
 
-// The largest size that fits, to part off the smallest, of the first tool that has it.
+// The largest size that fits (for parting off the smallest), of the first tool that has
+// it.
 Fitted fitted(const PlanRequest& p, const Asked& a) {
   Fitted best;
   for (const auto& t : p.fixed_tools) {
@@ -111,7 +112,7 @@ double n_cap_rpm(const Site& s) {
                    clamping_rpm(s.p, s.clamping), grip_loss_rpm(s.p, s.clamping, force)});
 }
 
-// A pass at one end of its diameters: what it needs of the spindle there.
+// Load of a pass on the spindle at one end of its diameters.
 struct Duty {
   Load load;
   double n_rpm = 0, D_mm = 0;
@@ -157,14 +158,14 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
   return all;
 }
 
-// What the passes run beside the cut, and where they begin and end (air.hpp).
+// Lengths of the passes outside the cut, and where they begin and end (air.hpp).
 struct Way {
   double fed_min = 0, rapid_mm = 0;
   bool inner = false;
   double from_mm = 0, to_mm = 0;
 };
 
-// Passes with their forces and their way to an operation: Eq. (6).
+// Adds passes with their forces and paths to an operation: Eq. (6).
 FixedOperation operation(const Site& s, const Asked& a, const Fitted& f,
                          std::vector<Pass> passes, const Way& way,
                          const std::vector<Duty>& duties) {
@@ -234,7 +235,7 @@ FixedOperation drilled(const Site& s, const Asked& a, const Fitted& f, double de
                    {kBefore_mm / vf, kBefore_mm + path, true, 0, 0}, {d});
 }
 
-// Tools without any centre drill are those of a shop whose stock comes centred.
+// Without any centre drill among the tools the stock is assumed to come centred.
 void add_centre(Site& s, const char* face, double end_mm) {
   if (std::none_of(s.p.fixed_tools.begin(), s.p.fixed_tools.end(),
                    [](const auto& t) { return t.use == FixedUse::centring; }))
@@ -258,11 +259,12 @@ void add_centre(Site& s, const char* face, double end_mm) {
 struct Hole {
   double depth_mm = 0, least_mm = INFINITY;
   std::string first;  // the outermost bore
-  /// Left between it and the other end's bores, or the other end; those bores' narrowest.
+  /// Material left between it and the bores of the other end, or that end; the narrowest
+  /// of those bores.
   double rest_mm = 0, behind_mm = INFINITY;
 
-  // Whether a drill's point leaves what is drawn behind; between bores from both ends each
-  // takes half.
+  // Whether a drill's point stays clear of the drawn surfaces behind; between bores from
+  // both ends each may use half.
   bool spares_behind(const FixedTool& drill, double size_mm) const {
     if (rest_mm < kNoWall_mm) return size_mm <= behind_mm;
     const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
@@ -333,8 +335,8 @@ double sweep_min(double path_mm, double D_small, double D_large,
   return cutting::duty(sweep, at.vc_m_min, at.f_mm_rev, at.T_min, n_cap, 1.0).time_min;
 }
 
-// A blade from one diameter to another, `plunges` times, each with so much way in the air
-// at feed: Eq. (3).
+// A blade from one diameter to another, `plunges` times, each with a feed in the air:
+// Eq. (3).
 FixedOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
                        double D_large, int plunges, Way way) {
   const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
@@ -350,7 +352,7 @@ FixedOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_
   return operation(s, a, f, passes, way, duties);
 }
 
-// An element with a cut: where it is, what it is asked.
+// An element with a groove, thread or arc: its place and its requirements.
 struct CutElement {
   const std::string& id;
   const part::Cut& cut;
@@ -382,7 +384,8 @@ Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
           }};
 }
 
-// Whether material before the free end is in the way of what begins at a place.
+// Whether material before the free end is in the way of an operation that begins at a
+// position.
 bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {
   if (!(e.around.front > 0 && z > 0)) return false;
   refuse(s, a,
@@ -395,7 +398,8 @@ int times(double whole, double part) {
   return std::max(1, static_cast<int>(std::ceil(whole / part - 1e-9)));
 }
 
-// As given, or as many as a given depth asks for; nothing if the two contradict.
+// The given number of passes, or the one that follows from a given depth; nothing if the
+// two contradict.
 std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
                              const std::function<int(double)>& at_depth) {
   if (!a.given) return otherwise;
@@ -530,7 +534,7 @@ void add_arc(Site& s, const CutElement& e) {
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   if (!ends_before_jaws(s, a, e, f.tool->re_mm)) return;
   const Duty d{load_of(f, s.p, ap, D), n, D};
-  // Of the tip, which runs round the arc's centre beside the corner's own.
+  // Path of the tip, which runs round a centre beside that of the arc.
   const double path =
       e.cut.path_mm * (1 + (e.cut.convex ? 1 : -1) * f.tool->re_mm / e.cut.radius_mm);
   const std::vector<Pass> passes(static_cast<std::size_t>(*count),
@@ -549,7 +553,7 @@ void add_parting(Site& s) {
   const bool left = s.p.setups[s.setup].hold == part::End::left;
   const char* face = left ? "left" : "right";
   const double D = stock.outer_mm, hole = stock.inner_mm;
-  // Between the jaws and what stays on the part.
+  // Between the jaws and the material that stays on the part.
   const double jaw = root_z_mm(s.p, s.setup, s.clamping);
   const double room =
       (left ? -jaw : jaw - part::length_mm(s.p.drawing)) - *stock.parted_mm;
@@ -608,7 +612,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
   }
 }
 
-// The end this setup frees, and whether it is solid when the centre comes in.
+// The end that this setup frees, and whether it is solid when the centre comes in.
 bool solid(const PreparedPart& p, std::size_t setup) {
   const auto end =
       p.setups[setup].hold == part::End::left ? part::End::right : part::End::left;

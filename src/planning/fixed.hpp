@@ -5,12 +5,13 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/planning/setup_geometry.hpp"
 
-/// The operations of a setup beside turning and boring: centre holes, drilling, arcs,
-/// grooves, threads, parting off at the catalogue's conditions, and milled places at
-/// conditions of their own (milled.hpp).  The other surfaces' do not change them.
+/// The operations of a setup other than turning and boring: centre holes, drilling, arcs,
+/// grooves, threads and parting off at the catalogue's conditions, and milled places at
+/// conditions of their own (milled.hpp).  They do not depend on the conditions of the
+/// other surfaces.
 namespace turnwright::planning {
 
-/// One of them with what it takes beside its entry in the result.
+/// One such operation with its times and costs outside its entry in the result.
 struct FixedOperation {
   OperationPlan plan;
   double air_min = 0;     ///< feed beside the cut, approach and return
@@ -30,7 +31,7 @@ struct FixedWork {
   double open() const;  ///< of all, objective less lower bound
 };
 
-/// What a setup does so, in order; milled places come before parting off.
+/// These operations of a setup in their order; milled places come before parting off.
 ///
 ///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P           (1)
 ///     centre, drill:  t = (depth + D/2/tan(sigma/2))/(f n),  f = k D                 (2)

@@ -31,7 +31,7 @@ struct Asked {
             m.chain().functionals[r.operation].tolerance == tolerance);
   }
 
-  // What conditions take of it.
+  // Share of the limit that conditions use.
   double share(const FeatureTask& task, const RecipeModel& m,
                const Choice<double>& choice) const {
     if (limit.check == Check::chatter)
@@ -83,7 +83,7 @@ double least_share(const FeatureTask& task, const FeatureAnswer& a, const Asked&
   return std::min(1.0, asked.share(task, m, choice));
 }
 
-// Where a tolerance stands once those before it are left out.
+// Index of a tolerance once those before it are left out.
 std::size_t place_of(const Feasibility& oracle, std::size_t limit,
                      const RelaxationFactors& factors) {
   std::size_t place = 0;
@@ -100,7 +100,7 @@ double reached(Feasibility& oracle, std::size_t limit, RelaxationFactors factors
   if (l.row->relaxing != Relaxing::rows) return oracle.with(factors) ? factor : kInfinity;
   const Asked asked{*l.row, place_of(oracle, limit, factors)};
   const double now = value_of(oracle.part(), l).now;
-  double least = 0;  // the surface that asks for most
+  double least = 0;  // of the surface that needs the most
   const auto ask = [&](double share) { least = std::max(least, share); };
   const bool kept =
       oracle.with(factors, [&](const FeatureTask& t, const FeatureAnswer& a) {

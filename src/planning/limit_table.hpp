@@ -15,7 +15,8 @@ namespace turnwright::planning {
 
 enum class Side { at_most, at_least };
 
-/// What has the number of a limit; every owner in a request has one of its own.
+/// The kind of object that has the number of a limit; every such object of a request has
+/// its own.
 enum class Owner {
   operation,  ///< that the request gives
   tolerance,
@@ -27,7 +28,7 @@ enum class Owner {
   tool
 };
 
-/// How far a number is moved: from its value to `factor` times as much.
+/// Scaling of a number from its value to `factor` times that.
 struct Scaling {
   double now = 0, factor = 1;
 };
@@ -46,9 +47,9 @@ struct LimitNumber {
 enum class Relaxing {
   never,     ///< for the reason that the row gives
   released,  ///< a given condition: it holds or is left to the planner
-  to_given,  ///< the end of a tool's window: as far as the conditions that are given
+  to_given,  ///< the end of a tool's window: moved to the given conditions
   rows,      ///< the rows of a solved model are scaled by it
-  model      ///< it changes the model besides
+  model      ///< it also changes the model
 };
 
 struct LimitRow {
@@ -59,10 +60,10 @@ struct LimitRow {
   Relaxing relaxing = Relaxing::never;
   std::vector<LimitNumber> numbers = {};  ///< a reader of the request can change
   std::optional<Check> with = {};         ///< the numbers of this check set it as well
-  /// What is scaled to relax the limit, once for the plan; absent: the first of the
-  /// numbers, of every owner that the limit has in common.
+  /// The number that is scaled to relax the limit, once for the plan; absent: the first
+  /// of the numbers, for every owner that has the limit.
   std::optional<LimitNumber> relaxed_by = {};
-  /// Takes the limit away.  Absent: it is scaled so far that it counts as none.
+  /// Removes the limit.  Absent: it is scaled so far that it never binds.
   void (*take_away)(PlanRequest&, std::size_t owner) = nullptr;
   /// Whether a request has the limit to relax; absent: if it has a number of it.
   bool (*applies)(const PlanRequest&) = nullptr;
@@ -70,13 +71,13 @@ struct LimitRow {
   const char* reason = nullptr;  ///< why it is never relaxed
 
   bool given() const { return relaxing == Relaxing::released; }
-  /// It holds or not: nothing is between.
+  /// Whether the limit either holds or is dropped, with no value between.
   bool whole() const { return given() || relaxing == Relaxing::to_given; }
   bool at_most() const { return side == Side::at_most; }
 };
 
-/// Given conditions first, then the checks in the order of their enumerators: a conflict
-/// is told with the earlier limits where it can be.
+/// Given conditions first, then the checks in the order of their enumerators: where a
+/// conflict can be stated with several limits, the earlier ones are preferred.
 const std::vector<LimitRow>& limit_table();
 
 const LimitRow& limit_row(Check check);

@@ -21,7 +21,7 @@ using volumetric::Kinematics;
 using volumetric::Machine;
 using volumetric::Surface;
 
-/// Where a surface stands while it is cut.
+/// Position of a surface in the machine while it is cut.
 struct Place {
   std::size_t setup = 0;
   Clamping clamping = Clamping::chuck;
@@ -154,13 +154,13 @@ double length_mm(const Surface& s) { return std::abs(s.z_mm.back() - s.z_mm.fron
 bool is_face(const Surface& s) { return s.z_mm.front() == s.z_mm.back(); }
 
 /// A datum as seen from the spindle of the setup that uses it: known if it was cut there,
-/// else off by as much at an unknown angle.
+/// otherwise displaced by the same amount at an unknown angle.
 struct Datum {
   DatumAxis axis;                     ///< of the same setup
   double shift_mm = 0, tilt_rad = 0;  ///< of another
 };
 
-// Of an element's axis.
+// Angle between an element's axis and a datum, increased by the datum's tilt.
 double angle_rad(const Surface& s, const Datum& d) {
   const DatumAxis own = axis_of(s);
   return std::hypot(own.ax - d.axis.ax, own.ay - d.axis.ay) + d.tilt_rad;
@@ -208,8 +208,8 @@ double zone_mm(const PreparedPart& p, ToleranceKind kind, const Surface& s,
   return perpendicularity_mm(s, d.axis) + tipped;  // of faces
 }
 
-/// What one chain of errors takes of a tolerance, cut at `own`, its datum or other face
-/// at `other`, if anything makes it.
+/// Share of a tolerance that one chain of errors takes; the surface is cut at `own`, its
+/// datum or other face at `other` if a setup cuts it.
 class Take {
  public:
   Take(const PreparedPart& p, const Tolerance& t, const Place& own,
@@ -235,8 +235,8 @@ class Take {
             .tilt_rad = tilt_rad(axis)};
   }
 
-  // How much further from `from`, the plane the part stands on, a face lies than drawn,
-  // as cut at one place.
+  // Excess distance of a face, cut at one place, from the plane `from` on which the part
+  // stands.
   Interval beyond(const Bench& bench, const std::string& id, const std::string& from,
                   const Place& at) const {
     const Surface s = bench.surface(id, at), stop = bench.surface(from, at);
@@ -293,7 +293,7 @@ std::vector<double*> parameters(Axis& axis) {
   return all;
 }
 
-/// The errors of one axis all zero, with as many harmonics as either has.
+/// An axis without errors, with as many harmonics as either of two axes has.
 Axis blank(const Axis& like, const Axis& or_like) {
   Axis axis{.name = like.name, .p_mm = like.p_mm, .Q = like.Q};
   for (std::size_t k = 0; k < volumetric::kDirections; ++k)
@@ -309,8 +309,8 @@ Axis widened(const Axis& axis, const Axis& like) {
   return out;
 }
 
-/// For each uncertain parameter the chain that has it alone, as large as its standard
-/// uncertainty.
+/// For each uncertain parameter the chain that has this error alone, equal to its
+/// standard uncertainty.
 std::vector<Machine> uncertain(const catalogue::GeometricErrors& g) {
   std::vector<Machine> all;
   Machine none = g.chain;
@@ -334,7 +334,7 @@ std::vector<Machine> uncertain(const catalogue::GeometricErrors& g) {
   return all;
 }
 
-// The clampings of a setup that differ in where the part stands.
+// The clampings of a setup that differ in the position of the part.
 std::vector<Place> places(const PreparedPart& p, std::size_t setup) {
   std::vector<Place> all;
   for (const Clamping c : p.setups[setup].clampings)

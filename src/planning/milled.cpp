@@ -32,7 +32,7 @@ void refuse(const MilledSite& s, const std::string& name, double value, double a
                            allowed, unit, fmt::format("{}: {}", s.m.id, why)});
 }
 
-// The first reason; the others are much like it.
+// The first reason; the others are similar.
 std::string listed(const std::vector<std::string>& reasons) {
   return reasons.size() == 1
              ? reasons[0]
@@ -43,7 +43,7 @@ void add_once(std::vector<std::string>& all, std::string one) {
   if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(std::move(one));
 }
 
-// Least and most of what choices have.
+// Smallest and largest values of the choices.
 template <class F>
 catalogue::Range span(const std::vector<MilledChoice>& choices, F range_of) {
   catalogue::Range all{INFINITY, 0};
@@ -100,8 +100,8 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
          outside("feed per tooth", s.m.fz_mm, fz, "mm");
 }
 
-// Why none of the choices was found to keep everything: what stands against the
-// shallowest cut looked at of the way that comes nearest, at speeds a margin apart.
+// Explains infeasibility by the way with the largest stable-to-required depth ratio, at
+// the shallowest cut that was tried, on a grid of speeds one margin apart.
 void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
              const std::vector<MilledCase>& cases, FixedWork& out) {
   std::map<const MilledWay*, int> shallowest;
@@ -180,7 +180,7 @@ void choose(const MilledSite& s, const std::vector<MilledChoice>& choices,
   out.after.push_back(std::move(o));
 }
 
-// Conditions that are given whole, whatever they keep.
+// Completely given conditions; the limits need not be kept.
 void take(const MilledSite& s, const MilledChoice& c, FixedWork& out) {
   const auto ranges = cutting::speed_ranges(*s.p.machine.driven_tools);
   const auto k = milled_case(s, c, ranges.front());
@@ -195,7 +195,7 @@ void take(const MilledSite& s, const MilledChoice& c, FixedWork& out) {
   out.after.push_back(std::move(o));
 }
 
-// Why a cutter that fits cannot go its way here; empty if it can.
+// The reason why a cutter that fits cannot be used here; empty if it can.
 std::string stopped(const MilledSite& s, const MilledChoice& c, bool whole) {
   const auto& cutter = *c.cutter;
   const double D = cutter.dc_mm, ap = c.ap_mm(s.m);
@@ -275,7 +275,8 @@ void add_lobes(const PreparedPart& p, OperationPlan& o) {
   MilledCase k;
   k.lobes = way->lobes.get();
   k.between = way->between.get();
-  // From the fastest down: where limits cannot be told, slower ones cannot either.
+  // From the fastest down: where a limit of stability cannot be computed, those of slower
+  // speeds cannot either.
   bool told = true;
   for (std::size_t i = kDrawn + 1; i-- > 0;) {
     const double speed = low + (high - low) * static_cast<double>(i) / kDrawn;

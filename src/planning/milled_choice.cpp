@@ -16,7 +16,7 @@ namespace turnwright::planning {
 namespace {
 
 constexpr double kBinding = 1e-4;   // ln: the search stays so far inside a lobe
-constexpr double kLeast_mm = 1e-6;  // of a depth that is told
+constexpr double kLeast_mm = 1e-6;  // least depth that is reported
 
 double force_N(const MilledSite& s, const MilledChoice& c, double fz) {
   return c.kc.k11_MPa * c.ap_mm(s.m) * std::pow(fz, 1 - c.kc.m) * c.teeth;  // Eq. (3)
@@ -43,7 +43,7 @@ double grip_N(const MilledSite& s, double normal) {
          cutting::grip_needed_N(grip, F, F, s.p.drawing.outer[s.m.element].left_mm);
 }
 
-// What the choice keeps and by how much, evaluated anew at speed and feed.
+// The limits and their values at the choice, evaluated anew at speed and feed.
 std::vector<ConstraintValue> limits(const MilledSite& s, const MilledChoice& c, double n,
                                     double fz, double stable_mm) {
   const auto& cutter = *c.cutter;
@@ -95,7 +95,7 @@ MilledCut cut_at(const MilledSite& s, const MilledChoice& c, const MilledCase& k
   cut.depth_margin = s.m.depth_margin;
   cut.speed_margin = s.m.speed_margin;
   cut.part_share = c.rho;
-  // Far enough to show what is left beyond the margin asked for.
+  // Deep enough to show the reserve beyond the required margin.
   cut.shown_mm =
       std::max(2 * c.ap_mm(s.m) * (1 + s.m.depth_margin), 1.5 * c.cutter->ap_mm.lower);
   const double per_mm = (1 + c.rho) * cut.Kt_MPa;

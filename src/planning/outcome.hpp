@@ -5,7 +5,7 @@
 #include "describe.hpp"
 #include "fixed.hpp"
 
-/// What follows from solved features: verdicts on tolerances, prices, conflicts.
+/// Results that follow from solved surfaces: verdicts on tolerances, prices, conflicts.
 namespace turnwright::planning {
 
 /// A setup with one clamping, all its features solved.
@@ -21,62 +21,65 @@ struct SolvedSetup {
   bool feasible() const;
 };
 
-/// Where a setup's time and cost per part go.
+/// Time and cost per part of a setup by what they are spent on.
 Breakdown breakdown(const PreparedPart& plan, const SolvedSetup& setup);
 /// Cost, time and profit of a result from its breakdown.
 void add_totals(const PreparedPart& plan, ProcessPlan& result);
 
-/// Preparing the machine for all setups.
+/// Time and cost of preparing the machine for all setups.
 SettingUp setting_up(const PlanRequest& plan);
 
-/// Of the tolerances, the first of those that fewest parts keep.
+/// The tolerance that the fewest parts keep; the first one if there are several.
 std::optional<WorstConformance> worst_conformance(
     const PlanRequest& plan, const std::vector<ToleranceResult>& tolerances);
 
-/// Its operations in the order they are cut: faces, centre hole and drilling, roughing,
-/// finishing, shoulders, bores, then arcs, grooves, threads, parting off.
+/// The operations of a setup in the order of cutting: faces, centre hole and drilling,
+/// roughing, finishing, shoulders, bores, then arcs, grooves, threads, parting off.
 std::vector<OperationPlan> operations_in_order(const PreparedPart& plan,
                                                const SolvedSetup& setup);
 
-/// What no setup makes.
+/// Adds a conflict for every surface that no setup can cut.
 void add_unreachable(const PreparedPart& part, ProcessPlan& result);
 
-/// Those of some tolerances that the machine's share alone uses up.
+/// Adds a conflict for each of the given tolerances that the machine's share alone uses
+/// up.
 void add_used_up(const PreparedPart& plan, const std::vector<std::size_t>& tolerances,
                  ProcessPlan& result);
 
-/// Of what no setup cuts: no condition, and no limit but themselves, can help them.
+/// Tolerances of surfaces that no setup cuts: no condition and no other limit can help
+/// them.
 std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& part);
 
-/// And what stands against the operations at fixed conditions of a setup in all its
-/// clampings.
+/// Adds the conflicts of operations at fixed conditions that no clamping of their setup
+/// resolves.
 void add_fixed_obstacles(const PreparedPart& part, ProcessPlan& result);
 
-/// Predicted against allowed for every tolerance of the drawing, at the answers.
+/// Predicted and allowed values of every tolerance of the drawing, at the solution.
 std::vector<ToleranceResult> tolerance_results(const PreparedPart& plan,
                                                const std::vector<SolvedSetup>& setups);
 
-/// The error of every surface at 21 places, as it is made; not of blanks.
+/// The error of every finished surface at 21 positions, offset and correction included;
+/// blanks are left out.
 std::vector<Deviation> deviations(const PreparedPart& plan,
                                   const std::vector<SolvedSetup>& setups);
 
-/// Offsets of the tool that sizes need, where a constant one was to be had.
+/// Constant offsets of the tool at the surfaces whose sizes need one.
 std::vector<ToolOffset> offsets(const std::vector<SolvedSetup>& setups);
 
-/// Correction of the tool path where a tolerance needs it.
+/// Corrections of the tool path at the surfaces whose tolerances need one.
 std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups);
 
-/// Every limit that costs something, dearest first.
+/// The price of every limit whose relaxation saves something, largest saving first.
 std::vector<Price> prices(const PreparedPart& plan,
                           const std::vector<SolvedSetup>& setups);
 
-/// A number in a sentence: four digits, whole from ten thousand on.
+/// A number as sentences show it: four digits, without decimals from ten thousand on.
 std::string readable(double value);
 
-/// One sentence: what stands against this feature, and by how much.
+/// One sentence with the limit that keeps this surface from being made, and by how much.
 std::string obstacle(const PreparedPart& plan, const SolvedFeature& feature);
 
-/// A tolerance of which all but the cut leaves nothing.
+/// The conflict of a tolerance that the sources other than the cut use up.
 Conflict used_up_conflict(const PreparedPart& plan, const SolvedFeature& feature,
                           const Demand& demand);
 

@@ -10,7 +10,8 @@ namespace {
 
 using Corner = std::optional<ParetoPoint>;
 
-// The plan of least cost + minute time: that of a machine dearer by it.
+// The plan of least cost + minute time: that of a machine whose minute costs that much
+// more.
 Corner cheapest(const PreparedPart& p, double minute) {
   PlanRequest dearer = p;
   dearer.objective = Objective::cost;
@@ -48,7 +49,8 @@ void add_corners(const PreparedPart& p, const ParetoPoint& slow, const ParetoPoi
   add_corners(p, *corner, fast, all);
 }
 
-// Of points with rising cost those on the hull: time falls, a minute gets ever dearer.
+// The points on the hull, from points with rising cost: along it time falls and each
+// minute saved costs more.
 // The certificates' gap may leave a point beside it.
 std::vector<ParetoPoint> hull(const std::vector<ParetoPoint>& rising) {
   std::vector<ParetoPoint> kept;

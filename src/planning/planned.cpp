@@ -79,7 +79,7 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison&
   return s;
 }
 
-// What the path's correction, judged as it is cut, does not bring within its tolerance.
+// Tolerances that the corrected path, judged as it is cut, does not keep.
 bool add_missed(ProcessPlan& result) {
   for (const auto& t : result.tolerances) {
     if (t.verdict != Verdict::not_met) continue;

@@ -1,7 +1,7 @@
 #pragma once
 #include "turnwright/planning/process_plan.hpp"
 
-/// The certified plan alone, without what `plan` may be asked for besides it.
+/// The certified plan alone, without explanations, `what_if` and `pareto`.
 namespace turnwright::planning {
 
 /// Every tolerance is kept, of a robust plan with the probability `conformance` by

@@ -21,7 +21,7 @@ double worst_violation(const RecipeModel& m, const Choice<double>& c) {
   return worst;
 }
 
-// The answer that given conditions are: in the speed ranges that suit them best.
+// The answer at given conditions, in the speed ranges that suit them best.
 FeatureAnswer as_given(const FeatureTask& task) {
   FeatureAnswer a;
   a.least_violation = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) 
                          c.unit, readable(c.limit), c.unit)});
 }
 
-// Whether every setup's clamping can be used; else why not is told.
+// Whether every setup's clamping can be used; if not, adds the reason.
 bool held(const PreparedPart& p, ProcessPlan& result) {
   auto done = nothing_finished(p.drawing);
   bool all = true;
@@ -128,7 +128,7 @@ bool feasible(const std::vector<SolvedSetup>& setups) {
   return std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); });
 }
 
-// Corrected are the surfaces that keep their tolerances so, and not without.
+// The surfaces that keep their tolerances with a corrected path and not without.
 std::vector<SolvedSetup> with_corrections(const PreparedPart& p) {
   auto plain = solved(p, {});
   if (!feasible(plain)) return plain;

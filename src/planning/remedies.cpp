@@ -98,8 +98,8 @@ void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
                              readable(grip_mm), readable(p.grips_mm[s]), s)});
 }
 
-// Jaws as far as the nearest element that the setup cuts, but for the largest corner that
-// has to roll over its end, or as the rest.
+// Adds jaws that reach as far as the nearest element that the setup cuts, less the largest corner that has
+// to roll over its end, or as far as the rest.
 void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
   const auto& work = p.work.setups[s];

@@ -18,14 +18,15 @@ const catalogue::Tool* same(const PreparedPart& p, const catalogue::Tool* tool,
   return it == p.tools.end() ? nullptr : &*it;
 }
 
-// A minute costs as much more as it does in the changed request.
+// Cost of a minute, raised by the difference between the changed request and this one.
 Economy economy(const PreparedPart& plan, const PreparedPart& changed, Economy e) {
   if (plan.objective != Objective::time)
     e.minute += changed.machine_per_min - plan.machine_per_min;
   return e;
 }
 
-// Limits of the tolerances as the changed request leaves them; false if nothing is left.
+// Sets the limits of the tolerances to those of the changed request; false if one has no
+// room left.
 bool take_limits(const std::vector<Demand>& before, const std::vector<Demand>& after,
                  std::vector<Functional>& functionals) {
   for (auto& g : functionals) {
@@ -55,7 +56,7 @@ std::optional<double> lagrangian(const FeatureAnswer& a, const Chain& chain) {
   return std::log(f) + sum;
 }
 
-// Of the objective of one surface.
+// Change of the objective of one surface.
 std::optional<double> change(const PreparedPart& plan, const SolvedFeature& f,
                              const PreparedPart& changed, const Feature& feature) {
   const auto& a = f.answer;
@@ -81,7 +82,7 @@ std::optional<double> change(const PreparedPart& plan, const SolvedFeature& f,
   return a.objective * (*after - *before);
 }
 
-// Of the objective of a setup, all but its surfaces.
+// Change of the objective of a setup apart from its surfaces.
 double besides(const PreparedPart& p, const SolvedSetup& s, const FixedWork& fixed,
                const Economy& e) {
   return e.minute * (besides_cutting(p, s.clamping, s.between).total().time_min +

@@ -30,7 +30,7 @@ double jaw_z(const PreparedPart& p, std::size_t s) {
 
 double largest(const part::OuterElement& e) { return std::max(e.left_mm, e.right_mm); }
 
-// Whether a tool can get at outer element i from the free end.
+// Whether a tool can reach outer element i from the free end.
 bool reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
   const auto& e = drawing(p).outer;
   const double z0 = part::left_z_mm(drawing(p), i), z1 = z0 + e[i].length_mm;
@@ -45,8 +45,8 @@ bool reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
   return true;
 }
 
-// What a finishing tool's corner needs beyond the end of an element, and what the jaws
-// leave of it [mm].
+// Length [mm] that the corner of a finishing tool needs beyond the end of an element, and
+// the length that the jaws leave free.
 struct BeforeJaws {
   double needed_mm = 0, left_mm = 0;
   bool enough() const { return left_mm >= needed_mm - 1e-5; }
@@ -94,8 +94,8 @@ bool face_named(const part::Drawing& d, const std::string& id) {
          std::any_of(d.tolerances.begin(), d.tolerances.end(), names);
 }
 
-// Whether the request leaves it to the planner to make a surface in this setup, or asks
-// for it there.
+// Whether a surface may be made in this setup: the request leaves that to the planner, or
+// has an operation for it there.
 bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
@@ -104,7 +104,7 @@ bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface)
   });
 }
 
-// The first setup that is to make a surface and can; else why there is none.
+// The first setup that may and can make a surface; if there is none, adds the reason.
 template <class Can>
 std::optional<std::size_t> place(const PreparedPart& p, const std::string& surface,
                                  const std::string& why, const Can& can, Assignment& a) {
@@ -147,7 +147,7 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     if (!(face_stock_mm(p, end) > 1e-9)) continue;
     const std::string id = end == End::left ? "left" : "right";
     const auto free = [&](std::size_t s) { return p.setups[s].hold != end; };
-    bool open = face_named(d, id);  // nobody asks for it: it may stay
+    bool open = face_named(d, id);  // else it may stay as it is
     for (std::size_t s = 0; s < p.setups.size(); ++s)
       open = open || (free(s) && wanted_in(p, s, id));
     if (!open) continue;
@@ -343,7 +343,8 @@ part::Shaft SetupBody::shaft(const std::vector<Zone>& outer,
       for (const double z : {zone.z0, zone.z1})
         if (z > ends[0] && z < ends[1]) ends.push_back(z);
   std::sort(ends.begin(), ends.end());
-  // The first zone about a place counts; elements stand before what is beside them.
+  // The first zone that contains a position counts; elements come before the stock beside
+  // them.
   const auto zone_at = [](const std::vector<Zone>& zones, double z) {
     return *std::find_if(zones.begin(), zones.end(),
                          [&](const Zone& zone) { return zone.z0 <= z && z <= zone.z1; });

@@ -17,10 +17,10 @@ using catalogue::Tool;
 using catalogue::ToolUse;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Every search has these, though a setup in one clamping shares the boxes of a task: to
-// refute what is far too slender takes thousands for each pass count and tool.
+// Every search has these, even when a setup in one clamping has used up the boxes it
+// shares: refuting a far too slender part takes thousands for each pass count and tool.
 constexpr long kLeastBoxes = 300;
-// What the branch and bound may leave open, in ln(objective).
+// Gap at which branch and bound ends, in ln(objective).
 constexpr double kGap = 9e-5;
 
 RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
@@ -129,7 +129,7 @@ SolvedSetup SetupPlanner::best(double most) {
   return best;
 }
 
-// Every tool of the request in every use that this setup has and it was not chosen for.
+// Every tool of the request in every use of this setup for which it was not chosen.
 std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& all,
                                                  const Considered& best) const {
   struct Use {
@@ -298,7 +298,7 @@ const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
     boxes_ += answer.certificate.nodes;
     return SolvedFeature{std::move(t), std::move(answer), offset, jobs_[j].wanted.ids};
   };
-  // What can be made without compensation at any cost is not compensated.
+  // A surface that can be made without compensation, at any cost, is not compensated.
   if (compensate_) most = kInfinity;
   if (explain_ && !(e.solved && e.solved->answer.feasible)) {
     e.solved = attempt(compensate_ ? Offset::path : free_offset(p_));
@@ -317,13 +317,13 @@ const SolvedFeature& SetupPlanner::solved(std::size_t j, const Tools& tools,
   return *e.solved;
 }
 
-// `least` bounds the setup from below and rises as features are solved; each has what
-// the others leave of `most`.
+// `least` is a lower bound of the setup and rises as surfaces are solved; each surface
+// may cost what the others leave of `most`.
 SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
   SolvedSetup s{setup_, clamping_, {}, {}, 0, 0};
   s.lower_bound = least;
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
-    // One feature that cannot be made decides; the others are solved only to explain.
+    // One surface that cannot be made decides; the others are solved only to explain.
     if (!explain_ && !s.feasible()) break;
     const double alone = entry(j, tools).bound;
     const double left = std::isfinite(most) ? most - (s.lower_bound - alone) : kInfinity;
@@ -361,9 +361,9 @@ double SetupPlanner::least_besides_cutting(const Tools& tools) const {
   return besides(between(order));
 }
 
-// Centre hole and drilling stand between the faces and the rest.  A tool that is used in a
-// place goes the way over all surfaces of that place, so that the tools alone say what lies
-// between.
+// Centre hole and drilling come between the faces and the other operations.  A tool that
+// is used at a place of the order goes over all surfaces of that place, so that the tools
+// alone decide what lies between the operations.
 Between SetupPlanner::between(const ToolOrder& order) const {
   Order all(p_, setup_, clamping_, front_mm_);
   for (std::size_t place = 0; place < order.size(); ++place) {

@@ -20,67 +20,68 @@ struct Tools {
   const catalogue::Tool *bore_rough = nullptr, *bore_finish = nullptr;
 };
 
-/// What a setup comes to with some tools: its optimum, or what it cannot beat.
+/// The objective of a setup with given tools: its optimum, or a lower bound.
 struct Considered {
   Tools tools;
   double at_least = 0;
   bool solved = false;
 };
 
-/// A surface with its tools: what the best recipe cannot beat, and its answer once asked
-/// for.
+/// A surface with given tools: a lower bound over its recipes, and its solution once it
+/// is needed.
 struct Entry {
   double bound = 0;
-  double most = 0;           ///< what the answer had to beat
-  bool compensated = false;  ///< asked for with compensation too
+  double most = 0;           ///< objective that the solution had to be below
+  bool compensated = false;  ///< solved with a corrected path too
   std::optional<SolvedFeature> solved;
 };
 using ToolPair = std::pair<const catalogue::Tool*, const catalogue::Tool*>;
 
-/// What holds for several clampings of a setup: end faces are cut in the chuck alone, and
-/// where no tolerance is asked clampings that hold alike are one.
+/// Results shared by several clampings of a setup: end faces are cut in the chuck alone,
+/// and without tolerances clampings with the same Holding are alike.
 struct SharedMemory {
   std::map<const catalogue::Tool*, Entry> faces;
   std::map<std::tuple<std::size_t, ToolPair, Holding>, std::shared_ptr<Unasked>> unasked;
 };
 
-/// Solves the features of one setup in one clamping, remembering what depends only on
-/// part of the tools.  The plan must outlive it.
+/// Solves the surfaces of one setup in one clamping and keeps results that depend only on
+/// some of the tools.  The plan must outlive it.
 class SetupPlanner {
  public:
   SetupPlanner(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                const SetupWork& work, const Finished& before, const Economy& economy,
                SharedMemory& shared);
 
-  /// From now on the tool path may follow the error of what cannot be made otherwise.
+  /// Allows from now on a corrected tool path on surfaces that cannot be made without.
   void allow_compensation() { compensate_ = true; }
 
-  /// The cheapest tools with their answers: those that look cheapest first; what cannot
-  /// cost less than `most` is dropped as soon as that is known.
+  /// The cheapest tools with their solutions.  Tools with the smallest bound are tried
+  /// first; those that cannot cost less than `most` are dropped as soon as that is known.
   SolvedSetup best(double most);
 
-  /// Whether some tools make every surface, as `makes` says of one of them.  Surfaces
-  /// that no tools make are told to it first.
+  /// Whether some choice of tools makes every surface; `makes` decides it for one
+  /// surface.  Each surface is tried alone first, so one that no tools make ends the
+  /// search.
   bool can_be_made(const std::function<bool(const FeatureTask&)>& makes);
 
-  /// Every feature with the tools and conditions given, answered by `answer`; the tool
-  /// path follows the error of the `corrected` surfaces.
+  /// Every surface with the given tools and conditions, solved by `answer`; the tool path
+  /// is corrected on the `corrected` surfaces.
   SolvedSetup as_given(FeatureAnswer (*answer)(const FeatureTask&),
                        const std::set<std::string>& corrected);
 
-  /// Every feature with the tools of the best setup, which is not feasible.
+  /// Every surface with the tools of the best setup if that is infeasible.
   SolvedSetup explained();
 
-  /// What it makes, in the order of a SolvedSetup's features.
+  /// Its surfaces in the order of a SolvedSetup's features.
   std::vector<const Feature*> features() const;
 
  private:
-  // One surface to be made and what the request says of it.
+  // A surface to be made with the conditions that the request fixes.
   struct Job {
     Feature feature;
     Wanted wanted;
   };
-  // For each place in the setup the tool of each job, if it has any there.
+  // For each place in the setup's order the tool of each job; null where it has none.
   using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
 
   bool any(Feature::Kind kind) const;
@@ -115,7 +116,7 @@ class SetupPlanner {
       demands_;
 };
 
-/// Where a surface's operations stand in the order of a setup: faces first, then all
+/// Place of a surface's operation in the order of a setup: faces first, then all
 /// roughing, all finishing, shoulders, and the bores in the same way.
 inline constexpr std::size_t kPlaces = 6;
 std::size_t place_in_setup(Feature::Kind kind, bool rough);

@@ -38,7 +38,7 @@ tolerance::Profile profile(const Found& f) {
   return f.feature->answer.profile;
 }
 
-// What centres an error about zero.
+// Offset that centres an error about zero.
 double to_middle_mm(const tolerance::PiecewisePolynomial& e) {
   const auto x = tolerance::extremes(e);
   return -(x.min_mm + x.max_mm) / 2;
@@ -49,7 +49,7 @@ tolerance::PiecewisePolynomial moved(tolerance::PiecewisePolynomial e, double by
   return e;
 }
 
-// None where every size keeps its limits without.
+// 0 if every size keeps its limits without an offset.
 double offset_mm(const SolvedFeature& f) {
   if (f.offset != Offset::constant || !f.answer.model) return 0;
   const auto x = tolerance::extremes(f.answer.profile);
@@ -60,7 +60,7 @@ double offset_mm(const SolvedFeature& f) {
   return needed ? to_middle_mm(f.answer.profile) : 0;
 }
 
-// With the tool's offset, or its path corrected, where the plan says so.
+// The error as made, with the plan's offset or corrected path.
 tolerance::Profile as_made(const Found& f) {
   if (!f.feature) return profile(f);
   if (f.feature->offset != Offset::path)
@@ -71,8 +71,8 @@ tolerance::Profile as_made(const Found& f) {
                                         correction(*f.feature));
 }
 
-// The tolerance less what is taken of it, as tolerance/ judges it; sizes about the middle
-// that the tool is programmed to.
+// The tolerance reduced by the shares of the other sources, for tolerance/ to judge;
+// sizes about the programmed middle.
 tolerance::Case judged(const Tolerance& t, const Found& at, double taken_mm,
                        double half_angle) {
   tolerance::Case c;
@@ -100,15 +100,15 @@ tolerance::Verdict verdict(tolerance::Case c, tolerance::Profile e,
   return tolerance::verdict(c);
 }
 
-// What all but the cut takes, of the surfaces that are made.
+// Shares of all sources other than the cut, over the surfaces that are made.
 struct Taken {
   Allowance by;
   double mm = 0;        // of the width; of a length the faces' own, each half
   double fixed_mm = 0;  // of it what parts have, not their measurement
 };
 
-// What spreads at one more face.  A part that is warm, or cut by a machine that is not
-// well known, is too long once, however many of its faces are cut.
+// Adds the sources that spread at one more face.  A part that is warm, or cut by a
+// machine that is not well known, is too long once, however many of its faces are cut.
 void add(const std::vector<tolerance::Source>& of_face,
          std::vector<tolerance::Source>& all) {
   for (const auto& s : of_face) {
@@ -140,8 +140,8 @@ Taken taken(const PreparedPart& p, std::size_t tolerance, const Found& at,
   return all;
 }
 
-// What a force or stiffness that is not known scales: of a size the deviation that goes
-// furthest from the middle of its limits.
+// The error that uncertain forces and stiffness scale: for a size the largest deviation
+// from the middle of its limits.
 double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
   const double factor = c.kind == ToleranceKind::diameter ? 2 : 1;
   if (c.limits) return factor * std::max(v.extremes_mm.max_mm, -v.extremes_mm.min_mm);
@@ -149,8 +149,8 @@ double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
   return c.kind == ToleranceKind::profile ? zone / 2 : zone;
 }
 
-// The error that forces and stiffness which are not known scale: of a corrected path all
-// that it corrects, but for its middle if the first part shows that.
+// The error profile that uncertain forces and stiffness scale: for a corrected path the
+// whole uncorrected error, without its middle if the first part is gauged.
 tolerance::Profile scaled_with_forces(const PreparedPart& p, const Found& f) {
   if (!f.feature || f.feature->offset != Offset::path) return as_made(f);
   const auto& e = f.feature->answer.profile;
@@ -168,7 +168,7 @@ double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
               force_spread(p) * units::um_from_mm(scaled));
 }
 
-// All but the cut needs more than there is.
+// The sources other than the cut need more than the whole width.
 void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.verdict = Verdict::not_met;
   r.published_verdict = false;
@@ -203,7 +203,7 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
   }
 }
 
-// An element that nothing cuts has the stock's diameter, and no form.
+// An element that no operation cuts has the stock's diameter; its form is unknown.
 void not_made(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   const auto& d = p.drawing;
   const auto at = *part::extent(d, t.of);
@@ -221,7 +221,7 @@ void not_made(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   }
 }
 
-// Of surfaces left as the stock has them only the machine's share is predicted.
+// For surfaces left as stock only the machine's share is predicted.
 void left_as_stock(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   if (!t.limits) {
     r.predicted_mm = {units::mm_from_um(p.machine_share_um)};

@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kKept = 8e-10;      // beyond a limit: what the optimum's places leave
 constexpr int kLooks = 24;           // feeds looked at to each side of the optimum
 constexpr int kBisections = 20;      // of a feed
-constexpr int kRounds = 20;          // of places that tolerances are asked at
+constexpr int kRounds = 20;          // of adding positions of tolerances
 constexpr int kStretches = 8;        // of a curve to begin with
 constexpr int kHalvings = 8;         // of one of them
 constexpr double kChord = 1e-4;      // ln: how far a chord may be from its curve
@@ -28,7 +28,7 @@ constexpr std::size_t kCost = 1000;  // in place of a limit's number
 
 std::string cost_name(double percent) { return fmt::format("cost +{:g} %", percent); }
 
-// What ends the speeds of one feed.
+// The limits that end the speeds of one feed.
 struct End {
   double v = 0;
   std::size_t by = kCost;  // number among the speed limits
@@ -37,7 +37,7 @@ struct Speeds {
   End lower, upper;
 };
 
-// One operation at its depth, beside the others as chosen.
+// One operation at its depth, with the others as chosen.
 struct Slice {
   const PreparedPart& plan;
   const Chain& chain;
@@ -241,7 +241,7 @@ class Side {
   std::vector<Vertex> all_;
 };
 
-// What ends the feeds at f, on the way to the end of the range.
+// The limit that ends the feeds at f, towards the end of the range.
 std::string end_name(const Slice& s, double f, double range_end) {
   if (f == range_end)
     return limit_row(f == s.o().f.upper ? Check::feed_max : Check::feed_min).name;
@@ -288,7 +288,7 @@ constexpr int kDrawn = 49;                 // feeds of a curve that is drawn
 constexpr double kAround = 1.25;           // of the window's speeds and feeds
 constexpr double kLevels[] = {0.5, 1, 2};  // of the percentage, drawn
 
-// What is drawn around a window.
+// The lines drawn around a window.
 struct Frame {
   double v0, v1, f0, f1;
   double f(int k) const { return f0 * std::pow(f1 / f0, double(k) / (kDrawn - 1)); }

@@ -50,11 +50,11 @@ struct Rechucking {
 /// (machines/lathe-medium.json has its sources).
 struct ShopBudget {
   Rechucking rechucking = {6, 2, 1.5, 0.7};
-  double drift_um = 1.5;               ///< between two corrections, radial, +-
-  double drift_axial_um = 3;           ///< and along the axis
-  double repeatability_um = 0.5;       ///< edge's place from part to part, one sigma
+  double drift_um = 1;               ///< between two corrections, radial, +-
+  double drift_axial_um = 2;           ///< and along the axis
+  double repeatability_um = 0.4;       ///< edge's place from part to part, one sigma
   double part_warm_K = 2;              ///< finishing finds the part so much too warm
-  double life_between_offsets = 0.05;  ///< share of an edge's life between corrections
+  double life_between_offsets = 0.03;  ///< share of an edge's life between corrections
 };
 /// Minutes to change the jaws' force in the middle of a setup where a machine's document
 /// has none.  An estimate: turn the valve of the chuck's pressure, read the gauge, start.

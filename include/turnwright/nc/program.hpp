@@ -9,19 +9,20 @@
 ///
 /// Program zero is on the spindle's axis in the finished face of the free end, +Z away
 /// from the chuck, whichever end of the part that is.  Tools are programmed at their
-/// imaginary tip (path.hpp) with the control's radius compensation off (G40): the way
-/// already is what the corner needs.  Blades are programmed at their corner towards the
+/// imaginary tip (path.hpp) with the control's radius compensation off (G40): the path
+/// already allows for the corner.  Blades are programmed at their corner towards the
 /// chuck, drills at their point, threading tools at theirs.
 ///
 /// Operations follow in the plan's order with its conditions.  F, S and the spindle's
-/// limit are cut off, never rounded up.  Besides the plan's numbers the ways need some of
-/// their own:
+/// limit are cut off, never rounded up.  The paths need some rules in addition to the
+/// plan's numbers:
 ///
-///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), that at feed; a
-///                 pass that would start in what an element before still carries starts
-///                 before that element
+///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), the last part
+///                 at feed; a pass that would start in the stock left on an element in
+///                 front comes down through it on a slope that the minor edge clears, or
+///                 starts in front of an element too short for that
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
-///                 pass ends where the corner touches what is drawn behind, or r, the
+///                 pass ends where the corner touches the drawn contour behind, or r, the
 ///                 largest r of the plan's tools and 0.2 mm behind an edge that falls
 ///     cones       are roughed parallel to themselves
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
@@ -34,10 +35,10 @@
 ///     tool change X and Z 50 mm clear of the stock
 ///
 /// Source: derived here; program_test takes the canonical moves of an interpreter and
-/// lets the tools' circles pass over the contour.
+/// moves the tools' circles over the contour.
 namespace turnwright::nc {
 
-/// What the control is told in its own words.
+/// The dialect of a control.
 enum class Control {
   linuxcnc,  ///< spindle's limit with G96 (D), G95, G33 K, diameters by G7
   fanuc      ///< system A: G50 S, G99, G32 F, tool words of four digits
@@ -49,21 +50,21 @@ struct Move {
   double x_mm = 0, z_mm = 0;  ///< radius and place in the program
   Point centre = {};          ///< of an arc: its radius in h_mm, its place in z_mm
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
-  /// Over what roughing has left on the elements before, which is deeper than here.
+  /// Over the stock that roughing has left on elements in front.
   bool entering = false;
 };
 
-/// Where a tool is in the cut: between two places along the axis, or between two radii.
+/// The range in which a tool is in the cut: along the axis, or between two radii.
 struct InCut {
-  bool across = false;            ///< radii
+  bool across = false;            ///< between radii
   double from_mm = 0, to_mm = 0;  ///< from < to, in the program's own coordinates
 };
 
-/// One operation of the plan, or a stop: what is milled is not in a turning program.
+/// One operation of the plan, or a stop.  Milling is not part of a turning program.
 struct Step {
   std::vector<std::string> comments;
   bool stop = false;    ///< M0: somebody changes the clamping, or mills
-  double stop_min = 0;  ///< how long that takes; milling is not counted
+  double stop_min = 0;  ///< its duration; 0 for milling
   int tool = 0;
   bool constant_surface_speed = false;
   double S = 0;          ///< m/min, or 1/min
@@ -80,13 +81,13 @@ struct TableTool {
   int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, 7 drills
 };
 
-/// Minutes that a program runs or waits, without loading and preparing.
+/// Minutes that a program runs or waits, without loading and preparing the machine.
 struct Minutes {
   double cutting = 0;         ///< feed over the surface that an operation makes
   double air = 0;             ///< feed beside it, and rapids
-  double entering = 0;        ///< of that over what is left before, which no plan weighs
-  double tool_changes = 0;    ///< the ways to where tools are changed are in the air
-  double operator_stops = 0;  ///< M0 for what changes in the clamping
+  double entering = 0;        ///< part of `air` over stock in front; not in planned times
+  double tool_changes = 0;    ///< the moves to the tool change position are in `air`
+  double operator_stops = 0;  ///< M0 for changes of the clamping
   double total() const { return cutting + air + tool_changes + operator_stops; }
 };
 
@@ -102,7 +103,7 @@ struct SetupProgram {
 /// Minutes of a program's own moves.  Feed per revolution at a constant surface speed v
 /// below the spindle's limit n_cap takes
 ///
-///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                    (1)
+///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                  (1)
 ///
 /// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n).  A rapid
 /// takes its longer axis at the machine's rapid rate, another tool the machine's time to
@@ -111,17 +112,17 @@ struct SetupProgram {
 Minutes minutes(const SetupProgram& program, const catalogue::Lathe& machine);
 
 struct Programs {
-  std::vector<SetupProgram> setups;  ///< none of an infeasible plan
-  /// Sentences on what would be cut wrong or cannot be reached (docs/nc.md lists what);
-  /// then `setups` is empty.
+  std::vector<SetupProgram> setups;  ///< empty for an infeasible plan
+  /// Sentences on surfaces that would be cut wrong or cannot be reached (docs/nc.md lists
+  /// the cases); `setups` is then empty.
   std::vector<std::string> cannot;
 };
 
-/// The ways of every setup of a plan.
+/// The programs of every setup of a plan.
 Programs programs(const planning::PreparedPart& part, const planning::ProcessPlan& plan);
 
-/// Makes a plan infeasible that no program can be made of; its conflicts tell why.  What
-/// the request itself asks for, turning from the chuck outwards, stays as it is.
+/// Makes a plan infeasible if it cannot be programmed; its conflicts give the reasons.  A
+/// plan whose request itself turns from the chuck outwards is not changed.
 void refuse_unprogrammed(const planning::PreparedPart& part, planning::ProcessPlan& plan);
 
 /// The program's text, lines of printable ASCII.

@@ -24,7 +24,7 @@ enum class Clamping {
 };
 const char* name(Clamping clamping);
 
-/// What the chuck's jaws are, as far as they centre the part.
+/// The kind of the chuck's jaws, which decides how well they centre the part.
 enum class Jaws {
   hard,   ///< hardened, ground
   soft,   ///< bored in place to the diameter they hold

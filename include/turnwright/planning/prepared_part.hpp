@@ -12,7 +12,7 @@ namespace turnwright::chatter {
 class Lobes;
 }
 
-/// A request with everything that follows from it before anything is planned.
+/// A request with everything that follows from it before planning starts.
 namespace turnwright::planning {
 
 /// The surfaces that a setup cuts; elements in the tool's order, from the free end
@@ -21,7 +21,7 @@ struct SetupWork {
   std::vector<std::size_t> elements;  ///< indices into drawing.outer
   bool end_face = false;              ///< the face of the free end
   std::vector<std::size_t>
-      shoulders;  ///< element k: the face "k-1|k", where the drawing asks
+      shoulders;  ///< element k: the face "k-1|k", where the drawing requires it
   std::vector<std::size_t> bores;  ///< indices into drawing.inner
 };
 

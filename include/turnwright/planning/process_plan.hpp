@@ -44,26 +44,27 @@ struct WindowCurve {
 
 /// Speeds and feeds of an operation that keep every limit and cost at most `percent` more
 /// than its optimum, with depths, passes and all other operations as chosen: a polygon,
-/// straight in logarithms, that holds nothing else (window.hpp).
+/// with edges straight in logarithms, all of whose conditions do so (window.hpp).
 struct OperatingWindow {
   double percent = 0;
   std::vector<double> vc_m_min, f_mm_rev;  ///< vertices, counter-clockwise
   std::vector<std::string> limits;         ///< of the edge from each vertex to the next
-  std::vector<WindowCurve> limit_curves, cost_curves;  ///< if asked for
+  std::vector<WindowCurve> limit_curves, cost_curves;  ///< if requested
 };
 
-/// How a milled place is cut, beside its passes, and how deep it might be.
+/// The cut of a milled place in addition to its passes, and its limits of stability.
 struct MilledCut {
   MilledKind kind = MilledKind::keyway;
   int lanes = 1;
   double ae_mm = 0;  ///< radial depth of the widest cut
   double fz_mm = 0, hm_mm = 0, vf_mm_min = 0;
   double Kt_MPa = 0, Kn_MPa = 0;
-  double depth_margin = 0, speed_margin = 0;  ///< asked for
-  /// The part's compliance across the feed over the tool point's: both yield together.
+  double depth_margin = 0, speed_margin = 0;  ///< required
+  /// The part's compliance across the feed, relative to the tool point's.
   double part_share = 0;
   double limit_mm = 0;  ///< least first loss of stability of all speeds within the margin
-  /// First losses over the speeds of cutter and spindle, none: beyond the depth shown.
+  /// First losses of stability over the speeds of cutter and spindle; none where they lie
+  /// beyond the depth shown.
   std::vector<double> n_rpm;
   std::vector<std::optional<double>> limits_mm;
   double shown_mm = 0;
@@ -77,7 +78,7 @@ struct OperationPlan {
   Direction direction = Direction::to_chuck;
   std::vector<Pass> passes;
   double time_min = 0;  ///< cutting
-  double cost = 0;      ///< in the cut, on approach and return, and of edges
+  double cost = 0;      ///< of the cut, approach and return, and edges
   std::vector<ConstraintValue> constraints;
   Certificate certificate;
   std::optional<OperatingWindow> window;  ///< of conditions that were chosen
@@ -90,7 +91,7 @@ struct RejectedClamping {
   std::optional<double> cost;  ///< per part, absent when infeasible
 };
 
-/// A tool that could serve a setup, or looks as if, and is not chosen for that use.
+/// A tool that could serve a use in a setup, or seems to, and is not chosen for it.
 struct RejectedTool {
   std::string tool, use;  ///< "facing", "roughing", "finishing", "boring, finish", ..
   std::string why;
@@ -102,7 +103,7 @@ struct Spending {
   double time_min = 0, cost = 0;
 };
 
-/// Where the time and the cost of a part go.
+/// Time and cost of a part by what they are spent on.
 struct Breakdown {
   Spending cutting;         ///< feed over the surfaces
   Spending air;             ///< feed beside them and rapids
@@ -124,7 +125,7 @@ struct SetupPlan {
   std::vector<RejectedClamping> rejected;
   std::vector<RejectedTool> rejected_tools;  ///< in the clamping chosen
   std::vector<OperationPlan> operations;
-  Breakdown breakdown;  ///< nothing where the part has no plan
+  Breakdown breakdown;  ///< zero if the part has no plan
 };
 
 enum class Verdict { met, met_with_offset, not_met };
@@ -143,7 +144,7 @@ struct ToleranceResult {
       predicted_mm;  ///< {min, max} of a size's deviation, {value} of a form
   std::vector<double> allowed_mm;  ///< same layout
   double margin_mm = 0;
-  double width_mm = 0;  ///< of the tolerance, which the shares are of
+  double width_mm = 0;  ///< of the tolerance; the shares are parts of it
   Verdict verdict = Verdict::met;
   bool published_verdict = true;
   std::vector<Share> shares;
@@ -158,16 +159,18 @@ struct Compensation {
   std::size_t setup = 0;
   Table table_mm;
 };
-/// What every pass over a surface is moved by, on the radius or along the axis, so that
-/// its size lies in the middle of its limits: the tool's offset at that size, which the
-/// first part confirms.
+
+/// The tool's offset at a size: every pass over the surface is moved by it, on the radius
+/// or along the axis, so that the size lies in the middle of its limits.  The first part
+/// confirms it.
 struct ToolOffset {
   std::string on;
   std::size_t setup = 0;
   double offset_mm = 0;
 };
 
-/// Of a correction at a place; beyond its ends as at the nearest.
+/// The correction at a position, linear between the entries of its table and constant
+/// beyond them.
 double interpolated(const Compensation::Table& table, double at);
 
 /// Error of a surface as it is made, corrected path included.
@@ -178,7 +181,7 @@ struct Deviation {
       table_mm;  ///< (z, or rho of a face; error of the radius, or along the axis)
 };
 
-/// What opening a number of the request saves, to first order, wherever it binds.
+/// Saving, to first order, by relaxing a number of the request wherever it binds.
 struct Price {
   std::string limit;  ///< "d1:diameter", "roughness Ra of d2", "power of lathe-medium"
   double now = 0;
@@ -194,24 +197,24 @@ struct Price {
 struct Conflict {
   std::string limit;  ///< constraint or tolerance in the irreducible conflicting set
   std::string where;  ///< setup, clampings and surface
-  double value = 0;   ///< the best that can be had with the rest of the set kept
+  double value = 0;   ///< the best value reached while the rest of the set is kept
   double allowed = 0;
   std::string unit;
   std::string sentence;
-  std::size_t set = 0;  ///< which set, from 1; 0: an obstacle that no limit decides
+  std::size_t set = 0;  ///< number of the set, from 1; 0: no limit can resolve it
 };
 
-/// What one member would have to become for everything else to be kept: the whole width
-/// of a tolerance.  Opening one of every set makes the part feasible.
+/// The value that one member needs for everything else to be kept; for a tolerance its
+/// whole width.  Relaxing one member of every set makes the part feasible.
 struct Relaxation {
   std::string limit;
   double now = 0, needed = 0;
   std::string unit;
   std::string sentence;  ///< "t2 would have to open from 0.004 to 0.0061 mm"
-  std::size_t set = 0;   ///< as of the conflict; 0: of an obstacle
+  std::size_t set = 0;   ///< that of the conflict
 };
 
-/// A change of the request beside its limits.
+/// A change of the request other than of its limits.
 struct RequestChange {
   enum class Kind {
     clamping,  ///< `clamping` allowed in `setup`, a rest at `steady_mm`
@@ -226,8 +229,8 @@ struct RequestChange {
   std::string name = {}, key = {};
 };
 
-/// One change of the request, or two together where no single one was found, that makes an
-/// infeasible part feasible: it was planned with it.
+/// One change of the request, or two together where no single one was found, that makes
+/// an infeasible part feasible: it was planned with it.
 struct Remedy {
   std::vector<RequestChange> changes;  ///< one or two
   std::string sentence = {};
@@ -240,24 +243,24 @@ struct TriedChange {
   std::string sentence;  ///< "allowing between-centres in setup 0"
 };
 
-/// A certified plan on the convex hull of cost against time: no plan has less of
-/// cost + minute time.
+/// A certified plan on the convex hull of cost against time: no plan has a smaller
+/// cost + minute time, where minute is the worth of a minute.
 struct ParetoPoint {
   double cost_per_part = 0, time_per_part_min = 0;
   std::optional<double> minute_worth;  ///< above the machine's rate; none: time alone
 };
 
-/// The request with something changed, and what that is called.
+/// A changed request and the name of the change.
 struct WhatIf {
   std::string name;
   PreparedPart part;
 };
 
-/// A changed request, planned anew, against the one that was asked.
+/// A changed request, planned anew, compared with the original one.
 struct WhatIfAnswer {
   std::string name;
   bool feasible = false;
-  double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
+  double cost_per_part = 0, time_per_part_min = 0;  ///< 0 without a plan
   std::optional<double> saves_per_part, saves_per_batch,
       saves_min_per_part;  ///< if both have a plan, per batch if there is one
   std::optional<double>
@@ -269,13 +272,13 @@ struct WhatIfAnswer {
 struct WorstConformance {
   std::string tolerance;
   double P_conform = 1;
-  double wanted = 0;  ///< of every tolerance
+  double wanted = 0;  ///< probability required of every tolerance
 };
 
 /// Preparing the machine, once for the whole batch.
 struct SettingUp {
   double minutes = 0, cost = 0;
-  /// What each part bears of it, in time and cost per part; none without a batch.
+  /// The share of each part, contained in time and cost per part; none without a batch.
   std::optional<double> minutes_per_part, cost_per_part;
 };
 
@@ -283,11 +286,11 @@ enum class PlanStatus { ok, infeasible };
 
 struct ProcessPlan {
   PlanStatus status = PlanStatus::ok;
-  double cost_per_part = 0, time_per_part_min = 0;  ///< 0: no plan to cost
+  double cost_per_part = 0, time_per_part_min = 0;  ///< 0 without a plan
   Breakdown breakdown;                              ///< of these, over all setups
   std::optional<double> profit_per_min;
   SettingUp setting_up;
-  std::optional<WorstConformance> worst_conformance;  ///< if anything is toleranced
+  std::optional<WorstConformance> worst_conformance;  ///< if there is a tolerance
   Certificate certificate;
   std::vector<SetupPlan> setups;
   std::vector<ToleranceResult> tolerances;
@@ -295,22 +298,22 @@ struct ProcessPlan {
   std::vector<ToolOffset> offsets;
   std::vector<Compensation> compensation;
   std::vector<Price> prices;          ///< largest saving first
-  std::vector<WhatIfAnswer> what_if;  ///< as asked
-  std::vector<ParetoPoint> pareto;    ///< cheapest first, if asked for
+  std::vector<WhatIfAnswer> what_if;  ///< in the order of the request
+  std::vector<ParetoPoint> pareto;    ///< cheapest first, if requested
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
   std::vector<Remedy> remedies;    ///< cheapest first
-  std::vector<TriedChange> tried;  ///< what is no remedy alone
+  std::vector<TriedChange> tried;  ///< changes that are no remedy alone
 };
 
-/// Certified cheapest process plan of a part, and of changed requests what they save.
+/// Certified cheapest process plan of a part, and the savings of changed requests.
 /// @throws std::domain_error if profit is the objective and no price is given.
 ProcessPlan plan(const PreparedPart& part, const std::vector<WhatIf>& what_if = {});
 ProcessPlan plan(const PlanRequest& request);
 
-/// Deviations, margins, time and cost of a part whose operations are given whole, in the
-/// first clamping of each setup.  Nothing is optimised; limits that are not kept are
-/// `conflicts`, and the tolerances are judged all the same.
+/// Deviations, margins, time and cost of a part whose operations are given completely, in
+/// the first clamping of each setup.  Nothing is optimised; limits that are not kept are
+/// `conflicts`, and the tolerances are judged nevertheless.
 /// @throws std::domain_error if a setup has no clamping, or a turning operation no speed
 ///   or feed.
 ProcessPlan predict(const PreparedPart& part);
