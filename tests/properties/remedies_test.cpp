@@ -72,7 +72,7 @@ class HardParts {
     d["stock"] = {{"length_mm", length + 2}, {"left_allowance_mm", 1}};
     if (tube)
       d["stock"].update(
-          {{"kind", "tube"}, {"outer_mm", D + 3}, {"inner_mm", uniform(40, 50)}});
+          {{"kind", "tube"}, {"outer_mm", D + 3}, {"inner_mm", uniform(34, 42)}});
     else
       d["stock"].update({{"kind", "bar"}, {"diameter_mm", D + 3}});
   }

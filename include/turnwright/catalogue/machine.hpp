@@ -50,7 +50,7 @@ struct Rechucking {
 /// (machines/lathe-medium.json has its sources).
 struct ShopBudget {
   Rechucking rechucking = {6, 2, 1.5, 0.7};
-  double drift_um = 1;               ///< between two corrections, radial, +-
+  double drift_um = 1;                 ///< between two corrections, radial, +-
   double drift_axial_um = 2;           ///< and along the axis
   double repeatability_um = 0.4;       ///< edge's place from part to part, one sigma
   double part_warm_K = 2;              ///< finishing finds the part so much too warm

@@ -164,7 +164,7 @@ TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
   outer[2].id = "d3";
   outer[2].length_mm = 20;
   outer[2].left_mm = outer[2].right_mm = 24;
-  const auto svg = setup_drawings(part, planned())[1];
+  const auto svg = setup_drawings(planning::prepare(part), planned())[1];
   const auto jaws = shapes(svg, "jaw");
   ASSERT_EQ(jaws.size(), 2u);
   const double top = 15 + 9 / kScale;  // paper mm beyond the largest
@@ -199,7 +199,7 @@ TEST(SetupDrawings, JawsHoldTheBarThatThePartIsPartedOff) {
   part.drawing.stock = {part::StockKind::tube, 40, 10, 160, 60, 0.6};
   auto plan = planned();
   plan.setups.resize(1);
-  const auto svg = setup_drawings(part, plan)[0];
+  const auto svg = setup_drawings(planning::prepare(part), plan)[0];
   const auto jaws = shapes(svg, "jaw");
   ASSERT_EQ(jaws.size(), 2u);
   const double scale = 158.0 / 160;  // paper mm of a mm
@@ -218,7 +218,7 @@ TEST(SetupDrawings, CentresStandWhereTheClampingHasThem) {
   const auto count = [&](Clamping clamping, const char* css_class) {
     part.setups[0].clampings = {clamping};
     plan.setups[0].clamping = clamping;
-    return shapes(setup_drawings(part, plan)[0], css_class).size();
+    return shapes(setup_drawings(planning::prepare(part), plan)[0], css_class).size();
   };
   EXPECT_EQ(count(Clamping::chuck, "centre"), 0u);
   EXPECT_EQ(count(Clamping::chuck_tailstock, "centre"), 1u);
@@ -320,13 +320,15 @@ std::string crowded(const std::string& svg) {
 TEST(SetupDrawings, NoTextLiesOnAnother) {
   auto part = bush();
   auto plan = planned();
-  for (const auto& svg : setup_drawings(part, plan)) EXPECT_EQ(crowded(svg), "");
+  for (const auto& svg : setup_drawings(planning::prepare(part), plan))
+    EXPECT_EQ(crowded(svg), "");
   part.drawing.name = std::string(200, 'W');
   part.drawing.outer[1].id = std::string(24, 'W');
   part.drawing.outer[0].fit = "h11";
   plan.status = planning::PlanStatus::infeasible;
   plan.compensation[0].on = part.drawing.outer[1].id;
-  for (const auto& svg : setup_drawings(part, plan)) EXPECT_EQ(crowded(svg), "");
+  for (const auto& svg : setup_drawings(planning::prepare(part), plan))
+    EXPECT_EQ(crowded(svg), "");
   // steps of all lengths down to a tenth of a mm, up to the 100 that a part may have
   for (const std::size_t steps : {3u, 12u, 51u, 52u, 100u}) {
     part = bush();
@@ -342,7 +344,7 @@ TEST(SetupDrawings, NoTextLiesOnAnother) {
     double used = 0;
     for (std::size_t i = 0; i + 1 < outer.size(); ++i) used += outer[i].length_mm;
     outer.back().length_mm = 96 - used;
-    for (const auto& svg : setup_drawings(part, planned()))
+    for (const auto& svg : setup_drawings(planning::prepare(part), planned()))
       EXPECT_EQ(crowded(svg), "") << steps;
   }
 }
@@ -366,7 +368,7 @@ TEST(SetupDrawings, BarsAreAsLongAsTheySay) {
 TEST(SetupDrawings, BoresShowOnceTheyAreCut) {
   auto part = bush();
   part.drawing.inner[0].from = part::End::left;  // now setup 1 makes it
-  const auto all = setup_drawings(part, planned());
+  const auto all = setup_drawings(planning::prepare(part), planned());
   EXPECT_EQ(all[0].find(">b1 "), std::string::npos);
   EXPECT_NE(all[1].find(">b1  \u00d816<"), std::string::npos);
   // The section is open at the bore's radius only behind setup 1.
@@ -401,7 +403,7 @@ TEST(SetupDrawings, ShowWhatIsCutIntoABlank) {
     d2.left_mm = s.blank.left_mm;
     d2.right_mm = s.blank.right_mm;
     d2.cut = s.cut;
-    return setup_drawings(p, planned()).at(0);
+    return setup_drawings(planning::prepare(p), planned()).at(0);
   };
   const auto has = [](const std::string& svg, const std::string& text) {
     return svg.find(text) != std::string::npos;
@@ -440,7 +442,7 @@ TEST(SetupDrawings, WhatIsNotFiniteIsRefused) {
     EXPECT_THROW(setup_drawings(bush(), plan), std::domain_error);
     auto part = bush();
     part.drawing.stock.length_mm = bad;
-    EXPECT_THROW(setup_drawings(part, planned()), std::domain_error);
+    EXPECT_THROW(setup_drawings(planning::prepare(part), planned()), std::domain_error);
   }
 }
 
