@@ -169,6 +169,7 @@ void assume_setups(Draft& draft) {
     setups.push_back({.hold = end, .clampings = all_clampings(draft)});
     check_setup(draft, at, i, setups.back());
     echoed.push_back({{"hold", word}, {"clampings", words(setups.back().clampings)}});
+    if (i > 0) echoed.back()["jaws"] = name(setups.back().jaws);
   }
   draft.assume("/setups", std::move(echoed),
                "hold left, then right, with all the clampings the machine has");

@@ -87,9 +87,6 @@ std::string remedies(const ordered_json& result) {
     out = "\nWHAT ELSE WOULD DO  each line alone, as planned with it\n" +
           numbered(sentences_of(all));
   const auto& tried = list(result, "tried");
-  if (all.empty() && word(result, "status") == "infeasible" && tried.empty())
-    return out +
-           "\nWHAT ELSE WOULD DO\n  There is no other clamping, grip or tool to try.\n";
   if (!tried.empty())
     out += "\nTRIED WITHOUT SUCCESS  each alone\n" + numbered(sentences_of(tried));
   return out;

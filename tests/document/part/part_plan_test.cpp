@@ -337,7 +337,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/stock/left_allowance_mm", 1.5},
                         {"/setups",
                          {{{"hold", "left"}, {"clampings", all}},
-                          {{"hold", "right"}, {"clampings", all}}}},
+                          {{"hold", "right"}, {"clampings", all}, {"jaws", "soft"}}}},
                         {"/setups/0/grip_mm", 25.0},
                         {"/setups/1/grip_mm", 23.0},
                         {"/operations", "auto"},

@@ -370,7 +370,7 @@ TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
   EXPECT_TRUE(has_line(
       out, "WHAT WOULD HAVE TO GIVE  the smallest opening first, one of every set"));
   EXPECT_TRUE(has_line(out, "  1. set 2: lower the feed [-20.0 %]"));
-  EXPECT_TRUE(has_line(out, "WHAT ELSE WOULD DO  each alone, as planned with it"));
+  EXPECT_TRUE(has_line(out, "WHAT ELSE WOULD DO  each line alone, as planned with it"));
   EXPECT_TRUE(has_line(out, "  1. the tool T9 makes it possible"));
   expect_printable(out);
 }
@@ -378,8 +378,9 @@ TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
 TEST(Text, WithoutAKnownOpeningTheReportSaysSo) {
   auto result = infeasible();
   result["relax"].clear();
-  EXPECT_TRUE(
-      has_line(text(result), "  No limit was found whose opening alone would do."));
+  EXPECT_TRUE(has_line(text(result),
+                       "  No limit was found whose opening alone would do; what else was "
+                       "tried is told below."));
 }
 
 // Calls `change` on a copy of the document for each of its places.
