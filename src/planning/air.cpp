@@ -23,9 +23,20 @@ struct Item {
   double z0, h0, z1, h1;  // blank
   part::CutKind cut{};
   bool cut_later = false;  // a groove or an arc
+  double moved = 0;        // to the middle of the limits, in the heights
   double length() const { return std::hypot(z0 - z1, h1 - h0); }
   double rad() const { return std::atan2(h1 - h0, z0 - z1); }
 };
+
+// From the drawn radius to the middle of the limits, where programs cut it; none of what
+// is cut into its blank later.
+double to_middle_mm(const PreparedPart& p, const std::string& element) {
+  if (part::has_cut(p.drawing, element)) return 0;
+  for (const auto& t : p.drawing.tolerances)
+    if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
+      return (t.limits->lower_mm + t.limits->upper_mm) / 4;
+  return 0;
+}
 
 std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner) {
   const auto& d = p.drawing;
@@ -34,9 +45,11 @@ std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner)
   std::vector<Item> all;
   const auto add = [&](const auto& e, std::size_t i, double left_z) {
     const double a = sign * (left_z - free), b = sign * (left_z + e.length_mm - free);
-    const double ha = out * e.left_mm / 2, hb = out * e.right_mm / 2;
+    const double by = to_middle_mm(p, e.id);
+    const double ha = out * (e.left_mm / 2 + by), hb = out * (e.right_mm / 2 + by);
     Item item = a > b ? Item{i, a, ha, b, hb} : Item{i, b, hb, a, ha};
     item.cut_later = e.cut && e.cut->kind != part::CutKind::thread;
+    item.moved = out * by;
     all.push_back(item);
   };
   if (inner)
@@ -92,9 +105,9 @@ bool made(const SetupWork& work, bool inner, std::size_t index) {
 }
 
 bool goes_on(const SetupWork& work, bool inner, const Item& a, const Item& b) {
-  return std::abs(a.h1 - b.h0) < kSame_mm && std::abs(a.z1 - b.z0) < kSame_mm &&
-         !a.cut_later && !b.cut_later && made(work, inner, a.index) &&
-         made(work, inner, b.index);
+  return std::abs(a.h1 - a.moved - b.h0 + b.moved) < kSame_mm &&
+         std::abs(a.z1 - b.z0) < kSame_mm && !a.cut_later && !b.cut_later &&
+         made(work, inner, a.index) && made(work, inner, b.index);
 }
 
 // What turning leaves before a face between an element and the next one.
