@@ -319,9 +319,11 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    // Rapids count heights as if all passes were as deep as each other.
-    const double left = stock / (nr + nf) * ((n - 1) / 2.0 + (o.finishing ? 0 : nf));
-    const auto b = ways(o, n, &o == &c.operations.back(), left);
+    // The lengths are those at the least depth of finishing, near which the optimum lies.
+    const double finished = nf * finish(c.a.lower), roughed = stock - finished;
+    const double depth = o.finishing ? finished / nf : roughed / nr;
+    const double left = depth * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
+    const auto b = ways(o, n, &o == &c.operations.back(), depth, left);
     o.fed = std::max(1.0, b.fed_mm / (n * path));
     o.economic_life_min /= o.fed;
     o.rapid_min = b.rapid_mm / plan_->machine.rapid_mm_min;
