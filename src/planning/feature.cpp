@@ -319,8 +319,12 @@ std::optional<Chain> Feature::chain(const Recipe& recipe, const Economy& economy
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    // The lengths are those at the least depth of finishing, near which the optimum lies.
-    const double finished = nf * finish(c.a.lower), roughed = stock - finished;
+    // Lengths count heights at the least depth of finishing, near which the optimum lies,
+    // whatever depth is chosen.
+    const double finished = nr > 0 && nf > 0
+                                ? std::min(nf * c.operations[1].ap.lower, stock / 2)
+                                : nf * finish.c0;
+    const double roughed = stock - finished;
     const double depth = o.finishing ? finished / nf : roughed / nr;
     const double left = depth * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
     const auto b = ways(o, n, &o == &c.operations.back(), depth, left);
