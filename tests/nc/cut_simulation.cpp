@@ -114,7 +114,6 @@ void CutSimulation::setup(std::size_t s, const std::vector<Way>& ways) {
   free_z_ = left ? part::length_mm(p_.part.drawing) : 0;
   bodies_.clear();
   centred_ = in_pass_ = touched_ = false;
-  last_operation_.clear();
   add_obstacles();
   for (const auto& way : ways) follow(way);
   material_.drop_loose(part::length_mm(p_.part.drawing) / 2);
@@ -153,13 +152,10 @@ void CutSimulation::follow(const Way& w) {
   if (!o) return;
   if (w.centred && !centred_) add_centre();
   centred_ = w.centred;
-  if (w.operation != last_operation_) {
-    material_.drop_loose(part::length_mm(p_.part.drawing) / 2);
-    last_operation_ = w.operation;
-  }
   const auto& b = body(*o);
   const auto from = place(w.x0, w.z0), to = place(w.x1, w.z1);
   if (w.rapid) {
+    if (in_pass_) material_.drop_loose(part::length_mm(p_.part.drawing) / 2);
     in_pass_ = touched_ = false;
     const double depth = material_.depth(swept(b.small_edge, from, to));
     if (depth > 0) find(Fault::rapid, w.operation, depth, to);

@@ -87,7 +87,6 @@ class CutSimulation {
   std::vector<Obstacle> obstacles_;
   bool centred_ = false;
   bool in_pass_ = false, touched_ = false;
-  std::string last_operation_;
   std::map<std::string, double> threads_;
   std::map<std::pair<Fault, std::string>, Finding> findings_;
 };

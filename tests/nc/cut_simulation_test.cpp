@@ -16,6 +16,12 @@ TEST(CutSimulation, PrintsReferenceParts) {
   for (const auto& name : reference_parts()) {
     const auto p = planned_reference(name);
     if (p.plan.status != planning::PlanStatus::ok) continue;
+    if (std::getenv("ONLY") && name != std::getenv("ONLY")) continue;
+    if (std::getenv("ONLY"))
+      for (const auto& pr : programs(p.part, p.plan).setups)
+        for (const auto& w : ways_of(pr, p.plan.setups[pr.setup]))
+          fmt::print("{} {} {:.4f} {:.4f} -> {:.4f} {:.4f}\n", w.operation,
+                     w.rapid ? "G0" : "G1", w.x0, w.z0, w.x1, w.z1);
     const auto start = std::chrono::steady_clock::now();
     const auto found = simulated(p, programs(p.part, p.plan));
     const double s =

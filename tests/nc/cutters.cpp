@@ -12,8 +12,9 @@ using catalogue::FixedUse;
 using planning::OperationKind;
 using planning::OperationPlan;
 
-constexpr double kChord_mm = 2e-6;  // of corners
-constexpr double kShank_mm = 100;   // of blades, above what they reach
+constexpr double kChord_mm = 1e-5;        // of corners that cut
+constexpr double kOthersChord_mm = 1e-3;  // and of the insert's other corners
+constexpr double kShank_mm = 100;         // of blades, above what they reach
 
 Polygon polygon(const catalogue::ConvexOutline& outline) {
   Polygon all;
@@ -23,6 +24,19 @@ Polygon polygon(const catalogue::ConvexOutline& outline) {
 
 Polygon rectangle(double x0, double x1, double z0, double z1) {
   return hull({{x0, z0}, {x0, z1}, {x1, z1}, {x1, z0}});
+}
+
+Polygon insert_polygon(const catalogue::ToolOutline& outline) {
+  const double r = outline.re_mm;
+  const auto cuts = [&](const catalogue::OutlinePoint& p) {
+    return std::hypot(p.h_mm - r, p.z_mm - r) < r + 1e-9;
+  };
+  catalogue::ConvexOutline all;
+  for (const auto& p : catalogue::rounded_insert(outline, kChord_mm))
+    if (cuts(p)) all.push_back(p);
+  for (const auto& p : catalogue::rounded_insert(outline, kOthersChord_mm))
+    if (!cuts(p)) all.push_back(p);
+  return polygon(all);
 }
 
 // A corner between two edges of a length.
@@ -37,8 +51,7 @@ Polygon wedge(double re, double kapr_rad, double minor_rad, double length) {
     return catalogue::OutlinePoint{corner.h_mm + length * edge.h_mm,
                                    corner.z_mm + length * edge.z_mm};
   };
-  return polygon(
-      catalogue::rounded_insert({re, {corner, on(major), on(minor)}, {}}, kChord_mm));
+  return insert_polygon({re, {corner, on(major), on(minor)}, {}});
 }
 
 const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o) {
@@ -110,7 +123,7 @@ Cutter cutter(const Planned& p, const OperationPlan& o) {
     if (t.id != o.tool) continue;
     const auto outline = catalogue::outline(t);
     c.re_mm = t.re_mm;
-    c.edge = polygon(catalogue::rounded_insert(outline, kChord_mm));
+    c.edge = insert_polygon(outline);
     for (const auto& piece : outline.holder) c.holder.push_back(polygon(piece));
   }
   return c;

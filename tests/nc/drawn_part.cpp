@@ -177,6 +177,14 @@ void DrawnPart::roll(std::size_t i) {
   keep_clear(i, length(way) / kStep_mm, [&](double u) {
     return beside({a.x + u * way.x, a.z + u * way.z}, normal);
   });
+  constexpr double kCorner_rad = 0.02;  // more than between the chords of arcs
+  if (turn > kCorner_rad) {
+    const double half = (std::numbers::pi - turn) / 2;  // of the corner's angle
+    const double back = r / std::tan(half);
+    const auto l = length(way);
+    fillets_[is_outer(full_.of[i])].push_back(
+        {beside({b.x - back * way.x / l, b.z - back * way.z / l}, normal), b, back});
+  }
   if (turn < 0)  // an edge: the corner goes round it
     keep_clear(i, -turn / std::sqrt(8 * kChord_mm / r),
                [&](double u) { return beside(b, normal + u * turn); });
@@ -237,7 +245,11 @@ double DrawnPart::beyond_mm(const Spot& p) const {
   const bool outer = is_outer(contour.of);
   const double r = corner_mm_[outer];
   if (contour.mm >= r) return contour.mm;
-  return std::max(0.0, r - rolled_[outer].nearest(p).mm);
+  double beyond = std::max(0.0, r - rolled_[outer].nearest(p).mm);
+  for (const auto& f : fillets_[outer])
+    if (length(p - f.corner) < f.reach)
+      beyond = std::min(beyond, std::max(0.0, r - length(p - f.centre)));
+  return beyond;
 }
 
 const std::string& DrawnPart::surface_at(const Spot& p) const {

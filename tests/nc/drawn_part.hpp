@@ -51,8 +51,9 @@ class DrawnPart {
   const std::vector<Wall>& walls() const { return walls_; }
 
   double depth_mm(const Spot& inside) const { return least_.pieces.nearest(inside).mm; }
-  /// How far a point outside lies beyond what the largest corner that finishes its side,
-  /// rolling over the contour, leaves in inner corners.
+  /// How far a point outside lies beyond what the largest corner that finishes its side
+  /// leaves in inner corners: where it rolls over the contour, or touches the lines of a
+  /// corner's two sides, however short they are.
   double beyond_mm(const Spot& outside) const;
   /// The surface next to a point.
   const std::string& surface_at(const Spot& p) const;
@@ -89,6 +90,11 @@ class DrawnPart {
   std::vector<bool> outer_;
   Body least_, full_;
   Pieces rolled_[2];  // centres of a corner that touches the contour
+  struct Fillet {
+    Spot centre, corner;
+    double reach = 0;  // of its sides from the corner
+  };
+  std::vector<Fillet> fillets_[2];
   std::vector<Wall> walls_;
 };
 

@@ -99,12 +99,20 @@ Polygon hull(Polygon points) {
 }
 
 Polygon swept(const Polygon& convex, const Spot& from, const Spot& to) {
+  const auto way = to - from;
+  const auto n = convex.size();
+  const auto ahead = [&](std::size_t i) {  // a side that faces the way
+    return cross(way, convex[(i + 1) % n] - convex[i]) > 0;
+  };
   Polygon all;
-  for (const auto& p : convex) {
-    all.push_back(p + from);
-    all.push_back(p + to);
+  bool before = ahead(n - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool after = ahead(i);
+    all.push_back(convex[i] + (before ? to : from));
+    if (before != after) all.push_back(convex[i] + (after ? to : from));
+    before = after;
   }
-  return hull(std::move(all));
+  return all;
 }
 
 Polygon mirrored(Polygon polygon) {
@@ -251,8 +259,13 @@ void Section::drop_loose(double z) {
   auto from = middle, to = middle;
   while (from > 0 && !columns.on(from - 1).empty()) --from;
   while (to + 1 < columns.size() && !columns.on(to + 1).empty()) ++to;
+  bool loose = false;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (i < from || i > to) columns.clear(i);
+    if ((i < from || i > to) && !columns.on(i).empty()) {
+      columns.clear(i);
+      loose = true;
+    }
+  if (!loose) return;
   const double pitch = columns.at(1) - columns.at(0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows.keep_only(i, {columns.at(from) - pitch, columns.at(to) + pitch});

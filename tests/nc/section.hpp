@@ -21,7 +21,8 @@ Spot operator-(const Spot& a, const Spot& b);
 
 /// The convex hull, against the clock seen with z to the right and x up.
 Polygon hull(Polygon points);
-/// What a convex polygon sweeps while it moves from one place to another.
+/// What a convex polygon, as `hull` orders it, sweeps while it moves straight from one
+/// place to another.
 Polygon swept(const Polygon& convex, const Spot& from, const Spot& to);
 /// The other half of a section.
 Polygon mirrored(Polygon polygon);
