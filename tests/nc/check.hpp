@@ -3,9 +3,10 @@
 
 #include <map>
 
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "plans.hpp"
 #include "removal.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 /// Whether ways of tools, wherever they come from, make the part of a plan with the
 /// plan's conditions.

@@ -1,8 +1,9 @@
 #include "turnwright/document/drawing.hpp"
 
 #include "document/json/finite.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "turnwright/document/process_plan.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::document {
 namespace {

@@ -6,9 +6,9 @@
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "part_sections.hpp"
+#include "planning/auxiliary/milled_ways.hpp"
 #include "turnwright/planning/limit.hpp"
-#include "turnwright/planning/milled_places.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
+#include "turnwright/planning/prepare.hpp"
 #include "what_if.hpp"
 
 namespace turnwright::document {

@@ -9,6 +9,7 @@
 #include "../slips.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/document/compensate.hpp"
+#include "turnwright/planning/plan.hpp"
 
 namespace turnwright::document {
 namespace {
