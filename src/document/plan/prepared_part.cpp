@@ -5,11 +5,11 @@
 
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
-#include "part_sections.hpp"
+#include "document/part/part_sections.hpp"
+#include "document/part/what_if.hpp"
 #include "planning/auxiliary/milled_ways.hpp"
 #include "turnwright/planning/limit.hpp"
 #include "turnwright/planning/prepare.hpp"
-#include "what_if.hpp"
 
 namespace turnwright::document {
 namespace {
