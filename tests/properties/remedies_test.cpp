@@ -11,6 +11,7 @@
 #include "../planning/parts.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/planning/limit.hpp"
+#include "turnwright/planning/plan.hpp"
 
 namespace turnwright::planning {
 namespace {
