@@ -439,8 +439,11 @@ void add_groove(Site& s, const CutElement& e) {
   if (!plunges) return;
   const double n = *plunges, step = n > 1 ? (e.length_mm - f.size_mm) / (n - 1) : 0;
   const double back = e.cut.depth_mm + above_mm(e);
-  Way way{above_mm(e), n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step),
-          e.inner, e.around.z1, e.around.z1 + (n - 1) * step};
+  const bool stands =
+      thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.around.h0).stands_behind;
+  Way way{above_mm(e) + (stands ? kBehind_mm / n : 0),
+          n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step), e.inner,
+          e.around.z1, e.around.z1 + (n - 1) * step};
   if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
   s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges, way));
 }

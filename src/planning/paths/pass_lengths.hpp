@@ -45,6 +45,11 @@ struct Surroundings {
   /// and for each the smaller of its length and that of this element.
   std::optional<double> before_rad = {}, behind_rad = {};
   double before_long_mm = 0, behind_long_mm = 0;
+  /// Inclination of the neighbour in front that is drawn as high where they meet.
+  std::optional<double> front_rad = {};
+  /// Steps down from the neighbour in front and to the one behind, where their sizes lie
+  /// in the middles of different limits; negative where they rise.
+  double before_falls_mm = 0, behind_falls_mm = 0;
   /// The next element if it has the same height: the setup that cuts it from the other
   /// end also removes the remainder that a pass leaves here.
   std::optional<std::size_t> level_behind = {};
@@ -64,7 +69,9 @@ struct Strokes {
   int passes = 1;
   bool finishing = false;
   double corner_mm = 0;
-  double left_mm = 0;  ///< mean thickness of the stock left after each of them
+  double minor_rad = 0;  ///< angle at which the minor edge rises behind the corner
+  double depth_mm = 0;   ///< of each pass
+  double left_mm = 0;    ///< mean thickness of the stock left after each of them
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);
 

@@ -11,7 +11,8 @@ namespace {
 using part::Tolerance;
 using part::ToleranceKind;
 
-constexpr double kOver = 1e-9;  // of a tolerance: what an optimum may be over its limit
+// Share of a tolerance by which an optimum may exceed its limit: 1e-9 mm of 10 um.
+constexpr double kOver = 1e-7;
 
 Compensation::Table correction(const SolvedSurface& f) {
   return f.task.feature.corrections(f.answer.model->recipe(), f.task.economy,

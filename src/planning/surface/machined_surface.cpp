@@ -315,9 +315,15 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
                            later * o.depth_mm.c1 + after * finish.c1},
                           path});
     }
-    // Rapids count heights as if all passes were as deep as each other.
-    const double left = stock / (nr + nf) * ((n - 1) / 2.0 + (o.finishing ? 0 : nf));
-    const auto b = ways(o, n, &o == &c.operations.back(), left);
+    // Lengths count heights at the least depth of finishing, near which the optimum lies,
+    // whatever depth is chosen.
+    const double finished = nr > 0 && nf > 0
+                                ? std::min(nf * c.operations[1].ap.lower, stock / 2)
+                                : nf * finish.c0;
+    const double roughed = stock - finished;
+    const double depth = o.finishing ? finished / nf : roughed / nr;
+    const double left = depth * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
+    const auto b = ways(o, n, &o == &c.operations.back(), depth, left);
     o.fed = std::max(1.0, b.fed_mm / (n * path));
     o.economic_life_min /= o.fed;
     o.rapid_min = b.rapid_mm / plan_->machine.rapid_mm_min;

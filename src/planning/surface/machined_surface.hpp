@@ -128,7 +128,7 @@ class MachinedSurface {
                            const Economy& economy) const;
   // In surface_paths.cpp: lengths of passes that leave left_mm on average; `last`: the last
   // of them makes the surface.
-  Beside ways(const OperationModel& operation, int passes, bool last,
+  Beside ways(const OperationModel& operation, int passes, bool last, double depth_mm,
               double left_mm) const;
   Beside facing(const OperationModel& operation, int passes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;

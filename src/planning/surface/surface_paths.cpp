@@ -15,9 +15,11 @@ double limited_mm(const OperationModel& o) {
 }  // namespace
 
 Beside MachinedSurface::ways(const OperationModel& o, int passes, bool last,
-                             double left_mm) const {
+                             double depth_mm, double left_mm) const {
   if (is_face()) return facing(o, passes);
-  return beside(around_, {passes, last, o.tool->re_mm, left_mm});
+  return beside(around_,
+                {passes, last, o.tool->re_mm, units::rad_from_deg(o.tool->minor_kapr_deg),
+                 depth_mm, left_mm});
 }
 
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
@@ -51,8 +53,10 @@ InOrder MachinedSurface::in_order(const catalogue::Tool& tool, bool rough) const
   const bool alone = kind_ == Kind::end_face;
   InOrder o{tool.id, rough || alone ? Stage::roughing : Stage::finishing, alone,
             kind_ == Kind::bore};
-  const auto b = is_face() ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
-                           : beside(around_, {1, !rough, tool.re_mm, 0});
+  const auto b = is_face()
+                     ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
+                     : beside(around_, {1, !rough, tool.re_mm,
+                                        units::rad_from_deg(tool.minor_kapr_deg), 0, 0});
   o.from_mm = b.from_mm;
   o.to_mm = b.to_mm;
   return o;
