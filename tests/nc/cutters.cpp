@@ -65,6 +65,15 @@ bool is_inner(const Planned& p, const OperationPlan& o) {
   return e && e->inner;
 }
 
+double pitch_mm(const Planned& p, const OperationPlan& o) {
+  const auto pitch = [&](const auto& elements) {
+    for (const auto& e : elements)
+      if (e.id == o.on[0] && e.cut) return e.cut->pitch_mm;
+    return 0.0;
+  };
+  return std::max(pitch(p.part.drawing.outer), pitch(p.part.drawing.inner));
+}
+
 double point_mm(double D_mm, double point_deg) {
   return D_mm / 2 / std::tan(point_deg * M_PI / 360);
 }
@@ -95,8 +104,9 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
       if (!c.inner) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
       return c;
     case FixedUse::threading: {
+      // Its tooth; the insert beside it is in no document.
+      const double h = 0.8 * pitch_mm(p, o), w = h * std::tan(M_PI / 6);
       c.threads = true;
-      const double h = 1.5 * t.pitch_mm.upper, w = h * std::tan(M_PI / 6);
       c.edge = hull({{0, 0}, {h, w}, {h, -w}});
       return c;
     }

@@ -15,32 +15,40 @@ constexpr double kChord_mm = 2e-6;  // of arcs
 constexpr double kStep_mm = 5e-3;   // along the centres of a rolling corner
 constexpr double kTouch_mm = 1e-7;  // of its distance
 
+constexpr double kBucket_mm = 0.2;
+
 double length(const Spot& a) { return std::hypot(a.x, a.z); }
+long bucket(double z) { return std::lround(std::floor(z / kBucket_mm)); }
 
 }  // namespace
 
 void Pieces::add(const Piece& piece) {
   const auto [low, high] = std::minmax(piece.a.z, piece.b.z);
-  for (long k = std::lround(std::floor(low)); k <= std::lround(std::floor(high)); ++k)
-    near_[k].push_back(all_.size());
+  for (long k = bucket(low); k <= bucket(high); ++k) near_[k].push_back(all_.size());
   all_.push_back(piece);
 }
 
 Pieces::Nearest Pieces::nearest(const Spot& p) const {
   Nearest best{kInfinity, 0};
   if (near_.empty()) return best;
-  const long at = std::lround(std::floor(p.z));
+  const long at = bucket(p.z);
   const long most =
       std::max(std::abs(at - near_.begin()->first), std::abs(at - near_.rbegin()->first));
-  for (long k = 0; k <= most && static_cast<double>(k) - 1 < best.mm; ++k)
-    for (const long bucket : {at - k, at + k}) {
-      const auto found = near_.find(bucket);
-      if (found == near_.end()) continue;
-      for (const auto i : found->second) {
-        const double mm = distance(p, all_[i].a, all_[i].b);
-        if (mm < best.mm) best = {mm, all_[i].of};
-      }
+  const auto look = [&](long k) {
+    const auto found = near_.find(k);
+    if (found == near_.end()) return;
+    for (const auto i : found->second) {
+      const double square = distance_square(p, all_[i].a, all_[i].b);
+      if (square < best.mm) best = {square, all_[i].of};
     }
+  };
+  for (long k = 0; k <= most; ++k) {
+    const double least = kBucket_mm * static_cast<double>(k - 1);
+    if (k > 0 && least * least > best.mm) break;
+    look(at - k);
+    if (k > 0) look(at + k);
+  }
+  best.mm = std::sqrt(best.mm);
   return best;
 }
 
@@ -94,13 +102,14 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   const auto is_thread = [&](std::size_t i) {
     return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::thread;
   };
-  // A thread is cut to its root, and into the chamfer beside it.
+  // A thread is cut to its root, and into the chamfer or arc that rises to it.
   double most = kInfinity;
   if (threads == Threads::root) {
+    const bool rises =
+        e.cut ? e.cut->kind == part::CutKind::arc : e.left_mm != e.right_mm;
     if (is_thread(k)) most = root(e);
     for (const auto beside : {k - 1, k + 1})
-      if (!e.cut && e.left_mm != e.right_mm && is_thread(beside))
-        most = std::min(most, root(all[beside]));
+      if (rises && is_thread(beside)) most = std::min(most, root(all[beside]));
   }
   Polygon line;
   for (const double u : at) {

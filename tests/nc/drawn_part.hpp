@@ -28,7 +28,7 @@ class Pieces {
 
  private:
   std::vector<Piece> all_;
-  std::map<long, std::vector<std::size_t>> near_;  // by whole millimetres of z
+  std::map<long, std::vector<std::size_t>> near_;  // by their places along the axis
 };
 
 /// A face across the axis.
