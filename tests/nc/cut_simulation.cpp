@@ -1,5 +1,7 @@
 #include "cut_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -304,6 +306,14 @@ void CutSimulation::find(Fault fault, const std::string& where, double mm,
 std::vector<Finding> CutSimulation::findings() const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) all.push_back(finding);
+  return all;
+}
+
+std::string listed(const std::vector<Finding>& findings) {
+  std::string all;
+  for (const auto& f : findings)
+    all += fmt::format("{}: {} by {:.5f} mm at radius {:.3f}, {:.3f} from the left end\n",
+                       f.where, name(f.fault), f.mm, f.at.x, f.at.z);
   return all;
 }
 

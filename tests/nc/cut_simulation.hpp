@@ -91,6 +91,9 @@ class CutSimulation {
   std::map<std::pair<Fault, std::string>, Finding> findings_;
 };
 
+/// A line for each finding.
+std::string listed(const std::vector<Finding>& findings);
+
 /// The findings of programs, from their own moves.
 std::vector<Finding> simulated(const Planned& p, const Programs& all);
 

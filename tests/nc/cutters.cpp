@@ -139,13 +139,22 @@ Cutter cutter(const Planned& p, const OperationPlan& o) {
   return c;
 }
 
-double finishing_corner_mm(const Planned& p, bool outer) {
-  double r = 0;
+std::map<std::string, double> finishing_corners_mm(const Planned& p) {
+  std::map<std::string, double> all;
+  const auto add = [&](const std::string& surface, double re) {
+    all[surface] = std::max(all[surface], re);
+  };
   for (const auto& s : p.plan.setups)
-    for (const auto& o : s.operations)
-      if (o.kind != OperationKind::mill && is_inner(p, o) != outer && finishes(p, o))
-        r = std::max(r, cutter(p, o).re_mm);
-  return r;
+    for (const auto& o : s.operations) {
+      if (o.kind == OperationKind::mill || !finishes(p, o)) continue;
+      const double re = cutter(p, o).re_mm;
+      for (const auto& id : o.on) {
+        const auto bar = id.find('|');
+        add(id.substr(0, bar), re);
+        if (bar != id.npos) add(id.substr(bar + 1), re);
+      }
+    }
+  return all;
 }
 
 std::optional<Drilled> drilled(const Planned& p, std::size_t setup,

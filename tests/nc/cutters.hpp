@@ -1,4 +1,7 @@
 #pragma once
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "plans.hpp"
@@ -17,8 +20,8 @@ struct Cutter {
 };
 Cutter cutter(const Planned& p, const planning::OperationPlan& operation);
 
-/// Largest corner of the tools that finish the outside or the bores of a plan, 0 of none.
-double finishing_corner_mm(const Planned& p, bool outer);
+/// The largest corner that finishes each element, or a shoulder of it.
+std::map<std::string, double> finishing_corners_mm(const Planned& p);
 
 /// Tip to full diameter of a drill and its diameter, as a planned operation uses it.
 struct Drilled {

@@ -52,23 +52,27 @@ Pieces::Nearest Pieces::nearest(const Spot& p) const {
   return best;
 }
 
-DrawnPart::DrawnPart(const Planned& p) : sizes_(p), p_(p) {
-  for (const bool outer : {false, true})
-    corner_mm_[outer] = finishing_corner_mm(p, outer);
+DrawnPart::DrawnPart(const Planned& p)
+    : sizes_(p), p_(p), corners_mm_(finishing_corners_mm(p)) {
   least_ = body(Threads::root);
   full_ = body(Threads::blank);
   add_walls(run(true, Threads::blank));
   add_walls(run(false, Threads::blank));
-  for (std::size_t i = 0; i < full_.polygon.size(); ++i) roll(i);
+  for (const auto& id : surfaces_)
+    if (const double r = corner_mm(id); r > 0 && !rolled_.contains(r))
+      rolled_[r] = rolled(r);
 }
 
 std::size_t DrawnPart::surface(const std::string& id) {
   const auto it = std::find(surfaces_.begin(), surfaces_.end(), id);
   if (it != surfaces_.end()) return static_cast<std::size_t>(it - surfaces_.begin());
-  const auto e = part::extent(p_.part.drawing, id);
   surfaces_.push_back(id);
-  outer_.push_back(!(id == "hole" || (e && e->inner)));
   return surfaces_.size() - 1;
+}
+
+double DrawnPart::corner_mm(const std::string& surface) const {
+  const auto found = corners_mm_.find(surface);
+  return found == corners_mm_.end() ? 0 : found->second;
 }
 
 void DrawnPart::append(Run& run, const std::string& id, const Polygon& line) {
@@ -166,13 +170,19 @@ DrawnPart::Body DrawnPart::body(Threads threads) {
   return b;
 }
 
-// Centres of the corner that touch a piece or its end, where it touches nothing else.
-void DrawnPart::roll(std::size_t i) {
+DrawnPart::Rolled DrawnPart::rolled(double r) const {
+  Rolled rolled;
+  for (std::size_t i = 0; i < full_.polygon.size(); ++i) roll(rolled, r, i);
+  return rolled;
+}
+
+// Adds the centres while the corner touches a piece or its end, and nothing else.
+void DrawnPart::roll(Rolled& rolled, double r, std::size_t i) const {
   const auto& all = full_.polygon;
   const auto at = [&](std::size_t k) { return all[k % all.size()]; };
   const auto a = at(i), b = at(i + 1), way = b - a;
-  const double r = corner_mm_[is_outer(full_.of[i])];
-  if (length(way) == 0 || (a.x == 0 && b.x == 0) || !(r > 0)) return;
+  const double l = length(way);
+  if (l == 0 || (a.x == 0 && b.x == 0)) return;
   std::size_t next = i + 2;
   while (length(at(next) - b) == 0) ++next;
   const auto on = at(next) - b;
@@ -183,26 +193,21 @@ void DrawnPart::roll(std::size_t i) {
   const auto beside = [&](const Spot& p, double angle) {
     return p + Spot{r * std::sin(angle), r * std::cos(angle)};
   };
-  keep_clear(i, length(way) / kStep_mm, [&](double u) {
-    return beside({a.x + u * way.x, a.z + u * way.z}, normal);
-  });
-  constexpr double kCorner_rad = 0.02;  // more than between the chords of arcs
-  if (turn > kCorner_rad) {
-    const double half = (std::numbers::pi - turn) / 2;  // of the corner's angle
-    const double back = r / std::tan(half);
-    const auto l = length(way);
-    fillets_[is_outer(full_.of[i])].push_back(
-        {beside({b.x - back * way.x / l, b.z - back * way.z / l}, normal), b, back});
-  }
+  const auto along = [&](double u) { return Spot{a.x + u * way.x, a.z + u * way.z}; };
+  keep_clear(rolled, r, l / kStep_mm, [&](double u) { return beside(along(u), normal); });
   if (turn < 0)  // an edge: the corner goes round it
-    keep_clear(i, -turn / std::sqrt(8 * kChord_mm / r),
+    keep_clear(rolled, r, -turn / std::sqrt(8 * kChord_mm / r),
                [&](double u) { return beside(b, normal + u * turn); });
+  constexpr double kChords_rad = 0.02;  // more than between the chords of arcs
+  if (turn > kChords_rad) {
+    const double back = r / std::tan((std::numbers::pi - turn) / 2);
+    rolled.fillets.push_back({beside(along(1 - back / l), normal), b, back});
+  }
 }
 
 template <class Centre>
-void DrawnPart::keep_clear(std::size_t i, double steps, const Centre& centre) {
-  const bool outer = is_outer(full_.of[i]);
-  const double r = corner_mm_[outer];
+void DrawnPart::keep_clear(Rolled& rolled, double r, double steps,
+                           const Centre& centre) const {
   const auto clear = [&](double u) {
     return full_.pieces.nearest(centre(u)).mm >= r - kTouch_mm;
   };
@@ -216,46 +221,45 @@ void DrawnPart::keep_clear(std::size_t i, double steps, const Centre& centre) {
       for (int j = 0; j < 40; ++j) (clear((in + out) / 2) ? in : out) = (in + out) / 2;
       (before ? high : low) = in;
     }
-    if (before || after) rolled_[outer].add({centre(low), centre(high), full_.of[i]});
+    if (before || after) rolled.centres.add({centre(low), centre(high), 0});
     before = after;
   }
 }
 
 void DrawnPart::add_walls(const Run& run) {
-  const auto add = [&](Wall w, bool foot) {
-    const double r = foot ? corner_mm_[run.outer] : 0;
-    constexpr double kEdge_mm = 0.02;
-    w.from_x = w.low_x + (run.outer ? r : 0) + kEdge_mm;
-    w.to_x = w.high_x - (run.outer ? 0 : r) - kEdge_mm;
+  constexpr double kEdge_mm = 0.02;
+  const auto add = [&](Wall w, double fillet) {
+    w.from_x = w.low_x + (run.outer ? fillet : 0) + kEdge_mm;
+    w.to_x = w.high_x - (run.outer ? 0 : fillet) - kEdge_mm;
     if (w.from_x < w.to_x) walls_.push_back(w);
   };
   for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
     const auto &a = run.points[i], &b = run.points[i + 1];
     if (b.z - a.z > 1e-9) continue;
     const auto [low, high] = std::minmax(a.x, b.x);
-    add({surfaces_[run.before[i]] + "|" + surfaces_[run.before[i + 1]], a.z, low, high,
-         (b.x > a.x) == run.outer, 0, 0},
-        true);
+    const auto &before = surfaces_[run.before[i]], &after = surfaces_[run.before[i + 1]];
+    add({before + "|" + after, a.z, low, high, (b.x > a.x) == run.outer, 0, 0},
+        std::max(corner_mm(before), corner_mm(after)));
   }
   if (!run.outer) return;
   const auto hole = this->run(false, Threads::blank);
-  if (sizes_.faced(true))
-    add({"left", 0, hole.points.front().x, run.points.front().x, true, 0, 0}, false);
-  if (sizes_.faced(false))
-    add({"right", sizes_.length(), hole.points.back().x, run.points.back().x, false, 0,
-         0},
-        false);
+  const auto end = [&](const char* face, const Spot& in, const Spot& out) {
+    if (sizes_.faced(face == std::string("left")))
+      add({face, out.z, in.x, out.x, out.z == 0, 0, 0}, 0);
+  };
+  end("left", hole.points.front(), run.points.front());
+  end("right", hole.points.back(), run.points.back());
 }
 
 double DrawnPart::beyond_mm(const Spot& p) const {
   if (p.z < 0 ? !sizes_.faced(true) : p.z > sizes_.length() && !sizes_.faced(false))
     return 0;  // nothing is to be made there
   const auto contour = full_.pieces.nearest(p);
-  const bool outer = is_outer(contour.of);
-  const double r = corner_mm_[outer];
+  const double r = corner_mm(surfaces_[contour.of]);
   if (contour.mm >= r) return contour.mm;
-  double beyond = std::max(0.0, r - rolled_[outer].nearest(p).mm);
-  for (const auto& f : fillets_[outer])
+  const auto& corner = rolled_.at(r);
+  double beyond = std::max(0.0, r - corner.centres.nearest(p).mm);
+  for (const auto& f : corner.fillets)
     if (length(p - f.corner) < f.reach)
       beyond = std::min(beyond, std::max(0.0, r - length(p - f.centre)));
   return beyond;

@@ -1,6 +1,5 @@
 // Programs written by hand that make their part, and the same with an error: the
 // simulation of the cut finds it.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,14 +18,6 @@ constexpr const char* kRougher = "PCLNL-CNMG120408-PM";   // 95 deg, 0.8 mm
 constexpr const char* kFinisher = "PDJNL-DNMG150604-PF";  // 93 deg, 0.4 mm
 constexpr const char* kBar = "S16R-SCLCR-CCMT09T304-PF";  // 11 mm beside its axis
 const double kTan = std::tan(M_PI / 8);                   // of half the turn at a chamfer
-
-std::string listed(const std::vector<Finding>& findings) {
-  std::string all;
-  for (const auto& f : findings)
-    all += fmt::format("{} {} {:.5f} at x{:.3f} z{:.3f}\n", test::name(f.fault), f.where,
-                       f.mm, f.at.x, f.at.z);
-  return all;
-}
 
 std::vector<Finding> found(const Paper& paper) {
   return simulated(paper.planned(), paper.programs());
@@ -69,7 +60,7 @@ nlohmann::json shaft_document() {
 }
 
 void rough(Paper& paper, const Shaft& s) {
-  paper.operation(OperationKind::rough, "d2", kRougher).rapid(24, 2).rapid(20.3, 2);
+  paper.operation(OperationKind::rough, {"d2"}, kRougher).rapid(24, 2).rapid(20.3, 2);
   paper.feed(20.3, -61.5).rapid(21.3, -60.5).rapid(21.3, 2);
   for (const double x : {17.6, s.rough_x})
     paper.rapid(x, 2).feed(x, -29.7).rapid(x + 0.5, -29.2).rapid(x + 0.5, 2);
@@ -81,7 +72,8 @@ void rough(Paper& paper, const Shaft& s) {
 void finish(Paper& paper, const Shaft& s) {
   const double r = 0.4, back = r * (1 - std::sqrt(0.5)), beside = r * (1 - kTan);
   const double c = s.chamfer_mm, x = s.finish_x, z = s.wall_z;
-  paper.operation(OperationKind::finish, "d2", kFinisher).rapid(24, 4);
+  paper.operation(OperationKind::finish, {"c2", "d2", "c1", "d1"}, kFinisher);
+  paper.rapid(24, 4);
   paper.rapid(x - c - 2 - back, 2 - back).feed(x, -c - beside).feed(x, z);
   if (s.wall_up_to < 19) {
     paper.feed(s.wall_up_to, z).rapid(s.wall_up_to + 1, z + 1).rapid(24, z + 1);
@@ -98,14 +90,14 @@ void finish(Paper& paper, const Shaft& s) {
 
 Paper shaft(const Shaft& s = {}) {
   Paper paper(shaft_document());
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(24, 2).rapid(24, s.face_z).feed(-0.8, s.face_z).rapid(-0.8, 2);
   paper.rapid(100, 2);
   if (!s.finish_first) rough(paper, s);
   finish(paper, s);
   if (s.finish_first) rough(paper, s);
   if (s.recut) {
-    paper.operation(OperationKind::finish, "d2", kFinisher).rapid(24, -15);
+    paper.operation(OperationKind::finish, {"d2"}, kFinisher).rapid(24, -15);
     paper.feed(15, -15).feed(15, -20).rapid(17, -18).rapid(100, 4);
   }
   return paper;
@@ -126,10 +118,12 @@ Paper arc(bool other_way) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(24, 2).rapid(24, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
   const double touches = -25 + std::sqrt(5.4 * 5.4 - 0.4 * 0.4) - 0.4;
-  paper.operation(OperationKind::fixed, "a1", "PROFILE-35").rapid(24, 2).rapid(15, 2);
+  paper.operation(OperationKind::fixed, {"d2", "a1", "d1"}, "PROFILE-35")
+      .rapid(24, 2)
+      .rapid(15, 2);
   paper.feed(15, touches).arc(20, -25.4, 14.6, -25.4, other_way);
   return paper.feed(20, -55.5).rapid(23, -52.5).rapid(100, 2);
 }
@@ -147,11 +141,11 @@ Paper bore(double x = 10, double lifted_x = 9.8) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(24, 2).rapid(24, 0).feed(8, 0).rapid(8, 2).rapid(100, 2);
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(24, 2).rapid(21, 2);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(24, 2).rapid(21, 2);
   paper.feed(21, -40.5).rapid(24, -38).rapid(100, 2);
-  paper.operation(OperationKind::bore_finish, "b1", kBar).rapid(lifted_x, 100);
+  paper.operation(OperationKind::bore_finish, {"b1"}, kBar).rapid(lifted_x, 100);
   paper.rapid(lifted_x, 2).rapid(x, 2).feed(x, -30).feed(9.7, -30);
   return paper.rapid(lifted_x - 0.2, -29.8).rapid(lifted_x - 0.2, 100);
 }
@@ -168,13 +162,13 @@ Paper supported(double from_x = 30) {
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck-tailstock"]}]})"));
   paper.clamping(Clamping::chuck_tailstock);
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(34, 2).rapid(34, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
-  paper.operation(OperationKind::fixed, "right", "DIN333-A", 4.25).rapid(0, 100);
+  paper.operation(OperationKind::fixed, {"right"}, "DIN333-A", 4.25).rapid(0, 100);
   paper.rapid(0, 2).feed(0, -8.5 - 4.25 / std::tan(M_PI / 3)).rapid(0, 100);
   paper.rapid(100, 100);
   paper.stop("stop: bring up the tailstock");
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(34, 2);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(34, 2);
   return paper.rapid(from_x, 2).rapid(30, 2).feed(30, -40.5).rapid(34, -40).rapid(100, 2);
 }
 
@@ -196,14 +190,14 @@ Paper screw(const Screw& s = {}) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(18, 2).rapid(18, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(18, 2).rapid(15, 2);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(18, 2).rapid(15, 2);
   paper.feed(15, -40.5).rapid(18, -37).rapid(100, -37);
-  paper.operation(OperationKind::fixed, "g1", "GROOVE-EXT", 3).rapid(16, 100);
+  paper.operation(OperationKind::fixed, {"g1"}, "GROOVE-EXT", 3).rapid(16, 100);
   paper.rapid(16, s.groove_z).feed(s.groove_x, s.groove_z).rapid(16, s.groove_z);
   paper.rapid(16, -23).feed(s.groove_x, -23).rapid(16, -23).rapid(100, -23);
-  paper.operation(OperationKind::fixed, "t1", "THREAD-EXT-60").rapid(16, 4.5);
+  paper.operation(OperationKind::fixed, {"t1"}, "THREAD-EXT-60").rapid(16, 4.5);
   paper.rapid(s.thread_x, 4.5).thread(s.thread_x, s.thread_to_z).rapid(16, s.thread_to_z);
   return paper.rapid(100, 4.5);
 }
