@@ -28,6 +28,7 @@
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
+#include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::service {
@@ -169,9 +170,9 @@ ordered_json predict(const json& request, const Context& context) {
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
 
 ordered_json nc_programs(const json& request, const Context& context) {
-  const auto [part, control] = document::load_nc_request(request, context.catalogue);
+  const auto [part, settings] = document::load_nc_request(request, context.catalogue);
   const auto plan = planning::plan(part.part);
-  return document::to_json(nc::programs(part.part, plan), plan, control);
+  return document::to_json(nc::programs(part.part, plan), plan, settings);
 }
 
 std::string nc_text(const ordered_json& result) {

@@ -3,9 +3,10 @@
 
 #include <map>
 
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "removal.hpp"
 #include "sizes.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 #include "ways.hpp"
 
 /// Whether ways of tools, wherever they come from, make the part of a plan with the

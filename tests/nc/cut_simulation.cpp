@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "turnwright/planning/setup_geometry.hpp"
+#include "planning/clamping/positions.hpp"
 
 namespace turnwright::nc::test {
 namespace {

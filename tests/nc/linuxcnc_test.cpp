@@ -32,8 +32,8 @@ Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
   Check check(p);
   Faults refused;
   for (const auto& program : all.setups) {
-    const auto canonical =
-        rs274.canonical(change(text(program, Control::linuxcnc)), tool_table(all.setups));
+    const auto canonical = rs274.canonical(
+        change(text(program, {.control = Control::linuxcnc})), tool_table(all.setups));
     if (canonical.empty()) refused.push_back("rs274 refuses the program");
     check.setup(program.setup, ways_of(canonical));
   }

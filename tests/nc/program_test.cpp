@@ -433,7 +433,7 @@ TEST(NcPrograms, StopWhereAPlaceIsMilled) {
     EXPECT_EQ(tool.id.find("HM-"), std::string::npos);
 
   for (const auto control : {Control::linuxcnc, Control::fanuc}) {
-    std::istringstream lines(text(program, control));
+    std::istringstream lines(text(program, {.control = control}));
     bool turns = false;
     int stops = 0;
     for (std::string line; std::getline(lines, line);) {

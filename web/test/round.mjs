@@ -140,10 +140,10 @@ async function planner() {
   // One NC program a setup, with the plan's tools and speeds.
   await page.getByRole('button', { name: 'Write NC programs' }).click();
   const program = page.waitForEvent('download');
-  await page.getByRole('button', { name: 'Save setup 0' }).click();
-  await (await program).saveAs(`${folder}/setup-0.ngc`);
-  assert.match(readFileSync(`${folder}/setup-0.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
-  await page.getByText(/^setup-0.ngc/).click();
+  await page.getByRole('button', { name: 'Save setup 1' }).click();
+  await (await program).saveAs(`${folder}/setup-1.ngc`);
+  assert.match(readFileSync(`${folder}/setup-1.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
+  await page.getByText(/^setup-1.ngc/).click();
   await look(page, '07-nc');
   await page.context().close();
   await paper(file);
