@@ -15,7 +15,8 @@ using namespace test;
 // Programs do not draw walls out: these lean as the major edge does, stock stays before
 // them, and blades that come down beside one meet it.  Elements are finished one by one,
 // from inside their neighbours, and nothing knows the tailstock's centre.
-constexpr auto kOfWalls = {Fault::left, Fault::lean, Fault::start, Fault::centre};
+constexpr auto kOfWalls = {Fault::left, Fault::lean, Fault::start, Fault::again,
+                           Fault::centre};
 constexpr auto kBesideWalls = {Fault::rapid, Fault::holder};
 
 std::string found_beside(const Planned& p, const Programs& all,

@@ -79,8 +79,9 @@ double point_mm(double D_mm, double point_deg) {
 }
 
 Cutter drill(double D, double point_deg) {
-  Cutter c{true, true, false, 0, {}, {}};
   const double r = D / 2, point = point_mm(D, point_deg), far = 1000;
+  Cutter c;
+  c.drills = true;
   c.edge = hull({{0, 0}, {r, point}, {r, far}, {-r, far}, {-r, point}});
   return c;
 }
@@ -93,7 +94,8 @@ constexpr double kProfilingKapr_rad = 93 * M_PI / 180;
 Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
                     const catalogue::FixedTool& t) {
   const double ap = o.passes[0].ap_mm;
-  Cutter c{is_inner(p, o), false, false, t.re_mm, {}, {}};
+  Cutter c;
+  c.re_mm = t.re_mm;
   switch (t.use) {
     case FixedUse::centring:
     case FixedUse::drilling:
@@ -101,7 +103,7 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
     case FixedUse::grooving:
     case FixedUse::parting:
       c.edge = rectangle(0, t.reach, 0, ap);
-      if (!c.inner) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
+      if (!is_inner(p, o)) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
       return c;
     case FixedUse::threading: {
       // Its tooth; the insert beside it is in no document.
@@ -120,15 +122,16 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
 bool finishes(const Planned& p, const OperationPlan& o) {
   const auto* t = fixed_tool(p, o);
   return t ? t->use == FixedUse::profiling
-           : o.kind != OperationKind::rough && o.kind != OperationKind::bore_rough;
+           : o.kind == OperationKind::finish || o.kind == OperationKind::bore_finish;
 }
 
 }  // namespace
 
 Cutter cutter(const Planned& p, const OperationPlan& o) {
-  if (const auto* t = fixed_tool(p, o)) return fixed_cutter(p, o, *t);
   Cutter c;
-  c.inner = is_inner(p, o);
+  if (const auto* t = fixed_tool(p, o)) c = fixed_cutter(p, o, *t);
+  c.finishes = finishes(p, o);
+  c.inner = c.drills || is_inner(p, o);
   for (const auto& t : p.part.tools) {
     if (t.id != o.tool) continue;
     const auto outline = catalogue::outline(t);
@@ -146,7 +149,7 @@ std::map<std::string, double> finishing_corners_mm(const Planned& p) {
   };
   for (const auto& s : p.plan.setups)
     for (const auto& o : s.operations) {
-      if (o.kind == OperationKind::mill || !finishes(p, o)) continue;
+      if (!finishes(p, o) && o.kind != OperationKind::face) continue;
       const double re = cutter(p, o).re_mm;
       for (const auto& id : o.on) {
         const auto bar = id.find('|');
