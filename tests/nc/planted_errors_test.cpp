@@ -193,7 +193,7 @@ Paper supported(double from_z = -17.8) {
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck-tailstock"]}]})"));
   paper.clamping(Clamping::chuck_tailstock);
   face(paper, 18);
-  paper.operation(OperationKind::finish, {"d2"}, kFacer).rapid(18, 2).rapid(14, 2);
+  paper.operation(OperationKind::finish, {"d2"}, kFinisher).rapid(18, 2).rapid(14, 2);
   paper.feed(14, -18).feed(17, -18).rapid(18, -17).rapid(100, -17).rapid(100, 100);
   paper.operation(OperationKind::fixed, {"right"}, "DIN333-A", 4.25).rapid(0, 100);
   paper.rapid(0, 2).feed(0, -8.5 - 4.25 / std::tan(M_PI / 3)).rapid(0, 100);
