@@ -136,6 +136,31 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
   }
 }
 
+// Radii of a thread's cuts by G76 are those of the plan's own moves, and the tool comes
+// back to where it began.
+TEST_F(NcThroughLinuxCnc, CyclesOfThreadsMakeTheCutsOfThePlan) {
+  const auto p = planned_reference("threaded-spindle");
+  const auto all = programs(p.part, p.plan);
+  std::vector<double> cut, planned;
+  Way back;
+  for (const auto& program : all.setups) {
+    const auto text = nc::text(program, {.cycles = true});
+    for (const auto& way : ways_of(rs274.canonical(text, tool_table(all.setups)))) {
+      if (way.thread && way.x0 == way.x1) cut.push_back(way.x1);
+      if (way.thread) back = {};
+      if (!way.thread && back.z1 < 1) back = way;
+    }
+    for (const auto& step : program.steps)
+      for (const auto& m : step.moves)
+        if (m.kind == Move::Kind::thread) planned.push_back(m.x_mm);
+  }
+  ASSERT_GT(planned.size(), 2U);
+  ASSERT_EQ(cut.size(), planned.size());
+  for (std::size_t k = 0; k < cut.size(); ++k) EXPECT_NEAR(cut[k], planned[k], 2e-4);
+  EXPECT_EQ(back.x0, back.x1);
+  EXPECT_EQ(back.z1, 4.5);
+}
+
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   return at == text.npos ? text : text.replace(at, what.size(), by);
