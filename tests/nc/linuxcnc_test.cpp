@@ -136,6 +136,30 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
   }
 }
 
+// With everything a shop may set but another zero.
+TEST_F(NcThroughLinuxCnc, ProgramsWithTheShopsSettingsMakeTheContour) {
+  const auto p = planned_reference("threaded-spindle");
+  auto all = programs(p.part, p.plan);
+  const Settings settings{.block_numbers = BlockNumbers::all,
+                          .spindle = SpindleTurn::M4,
+                          .coolant = "M7",
+                          .optional_stops = true,
+                          .cycles = true,
+                          .tools = {{"PROFILE-35", 7}, {"THREAD-EXT-60", 99}}};
+  number_tools(all.setups, settings);
+  Check check(p);
+  for (const auto& program : all.setups) {
+    const auto canonical =
+        rs274.canonical(nc::text(program, settings), tool_table(all.setups));
+    EXPECT_NE(canonical.find("OPTIONAL_PROGRAM_STOP"), canonical.npos);
+    EXPECT_NE(canonical.find("START_SPINDLE_COUNTERCLOCKWISE"), canonical.npos);
+    EXPECT_NE(canonical.find("MIST_ON"), canonical.npos);
+    check.setup(program.setup, ways_of(canonical));
+  }
+  check.contour();
+  EXPECT_EQ(listed(check.faults()), "");
+}
+
 // Radii of a thread's cuts by G76 are those of the plan's own moves, and the tool comes
 // back to where it began.
 TEST_F(NcThroughLinuxCnc, CyclesOfThreadsMakeTheCutsOfThePlan) {
