@@ -7,6 +7,7 @@
 
 #include "contour.hpp"
 #include "fixed.hpp"
+#include "planning/clamping/supports.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/spindle.hpp"

@@ -28,6 +28,7 @@
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
+#include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::service {

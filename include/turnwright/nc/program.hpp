@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "turnwright/nc/path.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// Turning programs of a process plan, one for each setup.

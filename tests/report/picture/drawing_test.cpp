@@ -8,6 +8,8 @@
 #include <regex>
 #include <sstream>
 
+#include "turnwright/planning/prepare.hpp"
+
 namespace turnwright::report {
 namespace {
 
