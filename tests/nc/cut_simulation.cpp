@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planning/clamping/jaws.hpp"
 #include "planning/clamping/positions.hpp"
 
 namespace turnwright::nc::test {

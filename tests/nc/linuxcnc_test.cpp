@@ -118,7 +118,14 @@ TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
   ASSERT_EQ(listed(faults_of(rs274, p, p)), "");
   const std::vector<std::pair<const char*, Change>> slips = {
       {"a radius 5 um too small",
-       [](auto t) { return replaced(t, "X28 F0.3", "X27.99 F0.3"); }},
+       [](auto t) {
+         const auto pass = t.find("(operation s0-finish-d2");
+         if (pass == t.npos) return t;  // the other setup's
+         const auto at = t.find("\nG1 X", pass) + 5;
+         std::size_t digits = 0;
+         const double X = std::stod(t.substr(at), &digits);
+         return t.replace(at, digits, fmt::format("{:.4f}", X - 0.01));
+       }},
       {"no limit of the spindle",
        [](auto t) {
          return t.replace(t.find(" D"), t.find(" S", t.find("G96")) - t.find(" D"), "");
