@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/picture/figure.hpp"
+#include "report/sheet/setup_sheet.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/nc/program.hpp"
 
@@ -31,7 +32,8 @@ using Picture = report::Figure;
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
-  nc::Programs programs = {};  ///< for plans
+  nc::Programs programs = {};                   ///< for plans
+  std::vector<report::SetupSheet> sheets = {};  ///< of the programs
 };
 
 struct Request {
@@ -44,8 +46,7 @@ struct Request {
   /// The result with pictures, for capabilities that have any.
   Drawn (*drawn)(const nlohmann::json& request, const Context& context) = nullptr;
   /// The report for a browser or a printer, for capabilities that have one.
-  std::string (*html)(std::string_view name, const nlohmann::ordered_json& result,
-                      const std::vector<Picture>& drawings) = nullptr;
+  std::string (*html)(std::string_view name, const Drawn& drawn) = nullptr;
 };
 
 std::span<const Request> requests();

@@ -84,7 +84,7 @@ async function planner() {
     await plan(page);
     assert.ok((await cost(page)) > 0);
     if (part === 'roller-tube') {
-      await page.getByRole('button', { name: 'Setup 1' }).click();
+      await page.getByRole('button', { name: 'Setup 2' }).click();
       await page.getByText('chuck steady, grip').waitFor(); // on a steady rest
     }
     await look(page, `02-${part}`);
@@ -98,7 +98,7 @@ async function planner() {
   const before = await cost(page);
   const prices = await page.getByText(/saves .* per part/).allInnerTexts();
   assert.ok(prices.length > 3);
-  await page.getByRole('button', { name: 'Setup 0' }).click();
+  await page.getByRole('button', { name: 'Setup 1' }).click();
   await page.getByRole('button', { name: /s0-rough/ }).first().click();
   await look(page, '04-planned');
   await page.setViewportSize({ width: 1280, height: 1000 });
@@ -140,7 +140,7 @@ async function planner() {
   // One NC program a setup, with the plan's tools and speeds.
   await page.getByRole('button', { name: 'Write NC programs' }).click();
   const program = page.waitForEvent('download');
-  await page.getByRole('button', { name: 'Save setup 0' }).click();
+  await page.getByRole('button', { name: 'Save setup 1' }).click();
   await (await program).saveAs(`${folder}/setup-0.ngc`);
   assert.match(readFileSync(`${folder}/setup-0.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
   await page.getByText(/^setup-0.ngc/).click();

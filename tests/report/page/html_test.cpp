@@ -56,7 +56,7 @@ bool holds(const std::string& page, const std::string& what) {
 TEST(Html, SaysTheNumbersOfTheDocument) {
   const auto page = html("Shaft", feasible(), {});
   for (const char* what :
-       {"<h1>Shaft</h1>", "12.3457", "8.250", "0.40 %", "s0-rough-d2", "1500-1750",
+       {"<h1>Shaft</h1>", "12.35", "8 min 15 s", "0.40 %", "s0-rough-d2", "1500-1750",
         "bound by power", "not chuck-tailstock: costs 3 against 2", "jaws with 60.0 kN",
         "raising power saves 0.02 per part", "0123456789abcdef", "/batch"})
     EXPECT_TRUE(holds(page, what)) << what;
@@ -113,7 +113,7 @@ TEST(Html, CarriesItsPicturesInside) {
       "'&amp;'</text></svg>\n";
   const auto page =
       html("Shaft", feasible(),
-           {{"setup-0.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
+           {{"setup-1.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
   const std::regex image(
       "<img alt=\"[^\"]*\" src=\"data:image/svg\\+xml,([^\"<>#& ]*[^\"<>#]*)\">");
   int count = 0;
