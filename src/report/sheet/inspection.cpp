@@ -146,11 +146,21 @@ void add_roughness(std::vector<Check>& all, const PreparedPart& p,
   const auto add = [&](const auto& surface) {
     if (!surface.Ra_um || planning::setup_of(p, surface.id) != index) return;
     const auto predicted = predicted_um(setup, surface.id, "roughness Ra");
-    all.push_back(
-        {"roughness Ra", surface.id, plain(*surface.Ra_um) + " \u00b5m",
-         predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
-         roughness_gauge(*surface.Ra_um),
-         when(p, finishing_tool(tools, setup, surface.id), false)});
+    const Check one{
+        "roughness Ra",
+        surface.id,
+        plain(*surface.Ra_um) + " \u00b5m",
+        predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
+        roughness_gauge(*surface.Ra_um),
+        when(p, finishing_tool(tools, setup, surface.id), false)};
+    const auto like = std::ranges::find_if(all, [&](const Check& c) {
+      return c.what == one.what && c.limits == one.limits &&
+             c.predicted == one.predicted && c.when == one.when;
+    });
+    if (like == all.end())
+      all.push_back(one);
+    else
+      like->of += ", " + one.of;
   };
   std::ranges::for_each(p.drawing.outer, add);
   std::ranges::for_each(p.drawing.inner, add);
