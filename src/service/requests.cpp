@@ -158,13 +158,13 @@ planning::ProcessPlan planned(const document::PreparedDocument& part) {
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "plan");
-  return document::to_json(planned(part), part);
+  return document::plan_result(planned(part), part);
 }
 
 ordered_json predict(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "predict",
                                             document::Purpose::predict);
-  return document::to_json(planning::predict(part.part), part);
+  return document::plan_result(planning::predict(part.part), part);
 }
 
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
@@ -196,7 +196,7 @@ std::vector<std::string> file_names(const nc::Programs& programs) {
 }
 
 Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan) {
-  Drawn all{document::to_json(plan, part), {}, nc::programs(part.part, plan)};
+  Drawn all{document::plan_result(plan, part), {}, nc::programs(part.part, plan)};
   all.sheets =
       report::setup_sheets(part.part, plan, all.programs, file_names(all.programs));
   for (auto& svg : report::setup_drawings(part.part, plan))

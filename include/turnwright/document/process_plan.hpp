@@ -14,8 +14,8 @@ nlohmann::ordered_json to_json(const planning::ProcessPlan& plan,
                                const std::vector<Assumption>& assumed);
 
 /// The same with the name of the part and what its title block says.
-nlohmann::ordered_json to_json(const planning::ProcessPlan& plan,
-                               const PreparedDocument& document);
+nlohmann::ordered_json plan_result(const planning::ProcessPlan& plan,
+                                   const PreparedDocument& document);
 
 /// The list `assumed` of a result.
 nlohmann::ordered_json to_json(const std::vector<Assumption>& assumed);

@@ -330,7 +330,7 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   return out;
 }
 
-ordered_json to_json(const ProcessPlan& plan, const PreparedDocument& document) {
+ordered_json plan_result(const ProcessPlan& plan, const PreparedDocument& document) {
   auto out = title_block(document.part.drawing);
   out.update(to_json(plan, document.assumed));
   return out;

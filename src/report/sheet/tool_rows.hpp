@@ -19,7 +19,8 @@ struct ToolRow {
 };
 
 /// The tools of a setup in the order of their numbers, then the driven ones.  A part uses
-/// of an edge the sum of t/T over its passes, as the plan's costs count it.
+/// of an edge the sum of t/T over its passes, as the plan's costs count it; of faces no
+/// more than that, because T is the life at their highest speed.
 /// @throws std::domain_error if the program is not that of the setup's operations.
 std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
                                const planning::SetupPlan& setup,

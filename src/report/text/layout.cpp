@@ -22,11 +22,11 @@ std::size_t bytes(std::string_view text, std::size_t count) {
 }
 
 // Bytes of what of a word that is too long stands on a line of its own: up to the last
-// mark between the parts of an id, if one lies in the line's second half.
+// mark between the parts of an id.
 std::size_t first_piece(std::string_view word, std::size_t width) {
   const auto fits = bytes(word, width);
   const auto mark = word.substr(0, fits).find_last_of("-:|/_");
-  return mark != word.npos && 2 * mark >= fits ? mark + 1 : fits;
+  return mark == word.npos ? fits : mark + 1;
 }
 
 std::vector<std::string_view> words(std::string_view text) {

@@ -95,31 +95,30 @@ std::string remedies(const ordered_json& result) {
 }
 
 std::string tolerances(const ordered_json& result) {
-  const auto& all = list(result, "tolerances");
-  if (all.empty()) return "";
-  const bool differ = published_differ(all);
-  std::string legend =
-      "predicted, allowed and margin in \u00b5m; kept: by so many of the parts; offset: "
-      "met "
-      "with the tool's offset or corrected path";
-  std::vector<Column> columns{{"id", Align::left}, {"kind", Align::left},
-                              {"of", Align::left}, {"predicted"},
-                              {"allowed"},         {"margin"},
-                              {"kept %"},          {"verdict", Align::left}};
-  if (differ) {
-    legend += "; published: by the published acceptance equations, where they differ";
-    columns.push_back({"published", Align::left});
-  }
   std::vector<Row> rows;
-  for (const auto& t : all) {
-    Row row{{word(t, "id"), kind_words(word(t, "kind")), word(t, "of"),
-             micrometres(t, "predicted_mm"), micrometres(t, "allowed_mm"),
-             micrometres(t, "margin_mm"), kept_by(t), verdict(t)},
-            ""};
-    if (differ) row.cells.push_back(other_verdict(t));
-    rows.push_back(std::move(row));
+  for (const auto& t : list(result, "tolerances")) {
+    const auto published = other_verdict(t);
+    rows.push_back(
+        {{word(t, "id"), kind_words(word(t, "kind")), word(t, "of"),
+          micrometres(t, "predicted_mm"), micrometres(t, "allowed_mm"),
+          micrometres(t, "margin_mm"), kept_by(t), verdict(t)},
+         published.empty() ? "" : "by the published acceptance equations: " + published});
   }
-  return "\nTOLERANCES\n" + paragraph("  ", legend) + table(columns, rows);
+  if (rows.empty()) return "";
+  return "\nTOLERANCES\n" +
+         paragraph(
+             "  ",
+             "predicted, allowed and margin in \u00b5m; kept: by so many of the parts; "
+             "offset: met with the tool's offset or corrected path") +
+         table({{"id", Align::left},
+                {"kind", Align::left},
+                {"of", Align::left},
+                {"predicted"},
+                {"allowed"},
+                {"margin"},
+                {"kept %"},
+                {"verdict", Align::left}},
+               rows);
 }
 
 // A column a source, and what is left.
