@@ -11,9 +11,10 @@
 #include <nlopt.hpp>
 
 #include "document/json/file.hpp"
-#include "planning/attempt.hpp"
+#include "planning/setup/clamping_comparison.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/prepared_part.hpp"
+#include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace {
@@ -58,10 +59,11 @@ PreparedPart three_clampings() {
 RecipeModel seat(const PreparedPart& part, std::size_t element,
                  std::optional<double> ap) {
   const auto& work = part.work;
-  Fixed fixed;
+  GivenConditions fixed;
   fixed.finish.ap_mm = ap;
-  const auto feature = Feature::element(part, 0, Clamping::chuck, work.setups[0],
-                                        nothing_finished(part.drawing), element, fixed);
+  const auto feature =
+      MachinedSurface::element(part, 0, Clamping::chuck, work.setups[0],
+                               nothing_finished(part.drawing), element, fixed);
   const catalogue::Tool *rough = nullptr, *finish = nullptr;
   for (const auto& t : part.tools) {
     if (t.id == "PCLNL-CNMG120412-PR") rough = &t;

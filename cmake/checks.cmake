@@ -14,6 +14,23 @@ add_test(NAME architecture.refuses_circle
   COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/circle -P ${architecture}/circles.cmake)
 set_tests_properties(architecture.refuses_circle PROPERTIES
   PASS_REGULAR_EXPRESSION "between two:\n  part/a\n  part/b\n  part/lower\n  part/upper\n")
+add_test(NAME architecture.readers
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR} -P ${architecture}/readers.cmake)
+add_test(NAME architecture.refuses_reader
+  COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/reader -P ${architecture}/readers.cmake)
+set_tests_properties(architecture.refuses_reader PROPERTIES PASS_REGULAR_EXPRESSION
+  "document/b.hpp: includes \"turnwright/planning/prepared_part.hpp\"")
+# Reads a part document, linked with the readers alone: no planning, no tool paths.
+add_executable(part_reader ${architecture}/part_reader.cpp src/planning/values/names.cpp)
+target_link_libraries(part_reader PRIVATE tw_dev
+  $<TARGET_FILE:turnwright_document> turnwright::tolerance turnwright::deflection
+  turnwright::volumetric turnwright::catalogue nlohmann_json::nlohmann_json fmt::fmt)
+target_include_directories(part_reader PRIVATE src include)
+add_dependencies(part_reader turnwright_document)
+add_test(NAME architecture.part_reader COMMAND part_reader ${PROJECT_SOURCE_DIR}
+  ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)
+set_tests_properties(architecture.part_reader PROPERTIES
+  PASS_REGULAR_EXPRESSION "^4 elements, 2 setups")
 foreach(house IN ITEMS upwards sideways solver unknown private)
   add_test(NAME architecture.refuses_${house}
     COMMAND ${CMAKE_COMMAND} -D ROOT=${architecture}/${house} -P ${architecture}/floors.cmake)

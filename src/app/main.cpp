@@ -19,6 +19,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "nc_options.hpp"
 #include "options.hpp"
 #include "progress_line.hpp"
 #include "serve.hpp"
@@ -49,6 +50,8 @@ struct Arguments {
   std::optional<fs::path> result_file;
   std::optional<fs::path> drawings;
   std::optional<fs::path> programs;
+  nlohmann::json nc = nlohmann::json::object();  ///< settings of NC programs
+  std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
   bool json = false;
   std::string listed;
@@ -65,15 +68,20 @@ nlohmann::json read_request(const std::string& file) {
   return document::parse(std::cin, "standard input", document::kLocalLimits);
 }
 
-// Problems of the request are reported under the name that the user gave it.
+// Problems of the request are reported under the name that the user gave it, and below
+// the place `root` in the request that his document has there.
 service::Drawn answer(const service::Request& row, const Arguments& arguments,
-                      const nlohmann::json& request,
-                      const document::Catalogue& catalogue) {
+                      const nlohmann::json& request, const std::string& root,
+                      const document::Catalogue& catalogue,
+                      const nc::Settings& settings) {
   ProgressLine line("cuts");
-  const service::Context context{
-      catalogue, {}, [&line](std::size_t done, std::size_t all) {
-        line.tell(0, static_cast<std::int64_t>(done), static_cast<std::int64_t>(all));
-      }};
+  const service::Context context{catalogue,
+                                 {},
+                                 [&line](std::size_t done, std::size_t all) {
+                                   line.tell(0, static_cast<std::int64_t>(done),
+                                             static_cast<std::int64_t>(all));
+                                 },
+                                 settings};
   try {
     if (arguments.drawings || arguments.programs || arguments.report_file)
       return service::drawn_answer(row, request, context);
@@ -81,7 +89,10 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
     const bool piped = arguments.file == "-";
-    throw InputError(piped ? "standard input" : arguments.file, e.problems());
+    auto problems = e.problems();
+    for (auto& problem : problems)
+      if (problem.pointer.starts_with(root)) problem.pointer.erase(0, root.size());
+    throw InputError(piped ? "standard input" : arguments.file, std::move(problems));
   }
 }
 
@@ -92,24 +103,31 @@ void write_drawings(const fs::path& folder,
     service::write_file(folder / picture.file, picture.svg);
 }
 
-constexpr auto kControl = nc::Control::linuxcnc;
 constexpr const char* kToolTable = "tools.tbl";
 
-/// Whether a file of this name may have been written by write_programs() for some plan.
+/// Whether a file of this name may have been written by write_programs() for some plan
+/// and control.
 bool is_of_programs(std::string_view name) {
-  nc::SetupProgram program;
   const auto digits = std::min(name.find_first_of("0123456789"), name.size());
-  std::from_chars(name.data() + digits, name.data() + name.size(), program.setup);
-  return name == kToolTable || name == document::file_name(program, kControl);
+  std::size_t number = 0;
+  std::from_chars(name.data() + digits, name.data() + name.size(), number);
+  nc::SetupProgram program;
+  program.setup = number - 1;
+  const auto is_name = [&](const nc::Dialect& d) {
+    return name == document::file_name(program, d.control);
+  };
+  return name == kToolTable || std::ranges::any_of(nc::dialects(), is_name);
 }
 
 /// Writes the programs of this plan into the folder and removes those of any other plan.
-void write_programs(const fs::path& folder, const nc::Programs& programs) {
+void write_programs(const fs::path& folder, const nc::Programs& programs,
+                    const nc::Settings& settings) {
   std::vector<service::NamedText> files;
   for (const auto& program : programs.setups)
     files.push_back(
-        {document::file_name(program, kControl), nc::text(program, kControl)});
-  if (!files.empty()) files.push_back({kToolTable, nc::tool_table(programs.setups)});
+        {document::file_name(program, settings.control), nc::text(program, settings)});
+  if (!files.empty() && settings.control == nc::Control::linuxcnc)
+    files.push_back({kToolTable, nc::tool_table(programs.setups)});
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))
     std::cerr << "removed " << (folder / name).string() << ", of an earlier plan\n";
@@ -186,17 +204,56 @@ Exit exit_code(const service::Drawn& drawn, bool programs) {
   return none ? kRange : kOk;
 }
 
+/// Whether the request is one of `nc`: a part with settings of its programs.
+bool is_for_programs(const service::Request& row) {
+  return service::request_schema(row) == "nc.request.json";
+}
+
+/// Whether a document is the part of a request of `nc` alone.
+bool is_part(const nlohmann::json& document) {
+  return document.is_object() && !document.contains("part");
+}
+
+/// Prints or writes the program of one setup, or why there is none.
+void put_program(const nlohmann::ordered_json& result, const Arguments& arguments) {
+  std::string setups;
+  for (const auto& program : result["programs"]) {
+    const auto setup = program["setup"].get<std::size_t>() + 1;
+    setups += (setups.empty() ? "" : ", ") + std::to_string(setup);
+    if (setup != *arguments.setup) continue;
+    const auto text = program["text"].get<std::string>();
+    if (arguments.result_file && *arguments.result_file != "-")
+      return service::write_file(*arguments.result_file, text);
+    return service::print(text);
+  }
+  if (!setups.empty())
+    throw wrong_option("--setup", std::to_string(*arguments.setup),
+                       "a setup with a program: " + setups, "range");
+  for (const auto& why : result["cannot"])
+    std::cerr << "no NC program: " << why.get<std::string>() << '\n';
+  if (result["cannot"].empty()) std::cerr << "no NC program: there is no feasible plan\n";
+}
+
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   require_places(arguments);
-  const auto request = read_request(arguments.file);
+  const auto settings = nc_settings(arguments.nc);
+  auto request = read_request(arguments.file);
+  const bool part_alone = is_for_programs(row) && is_part(request);
+  if (part_alone) request = {{"part", std::move(request)}};
+  if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
-  const auto drawn = answer(row, arguments, request, catalogue);
+  const auto drawn =
+      answer(row, arguments, request, part_alone ? "/part" : "", catalogue, settings);
   const auto& result = drawn.result;
+  if (arguments.setup) {
+    put_program(result, arguments);
+    return exit_code(drawn, false);
+  }
   const std::string json = result.dump(2) + '\n';
   const bool to_file = arguments.result_file && *arguments.result_file != "-";
   if (to_file) service::write_file(*arguments.result_file, json);
   if (arguments.drawings) write_drawings(*arguments.drawings, drawn.drawings);
-  if (arguments.programs) write_programs(*arguments.programs, drawn.programs);
+  if (arguments.programs) write_programs(*arguments.programs, drawn.programs, settings);
   if (arguments.report_file)
     service::write_file(*arguments.report_file,
                         service::html_report(row, request, drawn));
@@ -243,9 +300,17 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.drawn)
       add_path(*command, "--drawings", arguments.drawings,
                "write the result's pictures (SVG) to this folder");
-    if (row.drawn && service::request_schema(row) == "part.json")
-      add_path(*command, "--nc", arguments.programs,
-               "write NC programs to this folder: setup-0.ngc, .., tools.tbl");
+    if (row.drawn && service::request_schema(row) == "part.json") {
+      auto* folder = add_path(*command, "--nc", arguments.programs,
+                              "write NC programs to this folder: setup-1.ngc, ..");
+      for (auto* option : add_nc_options(*command, arguments.nc)) option->needs(folder);
+    }
+    if (is_for_programs(row)) {
+      add_nc_options(*command, arguments.nc);
+      add_number<std::size_t>(*command, "--setup", arguments.setup,
+                              Range<std::size_t>{1, 100},
+                              "print, or write to --output, the program of this setup");
+    }
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                "write the report (HTML, printable) here");

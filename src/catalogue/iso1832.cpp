@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "designation.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
@@ -42,14 +43,6 @@ std::optional<Shape> shape_of(char letter) {
   return std::nullopt;
 }
 
-std::optional<double> clearance_deg(char letter) {
-  constexpr std::string_view kLetters = "ABCDEFGNP";
-  constexpr std::array kAngles_deg{3.0, 5.0, 7.0, 15.0, 20.0, 25.0, 30.0, 0.0, 11.0};
-  const auto at = kLetters.find(letter);
-  if (at == std::string_view::npos) return std::nullopt;
-  return kAngles_deg[at];
-}
-
 constexpr std::array kCircles_mm{3.97, 4.76,   5.56,  6.35, 7.94, 9.525,
                                  12.7, 15.875, 19.05, 25.4, 31.75};
 
@@ -58,54 +51,9 @@ constexpr std::array<std::string_view, 13> kThicknessCodes{
 constexpr std::array kThickness_mm{1.59, 1.98, 2.38, 2.78, 3.18,  3.97, 4.76,
                                    5.56, 6.35, 7.94, 9.52, 11.11, 12.7};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Reads the symbols one after the other; spaces may stand between them.
-class Reader {
- public:
-  explicit Reader(const std::string& text) : text_(text) {}
-
-  std::string_view take(std::size_t count) {
-    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
-    const std::string_view symbol = std::string_view(text_).substr(at_, count);
-    at_ += symbol.size();
-    ++number_;
-    last_ = symbol;
-    if (symbol.size() != count) fail("is missing");
-    return symbol;
-  }
-
-  char take_one_of(std::string_view letters) {
-    const char c = take(1).front();
-    if (letters.find(c) == std::string_view::npos)
-      fail("must be one of " + std::string(letters));
-    return c;
-  }
-
-  int take_two_digits() {
-    const auto s = take(2);
-    if (!is_digit(s[0]) || !is_digit(s[1])) fail("must be two digits");
-    return 10 * (s[0] - '0') + (s[1] - '0');
-  }
-
-  bool digit_follows() const { return at_ < text_.size() && is_digit(text_[at_]); }
-
-  [[noreturn]] void fail(const std::string& rule) const {
-    throw std::domain_error("decode_iso1832: \"" + text_ + "\": symbol " +
-                            std::to_string(number_) + " (\"" + std::string(last_) +
-                            "\") " + rule);
-  }
-
- private:
-  const std::string& text_;
-  std::size_t at_ = 0;
-  int number_ = 0;
-  std::string_view last_;
-};
-
 /// The code is the edge length, taken to 0.1 mm (a triangle of 21.997 mm is 22.0),
 /// without its decimal.
-double edge_mm(const Shape& shape, int code, const Reader& reader) {
+double edge_mm(const Shape& shape, int code, const Designation& reader) {
   std::optional<double> found;
   for (const double circle : kCircles_mm) {
     const double edge = circle * shape.edge_per_circle;
@@ -117,7 +65,7 @@ double edge_mm(const Shape& shape, int code, const Reader& reader) {
   return *found;
 }
 
-double thickness_mm(std::string_view code, const Reader& reader) {
+double thickness_mm(std::string_view code, const Designation& reader) {
   const auto at = std::find(kThicknessCodes.begin(), kThicknessCodes.end(), code);
   if (at != kThicknessCodes.end())
     return kThickness_mm[static_cast<std::size_t>(at - kThicknessCodes.begin())];
@@ -127,7 +75,7 @@ double thickness_mm(std::string_view code, const Reader& reader) {
 }  // namespace
 
 Insert1832 decode_iso1832(const std::string& designation) {
-  Reader reader(designation);
+  Designation reader("decode_iso1832", designation);
   Insert1832 insert;
 
   insert.shape = reader.take(1).front();
@@ -143,7 +91,7 @@ Insert1832 decode_iso1832(const std::string& designation) {
   insert.type = reader.take_one_of("ABCFGHJMNQRTUWX");
 
   const int edge_code = reader.take_two_digits();
-  const Reader at_edge = reader;
+  const Designation at_edge = reader;
   insert.thickness_mm = thickness_mm(reader.take(2), reader);
 
   if (insert.shape == 'R') {

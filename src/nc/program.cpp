@@ -7,6 +7,7 @@
 
 #include "contour.hpp"
 #include "fixed.hpp"
+#include "planning/clamping/supports.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/spindle.hpp"
@@ -195,19 +196,19 @@ class Numbers {
  public:
   explicit Numbers(const planning::PreparedPart& part) : part_(part) {}
   TableTool tool(const Site& site, const OperationPlan& o) {
-    TableTool t{0, o.tool, corner_mm(site, o), 3};
+    TableTool t{.id = o.tool, .re_mm = corner_mm(site, o), .orientation = 3};
     if (o.kind == OperationKind::fixed) {
       const auto use = use_of(site, o);
       if (use != FixedUse::threading && use != FixedUse::profiling)
         t.id += fmt::format(" {:g} mm", (drills(site, o) ? 2 : 1) * o.passes[0].ap_mm);
-      if (drills(site, o)) t.orientation = 7;
+      if (drills(site, o)) t.orientation = kDrillOrientation;
     }
     const auto* e = o.on.empty() ? nullptr : &o.on[0];
     const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
     if (extent && extent->inner && t.orientation == 3) t.orientation = 2;
     auto it = std::find(ids_.begin(), ids_.end(), t.id);
     if (it == ids_.end()) it = ids_.insert(it, t.id);
-    t.number = static_cast<int>(it - ids_.begin()) + 1;
+    t.number = t.offset = static_cast<int>(it - ids_.begin()) + 1;
     return t;
   }
 
@@ -219,7 +220,8 @@ class Numbers {
 std::vector<std::string> heading(const Site& site) {
   const auto& d = site.part.drawing;
   const auto& s = site.answer();
-  auto held = fmt::format("setup {}: {} end held, {}", site.setup,
+  auto held = fmt::format("setup {} of {}: {} end held, {}", site.setup + 1,
+                          site.plan.setups.size(),
                           s.hold == part::End::left ? "left" : "right", name(s.clamping));
   if (s.grip_force_N > 0)
     held += fmt::format(", jaws {:.1f} kN, end at Z{:.4g}", s.grip_force_N / 1000,

@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "planning/clamping/jaws.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/paths/approach.hpp"
 #include "turnwright/nc/program.hpp"
-#include "turnwright/planning/approach.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 /// A setup while it is programmed: the part in the machine, in the program's own
 /// coordinates, and the position of the tool.

@@ -199,6 +199,24 @@ bool cut_later(const Site& site, const Surface& s) {
   return cut && cut->kind != part::CutKind::thread;
 }
 
+// Whether the next element is as high, so that no fillet can stand behind an edge.
+bool level_behind(const Pass& p) {
+  if (p.k + 1 >= p.side.items.size()) return false;
+  const auto &s = p.surface(), &next = p.side.items[p.k + 1];
+  return s.h0 == s.h1 && !cut_later(p.site, next) &&
+         std::abs(next.h0 - s.h1) < kStands_mm && std::abs(next.h1 - s.h1) < kStands_mm;
+}
+
+// Ends a pass up a cone once it is both behind the cone and out of the stock.
+void leave_stock(const Pass& p, std::vector<Point>& way) {
+  const auto& s = p.surface();
+  const double out = p.side.stock_h + kAbove_mm;
+  auto& last = way.back();
+  if (p.side.sign < 0 || !(s.h1 > s.h0) || !(last.h_mm > out)) return;
+  const auto end = at_h(way[way.size() - 2], last, std::max(out, s.h1 + p.left_mm));
+  if (end.z_mm > last.z_mm) last = end;
+}
+
 // Ends a pass where the corner touches a surface, or where it has removed the fillet that
 // another corner may have left behind a falling edge.
 void lead_out(const Pass& p, std::vector<Point>& way) {
@@ -207,8 +225,9 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
   for (; p.last && joined(p.site, o); ++o) ++k;
   if (!p.goes_on()) {
     auto& last = way.back();
-    last =
-        at_z(way[way.size() - 2], last, last.z_mm - p.site.r_most - p.re_mm - kBehind_mm);
+    const double falls = p.last && level_behind(p) ? 0 : p.site.r_most;
+    last = at_z(way[way.size() - 2], last, last.z_mm - falls - p.re_mm - kBehind_mm);
+    leave_stock(p, way);
   }
   clip(way, ends(p, k), {p.re_mm});
   if (way.size() < 2 || p.side.sign < 0) return;

@@ -1,6 +1,7 @@
 #include "turnwright/part/drawing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace turnwright::part {
@@ -56,6 +57,24 @@ std::optional<Extent> extent(const Drawing& d, const std::string& id) {
   for (std::size_t i = 0; i < d.inner.size(); ++i)
     if (d.inner[i].id == id) return of(d.inner[i], inner_left_z_mm(d, i), true);
   return std::nullopt;
+}
+
+std::optional<double> half_angle_rad(const Drawing& d, const std::string& id) {
+  const auto at = extent(d, id);
+  if (!at) return {};
+  return std::atan2(std::abs(at->right_mm - at->left_mm) / 2, at->z1_mm - at->z0_mm);
+}
+
+double width_mm(const Tolerance& t) {
+  return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
+}
+
+void widen(Tolerance& t, double times) {
+  t.value_mm *= times;
+  if (!t.limits) return;
+  const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
+  const double half = (t.limits->upper_mm - t.limits->lower_mm) / 2 * times;
+  t.limits = Limits{middle - half, middle + half};
 }
 
 double right_allowance_mm(const Drawing& drawing) {

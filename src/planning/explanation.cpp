@@ -1,6 +1,7 @@
 #include "explanation.hpp"
 
-#include "attempt.hpp"
+#include "planning/explain/conflict_report.hpp"
+#include "planning/setup/clamping_comparison.hpp"
 #include "remedies.hpp"
 
 namespace turnwright::planning {

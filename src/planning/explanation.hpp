@@ -1,4 +1,5 @@
 #pragma once
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "planned.hpp"
+#include "certified_plan.hpp"
+#include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -16,7 +17,7 @@ Corner cheapest(const PreparedPart& p, double minute) {
   PlanRequest dearer = p;
   dearer.objective = Objective::cost;
   dearer.machine_per_min += minute;
-  const auto r = planned(prepare(std::move(dearer), p));
+  const auto r = certified_plan(prepare(std::move(dearer), p));
   if (r.status != PlanStatus::ok) return {};
   const double time = r.time_per_part_min;
   return ParetoPoint{r.cost_per_part - minute * time, time, minute};
@@ -25,7 +26,7 @@ Corner cheapest(const PreparedPart& p, double minute) {
 Corner fastest(const PreparedPart& p) {
   PlanRequest quick = p;
   quick.objective = Objective::time;
-  const auto r = planned(prepare(std::move(quick), p));
+  const auto r = certified_plan(prepare(std::move(quick), p));
   if (r.status != PlanStatus::ok) return {};
   return ParetoPoint{r.cost_per_part, r.time_per_part_min, {}};
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// Trade-off of cost and time.

@@ -1,8 +1,11 @@
+#include "turnwright/planning/plan.hpp"
+
 #include <stdexcept>
 
+#include "certified_plan.hpp"
 #include "explanation.hpp"
 #include "pareto.hpp"
-#include "planned.hpp"
+#include "turnwright/planning/prepare.hpp"
 #include "what_if.hpp"
 
 namespace turnwright::planning {
@@ -10,7 +13,7 @@ namespace turnwright::planning {
 ProcessPlan plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
   if (p.objective == Objective::profit && !p.price)
     throw std::domain_error("plan: the most profitable plan needs a price");
-  auto result = planned(p, what_if);
+  auto result = certified_plan(p, what_if);
   add_explanation(p, result);
   answer(p, what_if, result);
   if (result.status != PlanStatus::ok) return result;

@@ -7,8 +7,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "setup_planner.hpp"
-#include "usable.hpp"
+#include "planning/clamping/clamping_checks.hpp"
+#include "planning/explain/stock_conflicts.hpp"
+#include "planning/setup/infeasibility_reason.hpp"
+#include "planning/setup/operation_order.hpp"
+#include "planning/setup/setup_planner.hpp"
+#include "planning/setup/setup_totals.hpp"
+#include "planning/setup/tolerance_verdicts.hpp"
+#include "planning/values/readable.hpp"
+#include "turnwright/planning/plan.hpp"
+#include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -22,8 +30,8 @@ double worst_violation(const RecipeModel& m, const Choice<double>& c) {
 }
 
 // The answer at given conditions, in the speed ranges that suit them best.
-FeatureAnswer as_given(const FeatureTask& task) {
-  FeatureAnswer a;
+SurfaceAnswer as_given(const SurfaceTask& task) {
+  SurfaceAnswer a;
   a.least_violation = std::numeric_limits<double>::infinity();
   const auto& fixed = task.feature.fixed();
   for (const auto& recipe : task.recipes) {
@@ -101,9 +109,9 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t s, const SolvedSetup& so
   setup.operations = operations_in_order(p, solved);
   for (const auto& f : solved.features)
     if (!f.answer.model)
-      result.conflicts.push_back(
-          {"depth of cut", fmt::format("setup {}", s), 0, 0, "mm", obstacle(p, f)});
-  const auto& missing = solved.fixed.conflicts;
+      result.conflicts.push_back({"depth of cut", fmt::format("setup {}", s), 0, 0, "mm",
+                                  infeasibility_reason(p, f)});
+  const auto& missing = solved.auxiliary.conflicts;
   result.conflicts.insert(result.conflicts.end(), missing.begin(), missing.end());
   add_broken(setup, s, result);
   return setup;
@@ -139,7 +147,7 @@ std::vector<SolvedSetup> with_corrections(const PreparedPart& p) {
     surfaces.erase(left);
   for (const auto& setup : corrected)
     for (const auto& f : setup.features)
-      if (worst_excess(f.task.demands, f.answer.profile) > kBeyondRounding)
+      if (worst_excess(f.task.cut_tolerances, f.answer.profile) > kBeyondRounding)
         surfaces.erase(f.task.feature.surface());
   return surfaces.empty() ? plain : solved(p, surfaces);
 }

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 
-#include "feasibility.hpp"
-#include "grips.hpp"
-#include "planned.hpp"
-#include "relaxation.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
+#include "certified_plan.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/explain/feasibility.hpp"
+#include "planning/limits/relaxation.hpp"
+#include "planning/preparation/grips.hpp"
+#include "planning/values/readable.hpp"
+#include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -160,7 +162,7 @@ std::optional<ProcessPlan> plan_of(PlanRequest request) {
   if (Feasibility oracle(changed);
       !oracle.with(RelaxationFactors(oracle.limits().size(), 1)))
     return {};
-  auto plan = planned(changed);
+  auto plan = certified_plan(changed);
   if (plan.status != PlanStatus::ok) return {};
   return plan;
 }

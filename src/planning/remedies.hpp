@@ -1,5 +1,5 @@
 #pragma once
-#include "attempt.hpp"
+#include "planning/setup/clamping_comparison.hpp"
 
 namespace turnwright::planning {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "certified_plan.hpp"
 #include "explanation.hpp"
-#include "outcome.hpp"
-#include "planned.hpp"
+#include "planning/values/readable.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -49,7 +49,7 @@ void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
   const bool both = result.status == PlanStatus::ok;
   for (std::size_t k = 0; k < what_if.size(); ++k) {
     auto& a = result.what_if[k];
-    auto changed = planned(what_if[k].part);
+    auto changed = certified_plan(what_if[k].part);
     add_explanation(what_if[k].part, changed);
     a.feasible = changed.status == PlanStatus::ok;
     a.cost_per_part = changed.cost_per_part;

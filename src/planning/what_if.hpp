@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {

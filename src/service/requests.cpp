@@ -29,6 +29,7 @@
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
+#include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::service {
@@ -170,9 +171,9 @@ ordered_json predict(const json& request, const Context& context) {
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
 
 ordered_json nc_programs(const json& request, const Context& context) {
-  const auto [part, control] = document::load_nc_request(request, context.catalogue);
+  const auto [part, settings] = document::load_nc_request(request, context.catalogue);
   const auto plan = planning::plan(part.part);
-  return document::to_json(nc::programs(part.part, plan), plan, control);
+  return document::to_json(nc::programs(part.part, plan), plan, settings);
 }
 
 std::string nc_text(const ordered_json& result) {
@@ -188,17 +189,21 @@ ordered_json drawing(const json& request, const Context& context) {
       document::prepared_part(request, context.catalogue, "drawing"));
 }
 
-std::vector<std::string> file_names(const nc::Programs& programs) {
-  std::vector<std::string> all;
+// The names and work offset under which the machine finds the programs.
+report::ShopPrograms shop_programs(const nc::Programs& programs,
+                                   const nc::Settings& settings) {
+  report::ShopPrograms shop{{}, nc::work_offset(settings)};
   for (const auto& program : programs.setups)
-    all.push_back(document::file_name(program, nc::Control::linuxcnc));
-  return all;
+    shop.files.push_back(document::file_name(program, settings.control));
+  return shop;
 }
 
-Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan) {
+Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan,
+            const nc::Settings& settings) {
   Drawn all{document::plan_result(plan, part), {}, nc::programs(part.part, plan)};
-  all.sheets =
-      report::setup_sheets(part.part, plan, all.programs, file_names(all.programs));
+  nc::number_tools(all.programs.setups, settings);
+  all.sheets = report::setup_sheets(part.part, plan, all.programs,
+                                    shop_programs(all.programs, settings));
   for (auto& svg : report::setup_drawings(part.part, plan))
     all.drawings.push_back(
         {"setup-" + std::to_string(all.drawings.size() + 1) + ".svg", std::move(svg)});
@@ -227,13 +232,13 @@ Drawn drawn_plan(const json& request, const Context& context) {
   auto loaded = document::load_part_plan(request, context.catalogue, "plan");
   loaded.plan.window_curves = true;
   const auto part = document::prepared(std::move(loaded), context.catalogue);
-  return drawn(part, planned(part));
+  return drawn(part, planned(part), context.settings);
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "predict",
                                             document::Purpose::predict);
-  return drawn(part, planning::predict(part.part));
+  return drawn(part, planning::predict(part.part), context.settings);
 }
 
 Drawn drawn_stability(const json& request, const Context& context) {

@@ -11,7 +11,7 @@
 #include "report/picture/figure.hpp"
 #include "report/sheet/setup_sheet.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/text.hpp"
 
 /// The table of capabilities, each a pure function from a request document to a result
 /// document.  Command line, HTTP and batches are generated from this table, so a new
@@ -24,6 +24,7 @@ struct Context {
   std::stop_token stop = {};  ///< requested when nobody waits for the result any more
   /// Called by long sweeps after each of their parts, from their thread.
   std::function<void(std::size_t done, std::size_t all)> tell = {};
+  nc::Settings settings = {};  ///< of the programs that plans have with their pictures
 };
 
 using Picture = report::Figure;
@@ -32,7 +33,7 @@ using Picture = report::Figure;
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
-  nc::Programs programs = {};                   ///< for plans
+  nc::Programs programs = {};                   ///< for plans, with the shop's numbers
   std::vector<report::SetupSheet> sheets = {};  ///< of the programs
 };
 

@@ -16,7 +16,7 @@ class Programs : public CommandLine {
   /// A plan of two setups, and what does not come from this program.
   void earlier() const {
     EXPECT_EQ(run("plan", json::parse(row("plan").example)).code, 0);
-    for (const char* own : {"setup-0.nc", "setup-a.ngc", "setup-.ngc", "setup-00.ngc",
+    for (const char* own : {"setup-1.txt", "setup-a.ngc", "setup-.ngc", "setup-00.ngc",
                             "setup-1.ngc.bak", "notes.txt"})
       put(folder_ / "nc" / own, "mine");
   }
@@ -43,8 +43,8 @@ class Programs : public CommandLine {
 
 using Names = std::vector<std::string>;
 const std::string kRemoved =
-    "removed nc/setup-0.ngc, of an earlier plan\n"
     "removed nc/setup-1.ngc, of an earlier plan\n"
+    "removed nc/setup-2.ngc, of an earlier plan\n"
     "removed nc/tools.tbl, of an earlier plan\n";
 const std::string kWhy =
     "no NC program: setup 0, e2: no program is made for turning from the chuck "
@@ -52,7 +52,7 @@ const std::string kWhy =
 
 TEST_F(Programs, OfAnEarlierPlanGoWhenThereIsNoPlan) {
   earlier();
-  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
+  EXPECT_EQ(programs(), (Names{"setup-1.ngc", "setup-2.ngc", "tools.tbl"}));
   const auto outcome = run("plan", infeasible());
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.err, kRemoved + "no NC program: there is no feasible plan\n");
@@ -74,19 +74,19 @@ TEST_F(Programs, OfAnEarlierPlanGoWhenNoneCanBeMade) {
 
 TEST_F(Programs, OfSetupsThatAreNoMoreGo) {
   earlier();
-  put(folder_ / "nc/setup-2.ngc", "old");
-  put(folder_ / "nc/setup-17.ngc", "old");
+  put(folder_ / "nc/setup-3.ngc", "old");
+  put(folder_ / "nc/setup-170.ngc", "old");
   const auto outcome = run("plan", json::parse(row("plan").example));
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err,
-            "removed nc/setup-17.ngc, of an earlier plan\n"
-            "removed nc/setup-2.ngc, of an earlier plan\n");
-  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
+            "removed nc/setup-170.ngc, of an earlier plan\n"
+            "removed nc/setup-3.ngc, of an earlier plan\n");
+  EXPECT_EQ(programs(), (Names{"setup-1.ngc", "setup-2.ngc", "tools.tbl"}));
 }
 
 TEST_F(Programs, ThatCannotBeWrittenLeaveTheOldOnesWhole) {
   earlier();
-  const auto old = contents(folder_ / "nc/setup-0.ngc");
+  const auto old = contents(folder_ / "nc/setup-1.ngc");
   auto other = json::parse(row("plan").example);
   other["outer"][1]["diameter_mm"] = 24;
   put(folder_ / "request.json", other.dump());
@@ -96,30 +96,30 @@ TEST_F(Programs, ThatCannotBeWrittenLeaveTheOldOnesWhole) {
   EXPECT_EQ(outcome.code, 74);
   EXPECT_NE(outcome.err.find("cannot be written: File too large"), std::string::npos)
       << outcome.err;
-  EXPECT_EQ(programs(), (Names{"setup-0.ngc", "setup-1.ngc", "tools.tbl"}));
-  EXPECT_EQ(contents(folder_ / "nc/setup-0.ngc"), old);
+  EXPECT_EQ(programs(), (Names{"setup-1.ngc", "setup-2.ngc", "tools.tbl"}));
+  EXPECT_EQ(contents(folder_ / "nc/setup-1.ngc"), old);
 }
 
 TEST_F(Programs, LinksAreFollowed) {
   fs::create_directories(folder_ / "nc");
   put(folder_ / "card", "old");
   put(folder_ / "second card", "old");
-  fs::create_symlink("../card", folder_ / "nc/setup-0.ngc");
-  fs::create_symlink("../second card", folder_ / "nc/setup-5.ngc");
+  fs::create_symlink("../card", folder_ / "nc/setup-1.ngc");
+  fs::create_symlink("../second card", folder_ / "nc/setup-6.ngc");
   const auto outcome = run("plan", json::parse(row("plan").example));
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_TRUE(fs::is_symlink(folder_ / "nc/setup-0.ngc"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "nc/setup-1.ngc"));
   EXPECT_NE(contents(folder_ / "card"), "old");
-  EXPECT_FALSE(fs::is_symlink(fs::symlink_status(folder_ / "nc/setup-5.ngc")));
+  EXPECT_FALSE(fs::is_symlink(fs::symlink_status(folder_ / "nc/setup-6.ngc")));
   EXPECT_FALSE(fs::exists(folder_ / "second card"));
 }
 
 TEST_F(Programs, AreFilesAFolderOfTheirNameStays) {
-  fs::create_directories(folder_ / "nc/setup-3.ngc");
+  fs::create_directories(folder_ / "nc/setup-4.ngc");
   const auto outcome = run("plan", json::parse(row("plan").example));
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
-  EXPECT_TRUE(fs::is_directory(folder_ / "nc/setup-3.ngc"));
+  EXPECT_TRUE(fs::is_directory(folder_ / "nc/setup-4.ngc"));
 }
 
 TEST_F(Programs, OfTheDoorNcEndLikeThoseOfPlan) {

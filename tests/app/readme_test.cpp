@@ -11,6 +11,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 // What the README says is what the program does.

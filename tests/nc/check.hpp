@@ -3,28 +3,20 @@
 
 #include <map>
 
-#include "plans.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "removal.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
+#include "sizes.hpp"
+#include "ways.hpp"
 
 /// Whether ways of tools, wherever they come from, make the part of a plan with the
 /// plan's conditions.
 namespace turnwright::nc::test {
 
-/// A straight way of the tip, in radius and place of the program.
-struct Way {
-  std::string operation;
-  bool rapid = false, thread = false;
-  double x0 = 0, z0 = 0, x1 = 0, z1 = 0;
-  double f_mm_rev = 0, S = 0;
-  double n_max_rpm = 0;  ///< of constant surface speed; 0: S is 1/min
-};
-using Faults = std::vector<std::string>;
-
-class Check {
+class Check : private Sizes {
  public:
   explicit Check(const Planned& p)
-      : p_(p),
+      : Sizes(p),
         outer_(-kBeside, length() + kBeside, p.part.drawing.stock.outer_mm / 2),
         inner_(-kBeside, length() + kBeside, -p.part.drawing.stock.inner_mm / 2) {
     const auto& stock = p.part.drawing.stock;
@@ -58,20 +50,12 @@ class Check {
  private:
   static constexpr double kBeside = 3, kTolerance = 1e-4, kWall = 1e3;
 
-  double length() const { return part::length_mm(p_.part.drawing); }
   void fault(const std::string& text) {
     if (faults_.size() < 20) faults_.push_back(text);
   }
   static double at(const Material& m, double z) {
     return m[static_cast<std::size_t>(std::lround((z - m.z(0)) / kGrid_mm))];
   }
-  bool faced(bool left) const {
-    for (const auto& s : p_.plan.setups)
-      for (const auto& o : s.operations)
-        if (o.on[0] == (left ? "left" : "right")) return true;
-    return false;
-  }
-
   const planning::OperationPlan* operation(const std::string& id) const {
     for (const auto& o : p_.plan.setups[setup_].operations)
       if (o.id == id) return &o;
@@ -192,66 +176,6 @@ class Check {
 
   planning::Clamping clamping() const { return p_.plan.setups[setup_].clamping; }
 
-  // What a radius is cut to beside what is drawn: the middle of its limits, the offset of
-  // the tool and the correction at a place.
-  double correction(const std::string& id, double z) const {
-    double sum = 0;
-    for (const auto& t : p_.part.drawing.tolerances)
-      if (t.of == id && t.kind == part::ToleranceKind::diameter && !cut(id))
-        sum += (t.limits->lower_mm + t.limits->upper_mm) / 2 / 2;
-    for (const auto& o : p_.plan.offsets)
-      if (o.on == id) sum += o.offset_mm;
-    return sum + path_correction(id, z);
-  }
-
-  bool cut(const std::string& id) const {
-    const auto is = [&](const auto& e) { return e.id == id && e.cut; };
-    return std::ranges::any_of(p_.part.drawing.outer, is) ||
-           std::ranges::any_of(p_.part.drawing.inner, is);
-  }
-
-  double path_correction(const std::string& id, double z) const {
-    for (const auto& c : p_.plan.compensation) {
-      if (c.on != id) continue;
-      const auto& t = c.table_mm;
-      for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-        const auto [z0, r0] = t[i];
-        const auto [z1, r1] = t[i + 1];
-        if (std::min(z0, z1) <= z && z <= std::max(z0, z1))
-          return r0 + (r1 - r0) * (z - z0) / (z1 - z0);
-      }
-    }
-    return 0;
-  }
-
-  bool corrected(const std::string& id) const {
-    const auto is_on = [&](const auto& c) { return c.on == id; };
-    return std::ranges::any_of(p_.plan.compensation, is_on) || correction(id, 0) != 0;
-  }
-
-  // Radius drawn at a place of an element.
-  template <class Element>
-  static double drawn(const Element& e, double u) {
-    const double straight = e.left_mm + (e.right_mm - e.left_mm) * u;
-    if (!e.cut || e.cut->kind == part::CutKind::thread) return straight / 2;
-    if (e.cut->kind == part::CutKind::groove) return e.cut->drawn.left_mm / 2;
-    const double a = e.cut->drawn.left_mm / 2, b = e.cut->drawn.right_mm / 2;
-    const double R = e.cut->radius_mm, c = std::hypot(e.length_mm, b - a);
-    const double to_centre = std::sqrt(std::max(0.0, R * R - c * c / 4));
-    const double out = e.cut->convex ? 1 : -1;  // from the centre to the arc
-    const double zc = e.length_mm / 2 + out * to_centre * (b - a) / c;
-    const double rc = (a + b) / 2 - out * to_centre * e.length_mm / c;
-    const double dz = u * e.length_mm - zc;
-    return rc + out * std::sqrt(std::max(0.0, R * R - dz * dz));
-  }
-
-  double begin(const part::OuterElement&, std::size_t k) const {
-    return part::left_z_mm(p_.part.drawing, k);
-  }
-  double begin(const part::InnerElement&, std::size_t k) const {
-    return part::inner_left_z_mm(p_.part.drawing, k);
-  }
-
   // Drawn height at a place, or if it is at an edge the highest beside it.
   template <class Element>
   double height(double sign, const std::vector<Element>& all, double z) const {
@@ -358,7 +282,6 @@ class Check {
       fault(fmt::format("{}: from {:.5f} to {:.5f} mm off its contour", e.id, low, high));
   }
 
-  const Planned& p_;
   std::size_t setup_ = 0;
   bool left_ = true;
   Material outer_, inner_;

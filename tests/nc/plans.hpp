@@ -5,7 +5,8 @@
 
 #include "document/json/file.hpp"
 #include "turnwright/document/prepared_part.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/text.hpp"
+#include "turnwright/planning/plan.hpp"
 
 namespace turnwright::nc::test {
 

@@ -12,54 +12,6 @@ namespace {
 
 using namespace test;
 
-// Arcs as chords within 2e-6 mm.
-void add_arc(std::vector<Way>& ways, Way w, const Move& m) {
-  const double R = std::hypot(w.x0 - m.centre.h_mm, w.z0 - m.centre.z_mm);
-  const double a = std::atan2(w.x0 - m.centre.h_mm, w.z0 - m.centre.z_mm);
-  double b = std::atan2(m.x_mm - m.centre.h_mm, m.z_mm - m.centre.z_mm);
-  // With X up and Z to the right the angle from Z to X rises against the clock.
-  if (m.clockwise && b > a) b -= 2 * M_PI;
-  if (!m.clockwise && b < a) b += 2 * M_PI;
-  const int n = 1 + static_cast<int>(std::abs(b - a) * R / std::sqrt(1.6e-5 * R));
-  for (int i = 1; i <= n; ++i) {
-    const double t = a + (b - a) * i / n;
-    w.x1 = m.centre.h_mm + R * std::sin(t);
-    w.z1 = m.centre.z_mm + R * std::cos(t);
-    ways.push_back(w);
-    w.x0 = w.x1;
-    w.z0 = w.z1;
-  }
-}
-
-std::vector<Way> ways_of(const SetupProgram& program, const planning::SetupPlan& plan) {
-  std::vector<Way> ways;
-  std::size_t operation = 0;
-  double x = 0, z = 0;
-  bool known = false;
-  for (const auto& step : program.steps) {
-    if (step.stop) continue;
-    Way w;
-    w.operation = plan.operations[operation++].id;
-    w.f_mm_rev = step.f_mm_rev;
-    w.S = step.S;
-    w.n_max_rpm = step.constant_surface_speed ? std::floor(step.n_max_rpm) : 0;
-    for (const auto& m : step.moves) {
-      w.rapid = m.kind == Move::Kind::rapid;
-      w.thread = m.kind == Move::Kind::thread;
-      w.x0 = known ? x : m.x_mm;
-      w.z0 = known ? z : m.z_mm;
-      w.x1 = x = m.x_mm;
-      w.z1 = z = m.z_mm;
-      known = true;
-      if (m.kind == Move::Kind::arc)
-        add_arc(ways, w, m);
-      else
-        ways.push_back(w);
-    }
-  }
-  return ways;
-}
-
 // Tools that are changed near the work.
 Faults near_changes(const Planned& p, const SetupProgram& program) {
   Faults near;
@@ -88,12 +40,6 @@ Faults faults_of(const Planned& p, const Programs& all) {
   check.contour();
   faults.insert(faults.end(), check.faults().begin(), check.faults().end());
   return faults;
-}
-
-std::string listed(const Faults& faults) {
-  std::string all;
-  for (const auto& f : faults) all += f + '\n';
-  return all;
 }
 
 TEST(NcPrograms, OfEveryReferencePartMakeItsContour) {
@@ -487,7 +433,7 @@ TEST(NcPrograms, StopWhereAPlaceIsMilled) {
     EXPECT_EQ(tool.id.find("HM-"), std::string::npos);
 
   for (const auto control : {Control::linuxcnc, Control::fanuc}) {
-    std::istringstream lines(text(program, control));
+    std::istringstream lines(text(program, {.control = control}));
     bool turns = false;
     int stops = 0;
     for (std::string line; std::getline(lines, line);) {

@@ -4,6 +4,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/prepared_part.hpp"
+#include "turnwright/planning/prepare.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {

@@ -1,10 +1,12 @@
+#include "turnwright/planning/plan.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
 #include "parts.hpp"
-#include "planning/allowance.hpp"
+#include "planning/budget/tolerance_allocation.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/document/process_plan.hpp"
@@ -13,7 +15,9 @@
 namespace turnwright::planning {
 namespace {
 
-ProcessPlan planned(const nlohmann::json& document) { return plan(part(document)); }
+ProcessPlan certified_plan(const nlohmann::json& document) {
+  return plan(part(document));
+}
 
 const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
   for (const auto& s : p.setups)
@@ -103,7 +107,7 @@ TEST(Plan, SinglePassHasTheEconomicLife) {
 }
 
 TEST(Plan, EveryPlanIsCertified) {
-  const auto r = planned(pin());
+  const auto r = certified_plan(pin());
   EXPECT_EQ(r.certificate.kind, CertificateKind::global);
   EXPECT_LE(r.certificate.gap, 1e-4);
   for (const auto& s : r.setups)
@@ -151,7 +155,7 @@ TEST(Plan, TighterToleranceNeverCostsLess) {
   for (const double half : {0.02, 0.006, 0.004, 0.003}) {
     auto d = pin();
     d["outer"][1]["limits_mm"] = {-half, half};
-    const auto r = planned(d);
+    const auto r = certified_plan(d);
     if (r.status == PlanStatus::infeasible) break;
     if (!costs.empty()) {
       EXPECT_GE(r.cost_per_part, costs.back() * (1 - 1e-4)) << half;
@@ -166,7 +170,7 @@ TEST(Plan, EachObjectiveIsBestAtItsOwn) {
   const auto with = [](const char* objective) {
     auto d = pin();
     d["objective"] = objective;
-    return planned(d);
+    return certified_plan(d);
   };
   const auto cost = with("cost"), time = with("time"), profit = with("profit");
   EXPECT_LE(cost.cost_per_part, profit.cost_per_part * (1 + 1e-4));
@@ -184,13 +188,14 @@ TEST(Plan, CostAgainstTimeIsAConvexCurveOfPlans) {
   auto d = pin();
   d["rates"]["machine_per_min"] = 0.15;  // so that edges count
   d["pareto"] = 6;
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   ASSERT_GE(r.pareto.size(), 3u);
   ASSERT_LE(r.pareto.size(), 6u);
   const auto& all = r.pareto;
   EXPECT_NEAR(all.front().cost_per_part, r.cost_per_part, 1e-4 * r.cost_per_part);
   d["objective"] = "time";
-  EXPECT_LE(all.back().time_per_part_min, planned(d).time_per_part_min * (1 + 1e-4));
+  EXPECT_LE(all.back().time_per_part_min,
+            certified_plan(d).time_per_part_min * (1 + 1e-4));
   const auto slope = [&](std::size_t k) {  // cost of a minute saved
     return (all[k + 1].cost_per_part - all[k].cost_per_part) /
            (all[k].time_per_part_min - all[k + 1].time_per_part_min);
@@ -203,7 +208,7 @@ TEST(Plan, CostAgainstTimeIsAConvexCurveOfPlans) {
     if (!x.minute_worth || *x.minute_worth == 0) continue;
     auto worth = pin();
     worth["rates"]["machine_per_min"] = 0.15 + *x.minute_worth;
-    const double least = planned(worth).cost_per_part;
+    const double least = certified_plan(worth).cost_per_part;
     EXPECT_NEAR(x.cost_per_part + *x.minute_worth * x.time_per_part_min, least,
                 2e-4 * least);
   }
@@ -254,7 +259,7 @@ TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
        {"conditions", {{"passes", 1}, {"ap_mm", 0.4}, {"f_mm_rev", 0.12}}}},
       {{"id", "g"}, {"setup", 1}, {"kind", "face"}, {"on", {"left"}}},
       {{"id", "h"}, {"setup", 1}, {"kind", "finish"}, {"on", {"d1"}}}};
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   ASSERT_EQ(r.status, PlanStatus::ok);
   const auto& rough = operation(r, "r");
   ASSERT_EQ(rough.passes.size(), 2u);
@@ -263,7 +268,7 @@ TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   const auto& finish = operation(r, "e");
   EXPECT_NEAR(finish.passes[0].ap_mm, 0.4, 1e-12);
   EXPECT_NEAR(finish.passes[0].f_mm_rev, 0.12, 1e-12);
-  EXPECT_GE(r.cost_per_part, planned(pin()).cost_per_part * (1 - 1e-4));
+  EXPECT_GE(r.cost_per_part, certified_plan(pin()).cost_per_part * (1 - 1e-4));
 }
 
 nlohmann::json long_pin(const std::vector<std::string>& clampings) {
@@ -278,7 +283,7 @@ nlohmann::json long_pin(const std::vector<std::string>& clampings) {
 }
 
 TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
-  const auto alone = planned(long_pin({"chuck"}));
+  const auto alone = certified_plan(long_pin({"chuck"}));
   ASSERT_EQ(alone.status, PlanStatus::ok);
   ASSERT_EQ(alone.compensation.size(), 1u);
   EXPECT_EQ(alone.compensation[0].on, "d2");
@@ -301,7 +306,7 @@ TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
   for (std::size_t i = 0; i < alone.tolerances.size(); ++i)
     EXPECT_EQ(again.tolerances[i].verdict, alone.tolerances[i].verdict);
 
-  const auto held = planned(long_pin({"chuck", "chuck-tailstock"}));
+  const auto held = certified_plan(long_pin({"chuck", "chuck-tailstock"}));
   ASSERT_EQ(held.status, PlanStatus::ok);
   EXPECT_TRUE(held.compensation.empty());
   EXPECT_EQ(held.setups[0].clamping, Clamping::chuck_tailstock);
@@ -313,9 +318,9 @@ TEST(Plan, CompensatesOnlyWhereNoClampingDoesWithout) {
 TEST(Plan, AnOffsetCentresASizeBeforeAnythingGetsDearer) {
   auto d = long_pin({"chuck"});
   d["outer"][1]["limits_mm"] = {-0.012, 0.012};
-  const auto without = planned(d);
+  const auto without = certified_plan(d);
   d["budget"]["first_part_gauged"] = true;
-  const auto with = planned(d);
+  const auto with = certified_plan(d);
   ASSERT_EQ(with.status, PlanStatus::ok);
   EXPECT_TRUE(with.compensation.empty());
   ASSERT_EQ(with.offsets.size(), 1u);
@@ -351,9 +356,9 @@ TEST(Plan, AnOffsetCentresASizeBeforeAnythingGetsDearer) {
 // Preparing the machine is the same whatever is chosen: only its share is left out.
 TEST(Plan, WithoutABatchPreparingTheMachineIsToldApart) {
   auto d = pin();
-  const auto ten = planned(d);
+  const auto ten = certified_plan(d);
   d.erase("batch");
-  const auto none = planned(d);
+  const auto none = certified_plan(d);
   ASSERT_EQ(none.status, PlanStatus::ok);
   EXPECT_NEAR(none.setting_up.minutes, 2 * 20, 1e-12);  // lathe-medium, two setups
   EXPECT_NEAR(none.setting_up.cost, 40, 1e-12);         // at 1.0 per minute
@@ -370,7 +375,7 @@ TEST(Plan, WithoutABatchPreparingTheMachineIsToldApart) {
 TEST(Plan, TheWorstConformanceIsThatOfTheToleranceFewestPartsKeep) {
   auto d = pin();
   d["outer"][1]["limits_mm"] = {-0.02, 0};
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   ASSERT_TRUE(r.worst_conformance);
   double least = 1;
   for (const auto& t : r.tolerances) least = std::min(least, t.P_conform);
@@ -520,7 +525,7 @@ TEST(Plan, ToolsForAnotherMaterialAreTold) {
   auto d = pin();
   d["material"] = "AlMgSi";
   d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"};
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_EQ(r.conflicts[0].sentence,
@@ -531,7 +536,7 @@ TEST(Plan, AHoleNoBarEntersIsTold) {
   auto d = bush();
   d["stock"]["inner_mm"] = 30;
   d["inner"][0]["diameter_mm"] = 34;
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_NE(r.conflicts[0].sentence.find("b: no boring bar is thin and long enough"),
@@ -542,7 +547,7 @@ TEST(Plan, AHoleNoBarEntersIsTold) {
 TEST(Plan, ASteadyRestHoldsWhereNoCentreCan) {
   auto d = nominal(reference_part("roller-tube"));
   d["damping_ratio"] = 0.5;
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   ASSERT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(r.setups[1].clamping, Clamping::chuck_steady);
   bool centre = false;
@@ -568,7 +573,7 @@ TEST(Plan, ASteadyRestHoldsWhereNoCentreCan) {
   EXPECT_NEAR(tolerance(predict(soft), "b1:diameter").predicted_mm[0],
               tolerance(predict(none), "b1:diameter").predicted_mm[0], 1e-8);
   d["setups"][1]["steady_mm"] = 375;  // on d3, which is cut there
-  const auto on_d3 = planned(d);
+  const auto on_d3 = certified_plan(d);
   EXPECT_EQ(on_d3.status, PlanStatus::ok);  // with an offset of the tool, in the chuck
   bool told = false;
   for (const auto& x : on_d3.setups[1].rejected)
@@ -586,7 +591,7 @@ TEST(Plan, MaterialsWithMeasuredFeedAndPassiveForces) {
   material["feed_passive"] =
       file("tests/data/catalogue/materials/test-steel.json")["feed_passive"];
   d["material"] = material;
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   for (const auto& remedy : r.remedies)
     for (const auto& change : remedy.changes)
@@ -597,14 +602,14 @@ TEST(Plan, MaterialsWithMeasuredFeedAndPassiveForces) {
 TEST(Plan, WhatNoOperationMakesIsAConflict) {
   auto d = given_pin("to-chuck");
   d["operations"].erase(1);
-  auto r = planned(d);
+  auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_EQ(r.conflicts.size(), 1u);
   EXPECT_EQ(r.conflicts[0].sentence,
             "d2 has no operation: it would stay as the stock is");
   d = given_pin("to-chuck");
   d["operations"][1]["setup"] = 1;
-  r = planned(d);
+  r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_EQ(r.conflicts[0].sentence,
@@ -612,11 +617,11 @@ TEST(Plan, WhatNoOperationMakesIsAConflict) {
             "behind a larger diameter");
   d = given_pin("to-chuck");
   d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 3.2}}};
-  r = planned(d);
+  r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   d["operations"].push_back(
       {{"id", "s"}, {"setup", 0}, {"kind", "face"}, {"on", {"d1|d2"}}});
-  r = planned(d);
+  r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(operation(r, "s").on, std::vector<std::string>{"d1|d2"});
 }
@@ -626,7 +631,7 @@ TEST(Plan, RoughnessHoldsForTheLastOperationWhateverItIs) {
   d["operations"][1]["kind"] = "rough";
   d["operations"][1]["conditions"] = nlohmann::json::object();
   d["outer"][1]["Ra_um"] = 0.8;
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   ASSERT_EQ(r.status, PlanStatus::ok);
   bool asked = false;
   for (const auto& c : operation(r, "b").constraints)
@@ -641,7 +646,7 @@ TEST(Plan, RoughnessHoldsForTheLastOperationWhateverItIs) {
 TEST(Plan, GivenConditionsOutsideTheToolsWindowAreAConflict) {
   auto d = given_pin("to-chuck");
   d["operations"][1]["conditions"]["f_mm_rev"] = 0.35;  // the tool takes 0.3 mm/rev
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   bool told = false;
   for (const auto& c : r.conflicts) told = told || c.limit == "largest feed";
@@ -684,7 +689,7 @@ TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
   auto d = pin();
   d["budget"]["repeatability_um"] = 2;
   d["outer"][1]["limits_mm"] = {-0.1, 0};
-  d = as_planned(d, planned(d));
+  d = as_planned(d, certified_plan(d));
   const auto size = [&](double half_mm) {
     d["outer"][1]["limits_mm"] = {-2 * half_mm, 0};
     const auto r = predict(part_to_predict(d));
@@ -704,7 +709,7 @@ TEST(Predict, WhatIsUsedUpWithoutTheCutStillSaysHowManyPartsConform) {
 TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
   for (const auto* part_name : {"gearbox-input-shaft", "piston-rod", "spindle-nose"}) {
     const auto document = reference_part(part_name);
-    const auto planned_part = planned(document);
+    const auto planned_part = certified_plan(document);
     const auto r = predict(part_to_predict(as_planned(document, planned_part)));
     EXPECT_EQ(r.status, PlanStatus::ok) << part_name;
     EXPECT_NEAR(r.cost_per_part, planned_part.cost_per_part, 1e-9) << part_name;
@@ -719,7 +724,7 @@ TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
 }
 
 TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
-  auto d = as_planned(pin(), planned(pin()));
+  auto d = as_planned(pin(), certified_plan(pin()));
   for (auto& o : d["operations"])
     if (o["id"] == "s0-finish-d2") o["conditions"]["f_mm_rev"] = 0.29;
   d["outer"][1]["limits_mm"] = {-0.001, 0.001};
@@ -739,7 +744,7 @@ TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
 }
 
 TEST(Predict, WhatNothingCutsIsNotMetAndTheRestIsPredicted) {
-  auto d = as_planned(pin(), planned(pin()));
+  auto d = as_planned(pin(), certified_plan(pin()));
   d["outer"][0]["limits_mm"] = {-0.1, 0.1};
   d["outer"][1]["limits_mm"] = {-0.1, 0.1};
   auto& all = d["operations"];
@@ -755,7 +760,7 @@ TEST(Predict, WhatNothingCutsIsNotMetAndTheRestIsPredicted) {
 }
 
 TEST(Predict, PassesThatDoNotAddUpAreTold) {
-  auto d = as_planned(pin(), planned(pin()));
+  auto d = as_planned(pin(), certified_plan(pin()));
   for (auto& o : d["operations"])
     if (o["id"] == "s0-finish-d2") o["conditions"]["ap_mm"] = 0.3;
   const auto r = predict(part_to_predict(d));
@@ -786,7 +791,7 @@ TEST(Plan, AThinShaftOfDeepCutsIsPlanned) {
       "machine": "lathe-medium", "batch": 100})");
   for (const char* fit : {"k6", "k7", "h7", "h6"}) {
     d["outer"][2]["fit"] = fit;
-    const auto r = planned(d);
+    const auto r = certified_plan(d);
     EXPECT_EQ(r.status, PlanStatus::ok) << fit;
     EXPECT_LE(r.certificate.gap, 1e-4) << fit;
   }
@@ -794,14 +799,14 @@ TEST(Plan, AThinShaftOfDeepCutsIsPlanned) {
 
 TEST(Plan, SameRequestSameBytes) {
   const auto document = reference_part("spindle-nose");
-  const auto once = document::to_json(planned(document), {}).dump();
-  EXPECT_EQ(once, document::to_json(planned(document), {}).dump());
+  const auto once = document::to_json(certified_plan(document), {}).dump();
+  EXPECT_EQ(once, document::to_json(certified_plan(document), {}).dump());
 }
 
 TEST(Plan, WhatNoSetupReachesIsSaid) {
   auto d = pin();
   d["setups"] = {{{"hold", "left"}, {"grip_mm", 30}, {"clampings", {"chuck"}}}};
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_NE(r.conflicts[0].sentence.find("d1"), std::string::npos)
@@ -812,7 +817,7 @@ TEST(Plan, ToleranceOnlyTheMachineUsesUpIsToldAsSuch) {
   auto d = pin();
   d["machine_share_um"] = 30;
   d["outer"][1]["limits_mm"] = {-0.01, 0.01};
-  const auto r = planned(d);
+  const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   bool told = false;
   for (const auto& c : r.conflicts)
@@ -821,7 +826,7 @@ TEST(Plan, ToleranceOnlyTheMachineUsesUpIsToldAsSuch) {
 }
 
 TEST(Plan, InfeasibleAsDrawnTellsWhatFailsAndWhatWouldHaveToGive) {
-  const auto r = planned(reference_part("infeasible-as-drawn"));
+  const auto r = certified_plan(reference_part("infeasible-as-drawn"));
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   std::set<std::string> limits;
   for (const auto& c : r.conflicts) limits.insert(c.limit);

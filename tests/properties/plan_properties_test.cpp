@@ -6,6 +6,7 @@
 
 #include "random_parts.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/planning/plan.hpp"
 
 namespace turnwright::planning {
 namespace {

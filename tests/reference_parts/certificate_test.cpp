@@ -5,7 +5,7 @@
 #include <random>
 
 #include "document/json/file.hpp"
-#include "planning/attempt.hpp"
+#include "planning/setup/clamping_comparison.hpp"
 #include "surface_search.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/prepared_part.hpp"
@@ -17,7 +17,7 @@ namespace turnwright::reference {
 namespace {
 
 using planning::Choice;
-using planning::SolvedFeature;
+using planning::SolvedSurface;
 
 constexpr int kPoints = 100000, kSolves = 200;
 constexpr double kRounding = 1e-12;
@@ -33,7 +33,7 @@ planning::PreparedPart loaded(const std::string& name) {
 
 // Conditions on lines through where it stands, closing in until they are allowed.
 struct Walk {
-  const SolvedFeature& feature;
+  const SolvedSurface& feature;
   const SurfaceSearch& checks;
   std::vector<double> at;
   std::mt19937 seed{9};
@@ -82,12 +82,12 @@ struct Walk {
   }
 };
 
-void expect_none_below(const SolvedFeature& f) {
+void expect_none_below(const SolvedSurface& f) {
   const auto& a = f.answer;
   SCOPED_TRACE(f.task.feature.surface());
   ASSERT_TRUE(a.feasible);
   Effort none{2, 2, 2, 1, 1};
-  const SurfaceSearch checks(f.task.feature, f.task.demands, a.model->recipe(),
+  const SurfaceSearch checks(f.task.feature, f.task.cut_tolerances, a.model->recipe(),
                              f.task.economy, none);
   ASSERT_TRUE(checks.possible());
   const auto& problem = a.model->problem();
@@ -111,14 +111,15 @@ void expect_none_below(const SolvedFeature& f) {
 }
 
 // One surface of each kind, and of each setup, with the most tolerances.
-std::vector<const SolvedFeature*> chosen(const planning::Attempt& all) {
-  std::map<std::pair<std::size_t, planning::Feature::Kind>, const SolvedFeature*> best;
+std::vector<const SolvedSurface*> chosen(const planning::Attempt& all) {
+  std::map<std::pair<std::size_t, planning::MachinedSurface::Kind>, const SolvedSurface*>
+      best;
   for (const auto& s : all.setups)
     for (const auto& f : s.chosen.features) {
       auto& b = best[{s.chosen.setup, f.task.feature.kind()}];
-      if (!b || f.task.demands.size() > b->task.demands.size()) b = &f;
+      if (!b || f.task.cut_tolerances.size() > b->task.cut_tolerances.size()) b = &f;
     }
-  std::vector<const SolvedFeature*> list;
+  std::vector<const SolvedSurface*> list;
   for (const auto& [key, f] : best) list.push_back(f);
   return list;
 }

@@ -7,9 +7,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "planning/fixed.hpp"
+#include "planning/auxiliary/catalogue_operations.hpp"
 #include "surface_search.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::reference {
 namespace {
@@ -17,8 +16,8 @@ namespace {
 using catalogue::Tool;
 using catalogue::ToolUse;
 using planning::Clamping;
-using planning::Demand;
-using planning::Feature;
+using planning::CutTolerance;
+using planning::MachinedSurface;
 using planning::Offset;
 using planning::PreparedPart;
 using planning::Recipe;
@@ -41,8 +40,8 @@ int most_passes(double stock, const Tool& t) {
   return std::max(1, static_cast<int>(stock / least + 1e-9));
 }
 
-std::vector<Recipe> recipes(const PreparedPart& p, const Feature& f, const Tool* rough,
-                            const Tool* finish) {
+std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
+                            const Tool* rough, const Tool* finish) {
   std::vector<Recipe> all;
   const auto ranges = cutting::speed_ranges(p.machine).size();
   const auto add = [&](const Tool* r, int nr, int nf) {
@@ -69,17 +68,18 @@ class SetupSearch {
         clamping_(clamping),
         economy_(economy),
         effort_(effort),
-        fixed_(planning::fixed_work(p, setup, clamping, work, economy)),
+        fixed_(planning::auxiliary_work(p, setup, clamping, work, economy)),
         front_mm_(planning::front_mm(p, setup, work)) {
-    if (work.end_face) features_.push_back(Feature::end_face(p, setup, done, {}));
+    if (work.end_face) features_.push_back(MachinedSurface::end_face(p, setup, done, {}));
     for (const std::size_t i : work.elements) {
-      auto f = Feature::element(p, setup, clamping, work, done, i, {});
+      auto f = MachinedSurface::element(p, setup, clamping, work, done, i, {});
       if (f.stock_mm() > 1e-9) features_.push_back(std::move(f));
     }
     for (const std::size_t k : work.shoulders)
-      features_.push_back(Feature::shoulder(p, setup, clamping, work, done, k, {}));
+      features_.push_back(
+          MachinedSurface::shoulder(p, setup, clamping, work, done, k, {}));
     for (const std::size_t i : work.bores) {
-      auto f = Feature::bore(p, setup, clamping, work, done, i, {});
+      auto f = MachinedSurface::bore(p, setup, clamping, work, done, i, {});
       if (f.stock_mm() > 1e-9) features_.push_back(std::move(f));
     }
   }
@@ -145,7 +145,7 @@ class SetupSearch {
       return t;
     };
     const bool bores = std::any_of(features_.begin(), features_.end(), [](const auto& f) {
-      return f.kind() == Feature::Kind::bore;
+      return f.kind() == MachinedSurface::Kind::bore;
     });
     std::vector<ToolChoice> all;
     for (const auto* x : list(true, ToolUse::facing, false))
@@ -166,7 +166,7 @@ class SetupSearch {
 
   Tools tools(std::size_t k, const ToolChoice& c) const {
     if (features_[k].is_face()) return {nullptr, c.face};
-    const bool bore = features_[k].kind() == Feature::Kind::bore;
+    const bool bore = features_[k].kind() == MachinedSurface::Kind::bore;
     return bore ? Tools{c.bore_rough, c.bore_finish} : Tools{c.rough, c.finish};
   }
 
@@ -197,14 +197,14 @@ class SetupSearch {
   }
 
   SurfaceFound cheapest(std::size_t k, Tools t, Offset offset) {
-    const auto demands = planning::demands(p_, features_[k].surface(), offset,
-                                           {setup_, clamping_, t.second});
+    const auto cut_tolerances = planning::cut_tolerances(
+        p_, features_[k].surface(), offset, {setup_, clamping_, t.second});
     SurfaceFound best;
     best.objective = kInfinity;
-    if (planning::used_up(demands)) return best;
+    if (planning::used_up(cut_tolerances)) return best;
     for (const auto& [bound, r] : bounds(k, t).recipes) {
       if (bound >= best.objective) break;
-      const SurfaceSearch s(features_[k], demands, r, economy_, effort_);
+      const SurfaceSearch s(features_[k], cut_tolerances, r, economy_, effort_);
       const auto p = s.best();
       if (p.excess <= kFeasible && p.cost < best.objective) best = described(k, r, p, s);
     }
@@ -249,14 +249,14 @@ class SetupSearch {
       p.choice.a = o.passes.front().ap_mm;
       ++i;
     }
-    const auto demands = planning::demands(
+    const auto cut_tolerances = planning::cut_tolerances(
         p_, f.surface(), offset, {setup_, clamping_, r.finish ? r.finish : r.rough});
     SurfaceFound best;
     best.objective = best.excess = kInfinity;
     const auto ranges = cutting::speed_ranges(p_.machine).size();
     for (r.rough_range = 0; r.rough_range < (r.rough ? ranges : 1); ++r.rough_range)
       for (r.finish_range = 0; r.finish && r.finish_range < ranges; ++r.finish_range) {
-        const SurfaceSearch s(f, demands, r, economy_, effort_);
+        const SurfaceSearch s(f, cut_tolerances, r, economy_, effort_);
         if (!s.possible()) continue;
         const auto x = described(k, r, s.at(p.choice), s);
         if (x.excess < best.excess) best = x;
@@ -287,8 +287,9 @@ class SetupSearch {
   // the bores, the rest at fixed conditions; over all surfaces of a kind if over one.
   planning::Between between(const SetupFound& s) const {
     planning::Order order(p_, setup_, clamping_, front_mm_);
-    for (const auto kind : {Feature::Kind::end_face, Feature::Kind::element,
-                            Feature::Kind::shoulder, Feature::Kind::bore}) {
+    for (const auto kind :
+         {MachinedSurface::Kind::end_face, MachinedSurface::Kind::element,
+          MachinedSurface::Kind::shoulder, MachinedSurface::Kind::bore}) {
       for (const bool rough : {true, false}) {
         const Tool* used = nullptr;
         for (std::size_t k = 0; k < features_.size(); ++k)
@@ -299,7 +300,7 @@ class SetupSearch {
         for (const auto& f : features_)
           if (used && f.kind() == kind) order.add(f.in_order(*used, rough));
       }
-      if (kind == Feature::Kind::end_face)
+      if (kind == MachinedSurface::Kind::end_face)
         for (const auto& o : fixed_.before) order.add(o.order);
     }
     for (const auto& o : fixed_.after) order.add(o.order);
@@ -311,9 +312,9 @@ class SetupSearch {
   Clamping clamping_;
   planning::Economy economy_;
   Effort effort_;
-  planning::FixedWork fixed_;
+  planning::AuxiliaryWork fixed_;
   double front_mm_;
-  std::vector<Feature> features_;
+  std::vector<MachinedSurface> features_;
   std::map<std::tuple<std::size_t, const Tool*, const Tool*>, Bounds> bounds_;
   std::map<Key, SurfaceFound> solved_;
 };

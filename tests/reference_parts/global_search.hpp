@@ -3,12 +3,13 @@
 #include <vector>
 
 #include "turnwright/planning/plan_request.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// The cheapest plan of a part by brute force, to hold the planner's optimum against.
 ///
-/// Of planning/ it uses what a surface is and what a pass does (Feature, Chain, evaluate,
-/// errors), what the drawing asks (demands) and the rule of when the tool path may follow
+/// Of planning/ it uses what a surface is and what a pass does (MachinedSurface, Chain, evaluate,
+/// errors), what the drawing asks (cut_tolerances) and the rule of when the tool path may follow
 /// the error: in a setup that no clamping can make otherwise.  Its own are the pass
 /// counts, the speeds (a scan over the speed window, no economic speed), the conditions
 /// (a lattice over ln f of each operation and ln of the finishing depth, then lattices

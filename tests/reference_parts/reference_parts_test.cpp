@@ -10,6 +10,7 @@
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/planning/plan.hpp"
 
 // The plans of parts/ against an independent search, against costs.json (that search with
 // full effort) and against themselves.

@@ -5,11 +5,13 @@
 #include <nlopt.hpp>
 #include <numeric>
 
+#include "planning/operation/evaluate.hpp"
+
 namespace turnwright::reference {
 namespace {
 
 using planning::Choice;
-using planning::Demand;
+using planning::CutTolerance;
 
 constexpr int kPlaces = 41;
 constexpr double kRounding = 1e-12;
@@ -59,16 +61,17 @@ double strip_width(const std::vector<double>& e) {
   return std::min(fx, fy);
 }
 
-std::vector<double> places(const planning::Feature& f, int count) {
+std::vector<double> places(const planning::MachinedSurface& f, int count) {
   std::vector<double> z;
   for (int k = 0; k < count; ++k)
     z.push_back(f.low_mm() + (f.high_mm() - f.low_mm()) * k / (count - 1));
   return z;
 }
 
-bool asks_nothing(const std::vector<Demand>& demands) {
-  return std::all_of(demands.begin(), demands.end(),
-                     [](const Demand& d) { return d.shape == Demand::Shape::none; });
+bool asks_nothing(const std::vector<CutTolerance>& cut_tolerances) {
+  return std::all_of(
+      cut_tolerances.begin(), cut_tolerances.end(),
+      [](const CutTolerance& d) { return d.shape == CutTolerance::Shape::none; });
 }
 
 bool feasible(const Point& p) { return p.excess <= kRounding; }
@@ -80,11 +83,12 @@ bool better(const Point& a, const Point& b) {
   return feasible(a) ? a.cost < b.cost : a.excess < b.excess;
 }
 
-SurfaceSearch::SurfaceSearch(const planning::Feature& feature,
-                             std::vector<Demand> demands, const planning::Recipe& recipe,
+SurfaceSearch::SurfaceSearch(const planning::MachinedSurface& feature,
+                             std::vector<CutTolerance> cut_tolerances,
+                             const planning::Recipe& recipe,
                              const planning::Economy& economy, const Effort& effort)
     : feature_(&feature),
-      demands_(std::move(demands)),
+      cut_tolerances_(std::move(cut_tolerances)),
       recipe_(recipe),
       economy_(economy),
       effort_(effort) {
@@ -104,7 +108,7 @@ SurfaceSearch::SurfaceSearch(const planning::Feature& feature,
     high = std::min(high, y);
   }
   if (!(low <= high * (1 + kRounding))) return;
-  if (!asks_nothing(demands_))
+  if (!asks_nothing(cut_tolerances_))
     chain = feature.chain(recipe, economy, places(feature, kPlaces));
   feature.limit_chatter(*chain);
   chain_ = std::move(*chain);
@@ -163,8 +167,8 @@ Point SurfaceSearch::at_best_speed(std::size_t i, double f, double a, bool fine)
 
 double SurfaceSearch::excess_of(const std::vector<double>& e, double reserve) const {
   double worst = -1;
-  using enum Demand::Shape;
-  for (const auto& d : demands_) {
+  using enum CutTolerance::Shape;
+  for (const auto& d : cut_tolerances_) {
     if (d.shape == none) continue;
     const double limit = (1 - reserve) * d.upper;
     double value = 0;
@@ -182,7 +186,7 @@ double SurfaceSearch::excess_of(const std::vector<double>& e, double reserve) co
 }
 
 double SurfaceSearch::tolerance_excess(const Choice<double>& c) const {
-  if (asks_nothing(demands_)) return -1;
+  if (asks_nothing(cut_tolerances_)) return -1;
   const auto F = planning::forces(chain_, c);
   std::vector<double> e;
   for (const auto& s : chain_.stations) e.push_back(planning::error_mm(chain_, s, c, F));
@@ -190,7 +194,7 @@ double SurfaceSearch::tolerance_excess(const Choice<double>& c) const {
 }
 
 double SurfaceSearch::tolerance_excess(const Choice<double>& c, int count) const {
-  if (asks_nothing(demands_)) return -1;
+  if (asks_nothing(cut_tolerances_)) return -1;
   return excess_of(feature_->errors(recipe_, economy_, c, places(*feature_, count)), 0);
 }
 

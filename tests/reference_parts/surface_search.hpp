@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "global_search.hpp"
-#include "planning/feature.hpp"
+#include "planning/surface/machined_surface.hpp"
 
 /// One surface with one recipe: the cheapest conditions on shrinking lattices.
 namespace turnwright::reference {
@@ -21,7 +21,8 @@ bool better(const Point& a, const Point& b);
 
 class SurfaceSearch {
  public:
-  SurfaceSearch(const planning::Feature& feature, std::vector<planning::Demand> demands,
+  SurfaceSearch(const planning::MachinedSurface& feature,
+                std::vector<planning::CutTolerance> cut_tolerances,
                 const planning::Recipe& recipe, const planning::Economy& economy,
                 const Effort& effort);
 
@@ -62,8 +63,8 @@ class SurfaceSearch {
   double tolerance_excess(const planning::Choice<double>& choice) const;
   friend struct Cobyla;
 
-  const planning::Feature* feature_;
-  std::vector<planning::Demand> demands_;
+  const planning::MachinedSurface* feature_;
+  std::vector<planning::CutTolerance> cut_tolerances_;
   planning::Recipe recipe_;
   planning::Economy economy_;
   Effort effort_;

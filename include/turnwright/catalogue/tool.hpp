@@ -37,6 +37,16 @@ struct BoringBar {
   std::optional<double> damping_ratio;  ///< absent: that of the part
 };
 
+/// An external holder with a rectangular shank.
+struct Holder {
+  std::string designation;  ///< ISO 5608, "PCLNL 2525M 12"
+  double h_mm = 0;          ///< shank height H
+  double b_mm = 0;          ///< shank width B, along the part's axis
+  double lf_mm = 0;         ///< functional length LF, from the tip to the shank's end
+  double lh_mm = 0;         ///< head length LH, from the tip to the shank
+  double wf_mm = 0;         ///< functional width WF, from the tip to the shank's far side
+};
+
 /// An edge of a chip breaker's window, straight in logarithms: f <= f1 ap^exponent, or
 /// f >= f1 ap^exponent.
 struct ChipEdge {
@@ -73,6 +83,7 @@ struct Tool {
   double change_min = 0;         ///< time to change a worn edge [min]
   double edge_cost = 0;          ///< cost of one cutting edge
   std::optional<BoringBar> bar;  ///< for boring tools
+  std::optional<Holder> holder;  ///< of an external tool, if its document has it
 };
 
 /// Geometry of an indexable insert as its ISO 1832 designation gives it.
@@ -90,5 +101,22 @@ struct Insert1832 {
 /// Source: ISO 1832:2017, symbols 1 to 7.
 /// @throws std::domain_error naming the symbol that cannot be read.
 Insert1832 decode_iso1832(const std::string& designation);
+
+/// What the ISO 5608 designation of an external holder says of its geometry.
+struct Holder5608 {
+  char insert_shape = 'C';
+  double kapr_deg = 0;
+  double clearance_deg = 0;
+  char hand = 'L';  ///< R, L or N
+  double h_mm = 0, b_mm = 0;
+  std::optional<double> lf_mm;  ///< not coded by "-" and "X"
+  int edge_code = 0;            ///< as in the insert's designation
+};
+
+/// Decodes a designation, e.g. "PCLNL 2525M 12": clamping, insert shape, style (KAPR),
+/// clearance, hand, shank height and width, length, edge length.
+/// Source: ISO 5608:2012, reference positions 1 to 9.
+/// @throws std::domain_error naming the symbol that cannot be read.
+Holder5608 decode_iso5608(const std::string& designation);
 
 }  // namespace turnwright::catalogue

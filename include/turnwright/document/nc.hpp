@@ -1,25 +1,31 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "turnwright/document/prepared_part.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/text.hpp"
 
 namespace turnwright::document {
 
-/// The request of `nc` (schemas/nc.request.json): a part document and the control.
+/// The request of `nc` (schemas/nc.request.json): a part document and the shop's settings.
 struct NcRequest {
   PreparedDocument part = {};
-  nc::Control control = nc::Control::linuxcnc;
+  nc::Settings settings = {};
 };
 
 /// @throws InputError with every problem, those of the part below "/part".
 NcRequest load_nc_request(const nlohmann::json& json, const Catalogue& catalogue);
 
-/// A program's file name, "setup-0.ngc"; of a Fanuc control "setup-0.nc".
+/// The settings alone, as they stand beside the part in the request.
+/// @throws InputError with every problem.
+nc::Settings load_nc_settings(const nlohmann::json& json, const std::string& document);
+
+/// A program's file name, "setup-1.ngc" of the first setup for LinuxCNC.
 std::string file_name(const nc::SetupProgram& program, nc::Control control);
 
 /// The result of `nc` (schemas/nc.result.json).
 nlohmann::ordered_json to_json(const nc::Programs& programs,
-                               const planning::ProcessPlan& plan, nc::Control control);
+                               const planning::ProcessPlan& plan,
+                               const nc::Settings& settings);
 
 }  // namespace turnwright::document

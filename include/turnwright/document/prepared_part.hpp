@@ -1,5 +1,6 @@
 #pragma once
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// A part document, read and prepared for planning.

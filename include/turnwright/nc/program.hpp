@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "turnwright/nc/path.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 /// Turning programs of a process plan, one for each setup.
@@ -38,12 +39,6 @@
 /// moves the tools' circles over the contour.
 namespace turnwright::nc {
 
-/// The dialect of a control.
-enum class Control {
-  linuxcnc,  ///< spindle's limit with G96 (D), G95, G33 K, diameters by G7
-  fanuc      ///< system A: G50 S, G99, G32 F, tool words of four digits
-};
-
 struct Move {
   enum class Kind { rapid, feed, arc, thread };
   Kind kind = Kind::rapid;
@@ -74,11 +69,14 @@ struct Step {
   std::vector<Move> moves;
 };
 
+inline constexpr int kDrillOrientation = 7;
+
 struct TableTool {
   int number = 0;
   std::string id;
+  int offset = 0;       ///< number of its offset
   double re_mm = 0;     ///< corner radius, 0 of blades, drills and threading tools
-  int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, 7 drills
+  int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, or of drills
 };
 
 /// Minutes that a program runs or waits, without loading and preparing the machine.
@@ -124,12 +122,5 @@ Programs programs(const planning::PreparedPart& part, const planning::ProcessPla
 /// Makes a plan infeasible if it cannot be programmed; its conflicts give the reasons.  A
 /// plan whose request itself turns from the chuck outwards is not changed.
 void refuse_unprogrammed(const planning::PreparedPart& part, planning::ProcessPlan& plan);
-
-/// The program's text, lines of printable ASCII.
-std::string text(const SetupProgram& program, Control control);
-
-/// LinuxCNC's tool table for programs of one part: numbers, diameters and orientations,
-/// offsets zero.
-std::string tool_table(const std::vector<SetupProgram>& programs);
 
 }  // namespace turnwright::nc

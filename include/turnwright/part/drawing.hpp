@@ -113,6 +113,12 @@ struct Extent {
 };
 /// Extent of the element of this id; nothing for a face or an unknown id.
 std::optional<Extent> extent(const Drawing& drawing, const std::string& id);
+/// Half angle [rad] of an element, 0 of a cylinder; nothing for a face.
+std::optional<double> half_angle_rad(const Drawing& drawing, const std::string& id);
+/// Upper less lower limit, or the zone's width [mm].
+double width_mm(const Tolerance& tolerance);
+/// Multiplies the width by `times`; limits stay centred about their middle.
+void widen(Tolerance& tolerance, double times);
 /// Stock to the right of the finished right end [mm].
 double right_allowance_mm(const Drawing& drawing);
 

@@ -11,8 +11,8 @@
 #include "turnwright/part/drawing.hpp"
 
 /// The request of `plan` and `predict` as plain values: what was asked, ids resolved and
-/// defaults filled in (document/ reports which under `assumed`).  What follows from it is
-/// in a PreparedPart (prepared_part.hpp).
+/// defaults filled in (document/ reports which under `assumed`).  Nothing in it is computed
+/// from the rest: what follows from it is in a PreparedPart (prepared_part.hpp).
 namespace turnwright::planning {
 
 enum class Clamping {
@@ -116,8 +116,7 @@ struct PlanRequest {
   catalogue::Lathe machine;
   std::vector<catalogue::Tool> tools;
   std::vector<catalogue::FixedTool> fixed_tools = {};
-  std::vector<catalogue::Tool> spare_tools =
-      {};  ///< of the catalogue, not in the request
+  std::vector<catalogue::Tool> spare_tools = {};  ///< others that remedies may propose
   std::vector<SetupRequest> setups;
   std::vector<Milled> milled = {};
   std::optional<std::vector<OperationRequest>> operations;  ///< absent: "auto"
@@ -127,10 +126,10 @@ struct PlanRequest {
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um = 0;  ///< of every tolerance, in addition to `machine.errors`
   double window_percent = 5;    ///< extra cost allowed within an operation's window
-  bool window_curves = false;   ///< with limits and lines of equal cost, for drawings
+  bool window_curves = false;   ///< with limits and lines of equal cost, if asked for
   double damping_ratio = 0.03;  ///< of part and machine, for chatter
-  /// Factor on the limits of chatter: 1, but larger where an explanation examines what
-  /// chatter alone excludes.
+  /// Factor on the limits of chatter.  No document sets it: it is 1, and larger in the
+  /// requests with relaxed limits by which an infeasible part is explained.
   double chatter_times = 1;
   ShopErrors shop;
   double conformance = 0.9973;

@@ -25,7 +25,7 @@ struct SetupWork {
   std::vector<std::size_t> bores;  ///< indices into drawing.inner
 };
 
-/// Which setup makes which surface (setup_geometry.hpp).
+/// Which setup makes which surface.
 struct Assignment {
   std::vector<SetupWork> setups;
   std::vector<std::string>
@@ -70,7 +70,7 @@ struct MilledPlace : Milled {
   std::vector<MilledWay> ways;       ///< those that fit
 };
 
-/// A prepared request.  It is made only by `prepare` and not changed afterwards: to
+/// A prepared request.  It is made only by `prepare` (prepare.hpp) and not changed afterwards: to
 /// change a request, copy its PlanRequest and prepare the copy.
 struct PreparedPart : PlanRequest {
   std::vector<double> grips_mm;    ///< length of the held end in the jaws, one per setup
@@ -80,17 +80,5 @@ struct PreparedPart : PlanRequest {
   std::map<MachinePlace, MachineTake> machine_takes;  ///< empty without machine.errors
   std::vector<MilledPlace> milled_places;             ///< in the order of `milled`
 };
-
-PreparedPart prepare(PlanRequest request);
-
-/// Prepares a request that differs from that of `like` only in numbers that move no
-/// surface: limits of tolerances, roughness, machine, tools and operations, prices, the
-/// objective. The machine's shares and the ways of milling, which take long to compute,
-/// are copied from `like`.
-PreparedPart prepare(PlanRequest request, const PreparedPart& like);
-
-/// Diameter [mm] of the hole in which boring of an inner element starts: that of the
-/// stock or of the drill.
-double hole_mm(const PreparedPart& part, std::size_t inner);
 
 }  // namespace turnwright::planning

@@ -1,10 +1,11 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "turnwright/planning/prepared_part.hpp"
+#include "turnwright/planning/plan_request.hpp"
 
 /// The answer of `plan`: the fields of schemas/plan.result.json, one to one.
 namespace turnwright::planning {
@@ -44,7 +45,7 @@ struct WindowCurve {
 
 /// Speeds and feeds of an operation that keep every limit and cost at most `percent` more
 /// than its optimum, with depths, passes and all other operations as chosen: a polygon,
-/// with edges straight in logarithms, all of whose conditions do so (window.hpp).
+/// with edges straight in logarithms, all of whose conditions do so (operating_window.hpp).
 struct OperatingWindow {
   double percent = 0;
   std::vector<double> vc_m_min, f_mm_rev;  ///< vertices, counter-clockwise
@@ -116,6 +117,12 @@ struct Breakdown {
   Breakdown& operator+=(const Breakdown& other);
   Spending total() const;
 };
+
+/// What a Breakdown consists of.
+inline constexpr std::array kSpendings{
+    &Breakdown::cutting,        &Breakdown::air,   &Breakdown::tool_changes,
+    &Breakdown::operator_stops, &Breakdown::edges, &Breakdown::loading,
+    &Breakdown::setup_share};
 
 struct SetupPlan {
   part::End hold = part::End::left;
@@ -250,12 +257,6 @@ struct ParetoPoint {
   std::optional<double> minute_worth;  ///< above the machine's rate; none: time alone
 };
 
-/// A changed request and the name of the change.
-struct WhatIf {
-  std::string name;
-  PreparedPart part;
-};
-
 /// A changed request, planned anew, compared with the original one.
 struct WhatIfAnswer {
   std::string name;
@@ -305,18 +306,5 @@ struct ProcessPlan {
   std::vector<Remedy> remedies;    ///< cheapest first
   std::vector<TriedChange> tried;  ///< changes that are no remedy alone
 };
-
-/// Certified cheapest process plan of a part, and the savings of changed requests.
-/// @throws std::domain_error if profit is the objective and no price is given.
-ProcessPlan plan(const PreparedPart& part, const std::vector<WhatIf>& what_if = {});
-ProcessPlan plan(const PlanRequest& request);
-
-/// Deviations, margins, time and cost of a part whose operations are given completely, in
-/// the first clamping of each setup.  Nothing is optimised; limits that are not kept are
-/// `conflicts`, and the tolerances are judged nevertheless.
-/// @throws std::domain_error if a setup has no clamping, or a turning operation no speed
-///   or feed.
-ProcessPlan predict(const PreparedPart& part);
-ProcessPlan predict(const PlanRequest& request);
 
 }  // namespace turnwright::planning

@@ -5,6 +5,7 @@
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/catalogue/chip_window.hpp"
+#include "turnwright/catalogue/tool_outline.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -112,6 +113,50 @@ catalogue::BoringBar read_bar(Reader group) {
   return bar;
 }
 
+// A holder's designation agrees with its dimensions, with the insert and with the angles
+// of the edges, so that insert and holder are one body.
+void check_holder(Reader& group, const catalogue::Holder& h, const catalogue::Tool& t) {
+  const auto conflict = [&](bool agrees, const char* key, const std::string& expected) {
+    if (!agrees) group.problem_at(key, expected, "conflict");
+  };
+  try {
+    const auto insert = catalogue::decode_iso1832(t.insert);
+    const auto coded = catalogue::decode_iso5608(h.designation);
+    conflict(coded.insert_shape == insert.shape &&
+                 coded.edge_code == std::lround(10 * insert.edge_length_mm) / 10,
+             "designation", "a holder of the insert " + t.insert);
+    conflict(coded.kapr_deg == t.kapr_deg, "designation",
+             "a style whose KAPR is geometry/kapr_deg, " + number_text(t.kapr_deg) +
+                 " deg, not " + number_text(coded.kapr_deg) + " deg");
+    conflict(coded.h_mm == h.h_mm && coded.b_mm == h.b_mm &&
+                 coded.lf_mm.value_or(h.lf_mm) == h.lf_mm,
+             "designation", "the size that h_mm, b_mm and lf_mm give");
+    const auto minor = catalogue::minor_angle_deg(t.kapr_deg, insert);
+    conflict(!minor || t.wiper || std::abs(*minor - t.minor_kapr_deg) < 0.01,
+             "designation",
+             "an insert whose angle, with kapr_deg and minor_kapr_deg, makes 180 deg");
+  } catch (const std::domain_error& error) {
+    group.problem_at("designation",
+                     std::string("an ISO 5608 designation (") + error.what() + ")",
+                     "choice");
+  }
+}
+
+catalogue::Holder read_holder(Reader group, const catalogue::Tool& t) {
+  const auto size = above_up_to(0, 1000, "mm");
+  catalogue::Holder h;
+  h.designation = group.text("designation", 40);
+  h.h_mm = group.number("h_mm", size);
+  h.b_mm = group.number("b_mm", size);
+  h.lf_mm = group.number("lf_mm", size);
+  h.lh_mm = group.number("lh_mm", size);
+  h.wf_mm = group.number("wf_mm", size);
+  finish_group(group);
+  if (h.lh_mm >= h.lf_mm) group.problem_at("lh_mm", "less than lf_mm", "order");
+  check_holder(group, h, t);
+  return h;
+}
+
 // The designation must be one of ISO 1832 and agree with the corner radius given.
 void check_insert(Reader& r, const catalogue::Tool& t) {
   if (t.insert.empty()) return;
@@ -155,6 +200,7 @@ catalogue::Tool read_tool(Reader r) {
       std::find(t.uses.begin(), t.uses.end(), catalogue::ToolUse::boring) != t.uses.end();
   if (bores || r.has("bar")) t.bar = read_bar(r.object("bar"));
   check_insert(r, t);
+  if (r.has("holder")) t.holder = read_holder(r.object("holder"), t);
   r.finish();
   return t;
 }

@@ -25,7 +25,7 @@ std::string tools(const SetupSheet& sheet) {
   for (const auto& t : sheet.tools) {
     const auto lasts = parts_until(1, t.edge_share);
     rows += "<tr>" + words_cell(numbered(t.number)) +
-            number_cell(t.number > 0 ? std::to_string(t.number) : "-") +
+            number_cell(t.offset > 0 ? std::to_string(t.offset) : "-") +
             words_cell(t.id) + words_cell(t.insert.empty() ? "-" : t.insert) +
             number_cell(t.re_mm > 0 ? plain(t.re_mm) : "-") +
             number_cell(t.stick_out_mm ? plain(*t.stick_out_mm, 1) : "-") +

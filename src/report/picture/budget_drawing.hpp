@@ -2,6 +2,7 @@
 #include <string>
 
 #include "turnwright/planning/plan_request.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::report {

@@ -2,8 +2,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "turnwright/planning/plan_request.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 /// The part's outline between its setups.
 namespace turnwright::report {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "turnwright/planning/plan_request.hpp"
+#include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::report {

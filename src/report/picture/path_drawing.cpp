@@ -7,11 +7,12 @@
 #include <stdexcept>
 
 #include "chart.hpp"
+#include "planning/clamping/jaws.hpp"
+#include "planning/clamping/positions.hpp"
 #include "program_removal.hpp"
 #include "report/text/layout.hpp"
 #include "spread.hpp"
 #include "svg.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -35,7 +36,10 @@ struct Sheet {
   Point place(double z_mm, double x_mm) const { return {z.place(z_mm), x.place(x_mm)}; }
 };
 
-std::string colour(int tool) { return fmt::format("tool{}", (tool - 1) % kColours); }
+std::string colour(const Sheet& s, int tool) {
+  const auto at = std::ranges::find(s.program.tools, tool, &nc::TableTool::number);
+  return fmt::format("tool{}", (at - s.program.tools.begin()) % kColours);
+}
 
 /// Without points between others on a line.
 std::vector<Point> corners_of(const std::vector<Point>& all) {
@@ -95,7 +99,7 @@ void draw_work(Sheet& s, const Work& grid, const std::vector<Ring>& work,
 void draw_removed(Sheet& s, const Work& grid, const CutPass& pass, bool deep) {
   const auto& a = pass.before;
   const auto& b = pass.after;
-  const auto css_class = "off " + colour(pass.tool) + (deep ? " deep" : "");
+  const auto css_class = "off " + colour(s, pass.tool) + (deep ? " deep" : "");
   const auto paint = [&](auto holds, auto upper, auto lower) {
     each_range(a.size(), holds, [&](std::size_t from, std::size_t to) {
       s.svg.polygon(css_class, band(s, grid, from, to, upper, lower));
@@ -166,9 +170,9 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
     std::string text = fmt::format("T{}  {}: ", tool.number, tool.id);
     for (const auto& o : operations) text += (&o == operations.data() ? "" : ", ") + o;
     const double top = y - 2.4;
-    s.svg.polygon("off deep " + colour(tool.number),
+    s.svg.polygon("off deep " + colour(s, tool.number),
                   {{kLeft, top}, {kLeft + 6, top}, {kLeft + 6, y}, {kLeft, y}});
-    s.svg.line("feed " + colour(tool.number), {kLeft, y - 1.2}, {kLeft + 6, y - 1.2});
+    s.svg.line("feed " + colour(s, tool.number), {kLeft, y - 1.2}, {kLeft + 6, y - 1.2});
     s.svg.text({kLeft + 8, y}, Anchor::start, clipped(text, kLegend));
     y += kLine;
   }
@@ -212,7 +216,7 @@ std::string drawn(const PreparedPart& part, const planning::SetupPlan& setup,
   for (const auto& pass : all) {
     std::vector<Point> points;
     for (const auto& p : pass.way) points.push_back(s.place(p.z_mm, p.h_mm));
-    s.svg.polyline("feed " + colour(pass.tool), points);
+    s.svg.polyline("feed " + colour(s, pass.tool), points);
   }
   s.svg.line("axis", s.place(s.z.low, 0), s.place(s.z.high, 0));
   s.svg.end_clip();

@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "contour.hpp"
+#include "planning/clamping/positions.hpp"
 #include "program_steps.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::report {
 namespace {

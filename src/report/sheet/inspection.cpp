@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "gauge.hpp"
+#include "planning/clamping/made_surfaces.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/plan_words.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::report {
 namespace {

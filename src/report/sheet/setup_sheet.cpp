@@ -6,11 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planning/clamping/jaws.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
 #include "report/picture/program_steps.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/amounts.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -110,8 +112,12 @@ Entries clamping(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
   add(all, "Stick-out", stick_out(p, setup, s.clamping));
   add(all, "Jaws", jaws(p, s, setup));
   add(all, "Support", support(p, s, setup));
-  add(all, "Zero", "X on the spindle's axis, Z in the finished face of the free end");
   return all;
+}
+
+std::string zero(const ShopPrograms& shop) {
+  return (shop.work_offset.empty() ? "" : shop.work_offset + ": ") +
+         "X on the spindle's axis, Z in the finished face of the free end";
 }
 
 Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
@@ -148,8 +154,8 @@ std::vector<StopRow> stops(const SetupPlan& s, const nc::SetupProgram& program) 
 std::vector<SetupSheet> setup_sheets(const PreparedPart& part,
                                      const planning::ProcessPlan& plan,
                                      const nc::Programs& programs,
-                                     const std::vector<std::string>& files) {
-  if (files.size() != programs.setups.size())
+                                     const ShopPrograms& shop) {
+  if (shop.files.size() != programs.setups.size())
     throw std::domain_error("setup_sheets: every program has a file");
   std::vector<SetupSheet> all;
   for (const auto& program : programs.setups) {
@@ -158,9 +164,10 @@ std::vector<SetupSheet> setup_sheets(const PreparedPart& part,
     SetupSheet sheet;
     sheet.setup = i + 1;
     sheet.setups = plan.setups.size();
-    sheet.program = files[all.size()];
+    sheet.program = shop.files[all.size()];
     sheet.title = title(part);
     sheet.clamping = clamping(part, s, i);
+    sheet.clamping.emplace_back("Zero", zero(shop));
     sheet.times = times(part, plan, s, program.minutes);
     sheet.tools = tool_rows(part, s, program);
     sheet.stops = stops(s, program);

@@ -31,12 +31,17 @@ struct SetupSheet {
   std::vector<Check> checks;
 };
 
+/// Under what the machine finds the programs.
+struct ShopPrograms {
+  std::vector<std::string> files;  ///< names, one of each program
+  std::string work_offset;         ///< "G54"; empty where the control has none
+};
+
 /// The sheets of every setup that has a program; none of a plan that has no programs.
-/// @param files  names of the programs' files, one for each.
 /// @throws std::domain_error if the programs are not those of the plan.
 std::vector<SetupSheet> setup_sheets(const planning::PreparedPart& part,
                                      const planning::ProcessPlan& plan,
                                      const nc::Programs& programs,
-                                     const std::vector<std::string>& files);
+                                     const ShopPrograms& shop);
 
 }  // namespace turnwright::report

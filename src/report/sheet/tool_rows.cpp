@@ -19,7 +19,7 @@ const catalogue::Tool* turning_tool(const planning::PreparedPart& part,
 }
 
 ToolRow row_of(const planning::PreparedPart& part, const nc::TableTool& tool) {
-  ToolRow row{.number = tool.number, .id = tool.id, .insert = {}, .re_mm = tool.re_mm};
+  ToolRow row{tool.number, tool.offset, tool.id, {}, tool.re_mm};
   const auto* turning = turning_tool(part, tool.id);
   if (!turning) return row;
   row.insert = turning->insert;
@@ -55,7 +55,8 @@ std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
       add(*row, *operation);
     } else if (operation->kind == OperationKind::mill && step->stop_min == 0) {
       auto row = std::ranges::find(driven, operation->tool, &ToolRow::id);
-      if (row == driven.end()) row = driven.insert(row, ToolRow{0, operation->tool, {}});
+      if (row == driven.end())
+        row = driven.insert(row, ToolRow{0, 0, operation->tool, {}});
       add(*row, *operation);
     }
   }

@@ -9,7 +9,7 @@ namespace turnwright::report {
 
 /// A tool of a setup as the person who loads the turret needs it.
 struct ToolRow {
-  int number = 0;  ///< T word, which is its offset's number too; 0 of a driven tool
+  int number = 0, offset = 0;  ///< T word and offset; 0 of a driven tool
   std::string id, insert;
   double re_mm = 0;                          ///< corner radius, 0: none
   std::optional<double> stick_out_mm = {};   ///< of a boring bar

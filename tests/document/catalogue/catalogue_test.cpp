@@ -179,6 +179,65 @@ TEST(Catalogue, EveryToolFieldComesFromItsKey) {
   EXPECT_EQ(t.edge_cost, 2.5);
 }
 
+nlohmann::json tool_with_holder() {
+  auto json = example(kTool);
+  json["holder"] = {{"designation", "PCLNL 2520M 12"},
+                    {"h_mm", 25},
+                    {"b_mm", 20},
+                    {"lf_mm", 150},
+                    {"lh_mm", 31},
+                    {"wf_mm", 27},
+                    {"uncertainty_pct", 10},
+                    {"source", "invented for tests"}};
+  return json;
+}
+
+TEST(Catalogue, EveryHolderFieldComesFromItsKey) {
+  Problems problems;
+  EXPECT_FALSE(read_tool(Reader(example(kTool), problems)).holder.has_value());
+  const auto json = tool_with_holder();
+  const auto t = read_tool(Reader(json, problems));
+  ASSERT_TRUE(problems.list.empty());
+  ASSERT_TRUE(t.holder.has_value());
+  EXPECT_EQ(t.holder->designation, "PCLNL 2520M 12");
+  EXPECT_EQ(t.holder->h_mm, 25);
+  EXPECT_EQ(t.holder->b_mm, 20);
+  EXPECT_EQ(t.holder->lf_mm, 150);
+  EXPECT_EQ(t.holder->lh_mm, 31);
+  EXPECT_EQ(t.holder->wf_mm, 27);
+}
+
+TEST(Catalogue, AHoldersDesignationAgreesWithTheTool) {
+  const auto with = [](const char* designation, const auto& change) {
+    auto json = tool_with_holder();
+    json["holder"]["designation"] = designation;
+    change(json);
+    return problems_of(read_tool, json);
+  };
+  const auto as_it_is = [](auto&) {};
+  const std::string at = "/holder/designation: got ";
+  EXPECT_EQ(with("PCLNL 2520M 12", as_it_is), "");
+  EXPECT_EQ(with("PCLNL 2520-12", as_it_is), "");
+  EXPECT_EQ(with("PDLNL 2520M 12", as_it_is),
+            at + "\"PDLNL 2520M 12\", expected a holder of the insert CNMG 120408\n");
+  EXPECT_EQ(with("PCLNL 2520M 16", as_it_is),
+            at + "\"PCLNL 2520M 16\", expected a holder of the insert CNMG 120408\n");
+  EXPECT_EQ(with("PCKNL 2520M 12", as_it_is),
+            at + "\"PCKNL 2520M 12\", expected a style whose KAPR is "
+                 "geometry/kapr_deg, 95 deg, not 75 deg\n");
+  for (const auto* size : {"PCLNL 2020M 12", "PCLNL 2525M 12", "PCLNL 2520K 12"})
+    EXPECT_EQ(with(size, as_it_is),
+              at + '"' + size + "\", expected the size that h_mm, b_mm and lf_mm give\n");
+  EXPECT_EQ(with("PCLNL 2520M 12", [](auto& j) { j["geometry"]["minor_kapr_deg"] = 6; }),
+            at + "\"PCLNL 2520M 12\", expected an insert whose angle, with kapr_deg and "
+                 "minor_kapr_deg, makes 180 deg\n");
+  EXPECT_EQ(with("PCLNL 2520M 12", [](auto& j) { j["holder"]["lh_mm"] = 150; }),
+            "/holder/lh_mm: got 150, expected less than lf_mm\n");
+  EXPECT_NE(with("PCLNL", as_it_is)
+                .find(at + "\"PCLNL\", expected an ISO 5608 designation (decode_iso5608"),
+            std::string::npos);
+}
+
 TEST(Catalogue, EveryLatheFieldComesFromItsKey) {
   const auto json = example(kLathe);
   Problems problems;

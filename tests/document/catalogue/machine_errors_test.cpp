@@ -5,13 +5,13 @@
 #include "../slips.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
+#include "planning/budget/machine_share.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/document/ball_bar.hpp"
 #include "turnwright/document/catalogue.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/samba.hpp"
-#include "turnwright/planning/machine_share.hpp"
 #include "turnwright/volumetric/samba.hpp"
 
 // The member "errors" of a machine's document.

@@ -4,6 +4,8 @@
 
 #include <regex>
 
+#include "report/picture/svg.hpp"
+
 namespace turnwright::report {
 namespace {
 
@@ -81,6 +83,30 @@ TEST(Html, DrawsHowMuchOfATolerancesWidthIsUsed) {
   full["tolerances"][0]["margin_mm"] = -1e-15;
   full["tolerances"][0]["verdict"] = "met";
   EXPECT_FALSE(holds(html("Shaft", full, {}), "fill=\"#b00d26\""));
+}
+
+// A4 with margins of 12 mm shows a picture of 190 mm 186 mm wide; a point is 25.4/72 mm.
+TEST(Html, NoTypeIsBelowSevenPoints) {
+  constexpr double kPoint = 25.4 / 72, kShown = 186.0 / 190;
+  const auto page = html("Shaft", feasible(), {});
+  std::size_t sizes = 0;
+  const std::regex points("font(?:-size)?: ([0-9.]+)pt");
+  for (std::sregex_iterator i(page.begin(), page.end(), points), end; i != end; ++i) {
+    EXPECT_GE(std::stod((*i)[1]), 7) << (*i)[0];
+    ++sizes;
+  }
+  EXPECT_GT(sizes, 5u);
+  EXPECT_TRUE(holds(page, "small { font-size: inherit }"));
+  EXPECT_TRUE(holds(page, "figure img { width: 100%"));
+  const auto picture = Svg{}.page(190, 10, "");
+  const std::regex millimetres("font-size: ([0-9.]+)px");
+  sizes = 0;
+  for (std::sregex_iterator i(picture.begin(), picture.end(), millimetres), end; i != end;
+       ++i) {
+    EXPECT_GE(std::stod((*i)[1]) * kShown / kPoint, 7) << (*i)[0];
+    ++sizes;
+  }
+  EXPECT_EQ(sizes, 2u);
 }
 
 TEST(Html, EscapesWhateverTheRequestCallsThings) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "svg_check.hpp"
+#include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::report {
 namespace {

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "../../nc/plans.hpp"
+#include "planning/clamping/positions.hpp"
 #include "report/picture/contour.hpp"
 #include "report/picture/program_removal.hpp"
 #include "svg_check.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
 
 namespace turnwright::report {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "../../nc/plans.hpp"
 #include "report/page/sheet_html.hpp"
-#include "turnwright/planning/setup_geometry.hpp"
+#include "turnwright/nc/text.hpp"
 
 namespace turnwright::report {
 namespace {
@@ -26,10 +26,10 @@ Sheets sheets_of(nlohmann::json document) {
   document.erase("what_if");
   Sheets s{nc::test::planned(document), {}, {}};
   s.programs = nc::programs(s.planned.part, s.planned.plan);
-  std::vector<std::string> files;
+  ShopPrograms shop{{}, "G54"};
   for (const auto& p : s.programs.setups)
-    files.push_back("program-" + std::to_string(p.setup));
-  s.all = setup_sheets(s.planned.part, s.planned.plan, s.programs, files);
+    shop.files.push_back("program-" + std::to_string(p.setup));
+  s.all = setup_sheets(s.planned.part, s.planned.plan, s.programs, shop);
   return s;
 }
 
@@ -115,6 +115,19 @@ TEST(SetupSheet, ToolsShareTheSetupsOperationsAndItsEdges) {
     EXPECT_GE(all_min, plan.breakdown.edges.time_min);
     EXPECT_LE(all_min - faces_min, plan.breakdown.edges.time_min);
   }
+}
+
+TEST(SetupSheet, NumbersAreTheShops) {
+  auto programs = bush_sheets().programs;
+  const auto& planned = bush_sheets().planned;
+  nc::number_tools(programs.setups, {.tools = {{"PCLNL-CNMG120408-PM", 7, 17}}});
+  const auto sheet =
+      setup_sheets(planned.part, planned.plan, programs, {{"a", "b"}, "G55"})[0];
+  const auto row = std::ranges::find(sheet.tools, "PCLNL-CNMG120408-PM", &ToolRow::id);
+  ASSERT_NE(row, sheet.tools.end());
+  EXPECT_EQ(row->number, 7);
+  EXPECT_EQ(row->offset, 17);
+  EXPECT_TRUE(value(sheet.clamping, "Zero").starts_with("G55: X on"));
 }
 
 TEST(SetupSheet, PartsUntilAnEdgeIsWornAreWhole) {
@@ -233,9 +246,9 @@ TEST(SetupSheet, ProgramsOfAnotherPlanAreRefused) {
   const auto& s = bush_sheets();
   auto plan = s.planned.plan;
   plan.setups[0].operations.pop_back();
-  EXPECT_THROW(setup_sheets(s.planned.part, plan, s.programs, {"a", "b"}),
+  EXPECT_THROW(setup_sheets(s.planned.part, plan, s.programs, {{"a", "b"}, ""}),
                std::domain_error);
-  EXPECT_THROW(setup_sheets(s.planned.part, s.planned.plan, s.programs, {"a"}),
+  EXPECT_THROW(setup_sheets(s.planned.part, s.planned.plan, s.programs, {{"a"}, ""}),
                std::domain_error);
 }
 

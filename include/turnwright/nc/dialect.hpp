@@ -1,0 +1,59 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+/// How the controls of turning machines write the same program: a row of words for each.
+///
+/// Words with names in braces are templates, for example "T{tool:02}{offset:02}"; each
+/// line of a template is a block.  Arcs are the same everywhere: G2 and G3 as seen with X
+/// up and Z to the right, the centre by I and K from the start, I as a radius although X
+/// is a diameter.
+///
+/// Sources: LinuxCNC's interpreter, which runs the programs in linuxcnc_test; of the
+/// others [Okuma 5238-E], [Siemens 6FC5298-7AB00] and [gEdit] in docs/bibliography.md.
+namespace turnwright::nc {
+
+enum class Control { linuxcnc, fanuc, fanuc_b, haas, siemens_iso, siemens, okuma };
+
+/// What the number of a tool's offset is.
+enum class OffsetNumber {
+  of_tool,  ///< the tool's number
+  free,     ///< a register of its own, by default that of the tool's number
+  edge      ///< the edge of the tool, by default the first
+};
+
+struct Dialect {
+  Control control;
+  std::string_view id;    ///< in requests, "fanuc-b"
+  std::string_view name;  ///< for people
+  std::string_view extension;
+
+  std::string_view begin;  ///< before everything else; {program} is its number
+  std::string_view start;  ///< plane, units, modes, then the work offset: {offset}
+  std::string_view end;
+  int programs;  ///< largest number of a program, 0 if it has none
+  std::span<const std::string_view> work_offsets;  ///< the first is used by default
+  std::string_view reference;  ///< to the reference position, from the change of tools
+
+  std::string_view comment;  ///< {}
+  bool upper_case;           ///< the control's code has no small letters
+  std::size_t longest;       ///< characters of a comment
+
+  std::string_view tool;  ///< {tool}, {offset}
+  OffsetNumber offset;
+
+  std::string_view surface_speed;  ///< {S} in m/min below the limit {limit}, {turn}
+  std::string_view thread;         ///< one cut of a thread
+  char lead;                       ///< the letter of its lead
+  /// The word for a thread is a cycle: in along X, cut along Z, out, and back.
+  bool thread_returns;
+
+  bool point;      ///< a number without a point may count steps
+  int S_decimals;  ///< of spindle and surface speeds
+};
+
+std::span<const Dialect> dialects();
+const Dialect& dialect(Control control);
+
+}  // namespace turnwright::nc

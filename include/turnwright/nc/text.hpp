@@ -1,0 +1,57 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "turnwright/nc/dialect.hpp"
+#include "turnwright/nc/program.hpp"
+
+/// Programs as text: a control's dialect with a shop's settings.
+namespace turnwright::nc {
+
+enum class BlockNumbers {
+  none,
+  tools,  ///< blocks that call a tool, by ten for each operation
+  all     ///< N1, N2, .., after N9999 from the beginning
+};
+
+/// The spindle's sense while turning.  Drills and threads always run with M3: with M4 a
+/// right-hand drill does not cut, and a thread towards the chuck becomes left-handed.
+enum class SpindleTurn { M3, M4 };
+
+/// A tool by the id that programs list, with the shop's number of it.
+struct ShopTool {
+  std::string id;
+  int number = 0;
+  std::optional<int> offset = std::nullopt;  ///< if not the usual one
+};
+
+struct Settings {
+  Control control = Control::linuxcnc;
+  int program_number = 1;        ///< of the first setup; the others count on
+  std::string work_offset = {};  ///< empty: the control's first, if it has any
+  BlockNumbers block_numbers = BlockNumbers::tools;
+  SpindleTurn spindle = SpindleTurn::M3;
+  std::string coolant = "M8";   ///< the code that turns it on; empty: none
+  bool optional_stops = false;  ///< M1 before each change of the tool
+  /// To the reference position at the start, before each change of the tool and at the
+  /// end.  The program's minutes do not count these ways.
+  bool reference_returns = false;
+  std::vector<ShopTool> tools = {};
+};
+
+/// The work offset that a program selects, "" if the control has none.
+std::string work_offset(const Settings& settings);
+
+/// Gives the tools of all programs of a part the shop's numbers and offsets.  Tools the
+/// shop has not numbered get the numbers that are left, in their order of use.
+void number_tools(std::vector<SetupProgram>& programs, const Settings& settings);
+
+/// The program's text, lines of printable ASCII.
+std::string text(const SetupProgram& program, const Settings& settings);
+
+/// LinuxCNC's tool table for programs of one part: numbers, diameters and orientations,
+/// offsets zero.
+std::string tool_table(const std::vector<SetupProgram>& programs);
+
+}  // namespace turnwright::nc

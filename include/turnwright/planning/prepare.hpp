@@ -1,0 +1,16 @@
+#pragma once
+#include "turnwright/planning/prepared_part.hpp"
+
+/// From a request to what follows from it.
+namespace turnwright::planning {
+
+/// Everything that follows from a request: the PreparedPart.
+PreparedPart prepare(PlanRequest request);
+
+/// Prepares a request that differs from that of `like` only in numbers that move no
+/// surface: limits of tolerances, roughness, machine, tools and operations, prices, the
+/// objective. The machine's shares and the ways of milling, which take long to compute,
+/// are copied from `like`.
+PreparedPart prepare(PlanRequest request, const PreparedPart& like);
+
+}  // namespace turnwright::planning

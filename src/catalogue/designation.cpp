@@ -1,0 +1,54 @@
+#include "designation.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace turnwright::catalogue {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+std::optional<double> clearance_deg(char letter) {
+  constexpr std::string_view kLetters = "ABCDEFGNP";
+  constexpr std::array kAngles_deg{3.0, 5.0, 7.0, 15.0, 20.0, 25.0, 30.0, 0.0, 11.0};
+  const auto at = kLetters.find(letter);
+  if (at == std::string_view::npos) return std::nullopt;
+  return kAngles_deg[at];
+}
+
+std::string_view Designation::take(std::size_t count) {
+  while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+  const std::string_view symbol = std::string_view(text_).substr(at_, count);
+  at_ += symbol.size();
+  ++number_;
+  last_ = symbol;
+  if (symbol.size() != count) fail("is missing");
+  return symbol;
+}
+
+char Designation::take_one_of(std::string_view letters) {
+  const char c = take(1).front();
+  if (letters.find(c) == std::string_view::npos)
+    fail("must be one of " + std::string(letters));
+  return c;
+}
+
+int Designation::take_two_digits() {
+  const auto s = take(2);
+  if (!is_digit(s[0]) || !is_digit(s[1])) fail("must be two digits");
+  return 10 * (s[0] - '0') + (s[1] - '0');
+}
+
+bool Designation::digit_follows() const {
+  return at_ < text_.size() && is_digit(text_[at_]);
+}
+
+void Designation::fail(const std::string& rule) const {
+  throw std::domain_error(std::string(function_) + ": \"" + text_ + "\": symbol " +
+                          std::to_string(number_) + " (\"" + std::string(last_) + "\") " +
+                          rule);
+}
+
+}  // namespace turnwright::catalogue

@@ -1,0 +1,210 @@
+#include "turnwright/document/nc.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "document/json/fields.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr long kTools = 99;  // two digits in the words of most controls
+constexpr std::size_t kListedTools = 200;
+
+const Choices<nc::Control>& controls() {
+  static const auto kControls = [] {
+    Choices<nc::Control> all;
+    for (const auto& d : nc::dialects()) all.push_back({d.id, d.control});
+    return all;
+  }();
+  return kControls;
+}
+const Choices<nc::BlockNumbers> kBlockNumbers{{"none", nc::BlockNumbers::none},
+                                              {"tools", nc::BlockNumbers::tools},
+                                              {"all", nc::BlockNumbers::all}};
+const Choices<nc::SpindleTurn> kTurns{{"M3", nc::SpindleTurn::M3},
+                                      {"M4", nc::SpindleTurn::M4}};
+
+template <class E>
+std::string word(const Choices<E>& choices, E value) {
+  return std::string(std::find_if(choices.begin(), choices.end(), [&](const auto& c) {
+                       return c.second == value;
+                     })->first);
+}
+
+std::string quoted_list(std::span<const std::string_view> words) {
+  std::string all;
+  for (const auto w : words) all += (all.empty() ? "\"" : ", \"") + std::string(w) + '"';
+  return all;
+}
+
+void read_work_offset(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+  if (!r.has("work_offset")) return;
+  s.work_offset = r.text("work_offset");
+  if (s.work_offset.empty()) return;  // reported
+  const auto& all = d.work_offsets;
+  if (std::find(all.begin(), all.end(), s.work_offset) != all.end()) return;
+  r.problem_at("work_offset",
+               all.empty() ? "none: " + std::string(d.name) + " has no such words"
+                           : "one of " + quoted_list(all),
+               "choice");
+}
+
+void read_program_number(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+  if (!r.has("program_number")) return;
+  if (d.programs > 0) {
+    s.program_number = static_cast<int>(r.integer("program_number", 1, d.programs));
+    return;
+  }
+  r.problem_at("program_number",
+               "none: programs of " + std::string(d.name) + " go by their file's name",
+               "choice");
+}
+
+void read_coolant(Reader& r, nc::Settings& s) {
+  if (!r.has("coolant")) return;
+  const auto given = r.text("coolant");
+  const bool code = given.size() >= 2 && given.size() <= 5 && given[0] == 'M' &&
+                    std::all_of(given.begin() + 1, given.end(),
+                                [](unsigned char c) { return std::isdigit(c) != 0; });
+  if (!code && !given.empty() && given != "off")
+    r.problem_at("coolant", "\"off\" or a code like \"M8\"", "choice");
+  s.coolant = code ? given : "";
+}
+
+// Each number, and each offset that is a register of its own, belongs to one tool.
+void read_tools(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+  std::set<std::string> ids;
+  std::set<int> numbers, offsets;
+  const auto once = [](Reader& item, std::string_view key, bool first) {
+    if (!first) item.problem_at(key, "one that no other tool has", "duplicate");
+  };
+  for (auto& entry : r.optional_items("tools", 0, kListedTools)) {
+    auto item = entry.as_object();
+    nc::ShopTool tool{.id = item.text("id"),
+                      .number = static_cast<int>(item.integer("number", 1, kTools))};
+    if (const auto offset = item.optional_integer("offset", 1, kTools))
+      tool.offset = static_cast<int>(*offset);
+    item.finish();
+    if (item.broken()) continue;
+    once(item, "id", ids.insert(tool.id).second);
+    once(item, "number", numbers.insert(tool.number).second);
+    if (d.offset == nc::OffsetNumber::free)
+      once(item, "offset", offsets.insert(tool.offset.value_or(tool.number)).second);
+    if (d.offset == nc::OffsetNumber::of_tool && tool.offset)
+      item.problem_at(
+          "offset",
+          "none: the offset of " + std::string(d.name) + " is that of the tool's number",
+          "choice");
+    s.tools.push_back(std::move(tool));
+  }
+}
+
+nc::Settings read_settings(Reader& r) {
+  nc::Settings s;
+  s.control = r.choice_or("control", controls(), nc::Control::linuxcnc);
+  const auto& d = nc::dialect(s.control);
+  read_work_offset(r, d, s);
+  read_program_number(r, d, s);
+  s.block_numbers = r.choice_or("block_numbers", kBlockNumbers, s.block_numbers);
+  s.spindle = r.choice_or("spindle", kTurns, s.spindle);
+  read_coolant(r, s);
+  s.optional_stops = r.boolean_or("optional_stops", s.optional_stops);
+  s.reference_returns = r.boolean_or("reference_returns", s.reference_returns);
+  read_tools(r, d, s);
+  return s;
+}
+
+ordered_json tools_of(const std::vector<nc::SetupProgram>& programs) {
+  auto all = ordered_json::array();
+  std::set<int> listed;
+  for (const auto& p : programs)
+    for (const auto& t : p.tools)
+      if (listed.insert(t.number).second)
+        all.push_back({{"id", t.id}, {"number", t.number}, {"offset", t.offset}});
+  return all;
+}
+
+// As a request may give them.
+ordered_json settings_json(const nc::Settings& s,
+                           const std::vector<nc::SetupProgram>& programs) {
+  const auto& d = nc::dialect(s.control);
+  ordered_json out{{"control", d.id}};
+  if (d.programs > 0) out["program_number"] = s.program_number;
+  if (const auto offset = nc::work_offset(s); !offset.empty())
+    out["work_offset"] = offset;
+  out["block_numbers"] = word(kBlockNumbers, s.block_numbers);
+  out["spindle"] = word(kTurns, s.spindle);
+  out["coolant"] = s.coolant.empty() ? "off" : s.coolant;
+  out["optional_stops"] = s.optional_stops;
+  out["reference_returns"] = s.reference_returns;
+  out["tools"] = tools_of(programs);
+  if (d.offset == nc::OffsetNumber::of_tool)
+    for (auto& tool : out["tools"]) tool.erase("offset");
+  return out;
+}
+
+}  // namespace
+
+NcRequest load_nc_request(const json& request, const Catalogue& catalogue) {
+  Problems problems{.document = "nc"};
+  Reader r = Reader(request, problems).as_object();
+  read_format(r, "turnwright-nc/1");
+  const auto part = r.object("part");
+  NcRequest out{.settings = read_settings(r)};
+  r.finish();
+  try {
+    if (!part.broken()) out.part = prepared_part(part.json(), catalogue, "nc");
+  } catch (const InputError& e) {
+    for (auto problem : e.problems()) {
+      problem.pointer = part.pointer() + problem.pointer;
+      problems.add(std::move(problem));
+    }
+  }
+  problems.throw_if_any();
+  return out;
+}
+
+nc::Settings load_nc_settings(const json& settings, const std::string& document) {
+  Problems problems{.document = document};
+  Reader r = Reader(settings, problems).as_object();
+  auto out = read_settings(r);
+  r.finish();
+  problems.throw_if_any();
+  return out;
+}
+
+std::string file_name(const nc::SetupProgram& program, nc::Control control) {
+  return "setup-" + std::to_string(program.setup + 1) +
+         std::string(nc::dialect(control).extension);
+}
+
+ordered_json to_json(const nc::Programs& programs, const planning::ProcessPlan& plan,
+                     const nc::Settings& settings) {
+  const bool planned = plan.status == planning::PlanStatus::ok;
+  auto all = programs;
+  nc::number_tools(all.setups, settings);
+  ordered_json out{{"status", !planned             ? "infeasible"
+                              : all.cannot.empty() ? "ok"
+                                                   : "not-programmed"},
+                   {"settings", settings_json(settings, all.setups)},
+                   {"programs", ordered_json::array()},
+                   {"cannot", all.cannot}};
+  for (const auto& p : all.setups)
+    out["programs"].push_back({{"setup", p.setup},
+                               {"name", file_name(p, settings.control)},
+                               {"minutes",
+                                {{"cutting", p.minutes.cutting},
+                                 {"air", p.minutes.air},
+                                 {"tool_changes", p.minutes.tool_changes},
+                                 {"operator_stops", p.minutes.operator_stops}}},
+                               {"text", nc::text(p, settings)}});
+  out["tool_table"] = nc::tool_table(all.setups);
+  return out;
+}
+
+}  // namespace turnwright::document

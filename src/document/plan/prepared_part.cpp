@@ -1,0 +1,156 @@
+#include "turnwright/document/prepared_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "document/part/part_sections.hpp"
+#include "document/part/what_if.hpp"
+#include "planning/auxiliary/milled_ways.hpp"
+#include "turnwright/planning/limit.hpp"
+#include "turnwright/planning/prepare.hpp"
+
+namespace turnwright::document {
+namespace {
+
+constexpr double kNotedBelow = 0.9;  // of a section's stiffness
+
+using Assumed = std::vector<Assumption>;
+
+void add_grips(const planning::PreparedPart& p, Assumed& assumed) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    if (!p.setups[s].grip_mm)
+      assumed.push_back(
+          {"/setups/" + std::to_string(s) + "/grip_mm", p.grips_mm[s],
+           "half the held diameter, at least 15 mm and at most half of what "
+           "is held; less where a surface could not be cut else"});
+}
+
+void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
+  for (std::size_t i = 0; i < p.drilled_mm.size(); ++i)
+    if (p.drilled_mm[i] > 0)
+      assumed.push_back(
+          {"/inner/" + std::to_string(i),
+           {{"drilled_mm", p.drilled_mm[i]}},
+           "the largest drill that leaves 0.5 mm on the radius, and what is behind"});
+}
+
+// The reason why the place cannot be milled in any clamping of the setup that the request
+// gives; empty if it can.
+std::string obstacle(const planning::PreparedPart& p, const planning::MilledPlace& m) {
+  std::string why;
+  for (const auto clamping : p.setups[*m.setup].clampings)
+    if (why = planning::milled_obstacle(p, m, *m.setup, clamping); why.empty()) break;
+  return why;
+}
+
+void add_milled_place(const planning::PreparedPart& p, const planning::MilledPlace& m,
+                      const Reader& r, Assumed& assumed) {
+  const auto assume = [&](const std::string& pointer, nlohmann::json value,
+                          std::string why) {
+    assumed.push_back({pointer, std::move(value), std::move(why)});
+  };
+  if (!m.setup)
+    return r.problem("a place that some setup leaves free once " +
+                         p.drawing.outer[m.element].id + " is turned",
+                     "conflict");
+  if (!m.given_setup)
+    assume(r.pointer_of("setup"), *m.setup, "the first that leaves it free");
+  else if (const auto why = obstacle(p, m); !why.empty())
+    r.problem_at("setup", "a setup that can mill " + m.id + ": in this one " + why,
+                 "conflict");
+  if (const auto later = planning::gripped_later(p, m))
+    assume(r.pointer_of("angle_deg"), m.angle_deg,
+           "no jaw of setup " + std::to_string(*later) + " stands on it");
+  if (const double kept = planning::stiffness_kept(p, m); kept < kNotedBelow)
+    assume(r.pointer_of("depth_mm"), m.depth_mm,
+           "the section keeps " +
+               std::to_string(static_cast<int>(std::floor(100 * kept))) +
+               " % of its stiffness here, which later cuts do not count");
+  for (const auto& cutter : m.cutters)
+    if (!p.machine.driven_tools->modes.count(cutter.id) && m.cutters.size() == 1)
+      assume("/machine/driven_tools/measured", cutter.id,
+             "the tool point is that of the cutter's document, not measured here");
+}
+
+void add_milled_places(const LoadedPart& loaded, const planning::PreparedPart& p,
+                       Assumed& assumed) {
+  if (p.milled_places.empty()) return;
+  Problems problems{.document = loaded.document};
+  const auto items = Reader(loaded.json, problems).items("milling", 0, p.milled.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
+    add_milled_place(p, p.milled_places[i], items[i], assumed);
+  problems.throw_if_any();
+}
+
+void add_eased_jaws(const planning::PreparedPart& p, Assumed& assumed) {
+  for (std::size_t s = 0; s < p.jaws.size(); ++s)
+    if (p.jaws[s].eased)
+      assumed.push_back({"/setups/" + std::to_string(s) + "/finishing_grip_force_N",
+                         p.jaws[s].finishing_N,
+                         "the jaws are eased from " + number_text(p.jaws[s].roughing_N) +
+                             " N: their lobes may take a quarter of a roundness"});
+}
+
+planning::PreparedPart with_limit(const ChangedRequest& change,
+                                  const planning::PreparedPart& part,
+                                  Problems& problems) {
+  const auto all = planning::limits(part);
+  const auto limit = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& l) { return l.name == change.limit; });
+  if (limit != all.end()) {
+    planning::PlanRequest request = part;
+    limit->scale(request, change.factor);
+    return planning::prepare(std::move(request), part);
+  }
+  std::vector<std::string> names;
+  for (const auto& l : all) names.push_back(l.name);
+  problems.add({change.pointer, shown(change.limit),
+                expected_reference(change.limit, names, "a limit of this request"),
+                "reference"});
+  return part;
+}
+
+std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
+                                      const planning::PreparedPart& part,
+                                      const Catalogue& catalogue) {
+  Problems problems{.document = loaded.document};
+  std::vector<planning::WhatIf> all;
+  for (const auto& change : changed_requests(loaded.json, problems)) {
+    if (!change.limit.empty()) {
+      all.push_back({change.name, with_limit(change, part, problems)});
+      continue;
+    }
+    try {
+      all.push_back(
+          {change.name, prepared_part(change.document, catalogue, loaded.document).part});
+    } catch (const InputError& error) {
+      for (auto p : error.problems()) {
+        p.pointer = change.pointer + p.pointer;
+        problems.add(std::move(p));
+      }
+    }
+  }
+  problems.throw_if_any();
+  return all;
+}
+
+}  // namespace
+
+PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
+  PreparedDocument out{planning::prepare(loaded.plan), std::move(loaded.assumed), {}};
+  add_grips(out.part, out.assumed);
+  add_drilled_holes(out.part, out.assumed);
+  add_milled_places(loaded, out.part, out.assumed);
+  add_eased_jaws(out.part, out.assumed);
+  out.what_if = what_if(loaded, out.part, catalogue);
+  return out;
+}
+
+PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& catalogue,
+                               const std::string& document, Purpose purpose) {
+  return prepared(load_part_plan(json, catalogue, document, purpose), catalogue);
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,681 @@
+#include "catalogue_operations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "milled_operations.hpp"
+#include "planning/clamping/clamping_speed.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/clamping/supports.hpp"
+#include "planning/surface/operation_result.hpp"
+#include "planning/values/readable.hpp"
+#include "turnwright/base/dual.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/cutting/fixed.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::FixedTool;
+using catalogue::FixedUse;
+using cutting::Load;
+
+constexpr double kCentreShare = 0.35;     // of the end's diameter
+constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
+constexpr int kLeastInfeeds = 4;          // of a thread
+constexpr double kRunIn = 3;              // of a thread, in pitches
+constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
+
+struct Site {
+  const PreparedPart& p;
+  std::size_t setup;
+  Clamping clamping;
+  const SetupWork& work;
+  Stage stage;  // of the jaws' force
+  AuxiliaryWork& out;
+};
+
+// Requirements on a tool.
+struct Asked {
+  FixedUse use;
+  const char* does;  // "groove": of ids and sentences
+  std::string surface;
+  bool inner = false;
+  const OperationRequest* given = nullptr;
+  std::function<bool(const FixedTool&, double size)> fits;
+};
+
+// A tool in one of its sizes, the conditions in the plan's material.
+struct Fitted {
+  const FixedTool* tool = nullptr;
+  double size_mm = 0;
+  catalogue::FixedConditions at = {};
+};
+
+bool sized_by_diameter(FixedUse use) {
+  return use == FixedUse::centring || use == FixedUse::drilling;
+}
+
+// A given depth names the tool's size: half a drill's diameter, the width of a blade
+// that parts off.
+bool of_given_depth(const Asked& a, double size) {
+  if (!a.given || !a.given->conditions.ap_mm) return true;
+  const double ap = *a.given->conditions.ap_mm;
+  if (sized_by_diameter(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
+  return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
+}
+
+// The largest size that fits (for parting off the smallest), of the first tool that has
+// it.
+Fitted fitted(const PlanRequest& p, const Asked& a) {
+  Fitted best;
+  for (const auto& t : p.fixed_tools) {
+    const auto* at = t.conditions_in(p.material.group);
+    if (t.use != a.use || !at || t.inner != a.inner) continue;
+    if (a.given && a.given->tool && *a.given->tool != t.id) continue;
+    const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
+    for (const double size : sizes)
+      if (a.fits(t, size) && of_given_depth(a, size) &&
+          (!best.tool ||
+           (a.use == FixedUse::parting ? size < best.size_mm : size > best.size_mm)))
+        best = {&t, size, *at};
+  }
+  if (!best.tool) return best;
+  if (sized_by_diameter(a.use)) best.at.f_mm_rev *= best.size_mm;
+  if (a.given) {
+    const auto& c = a.given->conditions;
+    best.at.vc_m_min = c.vc_m_min.value_or(best.at.vc_m_min);
+    best.at.f_mm_rev = c.f_mm_rev.value_or(best.at.f_mm_rev);
+  }
+  return best;
+}
+
+void refuse(const Site& s, const Asked& a, const std::string& why) {
+  s.out.conflicts.push_back({fmt::format("{} {}", a.does, a.surface),
+                             fmt::format("setup {}", s.setup), 0, 0, "",
+                             fmt::format("{} {}: {}", a.does, a.surface, why)});
+}
+
+// The given operation at fixed conditions on a surface in this setup.
+const OperationRequest* given_on(const Site& s, const std::string& surface) {
+  if (!s.p.operations) return nullptr;
+  for (const auto& o : *s.p.operations)
+    if (o.kind == OperationKind::fixed && o.setup == s.setup &&
+        std::find(o.on.begin(), o.on.end(), surface) != o.on.end())
+      return &o;
+  return nullptr;
+}
+
+double n_cap_rpm(const Site& s) {
+  const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
+  return std::min({cutting::speed_ranges(s.p.machine).back().n_max_rpm,
+                   clamping_rpm(s.p, s.clamping), grip_loss_rpm(s.p, s.clamping, force)});
+}
+
+// Load of a pass on the spindle at one end of its diameters.
+struct Duty {
+  Load load;
+  double n_rpm = 0, D_mm = 0;
+  bool radial = false;  // the feed's force does not pull at the jaws
+};
+
+// Adds a limit, or keeps the tighter of two of the same name.
+void tighten(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
+  const auto it = std::find_if(all.begin(), all.end(),
+                               [&](const auto& o) { return o.name == c.name; });
+  if (it == all.end())
+    all.push_back(c);
+  else if (c.margin < it->margin)
+    *it = c;
+}
+
+std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
+                                    const std::vector<Duty>& duties) {
+  const auto& m = s.p.machine;
+  const auto ranges = cutting::speed_ranges(m);
+  std::vector<ConstraintValue> all;
+  for (const auto& d : duties) {
+    const double n =
+        std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
+    const auto& [Fc, Ff, M] = d.load;
+    tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
+    tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
+                            cutting::available_kW(ranges, n, false)));
+    tighten(all, constraint(Check::torque, M,
+                            cutting::available_kW(ranges, n, true) /
+                                units::shaft_power_kW(1, n)));
+    tighten(all, constraint(Check::spindle_min, d.n_rpm, m.n_min_rpm));
+    if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
+    if (s.clamping == Clamping::between_centres) continue;
+    const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
+    const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+                             grip_diameter_mm(s.p, s.setup, s.clamping)};
+    const double needed =
+        cutting::grip_needed_N(grip, 2000 * M / d.D_mm, d.radial ? 0.0 : Ff, d.D_mm);
+    tighten(all,
+            constraint(Check::grip, needed + cutting::grip_loss_N(grip, d.n_rpm), force));
+  }
+  return all;
+}
+
+// Lengths of the passes outside the cut, and where they begin and end (pass_lengths.hpp).
+struct Way {
+  double fed_min = 0, rapid_mm = 0;
+  bool inner = false;
+  double from_mm = 0, to_mm = 0;
+};
+
+// Adds passes with their forces and paths to an operation: Eq. (6).
+AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
+                             std::vector<Pass> passes, const Way& way,
+                             const std::vector<Duty>& duties) {
+  AuxiliaryOperation o;
+  auto& plan = o.plan;
+  plan.kind = OperationKind::fixed;
+  plan.id = a.given
+                ? (a.given->on.size() > 1 ? a.given->id + ":" + a.surface : a.given->id)
+                : fmt::format("s{}-{}-{}", s.setup, a.does, a.surface);
+  plan.on = {a.surface};
+  plan.tool = f.tool->id;
+  for (auto& pass : passes) {
+    pass.f_mm_rev = f.at.f_mm_rev;
+    pass.T_min = f.at.T_min;
+    plan.time_min += pass.time_min;
+  }
+  const double edges = plan.time_min / f.at.T_min;
+  o.air_min = way.fed_min + way.rapid_mm / s.p.machine.rapid_mm_min;
+  o.change_min = f.tool->change_min * edges;
+  o.edges_cost = f.tool->edge_cost * edges;
+  o.order = {f.size_mm > 0 ? fmt::format("{} {:g}", f.tool->id, f.size_mm) : f.tool->id,
+             s.stage,
+             sized_by_diameter(a.use),
+             way.inner,
+             way.from_mm,
+             way.to_mm};
+  plan.passes = std::move(passes);
+  plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
+  plan.constraints = limits(s, *f.tool, duties);
+  const double counted = s.p.objective == Objective::time ? o.minutes() : plan.cost;
+  plan.certificate = {CertificateKind::global,
+                      counted,
+                      0,
+                      0,
+                      "fixed",
+                      "catalogue conditions, nothing is chosen"};
+  return o;
+}
+
+Pass pass_of(const Duty& d, double ap_mm, double time_min) {
+  Pass p;
+  p.ap_mm = ap_mm;
+  p.n_rpm = d.n_rpm;
+  p.vc_m_min = units::cutting_speed_m_min(d.n_rpm, d.D_mm);
+  p.time_min = time_min;
+  p.Fc_N = d.load.Fc_N;
+  (d.radial ? p.Fp_N : p.Ff_N) = d.load.Ff_N;
+  p.Pc_kW = units::shaft_power_kW(d.load.M_Nm, d.n_rpm);
+  return p;
+}
+
+cutting::Load load_of(const Fitted& f, const PreparedPart& p, double b_mm, double D_mm) {
+  return cutting::plunge(cutting::kienzle_at(p.material, f.tool->gamma_deg), b_mm,
+                         f.at.f_mm_rev, D_mm);
+}
+
+// Eq. (2).
+AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
+                           double depth_mm) {
+  const double D = f.size_mm;
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const Duty d{cutting::drill(kc, D, f.at.f_mm_rev, f.tool->point_deg),
+               std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s)), D};
+  const double front = front_mm(s.p, s.setup, s.work);
+  const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
+  const double vf = f.at.f_mm_rev * d.n_rpm;
+  return operation(s, a, f, {pass_of(d, D / 2, path / vf)},
+                   {kBefore_mm / vf, kBefore_mm + path, true, 0, 0}, {d});
+}
+
+// Without any centre drill among the tools the stock is assumed to come centred.
+void add_centre(Site& s, const char* face, double end_mm) {
+  if (std::none_of(s.p.fixed_tools.begin(), s.p.fixed_tools.end(),
+                   [](const auto& t) { return t.use == FixedUse::centring; }))
+    return;
+  Asked a{FixedUse::centring,
+          "centre",
+          face,
+          false,
+          given_on(s, face),
+          [&](const FixedTool&, double size) { return size <= kCentreShare * end_mm; }};
+  const auto f = fitted(s.p, a);
+  if (f.tool)
+    s.out.before.push_back(drilled(s, a, f, f.tool->reach * f.size_mm));
+  else
+    refuse(s, a,
+           fmt::format("no centre drill of the tools is for {} and an end of {:g} mm",
+                       s.p.material.name, end_mm));
+}
+
+// The bores of a bar that open to an end: how deep, and the narrowest diameter.
+struct Hole {
+  double depth_mm = 0, least_mm = INFINITY;
+  std::string first;  // the outermost bore
+  /// Material left between it and the bores of the other end, or that end; the narrowest
+  /// of those bores.
+  double rest_mm = 0, behind_mm = INFINITY;
+
+  // Whether a drill's point stays clear of the drawn surfaces behind; between bores from
+  // both ends each may use half.
+  bool spares_behind(const FixedTool& drill, double size_mm) const {
+    if (rest_mm < kNoWall_mm) return size_mm <= behind_mm;
+    const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
+    return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
+  }
+};
+Hole hole_from(const part::Drawing& d, part::End end) {
+  Hole h;
+  if (d.stock.kind != part::StockKind::bar) return h;
+  h.rest_mm = part::length_mm(d);
+  for (const auto& e : d.inner) {
+    h.rest_mm -= e.length_mm;
+    if (e.from != end) {
+      h.behind_mm = std::min({h.behind_mm, e.left_mm, e.right_mm});
+      continue;
+    }
+    if (h.first.empty()) h.first = e.id;
+    h.depth_mm += e.length_mm;
+    h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
+  }
+  return h;
+}
+
+Asked drilling(const Hole& h, const OperationRequest* given) {
+  return {FixedUse::drilling,
+          "drill",
+          h.first,
+          false,
+          given,
+          [h](const FixedTool& t, double size) {
+            return size <= h.least_mm - 2 * kLeftToBore_mm &&
+                   h.depth_mm <= t.reach * size && h.spares_behind(t, size);
+          }};
+}
+
+const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
+  if (!p.operations) return nullptr;
+  for (const auto& o : *p.operations)
+    for (const auto& e : p.drawing.inner)
+      if (o.kind == OperationKind::fixed && e.from == end && !e.cut &&
+          std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
+        return &o;
+  return nullptr;
+}
+
+void add_drilling(Site& s, part::End end) {
+  const auto h = hole_from(s.p.drawing, end);
+  if (h.first.empty()) return;
+  const auto a = drilling(h, given_drilling(s.p, end));
+  const auto f = fitted(s.p, a);
+  if (f.tool)
+    s.out.before.push_back(drilled(s, a, f, h.depth_mm));
+  else
+    refuse(
+        s, a,
+        fmt::format("no drill of the tools is for {}, below {:g} mm and {:g} mm long{}",
+                    s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+                    h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
+                        ? ""
+                        : ", with a point that leaves what is behind"));
+}
+
+// A facing sweep between two diameters at constant surface speed.
+double sweep_min(double path_mm, double D_small, double D_large,
+                 const catalogue::FixedConditions& at, double n_cap) {
+  const cutting::Sweep<double> sweep{path_mm, D_small, D_large, D_small < D_large,
+                                     !(D_small > 0)};
+  return cutting::duty(sweep, at.vc_m_min, at.f_mm_rev, at.T_min, n_cap, 1.0).time_min;
+}
+
+// A blade from one diameter to another, `plunges` times, each with a feed in the air:
+// Eq. (3).
+AuxiliaryOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
+                           double D_large, int plunges, Way way) {
+  const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
+  std::vector<Duty> duties;
+  for (const double D : {D_large, D_small})
+    if (D > 0)
+      duties.push_back({load_of(f, s.p, f.size_mm, D),
+                        std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap), D, true});
+  const double t = sweep_min(depth, D_small, D_large, f.at, n_cap);
+  const std::vector<Pass> passes(static_cast<std::size_t>(plunges),
+                                 pass_of(duties[0], f.size_mm, t));
+  way.fed_min *= plunges / (f.at.f_mm_rev * duties[0].n_rpm);
+  return operation(s, a, f, passes, way, duties);
+}
+
+// An element with a groove, thread or arc: its place and its requirements.
+struct CutElement {
+  const std::string& id;
+  const part::Cut& cut;
+  bool inner;
+  std::size_t index;
+  double length_mm, small_mm, large_mm;  // blank and drawn diameters together
+  double bored_mm;                       // of the blank, what an inner tool enters
+  Surroundings around;
+  double root_h() const { return around.h0 - cut.depth_mm; }
+};
+
+// From the outside, or the mouth of a bore, down to an element and back.
+double down_and_back_mm(const CutElement& e) {
+  const auto& s = e.around;
+  if (e.inner) return 2 * (s.front + kClear_mm - s.z1);
+  return 2 * (s.stock_h + kClear_mm - std::max(s.h0, s.h1) - kAbove_mm);
+}
+double above_mm(const CutElement& e) { return e.inner ? kAboveBore_mm : kAbove_mm; }
+
+Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
+            std::function<bool(const FixedTool&, double)> fits) {
+  return {use,
+          does,
+          e.id,
+          e.inner,
+          given_on(s, e.id),
+          [&e, fits](const FixedTool& t, double size) {
+            return (!e.inner || t.min_bore_mm <= e.bored_mm) && fits(t, size);
+          }};
+}
+
+// Whether material before the free end is in the way of an operation that begins at a
+// position.
+bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {
+  if (!(e.around.front > 0 && z > 0)) return false;
+  refuse(s, a,
+         fmt::format("the end that it begins at is not faced, {:.3g} mm stand before it",
+                     e.around.front));
+  return true;
+}
+
+int times(double whole, double part) {
+  return std::max(1, static_cast<int>(std::ceil(whole / part - 1e-9)));
+}
+
+// The given number of passes, or the one that follows from a given depth; nothing if the
+// two contradict.
+std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
+                             const std::function<int(double)>& at_depth) {
+  if (!a.given) return otherwise;
+  const auto& c = a.given->conditions;
+  if (!c.ap_mm) return c.passes.value_or(otherwise);
+  const int least = at_depth(*c.ap_mm);
+  const int n = c.passes.value_or(least);
+  if (n >= least) return n;
+  refuse(s, a, fmt::format("{} passes of {:g} mm are too few", n, *c.ap_mm));
+  return std::nullopt;
+}
+
+void add_groove(Site& s, const CutElement& e) {
+  auto a =
+      asked(s, e, FixedUse::grooving, "groove", [&](const FixedTool& t, double size) {
+        return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
+      });
+  auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no blade of the tools is for {}, at most {:g} mm wide and "
+                              "reaches {:g} mm deep",
+                              s.p.material.name, e.length_mm, e.cut.depth_mm));
+  const auto plunges = passes_of(s, a, times(e.length_mm, f.size_mm), [&](double ap) {
+    return times(e.length_mm, std::min(ap, f.size_mm));
+  });
+  if (plunges && *plunges * f.size_mm < e.length_mm * (1 - 1e-9))
+    return refuse(s, a,
+                  fmt::format("{} plunges of a blade of {:g} mm are less than its width, "
+                              "{:g} mm",
+                              *plunges, f.size_mm, e.length_mm));
+  if (!plunges) return;
+  const double n = *plunges, step = n > 1 ? (e.length_mm - f.size_mm) / (n - 1) : 0;
+  const double back = e.cut.depth_mm + above_mm(e);
+  const bool stands =
+      thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.around.h0).stands_behind;
+  Way way{above_mm(e) + (stands ? kBehind_mm / n : 0),
+          n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step), e.inner,
+          e.around.z1, e.around.z1 + (n - 1) * step};
+  if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
+  s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges, way));
+}
+
+// Eq. (4).
+void add_thread(Site& s, const CutElement& e) {
+  const double P = e.cut.pitch_mm;
+  auto a = asked(s, e, FixedUse::threading, "thread", [&](const FixedTool& t, double) {
+    return t.pitch_mm.lower <= P && P <= t.pitch_mm.upper;
+  });
+  auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no threading tool of the tools is for {} and a pitch of "
+                              "{:g} mm{}",
+                              s.p.material.name, P,
+                              e.inner ? fmt::format(" in a bore of {:g} mm", e.bored_mm)
+                                      : std::string()));
+  if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
+    return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
+  f.at.f_mm_rev = P;
+  const double D = e.cut.drawn.left_mm;
+  const double n = std::min(
+      {units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s), s.p.machine.rapid_mm_min / P});
+  const auto count =
+      passes_of(s, a, std::max(kLeastInfeeds, times(f.tool->passes_per_mm * P, 1)),
+                [&](double ap) { return times(sqr(e.cut.depth_mm), sqr(ap)); });
+  if (!count) return;
+  const auto room = thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.root_h());
+  const double run_in = std::min(kRunIn * P, room.before_mm - P / 2);
+  if (!(run_in >= P))
+    return refuse(
+        s, a,
+        "it begins behind a larger diameter with less than one pitch of room for "
+        "the tool to come in");
+  if (unfaced(s, a, e, e.around.z0 + run_in)) return;
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double path = e.length_mm - (room.stands_behind ? P : 0);
+  std::vector<Pass> passes;
+  std::vector<Duty> duties;
+  Way way{*count * run_in / (P * n), down_and_back_mm(e), e.inner, e.around.z0 + run_in,
+          e.around.z0 + run_in};
+  if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
+  double deep = 0;
+  for (const auto& infeed : cutting::thread_infeeds(kc, e.cut.depth_mm, *count, D)) {
+    duties.push_back({infeed.load, n, D, true});
+    passes.push_back(pass_of(duties.back(), infeed.depth_mm, path / (P * n)));
+    deep += infeed.depth_mm;
+    way.rapid_mm += 2 * (above_mm(e) + deep) + run_in + path;
+  }
+  s.out.after.push_back(operation(s, a, f, std::move(passes), way, duties));
+}
+
+// Inclination of an arc at its end towards the chuck.
+double end_rad(const CutElement& e) {
+  const auto& s = e.around;
+  const bool left = s.mirrored;
+  const double a = (left ? e.cut.drawn.left_mm : e.cut.drawn.right_mm) / 2;
+  const double b = (left ? e.cut.drawn.right_mm : e.cut.drawn.left_mm) / 2;
+  const double length = s.z0 - s.z1, chord = std::hypot(length, b - a);
+  const double half = std::asin(std::min(1.0, chord / (2 * e.cut.radius_mm)));
+  return std::atan2(b - a, length) + (e.cut.convex ? -half : half);
+}
+
+// The corner rolls over the end of an arc unless something rises behind it.
+bool ends_before_jaws(const Site& s, const Asked& a, const CutElement& e, double re_mm) {
+  const double needed = re_mm * (1 - std::sin(end_rad(e)));
+  const double left = e.around.z1 - e.around.root_z;
+  const bool walled = e.around.touch_z == e.around.z1;
+  if (walled || left >= needed - 1e-5) return true;
+  refuse(s, a,
+         fmt::format("it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
+                     "mm: grip less",
+                     left, needed));
+  return false;
+}
+
+// Eq. (5).
+void add_arc(Site& s, const CutElement& e) {
+  auto a = asked(s, e, FixedUse::profiling, "arc", [&](const FixedTool& t, double) {
+    return e.cut.convex || t.re_mm <= e.cut.radius_mm;
+  });
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(
+        s, a, fmt::format("no profiling tool of the tools is for {}", s.p.material.name));
+  const auto count = passes_of(s, a, times(e.cut.depth_mm, f.tool->ap_mm),
+                               [&](double ap) { return times(e.cut.depth_mm, ap); });
+  if (!count) return;
+  const double D = e.large_mm, ap = e.cut.depth_mm / *count;
+  if (ap > f.tool->ap_mm * (1 + 1e-9))
+    return refuse(s, a,
+                  fmt::format("{} passes of {:.4g} mm are deeper than the {:g} mm of {}",
+                              *count, ap, f.tool->ap_mm, f.tool->id));
+  const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
+  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
+  if (!ends_before_jaws(s, a, e, f.tool->re_mm)) return;
+  const Duty d{load_of(f, s.p, ap, D), n, D};
+  // Path of the tip, which runs round a centre beside that of the arc.
+  const double path =
+      e.cut.path_mm * (1 + (e.cut.convex ? 1 : -1) * f.tool->re_mm / e.cut.radius_mm);
+  const std::vector<Pass> passes(static_cast<std::size_t>(*count),
+                                 pass_of(d, ap, path / (f.at.f_mm_rev * n)));
+  const double from = e.around.z0 + kBefore_mm, to = e.around.z1 + kAbove_mm;
+  s.out.after.push_back(
+      operation(s, a, f, passes,
+                {*count * (kAbove_mm + kBefore_mm) / (f.at.f_mm_rev * n),
+                 *count * (down_and_back_mm(e) + kAbove_mm) + (*count - 1) * (from - to),
+                 false, from, to},
+                {d}));
+}
+
+void add_parting(Site& s) {
+  const auto& stock = s.p.drawing.stock;
+  const bool left = s.p.setups[s.setup].hold == part::End::left;
+  const char* face = left ? "left" : "right";
+  const double D = stock.outer_mm, hole = stock.inner_mm;
+  // Between the jaws and the material that stays on the part.
+  const double jaw = root_z_mm(s.p, s.setup, s.clamping);
+  const double room =
+      (left ? -jaw : jaw - part::length_mm(s.p.drawing)) - *stock.parted_mm;
+  Asked a{FixedUse::parting,
+          "part",
+          face,
+          false,
+          given_on(s, face),
+          [&](const FixedTool& t, double size) {
+            return size <= room && (D - hole) / 2 <= t.reach;
+          }};
+  if (s.clamping == Clamping::between_centres)
+    return refuse(s, a, "a part between centres is not parted off");
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no blade of the tools is for {}, reaches {:g} mm deep and "
+                              "fits between jaws and part, {:.4g} mm",
+                              s.p.material.name, (D - hole) / 2, room));
+  const double z = -part::length_mm(s.p.drawing) - *stock.parted_mm - f.size_mm;
+  s.out.after.push_back(plunged(
+      s, a, f, hole, D, 1,
+      {kAbove_mm, kClear_mm - kAbove_mm + (D - hole) / 2 + kClear_mm, false, z, z}));
+}
+
+template <class Element>
+void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
+             part::CutKind kind) {
+  if (!e.cut || e.cut->kind != kind) return;
+  if (s.p.operations && !given_on(s, e.id)) {
+    s.out.conflicts.push_back(
+        {"operations", fmt::format("setup {}", s.setup), 0, 0, "",
+         fmt::format(
+             "{} has no operation of kind \"fixed\": only its blank would be made",
+             e.id)});
+    return;
+  }
+  const auto [low, high] =
+      std::minmax({e.left_mm, e.right_mm, e.cut->drawn.left_mm, e.cut->drawn.right_mm});
+  const CutElement c{e.id,
+                     *e.cut,
+                     inner,
+                     index,
+                     e.length_mm,
+                     low,
+                     high,
+                     std::min(e.left_mm, e.right_mm),
+                     surroundings(s.p, s.setup, s.clamping, s.work, {inner, index})};
+  switch (kind) {
+    case part::CutKind::groove:
+      return add_groove(s, c);
+    case part::CutKind::thread:
+      return add_thread(s, c);
+    case part::CutKind::arc:
+      return add_arc(s, c);
+  }
+}
+
+// The end that this setup frees, and whether it is solid when the centre comes in.
+bool solid(const PreparedPart& p, std::size_t setup) {
+  const auto end =
+      p.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
+  if (p.drawing.stock.kind == part::StockKind::tube) return false;
+  return std::none_of(p.drawing.inner.begin(), p.drawing.inner.end(),
+                      [&](const auto& e) { return e.from == end; });
+}
+
+bool stands_on_a_centre(Clamping c) {
+  return has_tailstock(c) || c == Clamping::between_centres;
+}
+
+}  // namespace
+
+AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
+                             const SetupWork& work, const Economy& economy) {
+  AuxiliaryWork out;
+  Site s{p, setup, clamping, work, Stage::roughing, out};
+  const auto& d = p.drawing;
+  const auto hold = p.setups[setup].hold;
+  const bool left = hold == part::End::left;
+  const auto* face = free_face(p, setup);
+  if ((stands_on_a_centre(clamping) && solid(p, setup)) || given_on(s, face))
+    add_centre(s, face, left ? d.outer.back().right_mm : d.outer.front().left_mm);
+  if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
+  s.stage = Stage::finishing;
+  using enum part::CutKind;
+  for (const auto kind : {arc, groove, thread}) {
+    for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
+    for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);
+  }
+  add_milled(p, setup, clamping, economy, out);
+  if (setup == 0 && d.stock.parted_mm) add_parting(s);
+  return out;
+}
+
+double drilled_mm(const PlanRequest& p, part::End end) {
+  const auto h = hole_from(p.drawing, end);
+  if (h.first.empty()) return 0;
+  return fitted(p, drilling(h, given_drilling(p, end))).size_mm;
+}
+
+std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,
+                                          Clamping clamping, const SetupWork& work) {
+  const auto fixed = auxiliary_work(p, setup, clamping, work, {p.machine_per_min, 1});
+  auto all = fixed.conflicts;
+  for (const auto& o : fixed.all())
+    for (const auto& c : o.plan.constraints)
+      if (!(c.margin >= -kBeyondRounding))
+        all.push_back(
+            {c.name, fmt::format("setup {}, {}", setup, o.plan.id), c.value, c.limit,
+             c.unit,
+             fmt::format("{}: {} is {} {} where {} {} is allowed", o.plan.id, c.name,
+                         readable(c.value), c.unit, readable(c.limit), c.unit)});
+  return all;
+}
+
+}  // namespace turnwright::planning

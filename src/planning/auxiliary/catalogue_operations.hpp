@@ -1,0 +1,46 @@
+#pragma once
+#include <vector>
+
+#include "auxiliary_work.hpp"
+#include "planning/values/economy.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+/// The operations of a setup other than turning and boring: centre holes, drilling, arcs,
+/// grooves, threads and parting off at the catalogue's conditions, and milled places at
+/// conditions of their own (milled_operations.hpp).  They do not depend on the conditions of the
+/// other surfaces.
+namespace turnwright::planning {
+
+/// These operations of a setup in their order; milled places come before parting off.
+///
+///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P           (1)
+///     centre, drill:  t = (depth + D/2/tan(sigma/2))/(f n),  f = k D                 (2)
+///     groove, part:  plunges = ceil(width/blade), each pi (r0^2 - r1^2)/(1000 vc f),
+///                    with the spindle's limit as spindle.hpp (3)                     (3)
+///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each l/(P n), where the part
+///              rises behind (l - P)/(P n)                                            (4)
+///     arc:  passes = ceil(depth/ap) along the tip's path at the blank's largest
+///           diameter                                                                 (5)
+///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
+///
+/// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
+/// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
+/// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest.
+/// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
+/// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
+/// the tool.
+AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
+                             Clamping clamping, const SetupWork& work,
+                             const Economy& economy);
+
+/// The conflicts of a setup at fixed conditions, limits that are not kept among them.
+std::vector<Conflict> auxiliary_conflicts(const PreparedPart& plan, std::size_t setup,
+                                          Clamping clamping, const SetupWork& work);
+
+/// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
+/// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches
+/// their end, and whose point cuts neither a narrower bore nor a wall behind; 0 if
+/// nothing is drilled.
+double drilled_mm(const PlanRequest& request, part::End end);
+
+}  // namespace turnwright::planning

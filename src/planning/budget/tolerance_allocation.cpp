@@ -1,0 +1,251 @@
+#include "tolerance_allocation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "jaw_squeeze.hpp"
+#include "machine_share.hpp"
+#include "planning/clamping/jaws.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/values/surface_request.hpp"
+#include "turnwright/base/units.hpp"
+#include "turnwright/deflection/shop_errors.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using part::Tolerance;
+using part::ToleranceKind;
+using tolerance::Distribution;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Factor from an error of the radius to a size, or of a face to a length.
+double sensitivity(const PreparedPart& p, const Tolerance& t) {
+  if (t.kind == ToleranceKind::diameter) return 2;
+  if (t.kind == ToleranceKind::length) return 1;
+  return std::cos(half_angle_rad(p.drawing, t.of).value_or(0));
+}
+
+// Half of the amount by which a warm part is too small once it is cold, on one side of a
+// size.
+double heat_um(const PreparedPart& p, const Tolerance& t) {
+  const auto& d = p.drawing;
+  const double alpha = p.material.expansion_1_K, dT = p.shop.part_warm_K;
+  if (t.kind == ToleranceKind::length) {
+    const double L = std::abs(face_z_mm(d, t.between[0]) - face_z_mm(d, t.between[1]));
+    return units::um_from_mm(alpha * dT * L / 2 / std::max(1.0, faces_cut(p, t)));
+  }
+  const auto at = *part::extent(d, t.of);  // a size that is no length is an element's
+  const double D = std::max(at.left_mm, at.right_mm);
+  return units::um_from_mm(-deflection::heat_error_mm(alpha, dT, D) / 2);
+}
+
+double face_diameter_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return d.outer.front().left_mm;
+  if (face == "right") return d.outer.back().right_mm;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face)
+      return std::max(d.outer[k - 1].right_mm, d.outer[k].left_mm);
+  return 0;
+}
+
+bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
+               const std::string& face) {
+  if (work.end_face && face == free_face(p, setup)) return true;
+  return std::any_of(work.shoulders.begin(), work.shoulders.end(),
+                     [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
+}
+
+// Errors that two faces of a length have in common, cut in one setup minutes apart and
+// both facing the free end, shift both alike and do not change the length.
+struct Together {
+  bool setup = false;  ///< both: the same drift
+  bool tool = false;   ///< the same wear too
+};
+Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) {
+  if (t.kind != ToleranceKind::length) return {};
+  const auto& work = p.work.setups[setup];
+  Together both;
+  both.setup =
+      cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
+  both.tool = both.setup && surface_request(p, setup, t.between[0]).finish_tool ==
+                                surface_request(p, setup, t.between[1]).finish_tool;
+  return both;
+}
+
+double wear_um(const PreparedPart& p, const catalogue::Tool& tool) {
+  const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
+                              units::rad_from_deg(tool.gamma_deg)};
+  return units::um_from_mm(deflection::wear_error_mm(p.shop.wear_land_mm, edge,
+                                                     p.shop.life_between_offsets)) /
+         2;
+}
+
+double rechucking_um(const PreparedPart& p, std::size_t setup, Clamping clamping) {
+  const auto& by = p.shop.rechucking;
+  if (clamping == Clamping::between_centres) return by.centres_um;
+  switch (p.setups[setup].jaws) {
+    case Jaws::hard:
+      return by.hard_jaws_um;
+    case Jaws::soft:
+      return by.soft_jaws_um;
+    case Jaws::collet:
+      return by.collet_um;
+  }
+  return by.hard_jaws_um;
+}
+
+// Factor from an eccentricity of the part in its jaws to a tolerance: e is 2 e of
+// run-out.  Jaws or centres that err by e at each of two positions l apart tilt the part
+// by sqrt(2) e/l; a face of diameter D, or an axis of that length, is off by D times
+// that.
+double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t held,
+                       Clamping clamping) {
+  const auto at = part::extent(p.drawing, t.of);
+  const double across = at ? at->z1_mm - at->z0_mm : face_diameter_mm(p.drawing, t.of);
+  const double apart = clamping == Clamping::between_centres ? part::length_mm(p.drawing)
+                                                             : p.grips_mm[held];
+  switch (part::facts(t.kind).rechucked) {
+    case part::Rechucked::unseen:
+      return 0;
+    case part::Rechucked::run_out:
+      return 2;
+    case part::Rechucked::displaced:
+      return sensitivity(p, t);
+    case part::Rechucked::tilted:
+      return std::sqrt(2.0) * across / apart;
+  }
+  return 0;
+}
+
+// Adds the share of re-chucking if the datum is cut in another setup.  The part is held
+// anew in the later of the two setups; if that is not this one, its worst clamping
+// counts.
+void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& making,
+                    ToleranceAllocation& a) {
+  if (t.datum.empty()) return;
+  const auto datum = setup_of(p, t.datum);
+  if (!datum || *datum == making.setup) return;
+  const std::size_t later = std::max(*datum, making.setup);
+  tolerance::Source worst{"rechucking", Distribution::rayleigh, 0, 0};
+  const auto held = [&](Clamping c) {
+    const double um = rechucking_um(p, later, c), s = sees_rechucking(p, t, later, c);
+    if (um * s > worst.value_um * worst.sensitivity)
+      worst.value_um = um, worst.sensitivity = s;
+  };
+  if (later == making.setup)
+    held(making.clamping);
+  else
+    std::ranges::for_each(p.setups[later].clampings, held);
+  if (worst.value_um > 0) a.spread.push_back(std::move(worst));
+}
+
+// The largest E in [0, most] that meets a condition which fails from some E on.
+template <class Suffices>
+double largest(double most, const Suffices& suffices) {
+  constexpr int kHalvings = 40;
+  double low = 0, high = most;
+  if (suffices(high)) return high;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (suffices(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+ToleranceAllocation tolerance_allocation(const PreparedPart& p, std::size_t tolerance,
+                                         const Making& making) {
+  const Tolerance& t = p.drawing.tolerances[tolerance];
+  const auto& shop = p.shop;
+  ToleranceAllocation a;
+  const bool size = part::has_two_ends(t.kind);
+  if (size) a.ends = t.kind == ToleranceKind::length ? 2 * faces_cut(p, t) : 2;
+  const MachineTake machine = machine_take(p, tolerance, making.setup, making.clamping);
+  a.fixed.push_back({kMachine, p.machine_share_um + machine.fixed_um});
+  const auto fixed = [&](const char* source, double um) {
+    if (um > 1e-3) a.fixed.push_back({source, um});
+  };
+  const auto spread = [&](const char* source, Distribution d, double um, double s) {
+    if (um > 0) a.spread.push_back({source, d, um, s});
+  };
+  spread(kMachine, Distribution::normal, machine.u_um / a.ends, 1);
+  fixed("jaw-squeeze",
+        squeeze_um(p, t, making.setup, making.clamping,
+                   jaw_force_N(p, making.setup, making.clamping, Stage::finishing)));
+  fixed(kMeasurement, (size ? 2 : 1) * shop.measurement_U_um);
+  if (size) {
+    const double s = sensitivity(p, t);
+    const auto both = together(p, t, making.setup);
+    const double drift =
+        t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um;
+    if (!both.setup) spread("drift", Distribution::uniform, drift, s);
+    spread("repeatability", Distribution::normal, shop.repeatability_um, s);
+    if (making.last && !both.tool)
+      spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
+    spread(kHeat, Distribution::uniform, heat_um(p, t), s);
+  }
+  add_rechucking(p, t, making, a);
+  return a;
+}
+
+double taken_mm(const ToleranceAllocation& a) {
+  double um = a.ends * tolerance::rss_um(a.spread).up_um;
+  for (const auto& f : a.fixed) um += f.um;
+  return units::mm_from_um(um);
+}
+
+double force_spread(const PreparedPart& p) {
+  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
+         100;
+}
+
+double fixed_in_parts_um(const ToleranceAllocation& a) {
+  double um = 0;
+  for (const auto& f : a.fixed)
+    if (f.source != kMeasurement) um += f.um;
+  return um;
+}
+
+double left_mm(const PreparedPart& p, std::size_t tolerance, const ToleranceAllocation& a,
+               Cut cut) {
+  const bool corrected = cut == Cut::corrected;
+  const double width = width_mm(p.drawing.tolerances[tolerance]);
+  if (!p.robust) return std::max(0.0, width - taken_mm(a));
+  const double h = (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
+  if (!(h > 0)) return 0;
+  const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
+  const double r = cut == Cut::none ? 0 : force_spread(p);
+  const tolerance::Spread spread(a.spread);
+  const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
+    const double up = corrected ? h : h - e;
+    return spread.within({a.ends == 1 ? -kInfinity : -up, up}, r * e) >= wanted;
+  });
+  return units::mm_from_um(a.ends * E);
+}
+
+std::vector<Share> shares(const ToleranceAllocation& a) {
+  auto all = a.fixed;
+  for (const auto& s : a.spread) {
+    const double um = a.ends * tolerance::rss_um({&s, 1}).up_um;
+    const auto other = std::find_if(all.begin(), all.end(), [&](const Share& share) {
+      return share.source == s.name;
+    });
+    if (other != all.end())
+      other->um += um;
+    else
+      all.push_back({s.name, um});
+  }
+  return all;
+}
+
+double faces_cut(const PreparedPart& p, const Tolerance& t) {
+  return static_cast<double>(face_is_cut(p, t.between[0])) +
+         static_cast<double>(face_is_cut(p, t.between[1]));
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,162 @@
+#include "certified_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "planning/explain/prices.hpp"
+#include "planning/explain/sensitivity.hpp"
+#include "planning/explain/stock_conflicts.hpp"
+#include "planning/setup/clamping_comparison.hpp"
+#include "planning/setup/operation_order.hpp"
+#include "planning/setup/setup_totals.hpp"
+#include "planning/setup/tolerance_verdicts.hpp"
+#include "planning/values/readable.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Certificate total_certificate(const Attempt& a) {
+  Certificate c;
+  c.kind = CertificateKind::global;
+  std::set<std::string> engines;
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) {
+      const auto& k = f.answer.certificate;
+      c.nodes += k.nodes;
+      engines.insert(k.engine);
+      if (k.kind != CertificateKind::global) {
+        c.kind = k.kind;
+        c.reason = f.task.feature.surface() + ": " + k.reason;
+      }
+    }
+  for (const auto& e : engines) c.engine += (c.engine.empty() ? "" : " and ") + e;
+  c.lower_bound = std::min(a.lower_bound, a.objective);
+  for (const auto& s : a.setups)
+    for (const auto& o : s.chosen.auxiliary.all()) {
+      c.lower_bound -= o.open;
+      if (o.plan.certificate.kind == CertificateKind::global) continue;
+      c.kind = o.plan.certificate.kind;
+      c.reason = o.plan.id + ": " + o.plan.certificate.reason;
+    }
+  c.gap = a.objective > 0 ? 1 - c.lower_bound / a.objective : 0;
+  if (c.kind == CertificateKind::global && c.gap > kCertified) {
+    c.kind = CertificateKind::local;
+    c.reason =
+        "with other tools or another clamping the budget of boxes ended before "
+        "every box was settled";
+  }
+  return c;
+}
+
+Certificate no_certificate(const Attempt& a) {
+  Certificate c;
+  c.reason =
+      a.lower_bound < kInfinity
+          ? "no plan was found, but the budget of boxes ended before every box was "
+            "settled"
+          : "proved: no plan keeps every limit";
+  for (const auto& s : a.setups)
+    for (const auto& f : s.chosen.features) c.nodes += f.answer.certificate.nodes;
+  return c;
+}
+
+SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison& c,
+                     ProcessPlan& result) {
+  SetupPlan s;
+  s.hold = p.setups[index].hold;
+  s.rejected = c.rejected;
+  s.rejected_tools = c.chosen.rejected_tools;
+  if (!c.solved) {
+    for (const auto& r : c.rejected)
+      result.conflicts.push_back({"clamping", fmt::format("setup {}", index), 0, 0, "",
+                                  std::string(name(r.clamping)) + ": " + r.why});
+    return s;
+  }
+  s.clamping = c.chosen.clamping;
+  s.grip_force_N = jaw_force_N(p, index, s.clamping, Stage::roughing);
+  s.finishing_grip_force_N = jaw_force_N(p, index, s.clamping, Stage::finishing);
+  s.operations = operations_in_order(p, c.chosen);
+  return s;
+}
+
+// Tolerances that the corrected path, judged as it is cut, does not keep.
+bool add_missed(ProcessPlan& result) {
+  for (const auto& t : result.tolerances) {
+    if (t.verdict != Verdict::not_met) continue;
+    result.conflicts.push_back(
+        {t.id + " " + part::name(t.kind), t.of, t.allowed_mm.back() - t.margin_mm,
+         t.allowed_mm.back(), "mm",
+         fmt::format("{} of {} is {} mm outside its limits even with the path corrected",
+                     t.id, t.of, readable(-t.margin_mm))});
+  }
+  if (result.conflicts.empty()) return false;
+  result.status = PlanStatus::infeasible;
+  result.cost_per_part = result.time_per_part_min = 0;
+  result.breakdown = {};
+  for (auto& s : result.setups) s.breakdown = {};
+  result.profit_per_min.reset();
+  result.certificate = {};
+  result.certificate.reason =
+      "no plan was found: the correction would have to be too large";
+  return true;
+}
+
+std::optional<double> first_order_saving(const PreparedPart& p,
+                                         const std::vector<SolvedSetup>& solved,
+                                         const PreparedPart& changed) {
+  const auto costs = first_order(p, solved, changed);
+  if (!costs) return {};
+  return -*costs;
+}
+
+}  // namespace
+
+ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& what_if) {
+  ProcessPlan result;
+  for (const auto& w : what_if) result.what_if.emplace_back().name = w.name;
+  add_unreachable(p, result);
+  add_used_up(p, tolerances_left_to_the_stock(p), result);
+  add_auxiliary_conflicts(p, result);
+  if (!result.conflicts.empty()) {
+    result.status = PlanStatus::infeasible;
+    result.certificate.reason =
+        "the conflicts told do not depend on the conditions of turning and boring";
+    return result;
+  }
+  const auto a = best_attempt(p);
+  std::vector<SolvedSetup> chosen;
+  for (std::size_t s = 0; s < a.setups.size(); ++s) {
+    result.setups.push_back(setup_plan(p, s, a.setups[s], result));
+    chosen.push_back(a.setups[s].chosen);
+  }
+  if (!a.feasible) {
+    result.status = PlanStatus::infeasible;
+    result.certificate = no_certificate(a);
+    return result;
+  }
+  result.tolerances = tolerance_results(p, chosen);
+  result.worst_conformance = worst_conformance(p, result.tolerances);
+  result.setting_up = setting_up(p);
+  result.breakdown = a.breakdown;
+  for (std::size_t s = 0; s < chosen.size(); ++s)
+    result.setups[s].breakdown = breakdown(p, chosen[s]);
+  add_totals(p, result);
+  result.certificate = total_certificate(a);
+  if (add_missed(result)) return result;
+  result.deviations = deviations(p, chosen);
+  result.offsets = offsets(chosen);
+  result.compensation = compensations(chosen);
+  result.prices = prices(p, chosen);
+  for (std::size_t k = 0; k < what_if.size(); ++k)
+    result.what_if[k].first_order_saves_per_part =
+        first_order_saving(p, chosen, what_if[k].part);
+  return result;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,61 @@
+#include "made_surfaces.hpp"
+
+#include <algorithm>
+
+#include "positions.hpp"
+
+namespace turnwright::planning {
+
+Finished nothing_finished(const part::Drawing& d) {
+  return {std::vector<bool>(d.outer.size()), std::vector<bool>(d.inner.size())};
+}
+
+void finish(Finished& finished, const SetupWork& work) {
+  for (const std::size_t i : work.elements) finished.outer[i] = true;
+  for (const std::size_t i : work.bores) finished.inner[i] = true;
+}
+
+Finished finished_after(const PreparedPart& p, std::size_t setup) {
+  auto done = nothing_finished(p.drawing);
+  for (std::size_t s = 0; s <= setup; ++s) finish(done, p.work.setups[s]);
+  return done;
+}
+
+std::string shoulder_id(const part::Drawing& d, std::size_t k) {
+  return d.outer[k - 1].id + "|" + d.outer[k].id;
+}
+
+double face_stock_after_mm(const PreparedPart& p, std::size_t setup, part::End end) {
+  const auto faced = setup_of(p, end == part::End::left ? "left" : "right");
+  return faced && *faced <= setup ? 0 : face_stock_mm(p, end);
+}
+
+double face_z_mm(const part::Drawing& d, const std::string& face) {
+  if (face == "left") return 0;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
+  return part::length_mm(d);
+}
+
+std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& surface) {
+  const auto& d = p.drawing;
+  for (std::size_t s = 0; s < p.work.setups.size(); ++s) {
+    const SetupWork& w = p.work.setups[s];
+    const auto any = [&](const std::vector<std::size_t>& indices, const auto& id) {
+      return std::any_of(indices.begin(), indices.end(),
+                         [&](std::size_t i) { return id(i) == surface; });
+    };
+    if (any(w.elements, [&](std::size_t i) { return d.outer[i].id; }) ||
+        any(w.bores, [&](std::size_t i) { return d.inner[i].id; }) ||
+        any(w.shoulders, [&](std::size_t k) { return shoulder_id(d, k); }) ||
+        (w.end_face && surface == free_face(p, s)))
+      return s;
+  }
+  return {};
+}
+
+double hole_mm(const PreparedPart& p, std::size_t i) {
+  return std::max(p.drawing.stock.inner_mm, p.drilled_mm.at(i));
+}
+
+}  // namespace turnwright::planning

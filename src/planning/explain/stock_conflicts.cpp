@@ -1,0 +1,86 @@
+#include "stock_conflicts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "planning/auxiliary/catalogue_operations.hpp"
+#include "planning/budget/machine_share.hpp"
+#include "planning/budget/tolerance_allocation.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/values/readable.hpp"
+
+namespace turnwright::planning {
+
+void add_unreachable(const PreparedPart& p, ProcessPlan& result) {
+  for (const auto& sentence : p.work.unreachable)
+    result.conflicts.push_back({"setups", "all setups", 0, 0, "", sentence});
+}
+
+void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& tolerances,
+                 ProcessPlan& result) {
+  constexpr double kBeyond = 1.001;
+  for (const std::size_t i : tolerances) {
+    const auto& t = p.drawing.tolerances[i];
+    const double width = width_mm(t), share_mm = least_machine_mm(p, i);
+    if (width > share_mm) continue;
+    const auto called = t.id + " " + part::name(t.kind);
+    const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
+    result.conflicts.push_back(
+        {called, of, share_mm, width, "mm",
+         fmt::format("{} of {}: the machine's share of {} mm leaves nothing of {} mm",
+                     called, of, readable(share_mm), readable(width))});
+    result.relax.push_back(
+        {called + " of " + of, width, share_mm * kBeyond, "mm",
+         fmt::format("{} would have to open beyond the machine's share, {} mm, or the "
+                     "machine's share be less",
+                     called, readable(share_mm))});
+  }
+}
+
+void add_auxiliary_conflicts(const PreparedPart& p, ProcessPlan& result) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    std::vector<std::pair<Clamping, Conflict>> all;
+    const auto& clampings = p.setups[s].clampings;
+    const bool stuck = std::ranges::all_of(clampings, [&](Clamping c) {
+      const auto conflicts = auxiliary_conflicts(p, s, c, p.work.setups[s]);
+      for (const auto& one : conflicts) all.emplace_back(c, one);
+      return !conflicts.empty();
+    });
+    if (!stuck) continue;
+    std::map<std::string, std::size_t> times;
+    for (const auto& [c, one] : all) ++times[one.sentence];
+    for (auto& [c, one] : all) {
+      const auto count = times[one.sentence];
+      if (count == 0) continue;  // told
+      times[one.sentence] = 0;
+      if (count < clampings.size())
+        one.sentence = fmt::format("{}: {}", name(c), one.sentence);
+      result.conflicts.push_back(std::move(one));
+    }
+  }
+}
+
+std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& p) {
+  std::set<std::string> made;
+  for (std::size_t s = 0; s < p.work.setups.size(); ++s) {
+    const auto& w = p.work.setups[s];
+    for (const std::size_t i : w.elements) made.insert(p.drawing.outer[i].id);
+    for (const std::size_t i : w.bores) made.insert(p.drawing.inner[i].id);
+    for (const std::size_t k : w.shoulders) made.insert(shoulder_id(p.drawing, k));
+    if (w.end_face) made.insert(free_face(p, s));
+  }
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
+    const auto& t = p.drawing.tolerances[i];
+    if (!made.count(t.of) && !made.count(t.between[0]) && !made.count(t.between[1]))
+      left.push_back(i);
+  }
+  return left;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,120 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "turnwright/cutting/cut.hpp"
+#include "turnwright/cutting/spindle.hpp"
+
+/// The operations that make one surface - roughing passes and finishing passes of an
+/// element, or the passes over a face - as functions of their conditions, over any
+/// scalar. Passes and tools are fixed here; speed and feed of each operation, and how the
+/// stock is divided between them, are open.
+namespace turnwright::planning {
+
+/// c0 + c1 a, a the finishing depth [mm].
+struct Affine {
+  double c0 = 0, c1 = 0;
+  template <class T>
+  T operator()(const T& a) const {
+    if (c1 == 0) return T(c0);
+    if (c0 == 0) return c1 * a;
+    return c1 > 0 ? T(T(c0) + c1 * a) : T(T(c0) - T(-c1 * a));
+  }
+};
+
+/// Polynomial in u = (a - centre)/half, ascending; a constant has one coefficient.
+struct Polynomial {
+  double centre = 0, half = 1;
+  std::vector<double> c{0};
+  template <class T>
+  T operator()(const T& a) const {
+    if (c.size() == 1) return T(c[0]);
+    const T u = (a - centre) * (1 / half);
+    T sum = T(c.back());
+    for (std::size_t k = c.size() - 1; k-- > 0;) sum = sum * u + c[k];
+    return sum;
+  }
+};
+
+/// One pass: the material left on the radius after it, and its path.
+struct PassModel {
+  Affine left_mm;  ///< radius offset of the surface it leaves
+  double path_mm = 0;
+};
+
+/// One operation of the chain.
+struct OperationModel {
+  const catalogue::Tool* tool = nullptr;
+  cutting::Cut cut;
+  cutting::SpeedRange range;
+  cutting::Grip grip;
+  double n_cap_rpm = 0;        ///< machine, chuck and centrifugal loss
+  bool n_cap_of_grip = false;  ///< the centrifugal loss is the lowest of them
+  double n_min_rpm = 0;
+  double feed_force_max_N = 0;
+  /// Tool life of least cost; it allows for feed in the air, which costs time but does
+  /// not wear the edge.
+  double economic_life_min = 0;
+  double Ra_um = 0, Rz_um = 0;  ///< 0: not required
+  /// 1/limit of the chatter stiffness at the positions where it is imposed, over the
+  /// finishing depth (MachinedSurface::limit_chatter).
+  std::vector<Polynomial> chatter_mm_N;
+  std::vector<double> chatter_at_mm;  ///< these positions
+  double chatter_inwards = 1;         ///< limit where K > 0 over that where K < 0
+  catalogue::Range vc, f;  ///< open ranges: the tool's, or as the request fixes them
+  catalogue::Range vc_window, f_window, ap;  ///< allowed by the tool
+  std::vector<catalogue::ChipEdge> chip;     ///< and these of its chip breaker
+  catalogue::Range T_min;
+  Affine depth_mm;
+  std::vector<PassModel> passes;
+  double fed = 1;        ///< feed of the program's passes over that in the cut, >= 1
+  double rapid_min = 0;  ///< approach and return of all passes
+  double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
+  bool tapered = false, reaches_axis = false, face = false, finishing = false;
+  bool inner = false;     ///< a bore: material left makes it narrower
+  double least_D_mm = 0;  ///< of a bore: the hole it starts from
+
+  /// Sum over all passes.
+  Affine left_sum_mm() const {
+    Affine sum;
+    for (const auto& p : passes) {
+      sum.c0 += p.left_mm.c0;
+      sum.c1 += p.left_mm.c1;
+    }
+    return sum;
+  }
+  /// The pass at the largest and at the smallest diameter.
+  const PassModel& widest() const { return inner ? passes.back() : passes.front(); }
+  const PassModel& narrowest() const { return inner ? passes.front() : passes.back(); }
+};
+
+/// The sweep of one pass.
+template <class T>
+cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a) {
+  const T left = p.left_mm(a);
+  const auto D = [&](double finished) -> T {
+    if (o.face) return T(finished);
+    if (o.inner) return difference(T(finished), T(left * 2.0), o.least_D_mm);
+    return left * 2.0 + finished;
+  };
+  return {p.path_mm, D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
+}
+
+/// Force on the tool needed from the jaws [N], the largest of the passes.
+template <class T>
+T grip_needed(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
+  const T D = sweep(o, o.widest(), a).D_large_mm;
+  return cutting::grip_needed_N(o.grip, F.Fc_N, F.Ff_N,
+                                o.face || o.inner ? D : T(D + 2.0 * o.depth_mm(a)));
+}
+
+/// The spindle limit [1/min] of an operation: fixed, and where the grip ends.
+template <class T>
+T spindle_cap(const OperationModel& o, const cutting::Forces<T>& F, const T& a) {
+  using std::min;
+  if (!(o.grip.force_N > 0) || !o.tapered) return T(o.n_cap_rpm);
+  return min(T(o.n_cap_rpm), cutting::grip_rpm(o.grip, grip_needed(o, F, a)));
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,364 @@
+#include "pass_lengths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "planning/clamping/positions.hpp"
+#include "planning/values/surface_request.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSame_mm = 1e-9;
+constexpr double kLevel_mm = 0.01;  // more than corrections differ
+constexpr double kRounding_mm = 1e-5;
+constexpr double kUpright = std::numbers::pi / 2;
+
+// An element in the tool's order.
+struct Item {
+  std::size_t index = 0;
+  double z0, h0, z1, h1;  // blank
+  part::CutKind cut{};
+  bool cut_later = false;  // a groove or an arc
+  bool mirrored = false;   // against the part's axis
+  double moved = 0;        // to the middle of the limits, in the heights
+  double length() const { return std::hypot(z0 - z1, h1 - h0); }
+  double bends_rad = 0;  // of an arc: steeper at its beginning than its chord
+  double rad() const { return std::atan2(h1 - h0, z0 - z1); }
+};
+
+// From the drawn radius to the middle of the limits, where programs cut it; none of what
+// is cut into its blank later.
+double to_middle_mm(const PreparedPart& p, const std::string& element) {
+  if (part::has_cut(p.drawing, element)) return 0;
+  for (const auto& t : p.drawing.tolerances)
+    if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
+      return (t.limits->lower_mm + t.limits->upper_mm) / 4;
+  return 0;
+}
+
+std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner) {
+  const auto& d = p.drawing;
+  const bool left = p.setups[setup].hold == part::End::left;
+  const double sign = left ? 1 : -1, out = inner ? -1 : 1, free = free_z_mm(p, setup);
+  std::vector<Item> all;
+  const auto add = [&](const auto& e, std::size_t i, double left_z) {
+    const double a = sign * (left_z - free), b = sign * (left_z + e.length_mm - free);
+    const double by = to_middle_mm(p, e.id);
+    const double ha = out * (e.left_mm / 2 + by), hb = out * (e.right_mm / 2 + by);
+    Item item = a > b ? Item{i, a, ha, b, hb} : Item{i, b, hb, a, ha};
+    item.cut_later = e.cut && e.cut->kind != part::CutKind::thread;
+    item.moved = out * by;
+    item.mirrored = !left;
+    all.push_back(item);
+  };
+  if (inner)
+    for (std::size_t i = 0; i < d.inner.size(); ++i)
+      add(d.inner[i], i, part::inner_left_z_mm(d, i));
+  else
+    for (std::size_t i = 0; i < d.outer.size(); ++i)
+      add(d.outer[i], i, part::left_z_mm(d, i));
+  std::sort(all.begin(), all.end(),
+            [](const Item& a, const Item& b) { return a.z0 > b.z0; });
+  return all;
+}
+
+// Eq. (1), of r = 1.
+double tip_z(double a_rad, double b_rad) {
+  return std::sin((a_rad + b_rad) / 2) / std::cos((a_rad - b_rad) / 2) - 1;
+}
+
+// Where the hole is narrower than a bore that ends inside.
+bool hole_ends(const PreparedPart& p, const Item& last) {
+  return last.z1 + part::length_mm(p.drawing) >= kNoWall_mm &&
+         -p.drawing.stock.inner_mm / 2 > last.h1 + kSame_mm;
+}
+
+// What an element looks like once grooves and arcs are cut: nothing of a groove is in the
+// way.
+std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
+  if (!e.cut_later) return e;
+  const auto& cut = inner ? p.drawing.inner[e.index].cut : p.drawing.outer[e.index].cut;
+  if (cut->kind == part::CutKind::groove) return std::nullopt;
+  const double out = inner ? -1 : 1;
+  e.h0 = out * (e.mirrored ? cut->drawn.left_mm : cut->drawn.right_mm) / 2;
+  e.h1 = out * (e.mirrored ? cut->drawn.right_mm : cut->drawn.left_mm) / 2;
+  e.bends_rad = (cut->convex ? 1 : -1) *
+                std::asin(std::min(1.0, e.length() / (2 * cut->radius_mm)));
+  return e;
+}
+
+// The first thing behind element k that is higher than its end: for roughing a blank, for
+// finishing a drawn surface with its size in the middle of its limits.
+void add_walls(const PreparedPart& p, const std::vector<Item>& all, std::size_t k,
+               Surroundings& s) {
+  const double h = all[k].h1 + kSame_mm, blank = h - all[k].moved;
+  bool touches = false;
+  std::size_t j = k;
+  while (j + 1 < all.size() && all[j + 1].z0 >= all[j].z1 - kNoWall_mm) {
+    const auto& e = all[++j];
+    if (!std::isfinite(s.wall_z) && std::max(e.h0, e.h1) - e.moved > blank)
+      s.wall_z = e.z0;
+    const auto seen = drawn(p, e, s.inner);
+    if (touches || !seen) continue;
+    const double rises_rad = seen->rad() + seen->bends_rad;
+    const bool step = seen->h0 > h, meets = seen->h0 >= h - 2 * kSame_mm;
+    if (!step && seen->h1 <= h && !(meets && rises_rad > kSame_mm)) continue;
+    touches = true;
+    s.touch_z = e.z0;
+    s.touch_rad = meets && !step ? rises_rad : kUpright;
+  }
+  if (!s.inner || !hole_ends(p, all[j])) return;
+  if (!std::isfinite(s.wall_z)) s.wall_z = all[j].z1;
+  if (touches) return;
+  s.touch_z = all[j].z1;
+  s.touch_rad = kUpright;
+}
+
+bool made(const SetupWork& work, bool inner, std::size_t index) {
+  const auto& all = inner ? work.bores : work.elements;
+  return std::find(all.begin(), all.end(), index) != all.end();
+}
+
+// Two elements drawn with one diameter where they meet.
+bool meet(const Item& a, const Item& b) {
+  return std::abs(a.h1 - a.moved - b.h0 + b.moved) < kSame_mm &&
+         std::abs(a.z1 - b.z0) < kSame_mm;
+}
+
+bool goes_on(const SetupWork& work, bool inner, const Item& a, const Item& b) {
+  return meet(a, b) && !a.cut_later && !b.cut_later && made(work, inner, a.index) &&
+         made(work, inner, b.index);
+}
+
+// Length of a corner and its minor edge, from the corner's centre towards the free end,
+// that stays below a height.
+double below_mm(double height, double r, double minor_rad) {
+  const double arc = r * (1 - std::cos(minor_rad));
+  return height <= arc ? std::sqrt(height * (2 * r - height))
+                       : r * std::sin(minor_rad) + (height - arc) / std::tan(minor_rad);
+}
+
+// What turning leaves before a face between an element and the next one.
+double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
+                               const Item& a, const Item& b) {
+  const std::size_t k = std::max(a.index, b.index);
+  if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
+    return 0;
+  double least = kInfinity;
+  for (const auto* t : tools_for(p, catalogue::ToolUse::facing))
+    least = std::min(least, std::max(t->ap_mm.lower, 2.0 / 3.0 * t->re_mm));
+  return std::isfinite(least) ? least : 0;
+}
+
+}  // namespace
+
+double front_mm(const PreparedPart& p, std::size_t setup, const SetupWork& work) {
+  const std::string face = free_face(p, setup);
+  const auto faces = [&](const OperationRequest& o) {
+    return o.kind == OperationKind::face && o.setup < setup && o.on[0] == face;
+  };
+  const bool faced = work.end_face || !p.operations ||
+                     std::any_of(p.operations->begin(), p.operations->end(), faces);
+  return faced ? 0
+               : face_stock_mm(p, p.setups[setup].hold == part::End::left
+                                      ? part::End::right
+                                      : part::End::left);
+}
+
+Home home_of(const PreparedPart& p, double front) {
+  return {p.drawing.stock.outer_mm / 2 + kChange_mm, front + kChange_mm};
+}
+
+Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping clamping,
+                          const SetupWork& work, const Element& element) {
+  const auto all = items_of(p, setup, element.inner);
+  std::size_t k = 0;
+  while (all[k].index != element.index) ++k;
+  const auto& e = all[k];
+  Surroundings s;
+  s.inner = element.inner;
+  s.stock_h = p.drawing.stock.outer_mm / 2;
+  s.front = front_mm(p, setup, work);
+  const double sign = p.setups[setup].hold == part::End::left ? 1 : -1;
+  s.mirrored = sign < 0;
+  s.root_z =
+      s.inner ? -kInfinity : sign * (root_z_mm(p, setup, clamping) - free_z_mm(p, setup));
+  for (const auto& t : p.tools) s.r_most = std::max(s.r_most, t.re_mm);
+  s.z0 = e.z0;
+  s.h0 = e.h0;
+  s.z1 = e.z1;
+  s.h1 = e.h1;
+  s.first = k == 0;
+  s.wall_z = s.touch_z = -kInfinity;
+  add_walls(p, all, k, s);
+  if (k > 0 && meet(all[k - 1], e)) {
+    s.before_falls_mm = all[k - 1].h1 - e.h0;
+    if (const auto front = drawn(p, all[k - 1], s.inner))
+      s.front_rad = front->rad() - front->bends_rad;
+  }
+  if (k > 0 && goes_on(work, s.inner, all[k - 1], e)) {
+    s.before_rad = all[k - 1].rad();
+    s.before_long_mm = std::min(all[k - 1].length(), e.length());
+  }
+  if (k + 1 < all.size()) {
+    const auto& next = all[k + 1];
+    const double up = next.moved - e.moved;
+    if (e.h0 == e.h1 && !next.cut_later && std::abs(next.h0 - e.h1 - up) < kLevel_mm &&
+        std::abs(next.h1 - e.h1 - up) < kLevel_mm)
+      s.level_behind = next.index;
+    if (!s.inner) s.shoulder_mm = left_before_shoulder_mm(p, work, e, all[k + 1]);
+    if (meet(e, next)) s.behind_falls_mm = e.h1 - next.h0;
+    if (goes_on(work, s.inner, e, next)) {
+      s.behind_rad = all[k + 1].rad();
+      s.behind_long_mm = std::min(all[k + 1].length(), e.length());
+    }
+  }
+  return s;
+}
+
+double needed_beyond_mm(const Surroundings& s, double corner_mm) {
+  const double rad = std::atan2(s.h1 - s.h0, s.z0 - s.z1);
+  const double end = std::isfinite(s.touch_z)
+                         ? s.touch_z + corner_mm * tip_z(rad, s.touch_rad)
+                         : -kInfinity;
+  return s.z1 - std::max(end, s.z1 - corner_mm);
+}
+
+bool clears_jaws(const Surroundings& s, double corner_mm) {
+  return s.inner || s.z1 - needed_beyond_mm(s, corner_mm) >= s.root_z - kRounding_mm;
+}
+
+Beside beside(const Surroundings& s, const Strokes& strokes) {
+  const double r = strokes.corner_mm, rad = std::atan2(s.h1 - s.h0, s.z0 - s.z1);
+  const double slope = std::cos(rad), above = s.inner ? kAboveBore_mm : kAbove_mm;
+  const bool tapered = s.h0 != s.h1;
+  const auto joins = [&](const std::optional<double>& neighbour, double long_mm,
+                         double falls_mm) {
+    return strokes.finishing && strokes.passes == 1 && neighbour && long_mm >= 2 * r &&
+           falls_mm <= r * (1 - std::cos(strokes.minor_rad));
+  };
+  const bool from_before = joins(s.before_rad, s.before_long_mm, s.before_falls_mm);
+  const bool on = joins(s.behind_rad, s.behind_long_mm, s.behind_falls_mm);
+
+  // Along z to where a pass that leaves this thickness ends, unless it goes on into the
+  // next one's.  Up a cone it ends once it is out of the stock.
+  const auto end = [&](bool last, double left) {
+    if (last && on) return s.z1 + r * tip_z(rad, *s.behind_rad);
+    const bool level = last && s.level_behind;
+    double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most) - r - kBehind_mm;
+    if (!last)
+      z = std::max(z, s.wall_z);
+    else if (std::isfinite(s.touch_z))
+      z = std::max(z, s.touch_z + r * tip_z(rad, s.touch_rad));
+    if (s.shoulder_mm > 0) z = std::max(z, s.z1 + s.shoulder_mm);
+    if (!s.inner && rad > 0) {
+      const double up = std::max(s.stock_h + above - s.h1 - left, 0.0);
+      z = std::max(
+          z, s.z1 + r * (std::sin(rad) - 1) - (up + r * (1 - slope)) / std::tan(rad));
+    }
+    return std::max(z, s.root_z);
+  };
+  const auto start = [&](bool last) {
+    if (last && from_before) return s.z0 + r * tip_z(rad, *s.before_rad);
+    if (last && s.before_falls_mm > kSame_mm)
+      return s.z0 - r - below_mm(s.before_falls_mm, r, strokes.minor_rad);
+    if (last && s.front_rad && rad > *s.front_rad)
+      return s.z0 + r * tip_z(rad, *s.front_rad) + kBefore_mm;
+    const double level = s.z0 + kBefore_mm;
+    const double own =
+        s.z0 + r * (std::sin(rad) - 1) + (last ? (kBefore_mm + r) * slope : 0);
+    const double z = last ? own : level;
+    return s.first && s.front > 0 ? std::max(z, s.front + kBefore_mm) : z;
+  };
+  // Roughing comes in along the axis, finishing along the element's own line.  Feed at
+  // another diameter counts as much longer or shorter as the spindle is slower or faster.
+  const auto fed = [&](bool last, double left, double a, double b) {
+    if (!tapered) return a - b;
+    const auto height = [&](double tip) {
+      const double z = tip + r * (1 - std::sin(rad));
+      return std::abs(s.h1 + left + (s.z1 - z) * std::tan(rad));
+    };
+    const double middle = std::abs((s.h0 + s.h1) / 2 + left);
+    const auto cone = [&](double from, double to) {
+      return (from - to) / slope * height((from + to) / 2) / middle;
+    };
+    const bool along_the_axis = !last || (s.front_rad && rad > *s.front_rad);
+    if (!along_the_axis || (last && from_before)) return cone(a, b);
+    const double first = s.z0 + r * tip_z(last ? *s.front_rad : 0, rad);
+    return (a - first) * height(first) / middle + cone(first, b);
+  };
+
+  Beside sum;
+  const double h = (s.h0 + s.h1) / 2 + strokes.left_mm;
+  const double outside = s.stock_h + kClear_mm;
+  double top = outside;  // from where the tool comes down to the pass
+  for (int i = 0; i < strokes.passes; ++i) {
+    const bool last = strokes.finishing && i + 1 == strokes.passes;
+    const double left =
+        strokes.left_mm + strokes.depth_mm * ((strokes.passes - 1) / 2.0 - i);
+    const bool comes = !(last && from_before), leaves = !(last && on);
+    const double a = start(last), b = end(last, left);
+    sum.fed_mm += fed(last, left, a, b) + (comes ? above : 0);
+    if (s.inner) {
+      sum.rapid_mm +=
+          (comes ? s.front + kClear_mm - a : 0) + (leaves ? s.front + kClear_mm - b : 0);
+    } else {
+      sum.rapid_mm += comes ? top - (s.h0 + left) - above : 0;
+      const double lifted = s.h1 + left + (s.z1 - b) * std::tan(rad) + above;
+      top = std::max(outside, lifted);
+      sum.rapid_mm += leaves ? top - lifted + above : 0;
+      if (i > 0) sum.rapid_mm += std::abs(a - sum.to_mm);
+    }
+    if (i == 0) sum.from_mm = a;
+    sum.to_mm = leaves ? b + above : b;
+  }
+  if (s.inner) sum.from_mm = sum.to_mm = -h;
+  return sum;
+}
+
+ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork&,
+                       const Element& element, double root_h) {
+  const auto all = items_of(p, setup, element.inner);
+  const auto done = finished_after(p, setup);
+  const auto& d = p.drawing;
+  const double stock_h = element.inner ? -d.stock.inner_mm / 2 : d.stock.outer_mm / 2;
+  // As it stands once grooves and arcs are cut.
+  const auto tops = [&](const Item& e) -> std::pair<double, double> {
+    const auto& made_here = element.inner ? done.inner : done.outer;
+    if (!made_here[e.index]) return {stock_h, stock_h};
+    const auto& cut = element.inner ? d.inner[e.index].cut : d.outer[e.index].cut;
+    if (!cut || cut->kind != part::CutKind::groove) return {e.h0, e.h1};
+    const double floor = (element.inner ? -1 : 1) * cut->drawn.left_mm / 2;
+    return {floor, floor};
+  };
+  std::size_t k = 0;
+  while (all[k].index != element.index) ++k;
+  ThreadRoom room{kInfinity, false};
+  for (std::size_t j = k; j-- > 0;) {
+    const auto [begin, end] = tops(all[j]);
+    const double top = std::max(begin, end);
+    const bool chamfer = begin < end && !(top > all[k].h0 + kSame_mm);
+    if (chamfer || !(top > root_h + kSame_mm)) continue;
+    room.before_mm = all[j].z1 - all[k].z0;
+    break;
+  }
+  const bool follows = k + 1 < all.size() && all[k + 1].z0 >= all[k].z1 - kNoWall_mm;
+  room.stands_behind = follows ? tops(all[k + 1]).first > root_h + kSame_mm
+                               : element.inner && hole_ends(p, all[k]);
+  return room;
+}
+
+double swept_mm2(double from, double to, double D_c) {
+  const auto whole = [&](double x) {
+    const double c = D_c / 2, out = std::abs(x);
+    return std::copysign(out < c ? out * D_c : c * D_c + (out * out - c * c), x);
+  };
+  return whole(to) - whole(from);
+}
+
+}  // namespace turnwright::planning

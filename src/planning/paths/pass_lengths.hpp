@@ -1,0 +1,102 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+
+#include "approach.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+
+/// Lengths that the passes over a surface move outside it: feed in the air, and rapids.
+///
+/// Heights h point out of the material: radii outside, negative radii in bores.  z runs
+/// along the program's axis, is 0 at the finished face of the free end and falls towards
+/// the chuck.  A corner of radius r that touches lines inclined by a and b
+/// has its tip, which is programmed, at
+///
+///     z_tip = z + r (sin((a + b)/2)/cos((a - b)/2) - 1).                             (1)
+///
+/// Source: these are the lengths of the tool paths described in
+/// turnwright/nc/program.hpp.
+namespace turnwright::planning {
+
+/// Lengths of the passes of an operation.
+struct Beside {
+  double fed_mm = 0;    ///< at feed by all passes, in the cut or not
+  double rapid_mm = 0;  ///< approaches and returns
+  /// Positions where the first pass begins and where the tool has left the last one:
+  /// along the axis, for bores radii.
+  double from_mm = 0, to_mm = 0;
+};
+
+/// An outer or inner element with everything that limits its passes.
+struct Surroundings {
+  bool inner = false;
+  bool mirrored = false;  ///< the program's axis runs against the part's
+  double stock_h = 0;     ///< height of the uncut stock, outside
+  double front = 0;       ///< material before the free end
+  double root_z = 0;      ///< where the jaws, or the held end, are
+  double r_most = 0;      ///< largest corner of the plan's tools
+  double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
+  bool first = false;      ///< begins at the free end
+  double wall_z = 0;       ///< roughing ends here at the latest
+  double shoulder_mm = 0;  ///< and this far before the element's end
+  double touch_z = 0,
+         touch_rad = 0;  ///< the surface that ends the last pass, and its inclination
+  /// Inclinations of the neighbours from which and into which a finishing pass continues,
+  /// and for each the smaller of its length and that of this element.
+  std::optional<double> before_rad = {}, behind_rad = {};
+  double before_long_mm = 0, behind_long_mm = 0;
+  /// Inclination of the neighbour in front that is drawn as high where they meet.
+  std::optional<double> front_rad = {};
+  /// Steps down from the neighbour in front and to the one behind, where their sizes lie
+  /// in the middles of different limits; negative where they rise.
+  double before_falls_mm = 0, behind_falls_mm = 0;
+  /// The next element if it has the same height: the setup that cuts it from the other
+  /// end also removes the remainder that a pass leaves here.
+  std::optional<std::size_t> level_behind = {};
+};
+Surroundings surroundings(const PreparedPart& plan, std::size_t setup, Clamping clamping,
+                          const SetupWork& work, const Element& element);
+
+/// Length [mm] beyond the end of an element that the pass which makes it needs: the
+/// corner radius, or less where the corner touches a rising surface behind before that.
+double needed_beyond_mm(const Surroundings& element, double corner_mm);
+/// Whether the jaws leave that length free.
+bool clears_jaws(const Surroundings& element, double corner_mm);
+
+/// Passes over an element with one corner radius; if they finish it, the last one makes
+/// the drawn contour.
+struct Strokes {
+  int passes = 1;
+  bool finishing = false;
+  double corner_mm = 0;
+  double minor_rad = 0;  ///< angle at which the minor edge rises behind the corner
+  double depth_mm = 0;   ///< of each pass
+  double left_mm = 0;    ///< mean thickness of the stock left after each of them
+};
+Beside beside(const Surroundings& element, const Strokes& strokes);
+
+/// Room of a thread's tool at the thread's root.
+struct ThreadRoom {
+  double before_mm = 0;  ///< to the nearest higher surface in front, chamfers excepted
+  bool stands_behind = false;
+};
+ThreadRoom thread_room(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
+                       const Element& element, double root_h);
+
+/// Revolutions of a facing tool between two radii at constant surface speed, up to a
+/// factor; inside the diameter D_c the spindle runs at its limit,
+///
+///     integral of max(2 |x|, D_c) dx.                                                (2)
+double swept_mm2(double from_mm, double to_mm, double D_c_mm);
+
+/// Position where tools are changed: a radius, and z from the finished free end.
+struct Home {
+  double x_mm = 0, z_mm = 0;
+};
+Home home_of(const PreparedPart& plan, double front_mm);
+
+/// Material [mm] before the free end of a setup while surfaces other than its face are
+/// cut.
+double front_mm(const PreparedPart& plan, std::size_t setup, const SetupWork& work);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,187 @@
+#include "assignment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/paths/pass_lengths.hpp"
+#include "planning/values/surface_request.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using part::End;
+
+double largest(const part::OuterElement& e) { return std::max(e.left_mm, e.right_mm); }
+
+// Whether a tool can reach outer element i from the free end.
+bool reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
+  const auto& e = p.drawing.outer;
+  const double z0 = part::left_z_mm(p.drawing, i), z1 = z0 + e[i].length_mm;
+  const bool left = holds_left(p, s);
+  if (left ? z0 < jaws_z_mm(p, s) - 1e-9 : z1 > jaws_z_mm(p, s) + 1e-9) return false;
+  // A cone must widen towards the jaws, and nothing nearer the free end may be larger.
+  const double outward = left ? e[i].right_mm : e[i].left_mm;
+  const double inward = left ? e[i].left_mm : e[i].right_mm;
+  if (outward > inward) return false;
+  for (std::size_t k = left ? i + 1 : 0; k < (left ? e.size() : i); ++k)
+    if (largest(e[k]) > outward + 1e-9) return false;
+  return true;
+}
+
+// Length [mm] that the corner of a finishing tool needs beyond the end of an element, and
+// the length that the jaws leave free.
+struct BeforeJaws {
+  double needed_mm = 0, left_mm = 0;
+  bool enough() const { return left_mm >= needed_mm - 1e-5; }
+};
+BeforeJaws before_jaws(const PreparedPart& p, std::size_t s, std::size_t i) {
+  const auto& e = p.drawing.outer[i];
+  const auto& clampings = p.setups[s].clampings;
+  const auto tools = tools_for(p, catalogue::ToolUse::finishing);
+  const bool centres = std::find(clampings.begin(), clampings.end(),
+                                 Clamping::between_centres) != clampings.end();
+  if (e.cut || centres || tools.empty()) return {};
+  const auto around = surroundings(p, s, Clamping::chuck, {}, {false, i});
+  if (const auto level = around.level_behind) {
+    bool made_before = false;
+    for (std::size_t t = 0; t < s; ++t) made_before |= reachable(p, t, *level);
+    if (!made_before) return {};
+  }
+  double corner = tools.front()->re_mm;
+  for (const auto* t : tools) corner = std::min(corner, t->re_mm);
+  return {needed_beyond_mm(around, corner), around.z1 - around.root_z};
+}
+
+// A bore opens to the free end and narrows inwards, itself and with all before it.
+bool bore_reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
+  const auto& inner = p.drawing.inner;
+  const auto& e = inner[i];
+  const bool right = e.from == End::right;
+  if (holds_left(p, s) != right) return false;
+  const double opening = right ? e.right_mm : e.left_mm;
+  const double deep = right ? e.left_mm : e.right_mm;
+  if (deep > opening) return false;
+  for (std::size_t k = 0; k < i; ++k)
+    if (inner[k].from == e.from &&
+        std::min(inner[k].left_mm, inner[k].right_mm) < opening - 1e-9)
+      return false;
+  return true;
+}
+
+bool face_named(const part::Drawing& d, const std::string& id) {
+  const auto names = [&](const part::Tolerance& t) {
+    return t.of == id || t.between[0] == id || t.between[1] == id;
+  };
+  return std::any_of(d.faces.begin(), d.faces.end(),
+                     [&](const part::Face& f) { return f.id == id; }) ||
+         std::any_of(d.tolerances.begin(), d.tolerances.end(), names);
+}
+
+// Whether a surface may be made in this setup: the request leaves that to the planner, or
+// has an operation for it there.
+bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface) {
+  if (!p.operations) return true;
+  return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
+    return o.setup == s && o.kind != OperationKind::fixed &&
+           std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+  });
+}
+
+// The first setup that may and can make a surface; if there is none, adds the reason.
+template <class Can>
+std::optional<std::size_t> place(const PreparedPart& p, const std::string& surface,
+                                 const std::string& why, const Can& can, Assignment& a) {
+  bool asked = false;
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    if (!wanted_in(p, s, surface)) continue;
+    asked = true;
+    if (can(s)) return s;
+  }
+  if (!asked)
+    a.unreachable.push_back(surface + " has no operation: it would stay as the stock is");
+  else
+    a.unreachable.push_back(
+        surface + " cannot be cut in " +
+        (p.operations ? "the setup of its operations: " : "any setup: ") + why);
+  return {};
+}
+
+// Why no setup can cut an outer element.
+std::string why_not(const PreparedPart& p, std::size_t i) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s) {
+    if (!wanted_in(p, s, p.drawing.outer[i].id) || !reachable(p, s, i)) continue;
+    if (!cleared(p, s, i))
+      return fmt::format(
+          "towards the chuck it falls by more than the {:.4g} deg that profiling tools "
+          "are taken to clear",
+          units::deg_from_rad(part::kProfilingClears_rad));
+    const auto room = before_jaws(p, s, i);
+    return fmt::format(
+        "in setup {} it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
+        "mm: grip less",
+        s, room.left_mm, room.needed_mm);
+  }
+  return "it lies in the jaws, or behind a larger diameter";
+}
+
+void assign_faces(const PreparedPart& p, Assignment& a) {
+  const auto& d = p.drawing;
+  for (const End end : {End::left, End::right}) {
+    if (!(face_stock_mm(p, end) > 1e-9)) continue;
+    const std::string id = end == End::left ? "left" : "right";
+    const auto free = [&](std::size_t s) { return p.setups[s].hold != end; };
+    bool open = face_named(d, id);  // else it may stay as it is
+    for (std::size_t s = 0; s < p.setups.size(); ++s)
+      open = open || (free(s) && wanted_in(p, s, id));
+    if (!open) continue;
+    if (const auto s = place(p, id, "its end is held", free, a))
+      a.setups[*s].end_face = true;
+  }
+  for (std::size_t k = 1; k < d.outer.size(); ++k) {
+    const auto id = shoulder_id(d, k);
+    const auto &before = d.outer[k - 1], &after = d.outer[k];
+    if (!face_named(d, id) || before.right_mm == after.left_mm) continue;
+    const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
+    const auto s = place(
+        p, id, "it is made with its smaller element",
+        [&](std::size_t i) {
+          const auto& e = a.setups[i].elements;
+          return std::find(e.begin(), e.end(), smaller) != e.end();
+        },
+        a);
+    if (s) a.setups[*s].shoulders.push_back(k);
+  }
+}
+
+}  // namespace
+
+Assignment assign(const PreparedPart& p) {
+  Assignment a;
+  a.setups.resize(p.setups.size());
+  const auto& outer = p.drawing.outer;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    const auto can = [&](std::size_t s) {
+      return reachable(p, s, i) && cleared(p, s, i) && before_jaws(p, s, i).enough();
+    };
+    if (const auto s = place(p, outer[i].id, why_not(p, i), can, a))
+      a.setups[*s].elements.push_back(i);
+  }
+  const auto& inner = p.drawing.inner;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    if (const auto s = place(
+            p, inner[i].id, "its end is held, or it lies behind a narrower bore",
+            [&](std::size_t k) { return bore_reachable(p, k, i); }, a))
+      a.setups[*s].bores.push_back(i);
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    if (holds_left(p, s))
+      std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
+  assign_faces(p, a);
+  return a;
+}
+
+}  // namespace turnwright::planning

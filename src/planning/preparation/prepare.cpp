@@ -1,0 +1,60 @@
+#include "turnwright/planning/prepare.hpp"
+
+#include <algorithm>
+
+#include "grips.hpp"
+#include "planning/auxiliary/catalogue_operations.hpp"
+#include "planning/auxiliary/milled_ways.hpp"
+#include "planning/budget/jaw_squeeze.hpp"
+#include "planning/budget/machine_share.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// The hole of the largest drill that fits, for each bore (catalogue_operations.hpp).
+std::vector<double> drilled(const PlanRequest& r) {
+  const double left = drilled_mm(r, part::End::left);
+  const double right = drilled_mm(r, part::End::right);
+  std::vector<double> all;
+  for (const auto& e : r.drawing.inner)
+    all.push_back(e.from == part::End::left ? left : right);
+  return all;
+}
+
+std::vector<MilledPlace> placed(const PreparedPart& p) {
+  std::vector<MilledPlace> all;
+  for (const auto& m : p.milled) {
+    all.push_back({m, m.given_setup, {}});
+    if (!m.given_setup) all.back().setup = milled_setup(p, m);
+  }
+  return all;
+}
+
+// Everything except the parts that take long to compute.
+PreparedPart assigned(PlanRequest request) {
+  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
+  choose_grips(p);
+  p.drilled_mm = drilled(p);
+  p.jaws = jaw_forces(p);
+  p.milled_places = placed(p);
+  return p;
+}
+
+}  // namespace
+
+PreparedPart prepare(PlanRequest request) {
+  auto p = assigned(std::move(request));
+  p.machine_takes = machine_takes(p);
+  for (auto& m : p.milled_places) m.ways = milled_ways(p, m);
+  return p;
+}
+
+PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
+  auto p = assigned(std::move(request));
+  p.machine_takes = like.machine_takes;
+  for (std::size_t i = 0; i < p.milled_places.size(); ++i)
+    p.milled_places[i].ways = like.milled_places.at(i).ways;
+  return p;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,83 @@
+#include "infeasibility_reason.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "planning/values/readable.hpp"
+#include "planning/values/surface_request.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+struct Worst {
+  double g = -std::numeric_limits<double>::infinity();
+  RowValue row;
+};
+
+Worst worst_row(const RecipeModel& m, const Choice<double>& c) {
+  Worst w;
+  for (const auto& r : m.values(c))
+    if (violation(r) > w.g) w = {violation(r), r};
+  return w;
+}
+
+catalogue::ToolUse use_of(const MachinedSurface& f) {
+  if (f.is_face()) return catalogue::ToolUse::facing;
+  return f.kind() == MachinedSurface::Kind::bore ? catalogue::ToolUse::boring
+                                                 : catalogue::ToolUse::finishing;
+}
+
+std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
+  const auto& fixed = f.fixed();
+  if (!plan.operations && tools_for(plan, use_of(f)).empty())
+    return fmt::format(": none of the tools for {} has a grade for {}",
+                       f.is_face()                               ? "facing"
+                       : f.kind() == MachinedSurface::Kind::bore ? "boring"
+                                                                 : "finishing",
+                       plan.material.id);
+  if (fixed.rough.ap_mm || fixed.finish.ap_mm)
+    return fmt::format(": the given passes do not add up to the {} mm to take off",
+                       readable(f.stock_mm()));
+  if (f.kind() == MachinedSurface::Kind::bore)
+    return ": no boring bar is thin and long enough, or none can cut the depth that is "
+           "left";
+  return ": no tool and pass count give a depth its tool can cut";
+}
+
+}  // namespace
+
+Conflict used_up_conflict(const PreparedPart& plan, const SolvedSurface& f,
+                          const CutTolerance& d) {
+  const auto& t = plan.drawing.tolerances[d.tolerance];
+  std::string sources;
+  for (const auto& s : shares(tolerance_allocation(plan, d.tolerance, f.task.making)))
+    sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
+  const auto called = t.id + " " + part::name(t.kind);
+  return {called,
+          f.task.feature.surface(),
+          d.taken_mm,
+          width_mm(t),
+          "mm",
+          fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
+                      called, f.task.feature.surface(), readable(d.taken_mm),
+                      readable(width_mm(t)), sources)};
+}
+
+std::string infeasibility_reason(const PreparedPart& plan, const SolvedSurface& f) {
+  const auto& feature = f.task.feature;
+  if (const auto* d = used_up(f.task.cut_tolerances); d && !f.answer.model)
+    return used_up_conflict(plan, f, *d).sentence;
+  if (!f.answer.model) return feature.surface() + why_none(plan, feature);
+  const auto& m = *f.answer.model;
+  const auto w = worst_row(m, f.answer.choice);
+  const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
+  return fmt::format(
+      "{}: {} is {} {} where {} {} is allowed, {:.1f} % over at the nearest conditions "
+      "found",
+      feature.surface(), c.name, readable(c.value), c.unit, readable(c.limit), c.unit,
+      100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,124 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planning/auxiliary/auxiliary_work.hpp"
+#include "planning/surface/recipes.hpp"
+#include "planning/values/economy.hpp"
+#include "planning/values/surface_request.hpp"
+#include "solved_setup.hpp"
+
+/// The surfaces of one setup in one clamping, and the tools they share.
+namespace turnwright::planning {
+
+/// The tools of a setup, one for each use.
+struct Tools {
+  const catalogue::Tool *face = nullptr, *rough = nullptr, *finish = nullptr;
+  const catalogue::Tool *bore_rough = nullptr, *bore_finish = nullptr;
+};
+
+/// The objective of a setup with given tools: its optimum, or a lower bound.
+struct Considered {
+  Tools tools;
+  double at_least = 0;
+  bool solved = false;
+};
+
+/// A surface with given tools: a lower bound over its recipes, and its solution once it
+/// is needed.
+struct Entry {
+  double bound = 0;
+  double most = 0;           ///< objective that the solution had to be below
+  bool compensated = false;  ///< solved with a corrected path too
+  std::optional<SolvedSurface> solved;
+};
+using ToolPair = std::pair<const catalogue::Tool*, const catalogue::Tool*>;
+
+/// Results shared by several clampings of a setup: end faces are cut in the chuck alone,
+/// and without tolerances clampings with the same Holding are alike.
+struct SharedMemory {
+  std::map<const catalogue::Tool*, Entry> faces;
+  std::map<std::tuple<std::size_t, ToolPair, Holding>, std::shared_ptr<Unasked>> unasked;
+};
+
+/// Solves the surfaces of one setup in one clamping and keeps results that depend only on
+/// some of the tools.  The plan must outlive it.
+class SetupPlanner {
+ public:
+  SetupPlanner(const PreparedPart& plan, std::size_t setup, Clamping clamping,
+               const SetupWork& work, const Finished& before, const Economy& economy,
+               SharedMemory& shared);
+
+  /// Allows from now on a corrected tool path on surfaces that cannot be made without.
+  void allow_compensation() { compensate_ = true; }
+
+  /// The cheapest tools with their solutions.  Tools with the smallest bound are tried
+  /// first; those that cannot cost less than `most` are dropped as soon as that is known.
+  SolvedSetup best(double most);
+
+  /// Whether some choice of tools makes every surface; `makes` decides it for one
+  /// surface.  Each surface is tried alone first, so one that no tools make ends the
+  /// search.
+  bool can_be_made(const std::function<bool(const SurfaceTask&)>& makes);
+
+  /// Every surface with the given tools and conditions, solved by `answer`; the tool path
+  /// is corrected on the `corrected` surfaces.
+  SolvedSetup as_given(SurfaceAnswer (*answer)(const SurfaceTask&),
+                       const std::set<std::string>& corrected);
+
+  /// Every surface with the tools of the best setup if that is infeasible.
+  SolvedSetup explained();
+
+  /// Its surfaces in the order of a SolvedSetup's features.
+  std::vector<const MachinedSurface*> features() const;
+
+ private:
+  // A surface to be made with the conditions that the request fixes.
+  struct Job {
+    MachinedSurface feature;
+    SurfaceRequest wanted;
+  };
+  // For each place in the setup's order the tool of each job; null where it has none.
+  using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
+
+  bool any(MachinedSurface::Kind kind) const;
+  std::vector<Tools> choices() const;
+  ToolPair tools_of(std::size_t job, const Tools& tools) const;
+  SurfaceTask task(std::size_t job, const Tools& tools, Offset offset);
+  const std::vector<CutTolerance>& cut_tolerances_of(std::size_t job,
+                                                     const catalogue::Tool* last,
+                                                     Offset offset);
+  Entry& entry(std::size_t job, const Tools& tools);
+  const SolvedSurface& solved(std::size_t job, const Tools& tools, double most);
+  SolvedSetup solve(const Tools& tools, double least, double most);
+  std::vector<RejectedTool> rejected(const std::vector<Considered>& all,
+                                     const Considered& best) const;
+  double least_besides_cutting(const Tools& tools) const;
+  Between between(const ToolOrder& order) const;
+  Between between(const SolvedSetup& s) const;
+  double besides(const Between& between) const;
+
+  const PreparedPart& p_;
+  std::size_t setup_;
+  Clamping clamping_;
+  Economy economy_;
+  AuxiliaryWork auxiliary_;
+  double front_mm_;
+  bool compensate_ = false, explain_ = false;
+  long boxes_ = 0;  // bounded so far
+  Tools nearest_;
+  SharedMemory& shared_;
+  std::vector<Job> jobs_;
+  std::vector<std::map<ToolPair, Entry>> memory_;  // per job, by its tools
+  std::map<std::tuple<std::size_t, const catalogue::Tool*, Offset>,
+           std::vector<CutTolerance>>
+      cut_tolerances_;
+};
+
+}  // namespace turnwright::planning

@@ -1,0 +1,186 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planning/budget/cut_tolerance.hpp"
+#include "planning/clamping/setup_body.hpp"
+#include "planning/operation/chain.hpp"
+#include "planning/paths/operation_gaps.hpp"
+#include "planning/values/economy.hpp"
+#include "planning/values/surface_request.hpp"
+#include "recipe.hpp"
+#include "turnwright/deflection/beam.hpp"
+#include "turnwright/planning/process_plan.hpp"
+#include "turnwright/tolerance/piecewise.hpp"
+
+/// One surface in one setup and clamping: an outer element, a bore, an end face or a
+/// shoulder.
+namespace turnwright::planning {
+
+/// The properties of a clamping that matter if deflection is not modelled: clampings
+/// equal in them have the same chains as long as no positions are imposed.
+struct Holding {
+  double roughing_N = 0, finishing_N = 0;  ///< jaw force; none between centres
+  double d_grip_mm = 0, n_max_rpm = 0;
+  auto operator<=>(const Holding&) const = default;
+};
+
+class MachinedSurface {
+ public:
+  enum class Kind { element, bore, end_face, shoulder };
+
+  static MachinedSurface element(const PreparedPart& plan, std::size_t setup,
+                                 Clamping clamping, const SetupWork& work,
+                                 const Finished& before, std::size_t index,
+                                 const GivenConditions& fixed);
+  static MachinedSurface bore(const PreparedPart& plan, std::size_t setup,
+                              Clamping clamping, const SetupWork& work,
+                              const Finished& before, std::size_t index,
+                              const GivenConditions& fixed);
+  static MachinedSurface end_face(const PreparedPart& plan, std::size_t setup,
+                                  const Finished& before, const GivenConditions& fixed);
+  static MachinedSurface shoulder(const PreparedPart& plan, std::size_t setup,
+                                  Clamping clamping, const SetupWork& work,
+                                  const Finished& before, std::size_t index,
+                                  const GivenConditions& fixed);
+
+  Kind kind() const { return kind_; }
+  bool is_face() const { return kind_ == Kind::end_face || kind_ == Kind::shoulder; }
+  const std::string& surface() const { return surface_; }
+  const GivenConditions& fixed() const { return fixed_; }
+  double low_mm() const { return low_; }  ///< least z, or rho of a face
+  double high_mm() const { return high_; }
+  double stock_mm() const {
+    return stock_;
+  }  ///< to take off: on the radius, or of the face
+  /// Factor from the errors of the chain to those of the surface's radius: material left
+  /// standing makes the radius larger outside (+1) and smaller in a bore (-1).
+  double sign() const { return kind_ == Kind::bore ? -1 : 1; }
+
+  Holding holding() const;
+
+  /// An operation on it, for the order of the setup.
+  InOrder in_order(const catalogue::Tool& tool, bool rough) const;
+
+  /// The chain of a recipe without functionals; stations at the given places.  Over an
+  /// open finishing depth the laws are polynomials in it that follow them to rounding
+  /// (chebyshev.hpp).  Nothing if the recipe leaves no depth to choose.
+  std::optional<Chain> chain(const Recipe& recipe, const Economy& economy,
+                             const std::vector<double>& stations,
+                             std::optional<double> a_mm = {}) const;
+
+  /// Largest chatter stiffness [N/mm] allowed in each operation at a finishing depth:
+  ///
+  ///     K <= 1/C,                                                                    (1)
+  ///     C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
+  ///
+  /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
+  /// (3) of yielding.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
+  /// damping ratio of part and machine, zeta_b that of a boring bar.  The compliances are
+  /// static.  For modes of any frequencies and at any spindle speed the limit from the
+  /// sum of their compliances is at most that of the modes together
+  /// (docs/planning-chatter.md).
+  std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
+
+  /// The largest of the operations' chatter stiffness over its limit.
+  double chatter_share(const Chain& chain, const Choice<double>& choice) const;
+
+  /// Imposes (1) on the operations of a chain that can reach it within their ranges; if
+  /// the depth is open, at every position that is the worst, or nearly so, for some
+  /// depth.
+  void limit_chatter(Chain& chain, std::optional<double> a_mm = {}) const;
+  /// Imposes (1) at one depth, at the positions where it is imposed on another chain.
+  void limit_chatter_alike(const Chain& other, double a_mm, Chain& chain) const;
+
+  /// The error over the whole surface at chosen conditions, as a piecewise polynomial
+  /// through exact values: 8 pieces of degree 8 along an element (interpolation error
+  /// below 1e-10 of the largest), degree 2 on a face, where it is exact.
+  tolerance::PiecewisePolynomial profile(const Recipe& recipe, const Economy& economy,
+                                         const Choice<double>& choice) const;
+
+  /// Exact error at given places.
+  std::vector<double> errors(const Recipe& recipe, const Economy& economy,
+                             const Choice<double>& choice,
+                             const std::vector<double>& places) const;
+
+  /// Correction table (z or rho, dr): with dr added to the radius (of a face: the length)
+  /// of the last pass no error remains at these positions; linear between them.
+  Compensation::Table corrections(const Recipe& recipe, const Economy& economy,
+                                  const Choice<double>& choice) const;
+  /// As `profile`, with the path of the last pass corrected.
+  tolerance::PiecewisePolynomial corrected_profile(
+      const Recipe& recipe, const Economy& economy, const Choice<double>& choice,
+      const Compensation::Table& table) const;
+
+  /// The same at given positions.
+  std::vector<double> corrected(const Recipe& recipe, const Economy& economy,
+                                const Choice<double>& choice,
+                                const std::vector<double>& places,
+                                const Compensation::Table& table) const;
+
+ private:
+  MachinedSurface(const PreparedPart& plan, std::size_t setup, Clamping clamping,
+                  Kind kind, std::string surface, const GivenConditions& fixed);
+  template <class OuterOrInner>
+  void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
+  OperationModel operation(const Recipe& recipe, bool finishing,
+                           const Economy& economy) const;
+  // In surface_paths.cpp: lengths of passes that leave left_mm on average; `last`: the last
+  // of them makes the surface.
+  Beside ways(const OperationModel& operation, int passes, bool last, double depth_mm,
+              double left_mm) const;
+  Beside facing(const OperationModel& operation, int passes) const;
+  void add_laws(Chain& chain, std::optional<double> a_mm) const;
+  // Values of p, q, s, r at one finishing depth: [station][pass].
+  struct Values {
+    double p, q, s, r;
+  };
+  std::vector<std::vector<Values>> laws_at(const Chain& chain, double a_mm) const;
+  // In surface_chatter.cpp.
+  std::vector<double> chatter_yields(const OperationModel& o, double left_mm,
+                                     double uncut_mm,
+                                     const std::vector<double>& places) const;
+  std::vector<double> last_yields(const OperationModel& o, double a_mm,
+                                  const std::vector<double>& places) const;
+  std::vector<double> chatter_places() const;
+  bool cut_to_chuck(const OperationModel& o) const;
+  double x_mm(const OperationModel& o, double at_mm) const;  // from the root
+  // Compliances while a pass leaves left_mm of uncut_mm, at distances from the root.
+  void yields(const OperationModel& o, double left_mm, double uncut_mm,
+              const std::vector<double>& x, std::vector<deflection::Flexibility>& radial,
+              std::vector<deflection::Flexibility>& tangential) const;
+  // Compliances from the bodies left and right of the tool.
+  void yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
+              const SetupBody& body, const std::vector<double>& x,
+              std::vector<deflection::Flexibility>& radial,
+              std::vector<deflection::Flexibility>& tangential) const;
+  deflection::Flexibility at_the_tool(const deflection::Flexibility& f,
+                                      double rest_mm_N) const;
+  std::vector<std::vector<Values>> face_laws(const Chain& chain) const;
+  bool enters(const catalogue::Tool& tool) const;
+  bool ends_before_jaws(const catalogue::Tool& tool) const;
+
+  const PreparedPart* plan_;
+  std::size_t setup_;
+  Clamping clamping_;
+  Kind kind_;
+  std::string surface_;
+  GivenConditions fixed_;
+  std::size_t index_ = 0;  // outer or inner element
+  double low_ = 0, high_ = 0, stock_ = 0;
+  double D_small_ = 0, D_large_ = 0;
+  double face_x_ = 0;                  // of a face, from the root
+  double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
+  double hole_mm_ = 0;                 // of a bore, the hole it starts from
+  double depth_mm_ = 0;                // of a bore, from the free end to its inner end
+  double Ra_um_ = 0, Rz_um_ = 0;
+  Surroundings around_;            // of an element; of a face only the largest corner
+  double face_z_ = 0;              // of a face, in the program's coordinates
+  bool goes_on_ = false;           // into an equally high surface that another setup cuts
+  double top_h_ = 0;               // of a shoulder, largest radius behind it
+  double amplification_ = 1;       // by the tailstock's thrust
+  std::vector<SetupBody> bodies_;  // while roughing, while finishing
+};
+
+}  // namespace turnwright::planning

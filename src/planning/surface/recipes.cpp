@@ -1,0 +1,83 @@
+#include "recipes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::Tool;
+
+double least_depth(const Tool& t) { return std::max(t.ap_mm.lower, 2.0 / 3.0 * t.re_mm); }
+
+// Numbers of passes.
+struct Counts {
+  int low = 1, high = 0;
+};
+
+// The numbers of passes whose depths, within the tool's range, can add up to `stock`.
+Counts counts(const std::optional<int>& given, double least_stock, double most_stock,
+              const Tool& t) {
+  if (given) return {*given, *given};
+  const int low = static_cast<int>(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
+  const int high = static_cast<int>(std::floor(most_stock / least_depth(t) + 1e-9));
+  return {std::max(1, low), high};
+}
+
+// The single pass over stock that is as thin as the least depth of a shoulder, or
+// thinner.
+Counts counts_alone(const std::optional<int>& given, double stock, const Tool& t) {
+  auto c = counts(given, stock, stock, t);
+  c.high = std::max(c.low, c.high);
+  return c;
+}
+
+}  // namespace
+
+std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
+                            const SurfaceRequest& w, const Tool* rough,
+                            const Tool* finish) {
+  std::vector<Recipe> all;
+  if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
+  const auto ranges = cutting::speed_ranges(p.machine).size();
+  const auto pieces = [](const Tool* t) {
+    return t ? std::max<std::size_t>(t->chip.size(), 1) : 1;
+  };
+  const auto add = [&](Recipe r) {
+    for (std::size_t i = 0; i < (r.rough ? ranges : 1); ++i)
+      for (std::size_t j = 0; j < (r.finish ? ranges : 1); ++j)
+        for (std::size_t k = 0; k < pieces(r.rough); ++k)
+          for (std::size_t l = 0; l < pieces(r.finish); ++l) {
+            r.rough_range = i;
+            r.finish_range = j;
+            r.rough_piece = k;
+            r.finish_piece = l;
+            all.push_back(r);
+          }
+  };
+  const bool free = !w.given && !f.is_face();
+  const double stock = f.kind() == MachinedSurface::Kind::shoulder && finish
+                           ? least_depth(*finish)
+                           : f.stock_mm();
+  if (finish && (!w.given || !w.rough)) {  // without roughing
+    const auto c = counts_alone(w.fixed.finish.passes, stock, *finish);
+    const int most = free ? std::min(c.high, kFinishingPasses) : c.high;
+    for (int n = c.low; n <= most; ++n) add({nullptr, finish, 0, n, 0, 0});
+  }
+  if (rough && finish) {
+    const int first = w.fixed.finish.passes.value_or(1);
+    const int last = w.fixed.finish.passes.value_or(free ? kFinishingPasses : 1);
+    for (int nf = first; nf <= last; ++nf) {
+      const auto c = counts(w.fixed.rough.passes, stock - nf * finish->ap_mm.upper,
+                            stock - nf * least_depth(*finish), *rough);
+      for (int n = c.low; n <= c.high; ++n) add({rough, finish, n, nf, 0, 0});
+    }
+  }
+  if (rough && !finish && w.given) {
+    const auto c = counts_alone(w.fixed.rough.passes, stock, *rough);
+    for (int n = c.low; n <= c.high; ++n) add({rough, nullptr, n, 0, 0, 0});
+  }
+  return all;
+}
+
+}  // namespace turnwright::planning

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace turnwright::planning {
+
+/// Weights of the objective: of a minute, and of an edge.
+struct Economy {
+  double minute = 0, edge = 0;
+};
+
+}  // namespace turnwright::planning

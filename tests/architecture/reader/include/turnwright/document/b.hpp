@@ -1,0 +1,3 @@
+#pragma once
+#include "turnwright/planning/plan_request.hpp"
+#include "turnwright/planning/prepared_part.hpp"

@@ -1,0 +1,1 @@
+#include "turnwright/document/b.hpp"

@@ -1,0 +1,45 @@
+# Follows the #include lines of the rooms that read part documents, ROOT/src/document/json,
+# catalogue and part, to every header they reach: of planning that is the request alone, so
+# that reading a document computes nothing that follows from it.
+#   cmake -D ROOT=<source folder> -P readers.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(request include/turnwright/planning/plan_request.hpp)
+
+file(GLOB waiting RELATIVE ${ROOT} ${ROOT}/src/document/json/*.[ch]pp
+  ${ROOT}/src/document/catalogue/*.[ch]pp ${ROOT}/src/document/part/*.[ch]pp)
+if(NOT waiting)
+  message(FATAL_ERROR "no reader found under ${ROOT}")
+endif()
+set(seen ${waiting})
+set(errors "")
+while(waiting)
+  list(POP_FRONT waiting file)
+  cmake_path(GET file PARENT_PATH folder)
+  file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*\"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^\"]*\"([^\"]+)\".*$" "\\1" header "${line}")
+    foreach(used IN ITEMS ${folder}/${header} src/${header} include/${header})
+      if(NOT EXISTS ${ROOT}/${used})
+        continue()
+      endif()
+      if(used MATCHES "/planning/" AND NOT used STREQUAL request)
+        list(APPEND errors "${file}: includes \"${header}\"")
+      elseif(NOT used IN_LIST seen)
+        list(APPEND seen ${used})
+        list(APPEND waiting ${used})
+      endif()
+    endforeach()
+  endforeach()
+endwhile()
+
+if(errors)
+  list(JOIN errors "\n" text)
+  message("${text}")
+  message(FATAL_ERROR "readers of part documents reach what follows from the request")
+endif()
+if(NOT request IN_LIST seen)
+  message(FATAL_ERROR "the readers do not reach ${request}")
+endif()
+list(LENGTH seen count)
+message("${count} files: readers reach the request alone")

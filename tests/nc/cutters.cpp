@@ -1,0 +1,158 @@
+#include "cutters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "turnwright/catalogue/tool_outline.hpp"
+
+namespace turnwright::nc::test {
+namespace {
+
+using catalogue::FixedUse;
+using planning::OperationKind;
+using planning::OperationPlan;
+
+constexpr double kChord_mm = 1e-5;        // of corners that cut
+constexpr double kOthersChord_mm = 1e-3;  // and of the insert's other corners
+constexpr double kShank_mm = 100;         // of blades, above what they reach
+
+Polygon polygon(const catalogue::ConvexOutline& outline) {
+  Polygon all;
+  for (const auto& p : outline) all.push_back({p.h_mm, p.z_mm});
+  return hull(std::move(all));
+}
+
+Polygon rectangle(double x0, double x1, double z0, double z1) {
+  return hull({{x0, z0}, {x0, z1}, {x1, z1}, {x1, z0}});
+}
+
+Polygon insert_polygon(const catalogue::ToolOutline& outline) {
+  const double r = outline.re_mm;
+  const auto cuts = [&](const catalogue::OutlinePoint& p) {
+    return std::hypot(p.h_mm - r, p.z_mm - r) < r + 1e-9;
+  };
+  catalogue::ConvexOutline all;
+  for (const auto& p : catalogue::rounded_insert(outline, kChord_mm))
+    if (cuts(p)) all.push_back(p);
+  for (const auto& p : catalogue::rounded_insert(outline, kOthersChord_mm))
+    if (!cuts(p)) all.push_back(p);
+  return polygon(all);
+}
+
+// A corner between two edges of a length.
+Polygon wedge(double re, double kapr_rad, double minor_rad, double length) {
+  const double eps = M_PI - kapr_rad - minor_rad;
+  const catalogue::OutlinePoint major{std::sin(kapr_rad), -std::cos(kapr_rad)},
+      minor{std::sin(minor_rad), std::cos(minor_rad)};
+  const double back = re / std::sin(eps);
+  const catalogue::OutlinePoint corner{re - back * (major.h_mm + minor.h_mm),
+                                       re - back * (major.z_mm + minor.z_mm)};
+  const auto on = [&](const catalogue::OutlinePoint& edge) {
+    return catalogue::OutlinePoint{corner.h_mm + length * edge.h_mm,
+                                   corner.z_mm + length * edge.z_mm};
+  };
+  return insert_polygon({re, {corner, on(major), on(minor)}, {}});
+}
+
+const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o) {
+  for (const auto& t : p.part.fixed_tools)
+    if (t.id == o.tool) return &t;
+  return nullptr;
+}
+
+bool is_inner(const Planned& p, const OperationPlan& o) {
+  const auto e = part::extent(p.part.drawing, o.on[0]);
+  return e && e->inner;
+}
+
+double point_mm(double D_mm, double point_deg) {
+  return D_mm / 2 / std::tan(point_deg * M_PI / 360);
+}
+
+Cutter drill(double D, double point_deg) {
+  Cutter c{true, true, false, 0, {}, {}};
+  const double r = D / 2, point = point_mm(D, point_deg), far = 1000;
+  c.edge = hull({{0, 0}, {r, point}, {r, far}, {-r, far}, {-r, point}});
+  return c;
+}
+
+// The width of a profiling tool's 35 deg insert is in no document; here it is as wide as
+// its edges may be: the minor edge at the angle that it is taken to clear, the major edge
+// at 93 deg.
+constexpr double kProfilingKapr_rad = 93 * M_PI / 180;
+
+Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
+                    const catalogue::FixedTool& t) {
+  const double ap = o.passes[0].ap_mm;
+  Cutter c{is_inner(p, o), false, false, t.re_mm, {}, {}};
+  switch (t.use) {
+    case FixedUse::centring:
+    case FixedUse::drilling:
+      return drill(2 * ap, t.point_deg);
+    case FixedUse::grooving:
+    case FixedUse::parting:
+      c.edge = rectangle(0, t.reach, 0, ap);
+      if (!c.inner) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
+      return c;
+    case FixedUse::threading: {
+      c.threads = true;
+      const double h = 1.5 * t.pitch_mm.upper, w = h * std::tan(M_PI / 6);
+      c.edge = hull({{0, 0}, {h, w}, {h, -w}});
+      return c;
+    }
+    case FixedUse::profiling:
+      c.edge = wedge(t.re_mm, kProfilingKapr_rad, part::kProfilingClears_rad, 12);
+      return c;
+  }
+  return c;
+}
+
+bool finishes(const Planned& p, const OperationPlan& o) {
+  const auto* t = fixed_tool(p, o);
+  return t ? t->use == FixedUse::profiling
+           : o.kind != OperationKind::rough && o.kind != OperationKind::bore_rough;
+}
+
+}  // namespace
+
+Cutter cutter(const Planned& p, const OperationPlan& o) {
+  if (const auto* t = fixed_tool(p, o)) return fixed_cutter(p, o, *t);
+  Cutter c;
+  c.inner = is_inner(p, o);
+  for (const auto& t : p.part.tools) {
+    if (t.id != o.tool) continue;
+    const auto outline = catalogue::outline(t);
+    c.re_mm = t.re_mm;
+    c.edge = insert_polygon(outline);
+    for (const auto& piece : outline.holder) c.holder.push_back(polygon(piece));
+  }
+  return c;
+}
+
+double finishing_corner_mm(const Planned& p, bool outer) {
+  double r = 0;
+  for (const auto& s : p.plan.setups)
+    for (const auto& o : s.operations)
+      if (o.kind != OperationKind::mill && is_inner(p, o) != outer && finishes(p, o))
+        r = std::max(r, cutter(p, o).re_mm);
+  return r;
+}
+
+std::optional<Drilled> drilled(const Planned& p, std::size_t setup,
+                               const OperationPlan& o) {
+  const auto* t = fixed_tool(p, o);
+  if (!t || (t->use != FixedUse::centring && t->use != FixedUse::drilling))
+    return std::nullopt;
+  const double D = 2 * o.passes[0].ap_mm;
+  double depth = t->reach * D;
+  if (t->use == FixedUse::drilling) {
+    depth = 0;
+    const auto free =
+        p.part.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
+    for (const auto& e : p.part.drawing.inner)
+      if (e.from == free) depth += e.length_mm;
+  }
+  return Drilled{D, point_mm(D, t->point_deg), depth};
+}
+
+}  // namespace turnwright::nc::test

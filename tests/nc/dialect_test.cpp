@@ -1,0 +1,276 @@
+// The text of programs in every dialect, read back as the manuals describe it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dialect_reader.hpp"
+#include "plans.hpp"
+#include "turnwright/nc/text.hpp"
+
+namespace turnwright::nc {
+namespace {
+
+using namespace test;
+
+constexpr std::array kControls{Control::linuxcnc, Control::fanuc,       Control::fanuc_b,
+                               Control::haas,     Control::siemens_iso, Control::siemens,
+                               Control::okuma};
+
+std::string id(Control control) { return std::string(dialect(control).id); }
+
+std::vector<SetupProgram> numbered(const Programs& programs, const Settings& settings) {
+  auto all = programs.setups;
+  number_tools(all, settings);
+  return all;
+}
+
+bool moves_on(const Move& a, const Move& b) {
+  const auto digits = [](double mm) { return std::llround(mm * 1e4); };
+  return digits(2 * a.x_mm) != digits(2 * b.x_mm) || digits(a.z_mm) != digits(b.z_mm);
+}
+
+// Half of the last decimal of a diameter and of a length.
+constexpr double kX_mm = 0.25e-4 + 1e-9, kZ_mm = 0.5e-4 + 1e-9, kCentre_mm = 0.5e-5;
+
+void expect_cut_off(double read, double planned, double step, const std::string& at) {
+  EXPECT_LE(read, planned * (1 + 1e-12)) << at;
+  EXPECT_GT(read, planned - step) << at;
+}
+
+void expect_same(const Read& r, const Move& m, const Step& s, Control control,
+                 const std::string& at) {
+  EXPECT_EQ(r.kind, m.kind) << at;
+  EXPECT_NEAR(r.x_mm, m.x_mm, kX_mm) << at;
+  EXPECT_NEAR(r.z_mm, m.z_mm, kZ_mm) << at;
+  if (m.kind == Move::Kind::arc) {
+    EXPECT_EQ(r.clockwise, m.clockwise) << at;
+    EXPECT_NEAR(r.centre.h_mm, m.centre.h_mm, kX_mm + kCentre_mm) << at;
+    EXPECT_NEAR(r.centre.z_mm, m.centre.z_mm, kZ_mm + kCentre_mm) << at;
+  }
+  if (m.kind != Move::Kind::rapid) expect_cut_off(r.f_mm_rev, s.f_mm_rev, 1e-4, at);
+  expect_cut_off(r.S, s.S, control == Control::linuxcnc ? 1e-2 : 1, at);
+  EXPECT_EQ(r.surface_speed, s.constant_surface_speed) << at;
+  if (s.constant_surface_speed) expect_cut_off(r.limit_rpm, s.n_max_rpm, 1, at);
+  EXPECT_EQ(r.tool, s.tool) << at;
+  EXPECT_EQ(r.offset, control == Control::siemens ? 1 : s.tool) << at;
+  EXPECT_EQ(r.turn, "M3") << at;
+  EXPECT_TRUE(r.coolant) << at;
+}
+
+/// The moves of a program against those that its text commands.
+void expect_read_back(const SetupProgram& p, const std::vector<Read>& read,
+                      Control control, const std::string& name) {
+  std::size_t i = 0;
+  int stops = 0;
+  for (const auto& s : p.steps) {
+    if (s.stop) {
+      ++stops;
+      continue;
+    }
+    for (std::size_t k = 0; k < s.moves.size(); ++k) {
+      if (k > 0 && !moves_on(s.moves[k - 1], s.moves[k])) continue;
+      ASSERT_LT(i, read.size()) << name;
+      const auto at = name + ", " + s.comments[0] + ", move " + std::to_string(k);
+      EXPECT_EQ(read[i].stops, stops) << at;
+      stops = 0;
+      expect_same(read[i++], s.moves[k], s, control, at);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+  EXPECT_EQ(i, read.size()) << name;
+}
+
+TEST(NcDialects, OfEveryReferencePartCommandTheSameMoves) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    const auto all = programs(p.part, p.plan);
+    for (const auto control : kControls) {
+      const Settings settings{.control = control};
+      for (const auto& program : numbered(all, settings))
+        expect_read_back(program, DialectReader(control).read(text(program, settings)),
+                         control, name + " for " + id(control));
+      if (HasFailure()) return;
+    }
+  }
+}
+
+Step step(int tool, double x_mm, Move::Kind kind) {
+  Step s;
+  s.comments = {"operation (50 % done)"};
+  s.tool = tool;
+  s.constant_surface_speed = tool == 1;
+  s.S = 200.7;
+  s.n_max_rpm = 2500.9;
+  s.f_mm_rev = 0.25;
+  s.moves = {{Move::Kind::rapid, 40, 5},
+             {Move::Kind::rapid, x_mm, 5},
+             {kind, x_mm, -20},
+             {Move::Kind::rapid, 40, -20},
+             {Move::Kind::rapid, 40, 5}};
+  return s;
+}
+
+// Two setups, each of a cylinder, a drill and a thread.
+std::vector<SetupProgram> small() {
+  SetupProgram p;
+  p.comments = {"part"};
+  p.tools = {{1, "TURN", 1, 0.8, 3},
+             {2, "DRILL 8 mm", 2, 0, kDrillOrientation},
+             {3, "THREAD", 3, 0, 3}};
+  p.steps = {step(1, 20, Move::Kind::feed), step(2, 0, Move::Kind::feed),
+             step(3, 18, Move::Kind::thread)};
+  SetupProgram second = p;
+  second.setup = 1;
+  return {p, second};
+}
+
+std::vector<Read> read(const Settings& settings, std::size_t setup = 0) {
+  auto all = small();
+  number_tools(all, settings);
+  return DialectReader(settings.control).read(text(all[setup], settings));
+}
+
+TEST(NcDialects, NumberToolsAsTheShopDoes) {
+  for (const auto control : kControls) {
+    if (dialect(control).offset == OffsetNumber::of_tool) continue;
+    const auto moves =
+        read({.control = control, .tools = {{"DRILL 8 mm", 1, 12}, {"OTHER", 2}}});
+    EXPECT_EQ(moves.front().tool, 3) << id(control);  // the lowest that is left
+    EXPECT_EQ(moves[5].tool, 1) << id(control);
+    EXPECT_EQ(moves[5].offset, 12) << id(control);
+    EXPECT_EQ(moves.back().tool, 4) << id(control);
+  }
+}
+
+TEST(NcDialects, WithM4OnlyTurningRunsBackwards) {
+  for (const auto control : kControls) {
+    const auto moves = read({.control = control, .spindle = SpindleTurn::M4});
+    EXPECT_EQ(moves.front().turn, "M4") << id(control);
+    EXPECT_EQ(moves[5].turn, "M3") << id(control);
+    EXPECT_EQ(moves.back().turn, "M3") << id(control);
+  }
+}
+
+TEST(NcDialects, StopBeforeEachChangeWithTheSpindleAtRest) {
+  for (const auto control : kControls) {
+    const Settings settings{.control = control, .optional_stops = true};
+    const auto moves = read(settings);
+    EXPECT_EQ(moves.front().stops, 0) << id(control);
+    EXPECT_EQ(moves[5].stops, 1) << id(control);
+    EXPECT_NE(text(small()[0], settings).find("M9\nM5\nM1\n"), std::string::npos);
+  }
+}
+
+int count(const std::string& text, const std::string& what) {
+  int n = 0;
+  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(NcDialects, ReturnToTheReferenceAtBothEndsAndBeforeEachChange) {
+  const std::map<Control, std::string> home{
+      {Control::linuxcnc, "\nG28\n"},
+      {Control::fanuc, "\nG28 U0. W0.\n"},
+      {Control::fanuc_b, "\nG91 G28 X0. Z0.\nG90\n"},
+      {Control::haas, "\nG53 G0 X0.\nG53 G0 Z0.\n"},
+      {Control::siemens_iso, "\nG91 G28 X0. Z0.\nG90\n"},
+      {Control::siemens, "\nG75 FP=1 X1=0 Z1=0\n"},
+      {Control::okuma, "\nG20 HP=1\n"}};
+  for (const auto control : kControls) {
+    Settings settings{.control = control, .reference_returns = true};
+    EXPECT_EQ(count(text(small()[0], settings), home.at(control)), 4) << id(control);
+    EXPECT_EQ(read(settings).size(), read({.control = control}).size());
+    settings.reference_returns = false;
+    EXPECT_EQ(count(text(small()[0], settings), home.at(control)), 0) << id(control);
+  }
+}
+
+TEST(NcDialects, NumberBlocksAsWanted) {
+  for (const auto control : kControls) {
+    const auto numbers = [&](BlockNumbers which) {
+      DialectReader reader(control);
+      reader.read(text(small()[0], {.control = control, .block_numbers = which}));
+      return reader.numbers();
+    };
+    EXPECT_EQ(numbers(BlockNumbers::none), std::vector<int>{}) << id(control);
+    EXPECT_EQ(numbers(BlockNumbers::tools), (std::vector<int>{10, 20, 30}));
+    const auto all = numbers(BlockNumbers::all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_EQ(all[i], static_cast<int>(i) + 1) << id(control);
+    EXPECT_GT(all.size(), 20U) << id(control);
+  }
+}
+
+TEST(NcDialects, BlocksAreNumberedAnewAfterFourDigits) {
+  auto p = small()[0];
+  for (int i = 0; i < 10000; ++i)
+    p.steps[0].moves.push_back({Move::Kind::feed, 20, i % 2 ? -20.0 : -19.0});
+  DialectReader reader(Control::okuma);
+  reader.read(text(p, {.control = Control::okuma, .block_numbers = BlockNumbers::all}));
+  const auto& all = reader.numbers();
+  EXPECT_EQ(*std::max_element(all.begin(), all.end()), 9999);
+  EXPECT_EQ(all[9999], 1);
+}
+
+TEST(NcDialects, CountProgramsFromTheFirst) {
+  const std::map<Control, std::string> second{{Control::fanuc, "%\nO1002\n"},
+                                              {Control::fanuc_b, "%\nO1002\n"},
+                                              {Control::haas, "%\nO01002\n"},
+                                              {Control::okuma, "O1002\n"}};
+  for (const auto& [control, head] : second) {
+    const auto program = text(small()[1], {.control = control, .program_number = 1001});
+    EXPECT_EQ(program.substr(0, head.size()), head);
+  }
+}
+
+TEST(NcDialects, SelectTheWorkOffset) {
+  for (const auto control : kControls) {
+    DialectReader reader(control), other(control);
+    reader.read(text(small()[0], {.control = control}));
+    EXPECT_EQ(reader.words().contains("G54"), control != Control::okuma) << id(control);
+    if (control == Control::okuma) continue;
+    other.read(text(small()[0], {.control = control, .work_offset = "G55"}));
+    EXPECT_TRUE(other.words().contains("G55")) << id(control);
+    EXPECT_FALSE(other.words().contains("G54")) << id(control);
+  }
+}
+
+TEST(NcDialects, TurnTheCoolantOnAsWanted) {
+  for (const auto control : kControls) {
+    for (const auto& move : read({.control = control, .coolant = ""}))
+      EXPECT_FALSE(move.coolant) << id(control);
+    const auto other = text(small()[0], {.control = control, .coolant = "M51"});
+    EXPECT_EQ(count(other, "\nM51\n"), 3) << id(control);
+    EXPECT_EQ(count(other, "\nM8\n"), 0) << id(control);
+  }
+}
+
+// A bracket would end a comment, and a percent sign the program.
+TEST(NcDialects, CommentsHoldNothingThatEndsThem) {
+  for (const auto control : kControls) {
+    DialectReader reader(control);
+    reader.read(text(small()[0], {.control = control}));
+    const bool small_letters =
+        control == Control::linuxcnc || control == Control::siemens;
+    const std::string told =
+        small_letters ? "operation [50 ? done]" : "OPERATION [50 ? DONE]";
+    int found = 0;
+    for (const auto& c : reader.comments())
+      found += static_cast<int>(c.find(told) != c.npos);
+    EXPECT_EQ(found, 3) << id(control);
+  }
+}
+
+// On the other controls G33 is one cut; here it is a cycle.
+TEST(NcDialects, OkumasThreadsComeBackByThemselves) {
+  const auto program = text(small()[0], {.control = Control::okuma});
+  EXPECT_NE(program.find("G0 X80 Z5\nG33 X36 Z-20 F0.25\nM9\n"), std::string::npos)
+      << program;
+  auto other = small()[0];
+  other.steps[2].moves[3].x_mm = 41;
+  EXPECT_THROW(text(other, {.control = Control::okuma}), std::domain_error);
+}
+
+}  // namespace
+}  // namespace turnwright::nc

@@ -1,0 +1,90 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "plans.hpp"
+
+/// The sizes that a plan's programs have to make.
+namespace turnwright::nc::test {
+
+class Sizes {
+ public:
+  explicit Sizes(const Planned& p) : p_(p) {}
+
+  double length() const { return part::length_mm(p_.part.drawing); }
+
+  // Whether the plan faces an end.
+  bool faced(bool left) const {
+    for (const auto& s : p_.plan.setups)
+      for (const auto& o : s.operations)
+        if (o.on[0] == (left ? "left" : "right")) return true;
+    return false;
+  }
+
+  // What a radius is cut to beside what is drawn: the middle of its limits, the offset of
+  // the tool and the correction at a place.
+  double correction(const std::string& id, double z) const {
+    double sum = 0;
+    for (const auto& t : p_.part.drawing.tolerances)
+      if (t.of == id && t.kind == part::ToleranceKind::diameter && !cut(id))
+        sum += (t.limits->lower_mm + t.limits->upper_mm) / 2 / 2;
+    for (const auto& o : p_.plan.offsets)
+      if (o.on == id) sum += o.offset_mm;
+    return sum + path_correction(id, z);
+  }
+
+  bool cut(const std::string& id) const {
+    const auto is = [&](const auto& e) { return e.id == id && e.cut; };
+    return std::ranges::any_of(p_.part.drawing.outer, is) ||
+           std::ranges::any_of(p_.part.drawing.inner, is);
+  }
+
+  double path_correction(const std::string& id, double z) const {
+    for (const auto& c : p_.plan.compensation) {
+      if (c.on != id) continue;
+      const auto& t = c.table_mm;
+      for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+        const auto [z0, r0] = t[i];
+        const auto [z1, r1] = t[i + 1];
+        if (std::min(z0, z1) <= z && z <= std::max(z0, z1))
+          return r0 + (r1 - r0) * (z - z0) / (z1 - z0);
+      }
+    }
+    return 0;
+  }
+
+  bool corrected(const std::string& id) const {
+    const auto is_on = [&](const auto& c) { return c.on == id; };
+    return std::ranges::any_of(p_.plan.compensation, is_on) || correction(id, 0) != 0;
+  }
+
+  // Radius drawn at a place of an element.
+  template <class Element>
+  static double drawn(const Element& e, double u) {
+    const double straight = e.left_mm + (e.right_mm - e.left_mm) * u;
+    if (!e.cut || e.cut->kind == part::CutKind::thread) return straight / 2;
+    if (e.cut->kind == part::CutKind::groove) return e.cut->drawn.left_mm / 2;
+    const double a = e.cut->drawn.left_mm / 2, b = e.cut->drawn.right_mm / 2;
+    const double R = e.cut->radius_mm, c = std::hypot(e.length_mm, b - a);
+    const double to_centre = std::sqrt(std::max(0.0, R * R - c * c / 4));
+    const double out = e.cut->convex ? 1 : -1;  // from the centre to the arc
+    const double zc = e.length_mm / 2 + out * to_centre * (b - a) / c;
+    const double rc = (a + b) / 2 - out * to_centre * e.length_mm / c;
+    const double dz = u * e.length_mm - zc;
+    return rc + out * std::sqrt(std::max(0.0, R * R - dz * dz));
+  }
+
+  double begin(const part::OuterElement&, std::size_t k) const {
+    return part::left_z_mm(p_.part.drawing, k);
+  }
+  double begin(const part::InnerElement&, std::size_t k) const {
+    return part::inner_left_z_mm(p_.part.drawing, k);
+  }
+
+ protected:
+  const Planned& p_;
+};
+
+}  // namespace turnwright::nc::test
