@@ -160,6 +160,24 @@ async function planner() {
   await page.getByLabel('Up to the end of').first().selectOption({ index: 1 });
   assert.notEqual(await work.getAttribute('d'), stock);
   await page.getByText(/Move \d+ of \d+: T\d, s0-rough/).waitFor();
+  // What is left has the drawing's diameters: 25 js7 at Z-20, 40 h7 at Z-90, the bar at Z-150.
+  await slider.press('End');
+  const section = await page.getByRole('img', { name: /^The cut of setup 1/ }).evaluate((svg) => ({
+    points: svg.querySelector('path.work').getAttribute('d').match(/-?[\d.]+,-?[\d.]+/g).map((p) => p.split(',').map(Number)),
+    texts: [...svg.querySelectorAll('text')].map((t) => ({
+      value: Number(t.textContent.replace('\u2212', '-')), x: Number(t.getAttribute('x')), y: Number(t.getAttribute('y')),
+      along: t.getAttribute('text-anchor') === 'middle',
+    })),
+  }));
+  const axis = (along, key) => {
+    const [one, other] = section.texts.filter((t) => t.along === along && Number.isFinite(t.value));
+    return (place) => one.value + ((place - one[key]) * (other.value - one.value)) / (other[key] - one[key]);
+  };
+  const toZ = axis(true, 'x'), toDiameter = (y) => axis(false, 'y')(y + 4);
+  for (const [Z, diameter] of [[-20, 25], [-90, 40], [-150, 50]]) {
+    const found = section.points.filter(([x]) => Math.abs(toZ(x) - Z) < 0.5).map(([, y]) => toDiameter(y));
+    assert.ok(Math.abs(Math.max(...found) - diameter) < 0.3, `${Math.max(...found)} at Z${Z}`);
+  }
   await look(page, '07-nc');
   await page.context().close();
   await paper(file);

@@ -24,6 +24,8 @@ using nlohmann::ordered_json;
 std::string header(std::string_view name, const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = tag("h1", name);
+  if (const auto title = title_block(result); !title.empty())
+    out += tag("p", "Drawing " + title);
   const bool bad = !feasible || keeps_too_few(result);
   auto status = feasible ? kept(result) : "infeasible: no plan keeps every limit";
   status[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(status[0])));

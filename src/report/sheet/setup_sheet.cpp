@@ -82,7 +82,8 @@ std::string jaws(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
                           plain(planning::grip_diameter_mm(p, setup, s.clamping), 2),
                           plain(p.grips_mm[setup], 1), kN(s.grip_force_N));
   if (s.finishing_grip_force_N < s.grip_force_N)
-    text += fmt::format("; eased to {} to finish", kN(s.finishing_grip_force_N));
+    text += fmt::format("; eased to {} to finish, so that the part stays round",
+                        kN(s.finishing_grip_force_N));
   return text;
 }
 

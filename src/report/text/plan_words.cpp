@@ -90,6 +90,15 @@ std::string kind_words(std::string kind) {
   return kind;
 }
 
+std::string title_block(const ordered_json& result) {
+  std::vector<std::string> parts;
+  for (const auto& [key, before] :
+       {std::pair{"drawing_number", ""}, {"revision", "revision "}, {"customer", "for "}})
+    if (const auto value = word(result, key); !value.empty())
+      parts.push_back(before + value);
+  return joined(parts);
+}
+
 std::string micrometres(const ordered_json& tolerance, const char* key) {
   std::vector<std::string> parts;
   for (const auto& value : list(tolerance, key))

@@ -26,6 +26,9 @@ bool several_sets(const nlohmann::ordered_json& members);
 /// "total-radial-runout" as a drawing's reader says it, "total radial run-out".
 std::string kind_words(std::string kind);
 
+/// "4711-02, revision C, for Gear works", what the result has of it.
+std::string title_block(const nlohmann::ordered_json& result);
+
 /// A number of mm, or a pair, in um.
 std::string micrometres(const nlohmann::ordered_json& tolerance, const char* key);
 

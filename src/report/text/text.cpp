@@ -25,6 +25,8 @@ using nlohmann::ordered_json;
 std::string header(const ordered_json& result) {
   const auto name = word(result, "name");
   std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
+  if (const auto title = title_block(result); !title.empty())
+    out += paragraph("drawing ", title);
   if (word(result, "status") == "infeasible") {
     out += paragraph("status  ", "infeasible");
     if (const auto c = result.find("certificate"); c != result.end())

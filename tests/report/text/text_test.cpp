@@ -205,6 +205,16 @@ TEST(Text, NameAndGripShowWhereTheDocumentHasThem) {
   EXPECT_TRUE(has_line(out, "SETUP 2  hold right end in the chuck, 25.0 mm gripped"));
 }
 
+TEST(Text, TheTitleBlockShowsWhatTheDocumentHasOfIt) {
+  auto result = feasible();
+  EXPECT_FALSE(has(text(result), "drawing "));
+  result["customer"] = "Gear works";
+  EXPECT_TRUE(has_line(text(result), "drawing for Gear works"));
+  result["drawing_number"] = "4711-02";
+  result["revision"] = "C";
+  EXPECT_TRUE(has_line(text(result), "drawing 4711-02, revision C, for Gear works"));
+}
+
 TEST(Text, AProofThatIsNotGlobalSaysSo) {
   auto result = feasible();
   auto& certificate = result["certificate"];
