@@ -26,7 +26,8 @@ std::string tools(const SetupSheet& sheet) {
     const auto lasts = parts_until(1, t.edge_share);
     rows += "<tr>" + words_cell(numbered(t.number)) +
             number_cell(t.offset > 0 ? std::to_string(t.offset) : "-") +
-            words_cell(t.id) + words_cell(t.insert.empty() ? "-" : t.insert) +
+            words_cell(t.holder.empty() ? t.id : t.holder) +
+            words_cell(t.insert.empty() ? "-" : t.insert) +
             number_cell(t.re_mm > 0 ? plain(t.re_mm) : "-") +
             number_cell(t.stick_out_mm ? plain(*t.stick_out_mm, 1) : "-") +
             words_cell(joined(t.on)) +

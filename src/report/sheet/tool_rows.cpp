@@ -19,10 +19,11 @@ const catalogue::Tool* turning_tool(const planning::PreparedPart& part,
 }
 
 ToolRow row_of(const planning::PreparedPart& part, const nc::TableTool& tool) {
-  ToolRow row{tool.number, tool.offset, tool.id, {}, tool.re_mm};
+  ToolRow row{tool.number, tool.offset, tool.id, {}, {}, tool.re_mm};
   const auto* turning = turning_tool(part, tool.id);
   if (!turning) return row;
   row.insert = turning->insert;
+  if (turning->holder) row.holder = turning->holder->designation;
   if (turning->bar) {
     double length = 0;
     for (const auto& segment : turning->bar->segments) length += segment.length_mm;
@@ -56,7 +57,7 @@ std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
     } else if (operation->kind == OperationKind::mill && step->stop_min == 0) {
       auto row = std::ranges::find(driven, operation->tool, &ToolRow::id);
       if (row == driven.end())
-        row = driven.insert(row, ToolRow{0, 0, operation->tool, {}});
+        row = driven.insert(row, ToolRow{0, 0, operation->tool, {}, {}});
       add(*row, *operation);
     }
   }

@@ -10,7 +10,9 @@ namespace turnwright::report {
 /// A tool of a setup as the person who loads the turret needs it.
 struct ToolRow {
   int number = 0, offset = 0;  ///< T word and offset; 0 of a driven tool
-  std::string id, insert;
+  std::string id;              ///< of the catalogue, as the program lists it
+  std::string holder;          ///< its designation; empty: not known
+  std::string insert;
   double re_mm = 0;                          ///< corner radius, 0: none
   std::optional<double> stick_out_mm = {};   ///< of a boring bar
   std::vector<std::string> operations = {};  ///< their ids
