@@ -431,14 +431,17 @@ bool joined(const Site& site, std::size_t i) {
   const auto k = place(side, a.on[0]);
   if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
   const auto &s = side.items[k], &t = side.items[k + 1];
-  const bool arc = is_arc(site, s) || is_arc(site, t);
   const double falls =
       corrected(site, side, s).back().h_mm - corrected(site, side, t).front().h_mm;
-  // At a step up to the blank of an arc the corner would leave a fillet on what is
-  // finished, at a step down from it a wedge below its minor edge.
-  if (std::abs(s.z1 - t.z0) >= kSame_mm || t.h0 < s.h1 - kSame_mm ||
-      (arc && t.h0 > s.h1 + kSame_mm) || (is_arc(site, t) && falls < -kSame_mm) ||
-      (is_arc(site, s) && falls > kSame_mm) || shoulder_stock_mm(site, i, side, k) > 0)
+  const auto rad = [](const Surface& e) { return std::atan2(e.h1 - e.h0, e.z0 - e.z1); };
+  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
+  // and no inner corner.
+  const bool from_arc = is_arc(site, s), to_arc = is_arc(site, t);
+  const bool kept_off =
+      (to_arc && falls < -kSame_mm) || (from_arc && falls > kSame_mm) ||
+      ((from_arc || to_arc) && (t.h0 > s.h1 + kSame_mm || rad(t) > rad(s) + kSame_mm));
+  if (std::abs(s.z1 - t.z0) >= kSame_mm || t.h0 < s.h1 - kSame_mm || kept_off ||
+      shoulder_stock_mm(site, i, side, k) > 0)
     return false;
   const auto length = [](const Surface& e) {
     return std::hypot(e.h1 - e.h0, e.z1 - e.z0);

@@ -172,12 +172,14 @@ bool meet(const Item& a, const Item& b) {
 std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, bool inner,
                                const Item& a, const Item& b) {
   const double rises = b.h0 - b.moved - a.h1 + a.moved;
-  const bool arc = is_arc(p, a, inner) || is_arc(p, b, inner);
-  const bool lifts = (is_arc(p, b, inner) && b.h0 > a.h1 + kSame_mm) ||
-                     (is_arc(p, a, inner) && b.h0 < a.h1 - kSame_mm);
-  if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm ||
-      (arc && rises > kSame_mm) || lifts || !made(work, inner, a.index) ||
-      !made(work, inner, b.index) ||
+  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
+  // and no inner corner.
+  const bool from_arc = is_arc(p, a, inner), to_arc = is_arc(p, b, inner);
+  const bool kept_off =
+      (to_arc && b.h0 > a.h1 + kSame_mm) || (from_arc && b.h0 < a.h1 - kSame_mm) ||
+      ((from_arc || to_arc) && (rises > kSame_mm || b.rad() > a.rad() + kSame_mm));
+  if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off ||
+      !made(work, inner, a.index) || !made(work, inner, b.index) ||
       (!inner && left_before_shoulder_mm(p, work, a, b) > 0))
     return std::nullopt;
   Passage g;
