@@ -50,25 +50,28 @@ std::string control_ids() {
 std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
   std::vector<CLI::Option*> all;
   const auto text = [&](const std::string& key, const std::string& help) {
-    all.push_back(command.add_option_function<std::string>(
+    auto* option = command.add_option_function<std::string>(
         option_of(key),
-        [&settings, key](const std::string& word) { settings[key] = word; }, help));
+        [&settings, key](const std::string& word) { settings[key] = word; }, help);
+    all.push_back(option->type_name("WORD"));
   };
   const auto flag = [&](const std::string& key, const std::string& help) {
     all.push_back(command.add_flag_callback(
         option_of(key), [&settings, key] { settings[key] = true; }, help));
   };
   text("control", "the programs' control: " + control_ids());
-  all.push_back(command.add_option_function<std::string>(
-      "--program-number",
-      [&settings](const std::string& word) {
-        const auto number = number_in(word, kNumbers);
-        if (!number)
-          throw wrong_option("--program-number", '"' + word + '"',
-                             "an integer from 1 to 99999", "range");
-        settings["program_number"] = *number;
-      },
-      "number of the first setup's program; the others count on"));
+  all.push_back(command
+                    .add_option_function<std::string>(
+                        "--program-number",
+                        [&settings](const std::string& word) {
+                          const auto number = number_in(word, kNumbers);
+                          if (!number)
+                            throw wrong_option("--program-number", '"' + word + '"',
+                                               "an integer from 1 to 99999", "range");
+                          settings["program_number"] = *number;
+                        },
+                        "number of the first setup's program; the others count on")
+                    ->type_name("N"));
   text("work_offset", "work offset, G54 unless given");
   text("block_numbers", "which blocks have numbers: none, tools, all");
   text("spindle", "M3 or M4: the spindle's sense while turning");
@@ -77,12 +80,15 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
   flag("reference_returns",
        "to the reference position at both ends and before each change of the tool");
   flag("cycles", "threads by the control's own cycle");
-  all.push_back(command.add_option_function<std::vector<std::string>>(
-      "--tool",
-      [&settings](const std::vector<std::string>& tools) {
-        for (const auto& tool : tools) settings["tools"].push_back(shop_tool(tool));
-      },
-      "the shop's number of a tool, ID=NUMBER or ID=NUMBER:OFFSET"));
+  all.push_back(command
+                    .add_option_function<std::vector<std::string>>(
+                        "--tool",
+                        [&settings](const std::vector<std::string>& tools) {
+                          for (const auto& tool : tools)
+                            settings["tools"].push_back(shop_tool(tool));
+                        },
+                        "the shop's number of a tool, ID=NUMBER or ID=NUMBER:OFFSET")
+                    ->type_name("WORD"));
   return all;
 }
 

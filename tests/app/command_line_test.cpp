@@ -254,12 +254,12 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
     const auto outcome = shell(command + " --drawings new/" + name);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, shell(command).out);
-    for (const std::string setup : {"0", "1"}) {
+    for (const std::string setup : {"1", "2"}) {
       const auto svg = contents(folder_ / "new" / name / ("setup-" + setup + ".svg"));
       EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
       EXPECT_NE(svg.find("Setup " + setup + ": chuck"), std::string::npos);
     }
-    EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-2.svg"));
+    EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-3.svg"));
     EXPECT_NE(contents(folder_ / "new" / name / "budget.svg").find("d2:diameter"),
               std::string::npos);
     const auto window = folder_ / "new" / name / "window-s0-face-right.svg";

@@ -36,8 +36,30 @@ double length_of(const PreparedPart& p, const std::string& id) {
 // go the finishing corner twice, the largest of the tools and 0.2 mm.
 double behind_mm(const std::string& id) { return id == "d1" ? 2 * 0.4 + 0.8 + 0.2 : 0; }
 
-// At feed 1 mm down to the pass and 2 mm before the surface.
-double fed(const std::string& id, double l) { return (1 + 2 + l + behind_mm(id)) / l; }
+// The passes of an operation on the pin, in a bar of 42 mm.  Roughing of d2 leaves its wall
+// the least depth of the finishing tool and draws out as far as it was deep; finishing
+// draws out to the top of d1, which stands as stock.
+struct PinPasses {
+  double wall_mm = 0;  // of a pass: what drawing out takes in revolutions of its cylinder
+  double stock_mm = 0;  // left on the wall
+  double rapid_mm = 0;
+};
+PinPasses passes_on_pin(bool d2, bool rough, int passes, double l) {
+  constexpr double kBar = 21, kLeast = 2.0 / 3.0 * 0.4;
+  const double finished = d2 ? 16 : 20, n = passes;
+  const double later = rough ? kLeast : 0;
+  const double depth = d2 && !rough ? kLeast : (kBar - finished - later) / n;
+  PinPasses all;
+  all.stock_mm = d2 && rough ? kLeast : 0;
+  for (int i = 0; i < passes; ++i) {
+    const double h = finished + later + depth * (n - 1 - i);
+    const double out = !d2 ? h : rough ? h + depth : kBar;
+    all.wall_mm += (out * out - h * h) / (2 * h) / n;
+    all.rapid_mm += kBar + 2 - h - 1 + (kBar + 2 - out);
+  }
+  all.rapid_mm += (n - 1) * (2 + l + behind_mm(d2 ? "d2" : "d1") - all.stock_mm - 1);
+  return all;
+}
 
 const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
   for (const auto& t : p.tolerances)
@@ -55,17 +77,14 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
       const auto tool = std::find_if(p.tools.begin(), p.tools.end(),
                                      [&](const auto& t) { return t.id == o.tool; });
       const double l = length_of(p, o.on[0]);
-      double t = 0, edges = 0, way = 0, later = 0, all = 0;
-      bool behind = false;
-      for (const auto& other : s.operations) {
-        if (other.on != o.on) continue;
-        all += static_cast<double>(other.passes.size());
-        if (behind) later += static_cast<double>(other.passes.size());
-        behind = behind || other.id == o.id;
-      }
+      const auto beside = passes_on_pin(o.on[0] == "d2", o.kind == OperationKind::rough,
+                                        static_cast<int>(o.passes.size()), l);
+      const double in_cut = l + beside.wall_mm;
+      double t = 0, edges = 0;
       for (const auto& pass : o.passes) {
         const double D = 1000 * pass.vc_m_min / (units::kPi * pass.n_rpm);
-        const double cut = units::kPi * D * l / (1000 * pass.vc_m_min * pass.f_mm_rev);
+        const double cut =
+            units::kPi * D * in_cut / (1000 * pass.vc_m_min * pass.f_mm_rev);
         EXPECT_NEAR(pass.time_min, cut, 1e-9 * cut);
         const auto taylor = p.material.taylor;
         EXPECT_NEAR(
@@ -77,18 +96,13 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
         t += cut;
         edges += cut / pass.T_min;
       }
-      // From 2 mm outside the stock of 42 mm to 1 mm above the pass, and back off; at
-      // heights as if all passes were as deep as each other.
-      const auto n = static_cast<double>(o.passes.size());
-      const double finished = o.on[0] == "d1" ? 20 : 16;
-      const double left = (21 - finished) / all * ((n - 1) / 2 + later);
-      way += n * (2 * (21 + 2 - finished - left - 1) + 1);
-      way += (n - 1) * (2 + l + behind_mm(o.on[0]) - 1);
-      const double rapid = way / p.machine.rapid_mm_min;
-      EXPECT_NEAR(o.cost,
-                  1.0 * (t * fed(o.on[0], l) + rapid + edges * tool->change_min) +
-                      edges * tool->edge_cost,
-                  1e-9);
+      // At feed 1 mm down to the pass and 2 mm before the surface.
+      const double fed = (1 + 2 + in_cut - beside.stock_mm + behind_mm(o.on[0])) / in_cut;
+      const double rapid = beside.rapid_mm / p.machine.rapid_mm_min;
+      EXPECT_NEAR(
+          o.cost,
+          1.0 * (t * fed + rapid + edges * tool->change_min) + edges * tool->edge_cost,
+          1e-9);
     }
 }
 
@@ -99,8 +113,9 @@ TEST(Plan, SinglePassHasTheEconomicLife) {
   const auto r = plan(p);
   const auto& pass = operation(r, "s1-finish-d1").passes.at(0);
   const auto& tool = p.tools.at(1);
-  const double economic =
-      (1 / p.material.taylor.n - 1) * (tool.change_min + tool.edge_cost) / fed("d1", 40);
+  const double economic = (1 / p.material.taylor.n - 1) *
+                          (tool.change_min + tool.edge_cost) /
+                          ((1 + 2 + 40 + behind_mm("d1")) / 40);
   EXPECT_NEAR(pass.ap_mm, 1, 1e-12);
   EXPECT_NEAR(pass.f_mm_rev, tool.f_mm_rev.upper, 1e-9);
   EXPECT_NEAR(pass.T_min, std::max(economic, tool.T_min.lower), 1e-6);

@@ -93,16 +93,18 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
   return e;
 }
 
-// What turning leaves before a face between an element and the next one.
+// What turning leaves before a face between an element and the next one: the least depth
+// of the facing tool.  Which one is going to be chosen is not known; one that roughs too,
+// whose least depth is the largest, spares a tool change.
 double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
                                const Item& a, const Item& b) {
   const std::size_t k = std::max(a.index, b.index);
   if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
     return 0;
-  double least = kInfinity;
+  double most = 0;
   for (const auto* t : tools_for(p, catalogue::ToolUse::facing))
-    least = std::min(least, catalogue::least_depth_mm(*t));
-  return std::isfinite(least) ? least : 0;
+    most = std::max(most, catalogue::least_depth_mm(*t));
+  return most;
 }
 
 bool is_arc(const PreparedPart& p, const Item& e, bool inner) {

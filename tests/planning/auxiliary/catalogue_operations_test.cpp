@@ -69,8 +69,9 @@ TEST(Groove, TakesTheTimeOfItsRings) {
                   5 * std::pow(at.f_mm_rev, 1 - p.material.kc.m),
               1e-6);
   const double edges = time / at.T_min;
-  // From 1 mm above at feed, down to there from 2 mm outside the stock of 42 mm and back.
-  const double above = 1 / (at.f_mm_rev * 1000 * at.vc_m_min / (units::kPi * 30));
+  // From 1 mm above at feed, 0.2 mm beside the wall behind, down to there from 2 mm outside
+  // the stock of 42 mm and back.
+  const double above = 1.2 / (at.f_mm_rev * 1000 * at.vc_m_min / (units::kPi * 30));
   const double way = 2 * (21 + 2 - 15 - 1) + 2 + 1;
   EXPECT_NEAR(o.cost,
               1.0 * (time + above + way / p.machine.rapid_mm_min + edges * t.change_min) +
