@@ -76,6 +76,7 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
   flag("optional_stops", "M1 before each change of the tool");
   flag("reference_returns",
        "to the reference position at both ends and before each change of the tool");
+  flag("cycles", "threads by the control's own cycle");
   all.push_back(command.add_option_function<std::vector<std::string>>(
       "--tool",
       [&settings](const std::vector<std::string>& tools) {

@@ -1,6 +1,5 @@
 #include "turnwright/nc/text.hpp"
 
-#include <fmt/args.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+
+#include "thread_cuts.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -95,25 +96,47 @@ class Moves {
       : lines_(lines), dialect_(dialect), f_(pointed(at_most(f_mm_rev, 4))) {}
 
   void write(const Move& m) {
-    const auto x = written(2 * m.x_mm, 4), z = written(m.z_mm, 4);
+    const auto x = diameter(m), z = length(m.z_mm);
     std::string words;
     if (x != x_) words += " X" + x;
     if (z != z_) words += " Z" + z;
     if (words.empty()) return;
     if (m.kind == Move::Kind::arc) {
-      words = " X" + x + " Z" + z + " I" + written(m.centre.h_mm - at_.x_mm, 5) + " K" +
-              written(m.centre.z_mm - at_.z_mm, 5);
+      words = " X" + x + " Z" + z + " I" + centre(m.centre.h_mm - std::stod(x_) / 2) +
+              " K" + centre(m.centre.z_mm - std::stod(z_));
     }
     lines_.blocks(code(m).append(words).append(feed(m)));
     x_ = x;
     z_ = z;
-    at_ = m;
+  }
+
+  /// All cuts of a thread by one cycle.  The first is rounded up, so that the control
+  /// needs no further cut for what rounding has left.
+  void write_cycle(const ThreadCuts& t) {
+    const double first = t.first_mm();
+    const auto up = [this](double mm) {
+      const double scale = std::pow(10, dialect_.decimals);
+      return length(std::ceil(mm * scale * (1 - 1e-12)) / scale);
+    };
+    lines_.blocks(
+        filled(dialect_.thread_cycle, fmt::arg("X", length(2 * t.to.h_mm)),
+               fmt::arg("Z", length(t.to.z_mm)), fmt::arg("lead", f_),
+               fmt::arg("peak_d", length(2 * (t.outside_mm() - t.from.h_mm))),
+               fmt::arg("depth", length(t.depth_mm)),
+               fmt::arg("depth_d", length(2 * t.depth_mm)),
+               fmt::arg("depth_um", std::lround(1e3 * t.depth_mm)),
+               fmt::arg("first", up(first)), fmt::arg("first_d", up(2 * first)),
+               fmt::arg("first_um", std::lround(std::ceil(1e3 * first))),
+               fmt::arg("least_um", std::lround(std::floor(1e3 * t.least_mm())))));
+    // Where along Z a cycle ends depends on the control.
+    x_.clear();
+    z_.clear();
+    write({Move::Kind::rapid, t.from.h_mm, t.from.z_mm});
   }
 
   /// A cut of a thread by a cycle that comes back to where it began.
   void write_returning(const Move& m) {
-    lines_.blocks(code(m) + " X" + written(2 * m.x_mm, 4) + " Z" + written(m.z_mm, 4) +
-                  feed(m));
+    lines_.blocks(code(m) + " X" + diameter(m) + " Z" + length(m.z_mm) + feed(m));
   }
 
  private:
@@ -141,42 +164,35 @@ class Moves {
     const bool whole = number.find('.') == number.npos;
     return dialect_.point && whole ? number + '.' : number;
   }
-  std::string written(double mm, int decimals) const {
-    return pointed(number(mm, decimals));
+  std::string length(double mm) const { return pointed(number(mm, dialect_.decimals)); }
+  std::string diameter(const Move& m) const { return length(2 * m.x_mm); }
+  /// From the start as it is written.
+  std::string centre(double mm) const {
+    return pointed(number(mm, dialect_.centre_decimals));
   }
 
   Lines& lines_;
   const Dialect& dialect_;
   std::string f_, x_, z_;
-  Move at_;
   bool fed_ = false;
 };
 
-// Whether the moves from the k-th are one cut of a thread by a cycle: in along X, the
-// cut along Z, out to where it began, and back.
-bool returns(const std::vector<Move>& moves, std::size_t k) {
-  if (k == 0 || k + 3 >= moves.size()) return false;
-  const Move *from = &moves[k - 1], *m = &moves[k];
-  const auto same = [](const Move& a, const Move& b) {
-    return a.x_mm == b.x_mm && a.z_mm == b.z_mm;
-  };
-  return m[1].kind == Move::Kind::thread && m[0].z_mm == from->z_mm &&
-         m[1].x_mm == m[0].x_mm && m[2].x_mm == from->x_mm && m[2].z_mm == m[1].z_mm &&
-         same(m[3], *from);
-}
-
-void write_moves(Lines& lines, const Dialect& dialect, const Step& s) {
+void write_moves(Lines& lines, const Dialect& dialect, const Step& s, bool cycles) {
   Moves moves(lines, dialect, s.f_mm_rev);
   for (std::size_t k = 0; k < s.moves.size(); ++k) {
-    if (dialect.thread_returns && returns(s.moves, k)) {
+    const auto cuts = cycles ? thread_cuts(s.moves, k) : std::nullopt;
+    if (cuts) {
+      moves.write_cycle(*cuts);
+      k += 4 * static_cast<std::size_t>(cuts->cuts) - 1;
+    } else if (dialect.thread_returns && returns(s.moves, k)) {
       moves.write_returning(s.moves[k + 1]);
       k += 3;
-      continue;
-    }
-    if (dialect.thread_returns && s.moves[k].kind == Move::Kind::thread)
+    } else if (dialect.thread_returns && s.moves[k].kind == Move::Kind::thread) {
       throw std::domain_error("nc: a thread that " + std::string(dialect.name) +
                               " has no word for");
-    moves.write(s.moves[k]);
+    } else {
+      moves.write(s.moves[k]);
+    }
   }
 }
 
@@ -258,7 +274,7 @@ class Writer {
     write_spindle(lines_, d_, step, reversed ? "M4" : "M3");
     if (!s_.coolant.empty()) lines_.blocks(s_.coolant);
     running_ = true;
-    write_moves(lines_, d_, step);
+    write_moves(lines_, d_, step, s_.cycles && !d_.thread_cycle.empty());
   }
   /// Before another tool.
   void change() {

@@ -128,21 +128,88 @@ TEST_F(Programs, OfTheDoorNcEndLikeThoseOfPlan) {
     return shell("turnwright nc request.json --json");
   };
   EXPECT_EQ(nc(infeasible()).code, 1);
-  auto part = json::parse(
-      contents(fs::path(TURNWRIGHT_SOURCE_DIR) / "parts/threaded-spindle.json"));
-  EXPECT_EQ(nc(part).code, 0);
-  part["outer"][0]["length_mm"] = 20;
-  part["outer"].insert(part["outer"].begin(),
-                       json::parse(R"({"id": "c0", "kind": "cylinder", "length_mm": 5,
-                                       "diameter_mm": 23})"));
+  EXPECT_EQ(nc(json::parse(row("plan").example)).code, 0);
+  const auto awkward = json::parse(
+      contents(fs::path(TURNWRIGHT_SOURCE_DIR) / "tests/data/awkward_parts.json"));
+  const auto part = std::find_if(awkward.begin(), awkward.end(), [](const json& one) {
+                      return one["part"]["name"] == "arc-behind-step";
+                    })->at("part");
   const auto none = nc(part);
   EXPECT_EQ(none.code, 3);
   EXPECT_EQ(json::parse(none.out).at("status"), "not-programmed");
-  const auto plan = run("plan", part);
-  EXPECT_EQ(plan.code, 3);
-  EXPECT_EQ(plan.err,
-            "no NC program: " + json::parse(none.out).at("cannot")[0].get<std::string>() +
-                '\n');
+  const auto why = json::parse(none.out).at("cannot")[0];
+  EXPECT_EQ(json::parse(run("plan", part, "--json").out).at("conflicts")[0]["sentence"],
+            why);
+  EXPECT_EQ(shell("turnwright nc request.json --setup 1").err,
+            "no NC program: " + why.get<std::string>() + '\n');
+}
+
+TEST_F(Programs, ForAnotherControlTakeThePlaceOfThoseForLinuxCnc) {
+  earlier();
+  put(folder_ / "nc/setup-0.ngc", "old");
+  const auto outcome =
+      run("plan", json::parse(row("plan").example), "--control haas --program-number 50");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "removed nc/setup-0.ngc, of an earlier plan\n" + kRemoved);
+  EXPECT_EQ(programs(), (Names{"setup-1.nc", "setup-2.nc"}));
+  EXPECT_EQ(contents(folder_ / "nc/setup-2.nc").substr(0, 9), "%\nO00051\n");
+}
+
+// A part alone, or in the request of `nc`; options go before what the request says.
+TEST_F(Programs, OfOneSetupAreTheTextAlone) {
+  const auto part = json::parse(row("plan").example);
+  put(folder_ / "part.json", part.dump());
+  put(folder_ / "request.json", json{{"part", part}, {"control", "okuma"}}.dump());
+  const auto whole = json::parse(shell("turnwright nc request.json --json").out);
+  const auto text = whole.at("programs")[1]["text"].get<std::string>();
+  EXPECT_EQ(whole["settings"]["control"], "okuma");
+  for (const char* same : {"nc request.json --setup 2", "nc request.json --setup 2 -o -",
+                           "nc part.json --control okuma --setup 2",
+                           "nc request.json --setup 2 -o file && cat file"}) {
+    const auto one = shell(std::string("turnwright ") + same);
+    EXPECT_EQ(one.code, 0) << same;
+    EXPECT_EQ(one.out, text) << same;
+  }
+  const auto other = shell("turnwright nc request.json --control haas --setup 2");
+  EXPECT_EQ(other.out.substr(0, 9), "%\nO00002\n");
+
+  const auto beyond = shell("turnwright nc part.json --setup 3");
+  EXPECT_EQ(beyond.code, 2);
+  EXPECT_EQ(beyond.err,
+            "command line: --setup: got 3, expected a setup with a program: 1, 2\n");
+}
+
+TEST_F(Programs, ProblemsHaveTheirPlaceInTheUsersDocument) {
+  auto part = json::parse(row("plan").example);
+  part["outer"][0]["length_mm"] = -1;
+  put(folder_ / "part.json", part.dump());
+  EXPECT_NE(
+      shell("turnwright nc part.json").err.find("part.json: /outer/0/length_mm: got -1"),
+      std::string::npos);
+  put(folder_ / "request.json", json{{"part", part}}.dump());
+  EXPECT_NE(shell("turnwright nc request.json")
+                .err.find("request.json: /part/outer/0/length_mm: got -1"),
+            std::string::npos);
+}
+
+TEST_F(Programs, OptionsNameThemselvesWhereTheyAreWrong) {
+  put(folder_ / "part.json", row("plan").example);
+  for (const auto& [options, told] :
+       {std::pair{"--control heidenhain", "--control: got \"heidenhain\", expected"},
+        {"--control okuma --work-offset G54",
+         "--work-offset: got \"G54\", expected none"},
+        {"--program-number 1", "--program-number: got 1, expected none"},
+        {"--program-number x", "--program-number: got \"x\", expected an integer"},
+        {"--tool A=1 --tool A=2", "--tool: got \"A\", expected one that no other"},
+        {"--tool A", "--tool: got \"A\", expected ID=NUMBER or ID=NUMBER:OFFSET"},
+        {"--control haas --tool A=1:x", "--tool: got \"A=1:x\", expected ID=NUMBER"},
+        {"--tool A=100", "--tool: got 100, expected"}}) {
+    const auto outcome = shell(std::string("turnwright nc part.json ") + options);
+    EXPECT_EQ(outcome.code, 2) << options;
+    EXPECT_NE(outcome.err.find(std::string("command line: ") + told), std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_EQ(shell("turnwright plan part.json --control haas").code, 2);
 }
 
 }  // namespace

@@ -166,12 +166,12 @@ class DialectReader {
       now_.S = w.number();
     else if (a == m_.limit_word)
       now_.limit_rpm = w.number();
-    else if (a == "F" && motion_ == m_.thread)
+    else if (motion_ == m_.thread && a == std::string(1, m_.lead))
       lead_ = w.number();
+    else if (motion_ == m_.thread && (a == "F" || a == "K" || a == "I"))
+      fail(line, "no word of a thread");
     else if (a == "F")
       now_.f_mm_rev = w.number();
-    else if (a == "K" && motion_ == m_.thread)
-      lead_ = w.number();
     else if (a == "T")
       tool(w);
     else if (a == "H" || (a == "D" && control_ == Control::siemens))

@@ -25,13 +25,13 @@ std::vector<SetupProgram> numbered(const Programs& programs, const Settings& set
   return all;
 }
 
-bool moves_on(const Move& a, const Move& b) {
-  const auto digits = [](double mm) { return std::llround(mm * 1e4); };
+// LinuxCNC takes any decimals, the others steps of 0.001 mm.
+double last_mm(Control control) { return control == Control::linuxcnc ? 1e-4 : 1e-3; }
+
+bool moves_on(const Move& a, const Move& b, Control control) {
+  const auto digits = [&](double mm) { return std::lround(mm / last_mm(control)); };
   return digits(2 * a.x_mm) != digits(2 * b.x_mm) || digits(a.z_mm) != digits(b.z_mm);
 }
-
-// Half of the last decimal of a diameter and of a length.
-constexpr double kX_mm = 0.25e-4 + 1e-9, kZ_mm = 0.5e-4 + 1e-9, kCentre_mm = 0.5e-5;
 
 void expect_cut_off(double read, double planned, double step, const std::string& at) {
   EXPECT_LE(read, planned * (1 + 1e-12)) << at;
@@ -40,13 +40,15 @@ void expect_cut_off(double read, double planned, double step, const std::string&
 
 void expect_same(const Read& r, const Move& m, const Step& s, Control control,
                  const std::string& at) {
+  const double half_mm = last_mm(control) / 2 + 1e-9;
   EXPECT_EQ(r.kind, m.kind) << at;
-  EXPECT_NEAR(r.x_mm, m.x_mm, kX_mm) << at;
-  EXPECT_NEAR(r.z_mm, m.z_mm, kZ_mm) << at;
+  EXPECT_NEAR(r.x_mm, m.x_mm, half_mm / 2) << at;
+  EXPECT_NEAR(r.z_mm, m.z_mm, half_mm) << at;
   if (m.kind == Move::Kind::arc) {
     EXPECT_EQ(r.clockwise, m.clockwise) << at;
-    EXPECT_NEAR(r.centre.h_mm, m.centre.h_mm, kX_mm + kCentre_mm) << at;
-    EXPECT_NEAR(r.centre.z_mm, m.centre.z_mm, kZ_mm + kCentre_mm) << at;
+    const double centre_mm = control == Control::linuxcnc ? half_mm / 10 : half_mm;
+    EXPECT_NEAR(r.centre.h_mm, m.centre.h_mm, centre_mm) << at;
+    EXPECT_NEAR(r.centre.z_mm, m.centre.z_mm, centre_mm) << at;
   }
   if (m.kind != Move::Kind::rapid) expect_cut_off(r.f_mm_rev, s.f_mm_rev, 1e-4, at);
   expect_cut_off(r.S, s.S, control == Control::linuxcnc ? 1e-2 : 1, at);
@@ -69,7 +71,7 @@ void expect_read_back(const SetupProgram& p, const std::vector<Read>& read,
       continue;
     }
     for (std::size_t k = 0; k < s.moves.size(); ++k) {
-      if (k > 0 && !moves_on(s.moves[k - 1], s.moves[k])) continue;
+      if (k > 0 && !moves_on(s.moves[k - 1], s.moves[k], control)) continue;
       ASSERT_LT(i, read.size()) << name;
       const auto at = name + ", " + s.comments[0] + ", move " + std::to_string(k);
       EXPECT_EQ(read[i].stops, stops) << at;
@@ -260,6 +262,87 @@ TEST(NcDialects, CommentsHoldNothingThatEndsThem) {
       found += static_cast<int>(c.find(told) != c.npos);
     EXPECT_EQ(found, 3) << id(control);
   }
+}
+
+// A thread of six cuts of equal area, outside or in a bore.
+Step thread_step(double sign) {
+  auto s = step(3, 0, Move::Kind::thread);
+  const double from = 20 + 2 * sign, outside = 20, h = 0.92;
+  s.moves = {{Move::Kind::rapid, from, 5}};
+  for (int k = 1; k <= 6; ++k) {
+    const double x = outside - sign * h * std::sqrt(k / 6.0);
+    s.moves.insert(s.moves.end(), {{Move::Kind::rapid, x, 5},
+                                   {Move::Kind::thread, x, -20},
+                                   {Move::Kind::rapid, from, -20},
+                                   {Move::Kind::rapid, from, 5}});
+  }
+  s.moves.push_back({Move::Kind::rapid, 60, 5});
+  return s;
+}
+
+std::string thread_text(const Step& s, Control control) {
+  auto p = small()[0];
+  p.steps = {s};
+  return text(p, {.control = control, .cycles = true});
+}
+
+double value(const std::string& block, char letter) {
+  return std::stod(block.substr(block.find(letter) + 1));
+}
+
+std::string last_g76(const std::string& program) {
+  const auto at = program.rfind("G76 ");
+  return program.substr(at, program.find('\n', at) - at);
+}
+
+// G76: the k-th cut is as deep as the first times the root of k, until the whole depth.
+void expect_cuts(double first, double depth, double root, const Step& planned,
+                 double sign) {
+  std::vector<double> cuts;
+  for (int k = 1; cuts.empty() || cuts.back() < depth; ++k)
+    cuts.push_back(std::min(depth, first * std::sqrt(k)));
+  std::vector<double> wanted;
+  for (const auto& m : planned.moves)
+    if (m.kind == Move::Kind::thread) wanted.push_back(m.x_mm);
+  ASSERT_EQ(cuts.size(), wanted.size());
+  for (std::size_t k = 0; k < cuts.size(); ++k)
+    EXPECT_NEAR(root + sign * (depth - cuts[k]), wanted[k], 2.5e-3) << k;
+}
+
+TEST(NcDialects, CyclesOfThreadsMakeTheCutsOfThePlan) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto s = thread_step(sign);
+    for (const auto control : {Control::fanuc, Control::fanuc_b}) {
+      const auto program = thread_text(s, control);
+      EXPECT_NE(program.find("\nG76 P010000 Q80 R0.\nG76 X"), std::string::npos);
+      const auto block = last_g76(program);
+      expect_cuts(value(block, 'Q') / 1e3, value(block, 'P') / 1e3, value(block, 'X') / 2,
+                  s, sign);
+      EXPECT_EQ(value(block, 'Z'), -20);
+      EXPECT_EQ(value(block, 'F'), 0.25);
+      EXPECT_EQ(block.substr(block.find('P'), 5), "P920 ");
+    }
+    const auto program = thread_text(s, Control::haas);
+    EXPECT_NE(program.find("\nM24\nG76 X"), std::string::npos);
+    const auto haas = last_g76(program);
+    expect_cuts(value(haas, 'D'), value(haas, 'K'), value(haas, 'X') / 2, s, sign);
+
+    const auto linuxcnc = last_g76(thread_text(s, Control::linuxcnc));
+    const double depth = value(linuxcnc, 'K') / 2;
+    EXPECT_NEAR(20 + 2 * sign + value(linuxcnc, 'I') / 2, 20, 1e-9);
+    expect_cuts(value(linuxcnc, 'J') / 2, depth, 20 - sign * depth, s, sign);
+    EXPECT_NE(linuxcnc.find(" R2 Q0 H0"), std::string::npos);
+  }
+}
+
+TEST(NcDialects, OtherInfeedsAreNoCycle) {
+  auto s = thread_step(1);
+  s.moves[6].x_mm = s.moves[5].x_mm -= 1e-4;
+  for (const auto control : {Control::linuxcnc, Control::fanuc, Control::haas}) {
+    EXPECT_EQ(count(thread_text(s, control), "G76"), 0) << id(control);
+    EXPECT_GT(count(thread_text(s, control), "\nG3"), 5) << id(control);
+  }
+  EXPECT_EQ(count(thread_text(thread_step(1), Control::okuma), "\nG33 X"), 6);
 }
 
 // On the other controls G33 is one cut; here it is a cycle.

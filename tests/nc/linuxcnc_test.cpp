@@ -9,6 +9,7 @@
 #include "../rs274.hpp"
 #include "canonical.hpp"
 #include "check.hpp"
+#include "cut_simulation.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -41,6 +42,18 @@ Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
   return refused;
 }
 
+// What the half section shows of programs as the interpreter runs them.
+std::vector<Finding> cut(const turnwright::test::Rs274& rs274, const Planned& p) {
+  const auto all = programs(p.part, p.plan);
+  CutSimulation simulation(p);
+  for (const auto& program : all.setups)
+    simulation.setup(program.setup, ways_of(rs274.canonical(
+                                        text(program, {.control = Control::linuxcnc}),
+                                        tool_table(all.setups))));
+  simulation.compare();
+  return simulation.findings();
+}
+
 class NcThroughLinuxCnc : public testing::Test {
  protected:
   void SetUp() override {
@@ -59,6 +72,78 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
   }
 }
 
+// What stays of walls is found without an interpreter too (cut_simulation_test).
+TEST_F(NcThroughLinuxCnc, OfReferencePartsCutNothingThatIsDrawnAndDoNotCollide) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    auto findings = cut(rs274, p);
+    std::erase_if(findings, [](const Finding& f) {
+      return f.fault == Fault::left || f.fault == Fault::lean ||
+             f.fault == Fault::start || f.fault == Fault::again ||
+             f.fault == Fault::centre;
+    });
+    EXPECT_EQ(listed(findings), "") << name;
+  }
+}
+
+TEST_F(NcThroughLinuxCnc, DISABLED_OfReferencePartsLeaveTheDrawing) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(listed(cut(rs274, p)), "") << name;
+  }
+}
+
+// With everything a shop may set but another zero.
+TEST_F(NcThroughLinuxCnc, ProgramsWithTheShopsSettingsMakeTheContour) {
+  const auto p = planned_reference("threaded-spindle");
+  auto all = programs(p.part, p.plan);
+  const Settings settings{.block_numbers = BlockNumbers::all,
+                          .spindle = SpindleTurn::M4,
+                          .coolant = "M7",
+                          .optional_stops = true,
+                          .cycles = true,
+                          .tools = {{"PROFILE-35", 7}, {"THREAD-EXT-60", 99}}};
+  number_tools(all.setups, settings);
+  Check check(p);
+  for (const auto& program : all.setups) {
+    const auto canonical =
+        rs274.canonical(nc::text(program, settings), tool_table(all.setups));
+    EXPECT_NE(canonical.find("OPTIONAL_PROGRAM_STOP"), canonical.npos);
+    EXPECT_NE(canonical.find("START_SPINDLE_COUNTERCLOCKWISE"), canonical.npos);
+    EXPECT_NE(canonical.find("MIST_ON"), canonical.npos);
+    check.setup(program.setup, ways_of(canonical));
+  }
+  check.contour();
+  EXPECT_EQ(listed(check.faults()), "");
+}
+
+// Radii of a thread's cuts by G76 are those of the plan's own moves, and the tool comes
+// back to where it began.
+TEST_F(NcThroughLinuxCnc, CyclesOfThreadsMakeTheCutsOfThePlan) {
+  const auto p = planned_reference("threaded-spindle");
+  const auto all = programs(p.part, p.plan);
+  std::vector<double> cut, planned;
+  Way back;
+  for (const auto& program : all.setups) {
+    const auto text = nc::text(program, {.cycles = true});
+    for (const auto& way : ways_of(rs274.canonical(text, tool_table(all.setups)))) {
+      if (way.thread && way.x0 == way.x1) cut.push_back(way.x1);
+      if (way.thread) back = {};
+      if (!way.thread && back.z1 < 1) back = way;
+    }
+    for (const auto& step : program.steps)
+      for (const auto& m : step.moves)
+        if (m.kind == Move::Kind::thread) planned.push_back(m.x_mm);
+  }
+  ASSERT_GT(planned.size(), 2U);
+  ASSERT_EQ(cut.size(), planned.size());
+  for (std::size_t k = 0; k < cut.size(); ++k) EXPECT_NEAR(cut[k], planned[k], 2e-4);
+  EXPECT_EQ(back.x0, back.x1);
+  EXPECT_EQ(back.z1, 4.5);
+}
+
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   return at == text.npos ? text : text.replace(at, what.size(), by);
@@ -69,7 +154,14 @@ TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
   ASSERT_EQ(listed(faults_of(rs274, p, p)), "");
   const std::vector<std::pair<const char*, Change>> slips = {
       {"a radius 5 um too small",
-       [](auto t) { return replaced(t, "X28 F0.3", "X27.99 F0.3"); }},
+       [](auto t) {
+         const auto pass = t.find("(operation s0-finish-d2");
+         if (pass == t.npos) return t;  // the other setup's
+         const auto at = t.find("\nG1 X", pass) + 5;
+         std::size_t digits = 0;
+         const double X = std::stod(t.substr(at), &digits);
+         return t.replace(at, digits, fmt::format("{:.4f}", X - 0.01));
+       }},
       {"no limit of the spindle",
        [](auto t) {
          return t.replace(t.find(" D"), t.find(" S", t.find("G96")) - t.find(" D"), "");

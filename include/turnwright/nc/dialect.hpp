@@ -48,9 +48,17 @@ struct Dialect {
   char lead;                       ///< the letter of its lead
   /// The word for a thread is a cycle: in along X, cut along Z, out, and back.
   bool thread_returns;
+  /// All cuts of a thread, the k-th sqrt(k) times as deep as the first; empty if unknown.
+  /// From the position before the first: {X}, {Z} of the last cut's end, {lead}; from the
+  /// position to the thread's outside {peak_d}, its depth {depth}, {depth_d}, {depth_um}
+  /// and that of the first cut {first}, {first_d}, {first_um}, as a radius [mm], a
+  /// diameter [mm] and a radius [um]; the least infeed {least_um}.
+  std::string_view thread_cycle;
 
-  bool point;      ///< a number without a point may count steps
-  int S_decimals;  ///< of spindle and surface speeds
+  bool point;           ///< a number without a point may count steps
+  int decimals;         ///< of diameters and lengths
+  int centre_decimals;  ///< of the centres of arcs
+  int S_decimals;       ///< of spindle and surface speeds
 };
 
 std::span<const Dialect> dialects();

@@ -37,6 +37,9 @@ struct Settings {
   /// To the reference position at the start, before each change of the tool and at the
   /// end.  The program's minutes do not count these ways.
   bool reference_returns = false;
+  /// Threads by the control's cycle for all cuts, if the dialect has one.  The controls
+  /// of Fanuc repeat the last cut once more, which the program's minutes do not count.
+  bool cycles = false;
   std::vector<ShopTool> tools = {};
 };
 

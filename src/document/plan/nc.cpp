@@ -115,6 +115,10 @@ nc::Settings read_settings(Reader& r) {
   read_coolant(r, s);
   s.optional_stops = r.boolean_or("optional_stops", s.optional_stops);
   s.reference_returns = r.boolean_or("reference_returns", s.reference_returns);
+  s.cycles = r.boolean_or("cycles", s.cycles);
+  if (s.cycles && d.thread_cycle.empty())
+    r.problem_at("cycles", "false: no cycle of " + std::string(d.name) + " is known",
+                 "choice");
   read_tools(r, d, s);
   return s;
 }
@@ -142,6 +146,7 @@ ordered_json settings_json(const nc::Settings& s,
   out["coolant"] = s.coolant.empty() ? "off" : s.coolant;
   out["optional_stops"] = s.optional_stops;
   out["reference_returns"] = s.reference_returns;
+  out["cycles"] = s.cycles;
   out["tools"] = tools_of(programs);
   if (d.offset == nc::OffsetNumber::of_tool)
     for (auto& tool : out["tools"]) tool.erase("offset");
