@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr const char* kStyle = R"css(
-@page { size: A4; margin: 12mm }
+@page { size: A4; margin: 11mm 12mm }
 body { max-width: 186mm; margin: 10mm auto; padding: 0 4mm; color: #1a1d21;
   font: 8.5pt/1.3 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
   font-variant-numeric: tabular-nums }
@@ -48,17 +48,19 @@ tbody tr:nth-child(-n+4):not(:last-child), tr.first:not(:last-child) { break-aft
 tbody tr:nth-last-child(-n+4):not(:first-child) { break-before: avoid }
 .setup-sheet { break-before: page } .cut { break-inside: avoid }
 .setup-sheet h1 { font-size: 16pt; display: flex; justify-content: space-between; border-bottom: 0.5mm solid #1a1d21 }
-.setup-sheet table, .sign { break-inside: avoid }
-.title { display: grid; grid-template-columns: 2fr 1fr 1fr; gap: 1mm 4mm }
-.title dd { font-size: 9.5pt; font-weight: 600; overflow-wrap: anywhere }
-.facts { display: block; columns: 2; column-gap: 8mm } .facts div { display: flex; gap: 2mm; break-inside: avoid }
+.setup-sheet table, .sign { break-inside: avoid } .setup-sheet td.nowrap { white-space: nowrap }
+.setup-sheet table { line-height: 1.2 } .setup-sheet th small { display: inline; margin-left: 1mm } .setup-sheet h2 { margin-top: 2.5mm }
+.setup-sheet figure { width: 92%; margin: 0 auto }
+.title { display: flex; flex-wrap: wrap; gap: 0.5mm 7mm; margin: 1mm 0 }
+.title dd { font-size: 9pt; font-weight: 600; overflow-wrap: anywhere }
+.facts { display: block; columns: 2; column-gap: 8mm; margin: 0 } .facts div { display: flex; gap: 2mm; break-inside: avoid }
 .facts dt { flex: 0 0 19mm } .facts dd { font-size: 8.5pt }
-td.blank { border: 0.1mm solid #8b929b; min-width: 22mm }
-.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 6mm; margin-top: 10mm }
+td.blank { border: 0.1mm solid #8b929b; min-width: 18mm }
+.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 6mm; margin-top: 8mm }
 .sign p { border-top: 0.2mm solid #1a1d21 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 7.5pt }
 @media print { body { margin: 0; padding: 0; max-width: none } }
-@media (max-width: 640px) { .scroll { overflow-x: auto } .title, .sign { grid-template-columns: 1fr } .facts { columns: 1 } }
+@media (max-width: 640px) { .scroll { overflow-x: auto } .sign { grid-template-columns: 1fr } .facts { columns: 1 } }
 )css";
 
 /// Bytes of a URL (RFC 3986): what is not unreserved as %XX.

@@ -16,6 +16,10 @@ std::string entries(const Entries& all, const char* css_class) {
   return out + "</dl>\n";
 }
 
+std::string nowrap_cell(const std::string& text) {
+  return "<td class=\"nowrap\">" + escaped(text) + "</td>";
+}
+
 std::string numbered(int number) {
   return number > 0 ? fmt::format("T{}", number) : "driven";
 }
@@ -60,8 +64,8 @@ std::string checks(const SetupSheet& sheet) {
   if (sheet.checks.empty()) return "";
   std::string rows;
   for (const auto& c : sheet.checks)
-    rows += "<tr>" + words_cell(c.what) + words_cell(c.of) + number_cell(c.limits) +
-            number_cell(c.predicted) + words_cell(c.gauge) + words_cell(c.when) +
+    rows += "<tr>" + nowrap_cell(c.what) + words_cell(c.of) + number_cell(c.limits) +
+            number_cell(c.predicted) + words_cell(c.gauge) + nowrap_cell(c.when) +
             "<td class=\"blank\"></td></tr>\n";
   return tag("h2", "Inspection") +
          table_head({{"characteristic", "", false},
@@ -91,7 +95,9 @@ std::string sheet_html(const SetupSheet& sheet, const Figures& figures) {
   out += entries(sheet.title, "title");
   out += figure_named(figures, fmt::format("setup-{}.svg", sheet.setup),
                       setup + ": the part, its clamping and the program's zero");
-  out += entries(sheet.clamping, "facts") + entries(sheet.times, "facts");
+  Entries facts = sheet.clamping;
+  facts.insert(facts.end(), sheet.times.begin(), sheet.times.end());
+  out += entries(facts, "facts");
   out += tools(sheet) + stops(sheet) + checks(sheet) + signatures() + "</section>\n";
   const auto path = figure_named(figures, fmt::format("path-{}.svg", sheet.setup),
                                  setup + ": tool path and material taken off");

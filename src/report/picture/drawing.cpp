@@ -25,7 +25,7 @@ using planning::PreparedPart;
 using planning::ProcessPlan;
 
 // Millimetres of paper.
-constexpr double kWidth = SetupView::kWidth, kBeside = 16, kHighest = 48, kError = 6;
+constexpr double kWidth = SetupView::kWidth, kBeside = 16, kHighest = 40, kError = 6;
 constexpr double kTop = 17, kAround = SetupView::kJaw + 2.5, kLabelGap = 3.6,
                  kNumberGap = 3.2;
 constexpr double kCharacter = 1.7;  // of 2.8 mm type, on average of a wide face

@@ -167,7 +167,7 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
       if (pass.tool == tool.number &&
           std::ranges::find(operations, pass.operation) == operations.end())
         operations.push_back(pass.operation);
-    std::string text = fmt::format("T{}  {}: ", tool.number, tool.id);
+    std::string text = fmt::format("T{} {}: ", tool.number, tool.id);
     for (const auto& o : operations) text += (&o == operations.data() ? "" : ", ") + o;
     const double top = y - 2.4;
     s.svg.polygon("off deep " + colour(s, tool.number),
@@ -177,9 +177,11 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
     y += kLine;
   }
   s.svg.line("rapid", {kLeft, y - 1}, {kLeft + 6, y - 1});
-  s.svg.text({kLeft + 8, y}, Anchor::start,
-             "rapid; solid: feed of the programmed point; shaded: what each pass takes "
-             "off; Tn above: a tool comes in");
+  s.svg.text(
+      {kLeft + 8, y}, Anchor::start,
+      "rapid; solid: feed of the programmed point; shaded: what each pass takes off");
+  y += kLine;
+  s.svg.text({kLeft + 8, y}, Anchor::start, "T above the frame: that tool comes in");
   return y;
 }
 

@@ -16,7 +16,7 @@ struct Scales {
 };
 
 struct SetupView {
-  static constexpr double kWidth = 190, kJaw = 9;  ///< mm of paper: the page, a jaw
+  static constexpr double kWidth = 190, kJaw = 7;  ///< mm of paper: the page, a jaw
 
   const planning::PreparedPart& part;
   const planning::ProcessPlan& plan;

@@ -87,16 +87,21 @@ std::string jaws(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
   return text;
 }
 
+std::string tailstock(const PreparedPart& p) {
+  const double thrust_N = p.machine.tail_thrust_N;
+  return thrust_N > 0 ? "tailstock centre, " + kN(thrust_N) : "tailstock centre";
+}
+
 std::string support(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
   const auto sign = s.hold == End::left ? 1 : -1;
   switch (s.clamping) {
     case Clamping::chuck:
       return "";
     case Clamping::chuck_tailstock:
-      return "tailstock centre, " + kN(p.machine.tail_thrust_N);
+      return tailstock(p);
     case Clamping::between_centres:
-      return fmt::format("between centres, {} end at the headstock, tailstock with {}",
-                         word(s.hold), kN(p.machine.tail_thrust_N));
+      return fmt::format("between centres, {} end at the headstock, {}", word(s.hold),
+                         tailstock(p));
     case Clamping::chuck_steady:
       return fmt::format(
           "steady rest at Z{:.1f}",
@@ -104,7 +109,7 @@ std::string support(const PreparedPart& p, const SetupPlan& s, std::size_t setup
     case Clamping::tailstock_follow:
       break;
   }
-  return "tailstock centre, " + kN(p.machine.tail_thrust_N) + ", follow rest at the tool";
+  return tailstock(p) + ", follow rest at the tool";
 }
 
 Entries clamping(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
@@ -131,7 +136,7 @@ Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
     add(all, "Batch",
         fmt::format("{:.0f} parts, {} to prepare the machine", *p.batch,
                     duration(p.machine.setup_min)));
-  add(all, "Per part, all setups", duration(plan.time_per_part_min));
+  add(all, "Part", duration(plan.time_per_part_min) + " in all setups");
   return all;
 }
 

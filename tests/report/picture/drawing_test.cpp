@@ -19,8 +19,8 @@ using planning::PreparedPart;
 using planning::ProcessPlan;
 
 // A bush from tube: d2, the bore and the right face are cut in the first setup, d1 and its
-// end face in the second.  Stock 100 mm from -2, diameter 40: 48 mm high on paper, so a mm is 48 / 40 =
-// 1.2 paper mm; in the first setup z = -2 lies at x = (190 - 120) / 2 = 35, in the second,
+// end face in the second.  Stock 100 mm from -2, diameter 40: 40 mm high on paper, so a mm is one of
+// paper; in the first setup z = -2 lies at x = (190 - 100) / 2 = 45, in the second,
 // which holds the right end, z = 98.
 PreparedPart bush() {
   planning::PlanRequest p;
@@ -46,7 +46,7 @@ PreparedPart bush() {
   return planning::prepare(std::move(p));
 }
 
-// The largest error, 0.010 mm, may take 6 paper mm: 6 / (1.2 * 0.010) = 500, so 500:1.
+// The largest error, 0.010 mm, may take 6 paper mm: 6 / 0.010 = 600, so 500:1.
 ProcessPlan planned() {
   ProcessPlan plan;
   plan.setups.resize(2);
@@ -59,9 +59,9 @@ ProcessPlan planned() {
   return plan;
 }
 
-constexpr double kScale = 1.2, kFactor = 500;
+constexpr double kScale = 1, kFactor = 500;
 double x_of(double z, std::size_t setup = 0) {
-  return 35 + kScale * (setup == 0 ? z + 2 : 98 - z);
+  return 45 + kScale * (setup == 0 ? z + 2 : 98 - z);
 }
 
 using Points = std::vector<std::pair<double, double>>;
@@ -141,7 +141,7 @@ TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
   const auto svg = setup_drawings(planning::prepare(part), planned())[1];
   const auto jaws = shapes(svg, "jaw");
   ASSERT_EQ(jaws.size(), 2u);
-  const double top = 15 + 9 / kScale;  // paper mm beyond the largest
+  const double top = 15 + 7 / kScale;  // paper mm beyond the largest
   const Points expected{{56, 15}, {76, 15}, {76, 12}, {96, 12}, {96, top}, {56, top}};
   for (std::size_t side = 0; side < 2; ++side) {
     ASSERT_EQ(jaws[side].size(), expected.size());
@@ -178,7 +178,7 @@ TEST(SetupDrawings, JawsHoldTheBarThatThePartIsPartedOff) {
   const auto jaws = shapes(svg, "jaw");
   ASSERT_EQ(jaws.size(), 2u);
   const double scale = 158.0 / 160;  // paper mm of a mm
-  const double top = 20 + 9 / scale;
+  const double top = 20 + 7 / scale;
   const Points expected{{-60, 20}, {-40, 20}, {-40, top}, {-60, top}};
   ASSERT_EQ(jaws[0].size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -233,8 +233,8 @@ TEST(SetupDrawings, CorrectedPathsStandOffByTheSameFactor) {
   EXPECT_NE(all[0].find("blue: the tool path"), std::string::npos);
   EXPECT_TRUE(shapes(all[1], "path").empty());
   EXPECT_EQ(all[1].find("blue: the tool path"), std::string::npos);
-  // 0.030 mm may take 6 paper mm: 6 / (1.2 * 0.030) = 167, so 100:1
-  plan.compensation[0].table_mm[0].second = -0.030;
+  // 0.035 mm may take 6 paper mm: 6 / 0.035 = 171, so 100:1
+  plan.compensation[0].table_mm[0].second = -0.035;
   EXPECT_NE(setup_drawings(bush(), plan)[0].find(" 100:1 "), std::string::npos);
   plan.compensation[0].table_mm[0].second = std::nan("");
   EXPECT_THROW(setup_drawings(bush(), plan), std::domain_error);

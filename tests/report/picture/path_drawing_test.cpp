@@ -110,7 +110,7 @@ TEST(PathDrawings, FeedsRapidsAndToolsAreTold) {
     EXPECT_EQ(count(all[k], "<line class=\"rapid\""), rapids + 1);  // and the legend's
     EXPECT_EQ(count(all[k], "<polyline class=\"feed"), passes_);
     for (const auto& tool : program.tools)
-      EXPECT_NE(all[k].find("T" + std::to_string(tool.number) + "  " + tool.id),
+      EXPECT_NE(all[k].find("T" + std::to_string(tool.number) + " " + tool.id),
                 std::string::npos);
   }
   EXPECT_EQ(all, path_drawings(p.part, p.plan, programs));
