@@ -50,8 +50,9 @@ tw_domain(document
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
-tw_domain(report DEPENDS base part volumetric planning
-  PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt)
+tw_domain(report DEPENDS base part catalogue volumetric planning nc
+  PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
+  TEST_DEPENDS document)
 
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")

@@ -63,7 +63,7 @@ def main():
                  f'{plan["time_per_part_min"]:.2f} min', 17, weight="bold")]
     for k, setup in enumerate(plan["setups"]):
         body.append(f'<rect x="{MARGIN + 330 * k}" y="42" width="12" height="12" fill="{COLOURS[k % 2]}"/>')
-        body.append(text(MARGIN + 18 + 330 * k, 53, f'setup {k}: {setup["hold"]} end held, '
+        body.append(text(MARGIN + 18 + 330 * k, 53, f'setup {k + 1}: {setup["hold"]} end held, '
                          f'{setup["clamping"]}, {len(setup["operations"])} operations'))
     body += shaft(part, setup_of, 185)
     y = 320

@@ -72,12 +72,16 @@ nlohmann::json read_request(const std::string& file) {
 // the place `root` in the request that his document has there.
 service::Drawn answer(const service::Request& row, const Arguments& arguments,
                       const nlohmann::json& request, const std::string& root,
-                      const document::Catalogue& catalogue) {
+                      const document::Catalogue& catalogue,
+                      const nc::Settings& settings) {
   ProgressLine line("cuts");
-  const service::Context context{
-      catalogue, {}, [&line](std::size_t done, std::size_t all) {
-        line.tell(0, static_cast<std::int64_t>(done), static_cast<std::int64_t>(all));
-      }};
+  const service::Context context{catalogue,
+                                 {},
+                                 [&line](std::size_t done, std::size_t all) {
+                                   line.tell(0, static_cast<std::int64_t>(done),
+                                             static_cast<std::int64_t>(all));
+                                 },
+                                 settings};
   try {
     if (arguments.drawings || arguments.programs || arguments.report_file)
       return service::drawn_answer(row, request, context);
@@ -116,9 +120,8 @@ bool is_of_programs(std::string_view name) {
 }
 
 /// Writes the programs of this plan into the folder and removes those of any other plan.
-void write_programs(const fs::path& folder, nc::Programs programs,
+void write_programs(const fs::path& folder, const nc::Programs& programs,
                     const nc::Settings& settings) {
-  nc::number_tools(programs.setups, settings);
   std::vector<service::NamedText> files;
   for (const auto& program : programs.setups)
     files.push_back(
@@ -240,7 +243,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
   const auto catalogue = document::load_catalogue(document::data_folder(arguments.data));
   const auto drawn =
-      answer(row, arguments, request, part_alone ? "/part" : "", catalogue);
+      answer(row, arguments, request, part_alone ? "/part" : "", catalogue, settings);
   const auto& result = drawn.result;
   if (arguments.setup) {
     put_program(result, arguments);

@@ -39,6 +39,29 @@ void append(std::vector<Piece>& all, const std::vector<Piece>& more) {
 
 }  // namespace
 
+namespace {
+
+bool is_groove(const Site& site, const Surface& s) {
+  const auto& cut = cut_of(site, s);
+  return cut && cut->kind == part::CutKind::groove;
+}
+
+// A groove's blank is as low as the lower of the neighbours that are drawn as high, so
+// that no fillet stays on them.
+double blank_h(const Site& site, const Side& side, const Surface& s) {
+  double h = s.h0;
+  for (const auto& t : side.items) {
+    const bool before = t.z1 == s.z0 && std::abs(t.h1 - s.h0) < kSame_mm;
+    const bool behind = t.z0 == s.z1 && std::abs(t.h0 - s.h1) < kSame_mm;
+    if (is_groove(site, t) || (!before && !behind)) continue;
+    const auto line = corrected(site, side, t);
+    h = std::min(h, before ? line.back().h_mm : line.front().h_mm);
+  }
+  return h;
+}
+
+}  // namespace
+
 const planning::Compensation::Table& correction(const Site& site,
                                                 const std::string& surface) {
   static const planning::Compensation::Table none;
@@ -48,6 +71,10 @@ const planning::Compensation::Table& correction(const Site& site,
 }
 
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s) {
+  if (is_groove(site, s)) {
+    const double h = blank_h(site, side, s);
+    return {{h, s.z0}, {h, s.z1}};
+  }
   const double by = side.sign * moved_mm(site, s.id);
   std::vector<Point> all{{s.h0 + by, s.z0}, {s.h1 + by, s.z1}};
   const auto& table = correction(site, s.id);

@@ -44,7 +44,7 @@ struct Part {
 };
 Part in_cut(const InCut& cut, const Move& a, const Move& b) {
   const double p = cut.across ? a.x_mm : a.z_mm, q = cut.across ? b.x_mm : b.z_mm;
-  if (p == q) return cut.from_mm < p && p < cut.to_mm ? Part{0, 1} : Part{};
+  if (p == q) return cut.from_mm <= p && p <= cut.to_mm ? Part{0, 1} : Part{};
   const auto [low, high] =
       std::minmax({(cut.from_mm - p) / (q - p), (cut.to_mm - p) / (q - p)});
   return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};

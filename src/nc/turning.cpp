@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contour.hpp"
+#include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::nc {
@@ -29,10 +30,17 @@ bool is_bore(OperationKind kind) {
   return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
 }
 
+bool finishes(const OperationPlan& o) {
+  return o.kind == OperationKind::finish || o.kind == OperationKind::bore_finish;
+}
+
+const catalogue::Tool& tool_of(const Site& site, const OperationPlan& o) {
+  return *std::find_if(site.part.tools.begin(), site.part.tools.end(),
+                       [&](const auto& t) { return t.id == o.tool; });
+}
+
 double minor_edge_rad(const Site& site, const OperationPlan& o) {
-  const auto tool = std::find_if(site.part.tools.begin(), site.part.tools.end(),
-                                 [&](const auto& t) { return t.id == o.tool; });
-  return units::rad_from_deg(tool->minor_kapr_deg);
+  return units::rad_from_deg(tool_of(site, o).minor_kapr_deg);
 }
 
 std::size_t place(const Side& side, const std::string& id) {
@@ -40,6 +48,32 @@ std::size_t place(const Side& side, const std::string& id) {
       std::find_if(side.items.begin(), side.items.end(),
                    [&](const Surface& s) { return s.id == id; }) -
       side.items.begin());
+}
+
+bool is_arc(const Site& site, const Surface& s) {
+  const auto& cut = cut_of(site, s);
+  return cut && cut->kind == part::CutKind::arc;
+}
+
+// The surface that rises behind element k as a step, and the element at whose end it
+// stands: level or lower elements may lie between.
+struct Wall {
+  double z_mm = 0, top_mm = 0;
+  std::size_t before = 0;
+  bool steps = true;    // else the beginning of a cone or an arc
+  bool of_arc = false;  // the blank of an arc, which is cut later
+};
+std::optional<Wall> wall_behind(const Site& site, const Side& side, std::size_t k) {
+  const double h = side.items[k].h1 + kSame_mm;
+  const auto last = end_of_run(side, k);
+  for (std::size_t j = k; j < last; ++j) {
+    const auto& next = side.items[j + 1];
+    if (std::max(next.h0, next.h1) > h)
+      return Wall{next.z0, side.top0(next), j, next.h0 > h, is_arc(site, next)};
+  }
+  const double z = side.items[last].z1;
+  if (!hole_goes_on(site, side, z, h)) return std::nullopt;
+  return Wall{z, side.stock_h, last};
 }
 
 // Thickness that turning leaves before a shoulder that is faced later.
@@ -68,6 +102,8 @@ bool clip(std::vector<Point>& way, std::span<const Piece> pieces, const Corner& 
   return true;
 }
 
+constexpr Normal kWall{0, 1};  // of a wall that rises towards the chuck
+
 // Points on the straight line through two others.
 Point at_z(const Point& a, const Point& b, double z) {
   return {a.h_mm + (b.h_mm - a.h_mm) * (z - a.z_mm) / (b.z_mm - a.z_mm), z};
@@ -81,7 +117,7 @@ struct Pass {
   Site& site;
   Side& side;
   std::size_t operation, k;  // k: the element's place in the tool's order
-  double left_mm, re_mm;
+  double ap_mm, left_mm, re_mm;
   bool last;  // makes the drawn contour
 
   Surface& surface() const { return side.items[k]; }
@@ -97,6 +133,26 @@ std::vector<Point> contour(const Pass& p) {
   if (p.last) return corrected(p.site, p.side, p.surface());
   const auto& s = p.surface();
   return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
+}
+
+// Tips at which a pass leaves element k and meets the next one: up the wall between them,
+// or over the small step between two sizes that are drawn as one.  Down such a step the
+// tool follows its minor edge, which touches the edge of the higher surface.
+std::vector<Point> crossing(const Pass& p, std::size_t k) {
+  const auto &s = p.side.items[k], &t = p.side.items[k + 1];
+  const auto from = corrected(p.site, p.side, s), to = corrected(p.site, p.side, t);
+  const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
+  const double r = p.re_mm;
+  if (t.h0 > s.h1 + kSame_mm)
+    return {tip(from.back(), m, kWall, r), tip(to[0], kWall, n, r)};
+  const double falls = from.back().h_mm - to[0].h_mm, rises_rad = *p.tool().rises_rad;
+  const double arc = r * (1 - std::cos(rises_rad));
+  if (falls > arc) {
+    const double z = from.back().z_mm - r - r * std::sin(rises_rad);
+    return {{from.back().h_mm, z}, {to[0].h_mm, z - (falls - arc) / std::tan(rises_rad)}};
+  }
+  const auto over = across(from.back(), m, to[0], n, r);
+  return {over.leave, over.meet};
 }
 
 // Distance at which the minor edge keeps the corner from a step down of the corrections.
@@ -171,26 +227,25 @@ std::size_t start_clear(const Pass& p, std::vector<Point>& way) {
   return entered;
 }
 
-// z at which roughing ends: at a higher surface behind the element, or where a narrower
-// hole continues.
-std::optional<double> wall_behind(const Site& site, const Side& side, std::size_t k) {
-  const double h = side.items[k].h1 + kSame_mm;
-  const auto last = end_of_run(side, k);
-  for (std::size_t j = k + 1; j <= last; ++j)
-    if (std::max(side.items[j].h0, side.items[j].h1) > h) return side.items[j].z0;
-  const double z = side.items[last].z1;
-  return hole_goes_on(site, side, z, h) ? std::optional(z) : std::nullopt;
+// Thickness that a pass leaves on the wall behind element k: that of a shoulder which is
+// faced, or the least depth of the tool that finishes the element before the wall.
+double wall_stock_mm(const Pass& p, const Wall& w) {
+  const double faced = shoulder_stock_mm(p.site, p.operation, p.side, w.before);
+  if (faced > 0 || p.last || !w.steps) return faced;
+  const auto& all = p.site.answer().operations;
+  for (std::size_t i = p.operation; i < all.size(); ++i)
+    if (finishes(all[i]) && is_on(all[i], p.side.items[w.before].id))
+      return catalogue::least_depth_mm(tool_of(p.site, all[i]));
+  return 0;
 }
 
 // The pieces that end a pass over element k.
-std::vector<Piece> ends(const Pass& p, std::size_t k) {
+std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>& w) {
   std::vector<Piece> all;
-  if (p.last)
-    all = drawn_behind(p.site, p.side, k);
-  else if (const auto z = wall_behind(p.site, p.side, k))
-    all.push_back(wall(*z));
-  const double stock = shoulder_stock_mm(p.site, p.operation, p.side, k);
-  if (stock > 0) all.push_back(wall(p.side.items[k].z1 + stock));
+  if (p.last) all = drawn_behind(p.site, p.side, k);
+  if (!w) return all;
+  const double stock = wall_stock_mm(p, *w);
+  if (!p.last || stock > 0) all.push_back(wall(w->z_mm + stock));
   return all;
 }
 
@@ -217,24 +272,35 @@ void leave_stock(const Pass& p, std::vector<Point>& way) {
   if (end.z_mm > last.z_mm) last = end;
 }
 
+// Draws the tool out along a wall that has ended its pass: a roughing pass as far as it
+// was deep, which takes off the wedge that the lead angle leaves; the pass that makes the
+// wall to its top.
+void draw_out(const Pass& p, const Wall& w, std::vector<Point>& way) {
+  if (!w.steps || (p.last && (wall_stock_mm(p, w) > 0 || w.of_arc))) return;
+  const auto& end = way.back();
+  const double top = p.last ? w.top_mm : std::min(w.top_mm, end.h_mm + p.ap_mm);
+  if (end.z_mm < w.z_mm + wall_stock_mm(p, w) + kStands_mm && top > end.h_mm + kStands_mm)
+    way.push_back({top, end.z_mm});
+}
+
 // Ends a pass where the corner touches a surface, or where it has removed the fillet that
 // another corner may have left behind a falling edge.
 void lead_out(const Pass& p, std::vector<Point>& way) {
-  auto o = p.operation;
-  auto k = p.k;
-  for (; p.last && joined(p.site, o); ++o) ++k;
-  if (!p.goes_on()) {
-    auto& last = way.back();
-    const double falls = p.last && level_behind(p) ? 0 : p.site.r_most;
-    last = at_z(way[way.size() - 2], last, last.z_mm - falls - p.re_mm - kBehind_mm);
-    leave_stock(p, way);
+  if (p.goes_on()) return;
+  auto& last = way.back();
+  const double falls = p.last && level_behind(p) ? 0 : p.site.r_most;
+  last = at_z(way[way.size() - 2], last, last.z_mm - falls - p.re_mm - kBehind_mm);
+  leave_stock(p, way);
+  const auto w = wall_behind(p.site, p.side, p.k);
+  const bool stopped = clip(way, ends(p, p.k, w), {p.re_mm});
+  if (way.size() < 2) return;
+  if (p.side.sign > 0) {
+    if (p.last && !cut_later(p.site, p.surface()))
+      tell_jaws(p.site, p.k, p.plan().id,
+                std::max(way.back().z_mm, p.surface().z1 - p.re_mm));
+    if (clip(way, {{wall(p.site.root_z)}}, {p.re_mm})) return;
   }
-  clip(way, ends(p, k), {p.re_mm});
-  if (way.size() < 2 || p.side.sign < 0) return;
-  if (p.last && !p.goes_on() && !cut_later(p.site, p.surface()))
-    tell_jaws(p.site, p.k, p.plan().id,
-              std::max(way.back().z_mm, p.surface().z1 - p.re_mm));
-  clip(way, {{wall(p.site.root_z)}}, {p.re_mm});
+  if (stopped && w && way.size() > 1) draw_out(p, *w, way);
 }
 
 struct Way {
@@ -243,24 +309,21 @@ struct Way {
 };
 Way way_of(const Pass& p) {
   std::size_t entered = 0;
-  const auto c = contour(p);
-  auto way = tips(c, p.re_mm);
+  auto way = tips(contour(p), p.re_mm);
   if (p.from_before()) {
-    const auto before = corrected(p.site, p.side, p.side.items[p.k - 1]);
-    const auto n = normal(before[before.size() - 2], before.back());
-    way.front() = across(before.back(), n, c[0], normal(c[0], c[1]), p.re_mm).meet;
+    way.front() = crossing(p, p.k - 1).back();
     while (way.size() > 2 && way[1].z_mm >= way[0].z_mm) way.erase(way.begin() + 1);
   } else {
-    lead_in(p, c, way);
+    lead_in(p, contour(p), way);
     if (way.size() < 2) return {};
     entered = start_clear(p, way);
   }
   if (p.goes_on()) {
-    const auto after = corrected(p.site, p.side, p.side.items[p.k + 1]);
-    const auto n = normal(c[c.size() - 2], c.back());
-    way.back() = across(c.back(), n, after[0], normal(after[0], after[1]), p.re_mm).leave;
+    const auto over = crossing(p, p.k);
+    way.back() = over.front();
     while (way.size() > 2 && way[way.size() - 2].z_mm <= way.back().z_mm)
       way.erase(way.end() - 2);
+    way.push_back(over.back());
   }
   lead_out(p, way);
   return {way, entered};
@@ -270,10 +333,7 @@ void pass(const Pass& p) {
   auto& s = p.surface();
   const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
-    if (p.from_before())
-      p.site.to(Kind::feed, p.side, way.front());
-    else
-      p.site.approach(p.side, way.front(), p.re_mm);
+    if (!p.from_before()) p.site.approach(p.side, way.front(), p.re_mm);
     for (std::size_t i = 1; i < way.size(); ++i) {
       p.site.to(Kind::feed, p.side, way[i]);
       p.site.moves.back().entering = i <= entered;
@@ -364,28 +424,33 @@ bool joined(const Site& site, std::size_t i) {
   const auto& all = site.answer().operations;
   if (i + 1 >= all.size()) return false;
   const auto &a = all[i], &b = all[i + 1];
-  const bool finish =
-      a.kind == OperationKind::finish || a.kind == OperationKind::bore_finish;
-  if (!finish || a.kind != b.kind || a.tool != b.tool || a.passes.size() != 1 ||
+  if (!finishes(a) || a.kind != b.kind || a.tool != b.tool || a.passes.size() != 1 ||
       b.passes.size() != 1 || a.on.size() != 1 || b.on.size() != 1)
     return false;
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);
   if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
-  // A shorter element may lie completely in the fillets at its ends; grooves and arcs,
-  // which are cut later, have none.
-  const auto joins = [&](const Surface& s) {
-    return std::hypot(s.h1 - s.h0, s.z1 - s.z0) >= 2 * corner_mm(site, a) &&
-           !cut_later(site, s);
-  };
   const auto &s = side.items[k], &t = side.items[k + 1];
-  if (!(std::abs(s.h1 - t.h0) < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
-        joins(s) && joins(t)))
-    return false;
-  // Further down beside a step the minor edge would cut the surface in front.
   const double falls =
       corrected(site, side, s).back().h_mm - corrected(site, side, t).front().h_mm;
-  return falls <= corner_mm(site, a) * (1 - std::cos(minor_edge_rad(site, a)));
+  const auto rad = [](const Surface& e) { return std::atan2(e.h1 - e.h0, e.z0 - e.z1); };
+  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
+  // and no inner corner.
+  const bool from_arc = is_arc(site, s), to_arc = is_arc(site, t);
+  const bool kept_off =
+      (to_arc && falls < -kSame_mm) || (from_arc && falls > kSame_mm) ||
+      ((from_arc || to_arc) && (t.h0 > s.h1 + kSame_mm || rad(t) > rad(s) + kSame_mm));
+  if (std::abs(s.z1 - t.z0) >= kSame_mm || t.h0 < s.h1 - kSame_mm || kept_off ||
+      shoulder_stock_mm(site, i, side, k) > 0)
+    return false;
+  const auto length = [](const Surface& e) {
+    return std::hypot(e.h1 - e.h0, e.z1 - e.z0);
+  };
+  planning::Passage passage;
+  passage.cylinders = s.h0 == s.h1 && t.h0 == t.h1;
+  passage.least_mm = std::min(length(s), length(t));
+  if (t.h0 < s.h1 + kSame_mm) passage.falls_mm = falls;
+  return planning::runs_on(passage, corner_mm(site, a), minor_edge_rad(site, a));
 }
 
 void turn(Site& site, std::size_t operation) {
@@ -397,8 +462,8 @@ void turn(Site& site, std::size_t operation) {
     for (std::size_t i = 0; i < o.passes.size(); ++i) {
       left -= o.passes[i].ap_mm;
       const bool last = finishes && i + 1 == o.passes.size();
-      pass({site, side, operation, place(side, id), last ? 0 : left, corner_mm(site, o),
-            last});
+      pass({site, side, operation, place(side, id), o.passes[i].ap_mm, last ? 0 : left,
+            corner_mm(site, o), last});
     }
   }
 }

@@ -57,7 +57,7 @@ Drawn drawn_answer(const Request& row, const nlohmann::json& request,
 std::string html_report(const Request& row, const nlohmann::json& request,
                         const Drawn& drawn) {
   if (!row.html) throw std::domain_error("html_report: " + row.name + " has no report");
-  return row.html(request.value("name", "part"), drawn.result, drawn.drawings);
+  return row.html(request.value("name", "part"), drawn);
 }
 
 bool infeasible(const nlohmann::ordered_json& result) {

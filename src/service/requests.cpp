@@ -8,6 +8,7 @@
 #include "report/picture/budget_drawing.hpp"
 #include "report/picture/drawing.hpp"
 #include "report/picture/milled_drawing.hpp"
+#include "report/picture/path_drawing.hpp"
 #include "report/picture/stability_chart.hpp"
 #include "report/picture/volumetric_drawing.hpp"
 #include "report/picture/window_drawing.hpp"
@@ -158,13 +159,13 @@ planning::ProcessPlan planned(const document::PreparedDocument& part) {
 
 ordered_json plan(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "plan");
-  return document::to_json(planned(part), part.assumed);
+  return document::plan_result(planned(part), part);
 }
 
 ordered_json predict(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "predict",
                                             document::Purpose::predict);
-  return document::to_json(planning::predict(part.part), part.assumed);
+  return document::plan_result(planning::predict(part.part), part);
 }
 
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
@@ -188,11 +189,29 @@ ordered_json drawing(const json& request, const Context& context) {
       document::prepared_part(request, context.catalogue, "drawing"));
 }
 
-Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan) {
-  Drawn all{document::to_json(plan, part.assumed), {}, nc::programs(part.part, plan)};
+// The names and work offset under which the machine finds the programs.
+report::ShopPrograms shop_programs(const nc::Programs& programs,
+                                   const nc::Settings& settings) {
+  report::ShopPrograms shop{{}, nc::work_offset(settings)};
+  for (const auto& program : programs.setups)
+    shop.files.push_back(document::file_name(program, settings.control));
+  return shop;
+}
+
+Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan,
+            const nc::Settings& settings) {
+  Drawn all{document::plan_result(plan, part), {}, nc::programs(part.part, plan)};
+  nc::number_tools(all.programs.setups, settings);
+  all.sheets = report::setup_sheets(part.part, plan, all.programs,
+                                    shop_programs(all.programs, settings));
   for (auto& svg : report::setup_drawings(part.part, plan))
     all.drawings.push_back(
-        {"setup-" + std::to_string(all.drawings.size()) + ".svg", std::move(svg)});
+        {"setup-" + std::to_string(all.drawings.size() + 1) + ".svg", std::move(svg)});
+  auto paths = report::path_drawings(part.part, plan, all.programs);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    all.drawings.push_back(
+        {"path-" + std::to_string(all.programs.setups[i].setup + 1) + ".svg",
+         std::move(paths[i])});
   if (auto svg = report::budget_drawing(part.part, plan); !svg.empty())
     all.drawings.push_back({"budget.svg", std::move(svg)});
   for (const auto& setup : plan.setups)
@@ -205,17 +224,21 @@ Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan&
   return all;
 }
 
+std::string plan_report(std::string_view name, const Drawn& drawn) {
+  return report::html(name, drawn.result, drawn.drawings, drawn.sheets);
+}
+
 Drawn drawn_plan(const json& request, const Context& context) {
   auto loaded = document::load_part_plan(request, context.catalogue, "plan");
   loaded.plan.window_curves = true;
   const auto part = document::prepared(std::move(loaded), context.catalogue);
-  return drawn(part, planned(part));
+  return drawn(part, planned(part), context.settings);
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "predict",
                                             document::Purpose::predict);
-  return drawn(part, planning::predict(part.part));
+  return drawn(part, planning::predict(part.part), context.settings);
 }
 
 Drawn drawn_stability(const json& request, const Context& context) {
@@ -224,6 +247,10 @@ Drawn drawn_stability(const json& request, const Context& context) {
   if (auto svg = report::stability_chart(request, all.result); !svg.empty())
     all.drawings.push_back({"stability.svg", std::move(svg)});
   return all;
+}
+
+std::string stability_report(std::string_view name, const Drawn& drawn) {
+  return report::stability_html(name, drawn.result, drawn.drawings);
 }
 
 Drawn drawn_geometry(const json& request, const Context&) {
@@ -267,9 +294,9 @@ constexpr const char* kPredictExample = R"({
 std::span<const Request> requests() {
   static const std::vector<Request> kTable{
       {"plan", "part plan -> certified cheapest process plan", kPlanExample, plan,
-       report::text, drawn_plan, report::html},
+       report::text, drawn_plan, plan_report},
       {"predict", "part plan with conditions given -> deviations and verdicts",
-       kPredictExample, predict, report::text, drawn_predict, report::html},
+       kPredictExample, predict, report::text, drawn_predict, plan_report},
       {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
        nc_programs, nc_text},
       {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
@@ -328,7 +355,7 @@ std::span<const Request> requests() {
          return document::stability(request, context.catalogue, context.stop,
                                     context.tell);
        },
-       nullptr, drawn_stability, report::stability_html},
+       nullptr, drawn_stability, stability_report},
       {"multipass", "the literature's multi-pass problem -> certified optimum",
        kMultipassExample,
        [](const json& request, const Context&) -> ordered_json {

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "report/picture/figure.hpp"
+#include "report/sheet/setup_sheet.hpp"
 #include "turnwright/document/catalogue.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/text.hpp"
 
 /// The table of capabilities, each a pure function from a request document to a result
 /// document.  Command line, HTTP and batches are generated from this table, so a new
@@ -23,6 +24,7 @@ struct Context {
   std::stop_token stop = {};  ///< requested when nobody waits for the result any more
   /// Called by long sweeps after each of their parts, from their thread.
   std::function<void(std::size_t done, std::size_t all)> tell = {};
+  nc::Settings settings = {};  ///< of the programs that plans have with their pictures
 };
 
 using Picture = report::Figure;
@@ -31,7 +33,8 @@ using Picture = report::Figure;
 struct Drawn {
   nlohmann::ordered_json result;
   std::vector<Picture> drawings;
-  nc::Programs programs = {};  ///< for plans
+  nc::Programs programs = {};                   ///< for plans, with the shop's numbers
+  std::vector<report::SetupSheet> sheets = {};  ///< of the programs
 };
 
 struct Request {
@@ -44,8 +47,7 @@ struct Request {
   /// The result with pictures, for capabilities that have any.
   Drawn (*drawn)(const nlohmann::json& request, const Context& context) = nullptr;
   /// The report for a browser or a printer, for capabilities that have one.
-  std::string (*html)(std::string_view name, const nlohmann::ordered_json& result,
-                      const std::vector<Picture>& drawings) = nullptr;
+  std::string (*html)(std::string_view name, const Drawn& drawn) = nullptr;
 };
 
 std::span<const Request> requests();

@@ -229,7 +229,7 @@ TEST_F(CommandLine, TwoOutputsHaveTwoPlaces) {
         std::pair{"-o none --report \"$PWD/none\"", "--report"},
         std::pair{"-o one --drawings one", "--drawings"},
         std::pair{"--report one --nc one", "--nc"},
-        std::pair{"-o new/setup-0.svg --drawings new/", "--drawings"},
+        std::pair{"-o new/setup-1.svg --drawings new/", "--drawings"},
         std::pair{"--report new/tools.tbl --nc new", "--nc"}}) {
     SCOPED_TRACE(outputs);
     const auto outcome = shell(std::string("turnwright plan request.json ") + outputs);

@@ -42,7 +42,7 @@ while read -r shown made; do
     cmp "$made" "$pictures/$shown" || failed=1
   fi
 done << END
-setup-0.svg pictures/setup-0.svg
+setup-1.svg pictures/setup-1.svg
 budget.svg pictures/budget.svg
 window.svg pictures/window-s0-finish-pin.svg
 trace.svg $(echo trace/*.svg)

@@ -1,5 +1,7 @@
 #include "cut_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,6 +54,8 @@ const char* name(Fault fault) {
       return "in the centre";
     case Fault::start:
       return "starts on a finished surface";
+    case Fault::again:
+      return "enters the contour again";
     case Fault::thread:
       return "thread not to depth";
   }
@@ -114,6 +118,7 @@ void CutSimulation::setup(std::size_t s, const std::vector<Way>& ways) {
   sign_ = left ? 1 : -1;
   free_z_ = left ? part::length_mm(p_.part.drawing) : 0;
   bodies_.clear();
+  entered_.clear();
   centred_ = in_pass_ = touched_ = false;
   add_obstacles();
   for (const auto& way : ways) follow(way);
@@ -164,7 +169,7 @@ void CutSimulation::follow(const Way& w) {
     const auto sweep = swept(b.edge, from, to);
     in_pass_ = true;
     if (!touched_ && !b.cutter.drills && !b.cutter.threads)
-      first_touch(w, sweep, from, to);
+      first_touch(b, w, sweep, from, to);
     material_.cut(sweep);
   }
   if (w.thread) {
@@ -196,8 +201,8 @@ bool CutSimulation::made(const Lines& lines, std::size_t i, double surface) cons
 
 // Where a pass touches the drawn contour first, and how far inside a surface that was
 // finished before.
-void CutSimulation::first_touch(const Way& w, const Polygon& sweep, const Spot& from,
-                                const Spot& to) {
+void CutSimulation::first_touch(const Body& b, const Way& w, const Polygon& sweep,
+                                const Spot& from, const Spot& to) {
   struct Touch {
     const Lines *drawn, *material;
     std::size_t line;
@@ -220,6 +225,8 @@ void CutSimulation::first_touch(const Way& w, const Polygon& sweep, const Spot& 
     });
   if (!first) return;
   touched_ = true;
+  const auto spot = first->drawn->spot(first->line, first->at);
+  entered(b, w, spot);
   const double pitch = first->drawn->at(1) - first->drawn->at(0);
   const auto finished_for = [&](int step) {
     double at = first->at;
@@ -235,8 +242,13 @@ void CutSimulation::first_touch(const Way& w, const Polygon& sweep, const Spot& 
     }
   };
   const double inside = std::min(finished_for(1), finished_for(-1));
-  if (inside > kInside_mm)
-    find(Fault::start, w.operation, inside, first->drawn->spot(first->line, first->at));
+  if (inside > kInside_mm) find(Fault::start, w.operation, inside, spot);
+}
+
+void CutSimulation::entered(const Body& b, const Way& w, const Spot& at) {
+  if (!b.cutter.finishes) return;
+  const int times = entered_[{operation(w.operation)->tool, b.cutter.inner}]++;
+  if (times > 0) find(Fault::again, w.operation, times, at);
 }
 
 void CutSimulation::compare() {
@@ -305,6 +317,14 @@ void CutSimulation::find(Fault fault, const std::string& where, double mm,
 std::vector<Finding> CutSimulation::findings() const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) all.push_back(finding);
+  return all;
+}
+
+std::string listed(const std::vector<Finding>& findings) {
+  std::string all;
+  for (const auto& f : findings)
+    all += fmt::format("{}: {} by {:.5f} mm at radius {:.3f}, {:.3f} from the left end\n",
+                       f.where, name(f.fault), f.mm, f.at.x, f.at.z);
   return all;
 }
 

@@ -22,6 +22,7 @@ enum class Fault {
   jaws,    ///< a tool in the jaws
   centre,  ///< a tool in the tailstock's centre or its body
   start,   ///< a pass that starts on a finished surface
+  again,   ///< a finishing tool that enters the contour again, so many times
   thread   ///< a thread not cut to its depth
 };
 const char* name(Fault fault);
@@ -70,7 +71,9 @@ class CutSimulation {
   void add_centre();
   void follow(const Way& w);
   void collide(const Way& w, const Body& b, const Spot& from, const Spot& to);
-  void first_touch(const Way& w, const Polygon& sweep, const Spot& from, const Spot& to);
+  void first_touch(const Body& b, const Way& w, const Polygon& sweep, const Spot& from,
+                   const Spot& to);
+  void entered(const Body& b, const Way& w, const Spot& at);
   bool made(const Lines& lines, std::size_t i, double surface) const;
   void compare(const Lines& material, const Lines& least, const Lines& full);
   void compare_walls();
@@ -87,9 +90,13 @@ class CutSimulation {
   std::vector<Obstacle> obstacles_;
   bool centred_ = false;
   bool in_pass_ = false, touched_ = false;
+  std::map<std::pair<std::string, bool>, int> entered_;  // by tool, and in bores
   std::map<std::string, double> threads_;
   std::map<std::pair<Fault, std::string>, Finding> findings_;
 };
+
+/// A line for each finding.
+std::string listed(const std::vector<Finding>& findings);
 
 /// The findings of programs, from their own moves.
 std::vector<Finding> simulated(const Planned& p, const Programs& all);

@@ -65,13 +65,23 @@ bool is_inner(const Planned& p, const OperationPlan& o) {
   return e && e->inner;
 }
 
+double pitch_mm(const Planned& p, const OperationPlan& o) {
+  const auto pitch = [&](const auto& elements) {
+    for (const auto& e : elements)
+      if (e.id == o.on[0] && e.cut) return e.cut->pitch_mm;
+    return 0.0;
+  };
+  return std::max(pitch(p.part.drawing.outer), pitch(p.part.drawing.inner));
+}
+
 double point_mm(double D_mm, double point_deg) {
   return D_mm / 2 / std::tan(point_deg * M_PI / 360);
 }
 
 Cutter drill(double D, double point_deg) {
-  Cutter c{true, true, false, 0, {}, {}};
   const double r = D / 2, point = point_mm(D, point_deg), far = 1000;
+  Cutter c;
+  c.drills = true;
   c.edge = hull({{0, 0}, {r, point}, {r, far}, {-r, far}, {-r, point}});
   return c;
 }
@@ -84,7 +94,8 @@ constexpr double kProfilingKapr_rad = 93 * M_PI / 180;
 Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
                     const catalogue::FixedTool& t) {
   const double ap = o.passes[0].ap_mm;
-  Cutter c{is_inner(p, o), false, false, t.re_mm, {}, {}};
+  Cutter c;
+  c.re_mm = t.re_mm;
   switch (t.use) {
     case FixedUse::centring:
     case FixedUse::drilling:
@@ -92,11 +103,12 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
     case FixedUse::grooving:
     case FixedUse::parting:
       c.edge = rectangle(0, t.reach, 0, ap);
-      if (!c.inner) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
+      if (!is_inner(p, o)) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
       return c;
     case FixedUse::threading: {
+      // Its tooth; the insert beside it is in no document.
+      const double h = 0.8 * pitch_mm(p, o), w = h * std::tan(M_PI / 6);
       c.threads = true;
-      const double h = 1.5 * t.pitch_mm.upper, w = h * std::tan(M_PI / 6);
       c.edge = hull({{0, 0}, {h, w}, {h, -w}});
       return c;
     }
@@ -110,15 +122,16 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
 bool finishes(const Planned& p, const OperationPlan& o) {
   const auto* t = fixed_tool(p, o);
   return t ? t->use == FixedUse::profiling
-           : o.kind != OperationKind::rough && o.kind != OperationKind::bore_rough;
+           : o.kind == OperationKind::finish || o.kind == OperationKind::bore_finish;
 }
 
 }  // namespace
 
 Cutter cutter(const Planned& p, const OperationPlan& o) {
-  if (const auto* t = fixed_tool(p, o)) return fixed_cutter(p, o, *t);
   Cutter c;
-  c.inner = is_inner(p, o);
+  if (const auto* t = fixed_tool(p, o)) c = fixed_cutter(p, o, *t);
+  c.finishes = finishes(p, o);
+  c.inner = c.drills || is_inner(p, o);
   for (const auto& t : p.part.tools) {
     if (t.id != o.tool) continue;
     const auto outline = catalogue::outline(t);
@@ -129,13 +142,22 @@ Cutter cutter(const Planned& p, const OperationPlan& o) {
   return c;
 }
 
-double finishing_corner_mm(const Planned& p, bool outer) {
-  double r = 0;
+std::map<std::string, double> finishing_corners_mm(const Planned& p) {
+  std::map<std::string, double> all;
+  const auto add = [&](const std::string& surface, double re) {
+    all[surface] = std::max(all[surface], re);
+  };
   for (const auto& s : p.plan.setups)
-    for (const auto& o : s.operations)
-      if (o.kind != OperationKind::mill && is_inner(p, o) != outer && finishes(p, o))
-        r = std::max(r, cutter(p, o).re_mm);
-  return r;
+    for (const auto& o : s.operations) {
+      if (!finishes(p, o) && o.kind != OperationKind::face) continue;
+      const double re = cutter(p, o).re_mm;
+      for (const auto& id : o.on) {
+        const auto bar = id.find('|');
+        add(id.substr(0, bar), re);
+        if (bar != id.npos) add(id.substr(bar + 1), re);
+      }
+    }
+  return all;
 }
 
 std::optional<Drilled> drilled(const Planned& p, std::size_t setup,

@@ -1,4 +1,7 @@
 #pragma once
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "plans.hpp"
@@ -11,14 +14,15 @@ namespace turnwright::nc::test {
 /// the origin in the programmed point.
 struct Cutter {
   bool inner = false, drills = false, threads = false;
+  bool finishes = false;  ///< a contour; faces apart
   double re_mm = 0;
   Polygon edge;                 ///< what cuts: the whole insert, a blade, a drill
   std::vector<Polygon> holder;  ///< what must not touch; convex pieces
 };
 Cutter cutter(const Planned& p, const planning::OperationPlan& operation);
 
-/// Largest corner of the tools that finish the outside or the bores of a plan, 0 of none.
-double finishing_corner_mm(const Planned& p, bool outer);
+/// The largest corner that finishes each element, or a shoulder of it.
+std::map<std::string, double> finishing_corners_mm(const Planned& p);
 
 /// Tip to full diameter of a drill and its diameter, as a planned operation uses it.
 struct Drilled {

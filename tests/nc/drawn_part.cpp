@@ -15,52 +15,64 @@ constexpr double kChord_mm = 2e-6;  // of arcs
 constexpr double kStep_mm = 5e-3;   // along the centres of a rolling corner
 constexpr double kTouch_mm = 1e-7;  // of its distance
 
+constexpr double kBucket_mm = 0.2;
+
 double length(const Spot& a) { return std::hypot(a.x, a.z); }
+long bucket(double z) { return std::lround(std::floor(z / kBucket_mm)); }
 
 }  // namespace
 
 void Pieces::add(const Piece& piece) {
   const auto [low, high] = std::minmax(piece.a.z, piece.b.z);
-  for (long k = std::lround(std::floor(low)); k <= std::lround(std::floor(high)); ++k)
-    near_[k].push_back(all_.size());
+  for (long k = bucket(low); k <= bucket(high); ++k) near_[k].push_back(all_.size());
   all_.push_back(piece);
 }
 
 Pieces::Nearest Pieces::nearest(const Spot& p) const {
   Nearest best{kInfinity, 0};
   if (near_.empty()) return best;
-  const long at = std::lround(std::floor(p.z));
+  const long at = bucket(p.z);
   const long most =
       std::max(std::abs(at - near_.begin()->first), std::abs(at - near_.rbegin()->first));
-  for (long k = 0; k <= most && static_cast<double>(k) - 1 < best.mm; ++k)
-    for (const long bucket : {at - k, at + k}) {
-      const auto found = near_.find(bucket);
-      if (found == near_.end()) continue;
-      for (const auto i : found->second) {
-        const double mm = distance(p, all_[i].a, all_[i].b);
-        if (mm < best.mm) best = {mm, all_[i].of};
-      }
+  const auto look = [&](long k) {
+    const auto found = near_.find(k);
+    if (found == near_.end()) return;
+    for (const auto i : found->second) {
+      const double square = distance_square(p, all_[i].a, all_[i].b);
+      if (square < best.mm) best = {square, all_[i].of};
     }
+  };
+  for (long k = 0; k <= most; ++k) {
+    const double least = kBucket_mm * static_cast<double>(k - 1);
+    if (k > 0 && least * least > best.mm) break;
+    look(at - k);
+    if (k > 0) look(at + k);
+  }
+  best.mm = std::sqrt(best.mm);
   return best;
 }
 
-DrawnPart::DrawnPart(const Planned& p) : sizes_(p), p_(p) {
-  for (const bool outer : {false, true})
-    corner_mm_[outer] = finishing_corner_mm(p, outer);
+DrawnPart::DrawnPart(const Planned& p)
+    : sizes_(p), p_(p), corners_mm_(finishing_corners_mm(p)) {
   least_ = body(Threads::root);
   full_ = body(Threads::blank);
   add_walls(run(true, Threads::blank));
   add_walls(run(false, Threads::blank));
-  for (std::size_t i = 0; i < full_.polygon.size(); ++i) roll(i);
+  for (const auto& id : surfaces_)
+    if (const double r = corner_mm(id); r > 0 && !rolled_.contains(r))
+      rolled_[r] = rolled(r);
 }
 
 std::size_t DrawnPart::surface(const std::string& id) {
   const auto it = std::find(surfaces_.begin(), surfaces_.end(), id);
   if (it != surfaces_.end()) return static_cast<std::size_t>(it - surfaces_.begin());
-  const auto e = part::extent(p_.part.drawing, id);
   surfaces_.push_back(id);
-  outer_.push_back(!(id == "hole" || (e && e->inner)));
   return surfaces_.size() - 1;
+}
+
+double DrawnPart::corner_mm(const std::string& surface) const {
+  const auto found = corners_mm_.find(surface);
+  return found == corners_mm_.end() ? 0 : found->second;
 }
 
 void DrawnPart::append(Run& run, const std::string& id, const Polygon& line) {
@@ -94,13 +106,14 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   const auto is_thread = [&](std::size_t i) {
     return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::thread;
   };
-  // A thread is cut to its root, and into the chamfer beside it.
+  // A thread is cut to its root, and into the chamfer or arc that rises to it.
   double most = kInfinity;
   if (threads == Threads::root) {
+    const bool rises =
+        e.cut ? e.cut->kind == part::CutKind::arc : e.left_mm != e.right_mm;
     if (is_thread(k)) most = root(e);
     for (const auto beside : {k - 1, k + 1})
-      if (!e.cut && e.left_mm != e.right_mm && is_thread(beside))
-        most = std::min(most, root(all[beside]));
+      if (rises && is_thread(beside)) most = std::min(most, root(all[beside]));
   }
   Polygon line;
   for (const double u : at) {
@@ -157,13 +170,19 @@ DrawnPart::Body DrawnPart::body(Threads threads) {
   return b;
 }
 
-// Centres of the corner that touch a piece or its end, where it touches nothing else.
-void DrawnPart::roll(std::size_t i) {
+DrawnPart::Rolled DrawnPart::rolled(double r) const {
+  Rolled rolled;
+  for (std::size_t i = 0; i < full_.polygon.size(); ++i) roll(rolled, r, i);
+  return rolled;
+}
+
+// Adds the centres while the corner touches a piece or its end, and nothing else.
+void DrawnPart::roll(Rolled& rolled, double r, std::size_t i) const {
   const auto& all = full_.polygon;
   const auto at = [&](std::size_t k) { return all[k % all.size()]; };
   const auto a = at(i), b = at(i + 1), way = b - a;
-  const double r = corner_mm_[is_outer(full_.of[i])];
-  if (length(way) == 0 || (a.x == 0 && b.x == 0) || !(r > 0)) return;
+  const double l = length(way);
+  if (l == 0 || (a.x == 0 && b.x == 0)) return;
   std::size_t next = i + 2;
   while (length(at(next) - b) == 0) ++next;
   const auto on = at(next) - b;
@@ -174,26 +193,21 @@ void DrawnPart::roll(std::size_t i) {
   const auto beside = [&](const Spot& p, double angle) {
     return p + Spot{r * std::sin(angle), r * std::cos(angle)};
   };
-  keep_clear(i, length(way) / kStep_mm, [&](double u) {
-    return beside({a.x + u * way.x, a.z + u * way.z}, normal);
-  });
-  constexpr double kCorner_rad = 0.02;  // more than between the chords of arcs
-  if (turn > kCorner_rad) {
-    const double half = (std::numbers::pi - turn) / 2;  // of the corner's angle
-    const double back = r / std::tan(half);
-    const auto l = length(way);
-    fillets_[is_outer(full_.of[i])].push_back(
-        {beside({b.x - back * way.x / l, b.z - back * way.z / l}, normal), b, back});
-  }
+  const auto along = [&](double u) { return Spot{a.x + u * way.x, a.z + u * way.z}; };
+  keep_clear(rolled, r, l / kStep_mm, [&](double u) { return beside(along(u), normal); });
   if (turn < 0)  // an edge: the corner goes round it
-    keep_clear(i, -turn / std::sqrt(8 * kChord_mm / r),
+    keep_clear(rolled, r, -turn / std::sqrt(8 * kChord_mm / r),
                [&](double u) { return beside(b, normal + u * turn); });
+  constexpr double kChords_rad = 0.02;  // more than between the chords of arcs
+  if (turn > kChords_rad) {
+    const double back = r / std::tan((std::numbers::pi - turn) / 2);
+    rolled.fillets.push_back({beside(along(1 - back / l), normal), b, back});
+  }
 }
 
 template <class Centre>
-void DrawnPart::keep_clear(std::size_t i, double steps, const Centre& centre) {
-  const bool outer = is_outer(full_.of[i]);
-  const double r = corner_mm_[outer];
+void DrawnPart::keep_clear(Rolled& rolled, double r, double steps,
+                           const Centre& centre) const {
   const auto clear = [&](double u) {
     return full_.pieces.nearest(centre(u)).mm >= r - kTouch_mm;
   };
@@ -207,46 +221,45 @@ void DrawnPart::keep_clear(std::size_t i, double steps, const Centre& centre) {
       for (int j = 0; j < 40; ++j) (clear((in + out) / 2) ? in : out) = (in + out) / 2;
       (before ? high : low) = in;
     }
-    if (before || after) rolled_[outer].add({centre(low), centre(high), full_.of[i]});
+    if (before || after) rolled.centres.add({centre(low), centre(high), 0});
     before = after;
   }
 }
 
 void DrawnPart::add_walls(const Run& run) {
-  const auto add = [&](Wall w, bool foot) {
-    const double r = foot ? corner_mm_[run.outer] : 0;
-    constexpr double kEdge_mm = 0.02;
-    w.from_x = w.low_x + (run.outer ? r : 0) + kEdge_mm;
-    w.to_x = w.high_x - (run.outer ? 0 : r) - kEdge_mm;
+  constexpr double kEdge_mm = 0.02;
+  const auto add = [&](Wall w, double fillet) {
+    w.from_x = w.low_x + (run.outer ? fillet : 0) + kEdge_mm;
+    w.to_x = w.high_x - (run.outer ? 0 : fillet) - kEdge_mm;
     if (w.from_x < w.to_x) walls_.push_back(w);
   };
   for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
     const auto &a = run.points[i], &b = run.points[i + 1];
     if (b.z - a.z > 1e-9) continue;
     const auto [low, high] = std::minmax(a.x, b.x);
-    add({surfaces_[run.before[i]] + "|" + surfaces_[run.before[i + 1]], a.z, low, high,
-         (b.x > a.x) == run.outer, 0, 0},
-        true);
+    const auto &before = surfaces_[run.before[i]], &after = surfaces_[run.before[i + 1]];
+    add({before + "|" + after, a.z, low, high, (b.x > a.x) == run.outer, 0, 0},
+        std::max(corner_mm(before), corner_mm(after)));
   }
   if (!run.outer) return;
   const auto hole = this->run(false, Threads::blank);
-  if (sizes_.faced(true))
-    add({"left", 0, hole.points.front().x, run.points.front().x, true, 0, 0}, false);
-  if (sizes_.faced(false))
-    add({"right", sizes_.length(), hole.points.back().x, run.points.back().x, false, 0,
-         0},
-        false);
+  const auto end = [&](const char* face, const Spot& in, const Spot& out) {
+    if (sizes_.faced(face == std::string("left")))
+      add({face, out.z, in.x, out.x, out.z == 0, 0, 0}, 0);
+  };
+  end("left", hole.points.front(), run.points.front());
+  end("right", hole.points.back(), run.points.back());
 }
 
 double DrawnPart::beyond_mm(const Spot& p) const {
   if (p.z < 0 ? !sizes_.faced(true) : p.z > sizes_.length() && !sizes_.faced(false))
     return 0;  // nothing is to be made there
   const auto contour = full_.pieces.nearest(p);
-  const bool outer = is_outer(contour.of);
-  const double r = corner_mm_[outer];
+  const double r = corner_mm(surfaces_[contour.of]);
   if (contour.mm >= r) return contour.mm;
-  double beyond = std::max(0.0, r - rolled_[outer].nearest(p).mm);
-  for (const auto& f : fillets_[outer])
+  const auto& corner = rolled_.at(r);
+  double beyond = std::max(0.0, r - corner.centres.nearest(p).mm);
+  for (const auto& f : corner.fillets)
     if (length(p - f.corner) < f.reach)
       beyond = std::min(beyond, std::max(0.0, r - length(p - f.centre)));
   return beyond;

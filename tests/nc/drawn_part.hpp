@@ -28,7 +28,7 @@ class Pieces {
 
  private:
   std::vector<Piece> all_;
-  std::map<long, std::vector<std::size_t>> near_;  // by whole millimetres of z
+  std::map<long, std::vector<std::size_t>> near_;  // by their places along the axis
 };
 
 /// A face across the axis.
@@ -51,9 +51,9 @@ class DrawnPart {
   const std::vector<Wall>& walls() const { return walls_; }
 
   double depth_mm(const Spot& inside) const { return least_.pieces.nearest(inside).mm; }
-  /// How far a point outside lies beyond what the largest corner that finishes its side
-  /// leaves in inner corners: where it rolls over the contour, or touches the lines of a
-  /// corner's two sides, however short they are.
+  /// How far a point outside lies beyond what the largest corner that finishes the surface
+  /// next to it leaves in inner corners: where it rolls over the contour, or touches the
+  /// lines of a corner's two sides, however short they are.
   double beyond_mm(const Spot& outside) const;
   /// The surface next to a point.
   const std::string& surface_at(const Spot& p) const;
@@ -76,25 +76,29 @@ class DrawnPart {
   void append(Run& run, const std::vector<Element>& all, std::size_t k, Threads threads);
   void append(Run& run, const std::string& id, const Polygon& line);
   Body body(Threads threads);
-  void roll(std::size_t piece);
-  template <class Centre>
-  void keep_clear(std::size_t piece, double steps, const Centre& centre);
-  void add_walls(const Run& run);
-  std::size_t surface(const std::string& id);
-  bool is_outer(std::size_t surface) const { return outer_[surface]; }
-
-  Sizes sizes_;
-  const Planned& p_;
-  double corner_mm_[2] = {0, 0};  // inside, outside
-  std::vector<std::string> surfaces_;
-  std::vector<bool> outer_;
-  Body least_, full_;
-  Pieces rolled_[2];  // centres of a corner that touches the contour
   struct Fillet {
     Spot centre, corner;
     double reach = 0;  // of its sides from the corner
   };
-  std::vector<Fillet> fillets_[2];
+  /// Where the centre of a corner of a radius is while it touches the contour.
+  struct Rolled {
+    Pieces centres;
+    std::vector<Fillet> fillets;
+  };
+  Rolled rolled(double r) const;
+  void roll(Rolled& rolled, double r, std::size_t piece) const;
+  template <class Centre>
+  void keep_clear(Rolled& rolled, double r, double steps, const Centre& centre) const;
+  void add_walls(const Run& run);
+  std::size_t surface(const std::string& id);
+  double corner_mm(const std::string& surface) const;
+
+  Sizes sizes_;
+  const Planned& p_;
+  std::map<std::string, double> corners_mm_;
+  std::vector<std::string> surfaces_;
+  Body least_, full_;
+  std::map<double, Rolled> rolled_;  // of each corner
   std::vector<Wall> walls_;
 };
 

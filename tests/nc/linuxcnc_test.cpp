@@ -9,6 +9,7 @@
 #include "../rs274.hpp"
 #include "canonical.hpp"
 #include "check.hpp"
+#include "cut_simulation.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -41,6 +42,18 @@ Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
   return refused;
 }
 
+// What the half section shows of programs as the interpreter runs them.
+std::vector<Finding> cut(const turnwright::test::Rs274& rs274, const Planned& p) {
+  const auto all = programs(p.part, p.plan);
+  CutSimulation simulation(p);
+  for (const auto& program : all.setups)
+    simulation.setup(program.setup, ways_of(rs274.canonical(
+                                        text(program, {.control = Control::linuxcnc}),
+                                        tool_table(all.setups))));
+  simulation.compare();
+  return simulation.findings();
+}
+
 class NcThroughLinuxCnc : public testing::Test {
  protected:
   void SetUp() override {
@@ -56,6 +69,29 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
     const auto p = planned_reference(name);
     if (p.plan.status != planning::PlanStatus::ok) continue;
     EXPECT_EQ(listed(faults_of(rs274, p, p)), "") << name;
+  }
+}
+
+// What stays of walls is found without an interpreter too (cut_simulation_test).
+TEST_F(NcThroughLinuxCnc, OfReferencePartsCutNothingThatIsDrawnAndDoNotCollide) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    auto findings = cut(rs274, p);
+    std::erase_if(findings, [](const Finding& f) {
+      return f.fault == Fault::left || f.fault == Fault::lean ||
+             f.fault == Fault::start || f.fault == Fault::again ||
+             f.fault == Fault::centre;
+    });
+    EXPECT_EQ(listed(findings), "") << name;
+  }
+}
+
+TEST_F(NcThroughLinuxCnc, DISABLED_OfReferencePartsLeaveTheDrawing) {
+  for (const auto& name : reference_parts()) {
+    const auto p = planned_reference(name);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(listed(cut(rs274, p)), "") << name;
   }
 }
 

@@ -31,12 +31,12 @@ class Paper {
     return *this;
   }
   /// The tool comes from where tools are changed; blades and drills have a size.
-  Paper& operation(planning::OperationKind kind, const std::string& on,
+  Paper& operation(planning::OperationKind kind, const std::vector<std::string>& on,
                    const std::string& tool, double size_mm = 0) {
     planning::OperationPlan o;
     o.id = "o" + std::to_string(plan_.setups.back().operations.size());
     o.kind = kind;
-    o.on = {on};
+    o.on = on;
     o.tool = tool;
     o.passes.resize(1);
     o.passes[0].ap_mm = size_mm;

@@ -1,6 +1,5 @@
 // Programs written by hand that make their part, and the same with an error: the
 // simulation of the cut finds it.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -17,16 +16,9 @@ using planning::OperationKind;
 
 constexpr const char* kRougher = "PCLNL-CNMG120408-PM";   // 95 deg, 0.8 mm
 constexpr const char* kFinisher = "PDJNL-DNMG150604-PF";  // 93 deg, 0.4 mm
+constexpr const char* kFacer = "PCLNL-CNMG120404-PF";     // 95 deg, 0.4 mm
 constexpr const char* kBar = "S16R-SCLCR-CCMT09T304-PF";  // 11 mm beside its axis
 const double kTan = std::tan(M_PI / 8);                   // of half the turn at a chamfer
-
-std::string listed(const std::vector<Finding>& findings) {
-  std::string all;
-  for (const auto& f : findings)
-    all += fmt::format("{} {} {:.5f} at x{:.3f} z{:.3f}\n", test::name(f.fault), f.where,
-                       f.mm, f.at.x, f.at.z);
-  return all;
-}
 
 std::vector<Finding> found(const Paper& paper) {
   return simulated(paper.planned(), paper.programs());
@@ -39,6 +31,11 @@ double most(const std::vector<Finding>& findings, Fault fault) {
   return mm;
 }
 
+void face(Paper& paper, double from_x, double z = 0) {
+  paper.operation(OperationKind::face, {"right"}, kRougher).rapid(from_x, 2);
+  paper.rapid(from_x, z).feed(-0.8, z).rapid(-0.8, 2).rapid(100, 2);
+}
+
 /// A shaft with a wall and two chamfers; the sizes and steps that errors change.
 struct Shaft {
   double finish_x = 15;          // of d2
@@ -48,10 +45,8 @@ struct Shaft {
   double chamfer_mm = 1;
   double last_z = -61.5;
   double rough_x = 15.3;
-  bool rapid_back = false;    // straight through the collar
-  bool finish_first = false;  // before roughing
-  bool recut = false;         // d2 again, from its middle
-  bool zero_off = false;      // finishing 10 um to the right
+  bool rapid_back = false;  // straight through the collar
+  bool recut = false;       // d2 again, from its middle
 };
 
 nlohmann::json shaft_document() {
@@ -69,7 +64,7 @@ nlohmann::json shaft_document() {
 }
 
 void rough(Paper& paper, const Shaft& s) {
-  paper.operation(OperationKind::rough, "d2", kRougher).rapid(24, 2).rapid(20.3, 2);
+  paper.operation(OperationKind::rough, {"d2"}, kRougher).rapid(24, 2).rapid(20.3, 2);
   paper.feed(20.3, -61.5).rapid(21.3, -60.5).rapid(21.3, 2);
   for (const double x : {17.6, s.rough_x})
     paper.rapid(x, 2).feed(x, -29.7).rapid(x + 0.5, -29.2).rapid(x + 0.5, 2);
@@ -81,7 +76,8 @@ void rough(Paper& paper, const Shaft& s) {
 void finish(Paper& paper, const Shaft& s) {
   const double r = 0.4, back = r * (1 - std::sqrt(0.5)), beside = r * (1 - kTan);
   const double c = s.chamfer_mm, x = s.finish_x, z = s.wall_z;
-  paper.operation(OperationKind::finish, "d2", kFinisher).rapid(24, 4);
+  paper.operation(OperationKind::finish, {"c2", "d2", "c1", "d1"}, kFinisher);
+  paper.rapid(24, 4);
   paper.rapid(x - c - 2 - back, 2 - back).feed(x, -c - beside).feed(x, z);
   if (s.wall_up_to < 19) {
     paper.feed(s.wall_up_to, z).rapid(s.wall_up_to + 1, z + 1).rapid(24, z + 1);
@@ -98,14 +94,11 @@ void finish(Paper& paper, const Shaft& s) {
 
 Paper shaft(const Shaft& s = {}) {
   Paper paper(shaft_document());
-  paper.operation(OperationKind::face, "right", kRougher);
-  paper.rapid(24, 2).rapid(24, s.face_z).feed(-0.8, s.face_z).rapid(-0.8, 2);
-  paper.rapid(100, 2);
-  if (!s.finish_first) rough(paper, s);
+  face(paper, 24, s.face_z);
+  rough(paper, s);
   finish(paper, s);
-  if (s.finish_first) rough(paper, s);
   if (s.recut) {
-    paper.operation(OperationKind::finish, "d2", kFinisher).rapid(24, -15);
+    paper.operation(OperationKind::finish, {"d2"}, kFinisher).rapid(24, -15);
     paper.feed(15, -15).feed(15, -20).rapid(17, -18).rapid(100, 4);
   }
   return paper;
@@ -126,10 +119,11 @@ Paper arc(bool other_way) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
-  paper.rapid(24, 2).rapid(24, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
+  face(paper, 24);
   const double touches = -25 + std::sqrt(5.4 * 5.4 - 0.4 * 0.4) - 0.4;
-  paper.operation(OperationKind::fixed, "a1", "PROFILE-35").rapid(24, 2).rapid(15, 2);
+  paper.operation(OperationKind::fixed, {"d2", "a1", "d1"}, "PROFILE-35")
+      .rapid(24, 2)
+      .rapid(15, 2);
   paper.feed(15, touches).arc(20, -25.4, 14.6, -25.4, other_way);
   return paper.feed(20, -55.5).rapid(23, -52.5).rapid(100, 2);
 }
@@ -147,35 +141,65 @@ Paper bore(double x = 10, double lifted_x = 9.8) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
+  paper.operation(OperationKind::face, {"right"}, kRougher);
   paper.rapid(24, 2).rapid(24, 0).feed(8, 0).rapid(8, 2).rapid(100, 2);
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(24, 2).rapid(21, 2);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(24, 2).rapid(21, 2);
   paper.feed(21, -40.5).rapid(24, -38).rapid(100, 2);
-  paper.operation(OperationKind::bore_finish, "b1", kBar).rapid(lifted_x, 100);
+  paper.operation(OperationKind::bore_finish, {"b1"}, kBar).rapid(lifted_x, 100);
   paper.rapid(lifted_x, 2).rapid(x, 2).feed(x, -30).feed(9.7, -30);
   return paper.rapid(lifted_x - 0.2, -29.8).rapid(lifted_x - 0.2, 100);
 }
 
-/// Turned between chuck and tailstock from in front of a face of 60 mm, where the holder
-/// passes the centre's body.
-Paper supported(double from_x = 30) {
+/// The same hole in a bar, drilled first or not.
+Paper drilled_bore(bool bored_first = false, double deeper_mm = 0) {
+  Paper paper(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "paper socket", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 101,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 40, "diameter_mm": 42}],
+    "inner": [{"id": "b1", "kind": "cylinder", "from": "right", "length_mm": 30,
+               "diameter_mm": 20}],
+    "faces": [{"id": "right", "Ra_um": 3.2}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+  face(paper, 24);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(24, 2).rapid(21, 2);
+  paper.feed(21, -40.5).rapid(24, -38).rapid(100, 2);
+  const auto drill = [&] {
+    paper.operation(OperationKind::fixed, {"b1"}, "DRILL-HM-5D", 9.75).rapid(0, 100);
+    paper.rapid(0, 2).feed(0, -30 - 9.75 / std::tan(70 * M_PI / 180) - deeper_mm);
+    paper.rapid(0, 100).rapid(100, 100);
+  };
+  if (!bored_first) drill();
+  paper.operation(OperationKind::bore_finish, {"b1"}, kBar).rapid(9.8, 100);
+  paper.rapid(9.8, 2).rapid(10, 2).feed(10, -30).feed(9.7, -30).rapid(9.6, -29.8);
+  paper.rapid(9.6, 100).rapid(100, 100);
+  if (bored_first) drill();
+  return paper;
+}
+
+/// Turned between chuck and tailstock from behind its end, which is finished before: the
+/// holder, 32 mm from the tip to its far side, stays 0.09 mm clear of the centre's body,
+/// which begins (25 - 8.5)/2/tan(30 deg) = 14.29 mm before the face.
+Paper supported(double from_z = -17.8) {
   Paper paper(nlohmann::json::parse(R"({
     "format": "turnwright-part/1", "name": "paper journal", "material": "C45",
-    "stock": {"kind": "bar", "diameter_mm": 64, "length_mm": 101,
+    "stock": {"kind": "bar", "diameter_mm": 32, "length_mm": 101,
               "left_allowance_mm": 60},
-    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 40, "diameter_mm": 60}],
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 22, "diameter_mm": 30},
+              {"id": "d2", "kind": "cylinder", "length_mm": 18, "diameter_mm": 28}],
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck-tailstock"]}]})"));
   paper.clamping(Clamping::chuck_tailstock);
-  paper.operation(OperationKind::face, "right", kRougher);
-  paper.rapid(34, 2).rapid(34, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
-  paper.operation(OperationKind::fixed, "right", "DIN333-A", 4.25).rapid(0, 100);
+  face(paper, 18);
+  paper.operation(OperationKind::finish, {"d2"}, kFinisher).rapid(18, 2).rapid(14, 2);
+  paper.feed(14, -18).feed(17, -18).rapid(18, -17).rapid(100, -17).rapid(100, 100);
+  paper.operation(OperationKind::fixed, {"right"}, "DIN333-A", 4.25).rapid(0, 100);
   paper.rapid(0, 2).feed(0, -8.5 - 4.25 / std::tan(M_PI / 3)).rapid(0, 100);
-  paper.rapid(100, 100);
-  paper.stop("stop: bring up the tailstock");
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(34, 2);
-  return paper.rapid(from_x, 2).rapid(30, 2).feed(30, -40.5).rapid(34, -40).rapid(100, 2);
+  paper.rapid(100, 100).stop("stop: bring up the tailstock");
+  paper.operation(OperationKind::finish, {"d1"}, kFacer).rapid(100, from_z);
+  return paper.rapid(15, from_z).feed(15, -40.5).rapid(18, -38).rapid(100, -38);
 }
 
 /// A groove of 4 mm with a blade of 3 mm, and a thread of M30x1.5 that runs out into it.
@@ -196,20 +220,20 @@ Paper screw(const Screw& s = {}) {
     "faces": [{"id": "right", "Ra_um": 3.2}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
-  paper.operation(OperationKind::face, "right", kRougher);
-  paper.rapid(18, 2).rapid(18, 0).feed(-0.8, 0).rapid(-0.8, 2).rapid(100, 2);
-  paper.operation(OperationKind::finish, "d1", kFinisher).rapid(18, 2).rapid(15, 2);
+  face(paper, 18);
+  paper.operation(OperationKind::finish, {"d1"}, kFinisher).rapid(18, 2).rapid(15, 2);
   paper.feed(15, -40.5).rapid(18, -37).rapid(100, -37);
-  paper.operation(OperationKind::fixed, "g1", "GROOVE-EXT", 3).rapid(16, 100);
+  paper.operation(OperationKind::fixed, {"g1"}, "GROOVE-EXT", 3).rapid(16, 100);
   paper.rapid(16, s.groove_z).feed(s.groove_x, s.groove_z).rapid(16, s.groove_z);
   paper.rapid(16, -23).feed(s.groove_x, -23).rapid(16, -23).rapid(100, -23);
-  paper.operation(OperationKind::fixed, "t1", "THREAD-EXT-60").rapid(16, 4.5);
+  paper.operation(OperationKind::fixed, {"t1"}, "THREAD-EXT-60").rapid(16, 4.5);
   paper.rapid(s.thread_x, 4.5).thread(s.thread_x, s.thread_to_z).rapid(16, s.thread_to_z);
   return paper.rapid(100, 4.5);
 }
 
 TEST(PlantedErrors, ProgramsWithoutErrorsMakeTheirParts) {
-  for (const auto& paper : {shaft(), arc(false), bore(), supported(), screw()})
+  for (const auto& paper :
+       {shaft(), arc(false), bore(), drilled_bore(), supported(), screw()})
     EXPECT_EQ(listed(found(paper)), "") << paper.planned().part.drawing.name;
 }
 
@@ -222,6 +246,7 @@ struct Planted {
 TEST(PlantedErrors, AreFound) {
   const std::vector<Planted> all = {
       {"a wall not drawn out", Fault::lean, shaft({.wall_up_to = 15.5})},
+      {"a contour in two passes", Fault::again, shaft({.wall_up_to = 15.5})},
       {"a radius 5 um too small", Fault::gouge, shaft({.finish_x = 15 - 0.005})},
       {"a radius 5 um too large", Fault::left, shaft({.finish_x = 15 + 0.005})},
       {"no chamfers", Fault::left, shaft({.chamfer_mm = 0})},
@@ -234,7 +259,9 @@ TEST(PlantedErrors, AreFound) {
       {"an arc the other way", Fault::gouge, arc(true)},
       {"a bore 5 um too wide", Fault::gouge, bore(10.005)},
       {"a bar that lifts too far", Fault::holder, bore(10, 9)},
-      {"a tool in the tailstock's centre", Fault::centre, supported(20)},
+      {"bored before it is drilled", Fault::holder, drilled_bore(true)},
+      {"a drill 0.01 mm too deep", Fault::gouge, drilled_bore(false, 0.01)},
+      {"a tool in the tailstock's centre", Fault::centre, supported(-10)},
       {"a groove too deep", Fault::gouge, screw({.groove_x = 12.99})},
       {"a groove too narrow", Fault::left, screw({.groove_z = -23.9})},
       {"a thread not cut deep enough", Fault::thread, screw({.thread_x = 14.1})},
@@ -281,6 +308,13 @@ TEST(PlantedErrors, OfToolsAreFound) {
                  Fault::holder),
             0)
       << "a bar 1 mm wider on each side";
+  EXPECT_GE(most(with(supported(),
+                      [](catalogue::Tool& t) {
+                        if (t.holder) t.holder->wf_mm += 1;
+                      }),
+                 Fault::centre),
+            0)
+      << "a holder 1 mm wider";
 }
 
 // The edge leans by 3 deg behind its sharp corner, which lies where the edges' lines meet:

@@ -136,11 +136,12 @@ bool overlap(const Polygon& a, const Polygon& b) {
   return !separated(a, b) && !separated(b, a);
 }
 
-double distance(const Spot& p, const Spot& a, const Spot& b) {
+double distance_square(const Spot& p, const Spot& a, const Spot& b) {
   const auto way = b - a;
   const double l = dot(way, way);
   const double u = l > 0 ? std::clamp(dot(p - a, way) / l, 0.0, 1.0) : 0;
-  return std::hypot(p.x - a.x - u * way.x, p.z - a.z - u * way.z);
+  const auto off = p - Spot{a.x + u * way.x, a.z + u * way.z};
+  return dot(off, off);
 }
 
 Intervals without(const Intervals& a, const Intervals& b) {

@@ -31,7 +31,8 @@ Polygon mirrored(Polygon polygon);
 Polygon eroded(const Polygon& convex, double by);
 /// Whether the insides of two convex polygons, as `hull` orders them, have common points.
 bool overlap(const Polygon& a, const Polygon& b);
-double distance(const Spot& p, const Spot& a, const Spot& b);  ///< from a segment
+/// Square of the distance of a point from a segment.
+double distance_square(const Spot& p, const Spot& a, const Spot& b);
 
 struct Interval {
   double from = 0, to = 0;

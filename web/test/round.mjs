@@ -84,7 +84,7 @@ async function planner() {
     await plan(page);
     assert.ok((await cost(page)) > 0);
     if (part === 'roller-tube') {
-      await page.getByRole('button', { name: 'Setup 1' }).click();
+      await page.getByRole('button', { name: 'Setup 2' }).click();
       await page.getByText('chuck steady, grip').waitFor(); // on a steady rest
     }
     await look(page, `02-${part}`);
@@ -98,7 +98,7 @@ async function planner() {
   const before = await cost(page);
   const prices = await page.getByText(/saves .* per part/).allInnerTexts();
   assert.ok(prices.length > 3);
-  await page.getByRole('button', { name: 'Setup 0' }).click();
+  await page.getByRole('button', { name: 'Setup 1' }).click();
   await page.getByRole('button', { name: /s0-rough/ }).first().click();
   await look(page, '04-planned');
   await page.setViewportSize({ width: 1280, height: 1000 });
@@ -135,15 +135,49 @@ async function planner() {
   const file = `${folder}/report.html`;
   await (await download).saveAs(file);
   const report = readFileSync(file, 'utf8');
-  assert.ok(report.includes(`<dd>${(await cost(page)).toFixed(4)} `));
+  assert.ok(report.includes(`<dd>${(await cost(page)).toFixed(2)} `));
+  assert.equal(report.match(/class="setup-sheet"/g).length, 2);
 
   // One NC program a setup, with the plan's tools and speeds.
   await page.getByRole('button', { name: 'Write NC programs' }).click();
   const program = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save setup 1' }).click();
-  await (await program).saveAs(`${folder}/setup-1.ngc`);
-  assert.match(readFileSync(`${folder}/setup-1.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
-  await page.getByText(/^setup-1.ngc/).click();
+  await (await program).saveAs(`${folder}/program.ngc`);
+  assert.match(readFileSync(`${folder}/program.ngc`, 'utf8'), /G96 .*S\d[^]*M30/);
+  await page.getByText(/^setup-\d\.ngc/).first().click();
+
+  // The cut: by keyboard from the finished work back to the stock, then on by operations.
+  const slider = page.getByRole('slider', { name: 'Moves of setup 1' });
+  const all = Number(await slider.getAttribute('max'));
+  assert.ok(all > 20);
+  await slider.focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.getByText(`Move ${all - 1} of ${all}`).waitFor();
+  await page.keyboard.press('Home');
+  await page.getByText(`Move 0 of ${all}: before the first move`).waitFor();
+  const work = page.getByRole('img', { name: /^The cut of setup 1/ }).locator('path.work');
+  const stock = await work.getAttribute('d');
+  await page.getByLabel('Up to the end of').first().selectOption({ index: 1 });
+  assert.notEqual(await work.getAttribute('d'), stock);
+  await page.getByText(/Move \d+ of \d+: T\d, s0-rough/).waitFor();
+  // What is left has the drawing's diameters: 25 js7 at Z-20, 40 h7 at Z-90, the bar at Z-150.
+  await slider.press('End');
+  const section = await page.getByRole('img', { name: /^The cut of setup 1/ }).evaluate((svg) => ({
+    points: svg.querySelector('path.work').getAttribute('d').match(/-?[\d.]+,-?[\d.]+/g).map((p) => p.split(',').map(Number)),
+    texts: [...svg.querySelectorAll('text')].map((t) => ({
+      value: Number(t.textContent.replace('\u2212', '-')), x: Number(t.getAttribute('x')), y: Number(t.getAttribute('y')),
+      along: t.getAttribute('text-anchor') === 'middle',
+    })),
+  }));
+  const axis = (along, key) => {
+    const [one, other] = section.texts.filter((t) => t.along === along && Number.isFinite(t.value));
+    return (place) => one.value + ((place - one[key]) * (other.value - one.value)) / (other[key] - one[key]);
+  };
+  const toZ = axis(true, 'x'), toDiameter = (y) => axis(false, 'y')(y + 4);
+  for (const [Z, diameter] of [[-20, 25], [-90, 40], [-150, 50]]) {
+    const found = section.points.filter(([x]) => Math.abs(toZ(x) - Z) < 0.5).map(([, y]) => toDiameter(y));
+    assert.ok(Math.abs(Math.max(...found) - diameter) < 0.3, `${Math.max(...found)} at Z${Z}`);
+  }
   await look(page, '07-nc');
   await page.context().close();
   await paper(file);
@@ -170,7 +204,31 @@ async function paper(file) {
   await page.context().close();
 }
 
-/** Every part's report takes two or three pages. */
+/** Faults of what a report shows on A4: type below 7 pt, set-up sheets of more than a page. */
+async function smallOrLong(page) {
+  await page.emulateMedia({ media: 'print' });
+  await page.setViewportSize({ width: Math.round((186 * 96) / 25.4), height: 1000 });
+  return page.evaluate(() => {
+    const mm = 96 / 25.4, faults = [];
+    const tooSmall = (px, what) => { if (px * 0.75 < 6.99) faults.push(`${what}: ${(px * 0.75).toFixed(2)} pt`); };
+    for (const element of document.body.querySelectorAll('*'))
+      if ([...element.childNodes].some((n) => n.nodeType === 3 && n.data.trim()))
+        tooSmall(parseFloat(getComputedStyle(element).fontSize), element.textContent.slice(0, 30));
+    for (const img of document.images) {
+      const svg = decodeURIComponent(img.src.slice(img.src.indexOf(',') + 1));
+      const types = [...svg.matchAll(/font-size: ([\d.]+)px/g)].map((m) => Number(m[1]));
+      if (!types.length) faults.push(`${img.alt}: no type`);
+      tooSmall((Math.min(...types) * mm * img.clientWidth) / img.naturalWidth, img.alt);
+    }
+    for (const sheet of document.querySelectorAll('.setup-sheet')) {
+      const high = sheet.getBoundingClientRect().height / mm;
+      if (high > 273) faults.push(`${sheet.querySelector('h1').textContent}: ${high.toFixed(0)} mm`);
+    }
+    return faults;
+  });
+}
+
+/** Every part's report: a few pages for the planner, and two for each setup. */
 async function papers() {
   const page = await onPaper();
   const parts = await (await fetch(`${base}v1/parts`)).json();
@@ -184,8 +242,10 @@ async function papers() {
     writeFileSync(`${folder}/report-${id}.html`, await answer.text());
     await page.goto(`file://${folder}/report-${id}.html`);
     const pages = await sheets(page, `${folder}/report-${id}.pdf`);
-    console.log(`report of ${id}: ${pages} pages of A4`);
-    assert.ok(pages <= 3, id);
+    const setups = await page.locator('.setup-sheet').count();
+    console.log(`report of ${id}: ${pages} pages of A4, ${setups} set-up sheets`);
+    assert.ok(pages <= 6 + 2 * setups, id);
+    assert.deepEqual(await smallOrLong(page), [], id);
   }
   await page.context().close();
 }

@@ -86,6 +86,10 @@ struct Tool {
   std::optional<Holder> holder;  ///< of an external tool, if its document has it
 };
 
+/// Least depth of cut [mm] of a tool: of its chip breaker's window, and two thirds of the
+/// corner radius, below which the corner pushes more than it cuts.
+double least_depth_mm(const Tool& tool);
+
 /// Geometry of an indexable insert as its ISO 1832 designation gives it.
 struct Insert1832 {
   char shape = 'C';

@@ -25,7 +25,11 @@
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
 ///                 pass ends where the corner touches the drawn contour behind, or r, the
 ///                 largest r of the plan's tools and 0.2 mm behind an edge that falls
-///     cones       are roughed parallel to themselves
+///     cones       are roughed parallel to themselves, as far as the stock reaches
+///     walls       roughing ends the least depth of the finishing tool before them, and
+///                 draws out along them as far as the pass was deep, so that no wedge of
+///                 the lead angle stays; finishing runs along the whole contour, up its
+///                 walls, and draws out to the top of the last one
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
 ///                 runs out along the smaller element, a cone too, to where turning ended
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm

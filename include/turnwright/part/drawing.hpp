@@ -74,6 +74,11 @@ struct Stock {
   std::optional<double> parted_mm = {};
 };
 
+/// What the title block of the drawing says beside the name; empty: not given.
+struct TitleBlock {
+  std::string drawing_number, revision, customer;
+};
+
 struct Drawing {
   std::string name;
   Stock stock;
@@ -81,6 +86,7 @@ struct Drawing {
   std::vector<InnerElement> inner;
   std::vector<Face> faces;
   std::vector<Tolerance> tolerances;  ///< with the sizes of the elements; ids are unique
+  TitleBlock title = {};
 };
 
 /// Length of the finished part [mm]: the sum of the outer elements.

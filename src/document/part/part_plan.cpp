@@ -8,6 +8,9 @@ namespace {
 
 using planning::Objective;
 
+// Lengths that fit on a line of a set-up sheet.
+constexpr std::size_t kTitleBytes = 64, kRevisionBytes = 16;
+
 void read_name(Draft& draft) {
   auto& part_name = draft.drawing().name;
   if (draft.root.has("name")) {
@@ -16,6 +19,14 @@ void read_name(Draft& draft) {
     part_name = "part";
     draft.assume("/name", part_name, "no name given");
   }
+}
+
+void read_title_block(Draft& draft) {
+  auto& title = draft.drawing().title;
+  Reader& r = draft.root;
+  title.drawing_number = r.text_or("drawing_number", "", kTitleBytes);
+  title.revision = r.text_or("revision", "", kRevisionBytes);
+  title.customer = r.text_or("customer", "", kTitleBytes);
 }
 
 void read_rates(Draft& draft) {
@@ -171,6 +182,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
   if (!root.broken()) {
     read_format(root, "turnwright-part/1");
     read_name(draft);
+    read_title_block(draft);
     read_catalogue_choices(draft);
     read_elements(draft);
     read_stock(draft);

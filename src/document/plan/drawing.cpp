@@ -3,6 +3,7 @@
 #include "document/json/finite.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "title_block.hpp"
 #include "turnwright/document/process_plan.hpp"
 
 namespace turnwright::document {
@@ -117,7 +118,8 @@ ordered_json json_of(const PreparedPart& plan, std::size_t s) {
 ordered_json drawing(const PreparedDocument& prepared) {
   const auto& part = prepared.part;
   const auto& d = part.drawing;
-  ordered_json out{{"name", d.name}, {"length_mm", part::length_mm(d)}};
+  auto out = title_block(d);
+  out["length_mm"] = part::length_mm(d);
   out["stock"] = {
       {"z_mm",
        {-d.stock.left_allowance_mm, d.stock.length_mm - d.stock.left_allowance_mm}},

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "document/json/finite.hpp"
+#include "title_block.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -326,6 +327,12 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
     out["tried"] = list(plan.tried, [](const TriedChange& t) { return json_of(t); });
   out["assumed"] = to_json(assumed);
   require_finite(out, "process plan");
+  return out;
+}
+
+ordered_json plan_result(const ProcessPlan& plan, const PreparedDocument& document) {
+  auto out = title_block(document.part.drawing);
+  out.update(to_json(plan, document.assumed));
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
+#include "turnwright/base/dual.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -92,17 +93,50 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
   return e;
 }
 
+// What turning leaves before a face between an element and the next one.
+double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
+                               const Item& a, const Item& b) {
+  const std::size_t k = std::max(a.index, b.index);
+  if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
+    return 0;
+  double least = kInfinity;
+  for (const auto* t : tools_for(p, catalogue::ToolUse::facing))
+    least = std::min(least, catalogue::least_depth_mm(*t));
+  return std::isfinite(least) ? least : 0;
+}
+
+bool is_arc(const PreparedPart& p, const Item& e, bool inner) {
+  const auto& cut = inner ? p.drawing.inner[e.index].cut : p.drawing.outer[e.index].cut;
+  return cut && cut->kind == part::CutKind::arc;
+}
+
+// The elements made after the first `setups`; none while surfaces are being assigned.
+std::vector<bool> made_after(const PreparedPart& p, std::size_t setups, bool inner) {
+  const auto done = setups > 0 && setups <= p.work.setups.size()
+                        ? finished_after(p, setups - 1)
+                        : nothing_finished(p.drawing);
+  return inner ? done.inner : done.outer;
+}
+
 // The first thing behind element k that is higher than its end: for roughing a blank, for
 // finishing a drawn surface with its size in the middle of its limits.
-void add_walls(const PreparedPart& p, const std::vector<Item>& all, std::size_t k,
-               Surroundings& s) {
+void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
+               const std::vector<Item>& all, std::size_t k, Surroundings& s) {
   const double h = all[k].h1 + kSame_mm, blank = h - all[k].moved;
+  const auto before = made_after(p, setup, s.inner),
+             after = made_after(p, setup + 1, s.inner);
+  const double stock_h = s.inner ? -hole_mm(p, all[k].index) / 2 : s.stock_h;
   bool touches = false;
   std::size_t j = k;
   while (j + 1 < all.size() && all[j + 1].z0 >= all[j].z1 - kNoWall_mm) {
     const auto& e = all[++j];
-    if (!std::isfinite(s.wall_z) && std::max(e.h0, e.h1) - e.moved > blank)
+    if (!std::isfinite(s.wall_z) && std::max(e.h0, e.h1) - e.moved > blank) {
       s.wall_z = e.z0;
+      s.wall_steps = e.h0 - e.moved > blank;
+      s.wall_h = before[e.index] ? e.h0 : stock_h;
+      s.wall_drawn_h = is_arc(p, e, s.inner) ? h : after[e.index] ? e.h0 : stock_h;
+      if (!s.inner) s.shoulder_mm = left_before_shoulder_mm(p, work, all[j - 1], e);
+    }
     const auto seen = drawn(p, e, s.inner);
     if (touches || !seen) continue;
     const double rises_rad = seen->rad() + seen->bends_rad;
@@ -113,7 +147,11 @@ void add_walls(const PreparedPart& p, const std::vector<Item>& all, std::size_t 
     s.touch_rad = meets && !step ? rises_rad : kUpright;
   }
   if (!s.inner || !hole_ends(p, all[j])) return;
-  if (!std::isfinite(s.wall_z)) s.wall_z = all[j].z1;
+  if (!std::isfinite(s.wall_z)) {
+    s.wall_z = all[j].z1;
+    s.wall_steps = true;
+    s.wall_h = s.wall_drawn_h = stock_h;
+  }
   if (touches) return;
   s.touch_z = all[j].z1;
   s.touch_rad = kUpright;
@@ -130,9 +168,30 @@ bool meet(const Item& a, const Item& b) {
          std::abs(a.z1 - b.z0) < kSame_mm;
 }
 
-bool goes_on(const SetupWork& work, bool inner, const Item& a, const Item& b) {
-  return meet(a, b) && !a.cut_later && !b.cut_later && made(work, inner, a.index) &&
-         made(work, inner, b.index);
+// From one element to the next, if the setup makes both.
+std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, bool inner,
+                               const Item& a, const Item& b) {
+  const double rises = b.h0 - b.moved - a.h1 + a.moved;
+  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
+  // and no inner corner.
+  const bool from_arc = is_arc(p, a, inner), to_arc = is_arc(p, b, inner);
+  const bool kept_off =
+      (to_arc && b.h0 > a.h1 + kSame_mm) || (from_arc && b.h0 < a.h1 - kSame_mm) ||
+      ((from_arc || to_arc) && (rises > kSame_mm || b.rad() > a.rad() + kSame_mm));
+  if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off ||
+      !made(work, inner, a.index) || !made(work, inner, b.index) ||
+      (!inner && left_before_shoulder_mm(p, work, a, b) > 0))
+    return std::nullopt;
+  Passage g;
+  g.cylinders = a.h0 == a.h1 && b.h0 == b.h1;
+  g.least_mm = std::min(a.length(), b.length());
+  if (rises > kSame_mm) {
+    g.rad = kUpright;
+    g.wall_to_h = b.h0;
+  } else {
+    g.falls_mm = a.h1 - b.h0;
+  }
+  return g;
 }
 
 // Length of a corner and its minor edge, from the corner's centre towards the free end,
@@ -141,18 +200,6 @@ double below_mm(double height, double r, double minor_rad) {
   const double arc = r * (1 - std::cos(minor_rad));
   return height <= arc ? std::sqrt(height * (2 * r - height))
                        : r * std::sin(minor_rad) + (height - arc) / std::tan(minor_rad);
-}
-
-// What turning leaves before a face between an element and the next one.
-double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
-                               const Item& a, const Item& b) {
-  const std::size_t k = std::max(a.index, b.index);
-  if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
-    return 0;
-  double least = kInfinity;
-  for (const auto* t : tools_for(p, catalogue::ToolUse::facing))
-    least = std::min(least, std::max(t->ap_mm.lower, 2.0 / 3.0 * t->re_mm));
-  return std::isfinite(least) ? least : 0;
 }
 
 }  // namespace
@@ -195,30 +242,30 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.h1 = e.h1;
   s.first = k == 0;
   s.wall_z = s.touch_z = -kInfinity;
-  add_walls(p, all, k, s);
+  add_walls(p, setup, work, all, k, s);
   if (k > 0 && meet(all[k - 1], e)) {
-    s.before_falls_mm = all[k - 1].h1 - e.h0;
+    s.front_falls_mm = all[k - 1].h1 - e.h0;
     if (const auto front = drawn(p, all[k - 1], s.inner))
       s.front_rad = front->rad() - front->bends_rad;
   }
-  if (k > 0 && goes_on(work, s.inner, all[k - 1], e)) {
-    s.before_rad = all[k - 1].rad();
-    s.before_long_mm = std::min(all[k - 1].length(), e.length());
+  if (k > 0) {
+    s.before = passage(p, work, s.inner, all[k - 1], e);
+    if (s.before && s.before->rad == 0) s.before->rad = all[k - 1].rad();
   }
-  if (k + 1 < all.size()) {
-    const auto& next = all[k + 1];
-    const double up = next.moved - e.moved;
-    if (e.h0 == e.h1 && !next.cut_later && std::abs(next.h0 - e.h1 - up) < kLevel_mm &&
-        std::abs(next.h1 - e.h1 - up) < kLevel_mm)
-      s.level_behind = next.index;
-    if (!s.inner) s.shoulder_mm = left_before_shoulder_mm(p, work, e, all[k + 1]);
-    if (meet(e, next)) s.behind_falls_mm = e.h1 - next.h0;
-    if (goes_on(work, s.inner, e, next)) {
-      s.behind_rad = all[k + 1].rad();
-      s.behind_long_mm = std::min(all[k + 1].length(), e.length());
-    }
-  }
+  if (k + 1 == all.size()) return s;
+  const auto& next = all[k + 1];
+  const double up = next.moved - e.moved;
+  if (e.h0 == e.h1 && !next.cut_later && std::abs(next.h0 - e.h1 - up) < kLevel_mm &&
+      std::abs(next.h1 - e.h1 - up) < kLevel_mm)
+    s.level_behind = next.index;
+  s.behind = passage(p, work, s.inner, e, next);
+  if (s.behind && s.behind->rad == 0) s.behind->rad = next.rad();
   return s;
+}
+
+bool runs_on(const Passage& g, double r, double minor_rad) {
+  return g.cylinders ||
+         (g.least_mm >= 2 * r && g.falls_mm <= r * (1 - std::cos(minor_rad)));
 }
 
 double needed_beyond_mm(const Surroundings& s, double corner_mm) {
@@ -237,25 +284,26 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const double r = strokes.corner_mm, rad = std::atan2(s.h1 - s.h0, s.z0 - s.z1);
   const double slope = std::cos(rad), above = s.inner ? kAboveBore_mm : kAbove_mm;
   const bool tapered = s.h0 != s.h1;
-  const auto joins = [&](const std::optional<double>& neighbour, double long_mm,
-                         double falls_mm) {
-    return strokes.finishing && strokes.passes == 1 && neighbour && long_mm >= 2 * r &&
-           falls_mm <= r * (1 - std::cos(strokes.minor_rad));
+  const auto runs = [&](const std::optional<Passage>& g) {
+    return strokes.contour && strokes.passes == 1 && g &&
+           runs_on(*g, r, strokes.minor_rad);
   };
-  const bool from_before = joins(s.before_rad, s.before_long_mm, s.before_falls_mm);
-  const bool on = joins(s.behind_rad, s.behind_long_mm, s.behind_falls_mm);
+  const bool from_before = runs(s.before), on = runs(s.behind);
 
+  const auto wall_stock = [&](bool last) {
+    return std::max(s.shoulder_mm, s.wall_steps && !last ? strokes.wall_stock_mm : 0);
+  };
   // Along z to where a pass that leaves this thickness ends, unless it goes on into the
   // next one's.  Up a cone it ends once it is out of the stock.
   const auto end = [&](bool last, double left) {
-    if (last && on) return s.z1 + r * tip_z(rad, *s.behind_rad);
+    if (last && on) return s.z1 + r * tip_z(rad, s.behind->rad);
     const bool level = last && s.level_behind;
     double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most) - r - kBehind_mm;
     if (!last)
-      z = std::max(z, s.wall_z);
+      z = std::max(z, s.wall_z + wall_stock(last));
     else if (std::isfinite(s.touch_z))
       z = std::max(z, s.touch_z + r * tip_z(rad, s.touch_rad));
-    if (s.shoulder_mm > 0) z = std::max(z, s.z1 + s.shoulder_mm);
+    if (s.shoulder_mm > 0) z = std::max(z, s.wall_z + s.shoulder_mm);
     if (!s.inner && rad > 0) {
       const double up = std::max(s.stock_h + above - s.h1 - left, 0.0);
       z = std::max(
@@ -263,10 +311,19 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     }
     return std::max(z, s.root_z);
   };
+  // Height to which the tool is drawn out along a wall at the end of a pass.
+  const auto drawn_out_h = [&](bool last, double left, double z) {
+    const double h = s.h1 + left;
+    if (last && on) return s.behind->wall_to_h.value_or(h);
+    if (!s.wall_steps || !(z < s.wall_z + wall_stock(last) + kLevel_mm) ||
+        (last && s.shoulder_mm > 0))
+      return h;
+    return std::max(h, last ? s.wall_drawn_h : std::min(s.wall_h, h + strokes.depth_mm));
+  };
   const auto start = [&](bool last) {
-    if (last && from_before) return s.z0 + r * tip_z(rad, *s.before_rad);
-    if (last && s.before_falls_mm > kSame_mm)
-      return s.z0 - r - below_mm(s.before_falls_mm, r, strokes.minor_rad);
+    if (last && from_before) return s.z0 + r * tip_z(rad, s.before->rad);
+    if (last && s.front_falls_mm > kSame_mm)
+      return s.z0 - r - below_mm(s.front_falls_mm, r, strokes.minor_rad);
     if (last && s.front_rad && rad > *s.front_rad)
       return s.z0 + r * tip_z(rad, *s.front_rad) + kBefore_mm;
     const double level = s.z0 + kBefore_mm;
@@ -303,13 +360,17 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
         strokes.left_mm + strokes.depth_mm * ((strokes.passes - 1) / 2.0 - i);
     const bool comes = !(last && from_before), leaves = !(last && on);
     const double a = start(last), b = end(last, left);
-    sum.fed_mm += fed(last, left, a, b) + (comes ? above : 0);
+    const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left;
+    const double wall =
+        std::abs(sqr(out_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
+    sum.wall_mm += wall;
+    sum.fed_mm += fed(last, left, a, b) + wall + (comes ? above : 0);
     if (s.inner) {
       sum.rapid_mm +=
           (comes ? s.front + kClear_mm - a : 0) + (leaves ? s.front + kClear_mm - b : 0);
     } else {
       sum.rapid_mm += comes ? top - (s.h0 + left) - above : 0;
-      const double lifted = s.h1 + left + (s.z1 - b) * std::tan(rad) + above;
+      const double lifted = out_h + (s.z1 - b) * std::tan(rad) + above;
       top = std::max(outside, lifted);
       sum.rapid_mm += leaves ? top - lifted + above : 0;
       if (i > 0) sum.rapid_mm += std::abs(a - sum.to_mm);

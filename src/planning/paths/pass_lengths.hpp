@@ -21,11 +21,26 @@ namespace turnwright::planning {
 /// Lengths of the passes of an operation.
 struct Beside {
   double fed_mm = 0;    ///< at feed by all passes, in the cut or not
+  double wall_mm = 0;   ///< of it, drawn out along walls
   double rapid_mm = 0;  ///< approaches and returns
   /// Positions where the first pass begins and where the tool has left the last one:
   /// along the axis, for bores radii.
   double from_mm = 0, to_mm = 0;
 };
+
+/// Where finishing may run on from an element to the next one without leaving the contour:
+/// they are drawn as high where they meet, or the next one stands behind a wall.
+struct Passage {
+  bool cylinders = true;  ///< both are
+  double least_mm = 0;    ///< the smaller of their lengths
+  double falls_mm = 0;    ///< step down between the middles of their limits
+  double rad = 0;         ///< inclination of the neighbour, or of the wall
+  std::optional<double> wall_to_h = {};  ///< height of the wall, if there is one
+};
+/// Whether a corner of this radius with a minor edge of this angle runs on there.  Cones
+/// that are short may lie in the fillets at their ends, and down from them the minor edge
+/// leaves no way.
+bool runs_on(const Passage& passage, double corner_mm, double minor_rad);
 
 /// An outer or inner element with everything that limits its passes.
 struct Surroundings {
@@ -36,20 +51,21 @@ struct Surroundings {
   double root_z = 0;      ///< where the jaws, or the held end, are
   double r_most = 0;      ///< largest corner of the plan's tools
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool first = false;      ///< begins at the free end
-  double wall_z = 0;       ///< roughing ends here at the latest
-  double shoulder_mm = 0;  ///< and this far before the element's end
+  bool first = false;       ///< begins at the free end
+  double wall_z = 0;        ///< a rising surface, where roughing ends at the latest
+  bool wall_steps = false;  ///< it is a wall
+  double wall_h = 0;        ///< its height when this element is roughed,
+  double wall_drawn_h = 0;  ///< and as finishing draws it
+  double shoulder_mm = 0;   ///< stock on that wall which a facing operation takes off
   double touch_z = 0,
          touch_rad = 0;  ///< the surface that ends the last pass, and its inclination
-  /// Inclinations of the neighbours from which and into which a finishing pass continues,
-  /// and for each the smaller of its length and that of this element.
-  std::optional<double> before_rad = {}, behind_rad = {};
-  double before_long_mm = 0, behind_long_mm = 0;
+  /// From and to the neighbours that the same setup makes.
+  std::optional<Passage> before = {}, behind = {};
   /// Inclination of the neighbour in front that is drawn as high where they meet.
   std::optional<double> front_rad = {};
-  /// Steps down from the neighbour in front and to the one behind, where their sizes lie
-  /// in the middles of different limits; negative where they rise.
-  double before_falls_mm = 0, behind_falls_mm = 0;
+  /// Step down from that neighbour, where both sizes lie in the middles of different
+  /// limits.
+  double front_falls_mm = 0;
   /// The next element if it has the same height: the setup that cuts it from the other
   /// end also removes the remainder that a pass leaves here.
   std::optional<std::size_t> level_behind = {};
@@ -63,15 +79,16 @@ double needed_beyond_mm(const Surroundings& element, double corner_mm);
 /// Whether the jaws leave that length free.
 bool clears_jaws(const Surroundings& element, double corner_mm);
 
-/// Passes over an element with one corner radius; if they finish it, the last one makes
-/// the drawn contour.
+/// Passes over an element with one corner radius.
 struct Strokes {
   int passes = 1;
-  bool finishing = false;
+  bool finishing = false;  ///< the last one makes the surface
+  bool contour = false;    ///< it runs on into the neighbours
   double corner_mm = 0;
-  double minor_rad = 0;  ///< angle at which the minor edge rises behind the corner
-  double depth_mm = 0;   ///< of each pass
-  double left_mm = 0;    ///< mean thickness of the stock left after each of them
+  double minor_rad = 0;      ///< angle at which the minor edge rises behind the corner
+  double depth_mm = 0;       ///< of each pass
+  double left_mm = 0;        ///< mean thickness of the stock left after each of them
+  double wall_stock_mm = 0;  ///< that roughing leaves on walls for finishing
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);
 

@@ -235,7 +235,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.f_window = {
       tool.f_mm_rev.lower,
       std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
-  o.ap = {std::max(tool.ap_mm.lower, 2.0 / 3.0 * tool.re_mm), tool.ap_mm.upper};
+  o.ap = {catalogue::least_depth_mm(tool), tool.ap_mm.upper};
   if (!tool.chip.empty()) {
     const auto& piece = tool.chip[finishing ? recipe.finish_piece : recipe.rough_piece];
     o.f_window = overlap(o.f_window, piece.f_mm_rev);
@@ -306,25 +306,32 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
   }
   const double path = is_face() ? (D_large_ - D_small_) / 2
                                 : std::hypot(high_ - low_, (D_large_ - D_small_) / 2);
+  // Lengths count heights at the least depth of finishing that roughing leaves possible,
+  // near which the optimum lies, whatever depth is chosen.
+  double finished = nf * finish.c0;
+  if (nr > 0 && nf > 0) {
+    const double least =
+        std::max(nf * c.operations[1].ap.lower, stock - nr * c.operations[0].ap.upper);
+    finished = std::clamp(least, 0.0, stock);
+  }
   for (auto& o : c.operations) {
     const int n = o.finishing ? recipe.finish_passes : recipe.rough_passes;
+    const bool makes = &o == &c.operations.back();
+    Strokes strokes{n, makes, o.finishing, o.tool->re_mm,
+                    units::rad_from_deg(o.tool->minor_kapr_deg)};
+    strokes.depth_mm = o.finishing ? finished / nf : (stock - finished) / nr;
+    strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
+    if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);
+    const auto b = ways(o, strokes);
+    const double in_cut = path + b.wall_mm / n;
     o.depth_mm = o.finishing ? finish : rough;
     for (int k = 1; k <= n; ++k) {  // what the passes after this one will take off
       const double later = n - k, after = o.finishing ? 0 : nf;
       o.passes.push_back({{later * o.depth_mm.c0 + after * finish.c0,
                            later * o.depth_mm.c1 + after * finish.c1},
-                          path});
+                          in_cut});
     }
-    // Lengths count heights at the least depth of finishing, near which the optimum lies,
-    // whatever depth is chosen.
-    const double finished = nr > 0 && nf > 0
-                                ? std::min(nf * c.operations[1].ap.lower, stock / 2)
-                                : nf * finish.c0;
-    const double roughed = stock - finished;
-    const double depth = o.finishing ? finished / nf : roughed / nr;
-    const double left = depth * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
-    const auto b = ways(o, n, &o == &c.operations.back(), depth, left);
-    o.fed = std::max(1.0, b.fed_mm / (n * path));
+    o.fed = std::max(1.0, b.fed_mm / (n * in_cut));
     o.economic_life_min /= o.fed;
     o.rapid_min = b.rapid_mm / plan_->machine.rapid_mm_min;
   }

@@ -126,10 +126,8 @@ class MachinedSurface {
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
-  // In surface_paths.cpp: lengths of passes that leave left_mm on average; `last`: the last
-  // of them makes the surface.
-  Beside ways(const OperationModel& operation, int passes, bool last, double depth_mm,
-              double left_mm) const;
+  // In surface_paths.cpp.
+  Beside ways(const OperationModel& operation, const Strokes& strokes) const;
   Beside facing(const OperationModel& operation, int passes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].

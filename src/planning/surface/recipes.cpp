@@ -8,8 +8,6 @@ namespace {
 
 using catalogue::Tool;
 
-double least_depth(const Tool& t) { return std::max(t.ap_mm.lower, 2.0 / 3.0 * t.re_mm); }
-
 // Numbers of passes.
 struct Counts {
   int low = 1, high = 0;
@@ -20,7 +18,8 @@ Counts counts(const std::optional<int>& given, double least_stock, double most_s
               const Tool& t) {
   if (given) return {*given, *given};
   const int low = static_cast<int>(std::ceil(least_stock / t.ap_mm.upper - 1e-9));
-  const int high = static_cast<int>(std::floor(most_stock / least_depth(t) + 1e-9));
+  const int high =
+      static_cast<int>(std::floor(most_stock / catalogue::least_depth_mm(t) + 1e-9));
   return {std::max(1, low), high};
 }
 
@@ -57,7 +56,7 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
   };
   const bool free = !w.given && !f.is_face();
   const double stock = f.kind() == MachinedSurface::Kind::shoulder && finish
-                           ? least_depth(*finish)
+                           ? catalogue::least_depth_mm(*finish)
                            : f.stock_mm();
   if (finish && (!w.given || !w.rough)) {  // without roughing
     const auto c = counts_alone(w.fixed.finish.passes, stock, *finish);
@@ -69,7 +68,7 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
     const int last = w.fixed.finish.passes.value_or(free ? kFinishingPasses : 1);
     for (int nf = first; nf <= last; ++nf) {
       const auto c = counts(w.fixed.rough.passes, stock - nf * finish->ap_mm.upper,
-                            stock - nf * least_depth(*finish), *rough);
+                            stock - nf * catalogue::least_depth_mm(*finish), *rough);
       for (int n = c.low; n <= c.high; ++n) add({rough, finish, n, nf, 0, 0});
     }
   }

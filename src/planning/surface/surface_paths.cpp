@@ -14,12 +14,8 @@ double limited_mm(const OperationModel& o) {
 
 }  // namespace
 
-Beside MachinedSurface::ways(const OperationModel& o, int passes, bool last,
-                             double depth_mm, double left_mm) const {
-  if (is_face()) return facing(o, passes);
-  return beside(around_,
-                {passes, last, o.tool->re_mm, units::rad_from_deg(o.tool->minor_kapr_deg),
-                 depth_mm, left_mm});
+Beside MachinedSurface::ways(const OperationModel& o, const Strokes& strokes) const {
+  return is_face() ? facing(o, strokes.passes) : beside(around_, strokes);
 }
 
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
@@ -53,10 +49,9 @@ InOrder MachinedSurface::in_order(const catalogue::Tool& tool, bool rough) const
   const bool alone = kind_ == Kind::end_face;
   InOrder o{tool.id, rough || alone ? Stage::roughing : Stage::finishing, alone,
             kind_ == Kind::bore};
-  const auto b = is_face()
-                     ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
-                     : beside(around_, {1, !rough, tool.re_mm,
-                                        units::rad_from_deg(tool.minor_kapr_deg), 0, 0});
+  const auto b = is_face() ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
+                           : beside(around_, {1, !rough, !rough, tool.re_mm,
+                                              units::rad_from_deg(tool.minor_kapr_deg)});
   o.from_mm = b.from_mm;
   o.to_mm = b.to_mm;
   return o;

@@ -8,10 +8,12 @@
 
 #include "html_parts.hpp"
 #include "report/picture/svg.hpp"
+#include "report/text/amounts.hpp"
 #include "report/text/certificate_words.hpp"
 #include "report/text/json_fields.hpp"
 #include "report/text/plan_words.hpp"
 #include "report/text/setup_words.hpp"
+#include "sheet_html.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::report {
@@ -22,6 +24,8 @@ using nlohmann::ordered_json;
 std::string header(std::string_view name, const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = tag("h1", name);
+  if (const auto title = title_block(result); !title.empty())
+    out += tag("p", "Drawing " + title);
   const bool bad = !feasible || keeps_too_few(result);
   auto status = feasible ? kept(result) : "infeasible: no plan keeps every limit";
   status[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(status[0])));
@@ -29,11 +33,11 @@ std::string header(std::string_view name, const ordered_json& result) {
          escaped(status) + "</p>\n";
   if (feasible) {
     out += "<dl>\n";
-    out += key_figure("Cost", shown(number(result, "cost_per_part"), 4), "per part");
-    out += key_figure("Time", shown(number(result, "time_per_part_min"), 3),
-                      "min per part" + preparing(result));
+    out += key_figure("Cost", money(number(result, "cost_per_part")), "per part");
+    out += key_figure("Time", duration(number(result, "time_per_part_min")),
+                      "per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += key_figure("Profit", shown(profit, 4), "per minute");
+      out += key_figure("Profit", money(profit), "per minute");
     const auto& worst = object(result, "worst_conformance");
     if (const auto p = number(worst, "P_conform"))
       out += key_figure("Worst tolerance", shown(100 * *p, 2),
@@ -52,10 +56,10 @@ std::string breakdown(const ordered_json& result) {
   const auto rows = spending(result);
   if (rows.empty()) return "";
   std::string out = tag("h2", "Time and cost") +
-                    table_head({{"", "", false}, {"time", "min"}, {"cost", "per part"}});
+                    table_head({{"", "", false}, {"time", "s"}, {"cost", "per part"}});
   for (const auto& r : rows)
-    out += "<tr>" + words_cell(r.name) + number_cell(shown(r.time_min, 3)) +
-           number_cell(shown(r.cost, 4)) + "</tr>\n";
+    out += "<tr>" + words_cell(r.name) + number_cell(seconds(r.time_min)) +
+           number_cell(money(r.cost)) + "</tr>\n";
   return out + kTableFoot;
 }
 
@@ -76,8 +80,8 @@ std::string operation_rows(const ordered_json& operation) {
            number_cell(shown(number(pass, "f_mm_rev"), 3)) +
            number_cell(shown(number(pass, "vc_m_min"), 1)) +
            number_cell(i < all.size() ? speeds(all[i]) : "-") +
-           number_cell(first ? shown(number(operation, "time_min"), 3) : "") +
-           number_cell(first ? shown(number(operation, "cost"), 3) : "") +
+           number_cell(first ? seconds(number(operation, "time_min")) : "") +
+           number_cell(first ? money(number(operation, "cost")) : "") +
            number_cell(first ? gap(certificate) : "") + "</tr>\n";
   }
   return out + "<tr><td class=\"note\" colspan=\"10\">" + escaped(note(operation)) +
@@ -93,20 +97,21 @@ std::string operations(const ordered_json& all) {
                                 {"f", "mm/rev"},
                                 {"vc", "m/min"},
                                 {"n", "1/min"},
-                                {"time", "min"},
+                                {"time", "s"},
                                 {"cost", "per part"},
                                 {"gap", ""}});
   for (const auto& operation : all) out += operation_rows(operation);
   return out + kTableFoot;
 }
 
+// Where no sheet has them.
 std::string setup_figures(const ordered_json& result, const Figures& figures) {
   std::string out;
-  for (std::size_t i = 0; i < list(result, "setups").size(); ++i)
+  for (std::size_t i = 1; i <= list(result, "setups").size(); ++i)
     out += figure_named(
         figures, fmt::format("setup-{}.svg", i),
         fmt::format("Setup {}: the part, its clamping and its deviations", i));
-  return pairs(out);
+  return out;
 }
 
 std::string setups(const ordered_json& result) {
@@ -114,7 +119,7 @@ std::string setups(const ordered_json& result) {
   const bool feasible = word(result, "status") != "infeasible";
   std::size_t index = 0;
   for (const auto& setup : list(result, "setups")) {
-    const auto i = std::to_string(index++);
+    const auto i = std::to_string(++index);
     out += tag("h2", "Setup " + i) + tag("p", "Hold " + holding(setup) + ".");
     std::string rejected;
     for (const auto& r : list(setup, "rejected"))
@@ -146,31 +151,28 @@ std::string used_cell(const ordered_json& tolerance) {
 std::string tolerances(const ordered_json& result, const Figures& figures) {
   const auto& all = list(result, "tolerances");
   if (all.empty()) return "";
-  std::string out = tag("h2", "Tolerances") + table_head({{"id", "", false},
-                                                          {"kind", "", false},
-                                                          {"of", "", false},
-                                                          {"predicted", "\u00b5m"},
-                                                          {"allowed", "\u00b5m"},
-                                                          {"margin", "\u00b5m"},
-                                                          {"used", "of the width"},
-                                                          {"verdict", "", false},
-                                                          {"paper", "", false}});
+  const bool differ = published_differ(all);
+  std::vector<Heading> headings{
+      {"id", "", false},        {"kind", "", false},           {"of", "", false},
+      {"predicted", "\u00b5m"}, {"allowed", "\u00b5m"},        {"margin", "\u00b5m"},
+      {"used", "of the width"}, {"kept by", "% of the parts"}, {"verdict", "", false}};
+  if (differ) headings.push_back({"published", "", false});
+  std::string out = tag("h2", "Tolerances") + table_head(headings);
   for (const auto& t : all) {
-    auto kind = word(t, "kind");
-    std::replace(kind.begin(), kind.end(), '-', ' ');
     const bool met = word(t, "verdict") != "not-met";
-    out += "<tr>" + words_cell(word(t, "id")) + words_cell(kind) +
+    out += "<tr>" + words_cell(word(t, "id")) + words_cell(kind_words(word(t, "kind"))) +
            words_cell(word(t, "of")) + number_cell(micrometres(t, "predicted_mm")) +
            number_cell(micrometres(t, "allowed_mm")) +
            number_cell(micrometres(t, "margin_mm")) + used_cell(t) +
+           number_cell(kept_by(t)) +
            (met ? words_cell(verdict(t)) : "<td class=\"bad\">NOT MET</td>") +
-           words_cell(other_verdict(t)) + "</tr>\n";
-    if (const auto p = conformance(t); !p.empty())
-      out += "<tr><td class=\"note\" colspan=\"9\">" + escaped(p) + "</td></tr>\n";
+           (differ ? words_cell(other_verdict(t)) : "") + "</tr>\n";
   }
   return out + kTableFoot +
-         "<p class=\"from\">offset: met with the tool's offset or corrected path; "
-         "paper: the published acceptance equations, where they judge otherwise</p>\n" +
+         "<p class=\"from\">offset: met with the tool's offset or corrected path" +
+         (differ ? "; published: by the published acceptance equations, where they differ"
+                 : "") +
+         "</p>\n" +
          figure_named(figures, "budget.svg", "What takes each tolerance's width");
 }
 
@@ -192,8 +194,7 @@ std::string windows(const ordered_json& result, const Figures& figures) {
     out += one;
   }
   if (out.empty()) return "";
-  return tag("h2", "Windows of speed and feed: the operations that cost most") +
-         pairs(out);
+  return tag("h2", "Windows of speed and feed: the operations that cost most") + out;
 }
 
 // Of every milled place: how deep it may be cut over the spindle's speeds.
@@ -203,14 +204,13 @@ std::string stability(const ordered_json& result, const Figures& figures) {
     for (const auto& o : list(setup, "operations"))
       out += figure_named(figures, "stability-" + word(o, "id") + ".svg",
                           "Stable depth over speed of " + word(o, "id"));
-  return out.empty() ? "" : tag("h2", "Stability of milled places") + pairs(out);
+  return out.empty() ? "" : tag("h2", "Stability of milled places") + out;
 }
 
 std::string offsets(const ordered_json& result) {
   std::string rows;
   for (const auto& o : list(result, "offsets"))
-    rows += "<tr>" + words_cell(word(o, "on")) +
-            number_cell(shown(number(o, "setup"), 0)) +
+    rows += "<tr>" + words_cell(word(o, "on")) + number_cell(setup_number(o)) +
             number_cell(shown(units::um_from_mm(number(o, "offset_mm").value_or(0)), 1)) +
             "</tr>\n";
   if (rows.empty()) return "";
@@ -230,8 +230,8 @@ std::string compensation(const ordered_json& result) {
         table += fmt::format("{}{}: {}", table.empty() ? "" : "; ",
                              shown(row[0].get<double>(), 2),
                              shown(units::um_from_mm(row[1].get<double>()), 2));
-    rows += "<tr>" + words_cell(word(c, "on")) +
-            number_cell(shown(number(c, "setup"), 0)) + words_cell(table) + "</tr>\n";
+    rows += "<tr>" + words_cell(word(c, "on")) + number_cell(setup_number(c)) +
+            words_cell(table) + "</tr>\n";
   }
   if (rows.empty()) return "";
   return tag("h2", "Compensation: add dr to the radius of the tool path at z") +
@@ -255,7 +255,7 @@ std::string prices(const ordered_json& result) {
 }  // namespace
 
 std::string html(std::string_view name, const ordered_json& result,
-                 const Figures& figures) {
+                 const Figures& figures, const std::vector<SetupSheet>& sheets) {
   const bool feasible = word(result, "status") != "infeasible";
   std::string out = header(name, result);
   out += section("Conflicts: limits that cannot be kept together",
@@ -267,12 +267,13 @@ std::string html(std::string_view name, const ordered_json& result,
                    opening_sentences(result));
   out += section("What else would do, each alone, as planned with it",
                  sentences_of(list(result, "remedies")));
-  out += breakdown(result) + setup_figures(result, figures) + setups(result) +
-         tolerances(result, figures) + prices(result) +
+  out += breakdown(result) + (sheets.empty() ? setup_figures(result, figures) : "") +
+         setups(result) + tolerances(result, figures) + prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
          offsets(result) + compensation(result) + stability(result, figures) +
          windows(result, figures) + assumptions(result);
+  for (const auto& sheet : sheets) out += sheet_html(sheet, figures);
   return page(std::string(name) + " - process plan", out);
 }
 

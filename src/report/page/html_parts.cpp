@@ -42,12 +42,23 @@ tr.first td { border-bottom: 0 } td.note { color: #454b53; padding-left: 3mm }
 ol { padding-left: 6mm; margin: 1mm 0 } li { margin: 0.4mm 0 }
 ul { padding-left: 5mm; margin: 1mm 0; color: #454b53 }
 figure { margin: 2mm 0; break-inside: avoid }
-figure img { max-width: 100%; max-height: 70mm; display: block; margin: 0 auto }
-.pairs { display: grid; grid-template-columns: 1fr 1fr; gap: 3mm }
-.pairs figure { margin: 0 }
+figure img { width: 100%; display: block }
+small { font-size: inherit }
+tbody tr:nth-child(-n+4):not(:last-child), tr.first:not(:last-child) { break-after: avoid }
+tbody tr:nth-last-child(-n+4):not(:first-child) { break-before: avoid }
+.setup-sheet { break-before: page } .cut { break-inside: avoid }
+.setup-sheet h1 { font-size: 16pt; display: flex; justify-content: space-between; border-bottom: 0.5mm solid #1a1d21 }
+.setup-sheet table, .sign { break-inside: avoid }
+.title { display: grid; grid-template-columns: 2fr 1fr 1fr; gap: 1mm 4mm }
+.title dd { font-size: 9.5pt; font-weight: 600; overflow-wrap: anywhere }
+.facts { display: block; columns: 2; column-gap: 8mm } .facts div { display: flex; gap: 2mm; break-inside: avoid }
+.facts dt { flex: 0 0 19mm } .facts dd { font-size: 8.5pt }
+td.blank { border: 0.1mm solid #8b929b; min-width: 22mm }
+.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 6mm; margin-top: 10mm }
+.sign p { border-top: 0.2mm solid #1a1d21 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 7.5pt }
-@media print { body { margin: 0; padding: 0; max-width: none } figure img { max-height: 62mm } }
-@media (max-width: 640px) { .scroll { overflow-x: auto } .pairs { grid-template-columns: 1fr } }
+@media print { body { margin: 0; padding: 0; max-width: none } }
+@media (max-width: 640px) { .scroll { overflow-x: auto } .title, .sign { grid-template-columns: 1fr } .facts { columns: 1 } }
 )css";
 
 /// Bytes of a URL (RFC 3986): what is not unreserved as %XX.
@@ -116,10 +127,6 @@ std::string key_figure(const std::string& name, const std::string& value,
                        const std::string& unit) {
   return "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(value) + " <small>" +
          escaped(unit) + "</small></dd></div>\n";
-}
-
-std::string pairs(const std::string& figures) {
-  return figures.empty() ? "" : "<div class=\"pairs\">\n" + figures + "</div>\n";
 }
 
 std::string origin(const ordered_json& result) {

@@ -19,9 +19,6 @@ std::string tag(const std::string& name, std::string_view text);
 std::string figure_named(const Figures& figures, const std::string& file,
                          const std::string& what);
 
-/// Figures two beside each other.
-std::string pairs(const std::string& figures);
-
 /// A heading above numbered sentences; "" if there are none.
 std::string section(const std::string& title, const std::vector<std::string>& sentences);
 

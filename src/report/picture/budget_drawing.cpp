@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "report/text/layout.hpp"
+#include "report/text/plan_words.hpp"
 #include "report/text/stack.hpp"
 #include "svg.hpp"
 #include "turnwright/base/units.hpp"
@@ -43,7 +44,7 @@ void box(Svg& svg, const std::string& css_class, double x0, double x1, double y0
 void draw_bar(Svg& svg, const ToleranceResult& t, const Stack& s, double y) {
   const double scale = kWhole / units::um_from_mm(t.width_mm);
   const double last = kFirst + kMost * kWhole;
-  const auto label = t.id + ": " + part::name(t.kind) + " of " + t.of;
+  const auto label = t.id + ": " + kind_words(part::name(t.kind)) + " of " + t.of;
   svg.text({kFirst - 2, y + kBar - 1}, Anchor::end, clipped(label, kLabel));
   double x = kFirst;
   for (const auto& [source, um] : s.slices) {

@@ -7,8 +7,11 @@
 #include <utility>
 
 #include "chart.hpp"
+#include "clamping_drawing.hpp"
 #include "contour.hpp"
 #include "report/text/layout.hpp"
+#include "setup_view.hpp"
+#include "spread.hpp"
 #include "svg.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -22,13 +25,13 @@ using planning::PreparedPart;
 using planning::ProcessPlan;
 
 // Millimetres of paper.
-constexpr double kWidth = 190, kBeside = 16, kHighest = 70, kError = 6;
-constexpr double kTop = 17, kJaw = 9, kAround = kJaw + 2.5, kLabelGap = 3.6,
+constexpr double kWidth = SetupView::kWidth, kBeside = 16, kHighest = 48, kError = 6;
+constexpr double kTop = 17, kAround = SetupView::kJaw + 2.5, kLabelGap = 3.6,
                  kNumberGap = 3.2;
 constexpr double kCharacter = 1.7;  // of 2.8 mm type, on average of a wide face
 constexpr double kWords = 70;       // of the legend
-constexpr double kLeft = 4, kRight = kWidth - 2;  // of what is spread
-constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;
+constexpr double kLeft = 4, kRight = kWidth - 2;              // of what is spread
+constexpr double kArrow = 12, kArrowHead = 2.2, kZero = 1.5;  // of the program's zero
 constexpr std::size_t kNameLength = 60, kIdLength = 24;
 
 /// What a deviation is of: its surface as drawn; none for a face.
@@ -37,12 +40,6 @@ std::optional<Run> surface_of(const part::Drawing& d, const std::string& id) {
   if (!at) return std::nullopt;
   return Run{at->z0_mm, at->z1_mm, at->left_mm / 2, at->right_mm / 2};
 }
-
-/// Common to the pictures of a plan.
-struct Scales {
-  double length = 0;  ///< paper mm of a mm
-  double factor = 0;  ///< an error is drawn so much larger; 0: there is none
-};
 
 Scales scales(const PreparedPart& p, const ProcessPlan& plan) {
   const auto& stock = p.drawing.stock;
@@ -71,30 +68,6 @@ struct Label {
   std::string text, css_class;
 };
 
-/// One setup on its sheet.
-struct Sheet {
-  const PreparedPart& part;
-  const ProcessPlan& plan;
-  const planning::SetupWork& work;
-  std::size_t setup;
-  Scales scale;
-  Contour contour;
-  double axis = 0;  ///< y of the centre line
-  Svg svg = {};
-
-  Clamping clamping() const { return plan.setups[setup].clamping; }
-  bool holds_left() const { return part.setups[setup].hold == End::left; }
-  double x(double z) const {
-    const auto& stock = part.drawing.stock;
-    return (kWidth - scale.length * stock.length_mm) / 2 +
-           scale.length * (z + stock.left_allowance_mm);
-  }
-  Point at(double z, double r) const { return {x(z), axis - scale.length * r}; }
-  double stock_height() const { return scale.length * part.drawing.stock.outer_mm / 2; }
-  double left_z() const { return contour.outer.front().z0; }
-  double right_z() const { return contour.outer.back().z1; }
-};
-
 template <class Element>
 std::string id_and_size(const Element& e) {
   const auto id = clipped(e.id, kIdLength);
@@ -107,7 +80,7 @@ std::string id_and_size(const Element& e) {
   return e.fit ? text + ' ' + clipped(*e.fit, kIdLength) : text;
 }
 
-bool corrected(const Sheet& s, const std::string& id) {
+bool corrected(const SetupView& s, const std::string& id) {
   return std::any_of(s.plan.compensation.begin(), s.plan.compensation.end(),
                      [&](const auto& c) { return c.setup == s.setup && c.on == id; });
 }
@@ -125,7 +98,7 @@ std::vector<T> thinned(const std::vector<T>& all, double gap) {
 
 /// Ids and sizes of what is cut so far, of the other outer elements the id alone; left to
 /// right.
-std::vector<Label> labels(const Sheet& s, const planning::Finished& finished) {
+std::vector<Label> labels(const SetupView& s, const planning::Finished& finished) {
   std::vector<Label> all;
   const auto add = [&](const auto& e, const Run& run) {
     const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
@@ -169,16 +142,6 @@ bool fit_side_by_side(const std::vector<Label>& all) {
   return true;
 }
 
-/// Ascending places moved as little as keeps them `gap` apart and on the page.
-std::vector<double> spread(std::vector<double> x, double gap) {
-  double least = kLeft;
-  for (auto& place : x) least = (place = std::max(place, least)) + gap;
-  double most = kRight;
-  for (auto place = x.rbegin(); place != x.rend(); ++place)
-    most = (*place = std::min(*place, most)) - gap;
-  return x;
-}
-
 double label_height(const std::vector<Label>& all) {
   if (fit_side_by_side(all)) return 3;
   double longest = 0;
@@ -186,12 +149,12 @@ double label_height(const std::vector<Label>& all) {
   return longest;
 }
 
-void draw_labels(Sheet& s, const std::vector<Label>& all) {
+void draw_labels(SetupView& s, const std::vector<Label>& all) {
   const double foot = s.axis - s.stock_height() - kAround - 3;
   std::vector<double> x;
   for (const auto& label : all) x.push_back(label.x);
   const bool flat = fit_side_by_side(all);
-  if (!flat) x = spread(std::move(x), kLabelGap);
+  if (!flat) x = spread(std::move(x), kLabelGap, kLeft, kRight);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string& css_class = all[i].css_class;
     if (flat)
@@ -205,7 +168,7 @@ void draw_labels(Sheet& s, const std::vector<Label>& all) {
   }
 }
 
-void draw_body(Sheet& s) {
+void draw_body(SetupView& s) {
   std::vector<Point> section;
   for (const auto& run : s.contour.outer) {
     section.push_back(s.at(run.z0, run.r0));
@@ -218,7 +181,7 @@ void draw_body(Sheet& s) {
   s.svg.polygon("body", section);
 }
 
-void draw_stock(Sheet& s) {
+void draw_stock(SetupView& s) {
   const auto& stock = s.part.drawing.stock;
   const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
   const double r = stock.outer_mm / 2, hole = stock.inner_mm / 2;
@@ -231,7 +194,7 @@ void draw_stock(Sheet& s) {
 
 /// The outline above (section) and below (view) the centre line, with the edges that are
 /// seen; of bores below what is hidden.
-void draw_contour(Sheet& s) {
+void draw_contour(SetupView& s) {
   std::vector<Point> above, below;
   const auto& outer = s.contour.outer;
   above.push_back(s.at(s.left_z(), s.contour.inner.front().r0));
@@ -265,7 +228,7 @@ void draw_contour(Sheet& s) {
 }
 
 /// What this setup cuts, in thick lines.
-void draw_cut(Sheet& s) {
+void draw_cut(SetupView& s) {
   const auto& d = s.part.drawing;
   const auto both = [&](double z0, double r0, double z1, double r1) {
     s.svg.line("cut", s.at(z0, r0), s.at(z1, r1));
@@ -288,7 +251,7 @@ void draw_cut(Sheet& s) {
 }
 
 /// The roots of threads that are cut so far, thin as on a drawing.
-void draw_threads(Sheet& s, const planning::Finished& finished) {
+void draw_threads(SetupView& s, const planning::Finished& finished) {
   const auto root = [&](const auto& e, double z, bool inner) {
     if (!e.cut || e.cut->kind != part::CutKind::thread) return;
     const double r = e.cut->core.left_mm / 2;
@@ -305,7 +268,7 @@ void draw_threads(Sheet& s, const planning::Finished& finished) {
 /// Places of a table on its surface, its values enlarged outwards by `factor`; none
 /// unless this setup cuts the surface.
 template <class Table>
-std::vector<Point> stand_off(const Sheet& s, const Table& table, double factor) {
+std::vector<Point> stand_off(const SetupView& s, const Table& table, double factor) {
   const auto surface = surface_of(s.part.drawing, table.on);
   std::vector<Point> points;
   if (table.setup != s.setup || !surface) return points;
@@ -314,7 +277,7 @@ std::vector<Point> stand_off(const Sheet& s, const Table& table, double factor) 
   return points;
 }
 
-void draw_errors(Sheet& s) {
+void draw_errors(SetupView& s) {
   if (!(s.scale.factor > 0)) return;
   for (const auto& d : s.plan.deviations) {
     const auto made = stand_off(s, d, s.scale.factor);
@@ -329,80 +292,9 @@ void draw_errors(Sheet& s) {
       s.svg.polyline("path", path);
 }
 
-bool corrects(const Sheet& s) {
+bool corrects(const SetupView& s) {
   return std::ranges::any_of(s.plan.compensation,
                              [&](const auto& c) { return !stand_off(s, c, 0).empty(); });
-}
-
-/// What jaws hold: the part, beyond it the bar that it is parted off.
-Runs held_between(const Sheet& s, double from_z, double to_z) {
-  const double bar = s.part.drawing.stock.outer_mm / 2;
-  Runs all = s.contour.outer;
-  if (from_z < s.left_z()) all.insert(all.begin(), {from_z, s.left_z(), bar, bar});
-  if (to_z > s.right_z()) all.push_back({s.right_z(), to_z, bar, bar});
-  return between(all, from_z, to_z);
-}
-
-/// Jaws bored to the part: they touch it over the whole grip.
-void draw_jaws(Sheet& s) {
-  const double end = planning::root_z_mm(s.part, s.setup, s.clamping());
-  const double grip = s.part.grips_mm[s.setup];
-  const double outward = s.holds_left() ? end - grip : end + grip;
-  const Runs held = held_between(s, std::min(end, outward), std::max(end, outward));
-  double top = 0;
-  for (const Run& run : held) top = std::max({top, run.r0, run.r1});
-  top += kJaw / s.scale.length;
-  for (const double side : {1.0, -1.0}) {
-    std::vector<Point> jaw;
-    for (const Run& run : held) {
-      jaw.push_back(s.at(run.z0, side * run.r0));
-      jaw.push_back(s.at(run.z1, side * run.r1));
-    }
-    jaw.push_back(s.at(held.back().z1, side * top));
-    jaw.push_back(s.at(held.front().z0, side * top));
-    s.svg.polygon("jaw", jaw);
-  }
-}
-
-/// Where its rollers run, narrower towards the part.
-void draw_steady_rest(Sheet& s) {
-  const double z = s.part.setups[s.setup].steady_z_mm;
-  const double half = planning::kSteadyWidth_mm / 2;
-  double r = 0;
-  for (const Run& run : between(s.contour.outer, z - half, z + half))
-    r = std::max({r, run.r0, run.r1});
-  const double top = r + kJaw / s.scale.length;
-  for (const double side : {1.0, -1.0})
-    s.svg.polygon("rest", {s.at(z - half / 2, side * r), s.at(z + half / 2, side * r),
-                           s.at(z + half, side * top), s.at(z - half, side * top)});
-}
-
-/// A 60 degree point in the part's end: as deep as the bore lets it, or a centre hole.
-void draw_centre(Sheet& s, End end) {
-  const double out = end == End::left ? -1 : 1;
-  const double bore =
-      end == End::left ? s.contour.inner.front().r0 : s.contour.inner.back().r1;
-  const double depth = std::max(1.5, s.scale.length * bore / kTan30);
-  const Point face = s.at(end == End::left ? s.left_z() : s.right_z(), 0);
-  const double base = face.x + out * 3, half = (depth + 3) * kTan30;
-  s.svg.polygon("centre", {{face.x - out * depth, s.axis},
-                           {base, s.axis - half},
-                           {base + out * kCentreShank, s.axis - half},
-                           {base + out * kCentreShank, s.axis + half},
-                           {base, s.axis + half}});
-}
-
-void draw_clamping(Sheet& s) {
-  const End held = s.part.setups[s.setup].hold;
-  const End free = held == End::left ? End::right : End::left;
-  if (s.clamping() == Clamping::between_centres)
-    draw_centre(s, held);
-  else
-    draw_jaws(s);
-  if (s.clamping() == Clamping::chuck_steady)
-    draw_steady_rest(s);
-  else if (s.clamping() != Clamping::chuck)
-    draw_centre(s, free);
 }
 
 /// Between the ends of an arc, where its chords meet.
@@ -418,8 +310,13 @@ bool within_an_arc(const part::Drawing& d, double z) {
   return false;
 }
 
-/// z of every end of an element, with lines down from the part; y of the foot.
-double draw_ruler(Sheet& s) {
+/// A place along the axis: where it is drawn, and the program's Z.
+struct Place {
+  double x = 0, Z = 0;
+};
+
+/// Every end of an element, from the chuck outwards.
+std::vector<Place> ends_of_elements(const SetupView& s) {
   std::vector<double> z;
   for (const auto& run : s.contour.outer)
     for (const double end : {run.z0, run.z1})
@@ -429,14 +326,23 @@ double draw_ruler(Sheet& s) {
   z.erase(std::unique(z.begin(), z.end(),
                       [](double a, double b) { return std::abs(a - b) < 1e-6; }),
           z.end());
-  z = thinned(z, kNumberGap);
+  if (!s.holds_left()) std::reverse(z.begin(), z.end());
+  std::vector<Place> all;
+  for (const double end : z) all.push_back({s.x(end), s.program_z(end)});
+  return all;
+}
+
+/// The program's Z of every end of an element, with lines down from the part; y of the
+/// foot.
+double draw_ruler(SetupView& s) {
+  const auto ends = thinned(ends_of_elements(s), kNumberGap);
   std::vector<double> x;
-  for (const double place : z) x.push_back(s.x(place));
-  const auto labels_x = spread(x, kNumberGap);
+  for (const auto& end : ends) x.push_back(end.x);
+  const auto labels_x = spread(x, kNumberGap, kLeft, kRight);
   const double ruler = s.axis + s.stock_height() + kAround + 1, foot = ruler + 4.5;
   double longest = 0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    const auto text = plain(z[i]);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto text = plain(ends[i].Z);
     longest = std::max(longest, text_width(text));
     s.svg.polyline("leader", {{x[i], s.axis + s.stock_height() + 1},
                               {x[i], ruler + 1.2},
@@ -444,11 +350,11 @@ double draw_ruler(Sheet& s) {
     s.svg.text_upwards({labels_x[i] + 1, foot}, Anchor::end, text);
   }
   s.svg.line("thin", {x.front(), ruler}, {x.back(), ruler});
-  s.svg.text({x.front() - 3, ruler + 1}, Anchor::end, "z [mm]");
+  s.svg.text({x.front() - 3, ruler + 1}, Anchor::end, "Z [mm]");
   return foot + longest;
 }
 
-void draw_bar(Sheet& s, Point from, Point to) {
+void draw_bar(SetupView& s, Point from, Point to) {
   s.svg.line("bar", from, to);
   const Point tick = from.x == to.x ? Point{1, 0} : Point{0, 1};
   for (const auto& end : {from, to})
@@ -457,7 +363,7 @@ void draw_bar(Sheet& s, Point from, Point to) {
 }
 
 /// The bars of both scales and what the lines mean; y of the foot.
-double draw_legend(Sheet& s, double top) {
+double draw_legend(SetupView& s, double top) {
   const double foot = top + kError + 2, mm = round_below(30 / s.scale.length);
   draw_bar(s, {10, foot}, {10 + s.scale.length * mm, foot});
   s.svg.text({10, foot - 2}, Anchor::start, plain(mm) + " mm");
@@ -482,15 +388,47 @@ double draw_legend(Sheet& s, double top) {
   return foot + 3.6;
 }
 
-std::string heading(const Sheet& s) {
-  std::string text = "Setup " + std::to_string(s.setup) + ": " + name(s.clamping()) +
+/// An arrow along the paper's axes.
+void draw_arrow(SetupView& s, Point from, Point to) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const Point along{(to.x - from.x) / length, (to.y - from.y) / length};
+  const Point neck{to.x - kArrowHead * along.x, to.y - kArrowHead * along.y};
+  const double half = kArrowHead / 3;
+  s.svg.line("zero", from, neck);
+  s.svg.polygon("zero", {to,
+                         {neck.x + half * along.y, neck.y + half * along.x},
+                         {neck.x - half * along.y, neck.y - half * along.x}});
+}
+
+/// Program zero, a disk with two quarters filled, and the axes of the program.
+void draw_zero(SetupView& s) {
+  constexpr int kQuarter = 8;  // chords of a quarter of the disk
+  const Point zero = s.at(planning::free_z_mm(s.part, s.setup), 0);
+  draw_arrow(s, zero, {zero.x + kArrow, zero.y});
+  draw_arrow(s, zero, {zero.x, zero.y - kArrow});
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    std::vector<Point> points{zero};
+    for (int k = 0; k <= kQuarter; ++k) {
+      const double turned =
+          units::kPi / 2 * (quarter + static_cast<double>(k) / kQuarter);
+      points.push_back(
+          {zero.x + kZero * std::cos(turned), zero.y + kZero * std::sin(turned)});
+    }
+    s.svg.polygon(quarter % 2 == 0 ? "zero" : "zero open", points);
+  }
+  s.svg.text({zero.x + kArrow + 1, zero.y + 1}, Anchor::start, "Z", "zero");
+  s.svg.text({zero.x + 1.4, zero.y - kArrow + 1.5}, Anchor::start, "X", "zero");
+}
+
+std::string heading(const SetupView& s) {
+  std::string text = "Setup " + std::to_string(s.setup + 1) + ": " + name(s.clamping()) +
                      ", " + (s.holds_left() ? "left" : "right") + " end held";
   if (s.clamping() != Clamping::between_centres)
     text += ", grip " + plain(s.part.grips_mm[s.setup]) + " mm";
   return text;
 }
 
-std::string drawn(Sheet s, const planning::Finished& finished) {
+std::string drawn(SetupView s, const planning::Finished& finished) {
   s.axis = kTop + label_height(labels(s, finished)) + 3 + kAround + s.stock_height();
   const auto title = clipped(s.part.drawing.name, kNameLength);
   s.svg.text({10, 9}, Anchor::start, title, "title");
@@ -505,7 +443,9 @@ std::string drawn(Sheet s, const planning::Finished& finished) {
   draw_cut(s);
   draw_threads(s, finished);
   draw_errors(s);
-  s.svg.line("axis", {s.x(s.left_z()) - 10, s.axis}, {s.x(s.right_z()) + 10, s.axis});
+  const auto [from, to] = std::minmax({s.x(s.left_z()), s.x(s.right_z())});
+  s.svg.line("axis", {from - 10, s.axis}, {to + 10, s.axis});
+  draw_zero(s);
   const double foot = draw_legend(s, draw_ruler(s) + 2);
   return s.svg.page(kWidth, foot + 6, title + " - " + heading(s));
 }

@@ -9,7 +9,9 @@
 namespace turnwright::report {
 
 /// One self-contained picture (SVG 1.1, 190 mm wide) for each setup of the plan: the part
-/// after the setup, half in section, with its stock and its clamping.
+/// after the setup, half in section, with its stock and its clamping, as it stands in the
+/// machine: the chuck to the left.  The axes are the program's (nc/program.hpp): zero in
+/// the finished face of the free end, Z away from the chuck.  Setups count from 1.
 ///
 /// Lengths are drawn with `scale` mm of paper per mm, along and across.  The distance of
 /// the real surface from the nominal one is drawn as

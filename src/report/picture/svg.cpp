@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,6 +28,16 @@ text { font-family: Helvetica, Arial, sans-serif; font-size: 2.8px; fill: #000 }
 .leader { stroke-width: 0.12; stroke: #555 }
 .jaw { fill: url(#hatch); stroke: #000; stroke-width: 0.3 }
 .centre, .rest { fill: #fff; stroke: #000; stroke-width: 0.3 }
+.feed { stroke-width: 0.25; stroke-linejoin: round }
+.rapid { stroke: #666; stroke-width: 0.18; stroke-dasharray: 1.4 0.9 }
+.tool0 { stroke: #c8102e } .tool1 { stroke: #0050b4 } .tool2 { stroke: #2a7d3b }
+.tool3 { stroke: #b36b00 } .tool4 { stroke: #7a3e9d } .tool5 { stroke: #2593a3 }
+.off { stroke: #fff; stroke-width: 0.08; fill-opacity: 0.35 } .off.deep { fill-opacity: 0.55 }
+.off.tool0 { fill: #c8102e } .off.tool1 { fill: #0050b4 } .off.tool2 { fill: #2a7d3b }
+.off.tool3 { fill: #b36b00 } .off.tool4 { fill: #7a3e9d } .off.tool5 { fill: #2593a3 }
+.off.tool0, .off.tool1, .off.tool2, .off.tool3, .off.tool4, .off.tool5 { stroke: #fff }
+.zero { fill: #0a6b3d; stroke: #0a6b3d; stroke-width: 0.35 } .open { fill: #fff }
+text.zero { stroke: none; font-weight: bold }
 .error { fill: #c8102e; fill-opacity: 0.2 }
 .made { stroke: #c8102e; stroke-width: 0.35 }
 .path { stroke: #0050b4; stroke-width: 0.35; stroke-dasharray: 1 0.7 }
@@ -130,6 +141,17 @@ void Svg::text_upwards(Point at, Anchor anchor, std::string_view text,
       class_of(css_class), coordinate(at.x), coordinate(at.y), name(anchor),
       escaped(text));
 }
+
+void Svg::clip(Point corner, Point opposite) {
+  const auto [x0, x1] = std::minmax(corner.x, opposite.x);
+  const auto [y0, y1] = std::minmax(corner.y, opposite.y);
+  body_ += fmt::format(
+      "<clipPath id=\"view\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>"
+      "</clipPath>\n<g clip-path=\"url(#view)\">\n",
+      coordinate(x0), coordinate(y0), coordinate(x1 - x0), coordinate(y1 - y0));
+}
+
+void Svg::end_clip() { body_ += "</g>\n"; }
 
 std::string Svg::page(double width, double height, std::string_view title) const {
   const auto w = coordinate(width), h = coordinate(height);

@@ -29,6 +29,10 @@ class Svg {
   void text_upwards(Point at, Anchor anchor, std::string_view text,
                     const std::string& css_class = {});
 
+  /// What is drawn until end_clip() shows only inside a rectangle; once in a file.
+  void clip(Point corner, Point opposite);
+  void end_clip();
+
   /// The file; `title` is its text for readers that do not show images.
   std::string page(double width, double height, std::string_view title) const;
 

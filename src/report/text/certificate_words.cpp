@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "json_fields.hpp"
@@ -17,7 +19,24 @@ std::optional<double> gap_pct(const ordered_json& certificate) {
   return 100 * *gap;
 }
 
+// The least percentage of so many decimals that the gap is not above.
+std::string at_most(const ordered_json& certificate, int decimals) {
+  const auto gap = gap_pct(certificate);
+  if (!gap) return "-";
+  const double scale = std::pow(10, decimals);
+  return shown(std::max(1.0, std::ceil(*gap * scale - 1e-9)) / scale, decimals) + " %";
+}
+
 }  // namespace
+
+std::string perhaps(const ordered_json& certificate) {
+  constexpr double kAll_pct = 99.95;  // nothing is known
+  const auto gap = gap_pct(certificate);
+  if (!gap || !(*gap < kAll_pct)) return "a better plan may exist";
+  // cost (1 - gap) is the least that the best may cost
+  ordered_json dearer{{"gap", 1 / (1 - *gap / 100) - 1}};
+  return "may be up to " + at_most(dearer, 1) + " dearer than the best";
+}
 
 std::string gap(const ordered_json& certificate) {
   const auto kind = word(certificate, "kind");
@@ -27,23 +46,11 @@ std::string gap(const ordered_json& certificate) {
 
 std::string proof(const ordered_json& certificate) {
   const auto kind = word(certificate, "kind");
-  const auto bound = shown(number(certificate, "lower_bound"), 4);
-  const auto gap = shown(gap_pct(certificate), 2);
   const auto reason = word(certificate, "reason");
-  if (kind == "global") {
-    const auto engine = word(certificate, "engine");
-    return fmt::format(
-        "proven: no feasible choice has an objective below {}; this plan lies within {} "
-        "% "
-        "of that ({} boxes bounded{})",
-        bound, gap, shown(number(certificate, "nodes"), 0),
-        engine.empty() ? "" : ", " + engine);
-  }
-  const std::string why = reason.empty() ? "" : ": " + reason;
-  if (kind == "local")
-    return fmt::format(
-        "not proven, the best of its neighbourhood only{}; bound {}, gap {} %", why,
-        bound, gap);
+  if (kind == "global")
+    return "proven: no choice of clamping, tools and conditions is better by more than " +
+           at_most(certificate, 2);
+  if (kind == "local") return "not proven: " + perhaps(certificate);
   return reason.empty() ? "not proven" : reason;
 }
 

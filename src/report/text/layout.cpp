@@ -21,6 +21,14 @@ std::size_t bytes(std::string_view text, std::size_t count) {
   return i;
 }
 
+// Bytes of what of a word that is too long stands on a line of its own: up to the last
+// mark between the parts of an id.
+std::size_t first_piece(std::string_view word, std::size_t width) {
+  const auto fits = bytes(word, width);
+  const auto mark = word.substr(0, fits).find_last_of("-:|/_");
+  return mark == word.npos ? fits : mark + 1;
+}
+
 std::vector<std::string_view> words(std::string_view text) {
   std::vector<std::string_view> all;
   for (std::size_t i = 0; i < text.size();) {
@@ -102,9 +110,11 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
       continue;
     }
     if (used > 0) all.emplace_back();
-    for (; characters(word) > width; word.remove_prefix(bytes(word, width))) {
-      all.back() = word.substr(0, bytes(word, width));
+    while (characters(word) > width) {
+      const auto piece = first_piece(word, width);
+      all.back() = word.substr(0, piece);
       all.emplace_back();
+      word.remove_prefix(piece);
     }
     all.back() = word;
   }

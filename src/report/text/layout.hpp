@@ -12,7 +12,7 @@ inline constexpr std::size_t kPageWidth = 100;
 std::size_t characters(std::string_view text);
 
 /// The text in lines of at most `width` characters, broken at blanks, or within a word
-/// that is too long; at least one line.
+/// that is too long, there behind one of "-:|/_" if it has any; at least one line.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
 /// `text` wrapped behind `lead`, with its further lines indented by the width of `lead`.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "amounts.hpp"
 #include "json_fields.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -14,6 +15,8 @@ namespace turnwright::report {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr double kTold = 2;  // a larger ratio says no more in percent
 
 // "set 2: ", where there is more than one.
 std::string set_of(const ordered_json& member, const ordered_json& all) {
@@ -72,11 +75,28 @@ std::vector<std::string> opening_sentences(const ordered_json& result) {
     const double by = opening(*relaxation);
     if (std::isfinite(by)) {
       const double ratio = *number(*relaxation, "needed") / *number(*relaxation, "now");
-      sentence += fmt::format(" [{:+.1f} %]", 100 * (ratio - 1));
+      if (ratio <= kTold) sentence += fmt::format(" [{:+.1f} %]", 100 * (ratio - 1));
     }
     sentences.push_back(std::move(sentence));
   }
   return sentences;
+}
+
+std::string kind_words(std::string kind) {
+  std::ranges::replace(kind, '-', ' ');
+  constexpr std::string_view kJoined = "runout";
+  if (const auto at = kind.find(kJoined); at != kind.npos)
+    kind.replace(at, kJoined.size(), "run-out");
+  return kind;
+}
+
+std::string title_block(const ordered_json& result) {
+  std::vector<std::string> parts;
+  for (const auto& [key, before] :
+       {std::pair{"drawing_number", ""}, {"revision", "revision "}, {"customer", "for "}})
+    if (const auto value = word(result, key); !value.empty())
+      parts.push_back(before + value);
+  return joined(parts);
 }
 
 std::string micrometres(const ordered_json& tolerance, const char* key) {
@@ -103,10 +123,14 @@ std::string other_verdict(const ordered_json& tolerance) {
   return accepted ? "not met" : "met";
 }
 
-std::string conformance(const ordered_json& tolerance) {
+bool published_differ(const ordered_json& tolerances) {
+  return std::ranges::any_of(
+      tolerances, [](const ordered_json& t) { return !other_verdict(t).empty(); });
+}
+
+std::string kept_by(const ordered_json& tolerance) {
   const auto p = number(tolerance, "P_conform");
-  if (!p || *p >= 0.99995) return "";
-  return fmt::format("conforms with a probability of {} %", shown(100 * *p, 2));
+  return p ? shown(100 * *p, 2) : "-";
 }
 
 bool keeps_too_few(const ordered_json& result) {
@@ -132,11 +156,11 @@ std::string setting_up(const ordered_json& result) {
   const auto minutes = number(s, "min"), cost = number(s, "cost");
   if (!minutes || !cost) return "";
   const auto once =
-      fmt::format("{} min and {} once per batch", shown(minutes, 1), shown(cost, 2));
+      fmt::format("{} and {} once per batch", duration(minutes), money(cost));
   const auto share = number(s, "min_per_part");
   if (!share) return once + "; no batch is given: in no part's time or cost";
-  return fmt::format("{}, {} min and {} of it in each part", once, shown(share, 3),
-                     shown(number(s, "cost_per_part"), 4));
+  return fmt::format("{}, {} and {} of it in each part", once, duration(share),
+                     money(number(s, "cost_per_part")));
 }
 
 Stack stack_of(const ordered_json& tolerance) {
@@ -177,11 +201,20 @@ std::string preparing(const ordered_json& result) {
   const auto share =
       number(object(object(result, "breakdown"), "setup_share"), "time_min");
   if (!share || !(*share > 0)) return "";
-  return ", " + shown(share, 3) + " of them to prepare the machine";
+  return ", " + duration(share) + " of it to prepare the machine";
 }
 
 std::string value_text(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_structured()) {
+    std::vector<std::string> parts;
+    for (const auto& [key, member] : value.items()) {
+      const auto text =
+          member.is_structured() ? "(" + value_text(member) + ")" : value_text(member);
+      parts.push_back(value.is_object() ? key + ' ' + text : text);
+    }
+    return joined(parts);
+  }
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

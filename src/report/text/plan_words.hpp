@@ -16,11 +16,18 @@ std::vector<std::string> sentences_of(const nlohmann::ordered_json& members);
 /// The limits in conflict, each with its set if there are several.
 std::vector<std::string> conflict_sentences(const nlohmann::ordered_json& result);
 
-/// The relaxations that would make the part feasible, smallest first, in percent.
+/// The relaxations that would make the part feasible, smallest first, up to twice the
+/// limit also in percent.
 std::vector<std::string> opening_sentences(const nlohmann::ordered_json& result);
 
 /// Whether the members belong to more than one set.
 bool several_sets(const nlohmann::ordered_json& members);
+
+/// "total-radial-runout" as a drawing's reader says it, "total radial run-out".
+std::string kind_words(std::string kind);
+
+/// "4711-02, revision C, for Gear works", what the result has of it.
+std::string title_block(const nlohmann::ordered_json& result);
 
 /// A number of mm, or a pair, in um.
 std::string micrometres(const nlohmann::ordered_json& tolerance, const char* key);
@@ -30,8 +37,11 @@ std::string verdict(const nlohmann::ordered_json& tolerance);
 /// The verdict of the published equations, if it differs.
 std::string other_verdict(const nlohmann::ordered_json& tolerance);
 
-/// A sentence with the probability, unless it rounds to certainty.
-std::string conformance(const nlohmann::ordered_json& tolerance);
+/// Whether the published equations judge any of the tolerances otherwise.
+bool published_differ(const nlohmann::ordered_json& tolerances);
+
+/// Percentage of the parts that keep a tolerance.
+std::string kept_by(const nlohmann::ordered_json& tolerance);
 
 /// Whether fewer parts keep some tolerance than are wanted.
 bool keeps_too_few(const nlohmann::ordered_json& result);
@@ -55,10 +65,10 @@ struct SpendingRow {
 /// sum.  Empty where the result does not tell.
 std::vector<SpendingRow> spending(const nlohmann::ordered_json& result);
 
-/// ", 30.000 of them to prepare the machine", where that takes anything.
+/// ", 30 min of it to prepare the machine", where that takes anything.
 std::string preparing(const nlohmann::ordered_json& result);
 
-/// A string without quotation marks, anything else as JSON.
+/// A value without the marks of JSON: "drift_um 1, tools (A, B)".
 std::string value_text(const nlohmann::ordered_json& value);
 
 }  // namespace turnwright::report

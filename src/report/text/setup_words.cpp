@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "certificate_words.hpp"
 #include "json_fields.hpp"
 
 namespace turnwright::report {
@@ -56,6 +57,11 @@ std::string holding(const ordered_json& setup) {
   return text;
 }
 
+std::string setup_number(const ordered_json& member) {
+  const auto setup = number(member, "setup");
+  return setup ? shown(*setup + 1, 0) : "-";
+}
+
 std::vector<Passes> runs(const ordered_json& passes) {
   std::vector<Passes> all;
   for (const auto& pass : passes) {
@@ -102,16 +108,18 @@ std::string note(const ordered_json& operation) {
     if (flag(c, "binding")) binding.push_back(word(c, "name"));
   const bool mills = operation.contains("milling");
   const auto direction = mills ? "" : word(operation, "direction");
+  if (word(operation, "kind") == "fixed") {
+    const auto bound = binding.empty() ? "" : "; bound by " + joined(binding);
+    return joined(on) + "; catalogue data" + bound;
+  }
   std::string text = word(operation, "kind") + " " + joined(on);
-  if (direction == "to-chuck") text += ", towards the chuck";
   if (direction == "from-chuck") text += ", away from the chuck";
   text += binding.empty() ? "; no limit binds" : "; bound by " + joined(binding);
   if (mills) text += milled(operation.at("milling"));
-  const auto certificate = operation.find("certificate");
-  const auto reason = certificate == operation.end() ? "" : word(*certificate, "reason");
-  if (!reason.empty())
-    text += (word(*certificate, "kind") == "local" ? "; not proven: " : "; ") + reason;
-  return text;
+  const auto& certificate = object(operation, "certificate");
+  if (word(certificate, "kind") == "local") return text + "; " + perhaps(certificate);
+  const auto reason = word(certificate, "reason");
+  return reason.empty() ? text : text + "; " + reason;
 }
 
 }  // namespace turnwright::report

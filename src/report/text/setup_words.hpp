@@ -11,6 +11,9 @@ namespace turnwright::report {
 /// "left end in the chuck, 25 mm gripped, jaws with 60 kN"
 std::string holding(const nlohmann::ordered_json& setup);
 
+/// The setup that a member belongs to, counted from 1; documents count from 0.
+std::string setup_number(const nlohmann::ordered_json& member);
+
 /// Successive passes with the same depth, feed and speed.
 struct Passes {
   const nlohmann::ordered_json* first = nullptr;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "amounts.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
@@ -24,8 +25,8 @@ void add_rows(const ordered_json& operation, std::vector<Row>& rows) {
     if (i == 0) {
       cells[0] = word(operation, "id");
       cells[1] = word(operation, "tool");
-      cells[7] = shown(number(operation, "time_min"), 3);
-      cells[8] = shown(number(operation, "cost"), 3);
+      cells[7] = seconds(number(operation, "time_min"));
+      cells[8] = money(number(operation, "cost"));
       cells[9] = certificate == operation.end() ? "-" : gap(*certificate);
     }
     if (i < all.size()) {
@@ -52,7 +53,7 @@ std::string conditions(const ordered_json& operations) {
                 {"f mm/r"},
                 {"vc m/min"},
                 {"n 1/min"},
-                {"min"},
+                {"s"},
                 {"cost"},
                 {"gap"}},
                rows);
@@ -65,7 +66,7 @@ std::string setups(const ordered_json& plan_result) {
   const bool feasible = word(plan_result, "status") != "infeasible";
   std::size_t index = 0;
   for (const auto& setup : list(plan_result, "setups")) {
-    out += '\n' + paragraph(fmt::format("SETUP {}  ", index++), "hold " + holding(setup));
+    out += '\n' + paragraph(fmt::format("SETUP {}  ", ++index), "hold " + holding(setup));
     for (const auto& rejected : list(setup, "rejected"))
       out +=
           paragraph("  not ", word(rejected, "clamping") + ": " + word(rejected, "why"));

@@ -6,11 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "amounts.hpp"
 #include "certificate_words.hpp"
 #include "json_fields.hpp"
 #include "layout.hpp"
 #include "plan_words.hpp"
 #include "provenance.hpp"
+#include "setup_words.hpp"
 #include "setups.hpp"
 #include "stack.hpp"
 #include "turnwright/base/units.hpp"
@@ -23,17 +25,19 @@ using nlohmann::ordered_json;
 std::string header(const ordered_json& result) {
   const auto name = word(result, "name");
   std::string out = name.empty() ? "PROCESS PLAN\n" : paragraph("PROCESS PLAN  ", name);
+  if (const auto title = title_block(result); !title.empty())
+    out += paragraph("drawing ", title);
   if (word(result, "status") == "infeasible") {
     out += paragraph("status  ", "infeasible");
     if (const auto c = result.find("certificate"); c != result.end())
       out += paragraph("proof   ", proof(*c));
   } else {
     out += paragraph("status  ", kept(result));
-    out += paragraph("cost    ", shown(number(result, "cost_per_part"), 4) + " per part");
-    out += paragraph("time    ", shown(number(result, "time_per_part_min"), 3) +
-                                     " min per part" + preparing(result));
+    out += paragraph("cost    ", money(number(result, "cost_per_part")) + " per part");
+    out += paragraph("time    ", duration(number(result, "time_per_part_min")) +
+                                     " per part" + preparing(result));
     if (const auto profit = number(result, "profit_per_min"))
-      out += paragraph("profit  ", shown(profit, 4) + " per minute");
+      out += paragraph("profit  ", money(profit) + " per minute");
     if (const auto words = setting_up(result); !words.empty())
       out += paragraph("set up  ", words);
     const auto certificate = result.find("certificate");
@@ -48,9 +52,9 @@ std::string breakdown(const ordered_json& result) {
   if (rows.empty()) return "";
   std::vector<Row> lines;
   for (const auto& r : rows)
-    lines.push_back({{r.name, shown(r.time_min, 3), shown(r.cost, 4)}, ""});
+    lines.push_back({{r.name, seconds(r.time_min), money(r.cost)}, ""});
   return "\nTIME AND COST  per part\n" +
-         table({{"", Align::left}, {"min"}, {"cost"}}, lines);
+         table({{"", Align::left}, {"s"}, {"cost"}}, lines);
 }
 
 // One sentence of each member, in the order of importance.
@@ -95,29 +99,27 @@ std::string remedies(const ordered_json& result) {
 std::string tolerances(const ordered_json& result) {
   std::vector<Row> rows;
   for (const auto& t : list(result, "tolerances")) {
-    auto kind = word(t, "kind");
-    std::replace(kind.begin(), kind.end(), '-', ' ');  // so that it wraps
-    rows.push_back({{word(t, "id"), kind, word(t, "of"), micrometres(t, "predicted_mm"),
-                     micrometres(t, "allowed_mm"), micrometres(t, "margin_mm"),
-                     verdict(t), other_verdict(t)},
-                    conformance(t)});
+    const auto published = other_verdict(t);
+    rows.push_back(
+        {{word(t, "id"), kind_words(word(t, "kind")), word(t, "of"),
+          micrometres(t, "predicted_mm"), micrometres(t, "allowed_mm"),
+          micrometres(t, "margin_mm"), kept_by(t), verdict(t)},
+         published.empty() ? "" : "by the published acceptance equations: " + published});
   }
   if (rows.empty()) return "";
   return "\nTOLERANCES\n" +
          paragraph(
              "  ",
-             "predicted, allowed and margin in um; offset: met with the tool's offset "
-             "or corrected path; paper: the published acceptance equations, where they "
-             "judge "
-             "otherwise") +
+             "predicted, allowed and margin in \u00b5m; kept: by so many of the parts; "
+             "offset: met with the tool's offset or corrected path") +
          table({{"id", Align::left},
                 {"kind", Align::left},
                 {"of", Align::left},
                 {"predicted"},
                 {"allowed"},
                 {"margin"},
-                {"verdict", Align::left},
-                {"paper", Align::left}},
+                {"kept %"},
+                {"verdict", Align::left}},
                rows);
 }
 
@@ -148,9 +150,10 @@ std::string budget(const ordered_json& result) {
     rows.push_back(std::move(row));
   }
   return "\nBUDGET\n" +
-         paragraph("  ",
-                   "what takes each tolerance's width, um; independent sources add by "
-                   "squares and are reduced in proportion") +
+         paragraph(
+             "  ",
+             "what takes each tolerance's width, \u00b5m; independent sources add by "
+             "squares and are reduced in proportion") +
          table(columns, rows);
 }
 
@@ -160,7 +163,7 @@ std::string across(const ordered_json& rows) {
   std::string out;
   for (std::size_t i = 0; i < rows.size(); i += kAbreast) {
     std::vector<Column> columns{{"z mm", Align::left}};
-    Row correction{{"dr um"}, ""};
+    Row correction{{"dr \u00b5m"}, ""};
     for (std::size_t k = i; k < std::min(i + kAbreast, rows.size()); ++k) {
       const auto& row = rows[k];
       if (!row.is_array() || row.size() != 2 || !row[0].is_number() ||
@@ -178,13 +181,13 @@ std::string offsets(const ordered_json& result) {
   std::vector<Row> rows;
   for (const auto& o : list(result, "offsets")) {
     const double um = units::um_from_mm(number(o, "offset_mm").value_or(0));
-    rows.push_back({{word(o, "on"), shown(number(o, "setup"), 0), shown(um, 1)}, ""});
+    rows.push_back({{word(o, "on"), setup_number(o), shown(um, 1)}, ""});
   }
   if (rows.empty()) return "";
   return "\nOFFSETS\n" +
          paragraph(
              "  ",
-             "um on the radius, or along the axis, by which every pass over the "
+             "\u00b5m on the radius, or along the axis, by which every pass over the "
              "surface is moved to the middle of its size; the first part shows what "
              "is still missing") +
          table({{"on", Align::left}, {"setup"}, {"offset"}}, rows);
@@ -193,9 +196,9 @@ std::string offsets(const ordered_json& result) {
 std::string compensation(const ordered_json& result) {
   std::string out;
   for (const auto& c : list(result, "compensation"))
-    out += paragraph("  ", fmt::format("{} in setup {}", word(c, "on"),
-                                       shown(number(c, "setup"), 0))) +
-           across(list(c, "table_mm"));
+    out +=
+        paragraph("  ", fmt::format("{} in setup {}", word(c, "on"), setup_number(c))) +
+        across(list(c, "table_mm"));
   if (out.empty()) return "";
   return "\nCOMPENSATION  add dr to the radius of the tool path at z\n" + out;
 }

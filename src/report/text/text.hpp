@@ -10,8 +10,8 @@ namespace turnwright::report {
 /// and conditions, tolerances, corrections, prices and assumptions, or the limits in
 /// conflict with their relaxations.
 ///
-/// Lines have at most 100 characters.  Setups are counted from 0, as in the document and
-/// its sentences.  Numbers are rounded for reading; the document has all their digits.  A
+/// Lines have at most 100 characters.  Setups count from 1, in the document from 0.
+/// Numbers are rounded for reading; the document has all their digits.  A
 /// missing key is shown as "-", or its line is omitted; a part's `name` and a setup's
 /// `grip_mm` are shown if the document has them.
 std::string text(const nlohmann::ordered_json& plan_result);

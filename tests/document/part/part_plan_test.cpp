@@ -55,6 +55,27 @@ const Assumption* assumed(const LoadedPart& loaded, const std::string& pointer) 
   return nullptr;
 }
 
+TEST(PartPlan, TheTitleBlockIsReadAndNotNeeded) {
+  const auto title = load(full()).plan.drawing.title;
+  EXPECT_EQ(title.drawing_number, "4711-02");
+  EXPECT_EQ(title.revision, "C");
+  EXPECT_EQ(title.customer, "Gear works");
+  const auto none = load(smallest()).plan.drawing.title;
+  EXPECT_EQ(none.drawing_number + none.revision + none.customer, "");
+  auto document = full();
+  document["customer"] = std::string(64, 'x');
+  EXPECT_EQ(refusal(document), "accepted");
+  document["customer"] = std::string(65, 'x');
+  document["revision"] = "";
+  document["drawing_number"] = 4711;
+  const auto said = refusal(document);
+  EXPECT_NE(said.find("/drawing_number: got 4711, expected a text of 1 to 64 bytes"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("/revision: got "), std::string::npos) << said;
+  EXPECT_NE(said.find("/customer: got "), std::string::npos) << said;
+}
+
 TEST(PartPlan, EveryFieldComesFromItsKey) {
   const auto loaded = load(full());
   const auto& plan = loaded.plan;

@@ -60,6 +60,18 @@ TEST(Drawing, PlacesEverySurface) {
   EXPECT_EQ(named(d.at("faces"), "right").at("z_mm"), 80.0);
 }
 
+TEST(Drawing, RepeatsTheTitleBlock) {
+  auto document = tube();
+  EXPECT_FALSE(drawn(document).contains("drawing_number"));
+  document["drawing_number"] = "4711-02";
+  document["revision"] = "C";
+  document["customer"] = "Works";
+  const auto d = drawn(document);
+  EXPECT_EQ(d.at("drawing_number"), "4711-02");
+  EXPECT_EQ(d.at("revision"), "C");
+  EXPECT_EQ(d.at("customer"), "Works");
+}
+
 TEST(Drawing, TellsLimitsAndWhoAskedForThem) {
   const auto d = drawn(tube());
   // ISO 286-1: IT7 of 30 to 50 mm is 25 um, h lies below the nominal size.

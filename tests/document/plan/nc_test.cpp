@@ -49,7 +49,8 @@ TEST(NcDoor, GivesAProgramForEverySetup) {
   ASSERT_EQ(result["programs"].size(), 2u);
   EXPECT_EQ(result["programs"][0]["name"], "setup-1.ngc");
   const std::string text = result["programs"][0]["text"];
-  for (const char* word : {"G96 D", "G95", "M8", "M30", "setup 1 of 2", "operation s0-finish-d2"})
+  for (const char* word :
+       {"G96 D", "G95", "M8", "M30", "setup 1 of 2", "operation s0-finish-d2"})
     EXPECT_NE(text.find(word), text.npos) << word;
   EXPECT_NE(result["tool_table"].get<std::string>().find("T1 P1"), std::string::npos);
 }
@@ -138,17 +139,19 @@ TEST(NcDoor, RefusesSettingsThatTheControlDoesNotKnow) {
       {{{"control", "siemens"}, {"work_offset", "G58"}},
        "/work_offset: got \"G58\", expected one of \"G54\", \"G55\", \"G56\", \"G57\""},
       {{{"program_number", 5}},
-       "/program_number: got 5, expected none: programs of LinuxCNC go by their file's name"},
+       "/program_number: got 5, expected none: programs of LinuxCNC go by their file's "
+       "name"},
       {{{"control", "fanuc"}, {"program_number", 10000}}, "/program_number: got 10000"},
-      {{{"coolant", "on"}}, "/coolant: got \"on\", expected \"off\" or a code like \"M8\""},
+      {{{"coolant", "on"}},
+       "/coolant: got \"on\", expected \"off\" or a code like \"M8\""},
       {{{"coolant", "M12345"}}, "/coolant: got \"M12345\""},
       {{{"spindle", "M5"}}, "/spindle: got \"M5\""},
       {{{"block_numbers", true}}, "/block_numbers: got true"},
       {{{"tools", {{{"id", "A"}, {"number", 1}}, {{"id", "A"}, {"number", 1}}}}},
        "/tools/1/id: got \"A\", expected one that no other tool has"},
       {{{"control", "haas"},
-        {"tools", {{{"id", "A"}, {"number", 1}, {"offset", 2}},
-                   {{"id", "B"}, {"number", 2}}}}},
+        {"tools",
+         {{{"id", "A"}, {"number", 1}, {"offset", 2}}, {{"id", "B"}, {"number", 2}}}}},
        "/tools/1/offset: got nothing, expected one that no other tool has"},
       {{{"tools", {{{"id", "A"}, {"number", 1}, {"offset", 2}}}}},
        "/tools/0/offset: got 2, expected none: the offset of LinuxCNC is that of the "

@@ -142,6 +142,22 @@ TEST(ProcessPlan, EveryFieldHasItsKeyInTheOrderOfTheInterface) {
       R"("assumed":[{"pointer":"/batch","value":1,"why":"default"}]})");
 }
 
+TEST(ProcessPlan, TheResultNamesItsPart) {
+  const SchemaCheck schema("plan.result.json");
+  PreparedDocument document;
+  document.part.drawing.name = "Shaft";
+  document.part.drawing.title = {"4711-02", "", "Works"};
+  document.assumed = kAssumed;
+  auto result = plan_result(every_field(), document);
+  EXPECT_EQ(schema.fault(result), "");
+  EXPECT_EQ(result["name"], "Shaft");
+  EXPECT_EQ(result["drawing_number"], "4711-02");
+  EXPECT_FALSE(result.contains("revision"));
+  EXPECT_EQ(result["customer"], "Works");
+  for (const char* key : {"name", "drawing_number", "customer"}) result.erase(key);
+  EXPECT_EQ(result, to_json(every_field(), kAssumed));
+}
+
 TEST(ProcessPlan, TheSchemaTakesWhatIsWritten) {
   const SchemaCheck schema("plan.result.json");
   EXPECT_EQ(schema.fault(to_json(every_field(), kAssumed)), "");

@@ -4,6 +4,8 @@
 
 #include <regex>
 
+#include "report/picture/svg.hpp"
+
 namespace turnwright::report {
 namespace {
 
@@ -56,7 +58,7 @@ bool holds(const std::string& page, const std::string& what) {
 TEST(Html, SaysTheNumbersOfTheDocument) {
   const auto page = html("Shaft", feasible(), {});
   for (const char* what :
-       {"<h1>Shaft</h1>", "12.3457", "8.250", "0.40 %", "s0-rough-d2", "1500-1750",
+       {"<h1>Shaft</h1>", "12.35", "8 min 15 s", "0.40 %", "s0-rough-d2", "1500-1750",
         "bound by power", "not chuck-tailstock: costs 3 against 2", "jaws with 60.0 kN",
         "raising power saves 0.02 per part", "0123456789abcdef", "/batch"})
     EXPECT_TRUE(holds(page, what)) << what;
@@ -81,6 +83,30 @@ TEST(Html, DrawsHowMuchOfATolerancesWidthIsUsed) {
   full["tolerances"][0]["margin_mm"] = -1e-15;
   full["tolerances"][0]["verdict"] = "met";
   EXPECT_FALSE(holds(html("Shaft", full, {}), "fill=\"#b00d26\""));
+}
+
+// A4 with margins of 12 mm shows a picture of 190 mm 186 mm wide; a point is 25.4/72 mm.
+TEST(Html, NoTypeIsBelowSevenPoints) {
+  constexpr double kPoint = 25.4 / 72, kShown = 186.0 / 190;
+  const auto page = html("Shaft", feasible(), {});
+  std::size_t sizes = 0;
+  const std::regex points("font(?:-size)?: ([0-9.]+)pt");
+  for (std::sregex_iterator i(page.begin(), page.end(), points), end; i != end; ++i) {
+    EXPECT_GE(std::stod((*i)[1]), 7) << (*i)[0];
+    ++sizes;
+  }
+  EXPECT_GT(sizes, 5u);
+  EXPECT_TRUE(holds(page, "small { font-size: inherit }"));
+  EXPECT_TRUE(holds(page, "figure img { width: 100%"));
+  const auto picture = Svg{}.page(190, 10, "");
+  const std::regex millimetres("font-size: ([0-9.]+)px");
+  sizes = 0;
+  for (std::sregex_iterator i(picture.begin(), picture.end(), millimetres), end; i != end;
+       ++i) {
+    EXPECT_GE(std::stod((*i)[1]) * kShown / kPoint, 7) << (*i)[0];
+    ++sizes;
+  }
+  EXPECT_EQ(sizes, 2u);
 }
 
 TEST(Html, EscapesWhateverTheRequestCallsThings) {
@@ -113,7 +139,7 @@ TEST(Html, CarriesItsPicturesInside) {
       "'&amp;'</text></svg>\n";
   const auto page =
       html("Shaft", feasible(),
-           {{"setup-0.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
+           {{"setup-1.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
   const std::regex image(
       "<img alt=\"[^\"]*\" src=\"data:image/svg\\+xml,([^\"<>#& ]*[^\"<>#]*)\">");
   int count = 0;

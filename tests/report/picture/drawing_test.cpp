@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "svg_check.hpp"
 #include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::report {
@@ -17,9 +18,10 @@ using planning::Clamping;
 using planning::PreparedPart;
 using planning::ProcessPlan;
 
-// A bush from tube: d1 and its end face are cut in setup 1; d2, the bore and the right
-// face in setup 0.  Stock 100 mm from -2, diameter 40: the height does not bind, so a mm
-// is (190 - 2 * 16) / 100 = 1.58 paper mm; z = -2 lies at x = 16.
+// A bush from tube: d2, the bore and the right face are cut in the first setup, d1 and its
+// end face in the second.  Stock 100 mm from -2, diameter 40: 48 mm high on paper, so a mm is 48 / 40 =
+// 1.2 paper mm; in the first setup z = -2 lies at x = (190 - 120) / 2 = 35, in the second,
+// which holds the right end, z = 98.
 PreparedPart bush() {
   planning::PlanRequest p;
   p.drawing.name = "Bush <A&B>";
@@ -44,7 +46,7 @@ PreparedPart bush() {
   return planning::prepare(std::move(p));
 }
 
-// The largest error, 0.010 mm, may take 6 paper mm: 6 / (1.58 * 0.010) = 380, so 200:1.
+// The largest error, 0.010 mm, may take 6 paper mm: 6 / (1.2 * 0.010) = 500, so 500:1.
 ProcessPlan planned() {
   ProcessPlan plan;
   plan.setups.resize(2);
@@ -57,8 +59,10 @@ ProcessPlan planned() {
   return plan;
 }
 
-constexpr double kScale = 1.58, kFactor = 200;
-double x_of(double z) { return 16 + kScale * (z + 2); }
+constexpr double kScale = 1.2, kFactor = 500;
+double x_of(double z, std::size_t setup = 0) {
+  return 35 + kScale * (setup == 0 ? z + 2 : 98 - z);
+}
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -86,39 +90,6 @@ double axis(const std::string& svg) {
   return std::stod(found[1]);
 }
 
-/// Whether tags nest, attributes are quoted and `<`, `&` appear in text as entities only.
-bool well_formed(const std::string& xml) {
-  const std::regex tag(
-      "^<(/?)([a-z]+)((?:\\s+[A-Za-z][A-Za-z0-9:-]*=\"[^\"<&]*\")*)(/?)>",
-      std::regex::optimize);
-  const std::regex entity("^&(amp|lt|gt|quot);");
-  std::vector<std::string> open;
-  bool root_closed = false;
-  for (std::size_t i = 0; i < xml.size();) {
-    const auto rest = xml.begin() + static_cast<long>(i);
-    std::smatch m;
-    if (xml[i] == '&') {
-      if (!std::regex_search(rest, xml.end(), m, entity)) return false;
-      i += static_cast<std::size_t>(m.length());
-    } else if (xml[i] == '<') {
-      if (root_closed || !std::regex_search(rest, xml.end(), m, tag)) return false;
-      const std::string name = m[2];
-      if (m[1] == "/") {
-        if (open.empty() || open.back() != name) return false;
-        open.pop_back();
-        root_closed = open.empty();
-      } else if (m[4] != "/") {
-        open.push_back(name);
-      }
-      i += static_cast<std::size_t>(m.length());
-    } else {
-      if (xml[i] == '>') return false;
-      ++i;
-    }
-  }
-  return root_closed;
-}
-
 TEST(WellFormed, SeesWhatIsNot) {
   EXPECT_TRUE(well_formed("<a b=\"1\"><c/>x &lt; y</a>\n"));
   for (const std::string wrong :
@@ -131,7 +102,8 @@ TEST(SetupDrawings, EachSetupHasOneWellFormedPicture) {
   ASSERT_EQ(all.size(), 2u);
   for (std::size_t s = 0; s < 2; ++s) {
     EXPECT_TRUE(well_formed(all[s])) << all[s];
-    EXPECT_NE(all[s].find("Setup " + std::to_string(s) + ": chuck, "), std::string::npos);
+    EXPECT_NE(all[s].find("Setup " + std::to_string(s + 1) + ": chuck, "),
+              std::string::npos);
     EXPECT_EQ(all[s].find("nan"), std::string::npos);
   }
   EXPECT_NE(all[0].find("left end held, grip 20 mm"), std::string::npos);
@@ -155,7 +127,7 @@ TEST(SetupDrawings, SizesAreThoseOfWhatIsCut) {
   EXPECT_NE(all[0].find(">d&lt;1&gt; uncut<"), std::string::npos);
   EXPECT_EQ(all[0].find("\u00d836"), std::string::npos);
   EXPECT_EQ(all[1].find("uncut"), std::string::npos);
-  EXPECT_NE(all[1].find(">d2  \u00d830 k6<"), std::string::npos);  // of setup 0
+  EXPECT_NE(all[1].find(">d2  \u00d830 k6<"), std::string::npos);  // of the first
 }
 
 TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
@@ -174,7 +146,7 @@ TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
   for (std::size_t side = 0; side < 2; ++side) {
     ASSERT_EQ(jaws[side].size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_NEAR(jaws[side][i].first, x_of(expected[i].first), 1e-3);
+      EXPECT_NEAR(jaws[side][i].first, x_of(expected[i].first, 1), 1e-3);
       EXPECT_NEAR((axis(svg) - jaws[side][i].second) * (side == 0 ? 1 : -1),
                   kScale * expected[i].second, 2e-3);
     }
@@ -183,14 +155,15 @@ TEST(SetupDrawings, JawsAreBoredToWhatTheyHold) {
 
 TEST(SetupDrawings, JawsHoldTheGrip) {
   const auto all = setup_drawings(bush(), planned());
-  // Setup 0 grips the stock, -2 .. 18, radius 20; setup 1 the part, 56 .. 96, radius 15.
-  const double from[] = {-2, 56}, to[] = {18, 96}, r[] = {20, 15};
+  // The first grips the stock, -2 .. 18, radius 20; the second the part, 56 .. 96, radius
+  // 15, from the chuck outwards 96 .. 56.
+  const double from[] = {-2, 96}, to[] = {18, 56}, r[] = {20, 15};
   for (std::size_t s = 0; s < 2; ++s) {
     const auto jaws = shapes(all[s], "jaw");
     ASSERT_EQ(jaws.size(), 2u);
     const auto [left, right] = std::ranges::minmax(jaws[0]);
-    EXPECT_NEAR(left.first, x_of(from[s]), 1e-3);
-    EXPECT_NEAR(right.first, x_of(to[s]), 1e-3);
+    EXPECT_NEAR(left.first, x_of(from[s], s), 1e-3);
+    EXPECT_NEAR(right.first, x_of(to[s], s), 1e-3);
     EXPECT_NEAR(axis(all[s]) - jaws[0][0].second, kScale * r[s], 2e-3);
     EXPECT_NEAR(jaws[1][0].second - axis(all[s]), kScale * r[s], 2e-3);
   }
@@ -247,7 +220,7 @@ TEST(SetupDrawings, ErrorsStandOffTheSurfaceByTheFactor) {
   EXPECT_EQ(shapes(all[1], "made").size(), 1u);  // the factor is the plan's
   EXPECT_NEAR(axis(all[1]) - shapes(all[1], "made")[0][0].second,
               kScale * (18 + kFactor * 0.001), 2e-3);
-  EXPECT_NE(all[0].find(" 200:1 "), std::string::npos);
+  EXPECT_NE(all[0].find(" 500:1 "), std::string::npos);
 }
 
 TEST(SetupDrawings, CorrectedPathsStandOffByTheSameFactor) {
@@ -260,7 +233,7 @@ TEST(SetupDrawings, CorrectedPathsStandOffByTheSameFactor) {
   EXPECT_NE(all[0].find("blue: the tool path"), std::string::npos);
   EXPECT_TRUE(shapes(all[1], "path").empty());
   EXPECT_EQ(all[1].find("blue: the tool path"), std::string::npos);
-  // 0.030 mm may take 6 paper mm: 6 / (1.58 * 0.030) = 127, so 100:1
+  // 0.030 mm may take 6 paper mm: 6 / (1.2 * 0.030) = 167, so 100:1
   plan.compensation[0].table_mm[0].second = -0.030;
   EXPECT_NE(setup_drawings(bush(), plan)[0].find(" 100:1 "), std::string::npos);
   plan.compensation[0].table_mm[0].second = std::nan("");
@@ -268,55 +241,6 @@ TEST(SetupDrawings, CorrectedPathsStandOffByTheSameFactor) {
   plan = planned();
   plan.compensation[0].on = "right";  // a face, whose errors are not drawn
   EXPECT_EQ(setup_drawings(bush(), plan)[0].find("blue"), std::string::npos);
-}
-
-/// A rectangle that a text takes, in a wide face (0.6 of the type a character).
-struct Box {
-  double x0, x1, y0, y1;
-  std::string text;
-};
-
-std::vector<Box> texts(const std::string& svg) {
-  std::vector<Box> all;
-  const std::regex text(
-      "<text(?: class=\"(\\w+)\")? (?:x=\"(\\S+)\" y=\"(\\S+)\"|transform=\"translate\\("
-      "(\\S+) (\\S+)\\) rotate\\(-90\\)\") text-anchor=\"(\\w+)\">([^<]*)<");
-  for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
-    const auto& m = *it;
-    const double type = m[1] == "title" ? 4.2 : 2.8;
-    const std::string shown = std::regex_replace(m[7].str(), std::regex("&\\w+;"), "&");
-    const auto characters = std::ranges::count_if(
-        shown, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-    const double length = 0.6 * type * static_cast<double>(characters);
-    const double from = m[6] == "start" ? 0 : m[6] == "middle" ? -length / 2 : -length;
-    if (m[2].matched) {
-      const double x = std::stod(m[2]), y = std::stod(m[3]);
-      all.push_back({x + from, x + from + length, y - 0.75 * type, y, shown});
-    } else {
-      const double x = std::stod(m[4]), y = std::stod(m[5]);
-      all.push_back({x - 0.75 * type, x, y - from - length, y - from, shown});
-    }
-  }
-  return all;
-}
-
-/// Two texts on each other, or one beyond the page; "" if there are none.
-std::string crowded(const std::string& svg) {
-  std::smatch page;
-  if (!std::regex_search(svg, page, std::regex("viewBox=\"0 0 (\\S+) (\\S+)\"")))
-    return "no page";
-  const double width = std::stod(page[1]), height = std::stod(page[2]);
-  const auto all = texts(svg);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Box& a = all[i];
-    if (a.x0 < 0 || a.y0 < 0 || a.x1 > width || a.y1 > height) return a.text + " is out";
-    for (std::size_t k = 0; k < i; ++k) {
-      const Box& b = all[k];
-      if (a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1)
-        return a.text + " on " + b.text;
-    }
-  }
-  return all.size() < 5 ? "no texts" : "";
 }
 
 TEST(SetupDrawings, NoTextLiesOnAnother) {
@@ -351,6 +275,42 @@ TEST(SetupDrawings, NoTextLiesOnAnother) {
   }
 }
 
+std::vector<std::string> texts_of_class(const std::string& svg, const std::string& name) {
+  std::vector<std::string> all;
+  const std::regex text("<text class=\"" + name + "\"[^>]*>([^<]*)<");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it)
+    all.push_back((*it)[1]);
+  return all;
+}
+
+// The first setup's finished right face is z = 96, the second's finished left face z = 0.
+TEST(SetupDrawings, ZeroIsInTheFinishedFaceOfTheFreeEnd) {
+  const auto all = setup_drawings(bush(), planned());
+  const double free_z[] = {96, 0};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto arrows = shapes(all[s], "zero");
+    ASSERT_EQ(arrows.size(), 4u);  // two heads, two filled quarters of the disk
+    const auto [tip_z, tip_x] = std::pair{arrows[0][0], arrows[1][0]};
+    EXPECT_NEAR(tip_z.first, x_of(free_z[s], s) + 12, 1e-3);  // Z to the right
+    EXPECT_NEAR(tip_z.second, axis(all[s]), 1e-3);
+    EXPECT_NEAR(tip_x.first, x_of(free_z[s], s), 1e-3);  // X up
+    EXPECT_NEAR(tip_x.second, axis(all[s]) - 12, 1e-3);
+    EXPECT_EQ(texts_of_class(all[s], "zero"), (std::vector<std::string>{"Z", "X"}));
+  }
+}
+
+// Ends of elements in the program's Z: 96 mm from face to face, d1 30 mm long; the bore 20
+// mm deep from the right.  The tube sticks out 2 mm at the left until it is faced.
+TEST(SetupDrawings, TheRulerHasTheProgramsZ) {
+  const auto all = setup_drawings(bush(), planned());
+  for (const char* z : {">-98<", ">-96<", ">-66<", ">-20<", ">0<"})
+    EXPECT_NE(all[0].find(z), std::string::npos) << z;
+  for (const char* z : {">-96<", ">-76<", ">-30<", ">0<"})
+    EXPECT_NE(all[1].find(z), std::string::npos) << z;
+  EXPECT_EQ(all[1].find(">-98<"), std::string::npos);
+  EXPECT_EQ(all[1].find(">30<"), std::string::npos);  // the drawing's own z
+}
+
 TEST(SetupDrawings, BarsAreAsLongAsTheySay) {
   const auto svg = setup_drawings(bush(), planned())[0];
   const std::regex bar(
@@ -373,7 +333,7 @@ TEST(SetupDrawings, BoresShowOnceTheyAreCut) {
   const auto all = setup_drawings(planning::prepare(part), planned());
   EXPECT_EQ(all[0].find(">b1 "), std::string::npos);
   EXPECT_NE(all[1].find(">b1  \u00d816<"), std::string::npos);
-  // The section is open at the bore's radius only behind setup 1.
+  // The section is open at the bore's radius only after the second setup.
   const auto opening = [&](std::size_t s) {
     return (axis(all[s]) - shapes(all[s], "body")[0].back().second) / kScale;
   };
@@ -386,10 +346,10 @@ TEST(SetupDrawings, ThePartStandsAsTheSetupLeavesIt) {
   const double radii[2][2] = {{20, 15}, {18, 15}}, left[] = {-2, 0};
   for (std::size_t s = 0; s < 2; ++s) {
     const auto body = shapes(all[s], "body")[0];
-    EXPECT_NEAR(body[0].first, x_of(left[s]), 1e-3);
+    EXPECT_NEAR(body[0].first, x_of(left[s], s), 1e-3);
     const auto radius_at = [&](double z) {  // outer points come first
       for (const auto& [x, y] : body)
-        if (std::abs(x - x_of(z)) < 1e-3) return (axis(all[s]) - y) / kScale;
+        if (std::abs(x - x_of(z, s)) < 1e-3) return (axis(all[s]) - y) / kScale;
       return std::nan("");
     };
     EXPECT_NEAR(radius_at(30), radii[s][0], 1e-2);

@@ -1,0 +1,104 @@
+#include "sheet_html.hpp"
+
+#include <fmt/format.h>
+
+#include "report/picture/svg.hpp"
+#include "report/text/amounts.hpp"
+#include "report/text/json_fields.hpp"
+
+namespace turnwright::report {
+namespace {
+
+std::string entries(const Entries& all, const char* css_class) {
+  std::string out = fmt::format("<dl class=\"{}\">\n", css_class);
+  for (const auto& [name, value] : all)
+    out += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd></div>\n";
+  return out + "</dl>\n";
+}
+
+std::string numbered(int number) {
+  return number > 0 ? fmt::format("T{}", number) : "driven";
+}
+
+std::string tools(const SetupSheet& sheet) {
+  std::string rows;
+  for (const auto& t : sheet.tools) {
+    const auto lasts = parts_until(1, t.edge_share);
+    rows += "<tr>" + words_cell(numbered(t.number)) +
+            number_cell(t.offset > 0 ? std::to_string(t.offset) : "-") +
+            words_cell(t.holder.empty() ? t.id : t.holder) +
+            words_cell(t.insert.empty() ? "-" : t.insert) +
+            number_cell(t.re_mm > 0 ? plain(t.re_mm) : "-") +
+            number_cell(t.stick_out_mm ? plain(*t.stick_out_mm, 1) : "-") +
+            words_cell(joined(t.on)) +
+            number_cell(lasts ? fmt::format("{} parts", *lasts) : "-") + "</tr>\n";
+  }
+  return tag("h2", "Tools") +
+         table_head({{"tool", "", false},
+                     {"offset", ""},
+                     {"holder", "", false},
+                     {"insert", "", false},
+                     {"corner", "mm"},
+                     {"stick-out", "mm"},
+                     {"cuts", "", false},
+                     {"new edge every", ""}}) +
+         rows + kTableFoot;
+}
+
+std::string stops(const SetupSheet& sheet) {
+  if (sheet.stops.empty()) return "";
+  std::string rows;
+  for (const auto& s : sheet.stops)
+    rows += "<tr>" + words_cell(s.before) + words_cell(s.what) +
+            number_cell(s.minutes > 0 ? duration(s.minutes) : "-") + "</tr>\n";
+  return tag("h2", "Stops (M0)") +
+         table_head({{"before", "", false}, {"do", "", false}, {"takes", ""}}) + rows +
+         kTableFoot;
+}
+
+std::string checks(const SetupSheet& sheet) {
+  if (sheet.checks.empty()) return "";
+  std::string rows;
+  for (const auto& c : sheet.checks)
+    rows += "<tr>" + words_cell(c.what) + words_cell(c.of) + number_cell(c.limits) +
+            number_cell(c.predicted) + words_cell(c.gauge) + words_cell(c.when) +
+            "<td class=\"blank\"></td></tr>\n";
+  return tag("h2", "Inspection") +
+         table_head({{"characteristic", "", false},
+                     {"of", "", false},
+                     {"limits", "mm"},
+                     {"predicted", "off nominal"},
+                     {"gauge", "", false},
+                     {"when", "", false},
+                     {"found", "", false}}) +
+         rows + kTableFoot;
+}
+
+std::string signatures() {
+  std::string out = "<div class=\"sign\">\n";
+  for (const char* what : {"set up by, date", "first part released by, date",
+                           "programmed and approved by, date"})
+    out += tag("p", what);
+  return out + "</div>\n";
+}
+
+}  // namespace
+
+std::string sheet_html(const SetupSheet& sheet, const Figures& figures) {
+  const auto setup = fmt::format("Setup {} of {}", sheet.setup, sheet.setups);
+  std::string out = "<section class=\"setup-sheet\">\n";
+  out += "<h1>" + escaped(setup) + " <span>" + escaped(sheet.program) + "</span></h1>\n";
+  out += entries(sheet.title, "title");
+  out += figure_named(figures, fmt::format("setup-{}.svg", sheet.setup),
+                      setup + ": the part, its clamping and the program's zero");
+  out += entries(sheet.clamping, "facts") + entries(sheet.times, "facts");
+  out += tools(sheet) + stops(sheet) + checks(sheet) + signatures() + "</section>\n";
+  const auto path = figure_named(figures, fmt::format("path-{}.svg", sheet.setup),
+                                 setup + ": tool path and material taken off");
+  if (!path.empty())
+    out += "<section class=\"cut\">\n" + tag("h2", setup + ": the cut") + path +
+           "</section>\n";
+  return out;
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,23 @@
+#include "program_steps.hpp"
+
+#include <stdexcept>
+
+namespace turnwright::report {
+
+std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
+                                       const nc::SetupProgram& program) {
+  std::vector<PlannedStep> all;
+  auto next = setup.operations.begin();
+  for (const auto& step : program.steps) {
+    if (next == setup.operations.end())
+      throw std::domain_error("planned_steps: the program has more steps than the plan");
+    all.push_back({&step, &*next});
+    const bool mills = next->kind == planning::OperationKind::mill;
+    if (step.stop ? mills && step.stop_min == 0 : !mills) ++next;
+  }
+  if (next != setup.operations.end())
+    throw std::domain_error("planned_steps: the program does not make " + next->id);
+  return all;
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,203 @@
+#include "inspection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gauge.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "report/picture/svg.hpp"
+#include "report/text/plan_words.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using part::ToleranceRule;
+using planning::PreparedPart;
+using planning::ToleranceResult;
+
+constexpr int kMicrometre = 3;  // decimals of mm
+
+/// The setup after which a tolerance can be measured; none if no setup makes any of its
+/// surfaces.
+std::optional<std::size_t> measured_after(const PreparedPart& p,
+                                          const part::Tolerance& t) {
+  std::optional<std::size_t> last;
+  for (const auto& surface : {t.of, t.datum, t.between[0], t.between[1]})
+    if (!surface.empty()) last = std::max(last, planning::setup_of(p, surface));
+  return last;
+}
+
+/// The surface on which a tolerance is made last.
+std::string made_on(const PreparedPart& p, const part::Tolerance& t, std::size_t setup) {
+  for (const auto& surface : {t.of, t.between[0], t.between[1]})
+    if (!surface.empty() && planning::setup_of(p, surface) == setup) return surface;
+  return t.of.empty() ? t.between[0] : t.of;
+}
+
+const std::optional<std::string>& fit_of(const part::Drawing& d, const std::string& id) {
+  static const std::optional<std::string> kNone;
+  for (const auto& e : d.outer)
+    if (e.id == id) return e.fit;
+  for (const auto& e : d.inner)
+    if (e.id == id) return e.fit;
+  return kNone;
+}
+
+/// The nominal size that the limits of a `diameter` or `length` are about.
+double nominal_mm(const part::Drawing& d, const part::Tolerance& t) {
+  if (t.kind != part::ToleranceKind::length) {
+    const auto at = part::extent(d, t.of);
+    return at ? std::max(at->left_mm, at->right_mm) : 0;
+  }
+  return std::abs(planning::face_z_mm(d, t.between[0]) -
+                  planning::face_z_mm(d, t.between[1]));
+}
+
+Measured measured(const part::Drawing& d, const part::Tolerance& t) {
+  if (t.kind == part::ToleranceKind::length) return Measured::length;
+  const auto rule = part::facts(t.kind).rule;
+  if (rule == ToleranceRule::runout) return Measured::runout;
+  if (rule != ToleranceRule::size) return Measured::form;
+  const auto at = part::extent(d, t.of);
+  return at && at->inner ? Measured::inside : Measured::outside;
+}
+
+std::string micrometres(const std::vector<double>& mm, bool signed_) {
+  std::string text;
+  for (const double x : mm) {
+    const double um = units::um_from_mm(x);
+    text += text.empty() ? "" : " .. ";
+    text += signed_ ? fmt::format("{:+.1f}", um) : fmt::format("{:.1f}", um);
+  }
+  return text + " \u00b5m";
+}
+
+/// The tool that finishes a surface in this setup.
+const ToolRow* finishing_tool(const std::vector<ToolRow>& tools,
+                              const planning::SetupPlan& setup,
+                              const std::string& surface) {
+  const ToolRow* last = nullptr;
+  for (const auto& o : setup.operations) {
+    if (std::ranges::find(o.on, surface) == o.on.end()) continue;
+    for (const auto& row : tools)
+      if (std::ranges::find(row.operations, o.id) != row.operations.end()) last = &row;
+  }
+  return last;
+}
+
+/// "first, then 1 in 12"; without a number where the batch is over before.
+std::string every(const PreparedPart& p, std::optional<long> parts, bool new_edge) {
+  if (!parts || (p.batch && static_cast<double>(*parts) >= *p.batch)) return "first part";
+  if (*parts <= 1) return "every part";
+  return new_edge ? fmt::format("first of each edge ({} parts)", *parts)
+                  : fmt::format("first, then 1 in {}", *parts);
+}
+
+std::string when(const PreparedPart& p, const ToolRow* tool, bool size) {
+  if (!tool) return "first part";
+  const auto corrected = parts_until(p.shop.life_between_offsets, tool->edge_share);
+  return size && corrected ? every(p, std::max(1L, *corrected), false)
+                           : every(p, parts_until(1, tool->edge_share), true);
+}
+
+Check check(const PreparedPart& p, const planning::SetupPlan& setup,
+            const part::Tolerance& t, const ToleranceResult& result,
+            const std::string& surface, const std::vector<ToolRow>& tools) {
+  const auto& d = p.drawing;
+  const bool size = part::facts(t.kind).rule == ToleranceRule::size && t.limits;
+  Check c;
+  c.of = t.of.empty() ? t.between[0] + " to " + t.between[1] : t.of;
+  if (size) {
+    const double nominal = nominal_mm(d, t);
+    const auto& fit = fit_of(d, t.of);
+    c.what = (t.kind == part::ToleranceKind::length ? "length " : "\u00d8") +
+             plain(nominal) + (fit ? ' ' + *fit : "");
+    c.limits = fmt::format("{:.{}f} .. {:.{}f}", nominal + t.limits->lower_mm,
+                           kMicrometre, nominal + t.limits->upper_mm, kMicrometre);
+  } else {
+    c.what = kind_words(part::name(t.kind)) + (t.datum.empty() ? "" : " to " + t.datum);
+    c.limits = fmt::format("{:.{}f}", t.value_mm, kMicrometre);
+  }
+  c.predicted = micrometres(result.predicted_mm, size);
+  c.gauge = gauge(measured(d, t), t.value_mm);
+  const bool too_few = result.P_conform < p.conformance - 1e-6;
+  c.when = too_few ? "every part" : when(p, finishing_tool(tools, setup, surface), size);
+  return c;
+}
+
+/// The roughness that the last operation on a surface is to leave, from its constraints.
+std::optional<double> predicted_um(const planning::SetupPlan& setup,
+                                   const std::string& surface, const char* name) {
+  std::optional<double> last;
+  for (const auto& o : setup.operations)
+    if (std::ranges::find(o.on, surface) != o.on.end())
+      for (const auto& c : o.constraints)
+        if (c.name == name) last = c.value;
+  return last;
+}
+
+void add_roughness(std::vector<Check>& all, const PreparedPart& p,
+                   const planning::SetupPlan& setup, std::size_t index,
+                   const std::vector<ToolRow>& tools) {
+  const auto add = [&](const auto& surface) {
+    if (!surface.Ra_um || planning::setup_of(p, surface.id) != index) return;
+    const auto predicted = predicted_um(setup, surface.id, "roughness Ra");
+    const Check one{
+        "roughness Ra",
+        surface.id,
+        plain(*surface.Ra_um) + " \u00b5m",
+        predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
+        roughness_gauge(*surface.Ra_um),
+        when(p, finishing_tool(tools, setup, surface.id), false)};
+    const auto like = std::ranges::find_if(all, [&](const Check& c) {
+      return c.what == one.what && c.limits == one.limits &&
+             c.predicted == one.predicted && c.when == one.when;
+    });
+    if (like == all.end())
+      all.push_back(one);
+    else
+      like->of += ", " + one.of;
+  };
+  std::ranges::for_each(p.drawing.outer, add);
+  std::ranges::for_each(p.drawing.inner, add);
+  std::ranges::for_each(p.drawing.faces, add);
+}
+
+void add_threads(std::vector<Check>& all, const PreparedPart& p,
+                 const planning::SetupPlan& setup, std::size_t index,
+                 const std::vector<ToolRow>& tools) {
+  const auto add = [&](const auto& e, const char* gauge) {
+    if (!e.cut || e.cut->kind != part::CutKind::thread ||
+        planning::setup_of(p, e.id) != index)
+      return;
+    all.push_back(
+        {fmt::format("M{}\u00d7{}", plain(e.cut->drawn.left_mm), plain(e.cut->pitch_mm)),
+         e.id, "go, no-go", "not predicted", gauge,
+         when(p, finishing_tool(tools, setup, e.id), false)});
+  };
+  for (const auto& e : p.drawing.outer) add(e, "thread rings");
+  for (const auto& e : p.drawing.inner) add(e, "thread plug");
+}
+
+}  // namespace
+
+std::vector<Check> inspection(const PreparedPart& part, const planning::ProcessPlan& plan,
+                              std::size_t setup, const std::vector<ToolRow>& tools) {
+  std::vector<Check> all;
+  const auto& answer = plan.setups[setup];
+  for (const auto& t : part.drawing.tolerances) {
+    if (measured_after(part, t) != setup) continue;
+    const auto result = std::ranges::find(plan.tolerances, t.id, &ToleranceResult::id);
+    if (result != plan.tolerances.end())
+      all.push_back(check(part, answer, t, *result, made_on(part, t, setup), tools));
+  }
+  add_roughness(all, part, answer, setup, tools);
+  add_threads(all, part, answer, setup, tools);
+  return all;
+}
+
+}  // namespace turnwright::report

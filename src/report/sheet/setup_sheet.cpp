@@ -1,0 +1,181 @@
+#include "setup_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planning/clamping/jaws.hpp"
+#include "planning/clamping/made_surfaces.hpp"
+#include "planning/clamping/positions.hpp"
+#include "report/picture/program_steps.hpp"
+#include "report/picture/svg.hpp"
+#include "report/text/amounts.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using part::End;
+using planning::Clamping;
+using planning::PreparedPart;
+using planning::SetupPlan;
+
+const char* word(End end) { return end == End::left ? "left" : "right"; }
+End other(End end) { return end == End::left ? End::right : End::left; }
+
+void add(Entries& all, const char* name, const std::string& value) {
+  if (!value.empty()) all.emplace_back(name, value);
+}
+
+Entries title(const PreparedPart& p) {
+  const auto& d = p.drawing;
+  const auto& m = p.material;
+  Entries all;
+  add(all, "Part", d.name);
+  add(all, "Drawing", d.title.drawing_number);
+  add(all, "Revision", d.title.revision);
+  add(all, "Customer", d.title.customer);
+  add(all, "Material",
+      fmt::format("{}, {}, {:.0f} HB", m.name, m.condition, m.hardness_HB));
+  add(all, "Machine", p.machine.name);
+  return all;
+}
+
+/// Material [mm] in front of the finished face of the free end before a setup.
+double front_mm(const PreparedPart& p, std::size_t setup) {
+  const End free = other(p.setups[setup].hold);
+  return setup == 0 ? planning::face_stock_mm(p, free)
+                    : planning::face_stock_after_mm(p, setup - 1, free);
+}
+
+std::string stock(const PreparedPart& p, std::size_t setup) {
+  const auto& s = p.drawing.stock;
+  if (setup > 0)
+    return fmt::format(
+        "the part from setup {}{}", setup,
+        p.setups[setup].hold == p.setups[setup - 1].hold ? "" : ", turned round");
+  auto text = (s.kind == part::StockKind::tube ? "tube \u00d8" : "bar \u00d8") +
+              plain(s.outer_mm);
+  if (s.inner_mm > 0) text += "/\u00d8" + plain(s.inner_mm);
+  return text + " \u00d7 " + plain(s.length_mm) + " mm";
+}
+
+std::string stick_out(const PreparedPart& p, std::size_t setup, Clamping clamping) {
+  if (clamping == Clamping::between_centres) return "";
+  const double length =
+      std::abs(planning::free_z_mm(p, setup) - planning::root_z_mm(p, setup, clamping));
+  const double front = front_mm(p, setup);
+  auto text = fmt::format("{:.1f} mm from the jaws to Z0", length);
+  if (front > 0)
+    text += fmt::format(", {:.1f} mm with what is faced off", length + front);
+  return text;
+}
+
+std::string kN(double N) { return fmt::format("{:.1f} kN", N / 1000); }
+
+std::string jaws(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
+  if (!(s.grip_force_N > 0)) return "";
+  auto text = fmt::format("{}, hold the {} end at \u00d8{} over {} mm, {}",
+                          name(p.setups[setup].jaws), word(s.hold),
+                          plain(planning::grip_diameter_mm(p, setup, s.clamping), 2),
+                          plain(p.grips_mm[setup], 1), kN(s.grip_force_N));
+  if (s.finishing_grip_force_N < s.grip_force_N)
+    text += fmt::format("; eased to {} to finish, so that the part stays round",
+                        kN(s.finishing_grip_force_N));
+  return text;
+}
+
+std::string support(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
+  const auto sign = s.hold == End::left ? 1 : -1;
+  switch (s.clamping) {
+    case Clamping::chuck:
+      return "";
+    case Clamping::chuck_tailstock:
+      return "tailstock centre, " + kN(p.machine.tail_thrust_N);
+    case Clamping::between_centres:
+      return fmt::format("between centres, {} end at the headstock, tailstock with {}",
+                         word(s.hold), kN(p.machine.tail_thrust_N));
+    case Clamping::chuck_steady:
+      return fmt::format(
+          "steady rest at Z{:.1f}",
+          sign * (p.setups[setup].steady_z_mm - planning::free_z_mm(p, setup)));
+    case Clamping::tailstock_follow:
+      break;
+  }
+  return "tailstock centre, " + kN(p.machine.tail_thrust_N) + ", follow rest at the tool";
+}
+
+Entries clamping(const PreparedPart& p, const SetupPlan& s, std::size_t setup) {
+  Entries all;
+  add(all, "Stock", stock(p, setup));
+  add(all, "Stick-out", stick_out(p, setup, s.clamping));
+  add(all, "Jaws", jaws(p, s, setup));
+  add(all, "Support", support(p, s, setup));
+  return all;
+}
+
+std::string zero(const ShopPrograms& shop) {
+  return (shop.work_offset.empty() ? "" : shop.work_offset + ": ") +
+         "X on the spindle's axis, Z in the finished face of the free end";
+}
+
+Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
+              const SetupPlan& s, const nc::Minutes& m) {
+  Entries all;
+  add(all, "Program",
+      fmt::format("{}, of it {} in the cut", duration(m.total()), duration(m.cutting)));
+  add(all, "Loading", duration(s.breakdown.loading.time_min));
+  if (p.batch)
+    add(all, "Batch",
+        fmt::format("{:.0f} parts, {} to prepare the machine", *p.batch,
+                    duration(p.machine.setup_min)));
+  add(all, "Per part, all setups", duration(plan.time_per_part_min));
+  return all;
+}
+
+/// What a stop of the program asks for, without the word "stop".
+std::string asked(const nc::Step& stop) {
+  std::string text;
+  for (const auto& c : stop.comments) text += (text.empty() ? "" : "; ") + c;
+  constexpr std::string_view kStop = "stop: ";
+  return text.starts_with(kStop) ? text.substr(kStop.size()) : text;
+}
+
+std::vector<StopRow> stops(const SetupPlan& s, const nc::SetupProgram& program) {
+  std::vector<StopRow> all;
+  for (const auto& [step, operation] : planned_steps(s, program))
+    if (step->stop) all.push_back({operation->id, asked(*step), step->stop_min});
+  return all;
+}
+
+}  // namespace
+
+std::vector<SetupSheet> setup_sheets(const PreparedPart& part,
+                                     const planning::ProcessPlan& plan,
+                                     const nc::Programs& programs,
+                                     const ShopPrograms& shop) {
+  if (shop.files.size() != programs.setups.size())
+    throw std::domain_error("setup_sheets: every program has a file");
+  std::vector<SetupSheet> all;
+  for (const auto& program : programs.setups) {
+    const std::size_t i = program.setup;
+    const auto& s = plan.setups.at(i);
+    SetupSheet sheet;
+    sheet.setup = i + 1;
+    sheet.setups = plan.setups.size();
+    sheet.program = shop.files[all.size()];
+    sheet.title = title(part);
+    sheet.clamping = clamping(part, s, i);
+    sheet.clamping.emplace_back("Zero", zero(shop));
+    sheet.times = times(part, plan, s, program.minutes);
+    sheet.tools = tool_rows(part, s, program);
+    sheet.stops = stops(s, program);
+    sheet.checks = inspection(part, plan, i, sheet.tools);
+    all.push_back(std::move(sheet));
+  }
+  return all;
+}
+
+}  // namespace turnwright::report

@@ -1,0 +1,74 @@
+#include "tool_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "report/picture/program_steps.hpp"
+
+namespace turnwright::report {
+namespace {
+
+using planning::OperationKind;
+using planning::OperationPlan;
+
+const catalogue::Tool* turning_tool(const planning::PreparedPart& part,
+                                    const std::string& id) {
+  const auto found = std::ranges::find(part.tools, id, &catalogue::Tool::id);
+  return found == part.tools.end() ? nullptr : &*found;
+}
+
+ToolRow row_of(const planning::PreparedPart& part, const nc::TableTool& tool) {
+  ToolRow row{tool.number, tool.offset, tool.id, {}, {}, tool.re_mm};
+  const auto* turning = turning_tool(part, tool.id);
+  if (!turning) return row;
+  row.insert = turning->insert;
+  if (turning->holder) row.holder = turning->holder->designation;
+  if (turning->bar) {
+    double length = 0;
+    for (const auto& segment : turning->bar->segments) length += segment.length_mm;
+    row.stick_out_mm = length;
+  }
+  return row;
+}
+
+void add(ToolRow& row, const OperationPlan& o) {
+  row.operations.push_back(o.id);
+  for (const auto& id : o.on)
+    if (std::ranges::find(row.on, id) == row.on.end()) row.on.push_back(id);
+  for (const auto& pass : o.passes)
+    if (pass.T_min > 0) row.edge_share += pass.time_min / pass.T_min;
+}
+
+}  // namespace
+
+std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
+                               const planning::SetupPlan& setup,
+                               const nc::SetupProgram& program) {
+  std::vector<ToolRow> rows, driven;
+  for (const auto& tool : program.tools) rows.push_back(row_of(part, tool));
+  for (const auto& [step, operation] : planned_steps(setup, program)) {
+    if (!step->stop) {
+      const auto row = std::ranges::find(rows, step->tool, &ToolRow::number);
+      if (row == rows.end())
+        throw std::domain_error("tool_rows: the program does not list the tool of " +
+                                operation->id);
+      add(*row, *operation);
+    } else if (operation->kind == OperationKind::mill && step->stop_min == 0) {
+      auto row = std::ranges::find(driven, operation->tool, &ToolRow::id);
+      if (row == driven.end())
+        row = driven.insert(row, ToolRow{0, 0, operation->tool, {}, {}});
+      add(*row, *operation);
+    }
+  }
+  std::ranges::sort(rows, {}, &ToolRow::number);
+  rows.insert(rows.end(), driven.begin(), driven.end());
+  return rows;
+}
+
+std::optional<long> parts_until(double share, double edge_share) {
+  if (!(edge_share > 0) || !(share > 0)) return std::nullopt;
+  return static_cast<long>(std::floor(share / edge_share * (1 + 1e-12)));
+}
+
+}  // namespace turnwright::report
