@@ -88,6 +88,7 @@ class SetupSearch {
   /// tools tried cannot make otherwise.
   SetupFound best(Offset offset) {
     SetupFound best{clamping_, {}, 0, kInfinity};
+    if (!fixed_.conflicts.empty()) return best;  // a place cannot be milled, or drilled
     for (const auto& c : choices()) {
       if (c.bound >= best.objective) break;
       SetupFound s{clamping_, {}, 0, c.bound};

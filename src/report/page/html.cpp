@@ -55,8 +55,9 @@ std::string header(std::string_view name, const ordered_json& result) {
 std::string breakdown(const ordered_json& result) {
   const auto rows = spending(result);
   if (rows.empty()) return "";
-  std::string out = tag("h2", "Time and cost") +
-                    table_head({{"", "", false}, {"time", "s"}, {"cost", "per part"}});
+  std::string out =
+      tag("h2", "Time and cost") +
+      table_head({{"spent on", "", false}, {"time", "s"}, {"cost", "per part"}});
   for (const auto& r : rows)
     out += "<tr>" + words_cell(r.name) + number_cell(seconds(r.time_min)) +
            number_cell(money(r.cost)) + "</tr>\n";
