@@ -26,6 +26,7 @@ target_link_libraries(part_reader PRIVATE tw_dev
   $<TARGET_FILE:turnwright_document> turnwright::tolerance turnwright::deflection
   turnwright::volumetric turnwright::catalogue nlohmann_json::nlohmann_json fmt::fmt)
 target_include_directories(part_reader PRIVATE src include)
+set_target_properties(part_reader PROPERTIES UNITY_BUILD OFF)
 add_dependencies(part_reader turnwright_document)
 add_test(NAME architecture.part_reader COMMAND part_reader ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)

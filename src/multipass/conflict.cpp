@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "relaxation.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::multipass {
 namespace {
@@ -13,7 +13,6 @@ using optimise::Box;
 using optimise::Posynomial;
 using optimise::Relaxed;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostRelief = 50, kReliefGap = 1e-6;
 constexpr int kMostPasses = 200;  // tried where n_max is left out
 constexpr double kBlame = 1e-6;   // multipliers that carry a proof

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "conflict.hpp"
 #include "local_problem.hpp"
 #include "relaxation.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::multipass {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 using optimise::Box;
 using optimise::Relaxed;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSearchGap = 2e-7;  // in ln UC, well inside kGap
 constexpr double kFineGap = 1e-12;
 constexpr long kMostNodes = 20000;

@@ -63,9 +63,9 @@ Place place_of(Site& site, const std::string& id) {
 bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
   if (!(site.front > 0 && z > 0)) return false;
   site.cannot.push_back(
-      fmt::format("setup {}, {}: the end that {} begins at is not faced, {:.3g} mm stand "
+      fmt::format("{}, {}: the end that {} begins at is not faced, {:.3g} mm stand "
                   "before it",
-                  site.setup, o.id, s.id, site.front));
+                  planning::setup_label(site.setup), o.id, s.id, site.front));
   return true;
 }
 
@@ -108,10 +108,10 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   const double run_in = std::min(kRunIn * P, room);
   if (!(run_in >= P)) {
     site.cannot.push_back(
-        fmt::format("setup {}, {}: thread {} begins behind a larger diameter with less "
+        fmt::format("{}, {}: thread {} begins behind a larger diameter with less "
                     "than one pitch "
                     "of room for the tool to come in",
-                    site.setup, o.id, s.id));
+                    planning::setup_label(site.setup), o.id, s.id));
     return;
   }
   if (unfaced(site, o, s, s.z0 + run_in)) return;
@@ -162,10 +162,11 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const auto& cut = *cut_of(site, s);
   const auto drawn = drawn_arc(site, s);
   if (!planning::cleared(site.part, site.setup, s.index)) {
-    site.cannot.push_back(fmt::format(
-        "setup {}, {}: arc {} falls towards the chuck by more than the {:.4g} "
-        "deg that profiling tools are taken to clear",
-        site.setup, o.id, s.id, units::deg_from_rad(part::kProfilingClears_rad)));
+    site.cannot.push_back(
+        fmt::format("{}, {}: arc {} falls towards the chuck by more than the {:.4g} "
+                    "deg that profiling tools are taken to clear",
+                    planning::setup_label(site.setup), o.id, s.id,
+                    units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
   const Corner corner{tool.re_mm, part::kProfilingClears_rad};
@@ -184,16 +185,16 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     const auto way = way_along(raised, before, behind, corner);
     if (!way) {
       site.cannot.push_back(fmt::format(
-          "setup {}, {}: arc {} of {:g} mm between what is beside it does not "
+          "{}, {}: arc {} of {:g} mm between what is beside it does not "
           "take the tool, of a corner of {:g} mm",
-          site.setup, o.id, s.id, cut.radius_mm, tool.re_mm));
+          planning::setup_label(site.setup), o.id, s.id, cut.radius_mm, tool.re_mm));
       return;
     }
     const auto from = beginning(raised, way->from, all, corner);
     if (!from) {
       site.cannot.push_back(fmt::format(
-          "setup {}, {}: no tool gets to the beginning of arc {} past what is beside it",
-          site.setup, o.id, s.id));
+          "{}, {}: no tool gets to the beginning of arc {} past what is beside it",
+          planning::setup_label(site.setup), o.id, s.id));
       return;
     }
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::optimise {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-11;  // see Interval: arithmetic is not rounded outwards
 
 struct Node {

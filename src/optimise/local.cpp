@@ -17,7 +17,7 @@ namespace {
 
 using Vec = std::vector<double>;
 
-void check(const Problem& p, std::span<const double> start) {
+void check_start(const Problem& p, std::span<const double> start) {
   const auto n = p.lower.size();
   if (n == 0 || p.upper.size() != n || start.size() != n)
     throw std::domain_error(
@@ -124,7 +124,7 @@ double worst(const Vec& g) {
 
 Solution local_minimum(const Problem& problem, std::span<const double> start,
                        const Options& options) {
-  check(problem, start);
+  check_start(problem, start);
   const auto n = start.size();
   Evaluator e{&problem, {}, {}, 0, 0, nullptr};
   resize(e.values, n, problem.constraints);
@@ -171,7 +171,7 @@ Solution local_minimum(const Problem& problem, std::span<const double> start,
 
 Solution least_violation(const Problem& problem, std::span<const double> start,
                          double floor, const Options& options) {
-  check(problem, start);
+  check_start(problem, start);
   const auto n = start.size(), m = problem.constraints;
   Values inner;
   resize(inner, n, m);

@@ -1,13 +1,13 @@
 #include "turnwright/optimise/relaxation_search.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
+
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::optimise {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNarrow = 1e-12;  // a box that rounding keeps from being split
 constexpr double kEdge = 0.1;      // no part is smaller than this share of its box
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "planning/explain/prices.hpp"
@@ -15,11 +14,10 @@
 #include "planning/setup/setup_totals.hpp"
 #include "planning/setup/tolerance_verdicts.hpp"
 #include "planning/values/readable.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Certificate total_certificate(const Attempt& a) {
   Certificate c;
@@ -74,7 +72,7 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison&
   s.rejected_tools = c.chosen.rejected_tools;
   if (!c.solved) {
     for (const auto& r : c.rejected)
-      result.conflicts.push_back({"clamping", fmt::format("setup {}", index), 0, 0, "",
+      result.conflicts.push_back({"clamping", setup_label(index), 0, 0, "",
                                   std::string(name(r.clamping)) + ": " + r.why});
     return s;
   }

@@ -64,7 +64,7 @@ void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) 
     for (const auto& c : o.constraints)
       if (c.margin < -kBeyondRounding)
         result.conflicts.push_back(
-            {c.name, fmt::format("setup {}, {}", index, o.id), c.value, c.limit, c.unit,
+            {c.name, setup_label(index) + ", " + o.id, c.value, c.limit, c.unit,
              fmt::format("{}: {} is {} {} against {} {}", o.id, c.name, readable(c.value),
                          c.unit, readable(c.limit), c.unit)});
 }
@@ -79,8 +79,8 @@ bool held(const PreparedPart& p, ProcessPlan& result) {
     finish(done, p.work.setups[s]);
     if (why.empty()) continue;
     all = false;
-    result.conflicts.push_back({"clamping", fmt::format("setup {}", s), 0, 0, "",
-                                std::string(name(clamping)) + ": " + why});
+    result.conflicts.push_back(
+        {"clamping", setup_label(s), 0, 0, "", std::string(name(clamping)) + ": " + why});
   }
   return all;
 }
@@ -109,8 +109,8 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t s, const SolvedSetup& so
   setup.operations = operations_in_order(p, solved);
   for (const auto& f : solved.features)
     if (!f.answer.model)
-      result.conflicts.push_back({"depth of cut", fmt::format("setup {}", s), 0, 0, "mm",
-                                  infeasibility_reason(p, f)});
+      result.conflicts.push_back(
+          {"depth of cut", setup_label(s), 0, 0, "mm", infeasibility_reason(p, f)});
   const auto& missing = solved.auxiliary.conflicts;
   result.conflicts.insert(result.conflicts.end(), missing.begin(), missing.end());
   add_broken(setup, s, result);

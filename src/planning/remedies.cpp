@@ -73,7 +73,7 @@ std::vector<double> steady_places_mm(const PreparedPart& p, std::size_t s,
 void add_clampings(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
   const auto& allowed = p.setups[s].clampings;
   const auto add = [&](Clamping c, double steady_mm) {
-    auto sentence = fmt::format("allowing {} in setup {}", name(c), s);
+    auto sentence = fmt::format("allowing {} in {}", name(c), setup_label(s));
     if (c == Clamping::chuck_steady)
       sentence += fmt::format(", the rest at z = {} mm", readable(steady_mm));
     all.push_back(
@@ -96,8 +96,8 @@ void add_clampings(const PreparedPart& p, std::size_t s, std::vector<Variant>& a
 void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
               std::vector<Variant>& all) {
   all.push_back({{.kind = Kind::grip, .setup = s, .grip_mm = grip_mm},
-                 fmt::format("gripping {} instead of {} mm in setup {}",
-                             readable(grip_mm), readable(p.grips_mm[s]), s)});
+                 fmt::format("gripping {} instead of {} mm in {}", readable(grip_mm),
+                             readable(p.grips_mm[s]), setup_label(s))});
 }
 
 // Adds jaws that reach as far as the nearest element that the setup cuts, less the largest corner that has

@@ -15,15 +15,15 @@ namespace turnwright::tolerance {
 namespace {
 
 /// Marks a cell that is empty in the standard.
-constexpr double kNone = -1;
+constexpr double kNoClass = -1;
 
 // Part 1: upper ends of the ranges [mm] and deviations [mm] for f, m, c, v.
 constexpr std::array<double, 8> kLinearTo{3, 6, 30, 120, 400, 1000, 2000, 4000};
 constexpr std::array<std::array<double, 8>, 4> kLinear{
-    {{0.05, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, kNone},
+    {{0.05, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, kNoClass},
      {0.1, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2},
      {0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 4},
-     {kNone, 0.5, 1, 1.5, 2.5, 4, 6, 8}}};
+     {kNoClass, 0.5, 1, 1.5, 2.5, 4, 6, 8}}};
 
 // Part 1: radii and chamfers [mm], and angles [minutes of arc].
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ part::Limits general_limits_mm(double nominal_mm, LinearClass tolerance_class) {
         "nominal size {} mm: ISO 2768-1 holds from 0.5 to 4000 mm", nominal_mm));
   const double dev =
       value_of(nominal_mm, kLinearTo, kLinear[static_cast<std::size_t>(tolerance_class)]);
-  if (dev == kNone)
+  if (dev == kNoClass)
     throw std::domain_error(fmt::format("nominal size {} mm: ISO 2768-1 {}", nominal_mm,
                                         tolerance_class == LinearClass::f
                                             ? "class f ends at 2000 mm"

@@ -269,20 +269,21 @@ std::vector<NullVector> named(MatrixXd N, const std::vector<std::string>& unknow
 }
 
 struct Decomposition {
-  Eigen::BDCSVD<MatrixXd> svd;
+  Eigen::JacobiSVD<MatrixXd> svd;
   Identifiability of;
 };
 
 Decomposition decomposed(const Equations& eq, const VectorXd& scale) {
   const MatrixXd A = eq.A * scale.cwiseInverse().asDiagonal();
-  Decomposition d{Eigen::BDCSVD<MatrixXd>(A, Eigen::ComputeThinU | Eigen::ComputeFullV),
-                  {.unknowns = eq.unknowns,
-                   .parameters = eq.parameters,
-                   .equations = static_cast<std::size_t>(A.rows()),
-                   .rank = 0,
-                   .condition = 0,
-                   .identifiable = {},
-                   .null_vectors = {}}};
+  Decomposition d{
+      Eigen::JacobiSVD<MatrixXd>(A, Eigen::ComputeThinU | Eigen::ComputeFullV),
+      {.unknowns = eq.unknowns,
+       .parameters = eq.parameters,
+       .equations = static_cast<std::size_t>(A.rows()),
+       .rank = 0,
+       .condition = 0,
+       .identifiable = {},
+       .null_vectors = {}}};
   const VectorXd& s = d.svd.singularValues();
   const auto rank = (s.array() > kRankTolerance * s[0]).count();
   d.of.rank = static_cast<std::size_t>(rank);

@@ -262,7 +262,7 @@ TEST_F(CommandLine, DrawingsAreWrittenOneASetupAndOneOfTheBudget) {
     EXPECT_FALSE(fs::exists(folder_ / "new" / name / "setup-3.svg"));
     EXPECT_NE(contents(folder_ / "new" / name / "budget.svg").find("d2:diameter"),
               std::string::npos);
-    const auto window = folder_ / "new" / name / "window-s0-face-right.svg";
+    const auto window = folder_ / "new" / name / "window-s1-face-right.svg";
     EXPECT_EQ(fs::exists(window), name == "plan");
     if (name == "plan") {
       EXPECT_NE(contents(window).find("window of speed and feed"), std::string::npos);

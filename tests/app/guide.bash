@@ -44,9 +44,9 @@ while read -r shown made; do
 done << END
 setup-1.svg pictures/setup-1.svg
 budget.svg pictures/budget.svg
-window.svg pictures/window-s0-finish-pin.svg
+window.svg pictures/window-s1-finish-pin.svg
 trace.svg $(echo trace/*.svg)
-stability.svg keyed/stability-s0-mill-k1.svg
+stability.svg keyed/stability-s1-mill-k1.svg
 END
 ((commands > 5 && lines > 10)) || { echo "the guide shows nothing"; failed=1; }
 exit $failed

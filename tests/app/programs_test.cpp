@@ -47,7 +47,7 @@ const std::string kRemoved =
     "removed nc/setup-2.ngc, of an earlier plan\n"
     "removed nc/tools.tbl, of an earlier plan\n";
 const std::string kWhy =
-    "no NC program: setup 0, e2: no program is made for turning from the chuck "
+    "no NC program: setup 1, e2: no program is made for turning from the chuck "
     "outwards\n";
 
 TEST_F(Programs, OfAnEarlierPlanGoWhenThereIsNoPlan) {

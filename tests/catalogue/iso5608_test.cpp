@@ -9,7 +9,7 @@ namespace turnwright::catalogue {
 namespace {
 
 // As makers' catalogues print them.
-struct Known {
+struct KnownHolder {
   std::string designation;
   char shape;
   double kapr_deg, clearance_deg;
@@ -17,14 +17,14 @@ struct Known {
   double h_mm, b_mm, lf_mm;
   int edge;
 };
-const Known kKnown[] = {{"PCLNL 2525M 12", 'C', 95, 0, 'L', 25, 25, 150, 12},
-                        {"PDJNL 2525M15", 'D', 93, 0, 'L', 25, 25, 150, 15},
-                        {"SVJBR 2020K16", 'V', 93, 5, 'R', 20, 20, 125, 16},
-                        {"SSDCN1616H09", 'S', 45, 7, 'N', 16, 16, 100, 9},
-                        {"PRGNR3225P12", 'R', 90, 0, 'R', 32, 25, 170, 12}};
+const KnownHolder kHolders[] = {{"PCLNL 2525M 12", 'C', 95, 0, 'L', 25, 25, 150, 12},
+                                {"PDJNL 2525M15", 'D', 93, 0, 'L', 25, 25, 150, 15},
+                                {"SVJBR 2020K16", 'V', 93, 5, 'R', 20, 20, 125, 16},
+                                {"SSDCN1616H09", 'S', 45, 7, 'N', 16, 16, 100, 9},
+                                {"PRGNR3225P12", 'R', 90, 0, 'R', 32, 25, 170, 12}};
 
 TEST(Iso5608, EqualsTheMakersDimensions) {
-  for (const auto& k : kKnown) {
+  for (const auto& k : kHolders) {
     SCOPED_TRACE(k.designation);
     const auto holder = decode_iso5608(k.designation);
     EXPECT_EQ(holder.insert_shape, k.shape);

@@ -37,12 +37,12 @@ double lowest(const ConvexOutline& all, double OutlinePoint::*axis) {
 
 // Inscribed circles of ISO 1832's sizes, and sides l = d/sin(eps) of rhombi, as its table
 // prints them.
-struct Known {
+struct KnownOutline {
   const char* designation;
   double kapr_deg, re_mm, circle_mm, side_mm;
   std::size_t corners;
 };
-const Known kKnown[] = {
+const KnownOutline kOutlines[] = {
     {"CNMG 120408", 95, 0.8, 12.7, 12.9, 4},  {"DNMG 150604", 93, 0.4, 12.7, 15.5, 4},
     {"VBMT 160404", 93, 0.4, 9.525, 16.6, 4}, {"CCMT 09T304", 95, 0.4, 9.525, 9.7, 4},
     {"TNMG 160408", 91, 0.8, 9.525, 16.5, 3}, {"SNMG 120408", 75, 0.8, 12.7, 12.7, 4},
@@ -50,7 +50,7 @@ const Known kKnown[] = {
     {"HNMG 070408", 45, 0.8, 12.7, 7.3, 6},   {"ONMG 050408", 43, 0.8, 12.7, 5.26, 8}};
 
 TEST(ToolOutline, SidesOfAnInsertTouchTheCircleOfItsSize) {
-  for (const auto& k : kKnown) {
+  for (const auto& k : kOutlines) {
     SCOPED_TRACE(k.designation);
     const auto p = outline(tool(k.designation, k.kapr_deg, k.re_mm)).insert;
     ASSERT_EQ(p.size(), k.corners);
@@ -68,7 +68,7 @@ TEST(ToolOutline, SidesOfAnInsertTouchTheCircleOfItsSize) {
 }
 
 TEST(ToolOutline, EdgesLieAtTheirAnglesAndTouchTheCorner) {
-  for (const auto& k : kKnown) {
+  for (const auto& k : kOutlines) {
     SCOPED_TRACE(k.designation);
     const auto p = outline(tool(k.designation, k.kapr_deg, k.re_mm)).insert;
     const auto deg = [](double dh, double dz) {

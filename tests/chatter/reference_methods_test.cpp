@@ -25,7 +25,7 @@ double tfea_limit(double n_rpm, double deepest, int elements) {
 }
 
 /// Half a unit of the fourth digit.
-double printed(double value) {
+double half_a_digit(double value) {
   return 0.5 * std::pow(10, std::floor(std::log10(value)) - 3) * (1 + 1e-9);
 }
 
@@ -42,7 +42,7 @@ TEST(TimeFiniteElements, ReproduceTheirTable) {
   for (const auto& row : rows)
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(tfea_limit(row.n_rpm, 60, kElements[i]), row.limit_mm[i],
-                  printed(row.limit_mm[i]))
+                  half_a_digit(row.limit_mm[i]))
           << row.n_rpm << " " << kElements[i];
 }
 

@@ -20,6 +20,7 @@ namespace {
 using part::Segment;
 using part::Shaft;
 
+using std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Both sides are closed forms, so only rounding is left.
 constexpr double kRounding = 1e-13;
@@ -91,7 +92,7 @@ TEST(Beam, ClosedFormsWithoutShear) {
 TEST(Beam, ConesMatchTheirClosedForms) {
   // free end of a solid cone, r0 at the jaws, r1 at the end: elementary integrals,
   // derived here by substituting r for z
-  const double E = 210000, pi = std::numbers::pi;
+  const double E = 210000;
   for (const double r1 : {1.5, 10.0, 29.0, 30.0, 31.0, 600.0}) {
     const double r0 = 30, h = 100;
     const Beam beam({E, 0.25, {{h, 2 * r0, 2 * r1, 0, 0}}});

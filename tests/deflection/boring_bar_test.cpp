@@ -9,8 +9,10 @@
 namespace turnwright::deflection {
 namespace {
 
+using std::numbers::pi;
+
 TEST(BoringBar, UniformBarIsTheTextbooks) {
-  const double E = 210000, nu = 0.3, L = 100, d = 25, f = 13, pi = std::numbers::pi;
+  const double E = 210000, nu = 0.3, L = 100, d = 25, f = 13;
   const double EI = E * pi * d * d * d * d / 64, G = E / (2 * (1 + nu));
   const double GJ = G * pi * d * d * d * d / 32;
   const double shear = L * (7 + 6 * nu) / (6 * (1 + nu)) / (G * pi * d * d / 4);
@@ -43,7 +45,7 @@ TEST(BoringBar, TheToolBlockGivesWayToo) {
 
 TEST(BoringBar, NecksAndCoolantBoresAreIntegratedPieceByPiece) {
   // shank 32 mm with a 10 mm bore, neck 25 mm with a 6 mm bore: unit loads at the tip
-  const double E = 600000, nu = 0.22, pi = std::numbers::pi, G = E / (2 * (1 + nu));
+  const double E = 600000, nu = 0.22, G = E / (2 * (1 + nu));
   const struct { double h, D, d; } parts[] = {{80, 32, 10}, {40, 25, 6}};
   part::Shaft shaft{E, nu, {}};
   double bend = 0, turn = 0, shear = 0, twist = 0, z = 0;

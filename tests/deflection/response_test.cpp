@@ -13,6 +13,8 @@
 namespace turnwright::deflection {
 namespace {
 
+using std::numbers::pi;
+
 TEST(Response, ReferenceFile) {
   for (const auto& c : reference::cases()) {
     const auto mine = responses(Workpiece(c.shaft), c.clamping, c.a_mm, reference::kLoad);
@@ -40,7 +42,7 @@ TEST(Response, ReferenceFile) {
 }
 
 TEST(Response, OfABarInAChuckIsTheTextbooks) {
-  const double E = 210000, nu = 0.3, L = 200, D = 40, pi = std::numbers::pi;
+  const double E = 210000, nu = 0.3, L = 200, D = 40;
   const double EI = E * pi * D * D * D * D / 64;
   const double chi_GA =
       (7 + 6 * nu) / (6 * (1 + nu)) * 2 * (1 + nu) / E / (pi * D * D / 4);

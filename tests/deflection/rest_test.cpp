@@ -17,7 +17,7 @@
 namespace turnwright::deflection {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPromised = 1e-12;
 
 /// Differences of a part's flexibilities in parts of the largest, of its reactions in
@@ -41,7 +41,7 @@ Table table(const RestedBeam& beam, const std::vector<double>& a_mm) {
 double apart(const std::vector<double>& x, const std::vector<double>& y) {
   double worst = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x[i])) return kNaN;
+    if (!std::isfinite(x[i])) return kUnknown;
     worst = std::max(worst, std::abs(x[i] - y[i]));
   }
   return worst;
@@ -196,13 +196,14 @@ TEST(FollowRest, AsStiffAsThePartItHalvesTheDeflection) {
 TEST(Rest, RefusesWhatIsNoRest) {
   const part::Shaft bar{210000, 0.3, {{400, 30, 30, 0, 0}}};
   for (const SteadyRest& rest :
-       {SteadyRest{0, 0}, SteadyRest{400, 0}, SteadyRest{-1, 0}, SteadyRest{kNaN, 0},
-        SteadyRest{100, -1e-6}, SteadyRest{100, kNaN}})
+       {SteadyRest{0, 0}, SteadyRest{400, 0}, SteadyRest{-1, 0}, SteadyRest{kUnknown, 0},
+        SteadyRest{100, -1e-6}, SteadyRest{100, kUnknown}})
     EXPECT_THROW(RestedBeam(bar, {}, rest), std::domain_error);
   const part::Shaft shorter{210000, 0.3, {{390, 30, 30, 0, 0}}};
   EXPECT_THROW(RestedBeam(bar, shorter, {}, {100, 0}), std::domain_error);
   const RestedBeam good(bar, {}, {100, 0});
-  for (const double a : {-1.0, 400.1, kNaN}) EXPECT_THROW(good.at(a), std::domain_error);
+  for (const double a : {-1.0, 400.1, kUnknown})
+    EXPECT_THROW(good.at(a), std::domain_error);
   EXPECT_THROW(RestedBeam(bar, {Method::chuck, {1, 1.1, 1}, 0, 0}, {100, 0}),
                std::domain_error);
   EXPECT_THROW(follow_rest({}, 0), std::domain_error);

@@ -12,14 +12,14 @@
 namespace turnwright::deflection {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 // so slender that shear is nothing
 const part::Shaft kWire{210000, 0, {{1e4, 1, 1, 0, 0}}};
-const double kL = 1e4, kEI = 210000 * kPi / 64;
+const double kL = 1e4, kEI = 210000 * pi / 64;
 
 TEST(Thrust, EulersCases) {
   EXPECT_NEAR(critical_thrust_N(kWire, {Method::between_centres, {}, 0, 0}) /
-                  (kPi * kPi * kEI / (kL * kL)),
+                  (pi * pi * kEI / (kL * kL)),
               1, 1e-4);
   // clamped and hinged: tan(u) = u, u = 4.4934094579
   EXPECT_NEAR(critical_thrust_N(kWire, {Method::chuck_tailstock, {}, 0, 0}) /
@@ -32,7 +32,7 @@ TEST(Thrust, AChuckThatTurnsIsBetweenTheTwo) {
   // derived here from w'' + k^2 w = R (L - z)
   for (const double ratio : {0.1, 1.0, 10.0}) {
     const double c2 = ratio * kL / kEI;
-    double low = kPi, high = 4.4934094579;  // pinned and clamped
+    double low = pi, high = 4.4934094579;  // pinned and clamped
     const auto value = [&](double v) {
       return std::sin(v) * (1 + v * v * ratio) - v * std::cos(v);
     };
@@ -60,7 +60,7 @@ TEST(Thrust, AStiffPartOnSoftCentresIsOverturned) {
 TEST(Thrust, BoundsTheBeamColumnEverywhereAndMeetsItInTheMiddle) {
   // simply supported beam-column, force at a: with k^2 = P/EI
   //   w(a) = (sin(k a) sin(k b)/(k sin(k L)) - a b/L)/P per unit force
-  const double P_cr = kPi * kPi * kEI / (kL * kL);
+  const double P_cr = pi * pi * kEI / (kL * kL);
   for (const double ratio : {0.02, 0.1, 0.5, 0.9}) {
     const double P = ratio * P_cr, k = std::sqrt(P / kEI);
     for (const double u : {0.05, 0.2, 0.35, 0.5, 0.8}) {

@@ -155,7 +155,7 @@ TEST_F(NcThroughLinuxCnc, PlantedErrorsAreFound) {
   const std::vector<std::pair<const char*, Change>> slips = {
       {"a radius 5 um too small",
        [](auto t) {
-         const auto pass = t.find("(operation s0-finish-d2");
+         const auto pass = t.find("(operation s1-finish-d2");
          if (pass == t.npos) return t;  // the other setup's
          const auto at = t.find("\nG1 X", pass) + 5;
          std::size_t digits = 0;

@@ -111,7 +111,7 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
 TEST(Plan, SinglePassHasTheEconomicLife) {
   const auto p = part(pin());
   const auto r = plan(p);
-  const auto& pass = operation(r, "s1-finish-d1").passes.at(0);
+  const auto& pass = operation(r, "s2-finish-d1").passes.at(0);
   const auto& tool = p.tools.at(1);
   const double economic = (1 / p.material.taylor.n - 1) *
                           (tool.change_min + tool.edge_cost) /
@@ -509,7 +509,7 @@ TEST(Plan, ABoreComesOutNarrowerByWhatWallAndBarYield) {
   const auto p = part(bush());
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto& o = operation(r, "s0-bore-finish-b");
+  const auto& o = operation(r, "s1-bore-finish-b");
   ASSERT_EQ(o.passes.size(), 1u);
   const auto& pass = o.passes[0];
   EXPECT_NEAR(pass.ap_mm, 2, 1e-12);
@@ -741,7 +741,7 @@ TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
 TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
   auto d = as_planned(pin(), certified_plan(pin()));
   for (auto& o : d["operations"])
-    if (o["id"] == "s0-finish-d2") o["conditions"]["f_mm_rev"] = 0.29;
+    if (o["id"] == "s1-finish-d2") o["conditions"]["f_mm_rev"] = 0.29;
   d["outer"][1]["limits_mm"] = {-0.001, 0.001};
   d["machine_share_um"] = 0;
   const auto r = predict(part_to_predict(d));
@@ -777,7 +777,7 @@ TEST(Predict, WhatNothingCutsIsNotMetAndTheRestIsPredicted) {
 TEST(Predict, PassesThatDoNotAddUpAreTold) {
   auto d = as_planned(pin(), certified_plan(pin()));
   for (auto& o : d["operations"])
-    if (o["id"] == "s0-finish-d2") o["conditions"]["ap_mm"] = 0.3;
+    if (o["id"] == "s1-finish-d2") o["conditions"]["ap_mm"] = 0.3;
   const auto r = predict(part_to_predict(d));
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_EQ(r.conflicts.size(), 1u);

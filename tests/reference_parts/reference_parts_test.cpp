@@ -199,7 +199,7 @@ TEST_F(PartInfeasibleAsDrawn, NamesTheTolerancesThatFailAndByHowMuch) {
   for (const auto& c : plan.conflicts) {
     EXPECT_TRUE(c.limit == "t1 cylindricity" || c.limit == "d2:diameter diameter")
         << c.limit;
-    EXPECT_NE(c.where.find("setup 0, chuck, d2"), std::string::npos) << c.where;
+    EXPECT_NE(c.where.find("setup 1, chuck, d2"), std::string::npos) << c.where;
     EXPECT_GT(c.value, c.allowed) << c.limit;
     EXPECT_EQ(c.unit, "mm");
   }

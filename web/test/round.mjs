@@ -99,7 +99,7 @@ async function planner() {
   const prices = await page.getByText(/saves .* per part/).allInnerTexts();
   assert.ok(prices.length > 3);
   await page.getByRole('button', { name: 'Setup 1' }).click();
-  await page.getByRole('button', { name: /s0-rough/ }).first().click();
+  await page.getByRole('button', { name: /s1-rough/ }).first().click();
   await look(page, '04-planned');
   await page.setViewportSize({ width: 1280, height: 1000 });
   await page.screenshot({ path: `${folder}/page-planned.png` }); // for docs/pictures
@@ -159,7 +159,7 @@ async function planner() {
   const stock = await work.getAttribute('d');
   await page.getByLabel('Up to the end of').first().selectOption({ index: 1 });
   assert.notEqual(await work.getAttribute('d'), stock);
-  await page.getByText(/Move \d+ of \d+: T\d, s0-rough/).waitFor();
+  await page.getByText(/Move \d+ of \d+: T\d, s1-rough/).waitFor();
   // What is left has the drawing's diameters: 25 js7 at Z-20, 40 h7 at Z-90, the bar at Z-150.
   await slider.press('End');
   const section = await page.getByRole('img', { name: /^The cut of setup 1/ }).evaluate((svg) => ({

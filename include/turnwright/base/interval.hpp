@@ -7,6 +7,8 @@
 
 namespace turnwright {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// Closed interval [lo, hi]: arithmetic on it encloses the arithmetic of every pair of
 /// members, so a function written once over a scalar type can be bounded over a box.
 ///
@@ -25,10 +27,7 @@ struct Interval {
   constexpr explicit Interval(double v) : lo(v), hi(v) {}
   constexpr Interval(double l, double h) : lo(l), hi(h) {}
 
-  static constexpr Interval whole() {
-    return {-std::numeric_limits<double>::infinity(),
-            std::numeric_limits<double>::infinity()};
-  }
+  static constexpr Interval whole() { return {-kInfinity, kInfinity}; }
 };
 
 constexpr double mid(const Interval& x) { return 0.5 * (x.lo + x.hi); }

@@ -24,6 +24,9 @@ enum class Clamping {
 };
 const char* name(Clamping clamping);
 
+/// How sentences name the setup of an index: "setup 1" is the first.
+std::string setup_label(std::size_t index);
+
 /// The kind of the chuck's jaws, which decides how well they centre the part.
 enum class Jaws {
   hard,   ///< hardened, ground

@@ -9,7 +9,7 @@ namespace {
 using catalogue::FixedTool;
 using catalogue::FixedUse;
 
-const Choices<FixedUse> kUses{
+const Choices<FixedUse> kFixedUses{
     {"centring", FixedUse::centring},   {"drilling", FixedUse::drilling},
     {"grooving", FixedUse::grooving},   {"parting", FixedUse::parting},
     {"threading", FixedUse::threading}, {"profiling", FixedUse::profiling}};
@@ -79,7 +79,7 @@ FixedTool read_fixed_tool(Reader r) {
   t.id = read_id(r);
   t.name = r.text("name");
   const auto before = r.problems().list.size();
-  t.use = r.choice("use", kUses);
+  t.use = r.choice("use", kFixedUses);
   if (r.problems().list.size() > before) return t;  // the other keys depend on it
   read_kind(r, t);
   t.gamma_deg = r.number("gamma_deg", within(-30, 45, "deg"));

@@ -4,7 +4,7 @@
 namespace turnwright::document {
 namespace {
 
-const Bounds kSpeed = above_up_to(0, 5000, "m/min");
+const Bounds kCuttingSpeed = above_up_to(0, 5000, "m/min");
 
 void read_elastic(Reader group, catalogue::Material& m) {
   m.E_MPa = group.number("E_MPa", within(1000, 1e6, "MPa"));
@@ -19,7 +19,7 @@ void read_kienzle(Reader group, catalogue::Material& m) {
   m.kc.m = group.number("mc", at_least_below(0, 1));
   m.gamma0_deg = group.number("rake_deg", within(-30, 45, "deg"));
   read_range(group, "h_mm", above_up_to(0, 10, "mm"));
-  read_range(group, "vc_m_min", kSpeed);
+  read_range(group, "vc_m_min", kCuttingSpeed);
   Bounds kapr = above_up_to(0, 180, "deg");
   kapr.upper_open = true;
   group.number("kapr_deg", kapr);
@@ -40,7 +40,7 @@ void read_taylor(Reader group, catalogue::Material& m) {
   m.taylor.a = group.number("a", within(0, 2));
   m.taylor.b = group.number("b", within(0, 2));
   group.text("tool");
-  read_range(group, "vc_m_min", kSpeed);
+  read_range(group, "vc_m_min", kCuttingSpeed);
   read_range(group, "f_mm_rev", above_up_to(0, 5, "mm/rev"));
   read_range(group, "ap_mm", above_up_to(0, 50, "mm"));
   m.taylor_uncertainty_pct = finish_group(group);

@@ -10,7 +10,7 @@ using catalogue::MillingCutter;
 
 const Bounds kLength = above_up_to(0, 500, "mm");
 
-void read_geometry(Reader group, MillingCutter& c) {
+void read_cutter_geometry(Reader group, MillingCutter& c) {
   c.dc_mm = group.number("dc_mm", kLength);
   c.teeth = static_cast<int>(group.integer("zefp", 1, 20));
   c.re_mm = group.number("re_mm", within(0, 250, "mm"));
@@ -48,7 +48,7 @@ MillingCutter read_milling_cutter(Reader r) {
   read_required_format(r, "turnwright-milling-cutter/1");
   c.id = read_id(r);
   c.name = r.text("name");
-  read_geometry(r.object("geometry"), c);
+  read_cutter_geometry(r.object("geometry"), c);
   for (const auto& item : r.items("conditions", 1, 6))
     c.conditions.push_back(read_conditions(item));
   Reader strength = r.object("strength");

@@ -15,7 +15,7 @@ const Choices<catalogue::ToolUse> kUses{{"roughing", catalogue::ToolUse::roughin
                                         {"facing", catalogue::ToolUse::facing},
                                         {"boring", catalogue::ToolUse::boring}};
 
-void read_geometry(Reader group, catalogue::Tool& t) {
+void read_turning_geometry(Reader group, catalogue::Tool& t) {
   Bounds edge = above_up_to(0, 180, "deg");
   edge.upper_open = true;
   t.kapr_deg = group.number("kapr_deg", edge);
@@ -184,7 +184,7 @@ catalogue::Tool read_tool(Reader r) {
   t.insert = r.text("insert", 40);
   t.uses = read_set(r, "uses", kUses);
   t.groups = read_set(r, "groups", iso_groups());
-  read_geometry(r.object("geometry"), t);
+  read_turning_geometry(r.object("geometry"), t);
   read_window(r.object("window"), t);
   Reader strength = r.object("strength");
   t.Fc_max_N = strength.number("Fc_max_N", above_up_to(0, 1e6, "N"));

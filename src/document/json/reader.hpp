@@ -65,6 +65,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 
 /// A number as on a drawing: 20 instead of 20.0, otherwise with all its digits.
 std::string number_text(double x);
+inline std::string mm_text(double mm) { return number_text(mm) + " mm"; }
 
 /// A value as a problem shows it: numbers, short strings and short
 /// lists as written, "an object", "a list of 5 entries".

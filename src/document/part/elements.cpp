@@ -13,8 +13,6 @@ namespace {
 using part::CutKind;
 using part::ElementKind;
 
-const Bounds kSize = above_up_to(0, 20000, "mm");
-
 enum class Side { outer, inner };
 
 // How an element is read: its turned shape, or the groove, thread or arc cut into it.

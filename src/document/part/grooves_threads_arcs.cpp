@@ -15,8 +15,6 @@ namespace {
 using part::CutKind;
 using part::Where;
 
-const Bounds kSize = above_up_to(0, 20000, "mm");
-
 // ISO 261, coarse series, first and second choice.
 struct Coarse {
   double d_mm, P_mm;

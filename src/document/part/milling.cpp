@@ -18,8 +18,6 @@ constexpr std::size_t kPlaces = 100;
 constexpr double kDepthMargin = 0.2, kSpeedMargin = 0.02;
 constexpr double kSlack = 1e-9;  // mm
 
-std::string text(double mm) { return number_text(mm) + " mm"; }
-
 // Cylinders without a groove, thread or arc.
 std::vector<std::string> cylinders(const part::Drawing& drawing) {
   std::vector<std::string> out;
@@ -38,36 +36,38 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
   const double R = e.left_mm / 2, z0 = part::left_z_mm(d, m.element);
   const double z1 = z0 + e.length_mm;
   if (m.z_mm < z0 - kSlack || m.z_mm > z1)
-    r.problem_at("z_mm", "a place on " + e.id + ", from " + text(z0) + " to " + text(z1),
+    r.problem_at("z_mm",
+                 "a place on " + e.id + ", from " + mm_text(z0) + " to " + mm_text(z1),
                  "conflict");
   else if (m.z_mm + m.length_mm > z1 + kSlack)
-    r.problem_at("length_mm", "at most " + text(z1 - m.z_mm) + ", to the end of " + e.id,
+    r.problem_at("length_mm",
+                 "at most " + mm_text(z1 - m.z_mm) + ", to the end of " + e.id,
                  "conflict");
   if (!(m.depth_mm < R)) {
     if (m.depth_mm >= R)
-      r.problem_at("depth_mm", "less than the radius of " + e.id + ", " + text(R),
+      r.problem_at("depth_mm", "less than the radius of " + e.id + ", " + mm_text(R),
                    "conflict");
     return;
   }
   const double hole = part::largest_hole_mm(d, m.z_mm, m.z_mm + m.length_mm) / 2;
   if (R - m.depth_mm <= hole + kSlack)
-    r.problem_at("depth_mm", "less than the wall over the hole, " + text(R - hole),
+    r.problem_at("depth_mm", "less than the wall over the hole, " + mm_text(R - hole),
                  "conflict");
   if (m.kind == MilledKind::flat) {
     m.width_mm = 2 * std::sqrt(R * R - (R - m.depth_mm) * (R - m.depth_mm));
     return;
   }
   if (m.width_mm >= 2 * R)
-    r.problem_at("width_mm", "less than the diameter of " + e.id + ", " + text(2 * R),
+    r.problem_at("width_mm", "less than the diameter of " + e.id + ", " + mm_text(2 * R),
                  "conflict");
   else if (R - m.depth_mm >= std::sqrt(R * R - m.width_mm * m.width_mm / 4))
     r.problem_at("depth_mm",
                  "a floor below the edges, more than " +
-                     text(R - std::sqrt(R * R - m.width_mm * m.width_mm / 4)) +
+                     mm_text(R - std::sqrt(R * R - m.width_mm * m.width_mm / 4)) +
                      " at this width",
                  "conflict");
   if (m.kind == MilledKind::keyway && m.length_mm < m.width_mm)
-    r.problem_at("length_mm", "at least its width, " + text(m.width_mm), "conflict");
+    r.problem_at("length_mm", "at least its width, " + mm_text(m.width_mm), "conflict");
 }
 
 void check_others(const Draft& draft, Reader& r, const Milled& m) {

@@ -174,7 +174,7 @@ void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
     if (std::find(known.begin(), known.end(), id) == known.end()) continue;  // reported
     if (id == (left ? "left" : "right") && !(op.setup == 0 && drawing.stock.parted_mm))
       r.problem_at("on",
-                   "the free end; the held one is parted off in setup 0 if "
+                   "the free end; the held one is parted off in the first setup if "
                    "/stock/part_off_allowance_mm says what that leaves",
                    "conflict");
     const auto has_cut = [&](const auto& e) { return e.id == id && e.cut; };

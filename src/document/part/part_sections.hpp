@@ -10,6 +10,8 @@
 /// The sections of a part document, read one after the other into a draft.
 namespace turnwright::document {
 
+inline const Bounds kSize = above_up_to(0, 20000, "mm");  ///< of a part
+
 struct Draft {
   Reader& root;
   const Catalogue& catalogue;

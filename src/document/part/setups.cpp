@@ -44,8 +44,6 @@ double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) 
                                  : drawing.outer.back().right_mm;
 }
 
-std::string text(double mm) { return number_text(mm) + " mm"; }
-
 bool has_jaws(const planning::SetupRequest& setup) {
   return std::any_of(setup.clampings.begin(), setup.clampings.end(),
                      [](Clamping c) { return c != Clamping::between_centres; });
@@ -57,18 +55,18 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
   const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
   const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
   if (readable && setup.grip_mm >= length_mm)
-    at.problem("a grip of " + text(*setup.grip_mm),
+    at.problem("a grip of " + mm_text(*setup.grip_mm),
                "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
-                   text(length_mm),
+                   mm_text(length_mm),
                "conflict");
   const auto& machine = draft.loaded.plan.machine;
   if (machine.id.empty()) return;  // unknown, reported already
   const auto& range = machine.chuck.diameter_mm;
   const double d_mm = held_mm(drawing, i, setup.hold);
   if (has_jaws(setup) && readable && (d_mm < range.lower || d_mm > range.upper))
-    at.problem("a diameter of " + text(d_mm) + " in the jaws",
-               "what the chuck of " + machine.id + " holds, " + text(range.lower) +
-                   " to " + text(range.upper),
+    at.problem("a diameter of " + mm_text(d_mm) + " in the jaws",
+               "what the chuck of " + machine.id + " holds, " + mm_text(range.lower) +
+                   " to " + mm_text(range.upper),
                "conflict");
 }
 

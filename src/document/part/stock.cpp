@@ -5,8 +5,6 @@
 namespace turnwright::document {
 namespace {
 
-const Bounds kSize = above_up_to(0, 20000, "mm");
-
 // Cross-checks of the stock report at the pointer of its diameter.
 const char* outer_key(const part::Stock& stock) {
   return stock.kind == part::StockKind::bar ? "diameter_mm" : "outer_mm";

@@ -52,7 +52,7 @@ bool fits(Of of, Feature feature) {
   return false;
 }
 
-const char* wanted(Of of) {
+const char* wanted_feature(Of of) {
   switch (of) {
     case Of::cylinder:
       return "a cylinder";
@@ -136,7 +136,7 @@ class ToleranceReader {
 
   void read_features(Reader& r, part::Tolerance& t) const {
     const auto& facts = part::facts(t.kind);
-    const auto of = find_feature(r.at("of", wanted(facts.of)), features_);
+    const auto of = find_feature(r.at("of", wanted_feature(facts.of)), features_);
     t.of = of.id;
     if (of.feature == Feature::fixed)
       r.problem_at("of",
@@ -144,7 +144,8 @@ class ToleranceReader {
                    "of what catalogue conditions make",
                    "unsupported");
     else if (of.feature && !fits(facts.of, *of.feature))
-      r.problem_at("of", wanted(facts.of) + std::string(" for ") + part::name(t.kind),
+      r.problem_at("of",
+                   wanted_feature(facts.of) + std::string(" for ") + part::name(t.kind),
                    "kind");
     read_datum(r, t, facts.datum, of);
   }
@@ -163,12 +164,13 @@ class ToleranceReader {
       return;
     }
     const Of want = of.feature ? datum_of(wants, *of.feature) : Of::element_or_face;
-    const auto datum = find_feature(r.at("datum", wanted(want)), features_);
+    const auto datum = find_feature(r.at("datum", wanted_feature(want)), features_);
     t.datum = datum.id;
     if (datum.feature && !fits(want, *datum.feature))
-      r.problem_at("datum",
-                   wanted(want) + std::string(" as datum for ") + part::name(t.kind),
-                   "kind");
+      r.problem_at(
+          "datum",
+          wanted_feature(want) + std::string(" as datum for ") + part::name(t.kind),
+          "kind");
     else if (!t.datum.empty() && t.datum == t.of)
       r.problem_at("datum", "another feature than the toleranced one", "conflict");
   }
@@ -212,7 +214,7 @@ void read_listed(Draft& draft) {
   }
 }
 
-nlohmann::json pair(const part::Limits& limits) {
+nlohmann::json limits_pair(const part::Limits& limits) {
   return {limits.lower_mm, limits.upper_mm};
 }
 
@@ -230,8 +232,8 @@ void assume_sizes(Draft& draft, std::vector<Element>& elements, const std::strin
     } catch (const std::domain_error&) {
       continue;  // the standard has no value for this size: it stays open
     }
-    draft.assume("/" + list + "/" + std::to_string(i) + "/limits_mm", pair(*e.limits),
-                 why);
+    draft.assume("/" + list + "/" + std::to_string(i) + "/limits_mm",
+                 limits_pair(*e.limits), why);
   }
 }
 
@@ -260,7 +262,7 @@ void assume_length(Draft& draft, tolerance::LinearClass linear, const std::strin
                  {{"id", t.id},
                   {"kind", part::name(t.kind)},
                   {"between", t.between},
-                  {"limits_mm", pair(limits)}},
+                  {"limits_mm", limits_pair(limits)}},
                  why);
     drawing.tolerances.push_back(std::move(t));
   } catch (const std::domain_error&) {

@@ -30,7 +30,7 @@ const Choices<nc::SpindleTurn> kTurns{{"M3", nc::SpindleTurn::M3},
                                       {"M4", nc::SpindleTurn::M4}};
 
 template <class E>
-std::string word(const Choices<E>& choices, E value) {
+std::string choice_word(const Choices<E>& choices, E value) {
   return std::string(std::find_if(choices.begin(), choices.end(), [&](const auto& c) {
                        return c.second == value;
                      })->first);
@@ -141,8 +141,8 @@ ordered_json settings_json(const nc::Settings& s,
   if (d.programs > 0) out["program_number"] = s.program_number;
   if (const auto offset = nc::work_offset(s); !offset.empty())
     out["work_offset"] = offset;
-  out["block_numbers"] = word(kBlockNumbers, s.block_numbers);
-  out["spindle"] = word(kTurns, s.spindle);
+  out["block_numbers"] = choice_word(kBlockNumbers, s.block_numbers);
+  out["spindle"] = choice_word(kTurns, s.spindle);
   out["coolant"] = s.coolant.empty() ? "off" : s.coolant;
   out["optional_stops"] = s.optional_stops;
   out["reference_returns"] = s.reference_returns;

@@ -229,20 +229,20 @@ json with_trace(MachineDocument m, const Trace& t, const Vec3& centre_mm) {
       std::string("ball bar in ") + U + V + ", R " + number_text(t.R_mm) + " mm");
 }
 
-struct Request {
+struct TraceRequest {
   Trace trace;
   bool analysed = false;
   Vec3 centre_mm{};
   std::optional<MachineDocument> machine;  ///< to be calibrated by the trace
 };
 
-Request read_request(const json& request) {
+TraceRequest read_trace_request(const json& request) {
   Problems problems{.document = "ballbar"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-ballbar/1");
   const bool simulated = r.has("simulate"), analysed = r.has("analyse");
   std::optional<Simulation> simulation;
-  Request q{.trace = {}, .analysed = analysed, .centre_mm = {}, .machine = {}};
+  TraceRequest q{.trace = {}, .analysed = analysed, .centre_mm = {}, .machine = {}};
   if (simulated) simulation = read_simulation(r.object("simulate"));
   if (analysed) {
     q.trace = read_trace(r.object("analyse"), q.centre_mm);
@@ -259,10 +259,10 @@ Request read_request(const json& request) {
 
 }  // namespace
 
-Trace ball_bar_trace(const json& request) { return read_request(request).trace; }
+Trace ball_bar_trace(const json& request) { return read_trace_request(request).trace; }
 
 json ball_bar(const json& request) {
-  auto [t, analysed, centre_mm, machine] = read_request(request);
+  auto [t, analysed, centre_mm, machine] = read_trace_request(request);
   if (!analysed)
     return {{"theta_rad", t.theta_rad}, {"ccw_mm", t.ccw_mm}, {"cw_mm", t.cw_mm}};
   json out = analysis_json(t, decompose(t));

@@ -50,7 +50,7 @@ struct Tool {
   double re_mm = 0, kapr_deg = 0, rake_deg = 0;
 };
 
-struct Request {
+struct FitRequest {
   std::string cuts_pointer, source;
   std::vector<Cut> cuts;
   Tool tool;
@@ -87,7 +87,7 @@ Cut read_cut(Reader r) {
   return c;
 }
 
-void read_cuts(Reader& r, Request& q) {
+void read_cuts(Reader& r, FitRequest& q) {
   const bool csv = r.has("csv");
   if (csv && r.has("cuts")) {
     r.problem_at("csv", "either cuts or csv", "conflict");
@@ -114,7 +114,7 @@ void read_cuts(Reader& r, Request& q) {
     q.cuts.push_back(read_cut(Reader(row.value, r.problems(), row.pointer)));
 }
 
-void read_base(Reader& r, const Catalogue& catalogue, Request& q) {
+void read_base(Reader& r, const Catalogue& catalogue, FitRequest& q) {
   const auto value = r.find("material");
   if (!value) return;
   if (value->is_object()) {
@@ -133,10 +133,10 @@ void read_base(Reader& r, const Catalogue& catalogue, Request& q) {
   q.given_b = base.taylor.b;
 }
 
-Request read_request(const json& document, const Catalogue& catalogue,
-                     Problems& problems) {
+FitRequest read_fit_request(const json& document, const Catalogue& catalogue,
+                            Problems& problems) {
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  FitRequest q;
   read_format(r, "turnwright-calibrate-material/1");
   read_base(r, catalogue, q);
   if (r.has("id")) q.id = read_id(r);
@@ -179,7 +179,7 @@ struct Fits {
   std::optional<Taylor> lives;
 };
 
-std::optional<Kienzle> forces(const Request& q, std::size_t component) {
+std::optional<Kienzle> forces(const FitRequest& q, std::size_t component) {
   Kienzle out;
   std::vector<cutting::ForcePoint> points;
   for (std::size_t i = 0; i < q.cuts.size(); ++i)
@@ -192,7 +192,7 @@ std::optional<Kienzle> forces(const Request& q, std::size_t component) {
   return out;
 }
 
-std::optional<Taylor> lives(const Request& q) {
+std::optional<Taylor> lives(const FitRequest& q) {
   Taylor out;
   std::vector<cutting::LifePoint> points;
   for (std::size_t i = 0; i < q.cuts.size(); ++i)
@@ -206,7 +206,7 @@ std::optional<Taylor> lives(const Request& q) {
 }
 
 /// Reports the constants that the cuts with a measured `column` do not determine.
-void refuse(const Request& q, std::size_t cuts, const std::string& column,
+void refuse(const FitRequest& q, std::size_t cuts, const std::string& column,
             const std::string& constants, const std::string& test, Problems& problems) {
   problems.add(
       {q.cuts_pointer,
@@ -214,7 +214,7 @@ void refuse(const Request& q, std::size_t cuts, const std::string& column,
        test, "identifiability"});
 }
 
-Fits fitted(const Request& q, Problems& problems) {
+Fits fitted(const FitRequest& q, Problems& problems) {
   Fits all;
   for (std::size_t k = 0; k < kComponents.size(); ++k) {
     all.forces[k] = forces(q, k);
@@ -244,7 +244,7 @@ json described(const Fitted<Fit>& f) {
           {"s_pct", 100 * e.s}};
 }
 
-json described(const Taylor& t, const Request& q) {
+json described(const Taylor& t, const FitRequest& q) {
   json out = described<cutting::TaylorFit>(t);
   out["C"] = described(*t.fit.C);
   out["n"] = described(*t.fit.n);
@@ -259,7 +259,7 @@ json described(const Taylor& t, const Request& q) {
 
 /// [least, largest] of `value` over the cuts used.
 template <class Fit, class Value>
-json range(const Request& q, const Fitted<Fit>& f, const Value& value) {
+json range(const FitRequest& q, const Fitted<Fit>& f, const Value& value) {
   double lo = HUGE_VAL, hi = 0;
   for (const std::size_t i : f.named(f.fit.evidence.used)) {
     lo = std::min(lo, value(q.cuts[i]));
@@ -272,13 +272,13 @@ std::string rounded(double x) { return fmt::format("{:.4g}", x); }
 std::string told(const char* key, const Estimate& e) {
   return std::string(key) + ' ' + rounded(e.lower) + " to " + rounded(e.upper);
 }
-std::string note(const Request& q, const Evidence& e, const std::string& intervals) {
+std::string note(const FitRequest& q, const Evidence& e, const std::string& intervals) {
   return std::to_string(e.used.size()) + " cuts, " + rounded(100 * q.options.confidence) +
          " % intervals: " + intervals;
 }
 double percent(double s) { return 100 * s; }
 
-void put_forces(const Request& q, const Fits& fits, json& m) {
+void put_forces(const FitRequest& q, const Fits& fits, json& m) {
   if (const auto& c = fits.forces[0]) {
     m["kienzle"] = {
         {"kc11_MPa", c->fit.k11_MPa->value},
@@ -303,7 +303,7 @@ void put_forces(const Request& q, const Fits& fits, json& m) {
         {"source", q.source}};
 }
 
-void put_life(const Request& q, const Taylor& t, json& m) {
+void put_life(const FitRequest& q, const Taylor& t, json& m) {
   const double n = t.fit.n->value;
   m["taylor"] = {
       {"C", t.fit.C->value},
@@ -322,7 +322,7 @@ void put_life(const Request& q, const Taylor& t, json& m) {
 
 /// The material's document with the measured constants; null, with the reason, if they
 /// are impossible for a material.
-json material(const Request& q, const Fits& fits, json& warnings) {
+json material(const FitRequest& q, const Fits& fits, json& warnings) {
   if (!q.material) {
     warnings.push_back("no material given, whose document the constants could go into");
     return nullptr;
@@ -340,7 +340,7 @@ json material(const Request& q, const Fits& fits, json& warnings) {
   return problems.list.empty() ? m : json();
 }
 
-void warn(const Request& q, const Fits& fits, json& warnings) {
+void warn(const FitRequest& q, const Fits& fits, json& warnings) {
   if (fits.lives)
     for (const cutting::Missing& m : fits.lives->fit.missing)
       warnings.push_back(m.parameter + " stays at its given " +
@@ -355,7 +355,7 @@ void warn(const Request& q, const Fits& fits, json& warnings) {
 
 json calibrate_material(const json& request, const Catalogue& catalogue) {
   Problems problems{.document = "calibrate-material"};
-  const Request q = read_request(request, catalogue, problems);
+  const FitRequest q = read_fit_request(request, catalogue, problems);
   const Fits fits = fitted(q, problems);
   json result{{"confidence", q.options.confidence}}, warnings = json::array();
   for (std::size_t k = 0; k < kComponents.size(); ++k) {

@@ -36,7 +36,7 @@ struct Graph {
   GraphOptions options;
 };
 
-struct Request {
+struct ChuckRequest {
   std::vector<TestCut> cuts;
   bool measured = false;
   std::string cuts_pointer;
@@ -75,7 +75,7 @@ std::pair<TestCut, bool> read_cut(Reader r, const Bounds& places) {
   return {std::move(cut), error.has_value()};
 }
 
-void read_cuts(Reader& r, const Bounds& places, Request& q) {
+void read_cuts(Reader& r, const Bounds& places, ChuckRequest& q) {
   const bool csv = r.has("csv");
   if (csv && r.has("tests")) {
     r.problem_at("csv", "either tests or csv", "conflict");
@@ -134,9 +134,9 @@ Graph read_graph(Reader r) {
   return g;
 }
 
-Request read_request(const json& document, Problems& problems) {
+ChuckRequest read_chuck_request(const json& document, Problems& problems) {
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  ChuckRequest q;
   read_format(r, "turnwright-chuck/1");
   const std::size_t before = problems.list.size();
   std::optional<part::Shaft> shaft;
@@ -185,7 +185,7 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
 }
 
 /// The fit of a plane, or a problem with the missing cuts.
-PlaneAnswer answer(PlaneAnswer out, const Request& q, Problems& problems) {
+PlaneAnswer answer(PlaneAnswer out, const ChuckRequest& q, Problems& problems) {
   for (const PlaneTest& t : out.tests)
     if (!std::isfinite(t.y_mm))
       throw ModelRangeError("chuck: the shaft bends beyond what a number holds");
@@ -283,7 +283,7 @@ json described(const PlaneAnswer& a, std::optional<double> Lc_mm) {
 
 std::string percent(double x) { return number_text(std::round(1000 * x) / 10) + " %"; }
 
-void warn(const PlaneAnswer& a, const Request& q, json& warnings) {
+void warn(const PlaneAnswer& a, const ChuckRequest& q, json& warnings) {
   const auto say = [&](const std::string& text) {
     warnings.push_back(a.name() + ": " + text);
   };
@@ -350,7 +350,7 @@ json described(const Graph& q) {
           {"degrees_of_freedom", g.degrees_of_freedom}};
 }
 
-void add_fits(json& result, const Request& q, const PlaneAnswer& radial,
+void add_fits(json& result, const ChuckRequest& q, const PlaneAnswer& radial,
               const std::optional<PlaneAnswer>& tangential) {
   const PlaneFit& fit = *radial.fit;
   const PlaneFit* across = tangential ? &*tangential->fit : nullptr;
@@ -373,7 +373,7 @@ void add_fits(json& result, const Request& q, const PlaneAnswer& radial,
 }
 
 /// The identifiability of the cuts and, if they are measured, the fit.
-void add_chuck(json& result, const Request& q, Problems& problems) {
+void add_chuck(json& result, const ChuckRequest& q, Problems& problems) {
   PlaneAnswer across{Plane::tangential, {}, {}, {}, {}};
   for (std::size_t i = 0; i < q.cuts.size(); ++i)
     if (q.cuts[i].delta_t_mm) {
@@ -405,7 +405,7 @@ void add_chuck(json& result, const Request& q, Problems& problems) {
 
 json chuck(const json& request) {
   Problems problems{.document = "chuck"};
-  const Request q = read_request(request, problems);
+  const ChuckRequest q = read_chuck_request(request, problems);
   problems.throw_if_any();
   json result{{"format", "turnwright-chuck-result/1"}, {"warnings", json::array()}};
   if (!q.cuts.empty()) add_chuck(result, q, problems);

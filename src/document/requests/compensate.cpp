@@ -19,7 +19,7 @@ using nlohmann::json;
 constexpr std::size_t kLines = 2'000'000, kLineBytes = 1000;
 const Bounds kPlace = within(-1e5, 1e5, "mm"), kTolerance = within(1e-6, 1, "mm");
 
-struct Request {
+struct CompensationRequest {
   Machine machine;
   NcSetup setup;
   CompensationOptions options;
@@ -100,10 +100,10 @@ CompensationOptions read_options(Reader& r) {
   return o;
 }
 
-Request read_request(const json& document) {
+CompensationRequest read_compensation_request(const json& document) {
   Problems problems{.document = "compensate"};
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  CompensationRequest q;
   read_format(r, "turnwright-compensate/1");
   q.machine = read_chain(r);
   if (r.has("tool_point_mm"))
@@ -151,7 +151,7 @@ json deviation_json(const Deviation& d) {
 json compensate(const json& request) { return compensated(request).result; }
 
 CompensateAnswer compensated(const json& request) {
-  const Request q = read_request(request);
+  const CompensationRequest q = read_compensation_request(request);
   const std::vector<std::string_view> lines(q.lines.begin(), q.lines.end());
   const NcProgram program = read_nc(lines, q.setup);
   Problems problems{.document = "compensate"};

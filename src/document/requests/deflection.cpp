@@ -45,7 +45,7 @@ struct Passes {
   double runout_mm = 0;
 };
 
-struct Request {
+struct DeflectionRequest {
   part::Shaft shaft;
   Clamping clamping;
   std::optional<Steady> steady;
@@ -116,7 +116,7 @@ BoringBar read_bar(Reader& clamping, double widest_mm) {
   return bar;
 }
 
-void read_clamping(Reader r, Request& q, const Bounds& inside) {
+void read_clamping(Reader r, DeflectionRequest& q, const Bounds& inside) {
   enum class Hold { chuck, between_centres, chuck_tailstock, boring_bar };
   const auto hold = r.choice<Hold>("method", {{"chuck", Hold::chuck},
                                               {"between-centres", Hold::between_centres},
@@ -241,10 +241,10 @@ std::optional<Cut> read_in_process(Reader& request) {
   return cut;
 }
 
-Request read_request(const json& document) {
+DeflectionRequest read_deflection_request(const json& document) {
   Problems problems{.document = "deflection"};
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  DeflectionRequest q;
   read_format(r, "turnwright-deflection/1");
   auto read = read_milled_shaft(r.object("shaft"));
   q.shaft = std::move(read.shaft);
@@ -300,7 +300,8 @@ struct Planes {
 
 class Held {
  public:
-  Held(const Workpiece& part, const Request& q) : part_(&part), clamping_(&q.clamping) {
+  Held(const Workpiece& part, const DeflectionRequest& q)
+      : part_(&part), clamping_(&q.clamping) {
     if (!q.steady) return;
     rested_.push_back(part.rested(q.clamping.radial, q.steady->radial));
     rested_.push_back(part.rested(q.clamping.tangential, q.steady->tangential));
@@ -355,7 +356,7 @@ json position(double a_mm, double D_mm, const Flexibility& radial,
 }
 
 /// At a position that has been answered.
-Load load_at(const Request& q, const json& answered) {
+Load load_at(const DeflectionRequest& q, const json& answered) {
   if (!q.force_law) return q.load.value_or(Load{});
   const double Fr = answered.at("Fr_N");
   return {.Fr_N = Fr,
@@ -365,7 +366,7 @@ Load load_at(const Request& q, const json& answered) {
 
 /// The error after each pass, and the remaining run-out of the blank.
 void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tangential,
-                const Request& q, json& out) {
+                const DeflectionRequest& q, json& out) {
   out["errors_of_passes_mm"] =
       radius_errors_of_passes(D_mm, radial, tangential, *q.force_law, q.passes->ap_mm);
   out["copied_runout_mm"] = copied_runout_of_passes(
@@ -373,7 +374,7 @@ void add_passes(double D_mm, const Flexibility& radial, const Flexibility& tange
 }
 
 /// Two lobes of a part with slots, as it turns under the load.
-json oval(const Request& q, double a_mm, const Load& load) {
+json oval(const DeflectionRequest& q, double a_mm, const Load& load) {
   const OvalFlexibility f =
       oval_flexibility(*q.milled, q.shaft.E_MPa, q.clamping.radial, a_mm);
   return {{"mean_mm_N", f.mean_mm_N},
@@ -382,7 +383,7 @@ json oval(const Request& q, double a_mm, const Load& load) {
           {"amplitude_mm", oval_error(f, load.Fr_N, load.Ft_N).amplitude_mm}};
 }
 
-json positions(const Workpiece& part, const Held& held, const Request& q) {
+json positions(const Workpiece& part, const Held& held, const DeflectionRequest& q) {
   json list = json::array();
   const Planes f = held.at(q.positions_mm);
   for (std::size_t i = 0; i < q.positions_mm.size(); ++i) {
@@ -401,7 +402,7 @@ json positions(const Workpiece& part, const Held& held, const Request& q) {
   return list;
 }
 
-json largest_error(const Workpiece& part, const Held& held, const Request& q) {
+json largest_error(const Workpiece& part, const Held& held, const DeflectionRequest& q) {
   const Envelope e = envelope(part.ends_mm(), [&](std::size_t segment,
                                                   std::span<const double> a_mm,
                                                   std::span<double> e_mm) {
@@ -419,14 +420,14 @@ json largest_error(const Workpiece& part, const Held& held, const Request& q) {
   return {{"max_mm", e.max_mm}, {"at_mm", e.at_mm}};
 }
 
-json face(const Held& held, const Request& q) {
+json face(const Held& held, const DeflectionRequest& q) {
   const Planes f = held.at({&q.face->z_mm, 1});
   const FaceForm form = face_form(f.radial[0], q.face->facing);
   return {{"peak_to_valley_mm", form.peak_to_valley_mm},
           {"profile", {{"rho_mm", form.rho_mm}, {"g_mm", form.g_mm}}}};
 }
 
-json warnings(const Request& q) {
+json warnings(const DeflectionRequest& q) {
   json list = json::array();
   for (const std::size_t i : thin_walls(q.shaft.segments))
     list.push_back("/shaft/segments/" + std::to_string(i) +
@@ -442,7 +443,7 @@ json warnings(const Request& q) {
 }  // namespace
 
 json deflection(const json& request) {
-  const Request q = read_request(request);
+  const DeflectionRequest q = read_deflection_request(request);
   const Workpiece part(q.shaft, q.options);
   const Held held(part, q);
   json result{{"format", "turnwright-deflection-result/1"},

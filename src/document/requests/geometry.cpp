@@ -16,17 +16,17 @@ Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-struct Request {
+struct GeometryRequest {
   Machine machine;
   std::vector<Position> points;
   std::vector<TurnedSurface> surfaces;
 };
 
-Request read_request(const json& request) {
+GeometryRequest read_geometry_request(const json& request) {
   Problems problems{.document = "geometry"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-geometry/1");
-  Request q{.machine = read_chain(r), .points = {}, .surfaces = {}};
+  GeometryRequest q{.machine = read_chain(r), .points = {}, .surfaces = {}};
   q.machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
   q.surfaces = read_turned(r, q.machine.chain);
   const auto items = r.has("turned") ? r.optional_items("points", 1, kPoints)
@@ -39,10 +39,12 @@ Request read_request(const json& request) {
 
 }  // namespace
 
-Machine geometry_machine(const json& request) { return read_request(request).machine; }
+Machine geometry_machine(const json& request) {
+  return read_geometry_request(request).machine;
+}
 
 json geometry(const json& request) {
-  const auto [machine, points, surfaces] = read_request(request);
+  const auto [machine, points, surfaces] = read_geometry_request(request);
   const Kinematics kinematics(machine);
   json out = json::array();
   for (const Position& at : points) {

@@ -20,7 +20,7 @@ constexpr std::size_t kIndexations = 500, kBalls = 100, kPerIndexation = 100;
 const Bounds kPlace = within(-1e5, 1e5, "mm"), kReading = within(-100, 100, "mm"),
              kAngle = within(-3600, 3600, "deg");
 
-struct Request {
+struct CalibrationRequest {
   SambaStrategy strategy;
   std::vector<std::string> parameters;
   bool given = false;  // readings
@@ -133,7 +133,7 @@ std::vector<std::string> read_parameters(Reader& r) {
 }
 
 /// Readings in the workpiece frame, tool minus workpiece, end to end.
-void read_readings(Reader& r, Request& q) {
+void read_readings(Reader& r, CalibrationRequest& q) {
   const double sign = r.choice_or<double>(
       "sign", {{"tool-minus-workpiece", 1}, {"workpiece-minus-tool", -1}}, 1);
   const bool machine =
@@ -167,10 +167,10 @@ void read_readings(Reader& r, Request& q) {
     }
 }
 
-Request read_request(const json& document) {
+CalibrationRequest read_calibration_request(const json& document) {
   Problems problems{.document = "samba"};
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  CalibrationRequest q;
   read_format(r, "turnwright-samba/1");
   q.strategy = read_strategy(r.object("strategy"));
   q.parameters = read_parameters(r);
@@ -213,7 +213,7 @@ json values_json(const Identifiability& of, std::size_t from, std::size_t to,
 
 /// The machine's other errors explain their part of the readings, and the errors found
 /// explain the rest.
-json with_readings(const Request& q) {
+json with_readings(const CalibrationRequest& q) {
   MachineDocument m = *q.machine;
   const auto calibrated = [&](const SambaFit& fit) {
     std::vector<Calibrated> all;
@@ -238,7 +238,7 @@ json with_readings(const Request& q) {
 }  // namespace
 
 json samba(const json& request) {
-  const Request q = read_request(request);
+  const CalibrationRequest q = read_calibration_request(request);
   std::optional<SambaFit> fit;
   Identifiability of;
   if (q.given) {

@@ -52,7 +52,7 @@ struct Shift {
   std::optional<Batch> batch;
 };
 
-struct Request {
+struct ThermalRequest {
   DriftLog log;
   std::vector<double> feed_mm_min;
   std::size_t trained = 0;  // rows fitted, the first ones
@@ -109,7 +109,7 @@ Inputs inputs_of(Columns& c) {
   return {std::move(c["time_s"]), std::move(c["rpm"]), std::move(c["ambient_degC"])};
 }
 
-void read_log(Reader r, Request& q) {
+void read_log(Reader r, ThermalRequest& q) {
   r = r.as_object();
   Columns columns =
       r.has("csv")
@@ -182,10 +182,10 @@ Shift read_shift(Reader r) {
   return shift;
 }
 
-Request read_request(const json& document) {
+ThermalRequest read_thermal_request(const json& document) {
   Problems problems{.document = "thermal"};
   Reader r = Reader(document, problems).as_object();
-  Request q;
+  ThermalRequest q;
   read_format(r, "turnwright-thermal/1");
   read_log(r.object("log"), q);
   const auto before = r.optional_number("train_before_s", kTime);
@@ -280,7 +280,7 @@ std::vector<double> difference(const std::vector<double>& a,
   return out;
 }
 
-std::vector<Row> network_rows(const Request& q) {
+std::vector<Row> network_rows(const ThermalRequest& q) {
   const Inputs& in = q.log.inputs;
   std::vector<Row> out;
   double since = in.time_s.front();
@@ -294,7 +294,7 @@ std::vector<Row> network_rows(const Request& q) {
   return out;
 }
 
-json network_json(const Request& q) {
+json network_json(const ThermalRequest& q) {
   const auto rows = network_rows(q);
   const Network net =
       train(std::span(rows).first(q.trained), std::span(q.log.error_um).first(q.trained),
@@ -333,7 +333,7 @@ json batch_json(const BatchDrift& d) {
           {"largest_step_um", d.largest_step_um}};
 }
 
-json shift_json(const Request& q, const LagFit& fit) {
+json shift_json(const ThermalRequest& q, const LagFit& fit) {
   const Shift& shift = *q.shift;
   LagFit used = fit;
   Inputs inputs = shift.inputs;
@@ -374,7 +374,7 @@ void warn_of_range(const char* what, std::span<const double> seen,
                        " to " + number_text(high) + " " + unit);
 }
 
-json warnings_json(const Request& q, const LagFit& fit) {
+json warnings_json(const ThermalRequest& q, const LagFit& fit) {
   json out = json::array();
   for (const Parameter& p : fit.parameters) {
     if (p.found == Found::at_lower || p.found == Found::at_upper)
@@ -402,7 +402,7 @@ json warnings_json(const Request& q, const LagFit& fit) {
 }  // namespace
 
 json thermal(const json& request) {
-  const Request q = read_request(request);
+  const ThermalRequest q = read_thermal_request(request);
   const Choice choice = fit_lags(q.log, q.trained, q.options);
   const LagFit& fit = choice.fit;
   const auto e = drift_um(fit.model, q.log.inputs);

@@ -96,7 +96,7 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
 
 void refuse(const Site& s, const Asked& a, const std::string& why) {
   s.out.conflicts.push_back({fmt::format("{} {}", a.does, a.surface),
-                             fmt::format("setup {}", s.setup), 0, 0, "",
+                             setup_label(s.setup), 0, 0, "",
                              fmt::format("{} {}: {}", a.does, a.surface, why)});
 }
 
@@ -178,7 +178,7 @@ AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
   plan.kind = OperationKind::fixed;
   plan.id = a.given
                 ? (a.given->on.size() > 1 ? a.given->id + ":" + a.surface : a.given->id)
-                : fmt::format("s{}-{}-{}", s.setup, a.does, a.surface);
+                : fmt::format("s{}-{}-{}", s.setup + 1, a.does, a.surface);
   plan.on = {a.surface};
   plan.tool = f.tool->id;
   for (auto& pass : passes) {
@@ -593,7 +593,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
   if (!e.cut || e.cut->kind != kind) return;
   if (s.p.operations && !given_on(s, e.id)) {
     s.out.conflicts.push_back(
-        {"operations", fmt::format("setup {}", s.setup), 0, 0, "",
+        {"operations", setup_label(s.setup), 0, 0, "",
          fmt::format(
              "{} has no operation of kind \"fixed\": only its blank would be made",
              e.id)});
@@ -671,8 +671,7 @@ std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t set
     for (const auto& c : o.plan.constraints)
       if (!(c.margin >= -kBeyondRounding))
         all.push_back(
-            {c.name, fmt::format("setup {}, {}", setup, o.plan.id), c.value, c.limit,
-             c.unit,
+            {c.name, setup_label(setup) + ", " + o.plan.id, c.value, c.limit, c.unit,
              fmt::format("{}: {} is {} {} where {} {} is allowed", o.plan.id, c.name,
                          readable(c.value), c.unit, readable(c.limit), c.unit)});
   return all;

@@ -46,9 +46,9 @@ double grip_N(const MilledSite& s, double normal) {
          cutting::grip_needed_N(grip, F, F, s.p.drawing.outer[s.m.element].left_mm);
 }
 
-// The limits and their values at the choice, evaluated anew at speed and feed.
-std::vector<ConstraintValue> limits(const MilledSite& s, const MilledChoice& c, double n,
-                                    double fz, double stable_mm) {
+// The cutter_limits and their values at the choice, evaluated anew at speed and feed.
+std::vector<ConstraintValue> cutter_limits(const MilledSite& s, const MilledChoice& c,
+                                           double n, double fz, double stable_mm) {
   const auto& cutter = *c.cutter;
   const auto& driven = *s.p.machine.driven_tools;
   const auto ranges = cutting::speed_ranges(driven);
@@ -212,7 +212,7 @@ AuxiliaryOperation milled_operation(const MilledSite& s, const MilledChoice& c,
   AuxiliaryOperation o;
   auto& plan = o.plan;
   plan.kind = OperationKind::mill;
-  plan.id = fmt::format("s{}-mill-{}", s.setup, s.m.id);
+  plan.id = fmt::format("s{}-mill-{}", s.setup + 1, s.m.id);
   plan.on = {s.m.id};
   plan.tool = c.cutter->id;
   Pass pass;
@@ -232,7 +232,7 @@ AuxiliaryOperation milled_operation(const MilledSite& s, const MilledChoice& c,
   o.edges_cost = c.cutter->edge_cost * edges;
   plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
   plan.milled = cut_at(s, c, k, n, fz);
-  plan.constraints = limits(s, c, n, fz, plan.milled->limit_mm);
+  plan.constraints = cutter_limits(s, c, n, fz, plan.milled->limit_mm);
   return o;
 }
 

@@ -26,10 +26,11 @@ std::pair<int, int> pass_counts(const Milled& m, const catalogue::MillingCutter&
           std::max(fewest, static_cast<int>(std::min(most, fewest + kPassCounts)))};
 }
 
-void refuse(const MilledSite& s, const std::string& name, double value, double allowed,
-            const char* unit, const std::string& why, AuxiliaryWork& out) {
-  out.conflicts.push_back({name, fmt::format("setup {}, {}", s.setup, s.m.id), value,
-                           allowed, unit, fmt::format("{}: {}", s.m.id, why)});
+void refuse_milling(const MilledSite& s, const std::string& name, double value,
+                    double allowed, const char* unit, const std::string& why,
+                    AuxiliaryWork& out) {
+  out.conflicts.push_back({name, setup_label(s.setup) + ", " + s.m.id, value, allowed,
+                           unit, fmt::format("{}: {}", s.m.id, why)});
 }
 
 // The first reason; the others are similar.
@@ -70,12 +71,13 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
           units::spindle_rpm(c.grade->vc_m_min.upper, c.cutter->dc_mm)};
     });
     const bool slow = driven.n_max_rpm < own.lower;
-    refuse(s, "spindle speed", slow ? own.lower : own.upper,
-           slow ? driven.n_max_rpm : driven.n_min_rpm, "1/min",
-           fmt::format("cutters turn at {:.4g} to {:.4g} 1/min, the driven spindle at "
-                       "{:.4g} to {:.4g} 1/min: no speed is in common",
-                       own.lower, own.upper, driven.n_min_rpm, driven.n_max_rpm),
-           out);
+    refuse_milling(
+        s, "spindle speed", slow ? own.lower : own.upper,
+        slow ? driven.n_max_rpm : driven.n_min_rpm, "1/min",
+        fmt::format("cutters turn at {:.4g} to {:.4g} 1/min, the driven spindle at "
+                    "{:.4g} to {:.4g} 1/min: no speed is in common",
+                    own.lower, own.upper, driven.n_min_rpm, driven.n_max_rpm),
+        out);
     return true;
   }
   const auto outside = [&](const char* name, const std::optional<double>& given,
@@ -83,11 +85,12 @@ bool refused_outright(const MilledSite& s, const std::vector<MilledChoice>& choi
     if (!given ||
         (*given >= r.lower * (1 - kRounding) && *given <= r.upper * (1 + kRounding)))
       return false;
-    refuse(s, name, *given, std::clamp(*given, r.lower, r.upper), unit,
-           fmt::format("{:g} {} is given, {:.4g} to {:.4g} {} is what cutter and spindle "
-                       "have",
-                       *given, unit, r.lower, r.upper, unit),
-           out);
+    refuse_milling(
+        s, name, *given, std::clamp(*given, r.lower, r.upper), unit,
+        fmt::format("{:g} {} is given, {:.4g} to {:.4g} {} is what cutter and spindle "
+                    "have",
+                    *given, unit, r.lower, r.upper, unit),
+        out);
     return true;
   };
   const auto n =
@@ -122,12 +125,13 @@ void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
     }
   }
   if (nearest == cases.size()) {
-    refuse(s, "feed", 0, 0, "",
-           fmt::format("power, torque, strength, grip and speeds of machine and cutters "
-                       "leave no feed above {}, {}",
-                       s.m.fz_mm ? "that given" : "the least chip thickness",
-                       s.m.passes ? "at the depth given" : "at any depth of pass"),
-           out);
+    refuse_milling(
+        s, "feed", 0, 0, "",
+        fmt::format("power, torque, strength, grip and speeds of machine and cutters "
+                    "leave no feed above {}, {}",
+                    s.m.fz_mm ? "that given" : "the least chip thickness",
+                    s.m.passes ? "at the depth given" : "at any depth of pass"),
+        out);
     return;
   }
   const auto& c = choices[nearest];
@@ -138,7 +142,7 @@ void explain(const MilledSite& s, const std::vector<MilledChoice>& choices,
   const std::string help =
       most > 0 ? fmt::format("a tool point {:.3g} times as stiff would do", 1 / most)
                : "the limits of stability cannot be told there";
-  refuse(
+  refuse_milling(
       s, "stable depth with its margin", asked, asked * most, "mm",
       fmt::format("it chatters at {}: {} of {:.4g} mm with {} come{} nearest, at {:.0f} "
                   "1/min, where {:.4g} mm are stable but {:.4g} mm asked for with the "
@@ -227,7 +231,7 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
          Clamping clamping, const Economy& economy, AuxiliaryWork& out) {
   MilledSite s{p, m, setup, clamping, economy, 0};
   if (const auto why = milled_obstacle(p, m, setup, clamping); !why.empty())
-    return refuse(s, "setups", 0, 0, "", why, out);
+    return refuse_milling(s, "setups", 0, 0, "", why, out);
   s.part_mm_N = part_mm_N(p, m, setup, clamping);
   const bool whole = m.passes && m.n_rpm && m.fz_mm && m.ways.size() == 1;
   std::vector<MilledChoice> choices;
@@ -246,7 +250,7 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
       choices.back().passes = passes;
     }
   }
-  if (choices.empty()) return refuse(s, "cutter", 0, 0, "", listed(reasons), out);
+  if (choices.empty()) return refuse_milling(s, "cutter", 0, 0, "", listed(reasons), out);
   if (whole) return take(s, choices.front(), out);
   if (!refused_outright(s, choices, out)) choose(s, choices, out);
 }

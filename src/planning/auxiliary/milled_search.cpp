@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
 #include <tuple>
 
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kInside = 1e-6;           // ln n: from an excluded speed
 constexpr double kBracket = 1e-7;          // ln n: a loss of stability is known to this
 constexpr double kCoarse = 4, kFine = 16;  // speeds per margin

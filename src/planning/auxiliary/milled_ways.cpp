@@ -114,7 +114,7 @@ std::string milled_obstacle(const PreparedPart& p, const Milled& m, std::size_t 
   const auto& id = p.drawing.outer[m.element].id;
   const auto turned = setup_of(p, id);
   if (turned && *turned > setup)
-    return fmt::format("{} is turned in setup {} only", id, *turned);
+    return fmt::format("{} is turned in {} only", id, setup_label(*turned));
   const double z0 = m.z_mm, z1 = m.z_mm + m.length_mm;
   if (jaws_cover(p, setup, clamping, z0, z1))
     return fmt::format("the jaws hold the part up to z = {:g} mm",

@@ -7,6 +7,7 @@
 
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "turnwright/base/interval.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/volumetric/lathe_part.hpp"
 
@@ -27,13 +28,6 @@ struct Place {
   std::size_t setup = 0;
   Clamping clamping = Clamping::chuck;
 };
-
-struct Interval {
-  double low = 0, high = 0;
-};
-Interval operator-(const Interval& a, const Interval& b) {
-  return {a.low - b.high, a.high - b.low};
-}
 
 bool holds_left(const PreparedPart& p, std::size_t setup) {
   return p.setups[setup].hold == part::End::left;
@@ -135,8 +129,8 @@ Interval diameters(const Surface& s) {
 }
 
 double of_size(const PreparedPart& p, const Interval& d) {
-  return p.shop.first_part_gauged ? d.high - d.low
-                                  : 2 * std::max(std::abs(d.low), std::abs(d.high));
+  return p.shop.first_part_gauged ? d.hi - d.lo
+                                  : 2 * std::max(std::abs(d.lo), std::abs(d.hi));
 }
 
 double shift_mm(const DatumAxis& d, const Surface& s) {
@@ -243,10 +237,10 @@ class Take {
     const Surface s = bench.surface(id, at), stop = bench.surface(from, at);
     const Interval e = extremes(s.e_mm);
     const double zero = mean(stop.e_mm);
-    if (id == from) return {e.low - e.high, 0};
-    const Interval d{e.low - zero, e.high - zero};
+    if (id == from) return {e.lo - e.hi, 0};
+    const Interval d{e.lo - zero, e.hi - zero};
     if (s.z_mm[0] > stop.z_mm[0]) return d;
-    return {-d.high, -d.low};
+    return {-d.hi, -d.lo};
   }
 
   Interval length(const Bench& bench) const {
@@ -254,7 +248,7 @@ class Take {
     if (together()) {
       const Surface a = bench.surface(of, own_), b = bench.surface(by, own_);
       const Interval d = extremes(a.e_mm) - extremes(b.e_mm);
-      return a.z_mm[0] > b.z_mm[0] ? d : Interval{-d.high, -d.low};
+      return a.z_mm[0] > b.z_mm[0] ? d : Interval{-d.hi, -d.lo};
     }
     const bool own_last = !other_ || own_.setup > other_->setup;
     const Place& last = own_last ? own_ : *other_;
@@ -405,8 +399,8 @@ MachineTake machine_take(const PreparedPart& p, std::size_t tolerance, std::size
   const auto at = key(p.drawing.tolerances.at(tolerance), setup, clamping);
   const auto found = p.machine_takes.find(at);
   if (found == p.machine_takes.end())
-    throw std::domain_error("machine_take: " + at.tolerance + " is not cut in setup " +
-                            std::to_string(setup) + " by " + name(clamping));
+    throw std::domain_error("machine_take: " + at.tolerance + " is not cut in " +
+                            setup_label(setup) + " by " + name(clamping));
   return found->second;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "jaw_squeeze.hpp"
 #include "machine_share.hpp"
@@ -10,7 +9,7 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
-#include "turnwright/base/units.hpp"
+#include "turnwright/base/interval.hpp"
 #include "turnwright/deflection/shop_errors.hpp"
 
 namespace turnwright::planning {
@@ -19,8 +18,6 @@ namespace {
 using part::Tolerance;
 using part::ToleranceKind;
 using tolerance::Distribution;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Factor from an error of the radius to a size, or of a face to a length.
 double sensitivity(const PreparedPart& p, const Tolerance& t) {

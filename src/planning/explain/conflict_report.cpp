@@ -20,7 +20,7 @@ const SolvedSurface* feature_of(const Attempt& a, const std::string& surface) {
   return nullptr;
 }
 
-// "setup 0, chuck or chuck-tailstock, d2"
+// "setup 1, chuck or chuck-tailstock, d2"
 std::string where(const PreparedPart& p, const Attempt& a, const std::string& surface) {
   const auto* f = feature_of(a, surface);
   if (!f) return surface;
@@ -28,7 +28,7 @@ std::string where(const PreparedPart& p, const Attempt& a, const std::string& su
   std::string clampings;
   for (const Clamping c : p.setups[setup].clampings)
     clampings += (clampings.empty() ? "" : " or ") + std::string(name(c));
-  return fmt::format("setup {}, {}, {}", setup, clampings, surface);
+  return fmt::format("{}, {}, {}", setup_label(setup), clampings, surface);
 }
 
 // The place of a limit: its own surface, or the first surface in conflict to which it

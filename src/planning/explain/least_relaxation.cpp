@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_tolerance(const LimitRow& row) { return row.check == Check::tolerance; }
 

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/dual.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame_mm = 1e-9;
 constexpr double kLevel_mm = 0.01;  // more than corrections differ
 constexpr double kRounding_mm = 1e-5;

@@ -122,9 +122,9 @@ std::string why_not(const PreparedPart& p, std::size_t i) {
           units::deg_from_rad(part::kProfilingClears_rad));
     const auto room = before_jaws(p, s, i);
     return fmt::format(
-        "in setup {} it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
+        "in {} it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
         "mm: grip less",
-        s, room.left_mm, room.needed_mm);
+        setup_label(s), room.left_mm, room.needed_mm);
   }
   return "it lies in the jaws, or behind a larger diameter";
 }

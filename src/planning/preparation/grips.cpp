@@ -10,7 +10,7 @@ namespace turnwright::planning {
 namespace {
 
 constexpr double kUsual_mm = 15, kLeast_mm = 5;
-constexpr double kBefore_mm = 2;  // what the jaws end before, for the tool to run out
+constexpr double kRunOut_mm = 2;  // what the jaws end before, for the tool to run out
 constexpr double kDigit_mm = 0.1;
 
 // What the jaws hold: the stock first, finished ends afterwards.
@@ -53,10 +53,10 @@ std::vector<double> shorter_grips_mm(const PreparedPart& p, std::size_t s) {
   for (std::size_t i = 0; i < p.drawing.outer.size(); ++i) {
     const double z0 = part::left_z_mm(p.drawing, i);
     const double z = left ? z0 : z0 + p.drawing.outer[i].length_mm;  // nearer the jaws
-    const double shorter = (left ? end - z : z - end) + kBefore_mm;
+    const double shorter = (left ? end - z : z - end) + kRunOut_mm;
     const double grip =
         std::floor((p.grips_mm[s] - shorter) / kDigit_mm + 1e-6) * kDigit_mm;
-    if (shorter > kBefore_mm && grip >= kLeast_mm) all.push_back(grip);
+    if (shorter > kRunOut_mm && grip >= kLeast_mm) all.push_back(grip);
   }
   std::ranges::sort(all, std::greater<>());
   return all;

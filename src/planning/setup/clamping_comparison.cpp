@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "infeasibility_reason.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/clamping_checks.hpp"
 #include "setup_planner.hpp"
 #include "setup_totals.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBeyondRounding = 1e-6;
 
 // Time or cost of a setup in the terms of the objective.

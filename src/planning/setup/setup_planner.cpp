@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "operation_order.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/positions.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using catalogue::Tool;
 using catalogue::ToolUse;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Every search has these, even when a setup in one clamping has used up the boxes it
 // shares: refuting a far too slender part takes thousands for each pass count and tool.
 constexpr long kLeastBoxes = 300;

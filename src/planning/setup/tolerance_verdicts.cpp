@@ -276,7 +276,7 @@ std::vector<ToleranceResult> tolerance_results(const PreparedPart& p,
 
 std::vector<Deviation> deviations(const PreparedPart& p,
                                   const std::vector<SolvedSetup>& setups) {
-  constexpr int kPlaces = 21;
+  constexpr int kSections = 21;
   std::vector<Deviation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features) {
@@ -285,9 +285,9 @@ std::vector<Deviation> deviations(const PreparedPart& p,
       if (part::has_cut(p.drawing, feature.surface())) continue;
       const auto& recipe = f.answer.model->recipe();
       std::vector<double> places;
-      for (int k = 0; k < kPlaces; ++k)
+      for (int k = 0; k < kSections; ++k)
         places.push_back(feature.low_mm() +
-                         (feature.high_mm() - feature.low_mm()) * k / (kPlaces - 1));
+                         (feature.high_mm() - feature.low_mm()) * k / (kSections - 1));
       const bool follows = f.offset == Offset::path;
       const double by = offset_mm(f);
       const auto e =

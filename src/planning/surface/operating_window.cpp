@@ -6,16 +6,15 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "planning/limits/limit_table.hpp"
 #include "tolerance_points.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kKept = 8e-10;      // beyond a limit: what the optimum's places leave
 constexpr int kLooks = 24;           // feeds looked at to each side of the optimum
 constexpr int kBisections = 20;      // of a feed

@@ -99,10 +99,10 @@ ConstraintValue tolerance_constraint(const PreparedPart& plan, const CutToleranc
   return c;
 }
 
-// "s0-face-d3-d4": an id that a request may carry.
+// "s1-face-d3-d4": an id that a request may carry.
 std::string own_id(std::size_t setup, OperationKind kind, std::string surface) {
   std::replace(surface.begin(), surface.end(), '|', '-');
-  return fmt::format("s{}-{}-{}", setup, name(kind), surface);
+  return fmt::format("s{}-{}-{}", setup + 1, name(kind), surface);
 }
 
 OperationKind kind_of(const MachinedSurface& feature, bool rough) {

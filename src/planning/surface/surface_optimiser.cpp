@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "tolerance_points.hpp"
+#include "turnwright/base/interval.hpp"
 
 namespace turnwright::planning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
 constexpr std::size_t kNearest = 12;   // recipes asked for the nearest conditions

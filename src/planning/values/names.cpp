@@ -2,6 +2,10 @@
 
 namespace turnwright::planning {
 
+std::string setup_label(std::size_t index) {
+  return "setup " + std::to_string(index + 1);
+}
+
 const char* name(Clamping c) {
   switch (c) {
     case Clamping::chuck:

@@ -199,7 +199,7 @@ TEST(Milling, SetupsThatCannotMillItAreRefused) {
             "jaws hold the part up to z = 110 mm\n");
   EXPECT_EQ(refused_with("/milling/2/setup", 0),
             "/milling/2/setup: got 0, expected a setup that can mill s1: in this one d1 "
-            "is turned in setup 1 only\n");
+            "is turned in setup 2 only\n");
   auto held = part();
   held["setups"].erase(1);
   EXPECT_NE(refused(held).find("/milling/2: got an object, expected a place that some "

@@ -50,7 +50,7 @@ TEST(NcDoor, GivesAProgramForEverySetup) {
   EXPECT_EQ(result["programs"][0]["name"], "setup-1.ngc");
   const std::string text = result["programs"][0]["text"];
   for (const char* word :
-       {"G96 D", "G95", "M8", "M30", "setup 1 of 2", "operation s0-finish-d2"})
+       {"G96 D", "G95", "M8", "M30", "setup 1 of 2", "operation s1-finish-d2"})
     EXPECT_NE(text.find(word), text.npos) << word;
   EXPECT_NE(result["tool_table"].get<std::string>().find("T1 P1"), std::string::npos);
 }

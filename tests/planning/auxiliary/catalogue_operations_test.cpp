@@ -56,7 +56,7 @@ TEST(Groove, TakesTheTimeOfItsRings) {
   const auto p = part(grooved());
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto o = operation(r, "s0-groove-g1");
+  const auto o = operation(r, "s1-groove-g1");
   const auto& t = tool(p, "GROOVE-EXT");
   const auto& at = *t.conditions_in(p.material.group);
   ASSERT_EQ(o.passes.size(), 1U);  // one blade of 5 mm
@@ -85,12 +85,12 @@ TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
   d["stock"]["length_mm"] = 125;
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
-  EXPECT_EQ(operation(r, "s0-groove-g1").passes.size(), 3U);  // of 6 mm
+  EXPECT_EQ(operation(r, "s1-groove-g1").passes.size(), 3U);  // of 6 mm
 }
 
 TEST(Thread, TurnsItsLengthPitchByPitch) {
   const auto p = part(grooved());
-  const auto o = operation(plan(p), "s0-thread-th1");
+  const auto o = operation(plan(p), "s1-thread-th1");
   const auto& at = *tool(p, "THREAD-EXT-60").conditions_in(p.material.group);
   const double n = 1000 * at.vc_m_min / (units::kPi * 30);
   ASSERT_EQ(o.passes.size(), 6U);
@@ -109,7 +109,7 @@ TEST(Thread, CarriageLimitsTheSpindle) {
   auto machine = file("machines/lathe-medium.json");
   machine["feed"]["rapid_mm_min"] = 1000;
   d["machine"] = machine;
-  const auto o = operation(plan(part(d)), "s0-thread-th1");
+  const auto o = operation(plan(part(d)), "s1-thread-th1");
   EXPECT_NEAR(o.passes[0].n_rpm, 1000 / 1.5, 1e-9);
 }
 
@@ -121,7 +121,7 @@ TEST(FixedOperations, AreInEveryTotal) {
   for (auto& t : p.fixed_tools)
     if (t.id == "GROOVE-EXT") t.edge_cost += 10;
   const auto after = plan(p);
-  const auto o = operation(before, "s0-groove-g1");
+  const auto o = operation(before, "s1-groove-g1");
   const double more = 10 * o.time_min / o.passes[0].T_min;
   EXPECT_NEAR(after.cost_per_part - before.cost_per_part, more, 1e-9);
   EXPECT_NEAR(after.certificate.lower_bound - before.certificate.lower_bound, more, 1e-3);
@@ -173,9 +173,9 @@ TEST(Centre, IsDrilledWhereATailstockStands) {
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
   ASSERT_EQ(r.setups[0].operations.size() > 1, true);
-  EXPECT_EQ(r.setups[0].operations[1].id, "s0-centre-right");  // after the face
-  EXPECT_EQ(find(r, "s1-centre-left"), nullptr);
-  const auto o = operation(r, "s0-centre-right");
+  EXPECT_EQ(r.setups[0].operations[1].id, "s1-centre-right");  // after the face
+  EXPECT_EQ(find(r, "s2-centre-left"), nullptr);
+  const auto o = operation(r, "s1-centre-right");
   const auto& t = tool(p, "DIN333-A");
   const auto& at = *t.conditions_in(p.material.group);
   const double D = 10.6;  // the largest below 0.35 of 32 mm
@@ -193,7 +193,7 @@ TEST(Centre, ComesWithTheStockWhereNoToolMakesOne) {
   p.fixed_tools.clear();
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  EXPECT_EQ(find(r, "s0-centre-right"), nullptr);
+  EXPECT_EQ(find(r, "s1-centre-right"), nullptr);
   EXPECT_LT(r.cost_per_part, cost);
 }
 
@@ -245,7 +245,7 @@ TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   for (const double drilled : p.drilled_mm) EXPECT_EQ(drilled, 19);
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto o = operation(r, "s0-drill-b1");
+  const auto o = operation(r, "s1-drill-b1");
   EXPECT_EQ(o.tool, "DRILL-HM-5D");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double f = at.f_mm_rev * 19, n = 1000 * at.vc_m_min / (units::kPi * 19);
@@ -286,7 +286,7 @@ TEST(Limits, WeakFeedDriveIsNamed) {
   ASSERT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_EQ(r.conflicts[0].limit, "feed force");
-  EXPECT_EQ(r.conflicts[0].where, "setup 0, s0-drill-b1");
+  EXPECT_EQ(r.conflicts[0].where, "setup 1, s1-drill-b1");
   EXPECT_GT(r.conflicts[0].value, 900);
   EXPECT_EQ(r.conflicts[0].allowed, 900);
 }
@@ -296,7 +296,7 @@ TEST(Limits, ThrustBelowTheDriveIsFeasibleAndExact) {
   const auto work = assign(p);
   const auto ops =
       auxiliary_work(p, 0, Clamping::chuck, work.setups[0], {p.machine_per_min, 1}).all();
-  ASSERT_EQ(ops[0].plan.id, "s0-drill-b1");
+  ASSERT_EQ(ops[0].plan.id, "s1-drill-b1");
   const double Ff = ops[0].plan.passes[0].Ff_N;
   p.machine.feed_force_max_N = Ff * (1 + 1e-12);
   EXPECT_TRUE(auxiliary_conflicts(p, 0, Clamping::chuck, work.setups[0]).empty());
@@ -319,14 +319,14 @@ TEST(Parting, LeavesItsAllowanceToTheFace) {
   EXPECT_EQ(face_stock_mm(p, part::End::right), 2);
   const auto r = plan(p);
   double faced = 0;
-  for (const auto& pass : operation(r, "s1-face-left").passes) faced += pass.ap_mm;
+  for (const auto& pass : operation(r, "s2-face-left").passes) faced += pass.ap_mm;
   EXPECT_NEAR(faced, 0.6, 1e-12);
 }
 
 // To the axis at constant surface speed, the spindle held below its limit.
 TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
   const auto p = part(bush());
-  const auto o = operation(plan(p), "s0-part-left");
+  const auto o = operation(plan(p), "s1-part-left");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double force = p.machine.chuck.grip_force_N;
   const double n_cap =
@@ -344,7 +344,7 @@ TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
 
 TEST(Arc, PassesAreTheDepthOverTheDeepest) {
   const auto p = part(reference_part("threaded-spindle"));
-  const auto o = operation(plan(p), "s0-arc-a1");
+  const auto o = operation(plan(p), "s1-arc-a1");
   // A concave quarter circle of 6 mm below its chord: 6 - 6/sqrt 2 across, times sqrt 2.
   const double depth = (6 - 6 / std::sqrt(2)) * std::sqrt(2);
   ASSERT_EQ(o.passes.size(), static_cast<std::size_t>(std::ceil(depth / 1.5)));
@@ -446,16 +446,16 @@ json& given_operation(json& d, const std::string& id) {
 
 TEST(Given, DrillsOfHolesKeepTheirIds) {
   auto d = given_back(nominal(bush()));
-  given_operation(d, "s0-drill-b1")["id"] = "hole";
+  given_operation(d, "s1-drill-b1")["id"] = "hole";
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(operation(r, "hole").passes[0].ap_mm,
-            operation(plan(part(bush())), "s0-drill-b1").passes[0].ap_mm);
+            operation(plan(part(bush())), "s1-drill-b1").passes[0].ap_mm);
 }
 
 TEST(Given, PassesOfAnArcThatAreTooDeepAreTold) {
   auto d = given_back(reference_part("threaded-spindle"));
-  given_operation(d, "s0-arc-a1")["conditions"] = {{"passes", 1}};
+  given_operation(d, "s1-arc-a1")["conditions"] = {{"passes", 1}};
   // 6 mm of radius over a quarter: 6 sqrt 2 - 6 deep.
   EXPECT_EQ(first_told(d),
             "arc a1: 1 passes of 2.485 mm are deeper than the 1.5 mm of PROFILE-35");

@@ -21,8 +21,8 @@ namespace {
 
 using nlohmann::json;
 
-// One pin with one place in it, held at the left.
-json pin(const json& place, double diameter_mm = 40) {
+// One milled_pin with one place in it, held at the left.
+json milled_pin(const json& place, double diameter_mm = 40) {
   return {{"format", "turnwright-part/1"},
           {"name", "pin"},
           {"material", "C45"},
@@ -98,13 +98,13 @@ std::vector<chatter::System> systems_of(const PreparedPart& p, const Milled& m,
 }
 
 TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
-  auto j = pin({{"id", "k1"},
-                {"kind", "keyway"},
-                {"on", "d1"},
-                {"z_mm", 40},
-                {"length_mm", 32},
-                {"width_mm", 8},
-                {"depth_mm", 4}});
+  auto j = milled_pin({{"id", "k1"},
+                       {"kind", "keyway"},
+                       {"on", "d1"},
+                       {"z_mm", 40},
+                       {"length_mm", 32},
+                       {"width_mm", 8},
+                       {"depth_mm", 4}});
   j["milling"].push_back({{"id", "f1"},
                           {"kind", "flat"},
                           {"on", "d1"},
@@ -156,7 +156,7 @@ TEST(Milled, IsStableWithTheMarginsByAnotherMethod) {
 // Every slot drill that fits, every number of passes, speeds and feeds on a lattice, each
 // limit written out.
 TEST(Milled, NothingOnALatticeIsCheaper) {
-  const auto p = part(pin(keyway()));
+  const auto p = part(milled_pin(keyway()));
   const auto work = work_of(p);
   ASSERT_TRUE(work.conflicts.empty()) << work.conflicts[0].sentence;
   const auto* found = milled_in(work);
@@ -222,7 +222,7 @@ TEST(Milled, NothingOnALatticeIsCheaper) {
 // a machine too weak for the largest chip too.
 TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
   for (const auto& [mf, efficiency] : {std::pair{0.1, 0.8}, std::pair{0.45, 0.05}}) {
-    auto j = pin(keyway());
+    auto j = milled_pin(keyway());
     j["material"] = file("materials/C45.json");
     j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", mf},
                                      {"kp11_MPa", 250},       {"mp", 0.3},
@@ -252,14 +252,14 @@ TEST(Milled, ForcesRatioIsThatOfTheFeedChosen) {
 // The stretches of feeds join; the lobes of each are those of the ratios Kn/Kt at its
 // ends, for the lane as wide as it is and for narrower ones.
 TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
-  auto j = pin({{"id", "f1"},
-                {"kind", "flat"},
-                {"on", "d1"},
-                {"z_mm", 40},
-                {"length_mm", 20},
-                {"depth_mm", 1},
-                {"tool", "ENDMILL-HM-10"},
-                {"conditions", {{"lanes", 2}}}});
+  auto j = milled_pin({{"id", "f1"},
+                       {"kind", "flat"},
+                       {"on", "d1"},
+                       {"z_mm", 40},
+                       {"length_mm", 20},
+                       {"depth_mm", 1},
+                       {"tool", "ENDMILL-HM-10"},
+                       {"conditions", {{"lanes", 2}}}});
   j["material"] = file("materials/C45.json");
   j["material"]["feed_passive"] = {{"kf11_MPa", 350},       {"mf", 0.4},
                                    {"kp11_MPa", 250},       {"mp", 0.3},
@@ -299,7 +299,7 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
 }
 
 TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
-  auto j = pin(keyway());
+  auto j = milled_pin(keyway());
   auto cutter = file("tools/milling/KEYWAY-HM-10.json");
   for (auto& mode : cutter["tool_point"]["modes"]) {
     mode["stiffness_N_mm"] = 60;
@@ -323,13 +323,13 @@ TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
 TEST(Milled, NoCutterThatFitsIsAConflict) {
   auto place = keyway();
   place["width_mm"] = 3;
-  auto plan = planning::plan(part(pin(place)));
+  auto plan = planning::plan(part(milled_pin(place)));
   EXPECT_EQ(plan.status, PlanStatus::infeasible);
   ASSERT_EQ(plan.conflicts.size(), 1U);
   EXPECT_EQ(plan.conflicts[0].limit, "cutter");
   place = keyway();
   place["tool"] = "ENDMILL-HM-10";
-  plan = planning::plan(part(pin(place)));
+  plan = planning::plan(part(milled_pin(place)));
   ASSERT_EQ(plan.conflicts.size(), 1U);
   EXPECT_EQ(plan.conflicts[0].sentence,
             "k1: ENDMILL-HM-10 does not cut over its centre, so it cannot plunge");
@@ -337,7 +337,7 @@ TEST(Milled, NoCutterThatFitsIsAConflict) {
 
 // The floor lies 5 mm below d1 and 33 mm below the flange beside it.
 TEST(Milled, TheHolderClearsWhatStandsBeside) {
-  auto j = pin(keyway());
+  auto j = milled_pin(keyway());
   j["outer"].push_back(
       {{"id", "d2"}, {"kind", "cylinder"}, {"length_mm", 20}, {"diameter_mm", 96}});
   j["outer"][0]["length_mm"] = 75;
@@ -363,7 +363,7 @@ TEST(Milled, TheHolderClearsWhatStandsBeside) {
 json slot_drill() { return file("tools/milling/KEYWAY-HM-10.json"); }
 
 std::string told_of(const json& place) {
-  const auto work = work_of(part(pin(place)));
+  const auto work = work_of(part(milled_pin(place)));
   return work.conflicts.empty() ? "" : work.conflicts[0].sentence;
 }
 
@@ -385,7 +385,7 @@ TEST(Milled, ADepthAtTheLeastOfTheCutterIsOnePass) {
              {"length_mm", 25},
              {"depth_mm", 0.2 - 5e-10},
              {"tool", "KEYWAY-HM-10"}};
-  const auto work = work_of(part(pin(place)));
+  const auto work = work_of(part(milled_pin(place)));
   ASSERT_NE(milled_in(work), nullptr);
   EXPECT_EQ(milled_in(work)->passes.size(), 1U);
 }
@@ -402,13 +402,13 @@ TEST(Milled, CuttersAndSpindleWithoutACommonSpeedAreTold) {
 
 // Without an operation on the right end the bar goes on beyond it: a slot cannot run out.
 TEST(Milled, AnEndThatStaysAsStockIsNotAir) {
-  auto j = pin({{"id", "s1"},
-                {"kind", "slot"},
-                {"on", "d1"},
-                {"z_mm", 60},
-                {"length_mm", 20},
-                {"width_mm", 10},
-                {"depth_mm", 4}});
+  auto j = milled_pin({{"id", "s1"},
+                       {"kind", "slot"},
+                       {"on", "d1"},
+                       {"z_mm", 60},
+                       {"length_mm", 20},
+                       {"width_mm", 10},
+                       {"depth_mm", 4}});
   EXPECT_TRUE(work_of(part(j)).conflicts.empty());
   j["operations"] = {{{"id", "o1"},
                       {"setup", 0},
@@ -424,27 +424,27 @@ TEST(Milled, AnEndThatStaysAsStockIsNotAir) {
 TEST(Milled, GivenSpeedsAndFeedsOutsideTheCuttersAreNamed) {
   auto place = keyway();
   place["conditions"] = {{"n_rpm", 300}};
-  auto work = work_of(part(pin(place)));
+  auto work = work_of(part(milled_pin(place)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_EQ(work.conflicts[0].limit, "spindle speed");
   EXPECT_NE(work.conflicts[0].sentence.find("300 1/min is given, "), std::string::npos);
   EXPECT_GT(work.conflicts[0].allowed, 1000);
   place["conditions"] = {{"fz_mm", 0.5}};
-  work = work_of(part(pin(place)));
+  work = work_of(part(milled_pin(place)));
   ASSERT_EQ(work.conflicts.size(), 1U);
   EXPECT_EQ(work.conflicts[0].limit, "feed per tooth");
   EXPECT_LT(work.conflicts[0].allowed, 0.2);
 }
 
 json slender_pin(double z_mm) {
-  auto j = pin({{"id", "k1"},
-                {"kind", "keyway"},
-                {"on", "d1"},
-                {"z_mm", z_mm},
-                {"length_mm", 20},
-                {"width_mm", 5},
-                {"depth_mm", 2}},
-               14);
+  auto j = milled_pin({{"id", "k1"},
+                       {"kind", "keyway"},
+                       {"on", "d1"},
+                       {"z_mm", z_mm},
+                       {"length_mm", 20},
+                       {"width_mm", 5},
+                       {"depth_mm", 2}},
+                      14);
   j.erase("tools");
   j["outer"][0]["length_mm"] = 280;
   j["stock"]["length_mm"] = 342;
@@ -477,7 +477,7 @@ TEST(Milled, WhatStandsAgainstEachClampingIsToldWhateverTheirOrder) {
 
 // What plan chose, given: the same. Twice as fast and deep: told what breaks.
 TEST(Milled, PredictJudgesGivenConditions) {
-  auto j = pin(keyway());
+  auto j = milled_pin(keyway());
   const auto p = part(j);
   const auto first = work_of(p);
   const auto& o = *milled_in(first);
@@ -506,7 +506,7 @@ TEST(Milled, WiderMarginsNeverCostLess) {
   for (const double margin : {0.0, 0.2, 0.5}) {
     auto place = keyway();
     place["stability_margin"] = margin;
-    const auto work = work_of(part(pin(place)));
+    const auto work = work_of(part(milled_pin(place)));
     const auto* o = milled_in(work);
     ASSERT_NE(o, nullptr);
     EXPECT_GE(o->cost, before * (1 - 1e-6));
@@ -533,7 +533,7 @@ TEST(Milled, AnyPlaceIsAnsweredOrRefused) {
                {"stability_margin", 1.5 * u(draw)},
                {"speed_margin", 0.01 + 0.05 * u(draw)}};
     if (k % 3 != 1) place["width_mm"] = width;
-    auto j = pin(place, D);
+    auto j = milled_pin(place, D);
     j.erase("tools");
     j["material"] = materials[k % 4];
     try {

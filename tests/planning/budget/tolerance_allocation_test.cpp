@@ -474,7 +474,7 @@ TEST(Robust, PartsDrawnAnewConformAsOftenAsAsked) {
     EXPECT_GE(P, wanted - 0.003) << wanted;
     // Where it binds no more is given than asked of both limits; the error is on one side
     // of the middle, so that parts fail at one of them alone.
-    const auto& o = operation(r, "s0-finish-d2");
+    const auto& o = operation(r, "s1-finish-d2");
     for (const auto& c : o.constraints) {
       if (c.name == "d2:diameter diameter" && c.binding) {
         EXPECT_NEAR(P, 1 - (1 - wanted) / 2, 0.002) << wanted;

@@ -233,7 +233,7 @@ std::vector<Case> cases() {
        [](json& d) { d["machine"]["feed"]["feed_force_max_N"] = 900; }},
       {"largest spindle speed of lathe-medium",
        [](json& d) { moved(d, "largest spindle speed of lathe-medium", 0.6); }},
-      {"grip force in setup 0", [](json& d) { d["setups"][0]["grip_force_N"] = 17000; }},
+      {"grip force in setup 1", [](json& d) { d["setups"][0]["grip_force_N"] = 17000; }},
       {"cutting force of " + rougher,
        [=](json& d) { tool(d, rougher)["strength"]["Fc_max_N"] = 1500; }},
       {"largest feed of " + finisher,

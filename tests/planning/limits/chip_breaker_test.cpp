@@ -14,7 +14,7 @@ namespace {
 nlohmann::json rougher() { return file("tests/data/heavy-rougher.json"); }
 
 // The pin with stock enough for one deep pass, roughed by that tool.
-nlohmann::json pin_with(const nlohmann::json& tool) {
+nlohmann::json rough_pin(const nlohmann::json& tool) {
   auto d = pin();
   d["stock"]["diameter_mm"] = 44;
   d["tools"] = {tool, "PDJNL-DNMG150604-PF"};
@@ -29,7 +29,7 @@ std::vector<catalogue::ChipPiece> pieces(const nlohmann::json& window) {
 
 TEST(ChipBreaker, PassesLieInItsPolygonAndThePlanIsCertified) {
   const auto tool = rougher();
-  const auto r = plan(part(pin_with(tool)));
+  const auto r = plan(part(rough_pin(tool)));
   ASSERT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(r.certificate.kind, CertificateKind::global);
   const auto all = pieces(tool["window"]["chip_window"]);
@@ -62,7 +62,7 @@ TEST(ChipBreaker, TheBestPieceIsThePlanOfTheWhole) {
   const auto cost = [](const nlohmann::json& window) {
     auto tool = rougher();
     tool["window"]["chip_window"] = window;
-    auto d = pin_with(tool);
+    auto d = rough_pin(tool);
     d["operations"] = {{{"id", "r"},
                         {"setup", 0},
                         {"kind", "rough"},
@@ -100,7 +100,7 @@ TEST(ChipBreaker, PolygonOfARectangleIsItsRanges) {
   ranges["window"].erase("chip_window");
   ranges["window"]["ap_mm"] = {0.8, 5};
   ranges["window"]["f_mm_rev"] = {0.2, 0.5};
-  const auto a = plan(part(pin_with(tool))), b = plan(part(pin_with(ranges)));
+  const auto a = plan(part(rough_pin(tool))), b = plan(part(rough_pin(ranges)));
   ASSERT_EQ(a.status, PlanStatus::ok);
   EXPECT_NEAR(a.cost_per_part, b.cost_per_part, 1e-9);
 }

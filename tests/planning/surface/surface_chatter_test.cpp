@@ -126,13 +126,13 @@ TEST(Chatter, BindsOnSlenderWorkAndHasAPrice) {
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(r.certificate.kind, CertificateKind::global);
-  const auto& c = chatter_of(operation(r, "s0-finish-d2"));
+  const auto& c = chatter_of(operation(r, "s1-finish-d2"));
   EXPECT_TRUE(c.binding);
   EXPECT_GE(c.margin, -1e-9);
   d["damping_ratio"] = 0.4;
   const auto damped = plan(part(d));
   ASSERT_EQ(damped.status, PlanStatus::ok);
-  EXPECT_FALSE(chatter_of(operation(damped, "s0-finish-d2")).binding);
+  EXPECT_FALSE(chatter_of(operation(damped, "s1-finish-d2")).binding);
   EXPECT_GT(r.cost_per_part, damped.cost_per_part * (1 + 1e-3));
 }
 

@@ -20,7 +20,7 @@ ordered_json feasible() {
       {"hold": "left", "clamping": "chuck", "grip_force_N": 60000,
        "rejected": [{"clamping": "chuck-tailstock", "why": "costs 3 against 2"}],
        "operations": [
-         {"id": "s0-rough-d2", "kind": "rough", "on": ["d2"], "tool": "PCLNL-12",
+         {"id": "s1-rough-d2", "kind": "rough", "on": ["d2"], "tool": "PCLNL-12",
           "direction": "to-chuck",
           "passes": [
             {"ap_mm": 2.5, "f_mm_rev": 0.31, "vc_m_min": 240, "n_rpm": 1500},
@@ -58,7 +58,7 @@ bool holds(const std::string& page, const std::string& what) {
 TEST(Html, SaysTheNumbersOfTheDocument) {
   const auto page = html("Shaft", feasible(), {});
   for (const char* what :
-       {"<h1>Shaft</h1>", "12.35", "8 min 15 s", "0.40 %", "s0-rough-d2", "1500-1750",
+       {"<h1>Shaft</h1>", "12.35", "8 min 15 s", "0.40 %", "s1-rough-d2", "1500-1750",
         "bound by power", "not chuck-tailstock: costs 3 against 2", "jaws with 60.0 kN",
         "raising power saves 0.02 per part", "0123456789abcdef", "/batch"})
     EXPECT_TRUE(holds(page, what)) << what;
@@ -139,7 +139,7 @@ TEST(Html, CarriesItsPicturesInside) {
       "'&amp;'</text></svg>\n";
   const auto page =
       html("Shaft", feasible(),
-           {{"setup-1.svg", svg}, {"budget.svg", svg}, {"window-s0-rough-d2.svg", svg}});
+           {{"setup-1.svg", svg}, {"budget.svg", svg}, {"window-s1-rough-d2.svg", svg}});
   const std::regex image(
       "<img alt=\"[^\"]*\" src=\"data:image/svg\\+xml,([^\"<>#& ]*[^\"<>#]*)\">");
   int count = 0;

@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 
 planning::OperationPlan keyway() {
   planning::OperationPlan o;
-  o.id = "s1-mill-k1";
+  o.id = "s2-mill-k1";
   o.kind = planning::OperationKind::mill;
   o.on = {"k1"};
   o.passes.resize(3);
@@ -38,7 +38,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 TEST(MilledDrawing, ShowsLimitMarginsAndTheChosenPass) {
   const auto svg = milled_drawing(keyway());
-  EXPECT_NE(svg.find("s1-mill-k1: stable depth over speed"), std::string::npos);
+  EXPECT_NE(svg.find("s2-mill-k1: stable depth over speed"), std::string::npos);
   EXPECT_NE(svg.find("4321/min, 1.25 mm"), std::string::npos);
   EXPECT_NE(svg.find("2 % of speed and 20 % of depth"), std::string::npos);
   EXPECT_EQ(count(svg, "class=\"best\""), 1U);
@@ -63,7 +63,7 @@ ordered_json result() {
   return ordered_json::parse(
       R"({"status": "ok", "cost_per_part": 1, "time_per_part_min": 1,
     "setups": [{"hold": "left", "clamping": "chuck", "operations": [
-      {"id": "s0-mill-f1", "kind": "mill", "on": ["f1"], "tool": "E", "direction": "to-chuck",
+      {"id": "s1-mill-f1", "kind": "mill", "on": ["f1"], "tool": "E", "direction": "to-chuck",
        "passes": [{"ap_mm": 1, "n_rpm": 4000}], "constraints": [],
        "milling": {"lanes": 2, "fz_mm": 0.045, "limit_mm": 1.33, "shown_mm": 5,
                    "speed_margin": 0.02, "stability_margin": 0.2}}]}]})");
@@ -86,10 +86,10 @@ TEST(MilledWords, TellHowDeepItMayBeCut) {
 }
 
 TEST(MilledWords, TheReportHasTheChart) {
-  const std::vector<Figure> figures{{"stability-s0-mill-f1.svg", "<svg/>"}};
+  const std::vector<Figure> figures{{"stability-s1-mill-f1.svg", "<svg/>"}};
   const auto page = html("pin", result(), figures);
   EXPECT_NE(page.find("Stability of milled places"), std::string::npos);
-  EXPECT_NE(page.find("Stable depth over speed of s0-mill-f1"), std::string::npos);
+  EXPECT_NE(page.find("Stable depth over speed of s1-mill-f1"), std::string::npos);
   EXPECT_EQ(html("pin", result(), {}).find("Stability of milled places"),
             std::string::npos);
 }

@@ -80,7 +80,7 @@ TEST(PathDrawings, APassNeverAddsMaterialAndFollowsThePassBefore) {
   }
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
+std::size_t occurrences(const std::string& text, const std::string& what) {
   std::size_t n = 0;
   for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
   return n;
@@ -107,8 +107,9 @@ TEST(PathDrawings, FeedsRapidsAndToolsAreTold) {
         cutting = !rapid;
       }
     }
-    EXPECT_EQ(count(all[k], "<line class=\"rapid\""), rapids + 1);  // and the legend's
-    EXPECT_EQ(count(all[k], "<polyline class=\"feed"), passes_);
+    EXPECT_EQ(occurrences(all[k], "<line class=\"rapid\""),
+              rapids + 1);  // and the legend's
+    EXPECT_EQ(occurrences(all[k], "<polyline class=\"feed"), passes_);
     for (const auto& tool : program.tools)
       EXPECT_NE(all[k].find("T" + std::to_string(tool.number) + " " + tool.id),
                 std::string::npos);

@@ -16,7 +16,7 @@ ordered_json crossing(double ap_mm, const char* sense, const char* kind) {
 }
 
 /// Three speeds, the middle one with an island between 2 and 4 of 5 mm.
-ordered_json result() {
+ordered_json chart_result() {
   return {
       {"speeds",
        {{{"n_rpm", 3000}, {"limit_mm", nullptr}, {"crossings", ordered_json::array()}},
@@ -39,7 +39,7 @@ int times(const std::string& text, const std::string& what) {
 
 // The plot spans x 20 to 182 for 1000 to 3000/min and y 104 to 20 for 0 to 5 mm.
 TEST(StabilityChart, FillsWhatIsUnstableBetweenHalfWayNeighbours) {
-  const std::string svg = stability_chart(kRequest, result());
+  const std::string svg = stability_chart(kRequest, chart_result());
   EXPECT_EQ(times(svg, "<polygon class=\"count2\""), 2);
   EXPECT_NE(svg.find("<polygon class=\"count2\" points=\"20.000,20.000 60.500,20.000 "
                      "60.500,87.200 20.000,87.200\"/>"),
@@ -52,7 +52,7 @@ TEST(StabilityChart, FillsWhatIsUnstableBetweenHalfWayNeighbours) {
 
 // Its neighbours do not stand for it, and no line of limits passes over it.
 TEST(StabilityChart, ShadesASpeedThatIsUndecided) {
-  auto told = result();
+  auto told = chart_result();
   told["speeds"].erase(2);
   told["undecided"] = {{{"pointer", "/speeds_rpm"}, {"n_rpm", 2000}, {"ap_mm", 5}},
                        {{"pointer", "/points/0"}, {"n_rpm", 1400}, {"ap_mm", 5}}};
@@ -63,13 +63,13 @@ TEST(StabilityChart, ShadesASpeedThatIsUndecided) {
             std::string::npos)
       << svg;
   EXPECT_NE(svg.find("shaded: undecided"), std::string::npos);
-  const std::string all_told = stability_chart(kRequest, result());
+  const std::string all_told = stability_chart(kRequest, chart_result());
   EXPECT_EQ(times(svg, "<polyline"), times(all_told, "<polyline") - 1);
   EXPECT_EQ(all_told.find("undecided"), std::string::npos);
 }
 
 TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {
-  const std::string svg = stability_chart(kRequest, result());
+  const std::string svg = stability_chart(kRequest, chart_result());
   EXPECT_EQ(times(svg, "<line class=\"flip\""), 3);  // one of them in the key
   EXPECT_EQ(times(svg, "<line class=\"hopf\""), 2);
   EXPECT_NE(svg.find("<line class=\"hopf\" x1=\"20.000\" y1=\"87.200\" x2=\"60.500\" "
@@ -82,7 +82,7 @@ TEST(StabilityChart, MarksCrossingsByTheirKindAndTheFirstLimit) {
 }
 
 TEST(StabilityChart, FoldsAreInTheKeyWhereThereAreAny) {
-  ordered_json r = result();
+  ordered_json r = chart_result();
   EXPECT_EQ(times(stability_chart(kRequest, r), "fold\""), 0);
   r["speeds"][1]["crossings"][0]["kind"] = "fold";
   EXPECT_EQ(times(stability_chart(kRequest, r), "<line class=\"fold\""), 2);
@@ -90,7 +90,7 @@ TEST(StabilityChart, FoldsAreInTheKeyWhereThereAreAny) {
 }
 
 TEST(StabilityChart, CountsDarkenAndChangeAtTheCrossing) {
-  ordered_json r = result();
+  ordered_json r = chart_result();
   r["depths_mm"] = {1.5, 3, 5};
   r["speeds"][0]["unstable_multipliers"] = {0, 0, 0};
   r["speeds"][1]["unstable_multipliers"] = {2, 9, 9};
@@ -110,7 +110,7 @@ TEST(StabilityChart, CountsDarkenAndChangeAtTheCrossing) {
 }
 
 TEST(StabilityChart, ShowsPointsRobustLimitAndTheMachinesReach) {
-  ordered_json r = result();
+  ordered_json r = chart_result();
   r["points"] = {{{"n_rpm", 2000}, {"ap_mm", 1}, {"stable", true}},
                  {{"n_rpm", 2000}, {"ap_mm", 3}, {"stable", false}},
                  {{"n_rpm", 9000}, {"ap_mm", 3}, {"stable", false}}};
@@ -129,7 +129,7 @@ TEST(StabilityChart, ShowsPointsRobustLimitAndTheMachinesReach) {
 }
 
 TEST(StabilityChart, OfOneSpeedIsAsWideAsATenthOfIt) {
-  ordered_json r = result();
+  ordered_json r = chart_result();
   r["speeds"] = {r["speeds"][1]};
   const std::string svg = stability_chart(kRequest, r);
   EXPECT_NE(svg.find("<polygon class=\"count2\" points=\"20.000,20.000 182.000,20.000"),

@@ -10,7 +10,7 @@ namespace {
 
 planning::OperationPlan operation() {
   planning::OperationPlan o;
-  o.id = "s0-finish-d1";
+  o.id = "s1-finish-d1";
   o.passes.push_back({.ap_mm = 0.5, .f_mm_rev = 0.2, .vc_m_min = 200});
   o.window = planning::OperatingWindow{
       5,
@@ -32,7 +32,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 TEST(WindowDrawing, NamesEachLimitOnceAndLeavesOutWhatIsOutside) {
   const auto svg = window_drawing(operation());
   EXPECT_EQ(count(svg, "<svg "), 1u);
-  EXPECT_NE(svg.find("s0-finish-d1: window of speed and feed"), std::string::npos);
+  EXPECT_NE(svg.find("s1-finish-d1: window of speed and feed"), std::string::npos);
   for (const auto* name :
        {"least feed", "power", "largest feed", "cost &lt;5 %", "cost +2.5 %"})
     EXPECT_EQ(count(svg, std::string("  ") + name + "</text>"), 1u) << name;

@@ -188,7 +188,7 @@ TEST(SetupSheet, SizesAreCheckedWhenCorrectionsFallDue) {
   const auto& s = bush_sheets();
   const auto& sheet = s.all[0];
   const auto finishing = std::ranges::find_if(sheet.tools, [](const ToolRow& t) {
-    return std::ranges::find(t.operations, "s0-finish-d2") != t.operations.end();
+    return std::ranges::find(t.operations, "s1-finish-d2") != t.operations.end();
   });
   ASSERT_NE(finishing, sheet.tools.end());
   const double due = s.planned.part.shop.life_between_offsets / finishing->edge_share;

@@ -9,7 +9,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // Keys as in schemas/multipass.result.json.
-ordered_json answered() {
+ordered_json passes_answered() {
   return ordered_json::parse(R"({
     "status": "ok", "UC": 2.03507981, "n": 1,
     "rough": {"V": 109.6631, "f": 0.565529, "d": 3, "T": 45, "F_kgf": 200, "P_kW": 4.216,
@@ -29,7 +29,7 @@ ordered_json answered() {
 }
 
 TEST(MultipassText, HasCostBoundConditionsAndWhatBinds) {
-  const auto text = flat(multipass_text(answered()));
+  const auto text = flat(multipass_text(passes_answered()));
   EXPECT_TRUE(has(text, "\ncost 2.0350798 per piece\n"));
   EXPECT_TRUE(has(text, "\npasses 1 roughing, 1 finishing\n"));
   EXPECT_TRUE(has(text, "\nbound 2.0350796: no allowed point costs less\n"));

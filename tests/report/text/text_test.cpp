@@ -24,7 +24,7 @@ ordered_json feasible() {
       {"hold": "left", "clamping": "chuck-tailstock",
        "rejected": [{"clamping": "chuck", "why": "d2: t1 straightness is 0.02 mm"}],
        "operations": [
-         {"id": "s0-rough-d2", "kind": "rough", "on": ["d2"], "tool": "PCLNL-12",
+         {"id": "s1-rough-d2", "kind": "rough", "on": ["d2"], "tool": "PCLNL-12",
           "direction": "to-chuck",
           "passes": [
             {"ap_mm": 2.5, "f_mm_rev": 0.31, "vc_m_min": 240, "n_rpm": 1500,
@@ -45,7 +45,7 @@ ordered_json feasible() {
                           "nodes": 12, "engine": "convex"}}]},
       {"hold": "right", "clamping": "chuck", "rejected": [],
        "operations": [
-         {"id": "s1-finish-d1", "kind": "finish", "on": ["d1", "c1"], "tool": "PDJNL-15",
+         {"id": "s2-finish-d1", "kind": "finish", "on": ["d1", "c1"], "tool": "PDJNL-15",
           "direction": "from-chuck",
           "passes": [
             {"ap_mm": 0.5, "f_mm_rev": 0.125, "vc_m_min": 300, "n_rpm": 3000,
@@ -62,7 +62,7 @@ ordered_json feasible() {
        "allowed_mm": 0.0095, "margin_mm": 0.0055, "verdict": "met", "published_verdict": false,
        "shares": [], "P_conform": 1}],
     "compensation": [{"on": "d2", "setup": 0, "table_mm": [[30, 0.001], [60, -0.00225]]}],
-    "prices": [{"limit": "s0-rough-d2: power", "now": 5, "unit": "kW",
+    "prices": [{"limit": "s1-rough-d2: power", "now": 5, "unit": "kW",
                 "saves_per_part_for_10_percent": 0.25, "sentence": "raising power saves"}],
     "conflicts": [], "relax": [],
     "assumed": [{"pointer": "/batch", "value": 1, "why": "default"},
@@ -246,11 +246,11 @@ TEST(Text, SetupsSayHowThePartIsHeldAndWhyNotOtherwise) {
 
 TEST(Text, PassesOfTheSameConditionsShareALine) {
   const auto out = text(feasible());
-  EXPECT_EQ(row(out, "s0-rough-d2"),
-            "s0-rough-d2 PCLNL-12 2 2.500 0.310 240.0 1500-1750 45.0 1.12 0.12 %");
+  EXPECT_EQ(row(out, "s1-rough-d2"),
+            "s1-rough-d2 PCLNL-12 2 2.500 0.310 240.0 1500-1750 45.0 1.12 0.12 %");
   EXPECT_EQ(row(out, "1 1.500"), "1 1.500 0.250 260.0 2000");
-  EXPECT_EQ(row(out, "s1-finish-d1"),
-            "s1-finish-d1 PDJNL-15 1 0.500 0.125 300.0 3000 30.0 0.625 local");
+  EXPECT_EQ(row(out, "s2-finish-d1"),
+            "s2-finish-d1 PDJNL-15 1 0.500 0.125 300.0 3000 30.0 0.625 local");
 }
 
 TEST(Text, EveryOperationNamesWhatBindsIt) {

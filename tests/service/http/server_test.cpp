@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const HttpApi& api() {
+const HttpApi& served_api() {
   static const auto kCatalogue = document::load_catalogue(TURNWRIGHT_SOURCE_DIR);
   static const HttpApi kApi(TURNWRIGHT_SOURCE_DIR, kCatalogue, nullptr);
   return kApi;
@@ -28,7 +28,7 @@ class Running {
  public:
   explicit Running(ServerOptions options = {}) {
     options.port = 0;
-    server_.emplace(options, api());
+    server_.emplace(options, served_api());
     thread_ = std::thread([this] { server_->run(); });
   }
   ~Running() {
@@ -443,7 +443,7 @@ TEST(Server, AConnectionEndsAfterTheAnswerThatWasUnderWayAtTheStop) {
 TEST(Server, AnswersWhatTheSystemHasTakenForIt) {
   ServerOptions options;
   options.port = 0;
-  Server server(options, api());
+  Server server(options, served_api());
   const RawClient client(server.port());
   client.send(post("/v1/multipass", "{}") + get("/nowhere"));
   server.stop();
@@ -513,11 +513,11 @@ TEST(Server, IsNotOpenToOthersWithoutKeys) {
   ServerOptions options;
   options.port = 0;
   options.address = "0.0.0.0";
-  EXPECT_THROW(Server(options, api()), InputError);
+  EXPECT_THROW(Server(options, served_api()), InputError);
   options.address = "localhost";
-  EXPECT_THROW(Server(options, api()), InputError);
+  EXPECT_THROW(Server(options, served_api()), InputError);
   options.address = "::1";
-  EXPECT_NO_THROW(Server(options, api()));
+  EXPECT_NO_THROW(Server(options, served_api()));
 }
 
 TEST(Server, IdsTellProcessesApart) {
