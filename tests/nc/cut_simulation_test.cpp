@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "random_parts.hpp"
 
@@ -12,19 +13,37 @@ namespace {
 
 using namespace test;
 
-// Programs do not draw walls out: these lean as the major edge does, stock stays before
-// them, and blades that come down beside one meet it.  Elements are finished one by one,
-// from inside their neighbours, and nothing knows the tailstock's centre.
-constexpr auto kOfWalls = {Fault::left, Fault::lean, Fault::start, Fault::again,
-                           Fault::centre};
-constexpr auto kBesideWalls = {Fault::rapid, Fault::holder};
+constexpr int kSideBySide = 5;
 
-std::string found_beside(const Planned& p, const Programs& all,
-                         std::initializer_list<Fault> known,
-                         std::initializer_list<Fault> also = {}) {
+// What programs still do (docs/nc.md): a contour is entered again before faced shoulders and
+// arcs, blanks of arcs and grooves begin on finished neighbours, and nothing knows the body
+// of the tailstock's live centre.
+constexpr auto kOfContours = {Fault::start, Fault::again, Fault::centre};
+
+bool beside_a_form(const Planned& p, const std::string& id) {
+  const auto& outer = p.part.drawing.outer;
+  const auto found = std::ranges::find(outer, id, &part::OuterElement::id);
+  if (found == outer.end()) return id == "hole";
+  const auto from = found == outer.begin() ? found : std::prev(found);
+  const auto to = std::next(found) == outer.end() ? found : std::next(found);
+  return std::any_of(from, std::next(to),
+                     [](const auto& e) { return e.cut.has_value(); });
+}
+
+// Feet of arcs and grooves, cones of drills, and what a program says that it cannot cut.
+bool left_by_form(const Planned& p, const Programs& all, const Finding& f) {
+  if (f.fault != Fault::left && f.fault != Fault::lean) return false;
+  const auto bar = f.where.find('|');
+  return !all.cannot.empty() || beside_a_form(p, f.where.substr(0, bar)) ||
+         (bar != std::string::npos && beside_a_form(p, f.where.substr(bar + 1)));
+}
+
+std::string found_beside(const Planned& p, bool forms = false) {
+  const auto all = programs(p.part, p.plan);
   auto findings = simulated(p, all);
   std::erase_if(findings, [&](const Finding& f) {
-    return std::ranges::count(known, f.fault) || std::ranges::count(also, f.fault);
+    return std::ranges::count(kOfContours, f.fault) ||
+           (forms && (f.fault == Fault::rapid || left_by_form(p, all, f)));
   });
   return listed(findings);
 }
@@ -37,16 +56,8 @@ void for_reference_parts(const std::function<void(const Planned&)>& check) {
   }
 }
 
-TEST(CutSimulation, OfReferencePartsFindsNothingCutThatIsDrawnAndNoCollision) {
-  for_reference_parts([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), kOfWalls), "");
-  });
-}
-
-TEST(CutSimulation, DISABLED_OfReferencePartsLeavesTheDrawing) {
-  for_reference_parts([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), {}), "");
-  });
+TEST(CutSimulation, OfReferencePartsLeavesTheDrawing) {
+  for_reference_parts([](const Planned& p) { EXPECT_EQ(found_beside(p), ""); });
 }
 
 void for_awkward_parts(const std::function<void(const Planned&)>& check) {
@@ -57,49 +68,30 @@ void for_awkward_parts(const std::function<void(const Planned&)>& check) {
   }
 }
 
-TEST(CutSimulation, OfAwkwardPartsFindsNothingCutThatIsDrawn) {
-  for_awkward_parts([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), kOfWalls, kBesideWalls), "");
-  });
+TEST(CutSimulation, OfAwkwardPartsLeavesTheDrawing) {
+  for_awkward_parts([](const Planned& p) { EXPECT_EQ(found_beside(p, true), ""); });
 }
 
-TEST(CutSimulation, DISABLED_OfAwkwardPartsLeavesTheDrawing) {
-  for_awkward_parts([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), {}), "");
-  });
-}
+/// Of as many parts as TURNWRIGHT_RANDOM_PARTS says, in five parts that run side by side.
+class CutSimulationOfRandomParts : public testing::TestWithParam<int> {};
 
-/// Thirty parts each, so that they run side by side.
-class CutSimulationOfRandomParts : public testing::TestWithParam<std::uint32_t> {
- protected:
-  void for_each(const std::function<void(const Planned&)>& check) {
-    int made = 0;
-    for (auto seed = 30 * GetParam() + 1; seed <= 30 * GetParam() + 30; ++seed) {
-      const auto document = RandomPart(seed).document();
-      SCOPED_TRACE(document);
-      const auto p = planned(document);
-      if (p.plan.status != planning::PlanStatus::ok) continue;
-      check(p);
-      ++made;
-    }
-    EXPECT_GT(made, 12);
+TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
+  const char* given = std::getenv("TURNWRIGHT_RANDOM_PARTS");
+  const int parts = given ? std::atoi(given) : 100;
+  int made = 0;
+  for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
+    const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();
+    SCOPED_TRACE(document);
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(found_beside(p, true), "");
+    ++made;
   }
-};
-
-TEST_P(CutSimulationOfRandomParts, FindsNothingCutThatIsDrawn) {
-  for_each([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), kOfWalls, kBesideWalls), "");
-  });
+  EXPECT_GT(made, 0.4 * parts / kSideBySide);
 }
 
-TEST_P(CutSimulationOfRandomParts, DISABLED_LeavesTheDrawing) {
-  for_each([](const Planned& p) {
-    EXPECT_EQ(found_beside(p, programs(p.part, p.plan), {}), "");
-  });
-}
-
-INSTANTIATE_TEST_SUITE_P(Thirty, CutSimulationOfRandomParts,
-                         testing::Range(std::uint32_t{0}, std::uint32_t{10}));
+INSTANTIATE_TEST_SUITE_P(Some, CutSimulationOfRandomParts,
+                         testing::Range(0, kSideBySide));
 
 }  // namespace
 }  // namespace turnwright::nc

@@ -84,7 +84,7 @@ bool moved(json& d, const std::string& limit, double k) {
     const auto s =
         after(key[0] == 'g' ? "grip force in setup " : "finishing grip force in setup ");
     if (s.empty()) continue;
-    times(d["setups"][std::stoul(s)][key], k);
+    times(d["setups"][std::stoul(s) - 1][key], k);
     return true;
   }
   if (!after("largest spindle speed of ")
