@@ -67,7 +67,7 @@ foreach(step IN ITEMS build check round)
   set_tests_properties(page.${step} PROPERTIES LABELS page TIMEOUT 900
     SKIP_REGULAR_EXPRESSION "SKIPPED" RESOURCE_LOCK page)
 endforeach()
-set_tests_properties(page.round PROPERTIES RUN_SERIAL TRUE)  # a browser beside a planner
+set_tests_properties(page.round PROPERTIES COST 100)  # seconds: begun first
 
 add_test(NAME service.examples COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/service/examples.bash $<TARGET_FILE:turnwright>
