@@ -424,8 +424,8 @@ bool joined(const Site& site, std::size_t i) {
   const auto& all = site.answer().operations;
   if (i + 1 >= all.size()) return false;
   const auto &a = all[i], &b = all[i + 1];
-  if (!finishes(a) || a.kind != b.kind || a.tool != b.tool || a.passes.size() != 1 ||
-      b.passes.size() != 1 || a.on.size() != 1 || b.on.size() != 1)
+  if (!finishes(a) || a.kind != b.kind || a.tool != b.tool || b.passes.size() != 1 ||
+      a.on.size() != 1 || b.on.size() != 1)
     return false;
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);

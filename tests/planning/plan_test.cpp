@@ -44,11 +44,10 @@ struct PinPasses {
   double stock_mm = 0;  // left on the wall
   double rapid_mm = 0;
 };
-PinPasses passes_on_pin(bool d2, bool rough, int passes, double l) {
+PinPasses passes_on_pin(bool d2, bool rough, int passes, double depth, double l) {
   constexpr double kBar = 21, kLeast = 2.0 / 3.0 * 0.4;
   const double finished = d2 ? 16 : 20, n = passes;
-  const double later = rough ? kLeast : 0;
-  const double depth = d2 && !rough ? kLeast : (kBar - finished - later) / n;
+  const double later = rough ? kBar - finished - n * depth : 0;
   PinPasses all;
   all.stock_mm = d2 && rough ? kLeast : 0;
   for (int i = 0; i < passes; ++i) {
@@ -77,8 +76,9 @@ TEST(Plan, CylinderCostsWhatItsPassesTake) {
       const auto tool = std::find_if(p.tools.begin(), p.tools.end(),
                                      [&](const auto& t) { return t.id == o.tool; });
       const double l = length_of(p, o.on[0]);
-      const auto beside = passes_on_pin(o.on[0] == "d2", o.kind == OperationKind::rough,
-                                        static_cast<int>(o.passes.size()), l);
+      const auto beside =
+          passes_on_pin(o.on[0] == "d2", o.kind == OperationKind::rough,
+                        static_cast<int>(o.passes.size()), o.passes[0].ap_mm, l);
       const double in_cut = l + beside.wall_mm;
       double t = 0, edges = 0;
       for (const auto& pass : o.passes) {

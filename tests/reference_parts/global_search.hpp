@@ -24,7 +24,7 @@ struct Effort {
   int starts = 4;        ///< lattice points that are refined
   double finest = 1e-7;  ///< spacing at which refining ends, in ln
 };
-inline constexpr Effort kShort{10, 6, 17, 1, 3e-5};
+inline constexpr Effort kShort{14, 6, 17, 2, 3e-6};
 
 /// Tolerances are kept to 1 - this, so that what is found holds between the places too.
 inline constexpr double kReserve = 1e-6;

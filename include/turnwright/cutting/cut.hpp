@@ -229,11 +229,12 @@ T tool_life_min(const Cut& c, const T& vc_m_min, const T& f_mm_rev, const T& ap_
 }
 
 /// Cutting speed [m/min] that gives the life T [min]: the same law solved for vc.
-template <class T>
-T speed_for_life_m_min(const Cut& c, double T_min, const T& f_mm_rev, const T& ap_mm) {
+template <class T, class Life>
+T speed_for_life_m_min(const Cut& c, const Life& T_min, const T& f_mm_rev,
+                       const T& ap_mm) {
   using std::pow;
   const auto& t = c.taylor;
-  return t.C * std::pow(T_min, -t.n) / (pow(f_mm_rev, t.a) * pow(ap_mm, t.b));
+  return t.C * pow(T_min, -t.n) / (pow(f_mm_rev, t.a) * pow(ap_mm, t.b));
 }
 
 /// Roughness Rz [um] that the corner radius generates, with the floor by the least chip

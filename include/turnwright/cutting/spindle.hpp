@@ -31,7 +31,7 @@ std::vector<SpeedRange> speed_ranges(const catalogue::DrivenTools& spindle);
 /// A straight path of the tool, along which the diameter changes linearly or not at all.
 template <class T>
 struct Sweep {
-  double path_mm = 0;
+  T path_mm{};
   T D_small_mm{}, D_large_mm{};
   bool tapered = false;       ///< D_small < D_large
   bool reaches_axis = false;  ///< D_small = 0, the face of a solid part
@@ -148,7 +148,7 @@ Duty<T> duty(const Sweep<T>& s, const T& vc_m_min, const T& f_mm_rev, const T& l
   using std::min;
   using std::pow;
   if (!s.tapered) {
-    const T time = s.D_large_mm * (units::kPi / 1000 * s.path_mm) / (vc_m_min * f_mm_rev);
+    const T time = s.D_large_mm * s.path_mm * (units::kPi / 1000) / (vc_m_min * f_mm_rev);
     return {time, time / life_min};
   }
   const T &D1 = s.D_small_mm, &D2 = s.D_large_mm;
@@ -203,7 +203,7 @@ Duty<LogDual<N>> duty(const Sweep<LogDual<N>>& s, const LogDual<N>& vc_m_min,
                       const LogDual<N>& n_cap_rpm, double taylor_n) {
   if (!s.tapered) {
     const auto time =
-        s.D_large_mm * (units::kPi / 1000 * s.path_mm) / (vc_m_min * f_mm_rev);
+        s.D_large_mm * s.path_mm * (units::kPi / 1000) / (vc_m_min * f_mm_rev);
     return {time, time / life_min};
   }
   const double q = 1 / taylor_n;

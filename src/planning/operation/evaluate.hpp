@@ -39,7 +39,8 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
     chatter_checks(o, i, c.f[i], c.a, F[i], sink);
     speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
     const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
-    const T cost = objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life));
+    const T cost =
+        objective(o, chain.weights, duty(o, c.v[i], c.f[i], c.a, n_cap, life), c.a);
     sum = i == 0 ? cost : sum + cost;
   }
   tolerance_checks(chain, c, F, sink);
@@ -75,7 +76,8 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const auto cost = [&](const BestSpeed<T>& best) {
-      return objective(o, chain.weights, duty(o, best.v, c.f[i], c.a, n_cap, best.life));
+      return objective(o, chain.weights, duty(o, best.v, c.f[i], c.a, n_cap, best.life),
+                       c.a);
     };
     const auto best = best_speed(o, c.f[i], c.a, w);
     c.v[i] = best.v;

@@ -40,7 +40,7 @@ struct Polynomial {
 /// One pass: the material left on the radius after it, and its path.
 struct PassModel {
   Affine left_mm;  ///< radius offset of the surface it leaves
-  double path_mm = 0;
+  Affine path_mm;  ///< length in the cut
 };
 
 /// One operation of the chain.
@@ -53,10 +53,8 @@ struct OperationModel {
   bool n_cap_of_grip = false;  ///< the centrifugal loss is the lowest of them
   double n_min_rpm = 0;
   double feed_force_max_N = 0;
-  /// Tool life of least cost; it allows for feed in the air, which costs time but does
-  /// not wear the edge.
-  double economic_life_min = 0;
-  double Ra_um = 0, Rz_um = 0;  ///< 0: not required
+  double economic_life_min = 0;  ///< tool life of least cost, without feed in the air
+  double Ra_um = 0, Rz_um = 0;   ///< 0: not required
   /// 1/limit of the chatter stiffness at the positions where it is imposed, over the
   /// finishing depth (MachinedSurface::limit_chatter).
   std::vector<Polynomial> chatter_mm_N;
@@ -68,8 +66,8 @@ struct OperationModel {
   catalogue::Range T_min;
   Affine depth_mm;
   std::vector<PassModel> passes;
-  double fed = 1;        ///< feed of the program's passes over that in the cut, >= 1
-  double rapid_min = 0;  ///< approach and return of all passes
+  Affine fed_mm;     ///< at feed by a pass of the program, at least its path in the cut
+  Affine rapid_min;  ///< approach and return of all passes
   double D_small_mm = 0, D_large_mm = 0;  ///< of the finished feature
   bool tapered = false, reaches_axis = false, face = false, finishing = false;
   bool inner = false;     ///< a bore: material left makes it narrower
@@ -89,6 +87,19 @@ struct OperationModel {
   const PassModel& narrowest() const { return inner ? passes.front() : passes.back(); }
 };
 
+/// Feed of the program's passes over that in the cut.
+template <class T>
+T fed(const OperationModel& o, const T& a) {
+  const auto &all = o.fed_mm, &cut = o.passes[0].path_mm;
+  return all.c1 == 0 && cut.c1 == 0 ? T(all.c0 / cut.c0) : all(a) / cut(a);
+}
+
+/// Tool life of least cost: feed in the air costs time, and does not wear the edge.
+template <class T>
+T economic_life_min(const OperationModel& o, const T& a) {
+  return T(o.economic_life_min) / fed(o, a);
+}
+
 /// The sweep of one pass.
 template <class T>
 cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a) {
@@ -98,7 +109,7 @@ cutting::Sweep<T> sweep(const OperationModel& o, const PassModel& p, const T& a)
     if (o.inner) return difference(T(finished), T(left * 2.0), o.least_D_mm);
     return left * 2.0 + finished;
   };
-  return {p.path_mm, D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
+  return {p.path_mm(a), D(o.D_small_mm), D(o.D_large_mm), o.tapered, o.reaches_axis};
 }
 
 /// Force on the tool needed from the jaws [N], the largest of the passes.

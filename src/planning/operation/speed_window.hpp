@@ -75,15 +75,16 @@ cutting::Duty<T> duty(const OperationModel& o, const T& v, const T& f, const T& 
 
 /// Minutes of an operation in the air: feed beside the surface, approach and return.
 template <class T>
-T air_min(const OperationModel& o, const cutting::Duty<T>& d) {
-  return d.time_min * (o.fed - 1) + o.rapid_min;
+T air_min(const OperationModel& o, const cutting::Duty<T>& d, const T& a) {
+  return d.time_min * (fed(o, a) - 1) + o.rapid_min(a);
 }
 
 /// Contribution of an operation to the objective: minutes in the cut, in the air, and
 /// changing edges.
 template <class T>
-T objective(const OperationModel& o, const Economy& w, const cutting::Duty<T>& d) {
-  return w.minute * (d.time_min * o.fed + o.rapid_min) +
+T objective(const OperationModel& o, const Economy& w, const cutting::Duty<T>& d,
+            const T& a) {
+  return w.minute * (d.time_min * fed(o, a) + o.rapid_min(a)) +
          (w.minute * o.tool->change_min + w.edge * o.tool->edge_cost) * d.edges;
 }
 
@@ -98,10 +99,10 @@ BestSpeed<T> best_speed(const OperationModel& o, const T& f, const T& a,
   using std::max;
   using std::min;
   using std::pow;
-  const T economic =
-      cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f, o.depth_mm(a));
+  const T life = economic_life_min(o, a);
+  const T economic = cutting::speed_for_life_m_min(o.cut, life, f, o.depth_mm(a));
   const T ratio = min(max(T(1.0), T(w.lower / economic)), T(w.upper / economic));
-  return {economic * ratio, o.economic_life_min * pow(ratio, -1 / o.cut.taylor.n)};
+  return {economic * ratio, life * pow(ratio, -1 / o.cut.taylor.n)};
 }
 
 }  // namespace turnwright::planning

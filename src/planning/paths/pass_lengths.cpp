@@ -286,10 +286,9 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const double slope = std::cos(rad), above = s.inner ? kAboveBore_mm : kAbove_mm;
   const bool tapered = s.h0 != s.h1;
   const auto runs = [&](const std::optional<Passage>& g) {
-    return strokes.contour && strokes.passes == 1 && g &&
-           runs_on(*g, r, strokes.minor_rad);
+    return strokes.contour && g && runs_on(*g, r, strokes.minor_rad);
   };
-  const bool from_before = runs(s.before), on = runs(s.behind);
+  const bool from_before = strokes.passes == 1 && runs(s.before), on = runs(s.behind);
 
   const auto wall_stock = [&](bool last) {
     return std::max(s.shoulder_mm, s.wall_steps && !last ? strokes.wall_stock_mm : 0);

@@ -127,6 +127,13 @@ class MachinedSurface {
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
   // In surface_paths.cpp.
+  // Of a pass in the cut, of a pass at feed, and rapids of all.
+  struct Lengths {
+    double path_mm = 0, fed_mm = 0, rapid_min = 0;
+  };
+  Lengths lengths(const Recipe& recipe, const OperationModel& operation, double stock_mm,
+                  double a_mm) const;
+  void add_lengths(const Recipe& recipe, double stock_mm, Chain& chain) const;
   Beside ways(const OperationModel& operation, const Strokes& strokes) const;
   Beside facing(const OperationModel& operation, int passes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;

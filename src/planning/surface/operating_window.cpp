@@ -54,7 +54,7 @@ struct Slice {
   }
   double cost(double v, double f, double n_cap) const {
     const double life = cutting::tool_life_min(o().cut, v, f, o().depth_mm(at.a));
-    return objective(o(), chain.weights, duty(o(), v, f, at.a, n_cap, life));
+    return objective(o(), chain.weights, duty(o(), v, f, at.a, n_cap, life), at.a);
   }
   double cost(double v, double f) const {
     return cost(v, f, spindle_cap(o(), force(f), at.a));

@@ -167,7 +167,7 @@ Spent spent(const SurfaceAnswer& answer) {
     const auto& o = x.chain.operations[i];
     const auto& tool = *o.tool;
     s.cut_min += d.time_min;
-    s.air_min += air_min(o, d);
+    s.air_min += air_min(o, d, answer.choice.a);
     s.change_min += tool.change_min * d.edges;
     s.edges_cost += tool.edge_cost * d.edges;
   }
@@ -199,7 +199,7 @@ std::vector<OperationPlan> operation_results(const PreparedPart& plan, std::size
     const auto d = duty_of(x, i);
     p.time_min = d.time_min;
     p.cost = rates.machine_per_min *
-                 (d.time_min + air_min(o, d) + o.tool->change_min * d.edges) +
+                 (d.time_min + air_min(o, d, a.choice.a) + o.tool->change_min * d.edges) +
              o.tool->edge_cost * d.edges;
     std::map<std::size_t, double> tolerance_price;
     for (std::size_t r = 0; r < values.size(); ++r) {
