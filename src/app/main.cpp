@@ -164,7 +164,7 @@ std::vector<Output> outputs(const Arguments& arguments) {
   return all;
 }
 
-/// Whether both outputs would write the same file; two folders may be the same.
+/// Whether both outputs would write the same file.  Two outputs may go into one folder.
 bool collide(const Output& a, const Output& b) {
   if (b.makes && !a.makes && a.path.parent_path() == b.path)
     return b.makes(a.path.filename().string());

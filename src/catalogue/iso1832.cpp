@@ -106,7 +106,7 @@ Insert1832 decode_iso1832(const std::string& designation) {
     insert.edge_length_mm = edge_mm(*shape, edge_code, at_edge);
     insert.re_mm = reader.take_two_digits() / 10.0;
   }
-  if (reader.digit_follows()) reader.fail("is followed by a further digit");
+  if (reader.digit_follows()) reader.fail("is followed by one digit too many");
   return insert;
 }
 

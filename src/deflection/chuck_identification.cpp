@@ -210,7 +210,7 @@ VectorXd elemental(const Design& d, std::uint64_t start) {
 }
 
 /// Least trimmed squares: the best of many starts, each improved by refitting to the h
-/// cuts that fit best.  A third of the cuts beyond the unknowns may be outliers.
+/// cuts that fit best.  Of n cuts with p unknowns (n - p)/3 may be outliers.
 Fit least_trimmed(const Design& d) {
   const auto n = d.rows(), unknowns = static_cast<Eigen::Index>(3 + d.names.size());
   const Eigen::Index h = n - (n - unknowns) / 3;

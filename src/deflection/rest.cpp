@@ -25,7 +25,8 @@ Side through(const Side& s, double length_mm, const Body& stretch) {
   return {s.M_rad_Nmm, d, s.X_mm_N + stretch.X_mm_N + stretch.M_rad_Nmm * apart * apart};
 }
 
-/// A support of compliance c beside a side, Eq. (2).
+/// One side of the shaft and an elastic support of compliance c at its end, taken
+/// together, Eq. (2).
 Side beside(const Side& s, double c) {
   if (is_nothing(s)) return {kFree, 0, c};
   const double X = s.X_mm_N, M = s.M_rad_Nmm, d = s.d_mm;

@@ -228,8 +228,8 @@ std::vector<std::string> heading(const Site& site) {
                         site.root_z);
   return {"part " + d.name,
           "material " + site.part.material.name + ", machine " + site.part.machine.name,
-          fmt::format("stock {:g} x {:g} mm, {:g} mm before Z0", d.stock.outer_mm,
-                      d.stock.length_mm, site.front),
+          fmt::format("stock diameter {:g} x {:g} mm long, its face at Z{:g}",
+                      d.stock.outer_mm, d.stock.length_mm, site.front),
           held,
           "zero: spindle axis and finished face of the free end",
           "tools at their imaginary tip, corner radius in the path"};

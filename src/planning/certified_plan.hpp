@@ -2,7 +2,8 @@
 #include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
-/// The certified plan alone, without explanations, `what_if` and `pareto`.
+/// The plan and the proof that it is the cheapest, without explanations, `what_if` and
+/// `pareto`.
 namespace turnwright::planning {
 
 /// Every tolerance is kept, of a robust plan with the probability `conformance` by

@@ -50,9 +50,9 @@ void add_corners(const PreparedPart& p, const ParetoPoint& slow, const ParetoPoi
   add_corners(p, *corner, fast, all);
 }
 
-// The points on the hull, from points with rising cost: along it time falls and each
-// minute saved costs more.
-// The certificates' gap may leave a point beside it.
+// The lower convex hull of points with rising cost: along it time falls, and each further
+// minute saved costs more.  Costs are proved to a gap, by which a point can lie off the
+// hull; it is left out.
 std::vector<ParetoPoint> hull(const std::vector<ParetoPoint>& rising) {
   std::vector<ParetoPoint> kept;
   const auto minute = [](const ParetoPoint& a, const ParetoPoint& b) {

@@ -7,7 +7,7 @@ namespace turnwright::service {
 
 void start_log();
 
-/// A line of this level with these members behind time and level.
+/// Writes a line of the level in the function's name: time, level, then these members.
 void log_info(const nlohmann::ordered_json& members);
 void log_error(const nlohmann::ordered_json& members);
 

@@ -161,7 +161,8 @@ class Builder {
     };
     for (const Indexation& at : strategy.indexations)
       if (!std::ranges::all_of(at.balls, in_range))
-        throw std::domain_error("samba: a ball that is not there");
+        throw std::domain_error(
+            "samba: a measurement names a ball that is not in balls_mm");
     if (!std::ranges::all_of(strategy.scale_bar_ends, in_range) ||
         strategy.styli_mm.empty())
       throw std::domain_error("samba: two ends of the scale bar and a stylus");

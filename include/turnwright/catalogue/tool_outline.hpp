@@ -47,8 +47,8 @@ inline constexpr double kSeatBehind_mm = 0.5;
 /// @throws std::domain_error if the insert's designation cannot be read.
 ToolOutline outline(const Tool& tool);
 
-/// Angle kappa' [deg] between the minor edge and the axis by (2); nothing of round
-/// inserts.
+/// Angle kappa' [deg] between the minor edge and the axis by (2); round
+/// inserts have none.
 std::optional<double> minor_angle_deg(double kapr_deg, const Insert1832& insert);
 
 /// An outline with its corners rounded, as polygon: chords of each arc are within

@@ -6,7 +6,8 @@
 #include "turnwright/base/units.hpp"
 #include "turnwright/catalogue/machine.hpp"
 
-/// Spindle speed, power, grip, and the time of a pass at constant surface speed.
+/// Spindle speed and power, gripping force of the chuck, and the time of a pass at constant
+/// surface speed.
 namespace turnwright::cutting {
 
 /// Power at the cut [kW] that one segment of a curve allows: P(n) = c n^s.

@@ -22,8 +22,9 @@ struct ForceLaw {
 ///     e = A Fr + B Fr^2,  A = f_ww - f_wp (Fa/Fr) D/2,  B = (f_ww,t Ft/Fr)^2/D  (2)
 ///     loop gain mu = A c x ap^(x-1)                                             (3)
 ///
-/// (1) and (2) are solved for the depth h = ap - e by Newton's method, kept in a bracket
-/// by bisection; evaluating (1) and (2) alternately would diverge for mu > 1.  For x = 1
+/// f_ww, f_wp and f_ww,t are flexibilities of the part (beam.hpp), D is its diameter.
+/// (1) and (2) are solved for the depth h = ap - e by Newton's method, safeguarded by
+/// bisection; evaluating (1) and (2) alternately would diverge for mu > 1.  For x = 1
 /// and B = 0, e = ap mu/(1 + mu).
 /// Degenerate input: for A < 0 the couple pulls the part towards the tool and the cut is
 /// deeper than ap; the solution is then the first depth above ap.

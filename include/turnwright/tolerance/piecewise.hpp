@@ -22,7 +22,8 @@ struct Samples {
   std::vector<double> e_mm;
 };
 
-/// The error of a surface.  Along a face z is the radius rho and e the axial error g.
+/// The error e(z) of a surface.  Of a face, z stands for the radius rho and e for the
+/// axial error g.
 using Profile = std::variant<Samples, PiecewisePolynomial>;
 
 /// Whether the profile has no point, for a surface whose error is not given.

@@ -78,13 +78,17 @@ struct BallBarFit {
 };
 
 /// Decomposition of a trace into the causes of its deviations, by an unweighted fit to
-/// both paths together, with c = cos theta, s = sin theta, Q = 100 mm:
+/// both paths together.  v(theta) is the deviation of the bar's length R, dir = +1 on the
+/// counter-clockwise path and -1 on the other; c = cos theta, s = sin theta, Q = 100 mm:
 ///
 ///     v = centre_u c + centre_v s + R scale_u c^2 + R scale_v s^2 + R square s c
 ///         - EUUb dir sgn(s) c + EVVb dir sgn(c) s - EVUb dir |s| + EUVb dir |c|
 ///         + EVU2 (R/Q)^2 c^2 s + EUV2 (R/Q)^2 s^2 c + 2 servo dir s c                (2)
 ///
-/// Coefficients are relative, tool minus workpiece; centre = -o.  square = u_U . u_V, so
+/// scale: scale errors of the axes U and V; EUUb, EVVb, EVUb, EUVb: their errors of
+/// reversal; EVU2, EUV2: curvature of their ways; servo: mismatch of their following.
+/// Coefficients are relative, tool minus workpiece; the centre is the negative of the
+/// pivot's offset o.  square = u_U . u_V, so
 /// the angle from +U to +V is 90 deg - square.  Uncertainties follow from s^2 (A^T A)^-1
 /// with s^2 = sum of squared residuals/(values - 12).
 ///

@@ -114,7 +114,8 @@ inline constexpr std::string_view kSambaChain = "wCBXfZYt";
 /// facet at their nominal positions.
 std::vector<double> samba_readings(const SambaStrategy& strategy, const Machine& machine);
 
-/// A change of the strategy, and the parameters that it would make identifiable.
+/// A change of the measuring strategy, and the error parameters that it would make
+/// identifiable.
 struct Remedy {
   std::string what;
   std::size_t rank = 0;

@@ -34,8 +34,8 @@ class Map {
       size_ += static_cast<Index>(stretch.h.size()) * (cut.used[0] + cut.used[1]);
       if (size_ > static_cast<Index>(kLargest))
         throw TooManyVibrations(
-            "milling: a tooth period holds too many vibrations for the spectral radius; "
-            "ask for a higher speed or a smaller depth");
+            "milling: too many vibrations fall into one tooth period for stability to be "
+            "computed; ask for a higher speed or a smaller depth");
       steps_.push_back(step(system, cut, stretch, ap_mm));
     }
   }

@@ -101,9 +101,9 @@ void read_damping(Draft& draft) {
   }
   const auto& machines = plan.machine.damping_ratio;
   plan.damping_ratio = machines.value_or(plan.damping_ratio);
-  draft.assume(
-      "/damping_ratio", plan.damping_ratio,
-      machines ? "the machine's own" : "slender parts and bars in a chuck or holder");
+  draft.assume("/damping_ratio", plan.damping_ratio,
+               machines ? "the machine's own"
+                        : "slender parts in a chuck and boring bars in a holder");
 }
 
 // One number for whatever holds the part, or one for each.

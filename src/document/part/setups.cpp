@@ -123,7 +123,8 @@ void check_steady(const Draft& draft, const Reader& r, std::size_t i) {
                                  : part::right_allowance_mm(plan.drawing));
   const bool beside = (left ? z : length_mm - z) > jaws_mm;
   if (!beside || z >= length_mm)
-    r.problem_at("steady_mm", "a place on the part beside the jaws, z from its left end",
+    r.problem_at("steady_mm",
+                 "a place on the part outside the jaws, z from the part's left end",
                  "conflict");
 }
 

@@ -33,7 +33,8 @@ void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
       assumed.push_back(
           {"/inner/" + std::to_string(i),
            {{"drilled_mm", p.drilled_mm[i]}},
-           "the largest drill that leaves 0.5 mm on the radius, and what is behind"});
+           "the largest drill that leaves 0.5 mm on the radius for boring and "
+           "spares what lies behind the hole"});
 }
 
 // The reason why the place cannot be milled in any clamping of the setup that the request

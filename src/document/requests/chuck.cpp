@@ -124,7 +124,7 @@ Graph read_graph(Reader r) {
   r.finish();
   if (g.z_mm.empty() || g.e_mm.empty()) return g;
   if (g.z_mm.size() != g.e_mm.size())
-    r.problem_at("e_mm", "as many errors as z_mm has places", "count");
+    r.problem_at("e_mm", "as many errors as z_mm has values", "count");
   const std::size_t least = static_cast<std::size_t>(g.options.max_degree) + 3;
   if (std::set<double>(g.z_mm.begin(), g.z_mm.end()).size() < least)
     r.problem_at(

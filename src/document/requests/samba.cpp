@@ -121,9 +121,11 @@ std::vector<std::string> read_parameters(Reader& r) {
     if (name.empty()) continue;
     if (!is_samba_parameter(name)) {
       const std::string near = nearest(name, samba_parameters());
-      item.problem("a parameter such as EC0Y, EX0C, EXX1, EYX2, EXYb or facet" +
-                       (near.empty() ? "" : " (did you mean \"" + near + "\"?)"),
-                   "reference");
+      item.problem(
+          "an error parameter of the machine such as EC0Y, EX0C, EXX1, EYX2, EXYb, or "
+          "facet" +
+              (near.empty() ? "" : " (did you mean \"" + near + "\"?)"),
+          "reference");
     } else if (std::ranges::find(out, name) != out.end()) {
       item.problem("each parameter once", "duplicate");
     }

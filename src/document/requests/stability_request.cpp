@@ -85,7 +85,8 @@ Named read_named(Reader& r, const Catalogue& catalogue) {
   return cutter;
 }
 
-/// Kienzle's law at the mean chip in place of Kt_MPa and Kn_MPa.
+/// Reads a material in place of Kt_MPa and Kn_MPa: both follow from Kienzle's law at the
+/// mean chip thickness.
 void read_material(Reader& r, const Catalogue& catalogue, const Named& cutter,
                    Request& q) {
   for (const char* key : {"Kt_MPa", "Kn_MPa"})
@@ -196,9 +197,10 @@ void read_turning(Reader& r, Request& q) {
   for (const Reader& item : r.optional_items("modes", 1, kModes)) {
     Reader mode = item.as_object();
     if (mode.is_object() && !mode.has("damping_ratio"))
-      q.assumed.push_back({{"pointer", "/modes/" + std::to_string(i) + "/damping_ratio"},
-                           {"value", kSlenderDamping},
-                           {"why", "slender parts and bars in a chuck or holder"}});
+      q.assumed.push_back(
+          {{"pointer", "/modes/" + std::to_string(i) + "/damping_ratio"},
+           {"value", kSlenderDamping},
+           {"why", "slender parts in a chuck and boring bars in a holder"}});
     q.system.modes.push_back(read_mode(mode, Axis::x, kSlenderDamping));
     ++i;
   }

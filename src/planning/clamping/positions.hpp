@@ -11,7 +11,8 @@ const char* free_face(const PreparedPart& part, std::size_t setup);
 
 /// z at which the jaws end.  The first setup grips stock, the later ones the part.
 double jaws_z_mm(const PreparedPart& part, std::size_t setup);
-/// z of the jaws' end (between centres: of the held end) in part coordinates.
+/// z of the front of the jaws in part coordinates; between centres, of the end at the
+/// headstock.
 double root_z_mm(const PreparedPart& part, std::size_t setup, Clamping clamping);
 /// z of the free end once this setup has faced it.
 double free_z_mm(const PreparedPart& part, std::size_t setup);

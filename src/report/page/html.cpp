@@ -245,7 +245,7 @@ std::string prices(const ordered_json& result) {
   auto sentences = sentences_of(list(result, "prices"));
   const auto all = sentences.size();
   if (all > kMost) sentences.resize(kMost);
-  auto out = section("Prices: what 10 % more room would save", sentences);
+  auto out = section("Prices: what 10 % more room would save, to first order", sentences);
   if (all > kMost)
     out +=
         fmt::format("<p class=\"from\">{} smaller ones are in the result document.</p>\n",

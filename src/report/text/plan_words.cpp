@@ -79,6 +79,11 @@ std::vector<std::string> opening_sentences(const ordered_json& result) {
     }
     sentences.push_back(std::move(sentence));
   }
+  const auto& conflicts = list(result, "conflicts");
+  if (!sentences.empty() &&
+      std::ranges::any_of(conflicts, [](const auto& c) { return !c.contains("set"); }))
+    sentences.push_back(
+        "Relaxing limits is not enough: the conflicts that belong to no set stay.");
   return sentences;
 }
 

@@ -210,7 +210,8 @@ std::string prices(const ordered_json& result) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
     sentences.push_back(sentence_of(all[i]));
-  std::string out = "\nPRICES  what 10 % more room would save\n" + numbered(sentences);
+  std::string out =
+      "\nPRICES  what 10 % more room would save, to first order\n" + numbered(sentences);
   if (all.size() > kMost)
     out += fmt::format("  {} smaller ones are in the result document.\n",
                        all.size() - kMost);

@@ -188,8 +188,8 @@ BatchFolder::BatchFolder(fs::path folder, const BatchInput::Contents& input,
   manifest_.data_sha256 = data_sha256;
   if (chunk_lines) manifest_.chunk_lines = *chunk_lines;
   const auto file = folder_ / "manifest.json";
-  // This is tested before the manifest, because another shard may start the batch
-  // meanwhile.
+  // Files of others are looked for before the manifest: between the two another shard may
+  // start the batch.
   const auto strange = stranger(folder_);
   if (fs::exists(file)) {
     const Stored begun = read_manifest(file);

@@ -199,7 +199,8 @@ void add_batches(ordered_json& paths) {
   paths["/v1/batches/{id}/cancel"]["post"] = {
       {"operationId", "cancel-batch"},
       {"summary",
-       "leaves the lines without a record, also those under way; results stay"},
+       "ends the batch: lines that have no result yet are not computed, results are "
+       "kept"},
       {"parameters", {id}},
       {"responses",
        responses({{"200", job_response("the job")}, {"404", problem("no such job")}})}};

@@ -345,7 +345,7 @@ chuck: /tests/1/radius_error_mm: got nothing, expected an error for every cut, o
 chuck: /predict/0/D_mm: got 0, expected a number > 0 and <= 100000 mm
 chuck: /predict/0/Fa_N: got nothing, expected a number from -1000000 to 1000000 N
 chuck: /Lc_mm: got 0, expected a number > 0 and <= 1000000 mm
-chuck: /graph/e_mm: got [1,2,3], expected as many errors as z_mm has places
+chuck: /graph/e_mm: got [1,2,3], expected as many errors as z_mm has values
 chuck: /graph/z_mm: got [1,2,3,3], expected at least max_degree + 3 = 6 different places)");
 }
 

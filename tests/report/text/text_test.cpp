@@ -384,6 +384,11 @@ TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
   EXPECT_TRUE(has_line(out, "WHAT ELSE WOULD DO  each line alone, as planned with it"));
   EXPECT_TRUE(has_line(out, "  1. the tool T9 makes it possible"));
   expect_printable(out);
+  const std::string stays =
+      "Relaxing limits is not enough: the conflicts that belong to no set stay.";
+  EXPECT_FALSE(has(out, stays));
+  result["conflicts"][1].erase("set");
+  EXPECT_TRUE(has(text(result), stays));
 }
 
 TEST(Text, WithoutAKnownOpeningTheReportSaysSo) {
