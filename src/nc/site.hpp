@@ -7,7 +7,8 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/approach.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/setup_program.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 /// A setup while it is programmed: the part in the machine, in the program's own
 /// coordinates, and the position of the tool.

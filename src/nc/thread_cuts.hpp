@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/setup_program.hpp"
 
 /// Threads among the moves of an operation, as the cycles of controls cut them.
 namespace turnwright::nc {

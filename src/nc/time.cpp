@@ -3,7 +3,7 @@
 
 #include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/nc/program.hpp"
+#include "turnwright/nc/setup_program.hpp"
 
 namespace turnwright::nc {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/nc/path.hpp"
+#include "turnwright/nc/setup_program.hpp"
 #include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -42,76 +42,6 @@
 /// Source: derived here; program_test takes the canonical moves of an interpreter and
 /// moves the tools' circles over the contour.
 namespace turnwright::nc {
-
-struct Move {
-  enum class Kind { rapid, feed, arc, thread };
-  Kind kind = Kind::rapid;
-  double x_mm = 0, z_mm = 0;  ///< radius and place in the program
-  Point centre = {};          ///< of an arc: its radius in h_mm, its place in z_mm
-  bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
-  /// Over the stock that roughing has left on elements in front.
-  bool entering = false;
-};
-
-/// The range in which a tool is in the cut: along the axis, or between two radii.
-struct InCut {
-  bool across = false;            ///< between radii
-  double from_mm = 0, to_mm = 0;  ///< from < to, in the program's own coordinates
-};
-
-/// One operation of the plan, or a stop.  Milling is not part of a turning program.
-struct Step {
-  std::vector<std::string> comments;
-  bool stop = false;    ///< M0: somebody changes the clamping, or mills
-  double stop_min = 0;  ///< its duration; 0 for milling
-  int tool = 0;
-  bool constant_surface_speed = false;
-  double S = 0;          ///< m/min, or 1/min
-  double n_max_rpm = 0;  ///< with constant surface speed
-  double f_mm_rev = 0;   ///< of a thread its pitch
-  InCut in_cut;
-  std::vector<Move> moves;
-};
-
-inline constexpr int kDrillOrientation = 7;
-
-struct TableTool {
-  int number = 0;
-  std::string id;
-  int offset = 0;       ///< number of its offset
-  double re_mm = 0;     ///< corner radius, 0 of blades, drills and threading tools
-  int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, or of drills
-};
-
-/// Minutes that a program runs or waits, without loading and preparing the machine.
-struct Minutes {
-  double cutting = 0;         ///< feed over the surface that an operation makes
-  double air = 0;             ///< feed beside it, and rapids
-  double entering = 0;        ///< part of `air` over stock in front; not in planned times
-  double tool_changes = 0;    ///< the moves to the tool change position are in `air`
-  double operator_stops = 0;  ///< M0 for changes of the clamping
-  double total() const { return cutting + air + tool_changes + operator_stops; }
-};
-
-struct SetupProgram {
-  std::size_t setup = 0;
-  std::vector<std::string> comments;
-  std::vector<TableTool> tools;
-  double change_x_mm = 0, change_z_mm = 0;  ///< radius and place where tools are changed
-  std::vector<Step> steps;
-  Minutes minutes;
-};
-
-/// Minutes of a program's own moves.  Feed per revolution at a constant surface speed v
-/// below the spindle's limit n_cap takes
-///
-///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                  (1)
-///
-/// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n).  A rapid
-/// takes its longer axis at the machine's rapid rate, another tool the machine's time to
-/// bring one in, the first included.  Source: derived here; time_test integrates
-/// numerically.
-Minutes minutes(const SetupProgram& program, const catalogue::Lathe& machine);
 
 struct Programs {
   std::vector<SetupProgram> setups;  ///< empty for an infeasible plan

@@ -140,19 +140,22 @@ std::optional<double> predicted_um(const planning::SetupPlan& setup,
   return last;
 }
 
+constexpr double kRaOfRz = 0.25;  // of turned surfaces a quarter to a sixth
+
 void add_roughness(std::vector<Check>& all, const PreparedPart& p,
                    const planning::SetupPlan& setup, std::size_t index,
                    const std::vector<ToolRow>& tools) {
-  const auto add = [&](const auto& surface) {
-    if (!surface.Ra_um || planning::setup_of(p, surface.id) != index) return;
-    const auto predicted = predicted_um(setup, surface.id, "roughness Ra");
+  const auto add = [&](const std::string& id, const char* what,
+                       const std::optional<double>& limit_um, double as_Ra) {
+    if (!limit_um || planning::setup_of(p, id) != index) return;
+    const auto predicted = predicted_um(setup, id, what);
     const Check one{
-        "roughness Ra",
-        surface.id,
-        plain(*surface.Ra_um) + " \u00b5m",
+        what,
+        id,
+        plain(*limit_um) + " \u00b5m",
         predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
-        roughness_gauge(*surface.Ra_um),
-        when(p, finishing_tool(tools, setup, surface.id), false)};
+        roughness_gauge(*limit_um * as_Ra),
+        when(p, finishing_tool(tools, setup, id), false)};
     const auto like = std::ranges::find_if(all, [&](const Check& c) {
       return c.what == one.what && c.limits == one.limits &&
              c.predicted == one.predicted && c.when == one.when;
@@ -162,9 +165,13 @@ void add_roughness(std::vector<Check>& all, const PreparedPart& p,
     else
       like->of += ", " + one.of;
   };
-  std::ranges::for_each(p.drawing.outer, add);
-  std::ranges::for_each(p.drawing.inner, add);
-  std::ranges::for_each(p.drawing.faces, add);
+  const auto of = [&](const auto& surface) {
+    add(surface.id, "roughness Ra", surface.Ra_um, 1);
+    add(surface.id, "roughness Rz", surface.Rz_um, kRaOfRz);
+  };
+  std::ranges::for_each(p.drawing.outer, of);
+  std::ranges::for_each(p.drawing.inner, of);
+  std::ranges::for_each(p.drawing.faces, of);
 }
 
 void add_threads(std::vector<Check>& all, const PreparedPart& p,

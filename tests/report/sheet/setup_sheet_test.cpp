@@ -161,6 +161,20 @@ const Check& check(const SetupSheet& sheet, const std::string& what) {
   return *found;
 }
 
+// An Rz of 6.3 um may be an Ra of 1.6 um, which plates do not tell from better ones.
+TEST(SetupSheet, RoughnessIsCheckedByItsOwnParameter) {
+  auto d = bush();
+  auto& element = d["outer"][1];
+  element.erase("Ra_um");
+  element["Rz_um"] = 6.3;
+  const auto s = sheets_of(d);
+  const auto& one = check(s.all[0], "roughness Rz");
+  EXPECT_EQ(one.of, element["id"].get<std::string>());
+  EXPECT_EQ(one.limits, "6.3 \u00b5m");
+  EXPECT_NE(one.predicted, "not predicted");
+  EXPECT_EQ(one.gauge, "roughness tester");
+}
+
 // ISO 286: 36 h7 is 0 / -25 um, 22 H7 +21 / 0.
 TEST(SetupSheet, LimitsAreThoseOfTheSizes) {
   const auto& sheet = bush_sheets().all[0];
