@@ -131,7 +131,7 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))
     std::cerr << "removed " << (folder / name).string() << ", of an earlier plan\n";
-  for (const auto& why : programs.cannot) std::cerr << "no NC program: " << why << '\n';
+  for (const auto& why : programs.cannot) std::cerr << "no NC program: " << visible(why) << '\n';
   if (files.empty() && programs.cannot.empty())
     std::cerr << "no NC program: there is no feasible plan\n";
 }
@@ -230,7 +230,7 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
     throw wrong_option("--setup", std::to_string(*arguments.setup),
                        "a setup with a program: " + setups, "range");
   for (const auto& why : result["cannot"])
-    std::cerr << "no NC program: " << why.get<std::string>() << '\n';
+    std::cerr << "no NC program: " << visible(why.get<std::string>()) << '\n';
   if (result["cannot"].empty()) std::cerr << "no NC program: there is no feasible plan\n";
 }
 

@@ -9,13 +9,30 @@ std::string list(const std::string& document, const std::vector<Problem>& proble
   std::string text;
   for (const auto& p : problems) {
     if (!text.empty()) text += '\n';
-    text += document + ": " + (p.pointer.empty() ? "document" : p.pointer) + ": got " +
-            p.got + ", expected " + p.expected;
+    text += visible(document + ": " + (p.pointer.empty() ? "document" : p.pointer) +
+                    ": got " + p.got + ", expected " + p.expected);
   }
   return text;
 }
 
 }  // namespace
+
+std::string visible(std::string_view text) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    auto c = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F are two bytes of UTF-8 each.
+    const bool second = c == 0xc2 && i + 1 < text.size() &&
+                        static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (second) c = static_cast<unsigned char>(text[++i]);
+    if (second || c < 0x20 || c == 0x7f)
+      out += std::string("\\u00") + kDigits[c >> 4] + kDigits[c & 15];
+    else
+      out += static_cast<char>(c);
+  }
+  return out;
+}
 
 InputError::InputError(std::string document, std::vector<Problem> problems)
     : std::runtime_error(list(document, problems)),

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace turnwright {
@@ -13,9 +14,14 @@ struct Problem {
   std::string code;      ///< machine-readable kind: "type", "range", "unknown-key", ...
 };
 
+/// Text with its control characters written as JSON does (\\u001b), so that a terminal shows
+/// them instead of obeying them.
+std::string visible(std::string_view text);
+
 /// Thrown for a document that cannot be read; lists all its problems, not only the first.
 class InputError : public std::runtime_error {
  public:
+  /// what() has a line for each problem, all of it visible().
   /// @param document  name of the file or request, shown before every problem.
   InputError(std::string document, std::vector<Problem> problems);
   const std::vector<Problem>& problems() const noexcept { return problems_; }

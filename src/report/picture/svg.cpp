@@ -87,9 +87,18 @@ std::string plain(double value, int decimals) {
 }
 
 std::string escaped(std::string_view text) {
+  constexpr std::string_view kUnknown = "\ufffd";
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const auto next = text.substr(i, 3);
+    if (next == "\xef\xbf\xbe" || next == "\xef\xbf\xbf") {  // U+FFFE, U+FFFF
+      out += kUnknown;
+      i += 2;
+    } else if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' &&
+               c != '\r')
+      out += kUnknown;
+    else if (c == '&')
       out += "&amp;";
     else if (c == '<')
       out += "&lt;";

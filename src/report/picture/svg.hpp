@@ -13,7 +13,8 @@ struct Point {
 /// A number with at most `decimals`, without trailing zeros: "30", "0.25".
 std::string plain(double value, int decimals = 3);
 
-/// Escapes text and attribute values of XML.
+/// Escapes text and attribute values of XML; what XML 1.0 does not know as a character
+/// becomes U+FFFD.
 std::string escaped(std::string_view text);
 
 enum class Anchor { start, middle, end };
