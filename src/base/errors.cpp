@@ -23,8 +23,8 @@ std::string visible(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     auto c = static_cast<unsigned char>(text[i]);
     // U+0080 to U+009F are two bytes of UTF-8 each.
-    const bool second = c == 0xc2 && i + 1 < text.size() &&
-                        static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    const bool second = c == 0xc2 && next >= 0x80 && next < 0xa0;
     if (second) c = static_cast<unsigned char>(text[++i]);
     if (second || c < 0x20 || c == 0x7f)
       out += std::string("\\u00") + kDigits[c >> 4] + kDigits[c & 15];

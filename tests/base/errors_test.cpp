@@ -12,6 +12,10 @@ TEST(Visible, ControlCharactersAreWrittenAndTextStays) {
             "a\\u0000b\\u000a\\u001b[31m\\u007f");
   EXPECT_EQ(visible("\xc2\x85\xc2\x9f\u00a0"), "\\u0085\\u009f\u00a0");
   EXPECT_EQ(visible("cut off \xc2"), "cut off \xc2");
+  EXPECT_EQ(visible("no UTF-8: \xc2"
+                    "b"),
+            "no UTF-8: \xc2"
+            "b");
 }
 
 TEST(InputErrors, AreALineForEachProblemWhateverItsKeysAre) {

@@ -14,7 +14,7 @@ struct Problem {
   std::string code;      ///< machine-readable kind: "type", "range", "unknown-key", ...
 };
 
-/// Text with its control characters written as JSON does (\\u001b), so that a terminal shows
+/// Text with its control characters written as JSON does (\u001b), so that a terminal shows
 /// them instead of obeying them.
 std::string visible(std::string_view text);
 

@@ -247,7 +247,7 @@ struct Remedy {
 /// A change of the request that was tried alone and leaves the part infeasible.
 struct TriedChange {
   RequestChange change;
-  std::string sentence;  ///< "allowing between-centres in setup 0"
+  std::string sentence;  ///< "allowing between-centres in setup 1"
 };
 
 /// A certified plan on the convex hull of cost against time: no plan has a smaller

@@ -148,7 +148,9 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     if (!face_named(d, id) || before.right_mm == after.left_mm) continue;
     const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
     const auto s = place(
-        p, id, "it is faced in the setup that turns the smaller element beside it",
+        p, id,
+        "it is faced in the setup that turns the smaller element beside it, and none "
+        "does",
         [&](std::size_t i) {
           const auto& e = a.setups[i].elements;
           return std::find(e.begin(), e.end(), smaller) != e.end();

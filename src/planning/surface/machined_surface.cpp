@@ -19,7 +19,7 @@ namespace turnwright::planning {
 namespace {
 
 constexpr int kTable = 11;           // places of a correction
-constexpr double kDepths_mm = 1e-6;  // between which lengths are compared
+constexpr double kDepths_mm = 1e-3;  // between which lengths are compared
 
 // Pieces of equal length through exact values at Chebyshev points.
 tolerance::PiecewisePolynomial through_exact(
@@ -79,11 +79,13 @@ const part::Face* find_face(const PreparedPart& p, const std::string& id) {
   return nullptr;
 }
 
-// The line through its values at two depths, if it is positive at depth 0 too.
+// The line through its values at two depths, if it is positive from depth 0 to beyond the
+// larger one.
 Affine through(double a0, double v0, double a1, double v1) {
   const double slope = a1 - a0 > kDepths_mm ? (v1 - v0) / (a1 - a0) : 0;
   const double at_0 = v0 - slope * a0;
-  return std::abs(v1 - v0) > 1e-9 * v0 && at_0 > 0 ? Affine{at_0, slope} : Affine{v0, 0};
+  const bool positive = at_0 > 0 && v1 + 0.1 * slope * a1 > 0;
+  return std::abs(v1 - v0) > 1e-9 * v0 && positive ? Affine{at_0, slope} : Affine{v0, 0};
 }
 
 }  // namespace
@@ -268,7 +270,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
 }
 
 // Lengths are those at the least and at the largest depth of finishing that the tools
-// allow, and on the line through them between: they are made of straight lines.
+// allow, and on the line through these between and a little beyond.
 void MachinedSurface::add_lengths(const Recipe& recipe, double stock_mm, Chain& c) const {
   const double nr = recipe.rough_passes, nf = recipe.finish_passes;
   double least = nf > 0 ? stock_mm / nf : 0, most = least;

@@ -266,6 +266,7 @@ std::string html(std::string_view name, const ordered_json& result,
                        ? "What would have to give, one of every set"
                        : "What would have to give, the smallest opening first",
                    opening_sentences(result));
+  if (const auto stays = what_stays(result); !stays.empty()) out += tag("p", stays);
   out += section("What else would do, each alone, as planned with it",
                  sentences_of(list(result, "remedies")));
   out += breakdown(result) + (sheets.empty() ? setup_figures(result, figures) : "") +

@@ -140,7 +140,7 @@ std::optional<double> predicted_um(const planning::SetupPlan& setup,
   return last;
 }
 
-constexpr double kRaOfRz = 0.25;  // of turned surfaces a quarter to a sixth
+constexpr double kRaOfRz = 0.25;  // of a profile of triangles Ra is a quarter of Rz
 
 void add_roughness(std::vector<Check>& all, const PreparedPart& p,
                    const planning::SetupPlan& setup, std::size_t index,

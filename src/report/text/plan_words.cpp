@@ -79,12 +79,17 @@ std::vector<std::string> opening_sentences(const ordered_json& result) {
     }
     sentences.push_back(std::move(sentence));
   }
-  const auto& conflicts = list(result, "conflicts");
-  if (!sentences.empty() &&
-      std::ranges::any_of(conflicts, [](const auto& c) { return !c.contains("set"); }))
-    sentences.push_back(
-        "Relaxing limits is not enough: the conflicts that belong to no set stay.");
   return sentences;
+}
+
+std::string what_stays(const ordered_json& result) {
+  const auto in_set = [](const auto& member) { return member.contains("set"); };
+  const auto &relax = list(result, "relax"), &conflicts = list(result, "conflicts");
+  const bool stays = !relax.empty() && std::ranges::all_of(relax, in_set) &&
+                     !std::ranges::all_of(conflicts, in_set);
+  return stays
+             ? "Relaxing limits is not enough: the conflicts that belong to no set stay."
+             : "";
 }
 
 std::string kind_words(std::string kind) {

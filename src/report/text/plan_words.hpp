@@ -19,6 +19,8 @@ std::vector<std::string> conflict_sentences(const nlohmann::ordered_json& result
 /// The relaxations that would make the part feasible, smallest first, up to twice the
 /// limit also in percent.
 std::vector<std::string> opening_sentences(const nlohmann::ordered_json& result);
+/// A sentence where conflicts stay that no relaxation answers, else "".
+std::string what_stays(const nlohmann::ordered_json& result);
 
 /// Whether the members belong to more than one set.
 bool several_sets(const nlohmann::ordered_json& members);

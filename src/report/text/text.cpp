@@ -81,7 +81,8 @@ std::string relaxations(const ordered_json& result) {
     return out +
            "  No limit was found whose opening alone would do; what else was tried is "
            "told below.\n";
-  return out + numbered(sentences);
+  const auto stays = what_stays(result);
+  return out + numbered(sentences) + (stays.empty() ? "" : paragraph("  ", stays));
 }
 
 std::string remedies(const ordered_json& result) {

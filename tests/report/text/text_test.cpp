@@ -388,6 +388,8 @@ TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
       "Relaxing limits is not enough: the conflicts that belong to no set stay.";
   EXPECT_FALSE(has(out, stays));
   result["conflicts"][1].erase("set");
+  EXPECT_FALSE(has(text(result), stays));  // the second relaxation is of no set either
+  result["relax"][1]["set"] = 1;
   EXPECT_TRUE(has(text(result), stays));
 }
 

@@ -143,6 +143,11 @@ export interface Sentence {
   sentence: string;
 }
 
+/** Of limits that cannot be kept together: the set that it belongs to. */
+export interface InSet extends Sentence {
+  set?: number;
+}
+
 export interface Price extends Sentence {
   limit: string;
   saves_per_part_for_10_percent: number;
@@ -175,8 +180,8 @@ export interface Plan {
   pareto?: Corner[];
   prices: Price[];
   what_if?: WhatIfAnswer[];
-  conflicts: Sentence[];
-  relax: Sentence[];
+  conflicts: InSet[];
+  relax: InSet[];
   remedies?: Sentence[];
   assumed: { pointer: string; value: unknown; why: string }[];
   turnwright_version: string;
