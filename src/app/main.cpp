@@ -131,7 +131,8 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))
     std::cerr << "removed " << (folder / name).string() << ", of an earlier plan\n";
-  for (const auto& why : programs.cannot) std::cerr << "no NC program: " << visible(why) << '\n';
+  for (const auto& why : programs.cannot)
+    std::cerr << "no NC program: " << visible(why) << '\n';
   if (files.empty() && programs.cannot.empty())
     std::cerr << "no NC program: there is no feasible plan\n";
 }

@@ -852,5 +852,19 @@ TEST(Plan, InfeasibleAsDrawnTellsWhatFailsAndWhatWouldHaveToGive) {
   for (const auto& x : r.relax) EXPECT_GT(x.needed, x.now);
 }
 
+// Optima stand on limits, to rounding: their own conditions are no conflict.
+TEST(Plan, OfItsOwnConditionsIsThePlan) {
+  for (const char* name :
+       {"aluminium-tube", "drilled-bush", "motor-shaft", "spindle-nose"}) {
+    auto d = file(std::string("parts/") + name + ".json");
+    d.erase("what_if");
+    d.erase("pareto_points");
+    const auto r = plan(part(d));
+    const auto again = plan(part(as_planned(d, r)));
+    EXPECT_EQ(again.status, PlanStatus::ok) << name;
+    EXPECT_NEAR(again.cost_per_part, r.cost_per_part, 1e-8 * r.cost_per_part) << name;
+  }
+}
+
 }  // namespace
 }  // namespace turnwright::planning

@@ -14,7 +14,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 ///
 /// Results are not rounded outwards: each operation may be too narrow by one unit in the
 /// last place.  A proof by intervals must leave a margin for that (the certificates of
-/// optimise/ keep 1e-11 in logarithms, a thousand times the loss of a few hundred
+/// optimise/ keep 2e-10 in logarithms, a thousand times the loss of a few hundred
 /// operations).  Boost.Interval rounds outwards by switching the processor's rounding
 /// mode, which costs ten times this arithmetic.
 /// Where an operation is undefined on part of its argument (log, sqrt, pow below zero)

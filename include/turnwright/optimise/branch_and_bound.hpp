@@ -73,7 +73,7 @@ struct SearchResult {
 /// in the order of their creation, so the result is the same on every run.
 /// Near an optimum the gradient of the Lagrangian vanishes and the error of (1) is of
 /// second order in the width of the box; this ends the search.  Every comparison allows
-/// 1e-11 for rounding.
+/// 2e-10 for rounding.
 /// Source: [Neumaier 1990], mean value form; Lagrangian cut derived here.
 SearchResult branch_and_bound(std::vector<Piece>& pieces, double incumbent,
                               const SearchOptions& options = {});

@@ -243,7 +243,7 @@ TEST(PartPlan, ASteadyRestStandsBesideTheJaws) {
                            {"steady_mm", c.steady_mm}}};
     const auto said = refusal(document);
     const bool refused = said.find("/setups/0/steady_mm: got ") != std::string::npos &&
-                         said.find("beside the jaws") != std::string::npos;
+                         said.find("outside the jaws") != std::string::npos;
     EXPECT_NE(refused, c.beside) << document["setups"] << said;
     EXPECT_TRUE(refused || said.find("steady_mm") == std::string::npos) << said;
   }

@@ -87,7 +87,7 @@ TEST(SambaDoor, TellsEveryFaultWithItsPlace) {
   has(spoilt([](json& r) { r["parameters"] = "every"; }),
       "/parameters: got \"every\", expected \"all\" or a list of names");
   has(spoilt([](json& r) { r["parameters"][1] = "EXX4"; }),
-      "/parameters/1: got \"EXX4\", expected a parameter such as");
+      "/parameters/1: got \"EXX4\", expected an error parameter of the machine such as");
   has(spoilt([](json& r) { r["parameters"].push_back("EXX1"); }),
       "/parameters/3: got \"EXX1\", expected each parameter once");
   has(spoilt([](json& r) { r["readings_mm"].erase(0); }),
