@@ -159,11 +159,10 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
       site.outer.items[k + 1].stock)
     return;
   const double ends = std::round(1e3 * (s.z1 - site.root_z)) / 1e3;
-  site.cannot.push_back(
-      fmt::format("{}, {}: {} ends {:.3g} mm before the jaws, its tool's corner "
-                  "needs {:.3g} mm: grip less",
-                  planning::setup_label(site.setup), operation, s.id, std::abs(ends),
-                  s.z1 - needed_z));
+  site.refuse(operation,
+              fmt::format("{} ends {:.3g} mm before the jaws, its tool's corner "
+                          "needs {:.3g} mm: grip less",
+                          s.id, std::abs(ends), s.z1 - needed_z));
 }
 
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,

@@ -62,10 +62,9 @@ Place place_of(Site& site, const std::string& id) {
 // position; if so it is reported as not programmable.
 bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
   if (!(site.front > 0 && z > 0)) return false;
-  site.cannot.push_back(
-      fmt::format("{}, {}: the end that {} begins at is not faced, {:.3g} mm stand "
-                  "before it",
-                  planning::setup_label(site.setup), o.id, s.id, site.front));
+  site.refuse(o.id, fmt::format("the end that {} begins at is not faced, {:.3g} mm stand "
+                                "before it",
+                                s.id, site.front));
   return true;
 }
 
@@ -107,11 +106,10 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
   const double run_in = std::min(kRunIn * P, room);
   if (!(run_in >= P)) {
-    site.cannot.push_back(
-        fmt::format("{}, {}: thread {} begins behind a larger diameter with less "
-                    "than one pitch "
-                    "of room for the tool to come in",
-                    planning::setup_label(site.setup), o.id, s.id));
+    site.refuse(o.id, fmt::format("thread {} begins behind a larger diameter with less "
+                                  "than one pitch "
+                                  "of room for the tool to come in",
+                                  s.id));
     return;
   }
   if (unfaced(site, o, s, s.z0 + run_in)) return;
@@ -162,11 +160,10 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   const auto& cut = *cut_of(site, s);
   const auto drawn = drawn_arc(site, s);
   if (!planning::cleared(site.part, site.setup, s.index)) {
-    site.cannot.push_back(
-        fmt::format("{}, {}: arc {} falls towards the chuck by more than the {:.4g} "
-                    "deg that profiling tools are taken to clear",
-                    planning::setup_label(site.setup), o.id, s.id,
-                    units::deg_from_rad(part::kProfilingClears_rad)));
+    site.refuse(o.id,
+                fmt::format("arc {} falls towards the chuck by more than the {:.4g} "
+                            "deg that profiling tools are taken to clear",
+                            s.id, units::deg_from_rad(part::kProfilingClears_rad)));
     return;
   }
   const Corner corner{tool.re_mm, part::kProfilingClears_rad};
@@ -184,17 +181,18 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
     const auto way = way_along(raised, before, behind, corner);
     if (!way) {
-      site.cannot.push_back(fmt::format(
-          "{}, {}: arc {} of {:g} mm between what is beside it does not "
-          "take the tool, of a corner of {:g} mm",
-          planning::setup_label(site.setup), o.id, s.id, cut.radius_mm, tool.re_mm));
+      site.refuse(o.id,
+                  fmt::format("arc {} of {:g} mm between what is beside it does not "
+                              "take the tool, of a corner of {:g} mm",
+                              s.id, cut.radius_mm, tool.re_mm));
       return;
     }
     const auto from = beginning(raised, way->from, all, corner);
     if (!from) {
-      site.cannot.push_back(fmt::format(
-          "{}, {}: no tool gets to the beginning of arc {} past what is beside it",
-          planning::setup_label(site.setup), o.id, s.id));
+      site.refuse(
+          o.id,
+          fmt::format("no tool gets to the beginning of arc {} past what is beside it",
+                      s.id));
       return;
     }
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;

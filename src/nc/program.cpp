@@ -239,9 +239,7 @@ void way(Site& site, std::size_t i) {
   const auto& o = site.answer().operations[i];
   if (o.direction == planning::Direction::from_chuck && o.kind != OperationKind::fixed &&
       o.kind != OperationKind::face)
-    site.cannot.push_back(
-        fmt::format("{}, {}: no program is made for turning from the chuck outwards",
-                    planning::setup_label(site.setup), o.id));
+    site.refuse(o.id, "no program is made for turning from the chuck outwards");
   else if (o.kind == OperationKind::fixed)
     fixed(site, i);
   else if (is_shoulder(o))

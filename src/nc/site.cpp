@@ -90,6 +90,10 @@ void Site::rapid(double x, double z_) {
   at = {x, z_};
 }
 
+void Site::refuse(const std::string& operation, const std::string& why) {
+  cannot.push_back(planning::setup_label(setup) + ", " + operation + ": " + why);
+}
+
 void Site::to(Move::Kind kind, const Side& side, const Point& p) {
   moves.push_back({kind, side.sign * p.h_mm, p.z_mm, {}, false});
   at = {side.sign * p.h_mm, p.z_mm};

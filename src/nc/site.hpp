@@ -62,6 +62,8 @@ class Site {
   double r_most = 0;    ///< largest corner of the plan's tools
   Side outer, inner;
   std::vector<std::string> cannot;
+  /// Adds to `cannot` why an operation of this setup is not programmed.
+  void refuse(const std::string& operation, const std::string& why);
 
   const planning::SetupPlan& answer() const { return plan.setups[setup]; }
   double z(double part_z) const { return sign * (part_z - free_z); }

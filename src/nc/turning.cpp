@@ -185,9 +185,9 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   const double lets = free_mm(along(way), pieces, {p.re_mm});
   const bool stopped = clip(way, pieces, p.tool());
   if (along(way).length_mm < std::min(lets, own) - kStands_mm - lost_mm(p))
-    p.site.cannot.push_back(fmt::format(
-        "{}, {}: the minor edge of {} does not clear what is before {}",
-        planning::setup_label(p.site.setup), p.plan().id, p.plan().tool, p.surface().id));
+    p.site.refuse(p.plan().id,
+                  fmt::format("the minor edge of {} does not clear what is before {}",
+                              p.plan().tool, p.surface().id));
   way = {way.rbegin(), way.rend()};
   if (!stopped || way.empty()) return;
   const Point level{way.front().h_mm, way.front().z_mm + kBefore_mm};

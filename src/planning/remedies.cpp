@@ -119,8 +119,7 @@ void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>&
   if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
     room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
   const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
-  const double held_mm = s == 0 ? p.drawing.stock.length_mm : part::length_mm(p.drawing);
-  if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm && grip < held_mm)
+  if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
     add_grip(p, s, grip, all);
 }
 

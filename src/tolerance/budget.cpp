@@ -51,18 +51,18 @@ Moments moments_um(const Source& s) {
   return {scale * m.mean, std::abs(scale) * m.sigma, low, high};
 }
 
-void demand_that(bool kept, const std::string& rule) {
+void require_that(bool kept, const std::string& rule) {
   if (!kept) throw std::domain_error("budget: " + rule);
 }
 
 void check(std::span<const Source> sources) {
   for (const Source& s : sources) {
     const bool bias = s.distribution == Distribution::fixed;
-    demand_that(std::isfinite(s.value_um) && (bias || s.value_um >= 0),
-                fmt::format("the value of '{}' must be {}", s.name,
-                            bias ? "finite" : ">= 0 um and finite"));
-    demand_that(std::isfinite(s.sensitivity),
-                fmt::format("the sensitivity of '{}' must be finite", s.name));
+    require_that(std::isfinite(s.value_um) && (bias || s.value_um >= 0),
+                 fmt::format("the value of '{}' must be {}", s.name,
+                             bias ? "finite" : ">= 0 um and finite"));
+    require_that(std::isfinite(s.sensitivity),
+                 fmt::format("the sensitivity of '{}' must be finite", s.name));
   }
 }
 
@@ -210,7 +210,7 @@ Span room_um(const Verdict& v) {
 
 std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws) {
   check(sources);
-  demand_that(draws.count > 0, "there must be a draw");
+  require_that(draws.count > 0, "there must be a draw");
   std::vector<double> sums(draws.count, 0.0);
   const std::size_t asked =
       draws.threads ? draws.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -230,8 +230,8 @@ std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& 
 }
 
 double quantile_um(std::span<const double> rising_um, double p) {
-  demand_that(!rising_um.empty(), "a quantile needs draws");
-  demand_that(p >= 0 && p <= 1, "a quantile's p must lie in [0, 1]");
+  require_that(!rising_um.empty(), "a quantile needs draws");
+  require_that(p >= 0 && p <= 1, "a quantile's p must lie in [0, 1]");
   const double rank = p * static_cast<double>(rising_um.size() - 1);
   const auto k = static_cast<std::size_t>(rank);
   if (k + 1 == rising_um.size()) return rising_um[k];
@@ -239,7 +239,7 @@ double quantile_um(std::span<const double> rising_um, double p) {
 }
 
 double share_within(std::span<const double> rising_um, const Span& room) {
-  demand_that(!rising_um.empty(), "a share needs draws");
+  require_that(!rising_um.empty(), "a share needs draws");
   const auto first = std::ranges::lower_bound(rising_um, room.down_um);
   const auto last = std::ranges::upper_bound(rising_um, room.up_um);
   return last <= first
@@ -322,12 +322,12 @@ double Spread::within(const Span& room, double further_sigma_um) const {
 }
 
 Budget budget(const BudgetDemand& demand, const Span& room) {
-  demand_that(demand.conformance >= 0 && demand.conformance <= 1,
-              "the wanted conformance must lie in [0, 1]");
-  demand_that(std::isfinite(demand.measurement_U_um) && demand.measurement_U_um >= 0,
-              "the measurement's uncertainty must be >= 0 um and finite");
-  demand_that(!std::isnan(room.down_um) && !std::isnan(room.up_um),
-              "the room must have two ends");
+  require_that(demand.conformance >= 0 && demand.conformance <= 1,
+               "the wanted conformance must lie in [0, 1]");
+  require_that(std::isfinite(demand.measurement_U_um) && demand.measurement_U_um >= 0,
+               "the measurement's uncertainty must be >= 0 um and finite");
+  require_that(!std::isnan(room.down_um) && !std::isnan(room.up_um),
+               "the room must have two ends");
   const std::vector<double> rising = rising_sum_um(demand.sources, demand.draws);
   Budget b{.room_um = room};
   add_closed_forms(demand.sources, b);

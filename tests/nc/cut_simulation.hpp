@@ -26,6 +26,12 @@ enum class Fault {
   thread   ///< a thread not cut to its depth
 };
 const char* name(Fault fault);
+/// What programs still do (docs/nc.md): a contour is entered again before faced shoulders
+/// and arcs, blanks of arcs and grooves begin on finished neighbours, and nothing knows the
+/// body of the tailstock's live centre.
+constexpr bool known_of_contours(Fault f) {
+  return f == Fault::start || f == Fault::again || f == Fault::centre;
+}
 
 struct Finding {
   Fault fault = Fault::gouge;

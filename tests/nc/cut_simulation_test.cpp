@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "random_parts.hpp"
 
@@ -14,11 +13,6 @@ namespace {
 using namespace test;
 
 constexpr int kSideBySide = 5;
-
-// What programs still do (docs/nc.md): a contour is entered again before faced shoulders and
-// arcs, blanks of arcs and grooves begin on finished neighbours, and nothing knows the body
-// of the tailstock's live centre.
-constexpr auto kOfContours = {Fault::start, Fault::again, Fault::centre};
 
 bool beside_a_form(const Planned& p, const std::string& id) {
   const auto& outer = p.part.drawing.outer;
@@ -42,7 +36,7 @@ std::string found_beside(const Planned& p, bool forms = false) {
   const auto all = programs(p.part, p.plan);
   auto findings = simulated(p, all);
   std::erase_if(findings, [&](const Finding& f) {
-    return std::ranges::count(kOfContours, f.fault) ||
+    return known_of_contours(f.fault) ||
            (forms && (f.fault == Fault::rapid || left_by_form(p, all, f)));
   });
   return listed(findings);
@@ -72,12 +66,11 @@ TEST(CutSimulation, OfAwkwardPartsLeavesTheDrawing) {
   for_awkward_parts([](const Planned& p) { EXPECT_EQ(found_beside(p, true), ""); });
 }
 
-/// Of as many parts as TURNWRIGHT_RANDOM_PARTS says, in five parts that run side by side.
+/// In five parts that run side by side.
 class CutSimulationOfRandomParts : public testing::TestWithParam<int> {};
 
 TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
-  const char* given = std::getenv("TURNWRIGHT_RANDOM_PARTS");
-  const int parts = given ? std::atoi(given) : 100;
+  const int parts = parts_to_try(100);
   int made = 0;
   for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
     const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();

@@ -72,16 +72,12 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsAreTakenAndMakeTheContour) {
   }
 }
 
-// The same exceptions as without an interpreter (cut_simulation_test).
 TEST_F(NcThroughLinuxCnc, OfReferencePartsLeaveTheDrawing) {
   for (const auto& name : reference_parts()) {
     const auto p = planned_reference(name);
     if (p.plan.status != planning::PlanStatus::ok) continue;
     auto findings = cut(rs274, p);
-    std::erase_if(findings, [](const Finding& f) {
-      return f.fault == Fault::start || f.fault == Fault::again ||
-             f.fault == Fault::centre;
-    });
+    std::erase_if(findings, [](const Finding& f) { return known_of_contours(f.fault); });
     EXPECT_EQ(listed(findings), "") << name;
   }
 }

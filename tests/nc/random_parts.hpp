@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -10,6 +11,12 @@
 /// Parts as nobody would draw them on purpose: steps, cones, arcs, grooves and threads in
 /// any order outside, bores from either end inside.
 namespace turnwright::nc::test {
+
+/// How many are tried: as many as TURNWRIGHT_RANDOM_PARTS says, if it is set.
+inline int parts_to_try(int otherwise) {
+  const char* given = std::getenv("TURNWRIGHT_RANDOM_PARTS");
+  return given ? std::atoi(given) : otherwise;
+}
 
 class RandomPart {
  public:

@@ -158,10 +158,8 @@ TEST(PlanAndProgram, OfReferencePartsTakeTheSameTime) {
   }
 }
 
-// TURNWRIGHT_RANDOM_PARTS sets how many are tried.
 TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
-  const auto* given = std::getenv("TURNWRIGHT_RANDOM_PARTS");
-  const int parts = given ? std::atoi(given) : 40;
+  const int parts = parts_to_try(40);
   int made = 0;
   for (int seed = 1; seed <= parts; ++seed) {
     const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();

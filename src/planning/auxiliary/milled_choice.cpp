@@ -46,7 +46,7 @@ double grip_N(const MilledSite& s, double normal) {
          cutting::grip_needed_N(grip, F, F, s.p.drawing.outer[s.m.element].left_mm);
 }
 
-// The cutter_limits and their values at the choice, evaluated anew at speed and feed.
+// The limits and their values at the choice, evaluated anew at speed and feed.
 std::vector<ConstraintValue> cutter_limits(const MilledSite& s, const MilledChoice& c,
                                            double n, double fz, double stable_mm) {
   const auto& cutter = *c.cutter;

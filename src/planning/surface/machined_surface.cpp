@@ -18,8 +18,7 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr int kTable = 11;           // places of a correction
-constexpr double kDepths_mm = 1e-3;  // between which lengths are compared
+constexpr int kTable = 11;  // places of a correction
 
 // Pieces of equal length through exact values at Chebyshev points.
 tolerance::PiecewisePolynomial through_exact(
@@ -77,15 +76,6 @@ const part::Face* find_face(const PreparedPart& p, const std::string& id) {
   for (const auto& f : p.drawing.faces)
     if (f.id == id) return &f;
   return nullptr;
-}
-
-// The line through its values at two depths, if it is positive from depth 0 to beyond the
-// larger one.
-Affine through(double a0, double v0, double a1, double v1) {
-  const double slope = a1 - a0 > kDepths_mm ? (v1 - v0) / (a1 - a0) : 0;
-  const double at_0 = v0 - slope * a0;
-  const bool positive = at_0 > 0 && v1 + 0.1 * slope * a1 > 0;
-  return std::abs(v1 - v0) > 1e-9 * v0 && positive ? Affine{at_0, slope} : Affine{v0, 0};
 }
 
 }  // namespace
@@ -267,47 +257,6 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
-}
-
-// Lengths are those at the least and at the largest depth of finishing that the tools
-// allow, and on the line through these between and a little beyond.
-void MachinedSurface::add_lengths(const Recipe& recipe, double stock_mm, Chain& c) const {
-  const double nr = recipe.rough_passes, nf = recipe.finish_passes;
-  double least = nf > 0 ? stock_mm / nf : 0, most = least;
-  if (nr > 0 && nf > 0) {
-    const auto &rough = c.operations[0].ap, &finish = c.operations[1].ap;
-    const auto possible = [&](double a) { return std::clamp(a, 0.0, stock_mm / nf); };
-    least = possible(std::max(finish.lower, (stock_mm - nr * rough.upper) / nf));
-    most = std::max(least,
-                    possible(std::min(finish.upper, (stock_mm - nr * rough.lower) / nf)));
-  }
-  for (auto& o : c.operations) {
-    const auto at_least = lengths(recipe, o, stock_mm, least);
-    const auto at_most = lengths(recipe, o, stock_mm, most);
-    const auto path = through(least, at_least.path_mm, most, at_most.path_mm);
-    for (auto& pass : o.passes) pass.path_mm = path;
-    o.rapid_min = through(least, at_least.rapid_min, most, at_most.rapid_min);
-    o.fed_mm = through(least, at_least.fed_mm, most, at_most.fed_mm);
-  }
-}
-
-MachinedSurface::Lengths MachinedSurface::lengths(const Recipe& recipe,
-                                                  const OperationModel& o,
-                                                  double stock_mm, double a_mm) const {
-  const int n = o.finishing ? recipe.finish_passes : recipe.rough_passes;
-  const bool makes = o.finishing || recipe.finish_passes == 0;
-  const double finished = recipe.finish_passes * a_mm;
-  Strokes strokes{n, makes, o.finishing, o.tool->re_mm,
-                  units::rad_from_deg(o.tool->minor_kapr_deg)};
-  strokes.depth_mm = o.finishing ? a_mm : (stock_mm - finished) / n;
-  strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
-  if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);
-  const auto b = ways(o, strokes);
-  const double path = is_face() ? (D_large_ - D_small_) / 2
-                                : std::hypot(high_ - low_, (D_large_ - D_small_) / 2);
-  const double in_cut = path + b.wall_mm / n;
-  return {in_cut, std::max(in_cut, b.fed_mm / n),
-          b.rapid_mm / plan_->machine.rapid_mm_min};
 }
 
 std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy& economy,

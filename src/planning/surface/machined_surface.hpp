@@ -127,8 +127,7 @@ class MachinedSurface {
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
   // In surface_paths.cpp.
-  // Of a pass in the cut, of a pass at feed, and rapids of all.
-  struct Lengths {
+  struct Lengths {  // of a pass in the cut, of a pass at feed; rapids of all
     double path_mm = 0, fed_mm = 0, rapid_min = 0;
   };
   Lengths lengths(const Recipe& recipe, const OperationModel& operation, double stock_mm,

@@ -74,6 +74,14 @@ const char* name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
 
+// Bytes of the first character if XML 1.0 does not know it, else 0.
+std::size_t unknown(std::string_view text) {
+  const auto c = static_cast<unsigned char>(text[0]);
+  if (c < 0x20) return c != '\t' && c != '\n' && c != '\r' ? 1 : 0;
+  const auto three = text.substr(0, 3);  // U+FFFE, U+FFFF
+  return three == "\xef\xbf\xbe" || three == "\xef\xbf\xbf" ? 3 : 0;
+}
+
 }  // namespace
 
 std::string plain(double value, int decimals) {
@@ -87,18 +95,13 @@ std::string plain(double value, int decimals) {
 }
 
 std::string escaped(std::string_view text) {
-  constexpr std::string_view kUnknown = "\ufffd";
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    const auto next = text.substr(i, 3);
-    if (next == "\xef\xbf\xbe" || next == "\xef\xbf\xbf") {  // U+FFFE, U+FFFF
-      out += kUnknown;
-      i += 2;
-    } else if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' &&
-               c != '\r')
-      out += kUnknown;
-    else if (c == '&')
+    if (const auto bytes = unknown(text.substr(i)); bytes > 0) {
+      out += "\ufffd";
+      i += bytes - 1;
+    } else if (c == '&')
       out += "&amp;";
     else if (c == '<')
       out += "&lt;";

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-// One milled_pin with one place in it, held at the left.
+// One pin with one place in it, held at the left.
 json milled_pin(const json& place, double diameter_mm = 40) {
   return {{"format", "turnwright-part/1"},
           {"name", "pin"},
