@@ -56,8 +56,9 @@ Certificate no_certificate(const Attempt& a) {
   Certificate c;
   c.reason =
       a.lower_bound < kInfinity
-          ? "no plan was found, but the budget of boxes ended before every box was "
-            "settled"
+          ? "no plan was found, but it is not proved that there is none: the budget of "
+            "boxes ended before every box was settled, or with a corrected path the "
+            "sizes were kept by none of the conditions that were tried"
           : "proved: no plan keeps every limit";
   for (const auto& s : a.setups)
     for (const auto& f : s.chosen.features) c.nodes += f.answer.certificate.nodes;

@@ -3,6 +3,7 @@
 // parts are drawn, 100 by default (scripts/remedies draws 1000).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -111,8 +112,9 @@ class HardParts {
                      {{"chuck"}, {"chuck"}, {"chuck-tailstock"}, {"between-centres"}});
       if (chance(0.2)) s["jaws"] = "hard";
       if (chance(0.7))
-        s["grip_mm"] = std::max(
-            5.0, std::round(held["length_mm"].get<double>() * uniform(0.3, 1.3)));
+        s["grip_mm"] =
+            std::clamp(std::round(held["length_mm"].get<double>() * uniform(0.3, 1.3)),
+                       5.0, std::floor(d["stock"]["length_mm"].get<double>()) - 3);
       d["setups"].push_back(s);
     }
   }

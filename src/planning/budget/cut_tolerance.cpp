@@ -35,7 +35,10 @@ CutTolerance cut_tolerance(const PreparedPart& p, std::size_t index,
     const bool known = offset == Offset::constant || p.shop.first_part_gauged;
     const bool centred = offset != Offset::none && (known || !p.robust);
     d.shape = centred ? Shape::centred : Shape::size;
-    if (offset == Offset::path) d.upper = left_mm(p, index, others, Cut::corrected);
+    if (offset == Offset::path) {
+      d.remainder = d.upper * share / 2;
+      d.upper = left_mm(p, index, others, Cut::corrected);
+    }
     d.upper *= share / 2;
     d.lower = -d.upper;
   };

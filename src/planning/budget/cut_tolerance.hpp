@@ -26,6 +26,8 @@ struct CutTolerance {
   double lower = 0, upper = 0;
   double middle_mm = 0;  ///< programmed deviation of a size: the middle of its limits
   double taken_mm = 0;   ///< share of the width that all other sources take
+  /// Of a size with a corrected path: what factor |e| may still reach on that path.
+  double remainder = 0;
 };
 
 /// Displacement of the tool from the programmed middle of a size: none, one number for

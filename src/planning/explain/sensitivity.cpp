@@ -79,7 +79,7 @@ std::optional<double> change(const PreparedPart& plan, const SolvedSurface& f,
   chain->functionals = a.model->chain().functionals;
   feature.limit_chatter_alike(a.model->chain(), a.choice.a, *chain);
   if (!take_limits(f.task.cut_tolerances,
-                   cut_tolerances(changed, feature.surface(), f.offset, making),
+                   cut_tolerances(changed, feature.surface(), f.task.offset, making),
                    chain->functionals))
     return {};
   const auto before = lagrangian(a, a.model->chain()), after = lagrangian(a, *chain);

@@ -185,7 +185,7 @@ SolvedSetup SetupPlanner::as_given(SurfaceAnswer (*answer)(const SurfaceTask&),
     const auto offset = follows ? Offset::path : free_offset(p_);
     auto t = task(j, {}, offset);
     auto a = answer(t);
-    s.features.push_back({std::move(t), std::move(a), offset, jobs_[j].wanted.ids});
+    s.features.push_back({std::move(t), std::move(a), jobs_[j].wanted.ids});
   }
   s.auxiliary = auxiliary_;
   s.between = between(s);
@@ -264,6 +264,7 @@ SurfaceTask SetupPlanner::task(std::size_t j, const Tools& tools, Offset offset)
                 recipes(p_, f, jobs_[j].wanted, rough, finish),
                 economy_,
                 making,
+                offset,
                 explain_};
   t.unasked = unasked;
   return t;
@@ -294,7 +295,7 @@ const SolvedSurface& SetupPlanner::solved(std::size_t j, const Tools& tools,
     t.boxes = std::max(t.boxes - boxes_, kLeastBoxes);
     auto answer = optimise_surface(t, kGap, most);
     boxes_ += answer.certificate.nodes;
-    return SolvedSurface{std::move(t), std::move(answer), offset, jobs_[j].wanted.ids};
+    return SolvedSurface{std::move(t), std::move(answer), jobs_[j].wanted.ids};
   };
   // A surface that can be made without compensation, at any cost, is not compensated.
   if (compensate_) most = kInfinity;
@@ -311,7 +312,10 @@ const SolvedSurface& SetupPlanner::solved(std::size_t j, const Tools& tools,
     return *e.solved;
   e.compensated = true;
   auto compensated = attempt(Offset::path);
-  if (compensated.answer.feasible) e.solved = std::move(compensated);
+  if (compensated.answer.feasible)
+    e.solved = std::move(compensated);
+  else
+    e.solved->answer.lower_bound = compensated.answer.lower_bound;
   return *e.solved;
 }
 

@@ -53,7 +53,7 @@ tolerance::PiecewisePolynomial moved(tolerance::PiecewisePolynomial e, double by
 
 // 0 if every size keeps its limits without an offset.
 double offset_mm(const SolvedSurface& f) {
-  if (f.offset != Offset::constant || !f.answer.model) return 0;
+  if (f.task.offset != Offset::constant || !f.answer.model) return 0;
   const auto x = tolerance::extremes(f.answer.profile);
   const double most = std::max(x.max_mm, -x.min_mm);
   const bool needed =
@@ -67,7 +67,7 @@ double offset_mm(const SolvedSurface& f) {
 // The error as made, with the plan's offset or corrected path.
 tolerance::Profile as_made(const Found& f) {
   if (!f.feature) return profile(f);
-  if (f.feature->offset != Offset::path)
+  if (f.feature->task.offset != Offset::path)
     return moved(f.feature->answer.profile, offset_mm(*f.feature));
   const auto& a = f.feature->answer;
   const auto& task = f.feature->task;
@@ -157,7 +157,7 @@ double scaled_mm(const tolerance::Case& c, const tolerance::Verdict& v) {
 // The error profile that uncertain forces and stiffness scale: for a corrected path the
 // whole uncorrected error, without its middle if the first part is gauged.
 tolerance::Profile scaled_with_forces(const PreparedPart& p, const Found& f) {
-  if (!f.feature || f.feature->offset != Offset::path) return as_made(f);
+  if (!f.feature || f.feature->task.offset != Offset::path) return as_made(f);
   const auto& e = f.feature->answer.profile;
   return p.shop.first_part_gauged ? moved(e, to_middle_mm(e)) : e;
 }
@@ -288,7 +288,7 @@ std::vector<Deviation> deviations(const PreparedPart& p,
       for (int k = 0; k < kSections; ++k)
         places.push_back(feature.low_mm() +
                          (feature.high_mm() - feature.low_mm()) * k / (kSections - 1));
-      const bool follows = f.offset == Offset::path;
+      const bool follows = f.task.offset == Offset::path;
       const double by = offset_mm(f);
       const auto e =
           follows ? feature.corrected(recipe, f.task.economy, f.answer.choice, places,
@@ -315,7 +315,7 @@ std::vector<Compensation> compensations(const std::vector<SolvedSetup>& setups) 
   std::vector<Compensation> all;
   for (const auto& s : setups)
     for (const auto& f : s.features)
-      if (f.offset == Offset::path && f.answer.feasible)
+      if (f.task.offset == Offset::path && f.answer.feasible)
         all.push_back({f.task.feature.surface(), s.setup, correction(f)});
   return all;
 }

@@ -11,7 +11,6 @@ namespace turnwright::planning {
 struct SolvedSurface {
   SurfaceTask task;
   SurfaceAnswer answer;
-  Offset offset = Offset::none;            ///< with which its sizes were constrained
   std::vector<std::string> operation_ids;  ///< given ids, rough first; may be empty
 };
 

@@ -94,6 +94,13 @@ SurfaceAnswer with_profile(const SurfaceTask& task, SurfaceAnswer a) {
   return a;
 }
 
+void set_bound(SurfaceAnswer& a, double bound) {
+  a.lower_bound = bound;
+  if (!(a.objective > 0)) return;
+  a.certificate.lower_bound = std::min(bound, a.objective);
+  a.certificate.gap = 1 - a.certificate.lower_bound / a.objective;
+}
+
 // One task's search over recipes.  It starts without tolerances and chatter; their
 // constraints are imposed only where an optimum violates them, so a surface whose
 // tolerances do not bind is proved without deflection in boxes.  Their positions are
@@ -279,9 +286,7 @@ class FeatureSearch {
     a.objective = std::exp(best_.f);
     a.multipliers = std::move(s.multipliers);
     a.certificate = certificate();
-    a.lower_bound = std::exp(bound_);
-    a.certificate.lower_bound = std::min(a.lower_bound, a.objective);
-    a.certificate.gap = 1 - a.certificate.lower_bound / a.objective;
+    set_bound(a, std::exp(bound_));
     if (a.certificate.gap <= kCertified) {  // whatever was left open is as good
       a.certificate.kind = CertificateKind::global;
       a.certificate.reason.clear();
@@ -313,6 +318,63 @@ class FeatureSearch {
   std::string unfinished_;
 };
 
+// What a cut tolerance limits of an error.
+double value_mm(const CutTolerance& d, const tolerance::PiecewisePolynomial& e) {
+  using enum CutTolerance::Shape;
+  if (d.shape == straightness) return tolerance::minimum_zone(e).width_mm;
+  const auto x = tolerance::extremes(e);
+  if (d.shape == size) return d.factor * std::max(x.max_mm, -x.min_mm);
+  return d.factor * (x.max_mm - x.min_mm) / (d.shape == centred ? 2 : 1);
+}
+
+bool is_size(const CutTolerance& d) {
+  return d.shape == CutTolerance::Shape::size || d.shape == CutTolerance::Shape::centred;
+}
+
+// Largest share of a size's room that the corrected path's remaining error takes.
+double used_on_corrected_path(const SurfaceTask& task, const SurfaceAnswer& a) {
+  if (task.offset != Offset::path || std::ranges::none_of(task.cut_tolerances, is_size))
+    return 0;
+  const auto& recipe = a.model->recipe();
+  const auto x = tolerance::extremes(task.feature.corrected_profile(
+      recipe, task.economy, a.choice,
+      task.feature.corrections(recipe, task.economy, a.choice)));
+  double used = 0;
+  for (const auto& d : task.cut_tolerances)
+    if (is_size(d))
+      used = std::max(used, d.factor * std::max(x.max_mm, -x.min_mm) / d.remainder);
+  return used;
+}
+
+// An answer whose corrected path keeps the sizes.  Its remaining error is a share of the
+// error that is corrected: until it is small enough, that error is limited further.
+template <class Solve>
+SurfaceAnswer kept_on_corrected_path(const SurfaceTask& task, Solve solve) {
+  constexpr int kTimes = 5;
+  constexpr double kSpared = 0.9;
+  auto a = solve(task);
+  const double bound = a.lower_bound;
+  SurfaceTask tightened = task;
+  for (int time = 0; a.feasible; ++time) {
+    const double used = used_on_corrected_path(task, a);
+    if (!(used > 1)) break;
+    const auto e = task.feature.profile(a.model->recipe(), task.economy, a.choice);
+    for (auto& d : tightened.cut_tolerances)
+      if (is_size(d)) {
+        d.upper = value_mm(d, e) * kSpared / used;
+        d.lower = -d.upper;
+      }
+    a = time < kTimes ? solve(tightened) : SurfaceAnswer{};
+    set_bound(a, bound);
+    if (a.feasible && a.certificate.gap > kCertified) {
+      a.certificate.kind = CertificateKind::local;
+      a.certificate.reason =
+          "the sizes were tightened until the corrected path keeps them";
+    }
+  }
+  return a;
+}
+
 // Conditions that keep every limit of a recipe; with `spare` those nearby have to keep
 // them too.
 std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool spare) {
@@ -326,6 +388,41 @@ std::optional<std::vector<double>> kept_conditions(const RecipeModel& m, bool sp
     if (s.f <= kKept) return std::move(s.y);
   }
   return {};
+}
+
+// Conditions that keep every limit but those of the corrected path.
+SurfaceAnswer any_kept(const SurfaceTask& task) {
+  SurfaceAnswer a;
+  if (used_up(task.cut_tolerances)) return a;
+  TolerancePoints exchange(task.feature, task.cut_tolerances);
+  for (const auto& recipe : task.recipes)
+    for (int round = 0; round < kRounds; ++round) {
+      auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
+      if (!chain) break;
+      chain->functionals = exchange.functionals();
+      task.feature.limit_chatter(*chain);
+      a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
+      const auto y = kept_conditions(*a.model, round > 0);
+      if (!y) break;
+      a.choice = a.model->choice(*y);
+      a.feasible = !exchange.add_violated(recipe, task.economy, a.choice);
+      if (a.feasible) return a;
+    }
+  return a;
+}
+
+// The optimum without those.
+SurfaceAnswer best_answer(const SurfaceTask& task, double gap, double most) {
+  if (used_up(task.cut_tolerances)) {
+    SurfaceAnswer none;
+    none.lower_bound = kInfinity;
+    return none;
+  }
+  if (const auto& known = task.unasked->best) {
+    if (known->objective >= most) return not_below(*known);
+    if (keeps_demands(task, *known)) return with_profile(task, *known);
+  }
+  return FeatureSearch(task, gap, most).run();
 }
 
 }  // namespace
@@ -352,17 +449,10 @@ double least_objective(const SurfaceTask& task) {
 
 double worst_excess(const std::vector<CutTolerance>& cut_tolerances,
                     const tolerance::PiecewisePolynomial& e) {
-  const auto x = tolerance::extremes(e);
   double worst = -1;
-  using enum CutTolerance::Shape;
-  for (const auto& d : cut_tolerances) {
-    if (d.shape == none) continue;
-    double value = d.factor * (x.max_mm - x.min_mm);
-    if (d.shape == centred) value /= 2;
-    if (d.shape == size) value = d.factor * std::max(x.max_mm, -x.min_mm);
-    if (d.shape == straightness) value = tolerance::minimum_zone(e).width_mm;
-    worst = std::max(worst, value / std::max(d.upper, 1e-12) - 1);
-  }
+  for (const auto& d : cut_tolerances)
+    if (d.shape != CutTolerance::Shape::none)
+      worst = std::max(worst, value_mm(d, e) / std::max(d.upper, 1e-12) - 1);
   return worst;
 }
 
@@ -400,36 +490,12 @@ SurfaceAnswer nearest(const SurfaceTask& task) {
 }
 
 SurfaceAnswer any_answer(const SurfaceTask& task) {
-  SurfaceAnswer a;
-  if (used_up(task.cut_tolerances)) return a;
-  TolerancePoints exchange(task.feature, task.cut_tolerances);
-  for (const auto& recipe : task.recipes)
-    for (int round = 0; round < kRounds; ++round) {
-      auto chain = task.feature.chain(recipe, task.economy, exchange.stations());
-      if (!chain) break;
-      chain->functionals = exchange.functionals();
-      task.feature.limit_chatter(*chain);
-      a.model = std::make_shared<RecipeModel>(recipe, std::move(*chain));
-      const auto y = kept_conditions(*a.model, round > 0);
-      if (!y) break;
-      a.choice = a.model->choice(*y);
-      a.feasible = !exchange.add_violated(recipe, task.economy, a.choice);
-      if (a.feasible) return a;
-    }
-  return a;
+  return kept_on_corrected_path(task, any_kept);
 }
 
 SurfaceAnswer optimise_surface(const SurfaceTask& task, double gap, double most) {
-  if (used_up(task.cut_tolerances)) {
-    SurfaceAnswer none;
-    none.lower_bound = kInfinity;
-    return none;
-  }
-  if (const auto& known = task.unasked->best) {
-    if (known->objective >= most) return not_below(*known);
-    if (keeps_demands(task, *known)) return with_profile(task, *known);
-  }
-  return FeatureSearch(task, gap, most).run();
+  return kept_on_corrected_path(
+      task, [&](const SurfaceTask& t) { return best_answer(t, gap, most); });
 }
 
 }  // namespace turnwright::planning

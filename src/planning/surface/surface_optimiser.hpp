@@ -29,6 +29,7 @@ struct SurfaceTask {
   std::vector<Recipe> recipes;
   Economy economy;
   Making making;
+  Offset offset = Offset::none;  ///< with which its sizes are constrained
   bool explain = false;  ///< if no recipe is feasible, compare all of them for the reason
   long boxes = 20'000;   ///< after which the search ends and the certificate is `local`
   std::shared_ptr<Unasked> unasked = std::make_shared<Unasked>();
@@ -55,6 +56,9 @@ double least_objective(const SurfaceTask& task);
 /// positions on the surface.  The most violated positions of each optimum are added until
 /// none is violated (exchange method, [Blankenship 1976]); a lower bound that is proved
 /// with some positions holds with all of them.
+///
+/// A corrected path is interpolated between its places; where its remaining error would be
+/// more than a size has room for, the sizes are tightened until it is not.
 ///
 /// `gap` is the gap at which branch and bound ends, in ln(objective).  With a finite
 /// `most` only answers cheaper than that are searched for; that there is none is then
