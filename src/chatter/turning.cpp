@@ -52,7 +52,8 @@ class Loop {
     return {G.re * re - G.im * im, G.re * im + G.im * re};
   }
 
-  /// A frequency beyond which |D| stays below `least`.
+  /// An angular frequency [rad/s] beyond which |D| stays below `least` [1/mm]; 0 if there
+  /// are no modes.
   double reach(double least) const {
     double omega = 0;
     for (const Mode& m : modes_) omega = std::max(omega, m.wn_rad_s);

@@ -224,7 +224,7 @@ std::vector<std::string> heading(const Site& site) {
                           site.plan.setups.size(),
                           s.hold == part::End::left ? "left" : "right", name(s.clamping));
   if (s.grip_force_N > 0)
-    held += fmt::format(", jaws {:.1f} kN, end at Z{:.4g}", s.grip_force_N / 1000,
+    held += fmt::format(", jaws {:.1f} kN, their front at Z{:.4g}", s.grip_force_N / 1000,
                         site.root_z);
   return {"part " + d.name,
           "material " + site.part.material.name + ", machine " + site.part.machine.name,

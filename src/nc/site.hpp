@@ -23,8 +23,8 @@ using planning::kClear_mm;
 inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
 
-/// An element in the tool's order: z0 > z1, heights of its blank, or once it is cut there
-/// of what is drawn.
+/// An element as the tool meets it, from z0 down to z1 < z0.  Its heights are those of its
+/// blank; once a groove is cut into it, those of the groove's floor.
 struct Surface {
   std::string id;
   bool inner = false;
@@ -43,7 +43,8 @@ struct Side {
   double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
   double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
   double top(const Surface& s) const;
-  /// Largest height over a range of the axis.
+  /// Largest height of the surfaces that lie, at least in part, between two positions on
+  /// the axis, from_z < to_z; -infinity if there are none.
   double highest(double from_z, double to_z) const;
 };
 
@@ -94,9 +95,9 @@ class Site {
 /// @throws std::domain_error if there is none.
 const Surface& surface_of(const Site& site, const std::string& id);
 
-/// How far a surface lies from what is drawn [mm], before its correction: in the middle of
-/// its size's limits and with the offset that the plan gives the tool there; on the
-/// radius, of a face along the part's axis.
+/// Distance [mm] of the programmed surface from the drawn one, without a corrected path: to
+/// the middle of the size's limits, plus the tool offset that the plan gives there.  It
+/// counts on the radius; of a face, along the part's axis.
 double moved_mm(const Site& site, const std::string& surface);
 
 }  // namespace turnwright::nc

@@ -97,7 +97,8 @@ bool run(nlopt::algorithm algorithm, Evaluator& e, Vec& y, const Options& option
   solver.set_ftol_abs(options.f_tolerance);
   solver.set_xtol_abs(1e-13);  // ln of a condition: far below what any machine can set
   solver.set_maxeval(options.max_evaluations);
-  // CCSAQ solves an inner problem in each step; a coarse tolerance is enough for a start.
+  // CCSAQ solves a dual problem in every step.  Its evaluations and the inner iterations
+  // are limited, because only a feasible start for SLSQP is needed.  SLSQP ignores both.
   solver.set_param("dual_maxeval", 300);
   solver.set_param("inner_maxeval", 10);
   double f = 0;

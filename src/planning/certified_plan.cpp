@@ -102,7 +102,7 @@ bool add_missed(ProcessPlan& result) {
   result.profit_per_min.reset();
   result.certificate = {};
   result.certificate.reason =
-      "no plan was found: the correction would have to be too large";
+      "no plan was found: even a corrected tool path does not keep every tolerance";
   return true;
 }
 
@@ -125,7 +125,7 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason =
-        "the conflicts told do not depend on the conditions of turning and boring";
+        "no conditions of turning and boring can resolve the conflicts";
     return result;
   }
   const auto a = best_attempt(p);

@@ -327,7 +327,7 @@ Budget budget(const BudgetDemand& demand, const Span& room) {
   require_that(std::isfinite(demand.measurement_U_um) && demand.measurement_U_um >= 0,
                "the measurement's uncertainty must be >= 0 um and finite");
   require_that(!std::isnan(room.down_um) && !std::isnan(room.up_um),
-               "the room must have two ends");
+               "the ends of the range that the sources may use must not be NaN");
   const std::vector<double> rising = rising_sum_um(demand.sources, demand.draws);
   Budget b{.room_um = room};
   add_closed_forms(demand.sources, b);

@@ -338,8 +338,9 @@ class Run {
     return sign[k] == sign_[k] ? slack_mm_[k] : play_mm(s, sign, k, sign_[k]);
   }
 
-  /// Axes whose sign differs from that of the start move to the target, or farther if
-  /// they could not take up their backlash on the way back; the others move to the start.
+  /// The stop before `start` at which axes turn back.  Axes whose sign in `s` differs from
+  /// that in `start` go to the target of `s`, or farther if the way back to `start` would
+  /// not take up their backlash; the others go to their command of `start`.
   Stop gone_beyond(const Stop& start, Stop s) const {
     s.error = field_.error(*s.tool, s.target, s.sign, s.target);
     correct(field_, o_.passes, s.error, s);

@@ -463,7 +463,8 @@ class Interpreter {
   std::array<double, 2> centre_of(double du, double dv, double R, bool ccw) const {
     const double half = std::hypot(du, dv) / 2;
     if (!(2 * half > kSame_mm))
-      throw Fault{"R and no other end", "an end, or the centre"};
+      throw Fault{"R with the end at the start",
+                  "an end away from the start, or the centre instead of R"};
     const double rest = R * R - half * half;
     if (!(rest > -2 * std::abs(R) * kRadii_mm))
       throw Fault{"R " + number(std::abs(R)) + " mm",

@@ -56,7 +56,9 @@ TEST(Answer, RefusesNumbersJsonCannotHold) {
     answer(row, json::object(), {kNothing});
     FAIL() << "NaN went out";
   } catch (const ModelRangeError& e) {
-    EXPECT_STREQ(e.what(), "broken/list/1/x: the result is beyond what a number holds");
+    EXPECT_STREQ(e.what(),
+                 "broken/list/1/x: the result is not a finite number, so the request is "
+                 "outside the model's range");
   }
 }
 

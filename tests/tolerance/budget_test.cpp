@@ -509,7 +509,8 @@ TEST(BudgetRefusals, NameTheRule) {
             "budget: the measurement's uncertainty must be >= 0 um and finite");
   EXPECT_EQ(message({.sources = {}, .draws = {.count = 0}}),
             "budget: there must be a draw");
-  EXPECT_EQ(message({.sources = {}}, {nan, 1}), "budget: the room must have two ends");
+  EXPECT_EQ(message({.sources = {}}, {nan, 1}),
+            "budget: the ends of the range that the sources may use must not be NaN");
 }
 
 }  // namespace

@@ -121,8 +121,9 @@ Spectrum of_all(const Map& map) {
   return {.radius = std::abs(all.multiplier), .outside = *all.unstable};
 }
 
-/// The same of Ritz values.  The error of the least converged one of those wanted,
-/// relative to the largest, is |next| times the last entry of its vector in the basis.
+/// The spectrum of the Ritz values of `h`, and its error: the largest error of the values
+/// outside the unit circle and of the largest one, relative to the largest modulus.  The
+/// error of a value is |next| times the last entry of its unit eigenvector.
 std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
   const Eigenpairs ritz = eigenpairs(h);
   const Eigen::ArrayXd moduli = ritz.values.cwiseAbs();
@@ -135,7 +136,7 @@ std::pair<Spectrum, double> of_ritz(const MatrixXd& h, double next) {
   return {out, moves / out.radius};
 }
 
-/// Arnoldi's method from a fixed vector.
+/// The spectrum by Arnoldi's method, which starts from the same vector every time.
 Spectrum by_arnoldi(const Map& map) {
   constexpr double kSettled = 1e-11, kAccepted = 1e-6, kMemory = 2e7;
   const Index most = std::min<Index>(

@@ -10,8 +10,8 @@
 namespace turnwright::chatter {
 
 inline constexpr const char* kOnCircle =
-    "milling: a multiplier lies on the unit circle to within rounding, so the cut on a "
-    "limit of stability";
+    "milling: a multiplier lies on the unit circle to within rounding, so the cut is on "
+    "a limit of stability; ask for a slightly different speed or depth";
 
 /// A depth at which a multiplier e^(i theta) lies on the unit circle.
 struct OnCircle {

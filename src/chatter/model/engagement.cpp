@@ -132,7 +132,8 @@ template <class F>
 void CutterEngagement::for_each_met(double angle, F visit) const {
   for (const Segment& segment : segments_) {
     const double phi = angle + place_[segment.tooth], low = phi - lag_ * ap_;
-    // Numbers k of turns for which some height lies in the segment.
+    // The edge spans the angles from `low` to `phi`; k are the numbers of whole turns that,
+    // subtracted, bring a part of it into the segment.
     const double first = std::ceil((low - segment.end) / (2 * kPi)),
                  last = std::floor((phi - segment.begin) / (2 * kPi));
     for (double k = first; k <= last; ++k) {

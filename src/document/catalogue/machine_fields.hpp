@@ -15,14 +15,16 @@
 /// {"table": {"q": [..], "plus": [..], "minus": [..], "unit": "um", "sign": "physical"}}.
 namespace turnwright::document {
 
-/// Members "chain" and "axes".  A machine with problems must not be given to Kinematics.
+/// Reads the members "chain" and "axes".  If `r` has problems afterwards, the machine may
+/// be incomplete and must not be given to Kinematics.
 /// @param fitted_u  receives the standard uncertainties of errors fitted to tables.
 volumetric::Machine read_chain(Reader& r,
                                std::vector<volumetric::Axis>* fitted_u = nullptr);
 
-/// The optional member "u": axes of the chain with the standard uncertainties of their
-/// errors, "name", "err", "sq" and "loc" as above, without tables and not negative.
-/// Uncertainties that it does not have are those of tables, `fitted`.
+/// Reads the optional member "u", the standard uncertainties of the errors of the chain's
+/// axes.  Its keys "name", "err", "sq" and "loc" are those above, without tables; no value
+/// may be negative.  Where "u" gives none for an error, or zero, that of the fit to the
+/// error's table, `fitted`, is taken.
 std::vector<volumetric::Axis> read_uncertainties(
     Reader& r, const volumetric::Machine& machine,
     const std::vector<volumetric::Axis>& fitted);

@@ -11,7 +11,10 @@ namespace {
 template <class Json>
 void require(const Json& value, const std::string& where) {
   if (value.is_number_float() && !std::isfinite(value.template get<double>()))
-    throw ModelRangeError(where + ": the result is beyond what a number holds");
+    throw ModelRangeError(
+        where +
+        ": the result is not a finite number, so the request is outside the model's "
+        "range");
   if (!value.is_structured()) return;
   for (const auto& [key, member] : value.items())
     require(member, child_pointer(where, key));

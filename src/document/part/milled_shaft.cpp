@@ -17,8 +17,8 @@ double half_opening_rad(const Slot& slot, double outer_mm) {
   return std::asin(slot.width_mm / outer_mm);
 }
 
-// Whether a side of slot a has slot b wholly beyond it; in the cross-section both are
-// rectangles from their floor to the outer diameter.
+// Whether the line through one side of slot a separates it from slot b.  In the
+// cross-section both are rectangles from their floor to the outer diameter.
 bool parts(const Slot& a, const Slot& b, double between_rad, double outer_mm) {
   const auto rim = [&](const Slot& s) {
     return std::sqrt(outer_mm * outer_mm - s.width_mm * s.width_mm) / 2;

@@ -150,9 +150,10 @@ void read_place(Draft& draft, Reader r) {
   const auto setups = static_cast<long>(draft.plan().setups.size());
   const auto setup = r.optional_integer("setup", 0, std::max(setups - 1, long{0}));
   m.depth_margin = margin(draft, r, "stability_margin", within(0, 10), kDepthMargin,
-                          "stable so much deeper than each pass");
-  m.speed_margin = margin(draft, r, "speed_margin", within(0.005, 0.2), kSpeedMargin,
-                          "and at every speed so much slower or faster");
+                          "each pass stays stable when it is deeper by this share");
+  m.speed_margin =
+      margin(draft, r, "speed_margin", within(0.005, 0.2), kSpeedMargin,
+             "each pass stays stable at all speeds slower or faster by this share");
   read_given(draft, r, m);
   if (!kind_known) return;  // the other keys depend on it
   r.finish();

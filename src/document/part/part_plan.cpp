@@ -71,7 +71,7 @@ void read_economics(Draft& draft) {
     plan.batch = static_cast<double>(r.integer("batch", 1, 1'000'000));
   else if (!no_batch)
     draft.assume("/batch", nullptr,
-                 "none: preparing the machine is told beside what a part costs");
+                 "none: time and cost per part do not include preparing the machine");
   read_rates(draft);
   plan.machine_share_um =
       or_assumed(draft, "machine_share_um",

@@ -88,10 +88,12 @@ void add_milled_places(const LoadedPart& loaded, const planning::PreparedPart& p
 void add_eased_jaws(const planning::PreparedPart& p, Assumed& assumed) {
   for (std::size_t s = 0; s < p.jaws.size(); ++s)
     if (p.jaws[s].eased)
-      assumed.push_back({"/setups/" + std::to_string(s) + "/finishing_grip_force_N",
-                         p.jaws[s].finishing_N,
-                         "the jaws are eased from " + number_text(p.jaws[s].roughing_N) +
-                             " N: their lobes may take a quarter of a roundness"});
+      assumed.push_back(
+          {"/setups/" + std::to_string(s) + "/finishing_grip_force_N",
+           p.jaws[s].finishing_N,
+           "the jaws are eased from " + number_text(p.jaws[s].roughing_N) +
+               " N so that their lobes in the tube use at most a quarter "
+               "of each tolerance, but not below a twentieth of that force"});
 }
 
 planning::PreparedPart with_limit(const ChangedRequest& change,

@@ -10,7 +10,8 @@ namespace turnwright::document {
 /// Sources, required conformance, measuring uncertainty, seed and number of draws.
 tolerance::BudgetDemand read_budget(Reader r);
 
-/// Values are null where the range has no lower end, and for an index without spread.
+/// A range without a lower end has null in its place; "index" is null if the sum of the
+/// sources does not spread.
 nlohmann::json to_json(const tolerance::Budget& budget);
 
 }  // namespace turnwright::document

@@ -188,7 +188,9 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
 PlaneAnswer answer(PlaneAnswer out, const ChuckRequest& q, Problems& problems) {
   for (const PlaneTest& t : out.tests)
     if (!std::isfinite(t.y_mm))
-      throw ModelRangeError("chuck: the shaft bends beyond what a number holds");
+      throw ModelRangeError(
+          "chuck: the computed deflection of the shaft is not a finite number; check its "
+          "dimensions and the forces");
   out.can = identifiability(out.tests, out.plane);
   if (!q.measured) return out;
   const auto refuse = [&](const std::string& got, std::string expected) {

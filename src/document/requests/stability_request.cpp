@@ -236,7 +236,8 @@ void read_edges(Reader& r, Cutter& cutter) {
     r.problem_at("feed_mm", "a feed per tooth, for runout_mm", "missing");
 }
 
-/// Helix, unequal pitches, runout or process damping; none if no key gives one of them.
+/// Reads helix, unequal pitches, runout, feed per tooth and process damping into
+/// `q.cutter`, which stays empty if the request has none of them.
 void read_cutter(Reader& r, const Named& named, Request& q) {
   constexpr std::array kEdges{"helix_deg", "pitch_deg", "runout_mm", "feed_mm"};
   const bool mill = q.model == Model::milling;

@@ -323,13 +323,14 @@ void add_drilling(Site& s, part::End end) {
   if (f.tool)
     s.out.before.push_back(drilled(s, a, f, h.depth_mm));
   else
-    refuse(
-        s, a,
-        fmt::format("no drill of the tools is for {}, below {:g} mm and {:g} mm long{}",
-                    s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
-                    h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
-                        ? ""
-                        : ", with a point that leaves what is behind"));
+    refuse(s, a,
+           fmt::format(
+               "none of the drills is for {}, at most {:g} mm in diameter and long "
+               "enough for {:g} mm{}",
+               s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+               h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
+                   ? ""
+                   : ", with a point that stays clear of what lies behind the hole"));
 }
 
 // A facing sweep between two diameters at constant surface speed.
@@ -340,8 +341,8 @@ double sweep_min(double path_mm, double D_small, double D_large,
   return cutting::duty(sweep, at.vc_m_min, at.f_mm_rev, at.T_min, n_cap, 1.0).time_min;
 }
 
-// A blade from one diameter to another, `plunges` times, each with a feed in the air:
-// Eq. (3).
+// The operation of a blade that plunges `plunges` times from one diameter to another,
+// Eq. (3).  `way.fed_min` holds the length [mm] that each plunge feeds in the air.
 AuxiliaryOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
                            double D_large, int plunges, Way way) {
   const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
@@ -369,7 +370,8 @@ struct CutElement {
   double root_h() const { return around.h0 - cut.depth_mm; }
 };
 
-// From the outside, or the mouth of a bore, down to an element and back.
+// Rapid travel [mm] from outside the stock, or from the mouth of a bore, to an element and
+// back.
 double down_and_back_mm(const CutElement& e) {
   const auto& s = e.around;
   if (e.inner) return 2 * (s.front + kClear_mm - s.z1);
@@ -561,7 +563,8 @@ void add_parting(Site& s) {
   const bool left = s.p.setups[s.setup].hold == part::End::left;
   const char* face = left ? "left" : "right";
   const double D = stock.outer_mm, hole = stock.inner_mm;
-  // Between the jaws and the material that stays on the part.
+  // Room [mm] for the blade along the axis: from the jaws to the allowance that stays on
+  // the part.
   const double jaw = root_z_mm(s.p, s.setup, s.clamping);
   const double room =
       (left ? -jaw : jaw - part::length_mm(s.p.drawing)) - *stock.parted_mm;
@@ -620,7 +623,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
   }
 }
 
-// The end that this setup frees, and whether it is solid when the centre comes in.
+// Whether the free end of this setup is solid: that of a bar, with no bore from there.
 bool solid(const PreparedPart& p, std::size_t setup) {
   const auto end =
       p.setups[setup].hold == part::End::left ? part::End::right : part::End::left;

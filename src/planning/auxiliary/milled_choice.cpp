@@ -98,7 +98,8 @@ MilledCut cut_at(const MilledSite& s, const MilledChoice& c, const MilledCase& k
   cut.depth_margin = s.m.depth_margin;
   cut.speed_margin = s.m.speed_margin;
   cut.part_share = c.rho;
-  // Deep enough to show the reserve beyond the required margin.
+  // Stable depths are searched up to this one, deep enough to show by how much they exceed
+  // the required margin.
   cut.shown_mm =
       std::max(2 * c.ap_mm(s.m) * (1 + s.m.depth_margin), 1.5 * c.cutter->ap_mm.lower);
   const double per_mm = (1 + c.rho) * cut.Kt_MPa;

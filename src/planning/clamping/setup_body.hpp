@@ -7,8 +7,8 @@
 /// The body that a setup holds while it cuts.
 namespace turnwright::planning {
 
-/// The body from the root to the free end; the held end is as the setups before have left
-/// it.
+/// The part from its root, where the jaws end (between centres: the end at the headstock),
+/// to the free end.  The held end is as the setups before have left it.
 class SetupBody {
  public:
   SetupBody(const PreparedPart& plan, std::size_t setup, Clamping clamping,

@@ -36,9 +36,10 @@ void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& toleranc
                      called, of, readable(share_mm), readable(width))});
     result.relax.push_back(
         {called + " of " + of, width, share_mm * kBeyond, "mm",
-         fmt::format("{} would have to open beyond the machine's share, {} mm, or the "
-                     "machine's share be less",
-                     called, readable(share_mm))});
+         fmt::format(
+             "{} must be wider than the machine's share, {} mm, or that share must be "
+             "reduced",
+             called, readable(share_mm))});
   }
 }
 

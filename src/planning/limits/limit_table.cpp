@@ -190,10 +190,11 @@ LimitRow power() {
                        }}}};
 }
 
-// The speed at which the machine ends, whatever the chuck.
+// Top speed [1/min] of the machine by its spindle and power curve, without the chuck.
 double end_rpm(const Lathe& m) { return std::min(m.n_max_rpm, m.curve.back().n_rpm); }
 
-// The line through the last two points, log-log, goes on.
+// Extends the power curve to k times its last speed, along the line through its last two
+// points in logarithmic scales.
 void stretch(std::vector<CurvePoint>& curve, double k) {
   auto& last = curve.back();
   if (curve.size() > 1) {
@@ -205,7 +206,8 @@ void stretch(std::vector<CurvePoint>& curve, double k) {
   last.n_rpm *= k;
 }
 
-// What ends at the same speed - curve, spindle, chuck - moves along.
+// Scales the machine's top speed: the end of the power curve and the limits of spindle
+// and chuck, each if it equals that speed.
 void raise_end(PlanRequest& p, std::size_t, const Scaling& s) {
   auto& m = p.machine;
   const auto ends_there = [&](double n) { return std::abs(n / s.now - 1) < 1e-9; };
@@ -271,7 +273,8 @@ LimitRow grip() {
                          p.setups[i].finishing_grip_force_N = s.factor * s.now;
                        },
                        "finishing grip force"}},
-          // By friction and lighter jaws, so that tubes keep their shape.
+          // Relaxed by more friction and lighter jaws, because more force would deform
+          // tubes.
           .relaxed_by = LimitNumber{Owner::chuck,
                                     [](const PreparedPart& p, std::size_t) {
                                       return std::optional(p.machine.chuck.grip_force_N);

@@ -31,8 +31,8 @@ struct Item {
   double rad() const { return std::atan2(h1 - h0, z0 - z1); }
 };
 
-// From the drawn radius to the middle of the limits, where programs cut it; none of what
-// is cut into its blank later.
+// Distance [mm] from the drawn radius to the middle of the size's limits, where programs
+// cut it; 0 for an element with a groove, thread or arc.
 double to_middle_mm(const PreparedPart& p, const std::string& element) {
   if (part::has_cut(p.drawing, element)) return 0;
   for (const auto& t : p.drawing.tolerances)
@@ -72,14 +72,15 @@ double tip_z(double a_rad, double b_rad) {
   return std::sin((a_rad + b_rad) / 2) / std::cos((a_rad - b_rad) / 2) - 1;
 }
 
-// Where the hole is narrower than a bore that ends inside.
+// Whether the last bore ends inside the part, at a wall: the stock's hole, if any, is
+// narrower.
 bool hole_ends(const PreparedPart& p, const Item& last) {
   return last.z1 + part::length_mm(p.drawing) >= kNoWall_mm &&
          -p.drawing.stock.inner_mm / 2 > last.h1 + kSame_mm;
 }
 
-// What an element looks like once grooves and arcs are cut: nothing of a groove is in the
-// way.
+// An element as it stands once its groove or arc is cut; none for a groove, which is not in
+// the tool's way.
 std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
   if (!e.cut_later) return e;
   const auto& cut = inner ? p.drawing.inner[e.index].cut : p.drawing.outer[e.index].cut;
@@ -92,9 +93,10 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
   return e;
 }
 
-// What turning leaves before a face between an element and the next one: the least depth
-// of the facing tool.  Which one is going to be chosen is not known; one that roughs too,
-// whose least depth is the largest, spares a tool change.
+// Stock [mm] that turning leaves for facing on the shoulder between an element and the next
+// one; 0 if this setup faces no shoulder there.  It is the largest of the facing tools'
+// least depths: the tool is not chosen yet, and one that also roughs, which spares a tool
+// change, has the largest.
 double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
                                const Item& a, const Item& b) {
   const std::size_t k = std::max(a.index, b.index);
@@ -173,8 +175,8 @@ bool meet(const Item& a, const Item& b) {
 std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, bool inner,
                                const Item& a, const Item& b) {
   const double rises = b.h0 - b.moved - a.h1 + a.moved;
-  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
-  // and no inner corner.
+  // Finishing does not run on beside the blank of an arc if a step or an inner corner there
+  // would keep the tool's corner off the finished surface.
   const bool from_arc = is_arc(p, a, inner), to_arc = is_arc(p, b, inner);
   const bool kept_off =
       (to_arc && b.h0 > a.h1 + kSame_mm) || (from_arc && b.h0 < a.h1 - kSame_mm) ||
@@ -293,8 +295,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const auto wall_stock = [&](bool last) {
     return std::max(s.shoulder_mm, s.wall_steps && !last ? strokes.wall_stock_mm : 0);
   };
-  // Along z to where a pass that leaves this thickness ends, unless it goes on into the
-  // next one's.  Up a cone it ends once it is out of the stock.
+  // z at which a pass that leaves the thickness `left` ends, or at which finishing runs on
+  // into the next element.  A pass up a cone ends once it is out of the stock.
   const auto end = [&](bool last, double left) {
     if (last && on) return s.z1 + r * tip_z(rad, s.behind->rad);
     const bool level = last && s.level_behind;
@@ -332,8 +334,9 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double z = last ? own : level;
     return s.first && s.front > 0 ? std::max(z, s.front + kBefore_mm) : z;
   };
-  // Roughing comes in along the axis, finishing along the element's own line.  Feed at
-  // another diameter counts as much longer or shorter as the spindle is slower or faster.
+  // Length [mm] at feed from a to b.  Roughing enters along the axis, finishing along the
+  // element's own line.  On a cone lengths are multiplied by their diameter over the mean
+  // one, because the spindle turns slower on a larger diameter.
   const auto fed = [&](bool last, double left, double a, double b) {
     if (!tapered) return a - b;
     const auto height = [&](double tip) {

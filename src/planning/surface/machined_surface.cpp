@@ -276,7 +276,7 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
     c.operations.back().Rz_um = Rz_um_;
   }
   if (!c.operations.empty() && !ends_before_jaws(*c.operations.back().tool)) return {};
-  // Roughing leaves on a shoulder the least depth its tool can cut.
+  // The stock on a shoulder is taken as the least depth of cut of the tool that faces it.
   if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
 
   Affine rough, finish{0, 1};

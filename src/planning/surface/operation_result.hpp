@@ -31,7 +31,8 @@ std::string row_name(const PreparedPart& plan, const Chain& chain, const Row& ro
 ConstraintValue constraint(const PreparedPart& plan, const Chain& chain,
                            const Choice<double>& choice, const RowValue& row);
 
-/// A value against the limit of a check; the margin is in ln.
+/// A value against the limit of a check.  The margin is ln(limit/value) for an upper
+/// limit, ln(value/limit) for a lower one: negative if the limit is not kept.
 ConstraintValue constraint(Check check, double value, double limit);
 
 /// Minutes and edge cost of the answer's operations.

@@ -145,7 +145,8 @@ class FeatureSearch {
       return answer(std::move(s));
     }
     throw std::runtime_error("planning " + task_.feature.surface() +
-                             ": the places of its tolerances keep moving");
+                             ": the search for the positions at which its tolerances "
+                             "bind did not converge");
   }
 
  private:

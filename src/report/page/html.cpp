@@ -245,7 +245,8 @@ std::string prices(const ordered_json& result) {
   auto sentences = sentences_of(list(result, "prices"));
   const auto all = sentences.size();
   if (all > kMost) sentences.resize(kMost);
-  auto out = section("Prices: what 10 % more room would save, to first order", sentences);
+  auto out = section(
+      "Prices: what relaxing each limit by 10 % would save, to first order", sentences);
   if (all > kMost)
     out +=
         fmt::format("<p class=\"from\">{} smaller ones are in the result document.</p>\n",
@@ -263,11 +264,11 @@ std::string html(std::string_view name, const ordered_json& result,
                  conflict_sentences(result));
   if (!feasible)
     out += section(several_sets(list(result, "relax"))
-                       ? "What would have to give, one of every set"
-                       : "What would have to give, the smallest opening first",
+                       ? "Limits to relax: one of every set, the smallest change first"
+                       : "Limits to relax: the smallest change first",
                    opening_sentences(result));
   if (const auto stays = what_stays(result); !stays.empty()) out += tag("p", stays);
-  out += section("What else would do, each alone, as planned with it",
+  out += section("Other changes, each line of which alone makes the part feasible",
                  sentences_of(list(result, "remedies")));
   out += breakdown(result) + (sheets.empty() ? setup_figures(result, figures) : "") +
          setups(result) + tolerances(result, figures) + prices(result) +

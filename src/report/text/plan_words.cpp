@@ -168,8 +168,9 @@ std::string setting_up(const ordered_json& result) {
   const auto once =
       fmt::format("{} and {} once per batch", duration(minutes), money(cost));
   const auto share = number(s, "min_per_part");
-  if (!share) return once + "; no batch is given: in no part's time or cost";
-  return fmt::format("{}, {} and {} of it in each part", once, duration(share),
+  if (!share)
+    return once + "; not counted per part, because the request gives no batch size";
+  return fmt::format("{}, of which {} and {} are counted per part", once, duration(share),
                      money(number(s, "cost_per_part")));
 }
 

@@ -74,13 +74,14 @@ std::string conflicts(const ordered_json& result) {
 
 std::string relaxations(const ordered_json& result) {
   if (word(result, "status") != "infeasible") return "";
-  std::string out = "\nWHAT WOULD HAVE TO GIVE  the smallest opening first";
-  out += several_sets(list(result, "relax")) ? ", one of every set\n" : "\n";
+  std::string out = "\nLIMITS TO RELAX  ";
+  if (several_sets(list(result, "relax"))) out += "one of every set, ";
+  out += "the smallest change first\n";
   const auto sentences = opening_sentences(result);
   if (sentences.empty())
     return out +
-           "  No limit was found whose opening alone would do; what else was tried is "
-           "told below.\n";
+           "  No limit was found whose relaxation alone helps; the other changes tried "
+           "are listed below.\n";
   const auto stays = what_stays(result);
   return out + numbered(sentences) + (stays.empty() ? "" : paragraph("  ", stays));
 }
@@ -89,7 +90,7 @@ std::string remedies(const ordered_json& result) {
   const auto& all = list(result, "remedies");
   std::string out;
   if (!all.empty())
-    out = "\nWHAT ELSE WOULD DO  each line alone, as planned with it\n" +
+    out = "\nOTHER CHANGES  each line alone makes the part feasible\n" +
           numbered(sentences_of(all));
   const auto& tried = list(result, "tried");
   if (!tried.empty())
@@ -153,8 +154,9 @@ std::string budget(const ordered_json& result) {
   return "\nBUDGET\n" +
          paragraph(
              "  ",
-             "what takes each tolerance's width, \u00b5m; independent sources add by "
-             "squares and are reduced in proportion") +
+             "what uses up each tolerance's width, \u00b5m; independent sources add by "
+             "squares, so all shares but the deflection are scaled down in proportion "
+             "until the row adds up to the width") +
          table(columns, rows);
 }
 
@@ -212,7 +214,8 @@ std::string prices(const ordered_json& result) {
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
     sentences.push_back(sentence_of(all[i]));
   std::string out =
-      "\nPRICES  what 10 % more room would save, to first order\n" + numbered(sentences);
+      "\nPRICES  what relaxing each limit by 10 % would save, to first order\n" +
+      numbered(sentences);
   if (all.size() > kMost)
     out += fmt::format("  {} smaller ones are in the result document.\n",
                        all.size() - kMost);

@@ -48,8 +48,8 @@ bool is_new(SQLite::Database& database) {
                           "('job', 'line', 'line_digest')");
   if (own != 3) throw std::runtime_error("a database of another program");
   if (version != kSchemaVersion)
-    throw std::runtime_error("job store of version " + std::to_string(version) +
-                             ", this program reads version " +
+    throw std::runtime_error("a job store of version " + std::to_string(version) +
+                             ", but this program reads only version " +
                              std::to_string(kSchemaVersion));
   return false;
 }

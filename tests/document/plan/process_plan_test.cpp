@@ -198,7 +198,7 @@ TEST(ProcessPlan, ANumberThatIsNoneIsABrokenPromise) {
   } catch (const ModelRangeError& error) {
     EXPECT_STREQ(error.what(),
                  "process plan/setups/0/operations/0/passes/0/T_min: the result is "
-                 "beyond what a number holds");
+                 "not a finite number, so the request is outside the model's range");
   }
   plan = every_field();
   plan.tolerances[1].predicted_mm = {std::nan("")};

@@ -628,7 +628,8 @@ TEST(Stability, APointOnALimitDoesNotEndTheOthers) {
   EXPECT_EQ(
       out_of_range(q),
       "stability: /points/0: at 18000 1/min: milling: a multiplier lies on the unit "
-      "circle to within rounding, so the cut on a limit of stability");
+      "circle to within rounding, so the cut is on a limit of stability; ask for a "
+      "slightly different speed or depth");
 }
 
 TEST(Stability, SpeedsOutOfBoundsAreToldWithTheirPlace) {

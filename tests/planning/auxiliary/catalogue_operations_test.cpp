@@ -483,9 +483,8 @@ TEST(Refused, OperationsWithoutAToolSayWhatItWouldHaveToBe) {
   const auto says = [](const std::string& text, const std::string& what) {
     return text.find(what) != std::string::npos ? "" : text;
   };
-  EXPECT_EQ(
-      says(told_without(bush(), drilling), "drill b1: no drill of the tools is for "),
-      "");
+  EXPECT_EQ(says(told_without(bush(), drilling), "drill b1: none of the drills is for "),
+            "");
   EXPECT_EQ(says(told_without(bush(), parting),
                  "reaches 25 mm deep and fits between jaws and part, "),
             "");

@@ -179,12 +179,13 @@ TEST(Text, HeadTellsThePreparingOfTheMachineApart) {
   result["setting_up"] = {
       {"min", 40}, {"cost", 48}, {"min_per_part", 0.8}, {"cost_per_part", 0.96}};
   EXPECT_TRUE(has(squeezed(text(result)),
-                  "set up 40 min and 48.00 once per batch, 48 s and 0.960 of it in each "
-                  "part"));
+                  "set up 40 min and 48.00 once per batch, of which 48 s and 0.960 are "
+                  "counted per part"));
   result["setting_up"]["min_per_part"] = nullptr;
   result["setting_up"]["cost_per_part"] = nullptr;
   EXPECT_TRUE(has(squeezed(text(result)),
-                  "once per batch; no batch is given: in no part's time or cost"));
+                  "once per batch; not counted per part, because the request gives no "
+                  "batch size"));
 }
 
 TEST(Text, OffsetsAreListedInMicrometres) {
@@ -367,7 +368,7 @@ TEST(Text, AnInfeasiblePartNamesConflictsAndTheSmallestOpeningFirst) {
 
 TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
   auto result = infeasible();
-  EXPECT_FALSE(has(text(result), "WHAT ELSE WOULD DO"));
+  EXPECT_FALSE(has(text(result), "OTHER CHANGES"));
   result["conflicts"][0]["set"] = result["relax"][0]["set"] = 1;
   result["conflicts"][1]["set"] = result["relax"][2]["set"] = 2;
   result["remedies"] = {{{"change", "tool"},
@@ -378,10 +379,10 @@ TEST(Text, SeveralConflictsAreNumberedAndWhatElseWouldDoFollows) {
   const auto out = text(result);
   EXPECT_TRUE(has_line(out, "  1. set 1: t1 against the wall"));
   EXPECT_TRUE(has_line(out, "  2. set 2: least feed against the wall"));
-  EXPECT_TRUE(has_line(
-      out, "WHAT WOULD HAVE TO GIVE  the smallest opening first, one of every set"));
+  EXPECT_TRUE(
+      has_line(out, "LIMITS TO RELAX  one of every set, the smallest change first"));
   EXPECT_TRUE(has_line(out, "  1. set 2: lower the feed [-20.0 %]"));
-  EXPECT_TRUE(has_line(out, "WHAT ELSE WOULD DO  each line alone, as planned with it"));
+  EXPECT_TRUE(has_line(out, "OTHER CHANGES  each line alone makes the part feasible"));
   EXPECT_TRUE(has_line(out, "  1. the tool T9 makes it possible"));
   expect_printable(out);
   const std::string stays =
@@ -397,8 +398,8 @@ TEST(Text, WithoutAKnownOpeningTheReportSaysSo) {
   auto result = infeasible();
   result["relax"].clear();
   EXPECT_TRUE(has_line(text(result),
-                       "  No limit was found whose opening alone would do; what else was "
-                       "tried is told below."));
+                       "  No limit was found whose relaxation alone helps; the other "
+                       "changes tried are listed below."));
 }
 
 // Calls `change` on a copy of the document for each of its places.

@@ -241,7 +241,8 @@ TEST_F(JobStoreTest, ADatabaseOfAnotherProgramIsLeftAlone) {
     older.exec("PRAGMA user_version = 1");
   }
   EXPECT_EQ(refusal(),
-            file().string() + ": job store of version 1, this program reads version 2");
+            file().string() +
+                ": a job store of version 1, but this program reads only version 2");
 }
 
 // Ends in an overflow of the stack long before that of the depth.
