@@ -12,6 +12,32 @@ namespace {
 constexpr double kFar_mm = 1e4;
 constexpr double kTouch_mm = 1e-5;  // larger than the tolerance of free_mm
 
+// A line that begins with a chamfer.
+std::vector<Point> chamfered(std::vector<Point> line, const part::Chamfer& chamfer) {
+  const double towards = line.back().z_mm < line.front().z_mm ? -1 : 1;
+  const double end = line.front().z_mm + towards * chamfer.axial_mm;
+  while (line.size() > 2 && towards * (line[1].z_mm - end) <= 0) line.erase(line.begin());
+  const auto &a = line[0], &b = line[1];
+  const double u = (end - a.z_mm) / (b.z_mm - a.z_mm);
+  const Point edge{a.h_mm + (b.h_mm - a.h_mm) * u, end};
+  line[0] = edge;
+  line.insert(line.begin(),
+              {edge.h_mm - chamfer.radial_mm, end - towards * chamfer.axial_mm});
+  return line;
+}
+
+std::vector<Point> with_front(std::vector<Point> line, const Surface& s) {
+  return s.front ? chamfered(std::move(line), *s.front) : line;
+}
+
+std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
+  if (!s.back) return line;
+  std::reverse(line.begin(), line.end());
+  line = chamfered(std::move(line), *s.back);
+  std::reverse(line.begin(), line.end());
+  return line;
+}
+
 // An element of the nominal contour.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
   const auto& cut = cut_of(site, s);
@@ -19,7 +45,7 @@ std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) 
     const auto arc = drawn_arc(site, s);
     return {{arc.from, arc.to, arc}};
   }
-  auto line = corrected(site, side, s);
+  auto line = with_back(with_front(corrected(site, side, s), s), s);
   if (cut && cut->kind == part::CutKind::groove) {
     const double floor = side.sign * cut->drawn.left_mm / 2;
     line = {{floor, s.z0}, {floor, s.z1}};
@@ -88,6 +114,16 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
   std::sort(all.begin(), all.end(),
             [](const Point& a, const Point& b) { return a.z_mm > b.z_mm; });
   return all;
+}
+
+std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
+                            double left_mm) {
+  std::vector<Point> line;
+  if (left_mm > 0)
+    line = {{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
+  else
+    line = corrected(site, side, s);
+  return with_front(std::move(line), s);
 }
 
 const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s) {

@@ -10,6 +10,10 @@ namespace turnwright::nc {
 /// The finished line of an element with the plan's correction; of a groove, thread or arc
 /// that is cut later the line of its blank.
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s);
+/// The line of a pass over an element that leaves a thickness: it begins with the chamfer at
+/// its front; with nothing left it is the finished line.
+std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
+                            double left_mm);
 /// The plan's correction of a surface in the setup that finishes it; empty if none is
 /// proposed.
 const planning::Compensation::Table& correction(const Site& site,

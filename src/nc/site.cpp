@@ -65,8 +65,10 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
       const auto& e = elements[i];
       const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
       const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
-      side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0}
-                                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0});
+      side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0,
+                                           e.left_chamfer, e.right_chamfer}
+                                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0,
+                                           e.right_chamfer, e.left_chamfer});
       if (auto& s = side.items.back();
           done[i] && e.cut && e.cut->kind == part::CutKind::groove)
         s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Surface {
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
   bool stock = true;  ///< not cut yet
   double left = 0;    ///< thickness that the last pass has left on it
+  std::optional<part::Chamfer> front = {}, back = {};  ///< chamfers, drawn at z0 and z1
 };
 
 /// Outside or in the bores.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contour.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -112,6 +113,20 @@ Point at_h(const Point& a, const Point& b, double h) {
   return {h, a.z_mm + (b.z_mm - a.z_mm) * (h - a.h_mm) / (b.h_mm - a.h_mm)};
 }
 
+Point moved_along(const Point& p, const Normal& of_line, double by_mm) {
+  return {p.h_mm + of_line.z * by_mm, p.z_mm - of_line.h * by_mm};
+}
+
+// Element k, if it has a chamfer at its front that this setup cuts without making the
+// element.
+const Surface* edge_to_cut(const Site& site, const Side& side, std::size_t k) {
+  if (k >= side.items.size() || !side.items[k].front) return nullptr;
+  const auto& s = side.items[k];
+  const bool made =
+      planning::makes(site.part.work.setups[site.setup], {s.inner, s.index});
+  return made ? nullptr : &s;
+}
+
 // One pass over an element.
 struct Pass {
   Site& site;
@@ -130,9 +145,20 @@ struct Pass {
 };
 
 std::vector<Point> contour(const Pass& p) {
-  if (p.last) return corrected(p.site, p.side, p.surface());
-  const auto& s = p.surface();
-  return {{s.h0 + p.left_mm, s.z0}, {s.h1 + p.left_mm, s.z1}};
+  return own_line(p.site, p.side, p.surface(), p.last ? 0 : p.left_mm);
+}
+
+// Tips at the foot and at the top of a wall between two lines.  On a wall that is lower
+// than the corner needs both are one, at which the corner touches both lines.
+std::vector<Point> up_wall(const Point& a, const Normal& m, const Point& b,
+                           const Normal& n, double r) {
+  const auto foot = tip(a, m, kWall, r), top = tip(b, kWall, n, r);
+  if (top.h_mm >= foot.h_mm) return {foot, top};
+  // Where the lines meet: a + t (m.z, -m.h) with n (a + t .. - b) = 0.
+  const double t =
+      (n.h * (b.h_mm - a.h_mm) + n.z * (b.z_mm - a.z_mm)) / (n.h * m.z - n.z * m.h);
+  const auto both = tip({a.h_mm + t * m.z, a.z_mm - t * m.h}, m, n, r);
+  return {both, both};
 }
 
 // Tips at which a pass leaves element k and meets the next one: up the wall between them,
@@ -140,11 +166,10 @@ std::vector<Point> contour(const Pass& p) {
 // tool follows its minor edge, which touches the edge of the higher surface.
 std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const auto &s = p.side.items[k], &t = p.side.items[k + 1];
-  const auto from = corrected(p.site, p.side, s), to = corrected(p.site, p.side, t);
+  const auto from = corrected(p.site, p.side, s), to = own_line(p.site, p.side, t, 0);
   const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
   const double r = p.re_mm;
-  if (t.h0 > s.h1 + kSame_mm)
-    return {tip(from.back(), m, kWall, r), tip(to[0], kWall, n, r)};
+  if (t.h0 > s.h1 + kSame_mm) return up_wall(from.back(), m, to[0], n, r);
   const double falls = from.back().h_mm - to[0].h_mm, rises_rad = *p.tool().rises_rad;
   const double arc = r * (1 - std::cos(rises_rad));
   if (falls > arc) {
@@ -272,14 +297,37 @@ void leave_stock(const Pass& p, std::vector<Point>& way) {
   if (end.z_mm > last.z_mm) last = end;
 }
 
+// Goes up a wall and along the chamfer of the element behind it, which another setup
+// makes; through stock on that element the tool is then drawn out.
+void over_edge(const Pass& p, const Surface& s, std::vector<Point>& way) {
+  const auto line = own_line(p.site, p.side, s, 0);
+  const auto n = normal(line[0], line[1]);
+  const auto own = own_line(p.site, p.side, p.surface(), 0);
+  const auto m = normal(own[own.size() - 2], own.back());
+  const auto over = up_wall(own.back(), m, line[0], n, p.re_mm);
+  if (p.surface().z1 == s.z0) way.back() = over[0];
+  way.push_back(over[1]);
+  if (s.stock) {
+    const auto end =
+        moved_along(line[1], n, planning::beyond_surface_mm(*s.front, p.re_mm));
+    way.push_back(tip(end, n, kWall, p.re_mm));
+    way.push_back({p.side.top0(s), way.back().z_mm});
+  } else {
+    way.push_back(moved_along(tip(line[1], n, p.re_mm), n, p.re_mm + kBehind_mm));
+  }
+}
+
 // Draws the tool out along a wall that has ended its pass: a roughing pass as far as it
 // was deep, which takes off the wedge that the lead angle leaves; the pass that makes the
 // wall to its top.
 void draw_out(const Pass& p, const Wall& w, std::vector<Point>& way) {
   if (!w.steps || (p.last && (wall_stock_mm(p, w) > 0 || w.of_arc))) return;
-  const auto& end = way.back();
+  const auto end = way.back();
   const double top = p.last ? w.top_mm : std::min(w.top_mm, end.h_mm + p.ap_mm);
-  if (end.z_mm < w.z_mm + wall_stock_mm(p, w) + kStands_mm && top > end.h_mm + kStands_mm)
+  if (!(end.z_mm < w.z_mm + wall_stock_mm(p, w) + kStands_mm)) return;
+  if (const auto* edge = p.last ? edge_to_cut(p.site, p.side, w.before + 1) : nullptr)
+    over_edge(p, *edge, way);
+  else if (top > end.h_mm + kStands_mm)
     way.push_back({top, end.z_mm});
 }
 
@@ -371,6 +419,28 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
     if (rho > from && rho < to) all.push_back({rho, z + dz});
   all.push_back({to, all.back().z_mm});
   return all;
+}
+
+// Contact points of a face that go on along the chamfer of element k behind it, if another
+// setup makes that.
+std::vector<Point> with_edge(const Site& site, std::vector<Point> contact, std::size_t k,
+                             double re_mm) {
+  const auto* s = edge_to_cut(site, site.outer, k);
+  if (!s || (k == 0 && s->stock)) return contact;
+  const auto line = own_line(site, site.outer, *s, 0);
+  const auto n = normal(line[0], line[1]);
+  const double top = contact.back().h_mm;
+  while (contact.size() > 1 && contact[contact.size() - 2].h_mm >= line[0].h_mm)
+    contact.pop_back();
+  contact.back() = {line[0].h_mm, contact.back().z_mm};
+  if (s->stock) {
+    contact.push_back(
+        moved_along(line[1], n, planning::beyond_surface_mm(*s->front, re_mm)));
+    contact.push_back({top, contact.back().z_mm});
+  } else {
+    contact.push_back(moved_along(line[1], n, re_mm + kBehind_mm));
+  }
+  return contact;
 }
 
 // Radius to clear when approaching the shoulder before element k, including following
@@ -476,10 +546,10 @@ void face(Site& site, std::size_t operation) {
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     const bool last = left < kSame_mm;
-    face_pass(site,
-              face_contour(site, o.on[0], last ? 0 : left,
-                           hole > 0 ? hole - kBehind_mm : 0, outside, last),
-              re, {});
+    auto contact = face_contour(site, o.on[0], last ? 0 : left,
+                                hole > 0 ? hole - kBehind_mm : 0, outside, last);
+    if (last) contact = with_edge(site, std::move(contact), 0, re);
+    face_pass(site, contact, re, {});
     site.rapid(site.at.h_mm, site.at.z_mm + kAbove_mm);
     site.front = last ? 0 : left;
   }
@@ -504,12 +574,12 @@ void face_shoulder(Site& site, std::size_t operation) {
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     const bool last = left < kSame_mm;
-    face_pass(
-        site,
+    auto contact =
         face_contour(site, id, z + (last ? 0 : left),
                      tip(line.back(), n, {0, 1}, re).h_mm + re + (last ? 0 : kBehind_mm),
-                     outside, last),
-        re, before);
+                     outside, last);
+    if (last) contact = with_edge(site, std::move(contact), k + 1, re);
+    face_pass(site, contact, re, before);
     if (last) run_out(site, k, re, z + stock + site.r_most - re);
     site.lift(site.outer);
   }

@@ -176,6 +176,13 @@ class Check : private Sizes {
 
   planning::Clamping clamping() const { return p_.plan.setups[setup_].clamping; }
 
+  // Height of an element at a share of its length, with its chamfers.
+  template <class Element>
+  double height(double sign, const Element& e, double u, double z) const {
+    return sign * (drawn(e, u) + correction(e.id, z)) -
+           part::chamfered_mm(e, u * e.length_mm);
+  }
+
   // Drawn height at a place, or if it is at an edge the highest beside it.
   template <class Element>
   double height(double sign, const std::vector<Element>& all, double z) const {
@@ -185,8 +192,7 @@ class Check : private Sizes {
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double u = (z - begin(all[k], k)) / all[k].length_mm;
       if (u < -1e-9 || u > 1 + 1e-9) continue;
-      const double own =
-          sign * (drawn(all[k], std::clamp(u, 0.0, 1.0)) + correction(all[k].id, z));
+      const double own = height(sign, all[k], std::clamp(u, 0.0, 1.0), z);
       h = made ? std::max(h, own) : own;
       made = true;
     }
@@ -267,9 +273,10 @@ class Check : private Sizes {
       const double z = m.z(i) - left_z;
       if (!(z > 1e-6 && z < L - 1e-6)) continue;
       const double u0 = std::max(0.0, z / L - step), u1 = std::min(1.0, z / L + step);
-      const double slope = (drawn(e, u1) - drawn(e, u0)) / (u1 - u0) / L;
+      const auto at = [&](double u) { return height(sign, e, u, m.z(i)); };
+      const double slope = (at(u1) - at(u0)) / (u1 - u0) / L;
       const double steep = std::sqrt(1 + slope * slope);
-      const double contour = sign * (drawn(e, z / L) + correction(e.id, m.z(i)));
+      const double contour = at(z / L);
       // An edge to what another setup makes may break by the step of the corrections.
       if (!corrected(e.id) || std::min(z, L - z) > 0.05)
         low = std::min(low, (m[i] - contour) / steep);

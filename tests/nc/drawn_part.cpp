@@ -99,7 +99,19 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     for (const auto& [z, dr] : c.table_mm)
       if (c.on == e.id && z > z0 && z < z0 + e.length_mm)
         at.push_back((z - z0) / e.length_mm);
+  if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm / e.length_mm);
+  if (e.right_chamfer) at.push_back(1 - e.right_chamfer->axial_mm / e.length_mm);
   std::sort(at.begin(), at.end());
+  const double low_z = z0 + (e.left_chamfer ? e.left_chamfer->axial_mm : 0);
+  const double high_z =
+      z0 + e.length_mm - (e.right_chamfer ? e.right_chamfer->axial_mm : 0);
+  // Chamfers go down from where they leave the surface.
+  const auto chamfered = [&](double z) {
+    if (z < low_z) return e.left_chamfer->radial_mm * (low_z - z) / (low_z - z0);
+    if (z > high_z)
+      return e.right_chamfer->radial_mm * (z - high_z) / (z0 + e.length_mm - high_z);
+    return 0.0;
+  };
   const auto root = [&](const Element& thread) {
     return sign * thread.left_mm / 2 - thread.cut->depth_mm;
   };
@@ -118,7 +130,9 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   Polygon line;
   for (const double u : at) {
     const double z = z0 + u * e.length_mm;
-    const double h = sign * (Sizes::drawn(e, u) + sizes_.correction(e.id, z));
+    const double size =
+        Sizes::drawn(e, u) + sizes_.correction(e.id, std::clamp(z, low_z, high_z));
+    const double h = sign * size - chamfered(z);
     line.push_back({sign * std::min(h, most), z});
   }
   append(run, e.id, line);

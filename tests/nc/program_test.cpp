@@ -300,7 +300,7 @@ bool neighbours_follow(const Planned& p) {
 
 TEST(NcPrograms, OfRandomPartsMakeTheirContours) {
   int made = 0, corrected = 0;
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 75; ++seed) {
     const auto document = RandomPart(seed).document();
     auto p = planned(document);
     if (p.plan.status != planning::PlanStatus::ok) continue;

@@ -44,6 +44,7 @@ class RandomPart {
            {"damping_ratio", 0.4}};
     if (bored_) d["inner"] = inner();
     if (below(2)) d["faces"] = faces();
+    if (below(2)) d["edges"] = edges();
     return d;
   }
 
@@ -124,6 +125,30 @@ class RandomPart {
            {"radius_mm", R},
            {"bulge", convex ? "convex" : "concave"}});
     }
+  }
+
+  // Chamfers on some steps between cylinders and threads, and at the ends.
+  json edges() {
+    json all = json::array();
+    const auto turned = [](const json& e) {
+      return e["kind"] == "cylinder" || e["kind"] == "thread";
+    };
+    const auto add = [&](const std::string& at, double most_mm) {
+      const double angles[] = {45, 45, 30, 60}, angle = angles[below(4)];
+      const double mm = 0.25 * (1 + below(8));
+      if (mm * std::tan(angle * std::acos(-1) / 180) < most_mm && below(4))
+        all.push_back({{"at", at}, {"chamfer_mm", mm}, {"angle_deg", angle}});
+    };
+    if (turned(outer_.front())) add("left", 3);
+    if (turned(outer_.back())) add("right", 3);
+    for (std::size_t i = 1; i < outer_.size(); ++i) {
+      const auto &a = outer_[i - 1], &b = outer_[i];
+      if (!turned(a) || !turned(b)) continue;
+      const double step =
+          std::abs(a["diameter_mm"].get<double>() - b["diameter_mm"].get<double>()) / 2;
+      add(a["id"].get<std::string>() + "|" + b["id"].get<std::string>(), step - 0.1);
+    }
+    return all;
   }
 
   // A through hole, stepped from its ends towards the inside.

@@ -264,7 +264,7 @@ TEST_F(WhatWouldHelp, HoldsWhenItIsDone) {
   }
   EXPECT_EQ(infeasible, wanted);
   EXPECT_GT(remedies, wanted / 4);
-  EXPECT_GT(relaxations, wanted / 5);
+  EXPECT_GT(relaxations, wanted / 6);
   EXPECT_GT(prices, wanted / 20);
   EXPECT_LT(helpless, wanted / 3);
   RecordProperty("remedies", remedies);

@@ -18,6 +18,12 @@ struct Limits {
   double lower_mm = 0, upper_mm = 0;
 };
 
+/// A chamfer at an end of an element, which ends with a smaller radius outside and with a
+/// larger one inside.
+struct Chamfer {
+  double axial_mm = 0, radial_mm = 0;  ///< taken from the length and from the radius
+};
+
 /// One outer element.  A cylinder has left_mm == right_mm (diameters).  With a groove,
 /// thread or arc cut into it the diameters are those of the blank.
 struct OuterElement {
@@ -29,6 +35,9 @@ struct OuterElement {
   std::optional<Limits> limits = {};    ///< from `fit`, `limits_mm` or general
   std::optional<double> Ra_um = {}, Rz_um = {};
   std::optional<Cut> cut = {};
+  std::optional<Chamfer> left_chamfer = {}, right_chamfer = {};
+  /// Largest radius that may stay in the inner corner at that end.
+  std::optional<double> left_fillet_mm = {}, right_fillet_mm = {};
 };
 
 enum class End { left, right };
@@ -45,6 +54,9 @@ struct InnerElement {
   std::optional<Limits> limits = {};
   std::optional<double> Ra_um = {}, Rz_um = {};
   std::optional<Cut> cut = {};
+  std::optional<Chamfer> left_chamfer = {}, right_chamfer = {};
+  /// Largest radius that may stay in the inner corner at that end.
+  std::optional<double> left_fillet_mm = {}, right_fillet_mm = {};
 };
 
 /// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
@@ -102,6 +114,17 @@ double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
 template <class Element>
 Ends core(const Element& e) {
   return e.cut ? e.cut->core : Ends{e.left_mm, e.right_mm};
+}
+/// How far the chamfers of an element go into its radius at a distance [mm] from its left
+/// end; 0 where it has none.
+template <class Element>
+double chamfered_mm(const Element& e, double from_left_mm) {
+  const auto into = [](const std::optional<Chamfer>& c, double from_end_mm) {
+    return c && from_end_mm < c->axial_mm ? c->radial_mm * (1 - from_end_mm / c->axial_mm)
+                                          : 0.0;
+  };
+  return into(e.left_chamfer, from_left_mm) +
+         into(e.right_chamfer, e.length_mm - from_left_mm);
 }
 /// Whether a groove, thread or arc is cut into the element of this id.
 bool has_cut(const Drawing& drawing, const std::string& id);

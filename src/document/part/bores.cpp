@@ -9,14 +9,6 @@ namespace {
 
 constexpr double kThin = 0.2;  // wall over radius: below it a ring ovalises
 
-bool readable(const part::Drawing& d) {
-  const auto sound = [](const auto& e) {
-    return e.length_mm > 0 && e.left_mm > 0 && e.right_mm > 0;
-  };
-  return d.stock.outer_mm > 0 && std::all_of(d.outer.begin(), d.outer.end(), sound) &&
-         std::all_of(d.inner.begin(), d.inner.end(), sound);
-}
-
 void check_hole(const Reader& list, const part::Drawing& d) {
   const auto items = list.as_items(0, d.inner.size());
   const auto hole = number_text(d.stock.inner_mm) + " mm";
@@ -34,9 +26,17 @@ void check_hole(const Reader& list, const part::Drawing& d) {
 
 }  // namespace
 
+bool sizes_were_read(const part::Drawing& d) {
+  const auto sound = [](const auto& e) {
+    return e.length_mm > 0 && e.left_mm > 0 && e.right_mm > 0;
+  };
+  return d.stock.outer_mm > 0 && std::all_of(d.outer.begin(), d.outer.end(), sound) &&
+         std::all_of(d.inner.begin(), d.inner.end(), sound);
+}
+
 void check_bores(Draft& draft) {
   const auto& d = draft.drawing();
-  if (!readable(d)) return;
+  if (!sizes_were_read(d)) return;
   const auto list = draft.root.find("inner");
   double depth = 0;
   for (const auto& e : d.inner) depth += e.length_mm;

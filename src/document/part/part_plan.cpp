@@ -187,6 +187,7 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
     read_elements(draft);
     read_stock(draft);
     check_bores(draft);
+    read_edges(draft);
     read_tolerances(draft);
     read_setups(draft);
     read_operations(draft);

@@ -38,8 +38,11 @@ std::optional<std::size_t> beside(const std::vector<part::OuterElement>& list,
                                   std::size_t groove);
 std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
                                   std::size_t groove);
-void read_stock(Draft& draft);       // after the elements
+void read_stock(Draft& draft);  // after the elements
+/// Whether the stock and all elements have lengths and diameters.
+bool sizes_were_read(const part::Drawing& drawing);
 void check_bores(Draft& draft);      // after the stock
+void read_edges(Draft& draft);       // after the stock
 void read_tolerances(Draft& draft);  // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups

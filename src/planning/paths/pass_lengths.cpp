@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "edges.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/dual.hpp"
@@ -134,6 +135,11 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
   while (j + 1 < all.size() && all[j + 1].z0 >= all[j].z1 - kNoWall_mm) {
     const auto& e = all[++j];
     if (!std::isfinite(s.wall_z) && std::max(e.h0, e.h1) - e.moved > blank) {
+      const Element wall{s.inner, e.index};
+      if (!makes(work, wall))
+        s.wall_chamfer = front_chamfer(p, setup, wall).value_or(part::Chamfer{});
+      s.wall_edge_h = e.h0 - s.wall_chamfer.radial_mm;
+      s.wall_in_stock = !before[e.index];
       s.wall_z = e.z0;
       s.wall_steps = e.h0 - e.moved > blank;
       s.wall_h = before[e.index] ? e.h0 : stock_h;
@@ -160,11 +166,6 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
   s.touch_rad = kUpright;
 }
 
-bool made(const SetupWork& work, bool inner, std::size_t index) {
-  const auto& all = inner ? work.bores : work.elements;
-  return std::find(all.begin(), all.end(), index) != all.end();
-}
-
 // Two elements drawn with one diameter where they meet.
 bool meet(const Item& a, const Item& b) {
   return std::abs(a.h1 - a.moved - b.h0 + b.moved) < kSame_mm &&
@@ -172,8 +173,9 @@ bool meet(const Item& a, const Item& b) {
 }
 
 // From one element to the next, if the setup makes both.
-std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, bool inner,
-                               const Item& a, const Item& b) {
+std::optional<Passage> passage(const PreparedPart& p, std::size_t setup,
+                               const SetupWork& work, bool inner, const Item& a,
+                               const Item& b) {
   const double rises = b.h0 - b.moved - a.h1 + a.moved;
   // Finishing does not run on beside the blank of an arc if a step or an inner corner there
   // would keep the tool's corner off the finished surface.
@@ -182,7 +184,7 @@ std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, boo
       (to_arc && b.h0 > a.h1 + kSame_mm) || (from_arc && b.h0 < a.h1 - kSame_mm) ||
       ((from_arc || to_arc) && (rises > kSame_mm || b.rad() > a.rad() + kSame_mm));
   if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off ||
-      !made(work, inner, a.index) || !made(work, inner, b.index) ||
+      !makes(work, {inner, a.index}) || !makes(work, {inner, b.index}) ||
       (!inner && left_before_shoulder_mm(p, work, a, b) > 0))
     return std::nullopt;
   Passage g;
@@ -190,7 +192,9 @@ std::optional<Passage> passage(const PreparedPart& p, const SetupWork& work, boo
   g.least_mm = std::min(a.length(), b.length());
   if (rises > kSame_mm) {
     g.rad = kUpright;
-    g.wall_to_h = b.h0;
+    g.wall_to_h =
+        b.h0 -
+        front_chamfer(p, setup, {inner, b.index}).value_or(part::Chamfer{}).radial_mm;
   } else {
     g.falls_mm = a.h1 - b.h0;
   }
@@ -203,6 +207,14 @@ double below_mm(double height, double r, double minor_rad) {
   const double arc = r * (1 - std::cos(minor_rad));
   return height <= arc ? std::sqrt(height * (2 * r - height))
                        : r * std::sin(minor_rad) + (height - arc) / std::tan(minor_rad);
+}
+
+// Length along the chamfer of a wall, of which what lies in stock replaces a piece of wall.
+double edge_mm(const Surroundings& s, double beyond_mm) {
+  const auto& c = s.wall_chamfer;
+  const double along = std::hypot(c.radial_mm, c.axial_mm) + beyond_mm;
+  return s.wall_in_stock ? along * (1 - c.radial_mm / std::hypot(c.radial_mm, c.axial_mm))
+                         : along;
 }
 
 }  // namespace
@@ -243,6 +255,8 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.h0 = e.h0;
   s.z1 = e.z1;
   s.h1 = e.h1;
+  s.front_chamfer = front_chamfer(p, setup, element).value_or(part::Chamfer{});
+  s.fillet_mm = fillet_behind_mm(p, setup, element);
   s.first = k == 0;
   s.wall_z = s.touch_z = -kInfinity;
   add_walls(p, setup, work, all, k, s);
@@ -252,7 +266,7 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
       s.front_rad = front->rad() - front->bends_rad;
   }
   if (k > 0) {
-    s.before = passage(p, work, s.inner, all[k - 1], e);
+    s.before = passage(p, setup, work, s.inner, all[k - 1], e);
     if (s.before && s.before->rad == 0) s.before->rad = all[k - 1].rad();
   }
   if (k + 1 == all.size()) return s;
@@ -261,7 +275,7 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   if (e.h0 == e.h1 && !next.cut_later && std::abs(next.h0 - e.h1 - up) < kLevel_mm &&
       std::abs(next.h1 - e.h1 - up) < kLevel_mm)
     s.level_behind = next.index;
-  s.behind = passage(p, work, s.inner, e, next);
+  s.behind = passage(p, setup, work, s.inner, e, next);
   if (s.behind && s.behind->rad == 0) s.behind->rad = next.rad();
   return s;
 }
@@ -287,6 +301,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const double r = strokes.corner_mm, rad = std::atan2(s.h1 - s.h0, s.z0 - s.z1);
   const double slope = std::cos(rad), above = s.inner ? kAboveBore_mm : kAbove_mm;
   const bool tapered = s.h0 != s.h1;
+  const auto& chamfer = s.front_chamfer;
+  const double chamfer_rad = std::atan2(chamfer.radial_mm, chamfer.axial_mm);
   const auto runs = [&](const std::optional<Passage>& g) {
     return strokes.contour && g && runs_on(*g, r, strokes.minor_rad);
   };
@@ -323,14 +339,16 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     return std::max(h, last ? s.wall_drawn_h : std::min(s.wall_h, h + strokes.depth_mm));
   };
   const auto start = [&](bool last) {
-    if (last && from_before) return s.z0 + r * tip_z(rad, s.before->rad);
+    if (last && from_before)
+      return s.z0 + r * tip_z(chamfer.axial_mm > 0 ? chamfer_rad : rad, s.before->rad);
     if (last && s.front_falls_mm > kSame_mm)
       return s.z0 - r - below_mm(s.front_falls_mm, r, strokes.minor_rad);
     if (last && s.front_rad && rad > *s.front_rad)
       return s.z0 + r * tip_z(rad, *s.front_rad) + kBefore_mm;
     const double level = s.z0 + kBefore_mm;
+    const double along = chamfer.axial_mm > 0 ? chamfer_rad : rad;
     const double own =
-        s.z0 + r * (std::sin(rad) - 1) + (last ? (kBefore_mm + r) * slope : 0);
+        s.z0 + r * (std::sin(along) - 1) + (kBefore_mm + r) * std::cos(along);
     const double z = last ? own : level;
     return s.first && s.front > 0 ? std::max(z, s.front + kBefore_mm) : z;
   };
@@ -338,6 +356,11 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   // element's own line.  On a cone lengths are multiplied by their diameter over the mean
   // one, because the spindle turns slower on a larger diameter.
   const auto fed = [&](bool last, double left, double a, double b) {
+    if (chamfer.axial_mm > 0) {
+      const double foot = last ? a : s.z0 + r * tip_z(0, chamfer_rad);
+      const double edge = s.z0 - chamfer.axial_mm + r * tip_z(chamfer_rad, 0);
+      return a - foot + (foot - edge) / std::cos(chamfer_rad) + edge - b;
+    }
     if (!tapered) return a - b;
     const auto height = [&](double tip) {
       const double z = tip + r * (1 - std::sin(rad));
@@ -364,10 +387,18 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const bool comes = !(last && from_before), leaves = !(last && on);
     const double a = start(last), b = end(last, left);
     const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left;
+    const bool chamfers =
+        last && !on && s.wall_chamfer.axial_mm > 0 && out_h > s.wall_edge_h;
+    const double beyond =
+        s.wall_in_stock ? beyond_surface_mm(s.wall_chamfer, r) : r + kBehind_mm;
+    const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
-        std::abs(sqr(out_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
+        std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
     sum.wall_mm += wall;
     sum.fed_mm += fed(last, left, a, b) + wall + (comes ? above : 0);
+    if (chamfers)
+      sum.fed_mm += edge_mm(s, beyond) *
+                    std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));
     if (s.inner) {
       sum.rapid_mm +=
           (comes ? s.front + kClear_mm - a : 0) + (leaves ? s.front + kClear_mm - b : 0);

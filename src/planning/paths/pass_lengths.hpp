@@ -51,7 +51,14 @@ struct Surroundings {
   double root_z = 0;      ///< where the jaws, or the held end, are
   double r_most = 0;      ///< largest corner of the plan's tools
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool first = false;       ///< begins at the free end
+  part::Chamfer front_chamfer = {};  ///< with which every pass begins
+  /// On the edge of the wall behind, which this setup's tool cuts after the wall, because
+  /// another setup makes the element there; with the height at which it begins.
+  part::Chamfer wall_chamfer = {};
+  double wall_edge_h = 0;
+  bool wall_in_stock = false;            ///< that setup comes later
+  std::optional<double> fillet_mm = {};  ///< largest that may stay at the wall's foot
+  bool first = false;                    ///< begins at the free end
   double wall_z = 0;        ///< a rising surface, where roughing ends at the latest
   bool wall_steps = false;  ///< it is a wall
   double wall_h = 0;        ///< its height when this element is roughed,

@@ -7,6 +7,7 @@
 
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/units.hpp"
@@ -183,6 +184,8 @@ Assignment assign(const PreparedPart& p) {
     if (holds_left(p, s))
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
   assign_faces(p, a);
+  for (auto& sentence : chamfers_not_cut(p, a.setups))
+    a.unreachable.push_back(std::move(sentence));
   return a;
 }
 

@@ -12,6 +12,7 @@
 #include "planning/operation/bar_tip.hpp"
 #include "planning/operation/chebyshev.hpp"
 #include "planning/operation/evaluate.hpp"
+#include "planning/paths/edges.hpp"
 #include "turnwright/deflection/rest.hpp"
 #include "turnwright/deflection/thrust.hpp"
 
@@ -181,6 +182,8 @@ MachinedSurface MachinedSurface::shoulder(const PreparedPart& plan, std::size_t 
   f.top_h_ = (stands ? plan.drawing.stock.outer_mm : large) / 2;
   f.face_z_ = -std::abs(part::left_z_mm(plan.drawing, index) - free_z_mm(plan, setup));
   for (const auto& t : plan.tools) f.around_.r_most = std::max(f.around_.r_most, t.re_mm);
+  const std::size_t smaller = index - 1 + index - behind;
+  f.around_.fillet_mm = fillet_behind_mm(plan, setup, {false, smaller});
   return f;
 }
 
@@ -323,6 +326,10 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
 
 bool MachinedSurface::ends_before_jaws(const catalogue::Tool& tool) const {
   return kind_ != Kind::element || goes_on_ || clears_jaws(around_, tool.re_mm);
+}
+
+bool MachinedSurface::leaves_fillet(const catalogue::Tool& tool) const {
+  return !around_.fillet_mm || tool.re_mm <= *around_.fillet_mm;
 }
 
 bool MachinedSurface::enters(const catalogue::Tool& tool) const {

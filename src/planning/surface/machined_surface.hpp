@@ -60,6 +60,11 @@ class MachinedSurface {
 
   Holding holding() const;
 
+  /// Largest fillet [mm] that may stay in the inner corner behind it; nothing if any may.
+  const std::optional<double>& fillet_mm() const { return around_.fillet_mm; }
+  /// Whether a tool's corner leaves no larger one.
+  bool leaves_fillet(const catalogue::Tool& tool) const;
+
   /// An operation on it, for the order of the setup.
   InOrder in_order(const catalogue::Tool& tool, bool rough) const;
 

@@ -351,8 +351,8 @@ double used_on_corrected_path(const SurfaceTask& task, const SurfaceAnswer& a) {
 // error that is corrected: until it is small enough, that error is limited further.
 template <class Solve>
 SurfaceAnswer kept_on_corrected_path(const SurfaceTask& task, Solve solve) {
-  constexpr int kTimes = 5;
-  constexpr double kSpared = 0.9;
+  constexpr int kTimes = 10;
+  constexpr double kSpared = 0.998;
   auto a = solve(task);
   const double bound = a.lower_bound;
   SurfaceTask tightened = task;

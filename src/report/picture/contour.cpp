@@ -34,8 +34,25 @@ Runs chords(const part::Cut& arc, double z, double length) {
   return all;
 }
 
+// A cylinder with its chamfers; out: 1 outside, -1 in a bore.
 template <class Element>
-Runs runs(const Element& e, double z) {
+Runs with_chamfers(const Element& e, double z, double out) {
+  std::vector<double> at{0, e.length_mm};
+  if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm);
+  if (e.right_chamfer) at.push_back(e.length_mm - e.right_chamfer->axial_mm);
+  std::sort(at.begin(), at.end());
+  const auto radius = [&](double x) {
+    return e.left_mm / 2 - out * part::chamfered_mm(e, x);
+  };
+  Runs all;
+  for (std::size_t k = 0; k + 1 < at.size(); ++k)
+    all.push_back({z + at[k], z + at[k + 1], radius(at[k]), radius(at[k + 1])});
+  return all;
+}
+
+template <class Element>
+Runs runs(const Element& e, double z, double out) {
+  if (e.left_chamfer || e.right_chamfer) return with_chamfers(e, z, out);
   if (e.cut && e.cut->kind == part::CutKind::arc) return chords(*e.cut, z, e.length_mm);
   const bool groove = e.cut && e.cut->kind == part::CutKind::groove;
   const auto ends = groove ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
@@ -72,11 +89,11 @@ Runs bores(const part::Drawing& d, const std::vector<bool>& finished, double lef
 }  // namespace
 
 Runs outer_runs(const part::Drawing& d, std::size_t i) {
-  return runs(d.outer[i], part::left_z_mm(d, i));
+  return runs(d.outer[i], part::left_z_mm(d, i), 1);
 }
 
 Runs inner_runs(const part::Drawing& d, std::size_t i) {
-  return runs(d.inner[i], part::inner_left_z_mm(d, i));
+  return runs(d.inner[i], part::inner_left_z_mm(d, i), -1);
 }
 
 Contour contour_after(const PreparedPart& p, std::size_t setup) {

@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "part_sections.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using part::End;
+
+constexpr double kDiffers_mm = 1e-6;    // of diameters
+constexpr double kLeastWall_mm = 0.05;  // that a chamfer leaves of a step
+constexpr double kShareOfWall = 0.45;   // that a chamfer may take of a face
+
+// The end of an element that stands beyond its neighbour or meets a face of the part:
+// its edge, and the inner corner at the neighbour's foot.
+struct Step {
+  std::vector<std::string> names;  // in a document; the first one is told
+  bool inner = false;
+  std::size_t standing = 0;
+  End end = End::left;               // of the standing element
+  std::optional<std::size_t> lower;  // the neighbour; none at a face of the part
+  double most_mm = 0;                // that a chamfer may take of the radius
+  bool plain =
+      true;  // a cylinder or a thread stands there, and no groove or arc is beside
+};
+
+std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
+  return {a + '|' + b, b + '|' + a};
+}
+
+template <class Element>
+bool can_have_edge(const Element& e) {
+  return e.kind == part::ElementKind::cylinder &&
+         (!e.cut || e.cut->kind == part::CutKind::thread);
+}
+
+template <class Element>
+bool can_be_beside(const Element& e) {
+  return !e.cut || e.cut->kind == part::CutKind::thread;
+}
+
+// Between neighbours of which `left` ends where `right` begins.
+template <class Element>
+void add_between(const std::vector<Element>& all, std::size_t left, std::size_t right,
+                 bool inner, std::vector<Step>& steps) {
+  const double rises_mm = (all[right].left_mm - all[left].right_mm) / 2;
+  if (!(std::abs(rises_mm) > kDiffers_mm)) return;
+  const bool right_stands = (rises_mm > 0) != inner;
+  const std::size_t standing = right_stands ? right : left;
+  const std::size_t lower = right_stands ? left : right;
+  steps.push_back({both_ways(all[left].id, all[right].id), inner, standing,
+                   right_stands ? End::left : End::right, lower,
+                   std::abs(rises_mm) - kLeastWall_mm,
+                   can_have_edge(all[standing]) && can_be_beside(all[lower])});
+}
+
+template <class Element>
+void add_at_face(const std::vector<Element>& all, std::size_t i, End end, bool inner,
+                 double wall_mm, std::vector<Step>& steps) {
+  const std::string face = end == End::left ? "left" : "right";
+  auto names = both_ways(face, all[i].id);
+  if (!inner) names.insert(names.begin(), face);
+  steps.push_back({names, inner, i, end, std::nullopt, kShareOfWall * wall_mm,
+                   can_have_edge(all[i])});
+}
+
+// Indices of the bores along the axis.
+std::vector<std::size_t> along_the_axis(const part::Drawing& d) {
+  std::vector<std::size_t> order(d.inner.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return part::inner_left_z_mm(d, a) < part::inner_left_z_mm(d, b);
+  });
+  return order;
+}
+
+std::vector<Step> steps(const part::Drawing& d) {
+  std::vector<Step> all;
+  const auto bores = along_the_axis(d);
+  const double length = part::length_mm(d);
+  const auto ends_at = [&](std::size_t i, double z) {
+    return std::abs(part::inner_left_z_mm(d, i) + d.inner[i].length_mm - z) < kDiffers_mm;
+  };
+  const auto begins_at = [&](std::size_t i, double z) {
+    return std::abs(part::inner_left_z_mm(d, i) - z) < kDiffers_mm;
+  };
+  const double hole = d.stock.inner_mm;
+  const bool left_bore = !bores.empty() && begins_at(bores.front(), 0);
+  const bool right_bore = !bores.empty() && ends_at(bores.back(), length);
+  const double left_wall =
+      (d.outer.front().left_mm - (left_bore ? d.inner[bores.front()].left_mm : hole)) / 2;
+  const double right_wall =
+      (d.outer.back().right_mm - (right_bore ? d.inner[bores.back()].right_mm : hole)) /
+      2;
+  add_at_face(d.outer, 0, End::left, false, left_wall, all);
+  add_at_face(d.outer, d.outer.size() - 1, End::right, false, right_wall, all);
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    add_between(d.outer, k - 1, k, false, all);
+  if (left_bore) add_at_face(d.inner, bores.front(), End::left, true, left_wall, all);
+  if (right_bore) add_at_face(d.inner, bores.back(), End::right, true, right_wall, all);
+  for (std::size_t k = 1; k < bores.size(); ++k)
+    if (ends_at(bores[k - 1], part::inner_left_z_mm(d, bores[k])))
+      add_between(d.inner, bores[k - 1], bores[k], true, all);
+  return all;
+}
+
+// A chamfer of the given length along the axis, in the standing element.
+template <class Element>
+void read_chamfer(Reader& r, const Step& step, Element& e) {
+  const double axial = r.number("chamfer_mm", above_up_to(0, 1000, "mm"));
+  const double angle = r.number_or("angle_deg", within(1, 89, "deg"), 45);
+  auto& mine = step.end == End::left ? e.left_chamfer : e.right_chamfer;
+  const auto& other = step.end == End::left ? e.right_chamfer : e.left_chamfer;
+  if (mine) {
+    r.problem_at("at", "each edge once", "duplicate");
+    return;
+  }
+  const double radial = axial * std::tan(units::rad_from_deg(angle));
+  const double free = e.length_mm - (other ? other->axial_mm : 0);
+  if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
+  if (!step.plain)
+    r.problem_at("at",
+                 "an edge of a cylinder or a thread that has no groove or arc beside it",
+                 "conflict");
+  else if (!(axial < free))
+    r.problem_at("chamfer_mm",
+                 "less than the " + number_text(free) + " mm that " + e.id + " is long" +
+                     (other ? " beside its other chamfer" : ""),
+                 "conflict");
+  else if (!(radial <= step.most_mm))
+    r.problem_at("chamfer_mm",
+                 "a chamfer that takes at most " +
+                     number_text(std::floor(1e4 * std::max(step.most_mm, 0.0)) / 1e4) +
+                     " mm of the radius there (this one takes " +
+                     number_text(std::round(1e4 * radial) / 1e4) + ")",
+                 "conflict");
+  else
+    mine = part::Chamfer{axial, radial};
+}
+
+template <class Element>
+void read_fillet(Reader& r, const Step& step, Element& e) {
+  auto& mine = step.end == End::left ? e.right_fillet_mm : e.left_fillet_mm;
+  if (mine) r.problem_at("at", "each corner once", "duplicate");
+  mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
+}
+
+void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
+  auto& d = draft.drawing();
+  std::vector<std::string> names, told;
+  for (const auto& s : all) {
+    names.insert(names.end(), s.names.begin(), s.names.end());
+    told.push_back(s.names.front());
+  }
+  const auto at = r.at("at", "the name of an edge");
+  const auto id = at.as_text();
+  const auto step = std::find_if(all.begin(), all.end(), [&](const Step& s) {
+    return std::find(s.names.begin(), s.names.end(), id) != s.names.end();
+  });
+  const bool chamfer = r.has("chamfer_mm"), fillet = r.has("fillet_mm");
+  if (!id.empty() && !all.empty() && step == all.end())
+    at.problem(expected_reference(id, told, "an edge of the part"), "unknown-id");
+  if (chamfer == fillet)
+    r.problem("an edge with " + std::string(chamfer ? "both" : "neither"),
+              "chamfer_mm for the edge, or fillet_mm for the inner corner at its foot",
+              "conflict");
+  if (step == all.end() || chamfer == fillet) {
+    for (const char* key : {"chamfer_mm", "angle_deg", "fillet_mm"}) r.find(key);
+  } else if (chamfer) {
+    step->inner ? read_chamfer(r, *step, d.inner[step->standing])
+                : read_chamfer(r, *step, d.outer[step->standing]);
+  } else if (!step->lower) {
+    r.problem_at("fillet_mm",
+                 "a chamfer_mm: there is no inner corner at a face of the part",
+                 "conflict");
+  } else {
+    step->inner ? read_fillet(r, *step, d.inner[*step->lower])
+                : read_fillet(r, *step, d.outer[*step->lower]);
+  }
+  r.finish();
+}
+
+}  // namespace
+
+void read_edges(Draft& draft) {
+  const auto items = draft.root.optional_items("edges", 0, 400);
+  const auto& d = draft.drawing();
+  const bool known = sizes_were_read(d) && !features(d).empty();
+  const auto all = known ? steps(d) : std::vector<Step>{};
+  for (Reader r : items) {
+    r = r.as_object();
+    read_edge(draft, r, all);
+  }
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,120 @@
+#include "edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planning/clamping/positions.hpp"
+#include "planning/values/surface_request.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using part::End;
+
+// The end of the part that is free.
+End free_end(const PreparedPart& p, std::size_t setup) {
+  return p.setups[setup].hold == End::left ? End::right : End::left;
+}
+
+// z of an end of an element.
+double end_z_mm(const part::Drawing& d, const Element& e, End end) {
+  const double left =
+      e.inner ? part::inner_left_z_mm(d, e.index) : part::left_z_mm(d, e.index);
+  const double length = e.inner ? d.inner[e.index].length_mm : d.outer[e.index].length_mm;
+  return end == End::left ? left : left + length;
+}
+
+// The element that meets an end of another; none at a face of the part.
+std::optional<Element> beside(const part::Drawing& d, const Element& e, End end) {
+  const std::size_t count = e.inner ? d.inner.size() : d.outer.size();
+  const double z = end_z_mm(d, e, end);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Element other{e.inner, i};
+    const End meets = end == End::left ? End::right : End::left;
+    if (i != e.index && std::abs(end_z_mm(d, other, meets) - z) < kNoWall_mm)
+      return other;
+  }
+  return std::nullopt;
+}
+
+// Whether every finishing tool may take the ring of stock above a chamfer with its wall.
+bool fits_into_stock(const PreparedPart& p, const part::Chamfer& c) {
+  return std::ranges::all_of(tools_for(p, catalogue::ToolUse::finishing),
+                             [&](const catalogue::Tool* t) {
+                               return c.axial_mm + beyond_surface_mm(c, t->re_mm) +
+                                          catalogue::least_depth_mm(*t) <=
+                                      t->ap_mm.upper;
+                             });
+}
+
+bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
+            const Element& e, End end) {
+  if (free_end(p, s) != end) return false;
+  if (makes(setups[s], e)) return true;
+  const auto begin = setups.begin(), here = begin + static_cast<long>(s);
+  const bool made =
+      std::any_of(begin, here, [&](const SetupWork& w) { return makes(w, e); });
+  if (const auto front = beside(p.drawing, e, end))
+    return makes(setups[s], *front) &&
+           (made || fits_into_stock(p, *front_chamfer(p, s, e)));
+  return !e.inner && made && setups[s].end_face;
+}
+
+template <class List>
+void add_not_cut(const PreparedPart& p, const std::vector<SetupWork>& setups,
+                 const List& elements, bool inner, std::vector<std::string>& all) {
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (const End end : {End::left, End::right}) {
+      const auto& e = elements[i];
+      if (!(end == End::left ? e.left_chamfer : e.right_chamfer)) continue;
+      bool cut = false;
+      for (std::size_t s = 0; s < setups.size(); ++s)
+        cut = cut || cut_in(p, setups, s, {inner, i}, end);
+      if (!cut)
+        all.push_back("the chamfer at the " +
+                      std::string(end == End::left ? "left" : "right") + " end of " +
+                      e.id + " cannot be cut in any setup: none makes " + e.id +
+                      " or the surface before that end with the end free");
+    }
+}
+
+}  // namespace
+
+bool makes(const SetupWork& work, const Element& e) {
+  const auto& all = e.inner ? work.bores : work.elements;
+  return std::find(all.begin(), all.end(), e.index) != all.end();
+}
+
+double beyond_surface_mm(const part::Chamfer& c, double corner_mm) {
+  constexpr double kAboveSurface_mm = 0.05;
+  const double angle = std::atan2(c.radial_mm, c.axial_mm);
+  return corner_mm * std::tan((std::numbers::pi / 2 - angle) / 2) + kAboveSurface_mm;
+}
+
+std::optional<part::Chamfer> front_chamfer(const PreparedPart& p, std::size_t setup,
+                                           const Element& e) {
+  const auto of = [&](const auto& element) {
+    return free_end(p, setup) == End::left ? element.left_chamfer : element.right_chamfer;
+  };
+  return e.inner ? of(p.drawing.inner[e.index]) : of(p.drawing.outer[e.index]);
+}
+
+std::optional<double> fillet_behind_mm(const PreparedPart& p, std::size_t setup,
+                                       const Element& e) {
+  const auto of = [&](const auto& element) {
+    return free_end(p, setup) == End::left ? element.right_fillet_mm
+                                           : element.left_fillet_mm;
+  };
+  return e.inner ? of(p.drawing.inner[e.index]) : of(p.drawing.outer[e.index]);
+}
+
+std::vector<std::string> chamfers_not_cut(const PreparedPart& p,
+                                          const std::vector<SetupWork>& setups) {
+  std::vector<std::string> all;
+  add_not_cut(p, setups, p.drawing.outer, false, all);
+  add_not_cut(p, setups, p.drawing.inner, true, all);
+  return all;
+}
+
+}  // namespace turnwright::planning
