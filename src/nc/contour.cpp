@@ -38,6 +38,18 @@ std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
   return line;
 }
 
+// A line that ends with an undercut.
+std::vector<Point> with_undercut(std::vector<Point> line, const Surface& s) {
+  if (!s.undercut) return line;
+  const auto [radius, depth, width] = *s.undercut;
+  const double h = line.back().h_mm, z = s.z1 + width;
+  while (line.size() > 1 && line.back().z_mm <= z) line.pop_back();
+  line.push_back({h, z});
+  line.push_back({h - depth, z - depth / std::tan(part::kUndercutFalls_rad)});
+  line.push_back({h - depth, s.z1});
+  return line;
+}
+
 // An element of the nominal contour.
 std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) {
   const auto& cut = cut_of(site, s);
@@ -45,7 +57,7 @@ std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) 
     const auto arc = drawn_arc(site, s);
     return {{arc.from, arc.to, arc}};
   }
-  auto line = with_back(with_front(corrected(site, side, s), s), s);
+  auto line = with_undercut(with_back(with_front(corrected(site, side, s), s), s), s);
   if (cut && cut->kind == part::CutKind::groove) {
     const double floor = side.sign * cut->drawn.left_mm / 2;
     line = {{floor, s.z0}, {floor, s.z1}};
@@ -122,7 +134,7 @@ std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s
   if (left_mm > 0)
     line = {{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
   else
-    line = corrected(site, side, s);
+    line = with_undercut(corrected(site, side, s), s);
   return with_front(std::move(line), s);
 }
 

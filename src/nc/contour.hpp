@@ -11,7 +11,7 @@ namespace turnwright::nc {
 /// that is cut later the line of its blank.
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s);
 /// The line of a pass over an element that leaves a thickness: it begins with the chamfer at
-/// its front; with nothing left it is the finished line.
+/// its front; with nothing left it is the finished line, which ends with its undercut.
 std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
                             double left_mm);
 /// The plan's correction of a surface in the setup that finishes it; empty if none is

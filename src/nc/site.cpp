@@ -69,6 +69,8 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
                                            e.left_chamfer, e.right_chamfer}
                                  : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0,
                                            e.right_chamfer, e.left_chamfer});
+      if constexpr (requires { e.left_undercut; })
+        side.items.back().undercut = sign > 0 ? e.left_undercut : e.right_undercut;
       if (auto& s = side.items.back();
           done[i] && e.cut && e.cut->kind == part::CutKind::groove)
         s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;

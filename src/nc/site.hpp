@@ -34,6 +34,7 @@ struct Surface {
   bool stock = true;  ///< not cut yet
   double left = 0;    ///< thickness that the last pass has left on it
   std::optional<part::Chamfer> front = {}, back = {};  ///< chamfers, drawn at z0 and z1
+  std::optional<part::Undercut> undercut = {};         ///< before the shoulder at z1
 };
 
 /// Outside or in the bores.

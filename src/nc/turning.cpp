@@ -166,7 +166,7 @@ std::vector<Point> up_wall(const Point& a, const Normal& m, const Point& b,
 // tool follows its minor edge, which touches the edge of the higher surface.
 std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const auto &s = p.side.items[k], &t = p.side.items[k + 1];
-  const auto from = corrected(p.site, p.side, s), to = own_line(p.site, p.side, t, 0);
+  const auto from = own_line(p.site, p.side, s, 0), to = own_line(p.site, p.side, t, 0);
   const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
   const double r = p.re_mm;
   if (t.h0 > s.h1 + kSame_mm) return up_wall(from.back(), m, to[0], n, r);
@@ -270,6 +270,12 @@ std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>&
   if (p.last) all = drawn_behind(p.site, p.side, k);
   if (!w) return all;
   const double stock = wall_stock_mm(p, *w);
+  const auto& s = p.surface();
+  if (!p.last && s.undercut) {
+    const double r = s.undercut->radius_mm, h = s.h1 - s.undercut->depth_mm;
+    const Arc radius{{h, s.z1 + r}, {h + r, s.z1}, {h + r, s.z1 + r}, false};
+    all.push_back({radius.from, radius.to, radius});
+  }
   if (!p.last || stock > 0) all.push_back(wall(w->z_mm + stock));
   return all;
 }
@@ -377,13 +383,28 @@ Way way_of(const Pass& p) {
   return {way, entered};
 }
 
+// Follows a path at feed to one of its points; where an undercut ends at a wall, its
+// radius is larger than the corner's and an arc leads from one to the other.
+void follow(const Pass& p, const std::vector<Point>& way, std::size_t i) {
+  const auto& undercut = p.surface().undercut;
+  const double radius = p.last && undercut ? undercut->radius_mm - p.re_mm : 0;
+  const bool corner = radius > kSame_mm && i + 1 < way.size() &&
+                      std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
+                      std::abs(way[i + 1].z_mm - way[i].z_mm) < kSame_mm;
+  if (!corner) return p.site.to(Kind::feed, p.side, way[i]);
+  const auto [h, z] = way[i];
+  p.site.to(Kind::feed, p.side, {h, z + radius});
+  p.site.moves.push_back({Kind::arc, h + radius, z, {h + radius, z + radius}, true});
+  p.site.at = {h + radius, z};
+}
+
 void pass(const Pass& p) {
   auto& s = p.surface();
   const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
     if (!p.from_before()) p.site.approach(p.side, way.front(), p.re_mm);
     for (std::size_t i = 1; i < way.size(); ++i) {
-      p.site.to(Kind::feed, p.side, way[i]);
+      follow(p, way, i);
       p.site.moves.back().entering = i <= entered;
     }
   }

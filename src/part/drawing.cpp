@@ -5,6 +5,35 @@
 #include <stdexcept>
 
 namespace turnwright::part {
+namespace {
+
+// Radius, depth and width.
+constexpr std::array kUndercutsE{
+    Undercut{0.2, 0.1, 1},   Undercut{0.4, 0.2, 2},   Undercut{0.6, 0.2, 2},
+    Undercut{0.6, 0.3, 2.5}, Undercut{0.8, 0.3, 2.5}, Undercut{1, 0.2, 2.5},
+    Undercut{1, 0.4, 4},     Undercut{1.2, 0.2, 2.5}, Undercut{1.2, 0.4, 4},
+    Undercut{1.6, 0.3, 4},   Undercut{2.5, 0.4, 5},   Undercut{4, 0.5, 7}};
+
+}  // namespace
+
+std::optional<Undercut> undercut_e(double radius_mm, double depth_mm) {
+  constexpr double kSame_mm = 1e-9;
+  for (const auto& u : kUndercutsE)
+    if (std::abs(u.radius_mm - radius_mm) < kSame_mm &&
+        std::abs(u.depth_mm - depth_mm) < kSame_mm)
+      return u;
+  return std::nullopt;
+}
+
+double undercut_mm(const OuterElement& e, double from_left_mm) {
+  const auto at = [](const std::optional<Undercut>& u, double from_end_mm) {
+    if (!u || from_end_mm >= u->width_mm) return 0.0;
+    return std::min(u->depth_mm,
+                    (u->width_mm - from_end_mm) * std::tan(kUndercutFalls_rad));
+  };
+  return at(e.left_undercut, from_left_mm) +
+         at(e.right_undercut, e.length_mm - from_left_mm);
+}
 double length_mm(const Drawing& drawing) {
   double sum = 0;
   for (const auto& element : drawing.outer) sum += element.length_mm;

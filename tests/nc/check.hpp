@@ -180,7 +180,7 @@ class Check : private Sizes {
   template <class Element>
   double height(double sign, const Element& e, double u, double z) const {
     return sign * (drawn(e, u) + correction(e.id, z)) -
-           part::chamfered_mm(e, u * e.length_mm);
+           part::chamfered_mm(e, u * e.length_mm) - undercut(e, u * e.length_mm);
   }
 
   // Drawn height at a place, or if it is at an edge the highest beside it.

@@ -101,6 +101,16 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
         at.push_back((z - z0) / e.length_mm);
   if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm / e.length_mm);
   if (e.right_chamfer) at.push_back(1 - e.right_chamfer->axial_mm / e.length_mm);
+  if constexpr (requires { e.left_undercut; })
+    for (const bool left : {true, false})
+      if (const auto& u = left ? e.left_undercut : e.right_undercut) {
+        std::vector<double> x{u->width_mm,
+                              u->width_mm - u->depth_mm / std::tan(M_PI / 12)};
+        for (int i = 0; i <= 200; ++i)
+          x.push_back(u->radius_mm * (1 - std::cos(M_PI / 400 * i)));
+        for (const double from : x)
+          at.push_back(left ? from / e.length_mm : 1 - from / e.length_mm);
+      }
   std::sort(at.begin(), at.end());
   const double low_z = z0 + (e.left_chamfer ? e.left_chamfer->axial_mm : 0);
   const double high_z =
@@ -132,7 +142,7 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     const double z = z0 + u * e.length_mm;
     const double size =
         Sizes::drawn(e, u) + sizes_.correction(e.id, std::clamp(z, low_z, high_z));
-    const double h = sign * size - chamfered(z);
+    const double h = sign * size - chamfered(z) - Sizes::undercut(e, z - z0);
     line.push_back({sign * std::min(h, most), z});
   }
   append(run, e.id, line);

@@ -61,6 +61,22 @@ class Sizes {
   }
 
   // Radius drawn at a place of an element.
+  // Depth of an undercut at a distance from the left end: from its width on down at 15 deg,
+  // level, and up a quarter of a circle.
+  template <class Element>
+  static double undercut(const Element& e, double from_left) {
+    if constexpr (requires { e.left_undercut; }) {
+      const bool left = from_left < e.length_mm / 2;
+      const auto& u = left ? e.left_undercut : e.right_undercut;
+      const double x = left ? from_left : e.length_mm - from_left;
+      if (!u || x >= u->width_mm) return 0;
+      const double line = std::min(u->depth_mm, (u->width_mm - x) * std::tan(M_PI / 12));
+      const double r = u->radius_mm;
+      return line - (x < r ? r - std::sqrt(std::max(0.0, r * r - (r - x) * (r - x))) : 0);
+    }
+    return 0;
+  }
+
   template <class Element>
   static double drawn(const Element& e, double u) {
     const double straight = e.left_mm + (e.right_mm - e.left_mm) * u;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,18 @@ struct Chamfer {
   double axial_mm = 0, radial_mm = 0;  ///< taken from the length and from the radius
 };
 
+/// An undercut of form E of DIN 509 at the end of an element before a shoulder: at a
+/// distance from the shoulder the surface falls at 15 deg to a depth, and an inner radius
+/// leads from there to the shoulder.
+struct Undercut {
+  double radius_mm = 0, depth_mm = 0, width_mm = 0;
+};
+inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
+
+/// The undercut of form E with a radius and a depth.
+/// Source: DIN 509, table 1: radius x depth, width f.  Nothing if the table has none.
+std::optional<Undercut> undercut_e(double radius_mm, double depth_mm);
+
 /// One outer element.  A cylinder has left_mm == right_mm (diameters).  With a groove,
 /// thread or arc cut into it the diameters are those of the blank.
 struct OuterElement {
@@ -38,7 +51,12 @@ struct OuterElement {
   std::optional<Chamfer> left_chamfer = {}, right_chamfer = {};
   /// Largest radius that may stay in the inner corner at that end.
   std::optional<double> left_fillet_mm = {}, right_fillet_mm = {};
+  std::optional<Undercut> left_undercut = {}, right_undercut = {};
 };
+
+/// Depth [mm] of the undercuts of an element at a distance from its left end, its radii
+/// left out.
+double undercut_mm(const OuterElement& element, double from_left_mm);
 
 enum class End { left, right };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
@@ -149,6 +150,51 @@ void read_fillet(Reader& r, const Step& step, Element& e) {
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
 
+// "E0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
+std::optional<part::Undercut> read_undercut(const Reader& r) {
+  const auto text = r.as_text(40);
+  static const std::regex kForm(
+      R"(\s*(?:DIN\s*509)?[\s-]*([A-Z])\s*(\d+(?:[.,]\d+)?)\s*[xX\u00d7]\s*(\d+(?:[.,]\d+)?)\s*)");
+  std::smatch m;
+  const auto number = [](std::string digits) {
+    std::replace(digits.begin(), digits.end(), ',', '.');
+    return std::stod(digits);
+  };
+  std::optional<part::Undercut> found;
+  if (std::regex_match(text, m, kForm) && m[1] == "E")
+    found = part::undercut_e(number(m[2]), number(m[3]));
+  if (!found && !text.empty())
+    r.problem(
+        "an undercut of DIN 509's form E by its radius and depth, like \"E0.8x0.3\"; "
+        "forms that reach into the shoulder are not turned",
+        "choice");
+  return found;
+}
+
+void read_undercut(Reader& r, const Step& step, part::OuterElement& e) {
+  auto& mine = step.end == End::left ? e.right_undercut : e.left_undercut;
+  const auto& chamfer = step.end == End::left ? e.left_chamfer : e.right_chamfer;
+  const double free = e.length_mm - (chamfer ? chamfer->axial_mm : 0);
+  const auto found = read_undercut(r.at("undercut"));
+  if (!found) return;
+  if (mine)
+    r.problem_at("at", "each corner once", "duplicate");
+  else if (e.cut || e.kind != part::ElementKind::cylinder)
+    r.problem_at("at", "the inner corner beside a cylinder", "conflict");
+  else if (!(found->width_mm < free))
+    r.problem_at(
+        "undercut",
+        "an undercut that is less wide than the " + number_text(free) + " mm of " + e.id,
+        "conflict");
+  else if (found->radius_mm - found->depth_mm > step.most_mm)
+    r.problem_at("undercut",
+                 "an undercut whose radius ends below the edge of the " +
+                     number_text(step.most_mm + kLeastWall_mm) + " mm high shoulder",
+                 "conflict");
+  else
+    mine = found;
+}
+
 void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
   auto& d = draft.drawing();
   std::vector<std::string> names, told;
@@ -161,18 +207,27 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
   const auto step = std::find_if(all.begin(), all.end(), [&](const Step& s) {
     return std::find(s.names.begin(), s.names.end(), id) != s.names.end();
   });
-  const bool chamfer = r.has("chamfer_mm"), fillet = r.has("fillet_mm");
+  const bool chamfer = r.has("chamfer_mm"), fillet = r.has("fillet_mm"),
+             undercut = r.has("undercut");
+  const int asked = chamfer + fillet + undercut;
   if (!id.empty() && !all.empty() && step == all.end())
     at.problem(expected_reference(id, told, "an edge of the part"), "unknown-id");
-  if (chamfer == fillet)
-    r.problem("an edge with " + std::string(chamfer ? "both" : "neither"),
-              "chamfer_mm for the edge, or fillet_mm for the inner corner at its foot",
+  if (asked != 1)
+    r.problem(asked == 0 ? "an edge without a shape" : "an edge with several shapes",
+              "chamfer_mm for the edge, or fillet_mm or undercut for the inner corner at "
+              "its foot",
               "conflict");
-  if (step == all.end() || chamfer == fillet) {
-    for (const char* key : {"chamfer_mm", "angle_deg", "fillet_mm"}) r.find(key);
+  if (step == all.end() || asked != 1) {
+    for (const char* key : {"chamfer_mm", "angle_deg", "fillet_mm", "undercut"})
+      r.find(key);
   } else if (chamfer) {
     step->inner ? read_chamfer(r, *step, d.inner[step->standing])
                 : read_chamfer(r, *step, d.outer[step->standing]);
+  } else if (undercut && step->lower && !step->inner) {
+    read_undercut(r, *step, d.outer[*step->lower]);
+  } else if (undercut) {
+    r.problem_at("undercut", "the inner corner between two outer elements, \"d1|d2\"",
+                 "conflict");
   } else if (!step->lower) {
     r.problem_at("fillet_mm",
                  "a chamfer_mm: there is no inner corner at a face of the part",

@@ -38,14 +38,29 @@ std::optional<Element> beside(const part::Drawing& d, const Element& e, End end)
   return std::nullopt;
 }
 
-// Whether every finishing tool may take the ring of stock above a chamfer with its wall.
-bool fits_into_stock(const PreparedPart& p, const part::Chamfer& c) {
-  return std::ranges::all_of(tools_for(p, catalogue::ToolUse::finishing),
-                             [&](const catalogue::Tool* t) {
-                               return c.axial_mm + beyond_surface_mm(c, t->re_mm) +
-                                          catalogue::least_depth_mm(*t) <=
-                                      t->ap_mm.upper;
-                             });
+double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
+  const auto of = [&](const auto& x) {
+    return (end == End::left ? x.left_mm : x.right_mm) / 2;
+  };
+  return e.inner ? of(d.inner[e.index]) : of(d.outer[e.index]);
+}
+
+// Whether a facing tool, if it makes the wall before a chamfer, has as much wall left there
+// as its corner needs.
+bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
+                 const Element& front, End end) {
+  const std::size_t shoulder = std::max(e.index, front.index);
+  if (e.inner || std::ranges::find(work.shoulders, shoulder) == work.shoulders.end())
+    return true;
+  const auto& d = p.drawing;
+  const auto& chamfer =
+      end == End::left ? d.outer[e.index].left_chamfer : d.outer[e.index].right_chamfer;
+  const End meets = end == End::left ? End::right : End::left;
+  const double wall_mm =
+      end_radius_mm(d, e, end) - end_radius_mm(d, front, meets) - chamfer->radial_mm;
+  return std::ranges::all_of(
+      tools_for(p, catalogue::ToolUse::facing),
+      [&](const catalogue::Tool* t) { return t->re_mm + kNoWall_mm <= wall_mm; });
 }
 
 bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
@@ -56,8 +71,7 @@ bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::si
   const bool made =
       std::any_of(begin, here, [&](const SetupWork& w) { return makes(w, e); });
   if (const auto front = beside(p.drawing, e, end))
-    return makes(setups[s], *front) &&
-           (made || fits_into_stock(p, *front_chamfer(p, s, e)));
+    return makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end);
   return !e.inner && made && setups[s].end_face;
 }
 
@@ -75,7 +89,8 @@ void add_not_cut(const PreparedPart& p, const std::vector<SetupWork>& setups,
         all.push_back("the chamfer at the " +
                       std::string(end == End::left ? "left" : "right") + " end of " +
                       e.id + " cannot be cut in any setup: none makes " + e.id +
-                      " or the surface before that end with the end free");
+                      " or the surface before that end, with the end free and enough "
+                      "wall or stock for the tool");
     }
 }
 
@@ -90,6 +105,12 @@ double beyond_surface_mm(const part::Chamfer& c, double corner_mm) {
   constexpr double kAboveSurface_mm = 0.05;
   const double angle = std::atan2(c.radial_mm, c.axial_mm);
   return corner_mm * std::tan((std::numbers::pi / 2 - angle) / 2) + kAboveSurface_mm;
+}
+
+bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& c) {
+  return c.axial_mm + beyond_surface_mm(c, tool.re_mm) +
+             catalogue::least_depth_mm(tool) <=
+         tool.ap_mm.upper;
 }
 
 std::optional<part::Chamfer> front_chamfer(const PreparedPart& p, std::size_t setup,
@@ -107,6 +128,39 @@ std::optional<double> fillet_behind_mm(const PreparedPart& p, std::size_t setup,
                                            : element.left_fillet_mm;
   };
   return e.inner ? of(p.drawing.inner[e.index]) : of(p.drawing.outer[e.index]);
+}
+
+std::optional<part::Undercut> undercut_behind(const PreparedPart& p, std::size_t setup,
+                                              const Element& e) {
+  if (e.inner) return std::nullopt;
+  const auto& element = p.drawing.outer[e.index];
+  return free_end(p, setup) == End::left ? element.right_undercut : element.left_undercut;
+}
+
+std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
+                                           const std::vector<SetupWork>& setups) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < p.drawing.outer.size(); ++i)
+    for (const End end : {End::left, End::right}) {
+      const auto& e = p.drawing.outer[i];
+      if (!(end == End::left ? e.left_undercut : e.right_undercut)) continue;
+      const std::size_t shoulder = end == End::left ? i : i + 1;
+      const bool cut = [&] {
+        for (std::size_t s = 0; s < setups.size(); ++s)
+          if (makes(setups[s], {false, i}))
+            return free_end(p, s) != end &&
+                   std::ranges::find(setups[s].shoulders, shoulder) ==
+                       setups[s].shoulders.end();
+        return false;
+      }();
+      if (!cut)
+        all.push_back("the undercut of " + e.id + " before " +
+                      shoulder_id(p.drawing, shoulder) +
+                      " cannot be cut: no setup turns " + e.id +
+                      " towards that shoulder and its wall in the same pass; a shoulder "
+                      "with a roughness or a tolerance is faced by itself");
+    }
+  return all;
 }
 
 std::vector<std::string> chamfers_not_cut(const PreparedPart& p,

@@ -18,6 +18,10 @@ std::optional<part::Chamfer> front_chamfer(const PreparedPart& plan, std::size_t
 std::optional<double> fillet_behind_mm(const PreparedPart& plan, std::size_t setup,
                                        const Element& element);
 
+/// The undercut behind an outer element, as its setup's tool goes.
+std::optional<part::Undercut> undercut_behind(const PreparedPart& plan, std::size_t setup,
+                                              const Element& element);
+
 /// Whether a setup makes an element.
 bool makes(const SetupWork& work, const Element& element);
 
@@ -26,13 +30,22 @@ bool makes(const SetupWork& work, const Element& element);
 /// r tan((pi/2 - angle)/2), and a twentieth of a millimetre stay above that surface.
 double beyond_surface_mm(const part::Chamfer& chamfer, double corner_mm);
 
+/// Whether a tool takes the ring of stock above such a chamfer, and what roughing leaves on
+/// the wall, in one cut.
+bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& chamfer);
+
 /// A sentence for each chamfer that no setup cuts.  Setups that can:
 ///  - the one that makes the element: every pass begins along the chamfer;
 ///  - one that makes the lower element in front, and so the wall between them: the last
 ///    pass, or the facing tool, goes along the chamfer; into stock, if the element is made
-///    later, which no finishing tool's largest depth may forbid;
+///    later;
 ///  - one that faces the end after the element has been made.
 std::vector<std::string> chamfers_not_cut(const PreparedPart& plan,
                                           const std::vector<SetupWork>& setups);
+
+/// A sentence for each undercut that no setup cuts: the one that makes its element comes
+/// from the shoulder's side, or faces that shoulder by itself.
+std::vector<std::string> undercuts_not_cut(const PreparedPart& plan,
+                                           const std::vector<SetupWork>& setups);
 
 }  // namespace turnwright::planning

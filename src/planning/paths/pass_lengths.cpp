@@ -209,6 +209,17 @@ double below_mm(double height, double r, double minor_rad) {
                        : r * std::sin(minor_rad) + (height - arc) / std::tan(minor_rad);
 }
 
+// Distance from the shoulder at which a corner of radius r, on a pass that leaves the
+// thickness `left`, meets the radius of an undercut: its centre is then R - r from that
+// radius' own.
+double before_radius_mm(const Surroundings& s, double r, double left) {
+  if (!s.undercut) return 0;
+  const double most = s.undercut->radius_mm - r;
+  const double below = most - s.undercut->depth_mm - left;
+  if (most <= 0 || below <= 0) return 0;
+  return most - std::sqrt(most * most - sqr(std::min(below, most)));
+}
+
 // Length along the chamfer of a wall, of which what lies in stock replaces a piece of wall.
 double edge_mm(const Surroundings& s, double beyond_mm) {
   const auto& c = s.wall_chamfer;
@@ -257,6 +268,7 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.h1 = e.h1;
   s.front_chamfer = front_chamfer(p, setup, element).value_or(part::Chamfer{});
   s.fillet_mm = fillet_behind_mm(p, setup, element);
+  s.undercut = undercut_behind(p, setup, element);
   s.first = k == 0;
   s.wall_z = s.touch_z = -kInfinity;
   add_walls(p, setup, work, all, k, s);
@@ -318,7 +330,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const bool level = last && s.level_behind;
     double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most) - r - kBehind_mm;
     if (!last)
-      z = std::max(z, s.wall_z + wall_stock(last));
+      z = std::max(z,
+                   s.wall_z + std::max(wall_stock(last), before_radius_mm(s, r, left)));
     else if (std::isfinite(s.touch_z))
       z = std::max(z, s.touch_z + r * tip_z(rad, s.touch_rad));
     if (s.shoulder_mm > 0) z = std::max(z, s.wall_z + s.shoulder_mm);
@@ -386,7 +399,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
         strokes.left_mm + strokes.depth_mm * ((strokes.passes - 1) / 2.0 - i);
     const bool comes = !(last && from_before), leaves = !(last && on);
     const double a = start(last), b = end(last, left);
-    const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left;
+    const double undercut = last && s.undercut ? s.undercut->depth_mm : 0;
+    const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left - undercut;
     const bool chamfers =
         last && !on && s.wall_chamfer.axial_mm > 0 && out_h > s.wall_edge_h;
     const double beyond =

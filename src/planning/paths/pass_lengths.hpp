@@ -56,7 +56,8 @@ struct Surroundings {
   /// another setup makes the element there; with the height at which it begins.
   part::Chamfer wall_chamfer = {};
   double wall_edge_h = 0;
-  bool wall_in_stock = false;            ///< that setup comes later
+  bool wall_in_stock = false;                   ///< that setup comes later
+  std::optional<part::Undercut> undercut = {};  ///< before that wall
   std::optional<double> fillet_mm = {};  ///< largest that may stay at the wall's foot
   bool first = false;                    ///< begins at the free end
   double wall_z = 0;        ///< a rising surface, where roughing ends at the latest

@@ -37,11 +37,8 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
                        : f.kind() == MachinedSurface::Kind::bore ? "boring"
                                                                  : "finishing",
                        plan.material.id);
-  if (f.fillet_mm())
-    return fmt::format(
-        ": every tool that could finish it has a corner above the {} mm of "
-        "the fillet at its end, or none of them fits",
-        readable(*f.fillet_mm()));
+  if (const auto asked = f.edges_asked(); !asked.empty())
+    return fmt::format(": no tool that could finish it fits and has {}", asked);
   if (fixed.rough.ap_mm || fixed.finish.ap_mm)
     return fmt::format(": the given passes do not add up to the {} mm to take off",
                        readable(f.stock_mm()));

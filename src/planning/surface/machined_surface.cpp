@@ -184,6 +184,11 @@ MachinedSurface MachinedSurface::shoulder(const PreparedPart& plan, std::size_t 
   for (const auto& t : plan.tools) f.around_.r_most = std::max(f.around_.r_most, t.re_mm);
   const std::size_t smaller = index - 1 + index - behind;
   f.around_.fillet_mm = fillet_behind_mm(plan, setup, {false, smaller});
+  f.around_.wall_chamfer =
+      makes(work, {false, behind})
+          ? part::Chamfer{}
+          : front_chamfer(plan, setup, {false, behind}).value_or(part::Chamfer{});
+  f.around_.wall_in_stock = stands;
   return f;
 }
 
@@ -239,6 +244,8 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
       tool.f_mm_rev.lower,
       std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
   o.ap = {catalogue::least_depth_mm(tool), tool.ap_mm.upper};
+  if (around_.undercut && (finishing || !recipe.finish))
+    o.ap.upper -= around_.undercut->depth_mm;
   if (!tool.chip.empty()) {
     const auto& piece = tool.chip[finishing ? recipe.finish_piece : recipe.rough_piece];
     o.f_window = overlap(o.f_window, piece.f_mm_rev);
@@ -326,10 +333,6 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
 
 bool MachinedSurface::ends_before_jaws(const catalogue::Tool& tool) const {
   return kind_ != Kind::element || goes_on_ || clears_jaws(around_, tool.re_mm);
-}
-
-bool MachinedSurface::leaves_fillet(const catalogue::Tool& tool) const {
-  return !around_.fillet_mm || tool.re_mm <= *around_.fillet_mm;
 }
 
 bool MachinedSurface::enters(const catalogue::Tool& tool) const {

@@ -60,10 +60,12 @@ class MachinedSurface {
 
   Holding holding() const;
 
-  /// Largest fillet [mm] that may stay in the inner corner behind it; nothing if any may.
-  const std::optional<double>& fillet_mm() const { return around_.fillet_mm; }
-  /// Whether a tool's corner leaves no larger one.
-  bool leaves_fillet(const catalogue::Tool& tool) const;
+  // In surface_edges.cpp.
+  /// Whether a finishing tool makes the edges at its end as drawn: the fillet, the undercut,
+  /// and a chamfer on the wall that is cut into stock.
+  bool makes_edges(const catalogue::Tool& tool) const;
+  /// What these ask of a tool, for a sentence; empty if nothing.
+  std::string edges_asked() const;
 
   /// An operation on it, for the order of the setup.
   InOrder in_order(const catalogue::Tool& tool, bool rough) const;

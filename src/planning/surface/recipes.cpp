@@ -38,7 +38,7 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
                             const Tool* finish) {
   std::vector<Recipe> all;
   if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
-  if (const auto* last = finish ? finish : rough; last && !f.leaves_fillet(*last))
+  if (const auto* last = finish ? finish : rough; last && !f.makes_edges(*last))
     return all;
   const auto ranges = cutting::speed_ranges(p.machine).size();
   const auto pieces = [](const Tool* t) {

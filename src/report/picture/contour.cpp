@@ -34,15 +34,34 @@ Runs chords(const part::Cut& arc, double z, double length) {
   return all;
 }
 
-// A cylinder with its chamfers; out: 1 outside, -1 in a bore.
 template <class Element>
-Runs with_chamfers(const Element& e, double z, double out) {
+bool has_edges(const Element& e) {
+  if constexpr (requires { e.left_undercut; })
+    if (e.left_undercut || e.right_undercut) return true;
+  return e.left_chamfer || e.right_chamfer;
+}
+
+// A cylinder with its chamfers and undercuts; out: 1 outside, -1 in a bore.
+template <class Element>
+Runs with_edges(const Element& e, double z, double out) {
   std::vector<double> at{0, e.length_mm};
   if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm);
   if (e.right_chamfer) at.push_back(e.length_mm - e.right_chamfer->axial_mm);
+  if constexpr (requires { e.left_undercut; }) {
+    const auto add = [&](const std::optional<part::Undercut>& u, double from, double to) {
+      if (!u) return;
+      const double run_out = u->depth_mm / std::tan(part::kUndercutFalls_rad);
+      at.push_back(from + to * u->width_mm);
+      at.push_back(from + to * (u->width_mm - run_out));
+    };
+    add(e.left_undercut, 0, 1);
+    add(e.right_undercut, e.length_mm, -1);
+  }
   std::sort(at.begin(), at.end());
   const auto radius = [&](double x) {
-    return e.left_mm / 2 - out * part::chamfered_mm(e, x);
+    double r = e.left_mm / 2 - out * part::chamfered_mm(e, x);
+    if constexpr (requires { e.left_undercut; }) r -= part::undercut_mm(e, x);
+    return r;
   };
   Runs all;
   for (std::size_t k = 0; k + 1 < at.size(); ++k)
@@ -52,7 +71,7 @@ Runs with_chamfers(const Element& e, double z, double out) {
 
 template <class Element>
 Runs runs(const Element& e, double z, double out) {
-  if (e.left_chamfer || e.right_chamfer) return with_chamfers(e, z, out);
+  if (has_edges(e)) return with_edges(e, z, out);
   if (e.cut && e.cut->kind == part::CutKind::arc) return chords(*e.cut, z, e.length_mm);
   const bool groove = e.cut && e.cut->kind == part::CutKind::groove;
   const auto ends = groove ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
