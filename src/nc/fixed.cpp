@@ -207,6 +207,25 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
   p.surface().h1 = drawn.to.h_mm;
 }
 
+// Along the chamfer at the front of an element, the deepest cut last.
+void chamfer(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
+  const auto& s = p.surface();
+  const auto line = own_line(site, p.side, s, 0);
+  const auto n = normal(line[0], line[1]);
+  double left = s.front->radial_mm;
+  const double step = left / static_cast<double>(o.passes.size());
+  for (std::size_t i = 0; i < o.passes.size(); ++i) {
+    left = i + 1 == o.passes.size() ? 0 : left - step;
+    const auto at = [&](Point q, double beyond) {
+      q = tip({q.h_mm + left, q.z_mm}, n, tool.re_mm);
+      return Point{q.h_mm + n.z * beyond, q.z_mm - n.h * beyond};
+    };
+    site.approach(p.side, at(line[0], -kBefore_mm));
+    site.to(Kind::feed, p.side, at(line[1], tool.re_mm + kBehind_mm));
+    site.lift(p.side);
+  }
+}
+
 void part_off(Site& site, const OperationPlan& o) {
   const double L = part::length_mm(site.part.drawing), w = o.passes[0].ap_mm;
   const double z = -L - *site.part.drawing.stock.parted_mm - w;
@@ -232,8 +251,11 @@ void fixed(Site& site, std::size_t operation) {
       return groove(site, o, place_of(site, o.on[0]));
     case FixedUse::threading:
       return thread(site, o, place_of(site, o.on[0]));
-    case FixedUse::profiling:
-      return arc(site, o, tool, place_of(site, o.on[0]));
+    case FixedUse::profiling: {
+      const auto place = place_of(site, o.on[0]);
+      return cut_of(site, place.surface()) ? arc(site, o, tool, place)
+                                           : chamfer(site, o, tool, place);
+    }
   }
 }
 

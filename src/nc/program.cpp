@@ -71,6 +71,9 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
   if (o.kind == OperationKind::fixed && use_of(site, o) == FixedUse::parting)
     return {true, D.small_mm / 2, D.large_mm / 2};
   const auto& s = surface_of(site, o.on[0]);
+  if (o.kind == OperationKind::fixed && use_of(site, o) == FixedUse::profiling &&
+      !cut_of(site, s))
+    return {false, s.z0 - s.front->axial_mm, s.z0};
   if (o.kind != OperationKind::fixed || use_of(site, o) != FixedUse::grooving)
     return {false, s.z1, s.z0};
   const auto [small, large] =

@@ -447,7 +447,7 @@ std::vector<Point> face_contour(const Site& site, const std::string& id, double 
 std::vector<Point> with_edge(const Site& site, std::vector<Point> contact, std::size_t k,
                              double re_mm) {
   const auto* s = edge_to_cut(site, site.outer, k);
-  if (!s || (k == 0 && s->stock)) return contact;
+  if (!s) return contact;
   const auto line = own_line(site, site.outer, *s, 0);
   const auto n = normal(line[0], line[1]);
   const double top = contact.back().h_mm;
@@ -567,10 +567,10 @@ void face(Site& site, std::size_t operation) {
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     const bool last = left < kSame_mm;
-    auto contact = face_contour(site, o.on[0], last ? 0 : left,
-                                hole > 0 ? hole - kBehind_mm : 0, outside, last);
-    if (last) contact = with_edge(site, std::move(contact), 0, re);
-    face_pass(site, contact, re, {});
+    face_pass(site,
+              face_contour(site, o.on[0], last ? 0 : left,
+                           hole > 0 ? hole - kBehind_mm : 0, outside, last),
+              re, {});
     site.rapid(site.at.h_mm, site.at.z_mm + kAbove_mm);
     site.front = last ? 0 : left;
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace turnwright::part {
@@ -44,6 +45,23 @@ TEST(Drawing, AllowancesAndPartFillTheStock) {
   EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162
   EXPECT_EQ(d.stock.left_allowance_mm + length_mm(d) + right_allowance_mm(d),
             d.stock.length_mm);
+}
+
+TEST(Drawing, ChamfersAndUndercutsGoIntoTheRadius) {
+  OuterElement e{.id = "d1", .length_mm = 20, .left_mm = 30, .right_mm = 30};
+  e.left_chamfer = Chamfer{2, 1};
+  e.right_chamfer = Chamfer{1, 3};
+  EXPECT_EQ(chamfered_mm(e, 0), 1);
+  EXPECT_EQ(chamfered_mm(e, 1), 0.5);
+  EXPECT_EQ(chamfered_mm(e, 2), 0);
+  EXPECT_EQ(chamfered_mm(e, 19), 0);
+  EXPECT_EQ(chamfered_mm(e, 20), 3);
+  e.left_undercut = undercut_e(0.8, 0.3);
+  ASSERT_TRUE(e.left_undercut);
+  EXPECT_EQ(undercut_mm(e, 0), 0.3);
+  EXPECT_NEAR(undercut_mm(e, 2), 0.5 * std::tan(std::acos(-1) / 12), 1e-12);
+  EXPECT_EQ(undercut_mm(e, 2.5), 0);
+  EXPECT_FALSE(undercut_e(0.8, 0.4));
 }
 
 }  // namespace

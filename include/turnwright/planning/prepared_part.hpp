@@ -23,6 +23,9 @@ struct SetupWork {
   std::vector<std::size_t>
       shoulders;  ///< element k: the face "k-1|k", where the drawing requires it
   std::vector<std::size_t> bores;  ///< indices into drawing.inner
+  /// Chamfers at the free end of elements that earlier setups have made, which no tool cuts
+  /// on its way: indices into drawing.outer and drawing.inner.
+  std::vector<std::size_t> outer_chamfers, inner_chamfers;
 };
 
 /// Which setup makes which surface.

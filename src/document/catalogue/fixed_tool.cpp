@@ -48,7 +48,9 @@ void read_kind(Reader& r, FixedTool& t) {
       t.re_mm = r.number("re_mm", within(0, 20, "mm"));
       break;
   }
-  if (t.use != FixedUse::grooving && t.use != FixedUse::threading) return;
+  if (t.use != FixedUse::grooving && t.use != FixedUse::threading &&
+      t.use != FixedUse::profiling)
+    return;
   if (const auto bore = r.optional_number("min_bore_mm", above_up_to(0, 20000, "mm"))) {
     t.inner = true;
     t.min_bore_mm = *bore;

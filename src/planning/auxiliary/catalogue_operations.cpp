@@ -11,6 +11,7 @@
 #include "planning/clamping/clamping_speed.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/supports.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/surface/operation_result.hpp"
 #include "planning/values/readable.hpp"
 #include "turnwright/base/dual.hpp"
@@ -558,6 +559,44 @@ void add_arc(Site& s, const CutElement& e) {
                 {d}));
 }
 
+// A chamfer at the free end by a pass of its own, along its line in cuts as deep as the
+// tool may; depth and forces are those across the line.
+void add_chamfer(Site& s, std::size_t index, bool inner) {
+  const auto& d = s.p.drawing;
+  const auto& id = inner ? d.inner[index].id : d.outer[index].id;
+  const Element element{inner, index};
+  const auto c = *front_chamfer(s.p, s.setup, element);
+  const auto around = surroundings(s.p, s.setup, s.clamping, s.work, element);
+  const double bore = -2 * around.h0, D = inner ? bore + 2 * c.radial_mm : 2 * around.h0;
+  const Asked a{
+      FixedUse::profiling,
+      "chamfer",
+      id,
+      inner,
+      given_on(s, id),
+      [&](const FixedTool& t, double) { return !inner || t.min_bore_mm <= bore; }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(
+        s, a,
+        fmt::format("no profiling tool of the tools is for {}{}", s.p.material.name,
+                    inner ? fmt::format(" in a bore of {:g} mm", bore) : std::string()));
+  const double length = std::hypot(c.axial_mm, c.radial_mm);
+  const double depth = c.axial_mm * c.radial_mm / length;
+  const int count = times(depth, f.tool->ap_mm);
+  const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
+  const double vf = f.at.f_mm_rev * n, ap = depth / count;
+  const Duty duty{load_of(f, s.p, ap, D), n, D};
+  const double outside = inner ? around.front + kClear_mm : around.stock_h - around.h0;
+  const double from = inner ? bore / 2 : around.z0 + kBefore_mm;
+  s.out.after.push_back(operation(
+      s, a, f,
+      std::vector<Pass>(static_cast<std::size_t>(count), pass_of(duty, ap, length / vf)),
+      {count * (kBefore_mm + f.tool->re_mm + kBehind_mm) / vf,
+       2 * (outside + kClear_mm) + (count - 1) * 2 * length, inner, from, from},
+      {duty}));
+}
+
 void add_parting(Site& s) {
   const auto& stock = s.p.drawing.stock;
   const bool left = s.p.setups[s.setup].hold == part::End::left;
@@ -651,6 +690,8 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
   s.stage = Stage::finishing;
   using enum part::CutKind;
+  for (const std::size_t i : work.outer_chamfers) add_chamfer(s, i, false);
+  for (const std::size_t i : work.inner_chamfers) add_chamfer(s, i, true);
   for (const auto kind : {arc, groove, thread}) {
     for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
     for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pass_lengths.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
 
@@ -67,17 +68,26 @@ bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::si
             const Element& e, End end) {
   if (free_end(p, s) != end) return false;
   if (makes(setups[s], e)) return true;
-  const auto begin = setups.begin(), here = begin + static_cast<long>(s);
-  const bool made =
-      std::any_of(begin, here, [&](const SetupWork& w) { return makes(w, e); });
-  if (const auto front = beside(p.drawing, e, end))
-    return makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end);
-  return !e.inner && made && setups[s].end_face;
+  const auto front = beside(p.drawing, e, end);
+  return front && makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end);
+}
+
+// The setup, if any, in which a pass of its own cuts a chamfer at a face of the part.
+std::optional<std::size_t> alone_in(const PreparedPart& p,
+                                    const std::vector<SetupWork>& setups,
+                                    const Element& e, End end) {
+  if (beside(p.drawing, e, end)) return std::nullopt;
+  bool made = false;
+  for (std::size_t s = 0; s < setups.size(); ++s) {
+    if (made && free_end(p, s) == end && !(front_mm(p, s, setups[s]) > 0)) return s;
+    made = made || makes(setups[s], e);
+  }
+  return std::nullopt;
 }
 
 template <class List>
-void add_not_cut(const PreparedPart& p, const std::vector<SetupWork>& setups,
-                 const List& elements, bool inner, std::vector<std::string>& all) {
+void assign(const PreparedPart& p, const List& elements, bool inner,
+            std::vector<SetupWork>& setups, std::vector<std::string>& not_cut) {
   for (std::size_t i = 0; i < elements.size(); ++i)
     for (const End end : {End::left, End::right}) {
       const auto& e = elements[i];
@@ -85,12 +95,15 @@ void add_not_cut(const PreparedPart& p, const std::vector<SetupWork>& setups,
       bool cut = false;
       for (std::size_t s = 0; s < setups.size(); ++s)
         cut = cut || cut_in(p, setups, s, {inner, i}, end);
-      if (!cut)
-        all.push_back("the chamfer at the " +
-                      std::string(end == End::left ? "left" : "right") + " end of " +
-                      e.id + " cannot be cut in any setup: none makes " + e.id +
-                      " or the surface before that end, with the end free and enough "
-                      "wall or stock for the tool");
+      if (cut) continue;
+      if (const auto s = alone_in(p, setups, {inner, i}, end))
+        (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
+      else
+        not_cut.push_back(
+            "the chamfer at the " + std::string(end == End::left ? "left" : "right") +
+            " end of " + e.id + " cannot be cut in any setup: none makes " + e.id +
+            " or the surface before that end, with the end free and enough wall for the "
+            "tool");
     }
 }
 
@@ -163,12 +176,12 @@ std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
   return all;
 }
 
-std::vector<std::string> chamfers_not_cut(const PreparedPart& p,
-                                          const std::vector<SetupWork>& setups) {
-  std::vector<std::string> all;
-  add_not_cut(p, setups, p.drawing.outer, false, all);
-  add_not_cut(p, setups, p.drawing.inner, true, all);
-  return all;
+std::vector<std::string> assign_chamfers(const PreparedPart& p,
+                                         std::vector<SetupWork>& setups) {
+  std::vector<std::string> not_cut;
+  assign(p, p.drawing.outer, false, setups, not_cut);
+  assign(p, p.drawing.inner, true, setups, not_cut);
+  return not_cut;
 }
 
 }  // namespace turnwright::planning

@@ -5,8 +5,8 @@
 
 #include "planning/clamping/made_surfaces.hpp"
 
-/// Who cuts the chamfers of the drawing.  A chamfer has no operation of its own: a tool cuts
-/// it on its way, in a setup in which it faces the free end.
+/// Who cuts the edges of the drawing.  A chamfer is cut in a setup in which it faces the
+/// free end, by a tool on its way where that is possible.
 namespace turnwright::planning {
 
 /// The chamfer of an element at its end towards the free end of a setup.
@@ -34,14 +34,16 @@ double beyond_surface_mm(const part::Chamfer& chamfer, double corner_mm);
 /// the wall, in one cut.
 bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& chamfer);
 
-/// A sentence for each chamfer that no setup cuts.  Setups that can:
-///  - the one that makes the element: every pass begins along the chamfer;
+/// Gives the chamfers that no tool cuts on its way to a setup with a pass of their own;
+/// returns a sentence for each that no setup can cut.  A tool cuts a chamfer on its way in
+///  - the setup that makes the element: every pass begins along the chamfer;
 ///  - one that makes the lower element in front, and so the wall between them: the last
 ///    pass, or the facing tool, goes along the chamfer; into stock, if the element is made
-///    later;
-///  - one that faces the end after the element has been made.
-std::vector<std::string> chamfers_not_cut(const PreparedPart& plan,
-                                          const std::vector<SetupWork>& setups);
+///    later.
+/// At an end of the part that is faced and free after the element has been made a pass of
+/// its own does it.
+std::vector<std::string> assign_chamfers(const PreparedPart& plan,
+                                         std::vector<SetupWork>& setups);
 
 /// A sentence for each undercut that no setup cuts: the one that makes its element comes
 /// from the shoulder's side, or faces that shoulder by itself.

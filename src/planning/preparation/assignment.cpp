@@ -184,9 +184,9 @@ Assignment assign(const PreparedPart& p) {
     if (holds_left(p, s))
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
   assign_faces(p, a);
-  for (const auto& not_cut : {chamfers_not_cut, undercuts_not_cut})
-    for (auto& sentence : not_cut(p, a.setups))
-      a.unreachable.push_back(std::move(sentence));
+  for (const auto& not_cut :
+       {assign_chamfers(p, a.setups), undercuts_not_cut(p, a.setups)})
+    a.unreachable.insert(a.unreachable.end(), not_cut.begin(), not_cut.end());
   return a;
 }
 

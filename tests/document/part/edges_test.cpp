@@ -1,0 +1,167 @@
+// Chamfers, fillets and undercuts as a part document asks for them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../schema_check.hpp"
+#include "document/json/file.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/part_plan.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+
+const Catalogue& test_catalogue() {
+  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
+  return kCatalogue;
+}
+
+// d1 30, d2 50, d3 40, with a groove before d5 36; bores from the right 24, then 20.
+json stepped(const std::vector<json>& edges) {
+  const auto cylinder = [](const char* id, double length, double d) {
+    return json{
+        {"id", id}, {"kind", "cylinder"}, {"length_mm", length}, {"diameter_mm", d}};
+  };
+  json bores = {cylinder("b1", 30, 24), cylinder("b2", 40, 20)};
+  for (auto& b : bores) b["from"] = "right";
+  json groove = cylinder("d4", 3, 34);
+  groove["kind"] = "groove";
+  return {{"material", "test-steel"},
+          {"stock", {{"kind", "bar"}, {"diameter_mm", 55}, {"length_mm", 135}}},
+          {"outer",
+           {cylinder("d1", 30, 30), cylinder("d2", 40, 50), cylinder("d3", 30, 40),
+            groove, cylinder("d5", 30, 36)}},
+          {"inner", bores},
+          {"edges", edges}};
+}
+
+part::Drawing read(const std::vector<json>& edges) {
+  return load_part_plan(stepped(edges), test_catalogue(), "t").plan.drawing;
+}
+
+std::string refusal(const std::vector<json>& edges) {
+  try {
+    read(edges);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+json edge(const char* at, json shape) {
+  shape["at"] = at;
+  return shape;
+}
+
+TEST(Edges, AChamferBelongsToTheElementThatStands) {
+  const auto d =
+      read({edge("left", {{"chamfer_mm", 2}, {"angle_deg", 30}}),
+            edge("d2|d1", {{"chamfer_mm", 1}}), edge("d2|d3", {{"chamfer_mm", 1.5}}),
+            edge("right|d5", {{"chamfer_mm", 0.5}})});
+  ASSERT_TRUE(d.outer[0].left_chamfer);
+  EXPECT_EQ(d.outer[0].left_chamfer->axial_mm, 2);
+  EXPECT_NEAR(d.outer[0].left_chamfer->radial_mm, 2 / std::sqrt(3), 1e-12);
+  EXPECT_FALSE(d.outer[0].right_chamfer);
+  ASSERT_TRUE(d.outer[1].left_chamfer && d.outer[1].right_chamfer);
+  EXPECT_NEAR(d.outer[1].left_chamfer->radial_mm, 1, 1e-12);
+  EXPECT_EQ(d.outer[1].right_chamfer->axial_mm, 1.5);
+  EXPECT_FALSE(d.outer[2].left_chamfer);
+  ASSERT_TRUE(d.outer[4].right_chamfer);
+}
+
+// Inside the narrower bore stands.
+TEST(Edges, OfBoresAreTheirMouthsAndSteps) {
+  const auto d =
+      read({edge("right|b1", {{"chamfer_mm", 1}}), edge("b1|b2", {{"chamfer_mm", 0.5}})});
+  EXPECT_TRUE(d.inner[0].right_chamfer);
+  EXPECT_FALSE(d.inner[0].left_chamfer);
+  EXPECT_TRUE(d.inner[1].right_chamfer);
+  EXPECT_FALSE(d.inner[1].left_chamfer);
+}
+
+TEST(Edges, FilletsAndUndercutsBelongToTheElementBelow) {
+  const auto d = read({edge("d1|d2", {{"fillet_mm", 0.8}}),
+                       edge("d3|d2", {{"undercut", "DIN 509 - E0,8x0,3"}}),
+                       edge("b2|b1", {{"fillet_mm", 0.4}})});
+  EXPECT_EQ(d.outer[0].right_fillet_mm, 0.8);
+  EXPECT_FALSE(d.outer[0].left_fillet_mm || d.outer[1].left_fillet_mm);
+  ASSERT_TRUE(d.outer[2].left_undercut);
+  EXPECT_EQ(d.outer[2].left_undercut->radius_mm, 0.8);
+  EXPECT_EQ(d.outer[2].left_undercut->depth_mm, 0.3);
+  EXPECT_EQ(d.outer[2].left_undercut->width_mm, 2.5);
+  EXPECT_EQ(d.inner[0].left_fillet_mm, 0.4);
+}
+
+TEST(Edges, ThatThePartHasNotAreRefusedByName) {
+  EXPECT_EQ(refusal({edge("d1|d3", {{"chamfer_mm", 1}})}),
+            "t: /edges/0/at: got \"d1|d3\", expected an edge of the part (did you mean "
+            "\"d1|d2\"?)");
+  EXPECT_EQ(refusal({edge("left|b1", {{"chamfer_mm", 1}})}),
+            "t: /edges/0/at: got \"left|b1\", expected an edge of the part: \"left\", "
+            "\"right\", \"d1|d2\", \"d2|d3\", \"d3|d4\", \"right|b1\", \"b2|b1\"");
+  EXPECT_EQ(
+      refusal({edge("d3|d4", {{"chamfer_mm", 1}})}),
+      "t: /edges/0/at: got \"d3|d4\", expected an edge of a cylinder or a thread that "
+      "has no groove or arc beside it");
+  EXPECT_EQ(
+      refusal({edge("left", {{"chamfer_mm", 1}}), edge("d1|left", {{"chamfer_mm", 1}})}),
+      "t: /edges/1/at: got \"d1|left\", expected each edge once");
+}
+
+TEST(Edges, HaveOneShapeThatFits) {
+  EXPECT_EQ(refusal({edge("left", json::object())}),
+            "t: /edges/0: got an edge without a shape, expected chamfer_mm for the edge, "
+            "or fillet_mm or undercut for the inner corner at its foot");
+  EXPECT_EQ(refusal({edge("d1|d2", {{"chamfer_mm", 1}, {"fillet_mm", 1}})}),
+            "t: /edges/0: got an edge with several shapes, expected chamfer_mm for the "
+            "edge, or fillet_mm or undercut for the inner corner at its foot");
+  EXPECT_EQ(
+      refusal({edge("d2|d3", {{"chamfer_mm", 5}})}),
+      "t: /edges/0/chamfer_mm: got 5, expected a chamfer that takes at most 4.95 mm "
+      "of the radius there (this one takes 5)");
+  EXPECT_EQ(refusal({edge("d1|d2", {{"chamfer_mm", 39}, {"angle_deg", 1}}),
+                     edge("d2|d3", {{"chamfer_mm", 2}})}),
+            "t: /edges/1/chamfer_mm: got 2, expected less than the 1 mm that d2 is long "
+            "beside its other chamfer");
+  EXPECT_EQ(refusal({edge("right", {{"chamfer_mm", 3}})}),
+            "t: /edges/0/chamfer_mm: got 3, expected a chamfer that takes at most 2.7 mm "
+            "of the radius there (this one takes 3)");
+  EXPECT_EQ(
+      refusal({edge("left", {{"fillet_mm", 1}})}),
+      "t: /edges/0/fillet_mm: got 1, expected a chamfer_mm: there is no inner corner "
+      "at a face of the part");
+}
+
+TEST(Edges, UndercutsAreThoseOfTheStandard) {
+  const auto refused = [](const char* what) {
+    return "t: /edges/0/undercut: got \"" + std::string(what) +
+           "\", expected an undercut of DIN 509's form E by its radius and depth, like "
+           "\"E0.8x0.3\"; forms that reach into the shoulder are not turned";
+  };
+  for (const char* what : {"F0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
+    EXPECT_EQ(refusal({edge("d1|d2", {{"undercut", what}})}), refused(what));
+  EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E4x0.5"}})}), "accepted");
+  EXPECT_EQ(
+      refusal({edge("b1|b2", {{"undercut", "E0.4x0.2"}})}),
+      "t: /edges/0/undercut: got \"E0.4x0.2\", expected the inner corner between two "
+      "outer elements, \"d1|d2\"");
+}
+
+// Other problems of the document are told beside those of its edges, and an element
+// without a size makes no edge wrong.
+TEST(Edges, OfAnUnreadablePartAreLeftAlone) {
+  auto document = stepped({edge("d1|d2", {{"chamfer_mm", 1}})});
+  document["outer"][1].erase("diameter_mm");
+  try {
+    load_part_plan(document, test_catalogue(), "t");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("/edges"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::document

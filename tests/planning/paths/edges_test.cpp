@@ -1,0 +1,160 @@
+// Which setup cuts the chamfers of the drawing, and which tools its inner corners allow.
+#include "planning/paths/edges.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../parts.hpp"
+#include "turnwright/planning/plan.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using nlohmann::json;
+
+json cylinder(const char* id, double length, double d) {
+  return {{"id", id}, {"kind", "cylinder"}, {"length_mm", length}, {"diameter_mm", d}};
+}
+
+// 30, 50, 40, 30 from the left; the collar is turned in the first setup.
+json collar(const json& edges) {
+  return {{"material", "C45"},
+          {"machine", "lathe-medium"},
+          {"damping_ratio", 0.4},
+          {"stock",
+           {{"kind", "bar"},
+            {"diameter_mm", 54},
+            {"length_mm", 124},
+            {"left_allowance_mm", 2}}},
+          {"outer",
+           {cylinder("d1", 30, 30), cylinder("d2", 30, 50), cylinder("d3", 30, 40),
+            cylinder("d4", 30, 30)}},
+          {"setups",
+           {{{"hold", "left"}, {"grip_mm", 15}, {"clampings", {"chuck"}}},
+            {{"hold", "right"}, {"grip_mm", 15}, {"clampings", {"chuck"}}}}},
+          {"edges", edges}};
+}
+
+std::vector<std::string> operations(const ProcessPlan& r, std::size_t setup) {
+  std::vector<std::string> ids;
+  for (const auto& o : r.setups[setup].operations) ids.push_back(o.id);
+  return ids;
+}
+
+bool has(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+TEST(EdgesOfASetup, AreThoseTowardsItsFreeEnd) {
+  const auto p = part(collar(
+      {{{"at", "d1|d2"}, {"chamfer_mm", 1}}, {{"at", "d2|d3"}, {"chamfer_mm", 2}}}));
+  EXPECT_EQ(front_chamfer(p, 0, {false, 1})->axial_mm, 2);
+  EXPECT_EQ(front_chamfer(p, 1, {false, 1})->axial_mm, 1);
+  EXPECT_FALSE(front_chamfer(p, 0, {false, 2}));
+  const auto of_fillets = part(
+      collar({{{"at", "d1|d2"}, {"fillet_mm", 1}}, {{"at", "d2|d3"}, {"fillet_mm", 2}}}));
+  EXPECT_EQ(fillet_behind_mm(of_fillets, 0, {false, 2}), 2);
+  EXPECT_EQ(fillet_behind_mm(of_fillets, 1, {false, 0}), 1);
+  EXPECT_FALSE(fillet_behind_mm(of_fillets, 0, {false, 0}));
+}
+
+// Every chamfer is cut on the way: the operations are those of the sharp part, and so
+// nearly are their minutes.
+TEST(Chamfers, AddNoOperations) {
+  const auto sharp = plan(part(collar(json::array())));
+  const auto edged = plan(part(collar({{{"at", "left"}, {"chamfer_mm", 1}},
+                                       {{"at", "d1|d2"}, {"chamfer_mm", 1}},
+                                       {{"at", "d2|d3"}, {"chamfer_mm", 1}},
+                                       {{"at", "d3|d4"}, {"chamfer_mm", 1}},
+                                       {{"at", "right"}, {"chamfer_mm", 1}}})));
+  ASSERT_EQ(edged.status, PlanStatus::ok);
+  for (const std::size_t s : {0, 1})
+    EXPECT_EQ(operations(edged, s), operations(sharp, s));
+  EXPECT_NEAR(edged.cost_per_part, sharp.cost_per_part, 0.01 * sharp.cost_per_part);
+  EXPECT_NE(edged.cost_per_part, sharp.cost_per_part);
+}
+
+// A bush turned and bored from the right: its left mouth is left to the second setup, after
+// that end is faced.
+TEST(Chamfers, OfAFarMouthTakeAPassOfTheirOwn) {
+  json d = collar({{{"at", "left|b1"}, {"chamfer_mm", 1}}});
+  d["outer"] = {cylinder("d1", 20, 50), cylinder("d2", 30, 40)};
+  d["stock"]["length_mm"] = 54;
+  d["inner"] = {cylinder("b1", 50, 24)};
+  d["inner"][0]["from"] = "right";
+  const auto p = part(d);
+  EXPECT_EQ(p.work.setups[1].inner_chamfers, std::vector<std::size_t>{0});
+  const auto work = plan(p);
+  ASSERT_EQ(work.status, PlanStatus::ok);
+  EXPECT_FALSE(has(operations(work, 0), "s1-chamfer-b1"));
+  ASSERT_TRUE(has(operations(work, 1), "s2-chamfer-b1"));
+  PlanRequest bare = p;
+  std::erase_if(bare.fixed_tools, [](const auto& t) { return t.id == "PROFILE-INT-55"; });
+  const auto without = plan(prepare(std::move(bare)));
+  EXPECT_EQ(without.status, PlanStatus::infeasible);
+  EXPECT_EQ(
+      without.conflicts.front().sentence,
+      "chamfer b1: no profiling tool of the tools is for C45 heat-treatable steel in "
+      "a bore of 24 mm");
+}
+
+// One setup: nothing comes from the left.
+TEST(Chamfers, ThatNoSetupReachesAreConflicts) {
+  json d = collar({{{"at", "d1|d2"}, {"chamfer_mm", 1}}});
+  d["setups"].erase(1);
+  d["outer"] = {cylinder("d1", 20, 46), cylinder("d2", 70, 50), cylinder("d3", 30, 40)};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  bool told = false;
+  for (const auto& c : r.conflicts)
+    told = told || c.sentence.starts_with(
+                       "the chamfer at the left end of d2 cannot be cut in any setup");
+  EXPECT_TRUE(told);
+}
+
+TEST(Fillets, AllowNoLargerCorner) {
+  const auto finishing_tool = [](const json& edges) {
+    auto d = collar(edges);
+    d["tools"] = {"PCLNL-CNMG120408-PM", "PCLNL-CNMG120412-PR", "PDJNL-DNMG150604-PF"};
+    const auto r = plan(part(d));
+    for (const auto& o : r.setups[1].operations)
+      if (o.id == "s2-finish-d1") return o.tool;
+    return r.conflicts.empty() ? std::string() : r.conflicts.front().sentence;
+  };
+  EXPECT_EQ(finishing_tool({{{"at", "d1|d2"}, {"fillet_mm", 0.4}}}),
+            "PDJNL-DNMG150604-PF");
+  EXPECT_EQ(
+      finishing_tool({{{"at", "d1|d2"}, {"fillet_mm", 0.3}}}),
+      "d1: no tool that could finish it fits and has a corner of at most 0.3 mm for "
+      "the fillet");
+}
+
+// A minor edge of 5 deg does not go down 15 deg; a corner of 0.4 mm makes no smaller radius.
+TEST(Undercuts, NeedAToolThatGoesIn) {
+  const auto with = [](const char* undercut, const char* tool) {
+    auto d = collar({{{"at", "d1|d2"}, {"undercut", undercut}}});
+    d["tools"] = {"PCLNL-CNMG120408-PM", tool};
+    return plan(part(d));
+  };
+  EXPECT_EQ(with("E0.8x0.3", "PDJNL-DNMG150604-PF").status, PlanStatus::ok);
+  EXPECT_EQ(with("E0.8x0.3", "PCLNL-CNMG120404-PF").status, PlanStatus::infeasible);
+  const auto small = with("E0.2x0.1", "PDJNL-DNMG150604-PF");
+  ASSERT_EQ(small.status, PlanStatus::infeasible);
+  EXPECT_EQ(
+      small.conflicts.front().sentence,
+      "d1: no tool that could finish it fits and has a corner of at most 0.2 mm and a "
+      "minor edge of at least 15 deg for the undercut");
+}
+
+// A shoulder with a roughness of its own is faced by another tool.
+TEST(Undercuts, StandBeforeNoShoulderThatIsFacedByItself) {
+  auto d = collar({{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}});
+  d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 1.6}}};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  EXPECT_TRUE(r.conflicts.front().sentence.starts_with(
+      "the undercut of d1 before d1|d2 cannot be cut"))
+      << r.conflicts.front().sentence;
+}
+
+}  // namespace
+}  // namespace turnwright::planning
