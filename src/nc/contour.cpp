@@ -32,10 +32,8 @@ std::vector<Point> with_front(std::vector<Point> line, const Surface& s) {
 
 std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
   if (!s.back) return line;
-  std::reverse(line.begin(), line.end());
-  line = chamfered(std::move(line), *s.back);
-  std::reverse(line.begin(), line.end());
-  return line;
+  line = chamfered({line.rbegin(), line.rend()}, *s.back);
+  return {line.rbegin(), line.rend()};
 }
 
 // A line that ends with an undercut.
@@ -74,10 +72,6 @@ void append(std::vector<Piece>& all, const std::vector<Piece>& more) {
     all.push_back({all.back().to, more.front().from, {}});
   all.insert(all.end(), more.begin(), more.end());
 }
-
-}  // namespace
-
-namespace {
 
 bool is_groove(const Site& site, const Surface& s) {
   const auto& cut = cut_of(site, s);

@@ -145,20 +145,25 @@ struct Pass {
 };
 
 std::vector<Point> contour(const Pass& p) {
-  return own_line(p.site, p.side, p.surface(), p.last ? 0 : p.left_mm);
+  auto line = own_line(p.site, p.side, p.surface(), p.last ? 0 : p.left_mm);
+  // Roughing begins above what stands on the element in front.
+  if (p.last || !p.surface().front || p.k == 0) return line;
+  const double floor = p.side.top1(p.side.items[p.k - 1]);
+  if (floor >= line[1].h_mm)
+    line.erase(line.begin());
+  else if (floor > line[0].h_mm)
+    line[0] = at_h(line[0], line[1], floor);
+  return line;
 }
 
-// Tips at the foot and at the top of a wall between two lines.  On a wall that is lower
-// than the corner needs both are one, at which the corner touches both lines.
+// Tips at the foot and at the top of a wall between two lines, b above a; on a wall that is
+// lower than the corner needs those at which the corner crosses from one to the other.
 std::vector<Point> up_wall(const Point& a, const Normal& m, const Point& b,
                            const Normal& n, double r) {
   const auto foot = tip(a, m, kWall, r), top = tip(b, kWall, n, r);
   if (top.h_mm >= foot.h_mm) return {foot, top};
-  // Where the lines meet: a + t (m.z, -m.h) with n (a + t .. - b) = 0.
-  const double t =
-      (n.h * (b.h_mm - a.h_mm) + n.z * (b.z_mm - a.z_mm)) / (n.h * m.z - n.z * m.h);
-  const auto both = tip({a.h_mm + t * m.z, a.z_mm - t * m.h}, m, n, r);
-  return {both, both};
+  const auto over = across(a, m, b, n, r);
+  return {over.leave, over.meet};
 }
 
 // Tips at which a pass leaves element k and meets the next one: up the wall between them,
@@ -169,7 +174,9 @@ std::vector<Point> crossing(const Pass& p, std::size_t k) {
   const auto from = own_line(p.site, p.side, s, 0), to = own_line(p.site, p.side, t, 0);
   const auto m = normal(from[from.size() - 2], from.back()), n = normal(to[0], to[1]);
   const double r = p.re_mm;
-  if (t.h0 > s.h1 + kSame_mm) return up_wall(from.back(), m, to[0], n, r);
+  const bool rises = to[0].h_mm > from.back().h_mm;
+  if (t.h0 > s.h1 + kSame_mm && (rises || t.front))
+    return up_wall(from.back(), m, to[0], n, r);
   const double falls = from.back().h_mm - to[0].h_mm, rises_rad = *p.tool().rises_rad;
   const double arc = r * (1 - std::cos(rises_rad));
   if (falls > arc) {
@@ -272,7 +279,8 @@ std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>&
   const double stock = wall_stock_mm(p, *w);
   const auto& s = p.surface();
   if (!p.last && s.undercut) {
-    const double r = s.undercut->radius_mm, h = s.h1 - s.undercut->depth_mm;
+    const double r = s.undercut->radius_mm;
+    const double h = corrected(p.site, p.side, s).back().h_mm - s.undercut->depth_mm;
     const Arc radius{{h, s.z1 + r}, {h + r, s.z1}, {h + r, s.z1 + r}, false};
     all.push_back({radius.from, radius.to, radius});
   }

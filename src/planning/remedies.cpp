@@ -103,7 +103,7 @@ void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
 // Adds jaws that reach as far as the nearest element that the setup cuts, less the largest corner that has
 // to roll over its end, or as far as the rest.
 void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
-  constexpr double kDigit_mm = 0.1, kWorth_mm = 1;
+  constexpr double kTenth_mm = 0.1, kWorth_mm = 1;
   const auto& work = p.work.setups[s];
   const double root = root_z_mm(p, s, Clamping::chuck), free = free_z_mm(p, s);
   double room = std::abs(free - root);
@@ -118,7 +118,7 @@ void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>&
   const auto& clampings = p.setups[s].clampings;
   if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
     room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
-  const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
+  const double grip = std::floor((p.grips_mm[s] + room) / kTenth_mm) * kTenth_mm;
   if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
     add_grip(p, s, grip, all);
 }

@@ -44,6 +44,12 @@ bool can_be_beside(const Element& e) {
   return !e.cut || e.cut->kind == part::CutKind::thread;
 }
 
+// From the drawn radius to the middle of its limits, where it is cut.
+template <class Element>
+double to_middle_mm(const Element& e) {
+  return e.limits ? (e.limits->lower_mm + e.limits->upper_mm) / 4 : 0;
+}
+
 // Between neighbours of which `left` ends where `right` begins.
 template <class Element>
 void add_between(const std::vector<Element>& all, std::size_t left, std::size_t right,
@@ -51,11 +57,13 @@ void add_between(const std::vector<Element>& all, std::size_t left, std::size_t 
   const double rises_mm = (all[right].left_mm - all[left].right_mm) / 2;
   if (!(std::abs(rises_mm) > kDiffers_mm)) return;
   const bool right_stands = (rises_mm > 0) != inner;
+  const double cut_mm = rises_mm + to_middle_mm(all[right]) - to_middle_mm(all[left]);
+  const double least_mm =
+      rises_mm > 0 ? std::min(rises_mm, cut_mm) : std::min(-rises_mm, -cut_mm);
   const std::size_t standing = right_stands ? right : left;
   const std::size_t lower = right_stands ? left : right;
   steps.push_back({both_ways(all[left].id, all[right].id), inner, standing,
-                   right_stands ? End::left : End::right, lower,
-                   std::abs(rises_mm) - kLeastWall_mm,
+                   right_stands ? End::left : End::right, lower, least_mm - kLeastWall_mm,
                    can_have_edge(all[standing]) && can_be_beside(all[lower])});
 }
 
@@ -109,19 +117,48 @@ std::vector<Step> steps(const part::Drawing& d) {
   return all;
 }
 
-// A chamfer of the given length along the axis, in the standing element.
+End other(End end) { return end == End::left ? End::right : End::left; }
+
 template <class Element>
-void read_chamfer(Reader& r, const Step& step, Element& e) {
+auto& chamfer_at(Element& e, End end) {
+  return end == End::left ? e.left_chamfer : e.right_chamfer;
+}
+template <class Element>
+auto& undercut_at(Element& e, End end) {
+  return end == End::left ? e.left_undercut : e.right_undercut;
+}
+
+// Length that the edge at an end takes of an element.
+template <class Element>
+double edge_length_mm(const Element& e, End end) {
+  const auto& chamfer = chamfer_at(e, end);
+  if constexpr (requires { e.left_undercut; })
+    if (const auto& undercut = undercut_at(e, end)) return undercut->width_mm;
+  return chamfer ? chamfer->axial_mm : 0;
+}
+
+// Height that the other edge of a step takes of it: the radius of an undercut at its foot.
+double foot_mm(const part::Drawing& d, const Step& step) {
+  if (step.inner || !step.lower) return 0;
+  const auto& u = undercut_at(d.outer[*step.lower], other(step.end));
+  return u ? std::max(0.0, u->radius_mm - u->depth_mm) : 0;
+}
+
+std::string rounded(double mm) { return number_text(std::floor(1e4 * mm + 0.5) / 1e4); }
+
+// A chamfer of the given length along the axis, in the standing element; `most_mm` of its
+// radius are free for it.
+template <class Element>
+void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
   const double axial = r.number("chamfer_mm", above_up_to(0, 1000, "mm"));
   const double angle = r.number_or("angle_deg", within(1, 89, "deg"), 45);
-  auto& mine = step.end == End::left ? e.left_chamfer : e.right_chamfer;
-  const auto& other = step.end == End::left ? e.right_chamfer : e.left_chamfer;
+  auto& mine = chamfer_at(e, step.end);
   if (mine) {
     r.problem_at("at", "each edge once", "duplicate");
     return;
   }
   const double radial = axial * std::tan(units::rad_from_deg(angle));
-  const double free = e.length_mm - (other ? other->axial_mm : 0);
+  const double taken = edge_length_mm(e, other(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
     r.problem_at("at",
@@ -129,15 +166,14 @@ void read_chamfer(Reader& r, const Step& step, Element& e) {
                  "conflict");
   else if (!(axial < free))
     r.problem_at("chamfer_mm",
-                 "less than the " + number_text(free) + " mm that " + e.id + " is long" +
-                     (other ? " beside its other chamfer" : ""),
+                 "less than the " + rounded(free) + " mm that " + e.id + " is long" +
+                     (taken > 0 ? " beside the edge at its other end" : ""),
                  "conflict");
-  else if (!(radial <= step.most_mm))
+  else if (!(radial <= most_mm))
     r.problem_at("chamfer_mm",
                  "a chamfer that takes at most " +
-                     number_text(std::floor(1e4 * std::max(step.most_mm, 0.0)) / 1e4) +
-                     " mm of the radius there (this one takes " +
-                     number_text(std::round(1e4 * radial) / 1e4) + ")",
+                     number_text(std::floor(1e4 * std::max(most_mm, 0.0)) / 1e4) +
+                     " mm of the radius there (this one takes " + rounded(radial) + ")",
                  "conflict");
   else
     mine = part::Chamfer{axial, radial};
@@ -145,7 +181,7 @@ void read_chamfer(Reader& r, const Step& step, Element& e) {
 
 template <class Element>
 void read_fillet(Reader& r, const Step& step, Element& e) {
-  auto& mine = step.end == End::left ? e.right_fillet_mm : e.left_fillet_mm;
+  auto& mine = other(step.end) == End::left ? e.left_fillet_mm : e.right_fillet_mm;
   if (mine) r.problem_at("at", "each corner once", "duplicate");
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
@@ -154,7 +190,7 @@ void read_fillet(Reader& r, const Step& step, Element& e) {
 std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
   static const std::regex kForm(
-      R"(\s*(?:DIN\s*509)?[\s-]*([A-Z])\s*(\d+(?:[.,]\d+)?)\s*[xX\u00d7]\s*(\d+(?:[.,]\d+)?)\s*)");
+      R"(\s*(?:DIN\s*509)?[\s-]*([A-Z])\s*(\d+(?:[.,]\d+)?)\s*(?:[xX]|×)\s*(\d+(?:[.,]\d+)?)\s*)");
   std::smatch m;
   const auto number = [](std::string digits) {
     std::replace(digits.begin(), digits.end(), ',', '.');
@@ -165,16 +201,16 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
     found = part::undercut_e(number(m[2]), number(m[3]));
   if (!found && !text.empty())
     r.problem(
-        "an undercut of DIN 509's form E by its radius and depth, like \"E0.8x0.3\"; "
-        "forms that reach into the shoulder are not turned",
+        "an undercut of DIN 509's form E with a radius and a depth of its table, like "
+        "\"E0.8x0.3\" (the forms F, G and H are not turned)",
         "choice");
   return found;
 }
 
-void read_undercut(Reader& r, const Step& step, part::OuterElement& e) {
-  auto& mine = step.end == End::left ? e.right_undercut : e.left_undercut;
-  const auto& chamfer = step.end == End::left ? e.left_chamfer : e.right_chamfer;
-  const double free = e.length_mm - (chamfer ? chamfer->axial_mm : 0);
+// In the lower element; `most_mm` of the step are free for its radius.
+void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterElement& e) {
+  auto& mine = undercut_at(e, other(step.end));
+  const double free = e.length_mm - edge_length_mm(e, step.end);
   const auto found = read_undercut(r.at("undercut"));
   if (!found) return;
   if (mine)
@@ -182,14 +218,15 @@ void read_undercut(Reader& r, const Step& step, part::OuterElement& e) {
   else if (e.cut || e.kind != part::ElementKind::cylinder)
     r.problem_at("at", "the inner corner beside a cylinder", "conflict");
   else if (!(found->width_mm < free))
-    r.problem_at(
-        "undercut",
-        "an undercut that is less wide than the " + number_text(free) + " mm of " + e.id,
-        "conflict");
-  else if (found->radius_mm - found->depth_mm > step.most_mm)
     r.problem_at("undercut",
-                 "an undercut whose radius ends below the edge of the " +
-                     number_text(step.most_mm + kLeastWall_mm) + " mm high shoulder",
+                 "an undercut that is less wide than the " + rounded(free) +
+                     " mm that are left of " + e.id,
+                 "conflict");
+  else if (found->radius_mm - found->depth_mm > most_mm)
+    r.problem_at("undercut",
+                 "an undercut whose radius takes at most " +
+                     number_text(std::floor(1e4 * std::max(most_mm, 0.0)) / 1e4) +
+                     " mm of the shoulder",
                  "conflict");
   else
     mine = found;
@@ -221,10 +258,13 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
     for (const char* key : {"chamfer_mm", "angle_deg", "fillet_mm", "undercut"})
       r.find(key);
   } else if (chamfer) {
-    step->inner ? read_chamfer(r, *step, d.inner[step->standing])
-                : read_chamfer(r, *step, d.outer[step->standing]);
+    const double most_mm = step->most_mm - foot_mm(d, *step);
+    step->inner ? read_chamfer(r, *step, most_mm, d.inner[step->standing])
+                : read_chamfer(r, *step, most_mm, d.outer[step->standing]);
   } else if (undercut && step->lower && !step->inner) {
-    read_undercut(r, *step, d.outer[*step->lower]);
+    const auto& edge = chamfer_at(d.outer[step->standing], step->end);
+    read_undercut(r, *step, step->most_mm - (edge ? edge->radial_mm : 0),
+                  d.outer[*step->lower]);
   } else if (undercut) {
     r.problem_at("undercut", "the inner corner between two outer elements, \"d1|d2\"",
                  "conflict");
@@ -248,7 +288,7 @@ void read_edges(Draft& draft) {
   const auto all = known ? steps(d) : std::vector<Step>{};
   for (Reader r : items) {
     r = r.as_object();
-    read_edge(draft, r, all);
+    if (!r.broken()) read_edge(draft, r, all);
   }
 }
 

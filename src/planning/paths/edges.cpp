@@ -4,110 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "pass_lengths.hpp"
-#include "planning/clamping/positions.hpp"
-#include "planning/values/surface_request.hpp"
-
 namespace turnwright::planning {
-namespace {
 
 using part::End;
 
-// The end of the part that is free.
 End free_end(const PreparedPart& p, std::size_t setup) {
   return p.setups[setup].hold == End::left ? End::right : End::left;
 }
-
-// z of an end of an element.
-double end_z_mm(const part::Drawing& d, const Element& e, End end) {
-  const double left =
-      e.inner ? part::inner_left_z_mm(d, e.index) : part::left_z_mm(d, e.index);
-  const double length = e.inner ? d.inner[e.index].length_mm : d.outer[e.index].length_mm;
-  return end == End::left ? left : left + length;
-}
-
-// The element that meets an end of another; none at a face of the part.
-std::optional<Element> beside(const part::Drawing& d, const Element& e, End end) {
-  const std::size_t count = e.inner ? d.inner.size() : d.outer.size();
-  const double z = end_z_mm(d, e, end);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Element other{e.inner, i};
-    const End meets = end == End::left ? End::right : End::left;
-    if (i != e.index && std::abs(end_z_mm(d, other, meets) - z) < kNoWall_mm)
-      return other;
-  }
-  return std::nullopt;
-}
-
-double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
-  const auto of = [&](const auto& x) {
-    return (end == End::left ? x.left_mm : x.right_mm) / 2;
-  };
-  return e.inner ? of(d.inner[e.index]) : of(d.outer[e.index]);
-}
-
-// Whether a facing tool, if it makes the wall before a chamfer, has as much wall left there
-// as its corner needs.
-bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
-                 const Element& front, End end) {
-  const std::size_t shoulder = std::max(e.index, front.index);
-  if (e.inner || std::ranges::find(work.shoulders, shoulder) == work.shoulders.end())
-    return true;
-  const auto& d = p.drawing;
-  const auto& chamfer =
-      end == End::left ? d.outer[e.index].left_chamfer : d.outer[e.index].right_chamfer;
-  const End meets = end == End::left ? End::right : End::left;
-  const double wall_mm =
-      end_radius_mm(d, e, end) - end_radius_mm(d, front, meets) - chamfer->radial_mm;
-  return std::ranges::all_of(
-      tools_for(p, catalogue::ToolUse::facing),
-      [&](const catalogue::Tool* t) { return t->re_mm + kNoWall_mm <= wall_mm; });
-}
-
-bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
-            const Element& e, End end) {
-  if (free_end(p, s) != end) return false;
-  if (makes(setups[s], e)) return true;
-  const auto front = beside(p.drawing, e, end);
-  return front && makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end);
-}
-
-// The setup, if any, in which a pass of its own cuts a chamfer at a face of the part.
-std::optional<std::size_t> alone_in(const PreparedPart& p,
-                                    const std::vector<SetupWork>& setups,
-                                    const Element& e, End end) {
-  if (beside(p.drawing, e, end)) return std::nullopt;
-  bool made = false;
-  for (std::size_t s = 0; s < setups.size(); ++s) {
-    if (made && free_end(p, s) == end && !(front_mm(p, s, setups[s]) > 0)) return s;
-    made = made || makes(setups[s], e);
-  }
-  return std::nullopt;
-}
-
-template <class List>
-void assign(const PreparedPart& p, const List& elements, bool inner,
-            std::vector<SetupWork>& setups, std::vector<std::string>& not_cut) {
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    for (const End end : {End::left, End::right}) {
-      const auto& e = elements[i];
-      if (!(end == End::left ? e.left_chamfer : e.right_chamfer)) continue;
-      bool cut = false;
-      for (std::size_t s = 0; s < setups.size(); ++s)
-        cut = cut || cut_in(p, setups, s, {inner, i}, end);
-      if (cut) continue;
-      if (const auto s = alone_in(p, setups, {inner, i}, end))
-        (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
-      else
-        not_cut.push_back(
-            "the chamfer at the " + std::string(end == End::left ? "left" : "right") +
-            " end of " + e.id + " cannot be cut in any setup: none makes " + e.id +
-            " or the surface before that end, with the end free and enough wall for the "
-            "tool");
-    }
-}
-
-}  // namespace
 
 bool makes(const SetupWork& work, const Element& e) {
   const auto& all = e.inner ? work.bores : work.elements;
@@ -148,40 +51,6 @@ std::optional<part::Undercut> undercut_behind(const PreparedPart& p, std::size_t
   if (e.inner) return std::nullopt;
   const auto& element = p.drawing.outer[e.index];
   return free_end(p, setup) == End::left ? element.right_undercut : element.left_undercut;
-}
-
-std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
-                                           const std::vector<SetupWork>& setups) {
-  std::vector<std::string> all;
-  for (std::size_t i = 0; i < p.drawing.outer.size(); ++i)
-    for (const End end : {End::left, End::right}) {
-      const auto& e = p.drawing.outer[i];
-      if (!(end == End::left ? e.left_undercut : e.right_undercut)) continue;
-      const std::size_t shoulder = end == End::left ? i : i + 1;
-      const bool cut = [&] {
-        for (std::size_t s = 0; s < setups.size(); ++s)
-          if (makes(setups[s], {false, i}))
-            return free_end(p, s) != end &&
-                   std::ranges::find(setups[s].shoulders, shoulder) ==
-                       setups[s].shoulders.end();
-        return false;
-      }();
-      if (!cut)
-        all.push_back("the undercut of " + e.id + " before " +
-                      shoulder_id(p.drawing, shoulder) +
-                      " cannot be cut: no setup turns " + e.id +
-                      " towards that shoulder and its wall in the same pass; a shoulder "
-                      "with a roughness or a tolerance is faced by itself");
-    }
-  return all;
-}
-
-std::vector<std::string> assign_chamfers(const PreparedPart& p,
-                                         std::vector<SetupWork>& setups) {
-  std::vector<std::string> not_cut;
-  assign(p, p.drawing.outer, false, setups, not_cut);
-  assign(p, p.drawing.inner, true, setups, not_cut);
-  return not_cut;
 }
 
 }  // namespace turnwright::planning

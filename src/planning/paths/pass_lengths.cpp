@@ -223,9 +223,8 @@ double before_radius_mm(const Surroundings& s, double r, double left) {
 // Length along the chamfer of a wall, of which what lies in stock replaces a piece of wall.
 double edge_mm(const Surroundings& s, double beyond_mm) {
   const auto& c = s.wall_chamfer;
-  const double along = std::hypot(c.radial_mm, c.axial_mm) + beyond_mm;
-  return s.wall_in_stock ? along * (1 - c.radial_mm / std::hypot(c.radial_mm, c.axial_mm))
-                         : along;
+  const double chamfer = std::hypot(c.radial_mm, c.axial_mm), along = chamfer + beyond_mm;
+  return s.wall_in_stock ? along * (1 - c.radial_mm / chamfer) : along;
 }
 
 }  // namespace
@@ -372,7 +371,12 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     if (chamfer.axial_mm > 0) {
       const double foot = last ? a : s.z0 + r * tip_z(0, chamfer_rad);
       const double edge = s.z0 - chamfer.axial_mm + r * tip_z(chamfer_rad, 0);
-      return a - foot + (foot - edge) / std::cos(chamfer_rad) + edge - b;
+      const auto turns = [&](double h) {
+        return std::max(2 * std::abs(h), strokes.limited_mm);
+      };
+      const double h = s.h0 + left, below = (foot - edge) / 2 * std::tan(chamfer_rad);
+      return a - foot + edge - b +
+             (foot - edge) / std::cos(chamfer_rad) * turns(h - below) / turns(h);
     }
     if (!tapered) return a - b;
     const auto height = [&](double tip) {

@@ -96,6 +96,7 @@ struct Strokes {
   double minor_rad = 0;      ///< angle at which the minor edge rises behind the corner
   double depth_mm = 0;       ///< of each pass
   double left_mm = 0;        ///< mean thickness of the stock left after each of them
+  double limited_mm = 0;     ///< diameter inside which the spindle keeps its limit
   double wall_stock_mm = 0;  ///< that roughing leaves on walls for finishing
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "edge_assignment.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
-#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/units.hpp"

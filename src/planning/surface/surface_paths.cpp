@@ -55,6 +55,7 @@ MachinedSurface::Lengths MachinedSurface::lengths(const Recipe& recipe,
   const double finished = recipe.finish_passes * a_mm;
   Strokes strokes{n, makes, o.finishing, o.tool->re_mm,
                   units::rad_from_deg(o.tool->minor_kapr_deg)};
+  strokes.limited_mm = limited_mm(o);
   strokes.depth_mm = o.finishing ? a_mm : (stock_mm - finished) / n;
   strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
   if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);

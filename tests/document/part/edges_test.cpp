@@ -124,7 +124,7 @@ TEST(Edges, HaveOneShapeThatFits) {
   EXPECT_EQ(refusal({edge("d1|d2", {{"chamfer_mm", 39}, {"angle_deg", 1}}),
                      edge("d2|d3", {{"chamfer_mm", 2}})}),
             "t: /edges/1/chamfer_mm: got 2, expected less than the 1 mm that d2 is long "
-            "beside its other chamfer");
+            "beside the edge at its other end");
   EXPECT_EQ(refusal({edge("right", {{"chamfer_mm", 3}})}),
             "t: /edges/0/chamfer_mm: got 3, expected a chamfer that takes at most 2.7 mm "
             "of the radius there (this one takes 3)");
@@ -134,15 +134,51 @@ TEST(Edges, HaveOneShapeThatFits) {
       "at a face of the part");
 }
 
+// Whichever of the two is named first.
+TEST(Edges, AtBothEndsOfAnElementAndOfAStepDoNotMeet) {
+  const auto narrow = edge("d1|d2", {{"undercut", "E0.8x0.3"}}),
+             wide = edge("left", {{"chamfer_mm", 28}, {"angle_deg", 5}}),
+             high = edge("d2|d1", {{"chamfer_mm", 9.6}}),
+             round = edge("d1|d2", {{"undercut", "E0.8x0.3"}});
+  EXPECT_EQ(refusal({narrow, wide}),
+            "t: /edges/1/chamfer_mm: got 28, expected less than the 27.5 mm that d1 is "
+            "long beside the edge at its other end");
+  EXPECT_EQ(refusal({wide, narrow}),
+            "t: /edges/1/undercut: got \"E0.8x0.3\", expected an undercut that is less "
+            "wide than the 2 mm that are left of d1");
+  EXPECT_EQ(refusal({round, high}),
+            "t: /edges/1/chamfer_mm: got 9.6, expected a chamfer that takes at most 9.45 "
+            "mm of the radius there (this one takes 9.6)");
+  EXPECT_EQ(refusal({high, round}),
+            "t: /edges/1/undercut: got \"E0.8x0.3\", expected an undercut whose radius "
+            "takes at most 0.35 mm of the shoulder");
+}
+
+// A step counts as it is cut: between the middles of both sizes.
+TEST(Edges, FitTheStepThatIsCut) {
+  auto document = stepped({edge("d2|d3", {{"chamfer_mm", 4}})});
+  document["outer"][1]["limits_mm"] = {-3, -2};
+  try {
+    load_part_plan(document, test_catalogue(), "t");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "t: /edges/0/chamfer_mm: got 4, expected a chamfer that takes at most "
+                 "3.7 mm of the radius there (this one takes 4)");
+  }
+}
+
 TEST(Edges, UndercutsAreThoseOfTheStandard) {
   const auto refused = [](const char* what) {
     return "t: /edges/0/undercut: got \"" + std::string(what) +
-           "\", expected an undercut of DIN 509's form E by its radius and depth, like "
-           "\"E0.8x0.3\"; forms that reach into the shoulder are not turned";
+           "\", expected an undercut of DIN 509's form E with a radius and a depth of "
+           "its "
+           "table, like \"E0.8x0.3\" (the forms F, G and H are not turned)";
   };
   for (const char* what : {"F0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
     EXPECT_EQ(refusal({edge("d1|d2", {{"undercut", what}})}), refused(what));
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E4x0.5"}})}), "accepted");
+  EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E0.8\u00d70.3"}})}), "accepted");
   EXPECT_EQ(
       refusal({edge("b1|b2", {{"undercut", "E0.4x0.2"}})}),
       "t: /edges/0/undercut: got \"E0.4x0.2\", expected the inner corner between two "
