@@ -40,8 +40,12 @@ std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
 std::vector<Point> with_undercut(std::vector<Point> line, const Surface& s) {
   if (!s.undercut) return line;
   const auto [radius, depth, width] = *s.undercut;
-  const double h = line.back().h_mm, z = s.z1 + width;
-  while (line.size() > 1 && line.back().z_mm <= z) line.pop_back();
+  const double z = s.z1 + width;
+  Point behind = line.back();
+  for (; line.size() > 1 && line.back().z_mm <= z; line.pop_back()) behind = line.back();
+  const auto& a = line.back();
+  const double h =
+      a.h_mm + (behind.h_mm - a.h_mm) * (z - a.z_mm) / (behind.z_mm - a.z_mm);
   line.push_back({h, z});
   line.push_back({h - depth, z - depth / std::tan(part::kUndercutFalls_rad)});
   line.push_back({h - depth, s.z1});

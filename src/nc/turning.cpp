@@ -280,7 +280,7 @@ std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>&
   const auto& s = p.surface();
   if (!p.last && s.undercut) {
     const double r = s.undercut->radius_mm;
-    const double h = corrected(p.site, p.side, s).back().h_mm - s.undercut->depth_mm;
+    const double h = own_line(p.site, p.side, s, 0).back().h_mm;
     const Arc radius{{h, s.z1 + r}, {h + r, s.z1}, {h + r, s.z1 + r}, false};
     all.push_back({radius.from, radius.to, radius});
   }

@@ -179,7 +179,9 @@ class Check : private Sizes {
   // Height of an element at a share of its length, with its chamfers.
   template <class Element>
   double height(double sign, const Element& e, double u, double z) const {
-    return sign * (drawn(e, u) + correction(e.id, z)) -
+    const auto [from, to] = straight(e);
+    const double z0 = z - u * e.length_mm;
+    return sign * (drawn(e, u) + correction(e.id, std::clamp(z, z0 + from, z0 + to))) -
            part::chamfered_mm(e, u * e.length_mm) - undercut(e, u * e.length_mm);
   }
 

@@ -115,6 +115,7 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   const double low_z = z0 + (e.left_chamfer ? e.left_chamfer->axial_mm : 0);
   const double high_z =
       z0 + e.length_mm - (e.right_chamfer ? e.right_chamfer->axial_mm : 0);
+  const auto [straight_from, straight_to] = Sizes::straight(e);
   // Chamfers go down from where they leave the surface.
   const auto chamfered = [&](double z) {
     if (z < low_z) return e.left_chamfer->radial_mm * (low_z - z) / (low_z - z0);
@@ -141,7 +142,8 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   for (const double u : at) {
     const double z = z0 + u * e.length_mm;
     const double size =
-        Sizes::drawn(e, u) + sizes_.correction(e.id, std::clamp(z, low_z, high_z));
+        Sizes::drawn(e, u) +
+        sizes_.correction(e.id, std::clamp(z, z0 + straight_from, z0 + straight_to));
     const double h = sign * size - chamfered(z) - Sizes::undercut(e, z - z0);
     line.push_back({sign * std::min(h, most), z});
   }

@@ -42,10 +42,13 @@ Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
   return refused;
 }
 
-// What the half section shows of programs as the interpreter runs them.
+// What the half section shows of programs as the interpreter runs them.  It prints places
+// with four decimals: the radius of an arc, between two of them, to 1e-4 mm.
 std::vector<Finding> cut(const turnwright::test::Rs274& rs274, const Planned& p) {
   const auto all = programs(p.part, p.plan);
-  CutSimulation simulation(p);
+  Tolerances tolerances;
+  tolerances.left += 1e-4;
+  CutSimulation simulation(p, tolerances);
   for (const auto& program : all.setups)
     simulation.setup(program.setup, ways_of(rs274.canonical(
                                         text(program, {.control = Control::linuxcnc}),

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "plans.hpp"
 
@@ -61,6 +62,18 @@ class Sizes {
   }
 
   // Radius drawn at a place of an element.
+  // Between the edges at its ends, which follow the correction where they begin.
+  template <class Element>
+  static std::pair<double, double> straight(const Element& e) {
+    double from = e.left_chamfer ? e.left_chamfer->axial_mm : 0;
+    double to = e.length_mm - (e.right_chamfer ? e.right_chamfer->axial_mm : 0);
+    if constexpr (requires { e.left_undercut; }) {
+      if (e.left_undercut) from = e.left_undercut->width_mm;
+      if (e.right_undercut) to = e.length_mm - e.right_undercut->width_mm;
+    }
+    return {from, to};
+  }
+
   // Depth of an undercut at a distance from the left end: from its width on down at 15 deg,
   // level, and up a quarter of a circle.
   template <class Element>

@@ -21,14 +21,20 @@ bool is_boring(OperationKind kind) {
   return kind == OperationKind::bore_rough || kind == OperationKind::bore_finish;
 }
 
-// Targets of fixed operations: grooves, threads and arcs; drilled bores; ends that are
-// centred or parted off.
+template <class Element>
+bool chamfered(const Element& e) {
+  return e.left_chamfer || e.right_chamfer;
+}
+
+// Targets of fixed operations: grooves, threads and arcs; drilled bores; chamfers with a
+// pass of their own; ends that are centred or parted off.
 std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
   std::vector<std::string> out;
   for (const auto& e : drawing.outer)
-    if (e.cut) out.push_back(e.id);
+    if (e.cut || chamfered(e)) out.push_back(e.id);
   for (const auto& e : drawing.inner)
-    if (e.cut || drawing.stock.kind == part::StockKind::bar) out.push_back(e.id);
+    if (e.cut || chamfered(e) || drawing.stock.kind == part::StockKind::bar)
+      out.push_back(e.id);
   out.insert(out.end(), {"left", "right"});
   return out;
 }
@@ -142,13 +148,18 @@ bool is_end(const std::string& surface) {
 }
 
 // An element is made in one setup, by one roughing, one finishing and one fixed operation
-// at most; an end may be faced in one setup and centred or parted off in another.
-void check_pair(Reader r, const planning::OperationRequest& earlier,
+// at most; an end may be faced in one setup and centred or parted off in another, and an
+// element get its chamfer there.
+void check_pair(Reader r, const part::Drawing& drawing,
+                const planning::OperationRequest& earlier,
                 const planning::OperationRequest& op) {
   const auto shared = std::find_first_of(op.on.begin(), op.on.end(), earlier.on.begin(),
                                          earlier.on.end());
   if (shared == op.on.end() || shared->empty()) return;
-  if (is_end(*shared) &&
+  const auto has_chamfer = [&](const auto& e) { return e.id == *shared && chamfered(e); };
+  const bool twice = is_end(*shared) || std::ranges::any_of(drawing.outer, has_chamfer) ||
+                     std::ranges::any_of(drawing.inner, has_chamfer);
+  if (twice &&
       (earlier.kind == OperationKind::fixed || op.kind == OperationKind::fixed)) {
     if (earlier.kind != op.kind || earlier.setup != op.setup) return;
   }
@@ -238,7 +249,7 @@ void read_operations(Draft& draft) {
     for (const auto& earlier : operations) {
       if (!op.id.empty() && earlier.id == op.id)
         item.problem_at("id", "an id no other operation has", "duplicate");
-      check_pair(item, earlier, op);
+      check_pair(item, draft.drawing(), earlier, op);
     }
     check_fixed(draft, item, op);
     operations.push_back(std::move(op));

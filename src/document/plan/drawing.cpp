@@ -1,5 +1,7 @@
 #include "turnwright/document/drawing.hpp"
 
+#include <fmt/format.h>
+
 #include "document/json/finite.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
@@ -40,6 +42,24 @@ const char* kind(part::CutKind cut) {
 }
 
 template <class Element>
+void add_edges(ordered_json& out, const Element& e) {
+  const auto chamfer = [&](const char* key, const std::optional<part::Chamfer>& c) {
+    if (c) out[key] = {c->axial_mm, c->radial_mm};
+  };
+  chamfer("left_chamfer_mm", e.left_chamfer);
+  chamfer("right_chamfer_mm", e.right_chamfer);
+  if (e.left_fillet_mm) out["left_fillet_mm"] = *e.left_fillet_mm;
+  if (e.right_fillet_mm) out["right_fillet_mm"] = *e.right_fillet_mm;
+  if constexpr (requires { e.left_undercut; }) {
+    const auto undercut = [&](const char* key, const std::optional<part::Undercut>& u) {
+      if (u) out[key] = fmt::format("E{:g}x{:g}", u->radius_mm, u->depth_mm);
+    };
+    undercut("left_undercut", e.left_undercut);
+    undercut("right_undercut", e.right_undercut);
+  }
+}
+
+template <class Element>
 ordered_json json_of(const Element& e, const char* side, double z_mm,
                      const PreparedPart& part) {
   const bool cylinder = e.kind == part::ElementKind::cylinder;
@@ -59,6 +79,7 @@ ordered_json json_of(const Element& e, const char* side, double z_mm,
   if (e.fit) out["fit"] = *e.fit;
   if (e.limits) out["limits_mm"] = pair(*e.limits);
   add_roughness(out, e);
+  add_edges(out, e);
   add_setup(out, part, e.id);
   return out;
 }

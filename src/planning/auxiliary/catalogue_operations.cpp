@@ -311,6 +311,7 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   for (const auto& o : *p.operations)
     for (const auto& e : p.drawing.inner)
       if (o.kind == OperationKind::fixed && e.from == end && !e.cut &&
+          p.setups[o.setup].hold != end &&
           std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
         return &o;
   return nullptr;
@@ -583,7 +584,10 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
                     inner ? fmt::format(" in a bore of {:g} mm", bore) : std::string()));
   const double length = std::hypot(c.axial_mm, c.radial_mm);
   const double depth = c.axial_mm * c.radial_mm / length;
-  const int count = times(depth, f.tool->ap_mm);
+  const auto passes = passes_of(s, a, times(depth, f.tool->ap_mm),
+                                [&](double ap) { return times(depth, ap); });
+  if (!passes) return;
+  const int count = *passes;
   const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
   const double vf = f.at.f_mm_rev * n, ap = depth / count;
   const Duty duty{load_of(f, s.p, ap, D), n, D};

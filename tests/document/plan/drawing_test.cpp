@@ -60,6 +60,16 @@ TEST(Drawing, PlacesEverySurface) {
   EXPECT_EQ(named(d.at("faces"), "right").at("z_mm"), 80.0);
 }
 
+TEST(Drawing, RepeatsTheEdges) {
+  auto document = document::parse_file(source_path("parts/motor-shaft.json"));
+  const auto d = drawn(document);
+  const auto seat = named(d.at("elements"), "d2");
+  EXPECT_EQ(seat.at("right_undercut"), "E0.8x0.3");
+  EXPECT_EQ(seat.at("left_chamfer_mm").at(0), 1);
+  EXPECT_FALSE(seat.contains("right_chamfer_mm"));
+  EXPECT_EQ(named(d.at("elements"), "d1").at("right_fillet_mm"), 0.8);
+}
+
 TEST(Drawing, RepeatsTheTitleBlock) {
   auto document = tube();
   EXPECT_FALSE(drawn(document).contains("drawing_number"));
