@@ -46,9 +46,8 @@ Faults faults_of(const turnwright::test::Rs274& rs274, const Planned& p,
 // with four decimals: the radius of an arc, between two of them, to 1e-4 mm.
 std::vector<Finding> cut(const turnwright::test::Rs274& rs274, const Planned& p) {
   const auto all = programs(p.part, p.plan);
-  Tolerances tolerances;
-  tolerances.left += 1e-4;
-  CutSimulation simulation(p, tolerances);
+  constexpr double kPitch_mm = 0.01;
+  CutSimulation simulation(p, kPitch_mm, {.left = 2e-4});
   for (const auto& program : all.setups)
     simulation.setup(program.setup, ways_of(rs274.canonical(
                                         text(program, {.control = Control::linuxcnc}),
