@@ -161,6 +161,10 @@ bool hole_goes_on(const Site& site, const Side& side, double z, double h) {
   return side.sign < 0 && !at_end && side.stock_h > h;
 }
 
+Point moved_along(const Point& p, const Normal& of_line, double by_mm) {
+  return {p.h_mm + of_line.z * by_mm, p.z_mm - of_line.h * by_mm};
+}
+
 Piece wall(double z_mm) { return {{kFar_mm, z_mm}, {-kFar_mm, z_mm}, {}}; }
 
 std::vector<Piece> drawn_before(const Site& site, const Side& side, std::size_t k) {

@@ -34,6 +34,8 @@ bool hole_goes_on(const Site& site, const Side& side, double z_mm, double h_mm);
 /// The nominal contour behind element k: the adjoining elements, and the rest of the
 /// hole.
 std::vector<Piece> drawn_behind(const Site& site, const Side& side, std::size_t k);
+/// A point further along a contour by a distance, on the line that has a normal.
+Point moved_along(const Point& p, const Normal& of_line, double by_mm);
 /// A wall at a position, which no tool passes.
 Piece wall(double z_mm);
 /// Reports in `site.cannot` if the jaws prevent a tip from going as far as the end of

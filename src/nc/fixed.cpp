@@ -216,9 +216,8 @@ void chamfer(Site& site, const OperationPlan& o, const FixedTool& tool, const Pl
   const double step = left / static_cast<double>(o.passes.size());
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - step;
-    const auto at = [&](Point q, double beyond) {
-      q = tip({q.h_mm + left, q.z_mm}, n, tool.re_mm);
-      return Point{q.h_mm + n.z * beyond, q.z_mm - n.h * beyond};
+    const auto at = [&](const Point& q, double beyond) {
+      return moved_along(tip({q.h_mm + left, q.z_mm}, n, tool.re_mm), n, beyond);
     };
     site.approach(p.side, at(line[0], -kBefore_mm));
     site.to(Kind::feed, p.side, at(line[1], tool.re_mm + kBehind_mm));

@@ -113,10 +113,6 @@ Point at_h(const Point& a, const Point& b, double h) {
   return {h, a.z_mm + (b.z_mm - a.z_mm) * (h - a.h_mm) / (b.h_mm - a.h_mm)};
 }
 
-Point moved_along(const Point& p, const Normal& of_line, double by_mm) {
-  return {p.h_mm + of_line.z * by_mm, p.z_mm - of_line.h * by_mm};
-}
-
 // Element k, if it has a chamfer at its front that this setup cuts without making the
 // element.
 const Surface* edge_to_cut(const Site& site, const Side& side, std::size_t k) {

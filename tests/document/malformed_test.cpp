@@ -9,7 +9,7 @@
 
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
-#include "schema_check.hpp"
+#include "test_catalogue.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
@@ -17,11 +17,6 @@ namespace turnwright::document {
 namespace {
 
 namespace fs = std::filesystem;
-
-const Catalogue& test_catalogue() {
-  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
-  return kCatalogue;
-}
 
 std::vector<fs::path> malformed_files() {
   std::vector<fs::path> files;

@@ -3,8 +3,8 @@
 
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
-#include "schema_check.hpp"
 #include "slips.hpp"
+#include "test_catalogue.hpp"
 #include "turnwright/document/calibrate_material.hpp"
 #include "turnwright/document/chuck.hpp"
 #include "turnwright/document/multipass.hpp"
@@ -52,11 +52,6 @@ TEST(Schema, FitsEveryReferencePartAndTheReaderTakesIt) {
 void try_all(const SchemaCheck& schema, std::string (*refused)(const json&), json good,
              int at_least = 100) {
   EXPECT_GT(SlipsOf(schema, refused, std::move(good)).try_all(), at_least);
-}
-
-const Catalogue& test_catalogue() {
-  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
-  return kCatalogue;
 }
 
 std::string refused_part(const json& document) {

@@ -59,6 +59,7 @@ struct OuterElement {
 double undercut_mm(const OuterElement& element, double from_left_mm);
 
 enum class End { left, right };
+constexpr End opposite(End end) { return end == End::left ? End::right : End::left; }
 
 /// One inner element.  Elements are listed from the end of the part inwards; left_mm and
 /// right_mm are its diameters in the direction of the axis.

@@ -25,8 +25,8 @@ struct Step {
   End end = End::left;               // of the standing element
   std::optional<std::size_t> lower;  // the neighbour; none at a face of the part
   double most_mm = 0;                // that a chamfer may take of the radius
-  bool plain =
-      true;  // a cylinder or a thread stands there, and no groove or arc is beside
+  // A cylinder or a thread stands there, and no groove or arc is beside it.
+  bool plain = true;
 };
 
 std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
@@ -34,14 +34,13 @@ std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
 }
 
 template <class Element>
-bool can_have_edge(const Element& e) {
-  return e.kind == part::ElementKind::cylinder &&
-         (!e.cut || e.cut->kind == part::CutKind::thread);
+bool can_be_beside(const Element& e) {
+  return !e.cut || e.cut->kind == part::CutKind::thread;
 }
 
 template <class Element>
-bool can_be_beside(const Element& e) {
-  return !e.cut || e.cut->kind == part::CutKind::thread;
+bool can_have_edge(const Element& e) {
+  return e.kind == part::ElementKind::cylinder && can_be_beside(e);
 }
 
 // From the drawn radius to the middle of its limits, where it is cut.
@@ -117,8 +116,6 @@ std::vector<Step> steps(const part::Drawing& d) {
   return all;
 }
 
-End other(End end) { return end == End::left ? End::right : End::left; }
-
 template <class Element>
 auto& chamfer_at(Element& e, End end) {
   return end == End::left ? e.left_chamfer : e.right_chamfer;
@@ -140,11 +137,18 @@ double edge_length_mm(const Element& e, End end) {
 // Height that the other edge of a step takes of it: the radius of an undercut at its foot.
 double foot_mm(const part::Drawing& d, const Step& step) {
   if (step.inner || !step.lower) return 0;
-  const auto& u = undercut_at(d.outer[*step.lower], other(step.end));
+  const auto& u = undercut_at(d.outer[*step.lower], opposite(step.end));
   return u ? std::max(0.0, u->radius_mm - u->depth_mm) : 0;
 }
 
-std::string rounded(double mm) { return number_text(std::floor(1e4 * mm + 0.5) / 1e4); }
+constexpr double kDigits = 1e4;  // of millimetres in messages
+
+std::string rounded(double mm) { return number_text(std::round(kDigits * mm) / kDigits); }
+
+// What is free, not more than there is; none is told as 0.
+std::string at_most(double mm) {
+  return number_text(std::floor(kDigits * std::max(mm, 0.0)) / kDigits);
+}
 
 // A chamfer of the given length along the axis, in the standing element; `most_mm` of its
 // radius are free for it.
@@ -158,7 +162,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
     return;
   }
   const double radial = axial * std::tan(units::rad_from_deg(angle));
-  const double taken = edge_length_mm(e, other(step.end)), free = e.length_mm - taken;
+  const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
     r.problem_at("at",
@@ -171,8 +175,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
                  "conflict");
   else if (!(radial <= most_mm))
     r.problem_at("chamfer_mm",
-                 "a chamfer that takes at most " +
-                     number_text(std::floor(1e4 * std::max(most_mm, 0.0)) / 1e4) +
+                 "a chamfer that takes at most " + at_most(most_mm) +
                      " mm of the radius there (this one takes " + rounded(radial) + ")",
                  "conflict");
   else
@@ -181,7 +184,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
 
 template <class Element>
 void read_fillet(Reader& r, const Step& step, Element& e) {
-  auto& mine = other(step.end) == End::left ? e.left_fillet_mm : e.right_fillet_mm;
+  auto& mine = opposite(step.end) == End::left ? e.left_fillet_mm : e.right_fillet_mm;
   if (mine) r.problem_at("at", "each corner once", "duplicate");
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
@@ -209,7 +212,7 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
 
 // In the lower element; `most_mm` of the step are free for its radius.
 void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterElement& e) {
-  auto& mine = undercut_at(e, other(step.end));
+  auto& mine = undercut_at(e, opposite(step.end));
   const double free = e.length_mm - edge_length_mm(e, step.end);
   const auto found = read_undercut(r.at("undercut"));
   if (!found) return;
@@ -224,8 +227,7 @@ void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterEleme
                  "conflict");
   else if (found->radius_mm - found->depth_mm > most_mm)
     r.problem_at("undercut",
-                 "an undercut whose radius takes at most " +
-                     number_text(std::floor(1e4 * std::max(most_mm, 0.0)) / 1e4) +
+                 "an undercut whose radius takes at most " + at_most(most_mm) +
                      " mm of the shoulder",
                  "conflict");
   else

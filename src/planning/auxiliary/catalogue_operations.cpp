@@ -668,8 +668,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
 
 // Whether the free end of this setup is solid: that of a bar, with no bore from there.
 bool solid(const PreparedPart& p, std::size_t setup) {
-  const auto end =
-      p.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
+  const auto end = free_end(p, setup);
   if (p.drawing.stock.kind == part::StockKind::tube) return false;
   return std::none_of(p.drawing.inner.begin(), p.drawing.inner.end(),
                       [&](const auto& e) { return e.from == end; });

@@ -9,7 +9,7 @@ namespace turnwright::planning {
 using part::End;
 
 End free_end(const PreparedPart& p, std::size_t setup) {
-  return p.setups[setup].hold == End::left ? End::right : End::left;
+  return opposite(p.setups[setup].hold);
 }
 
 bool makes(const SetupWork& work, const Element& e) {

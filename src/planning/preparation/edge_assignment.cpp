@@ -14,8 +14,6 @@ namespace {
 
 using part::End;
 
-End other(End end) { return end == End::left ? End::right : End::left; }
-
 // z of an end of an element.
 double end_z_mm(const part::Drawing& d, const Element& e, End end) {
   const double left =
@@ -30,7 +28,7 @@ std::optional<Element> beside(const part::Drawing& d, const Element& e, End end)
   const double z = end_z_mm(d, e, end);
   for (std::size_t i = 0; i < count; ++i) {
     const Element next{e.inner, i};
-    if (i != e.index && std::abs(end_z_mm(d, next, other(end)) - z) < kNoWall_mm)
+    if (i != e.index && std::abs(end_z_mm(d, next, part::opposite(end)) - z) < kNoWall_mm)
       return next;
   }
   return std::nullopt;
@@ -53,8 +51,9 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   const auto& d = p.drawing;
   const auto& chamfer =
       end == End::left ? d.outer[e.index].left_chamfer : d.outer[e.index].right_chamfer;
-  const double wall_mm =
-      end_radius_mm(d, e, end) - end_radius_mm(d, front, other(end)) - chamfer->radial_mm;
+  const double wall_mm = end_radius_mm(d, e, end) -
+                         end_radius_mm(d, front, part::opposite(end)) -
+                         chamfer->radial_mm;
   return std::ranges::all_of(
       tools_for(p, catalogue::ToolUse::facing),
       [&](const catalogue::Tool* t) { return t->re_mm + kNoWall_mm <= wall_mm; });

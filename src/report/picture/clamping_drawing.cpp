@@ -71,7 +71,7 @@ void draw_centre(SetupView& s, End end) {
 }  // namespace
 
 void draw_clamping(SetupView& s) {
-  const End held = s.held(), free = held == End::left ? End::right : End::left;
+  const End held = s.held(), free = part::opposite(held);
   if (s.clamping() == Clamping::between_centres)
     draw_centre(s, held);
   else

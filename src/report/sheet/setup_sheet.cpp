@@ -23,8 +23,6 @@ using planning::PreparedPart;
 using planning::SetupPlan;
 
 const char* word(End end) { return end == End::left ? "left" : "right"; }
-End other(End end) { return end == End::left ? End::right : End::left; }
-
 void add(Entries& all, const char* name, const std::string& value) {
   if (!value.empty()) all.emplace_back(name, value);
 }
@@ -45,7 +43,7 @@ Entries title(const PreparedPart& p) {
 
 /// Material [mm] in front of the finished face of the free end before a setup.
 double front_mm(const PreparedPart& p, std::size_t setup) {
-  const End free = other(p.setups[setup].hold);
+  const End free = part::opposite(p.setups[setup].hold);
   return setup == 0 ? planning::face_stock_mm(p, free)
                     : planning::face_stock_after_mm(p, setup - 1, free);
 }

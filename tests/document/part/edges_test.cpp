@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../schema_check.hpp"
+#include "../test_catalogue.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -12,11 +12,6 @@ namespace turnwright::document {
 namespace {
 
 using nlohmann::json;
-
-const Catalogue& test_catalogue() {
-  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
-  return kCatalogue;
-}
 
 // d1 30, d2 50, d3 40, with a groove before d5 36; bores from the right 24, then 20.
 json stepped(const std::vector<json>& edges) {

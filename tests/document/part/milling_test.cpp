@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../schema_check.hpp"
 #include "../slips.hpp"
+#include "../test_catalogue.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
@@ -13,11 +13,6 @@ namespace turnwright::document {
 namespace {
 
 using nlohmann::json;
-
-const Catalogue& test_catalogue() {
-  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
-  return kCatalogue;
-}
 
 // A keyway, a flat and a slot on a stepped bar; d1 in the jaws first.
 json part() {

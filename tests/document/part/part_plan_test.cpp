@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../schema_check.hpp"
+#include "../test_catalogue.hpp"
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
@@ -23,11 +23,6 @@ json smallest() {
   return {{"material", document["material"]},
           {"stock", {{"kind", "bar"}, {"diameter_mm", 50}, {"length_mm", 165}}},
           {"outer", document["outer"]}};
-}
-
-const Catalogue& test_catalogue() {
-  static const auto kCatalogue = load_catalogue(source_path("tests/data/catalogue"));
-  return kCatalogue;
 }
 
 LoadedPart load(const json& document, Purpose purpose = Purpose::plan) {
