@@ -297,13 +297,13 @@ bool level_behind(const Pass& p) {
          std::abs(next.h0 - s.h1) < kStands_mm && std::abs(next.h1 - s.h1) < kStands_mm;
 }
 
-// Ends a pass up a cone once it is both behind the cone and out of the stock.
+// Ends a pass up a cone once it is out of the stock.
 void leave_stock(const Pass& p, std::vector<Point>& way) {
   const auto& s = p.surface();
   const double out = p.side.stock_h + kAbove_mm;
   auto& last = way.back();
   if (p.side.sign < 0 || !(s.h1 > s.h0) || !(last.h_mm > out)) return;
-  const auto end = at_h(way[way.size() - 2], last, std::max(out, s.h1 + p.left_mm));
+  const auto end = at_h(way[way.size() - 2], last, out);
   if (end.z_mm > last.z_mm) last = end;
 }
 
@@ -346,8 +346,8 @@ void draw_out(const Pass& p, const Wall& w, std::vector<Point>& way) {
 void lead_out(const Pass& p, std::vector<Point>& way) {
   if (p.goes_on()) return;
   auto& last = way.back();
-  const double falls = p.last && level_behind(p) ? 0 : p.site.r_most;
-  last = at_z(way[way.size() - 2], last, last.z_mm - falls - p.re_mm - kBehind_mm);
+  const double falls = p.last && level_behind(p) ? 0 : p.site.r_most + p.re_mm;
+  last = at_z(way[way.size() - 2], last, last.z_mm - falls - kBehind_mm);
   leave_stock(p, way);
   const auto w = wall_behind(p.site, p.side, p.k);
   const bool stopped = clip(way, ends(p, p.k, w), {p.re_mm});

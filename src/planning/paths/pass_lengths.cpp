@@ -29,6 +29,7 @@ struct Item {
   double moved = 0;        // to the middle of the limits, in the heights
   double length() const { return std::hypot(z0 - z1, h1 - h0); }
   double bends_rad = 0;  // of an arc: steeper at its beginning than its chord
+  double radius_mm = 0;  // of an arc
   double rad() const { return std::atan2(h1 - h0, z0 - z1); }
 };
 
@@ -89,6 +90,7 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
   const double out = inner ? -1 : 1;
   e.h0 = out * (e.mirrored ? cut->drawn.left_mm : cut->drawn.right_mm) / 2;
   e.h1 = out * (e.mirrored ? cut->drawn.right_mm : cut->drawn.left_mm) / 2;
+  e.radius_mm = cut->radius_mm;
   e.bends_rad = (cut->convex ? 1 : -1) *
                 std::asin(std::min(1.0, e.length() / (2 * cut->radius_mm)));
   return e;
@@ -154,6 +156,10 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
     touches = true;
     s.touch_z = e.z0;
     s.touch_rad = meets && !step ? rises_rad : kUpright;
+    if (s.touch_rad < 0) {  // a hollow that rises again to the height it began at
+      s.touch_z -= 2 * seen->radius_mm * std::sin(-rises_rad);
+      s.touch_rad = -rises_rad;
+    }
   }
   if (!s.inner || !hole_ends(p, all[j])) return;
   if (!std::isfinite(s.wall_z)) {
@@ -327,7 +333,7 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const auto end = [&](bool last, double left) {
     if (last && on) return s.z1 + r * tip_z(rad, s.behind->rad);
     const bool level = last && s.level_behind;
-    double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most) - r - kBehind_mm;
+    double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most + r) - kBehind_mm;
     if (!last)
       z = std::max(z,
                    s.wall_z + std::max(wall_stock(last), before_radius_mm(s, r, left)));
@@ -335,7 +341,7 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
       z = std::max(z, s.touch_z + r * tip_z(rad, s.touch_rad));
     if (s.shoulder_mm > 0) z = std::max(z, s.wall_z + s.shoulder_mm);
     if (!s.inner && rad > 0) {
-      const double up = std::max(s.stock_h + above - s.h1 - left, 0.0);
+      const double up = s.stock_h + above - s.h1 - left;
       z = std::max(
           z, s.z1 + r * (std::sin(rad) - 1) - (up + r * (1 - slope)) / std::tan(rad));
     }
@@ -364,43 +370,47 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double z = last ? own : level;
     return s.first && s.front > 0 ? std::max(z, s.front + kBefore_mm) : z;
   };
-  // Length [mm] at feed from a to b.  Roughing enters along the axis, finishing along the
-  // element's own line.  On a cone lengths are multiplied by their diameter over the mean
-  // one, because the spindle turns slower on a larger diameter.
+  const auto turns = [&](double h) {
+    return std::max(2 * std::abs(h), strokes.limited_mm);
+  };
+  const auto height = [&](double left, double tip) {
+    const double z = tip + r * (1 - std::sin(rad));
+    return s.h1 + left + (s.z1 - z) * std::tan(rad);
+  };
+  // Time at a place over that at the element's mean diameter: the spindle turns slower on
+  // a larger one.
+  const auto longer = [&](double left, double tip) {
+    return turns(height(left, tip)) / turns((s.h0 + s.h1) / 2 + left);
+  };
+  // Length [mm] at feed from a to b, counted as that which takes as long at the element's
+  // mean diameter.  Roughing enters along the axis, finishing along the element's own line.
   const auto fed = [&](bool last, double left, double a, double b) {
     if (chamfer.axial_mm > 0) {
       const double foot = last ? a : s.z0 + r * tip_z(0, chamfer_rad);
       const double edge = s.z0 - chamfer.axial_mm + r * tip_z(chamfer_rad, 0);
-      const auto turns = [&](double h) {
-        return std::max(2 * std::abs(h), strokes.limited_mm);
-      };
       const double h = s.h0 + left, below = (foot - edge) / 2 * std::tan(chamfer_rad);
       return a - foot + edge - b +
              (foot - edge) / std::cos(chamfer_rad) * turns(h - below) / turns(h);
     }
     if (!tapered) return a - b;
-    const auto height = [&](double tip) {
-      const double z = tip + r * (1 - std::sin(rad));
-      return std::abs(s.h1 + left + (s.z1 - z) * std::tan(rad));
-    };
-    const double middle = std::abs((s.h0 + s.h1) / 2 + left);
     const auto cone = [&](double from, double to) {
-      return (from - to) / slope * height((from + to) / 2) / middle;
+      return (from - to) / slope * longer(left, (from + to) / 2);
     };
     const bool along_the_axis = !last || (s.front_rad && rad > *s.front_rad);
     if (!along_the_axis || (last && from_before)) return cone(a, b);
     const double first = s.z0 + r * tip_z(last ? *s.front_rad : 0, rad);
-    return (a - first) * height(first) / middle + cone(first, b);
+    return (a - first) * longer(left, first) + cone(first, b);
   };
 
   Beside sum;
-  const double h = (s.h0 + s.h1) / 2 + strokes.left_mm;
+  const double middle = (s.h0 + s.h1) / 2, h = middle + strokes.left_mm;
   const double outside = s.stock_h + kClear_mm;
   double top = outside;  // from where the tool comes down to the pass
   for (int i = 0; i < strokes.passes; ++i) {
     const bool last = strokes.finishing && i + 1 == strokes.passes;
     const double left =
         strokes.left_mm + strokes.depth_mm * ((strokes.passes - 1) / 2.0 - i);
+    const double of_pass = turns(middle + left) / turns(h);  // its time over the mean one
     const bool comes = !(last && from_before), leaves = !(last && on);
     const double a = start(last), b = end(last, left);
     const double undercut = last && s.undercut ? s.undercut->depth_mm : 0;
@@ -412,11 +422,12 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
-    sum.wall_mm += wall;
-    sum.fed_mm += fed(last, left, a, b) + wall + (comes ? above : 0);
+    double length = fed(last, left, a, b) + wall + (comes ? above * longer(left, a) : 0);
     if (chamfers)
-      sum.fed_mm += edge_mm(s, beyond) *
-                    std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));
+      length += edge_mm(s, beyond) *
+                std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));
+    sum.wall_mm += wall * of_pass;
+    sum.fed_mm += length * of_pass;
     if (s.inner) {
       sum.rapid_mm +=
           (comes ? s.front + kClear_mm - a : 0) + (leaves ? s.front + kClear_mm - b : 0);

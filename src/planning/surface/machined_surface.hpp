@@ -141,7 +141,7 @@ class MachinedSurface {
                   double a_mm) const;
   void add_lengths(const Recipe& recipe, double stock_mm, Chain& chain) const;
   Beside ways(const OperationModel& operation, const Strokes& strokes) const;
-  Beside facing(const OperationModel& operation, int passes) const;
+  Beside facing(const OperationModel& operation, const Strokes& strokes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].
   struct Values {

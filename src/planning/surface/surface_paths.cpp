@@ -2,16 +2,24 @@
 #include <cmath>
 
 #include "machined_surface.hpp"
+#include "planning/operation/speed_window.hpp"
 
 namespace turnwright::planning {
 namespace {
 
 constexpr double kDepths_mm = 1e-3;  // between which lengths are compared
 
-// Diameter inside which the spindle keeps its limit, at the middle of the speeds allowed.
-double limited_mm(const OperationModel& o) {
-  const double vc = std::sqrt(o.vc_window.lower * o.vc_window.upper);
-  return 1000 * vc / (units::kPi * o.n_cap_rpm);
+// Diameter inside which the spindle keeps its limit: at the largest feed, and at the speed
+// of least cost as far as its limits allow.
+double limited_mm(const OperationModel& o, double a) {
+  const double f = o.f.upper, depth = o.depth_mm(a);
+  const auto F = cutting::forces_N(o.cut, depth, f);
+  const double held = spindle_cap(o, F, a), cap = held > o.n_min_rpm ? held : o.n_cap_rpm;
+  const auto window = speed_window(o, f, a, F, cap);
+  const double least_cost =
+      cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f, depth);
+  return 1000 * std::min(std::max(least_cost, window.lower), window.upper) /
+         (units::kPi * cap);
 }
 
 // The line through its values at two depths, if it is positive from depth 0 to beyond the
@@ -55,26 +63,25 @@ MachinedSurface::Lengths MachinedSurface::lengths(const Recipe& recipe,
   const double finished = recipe.finish_passes * a_mm;
   Strokes strokes{n, makes, o.finishing, o.tool->re_mm,
                   units::rad_from_deg(o.tool->minor_kapr_deg)};
-  strokes.limited_mm = limited_mm(o);
+  strokes.limited_mm = limited_mm(o, a_mm);
   strokes.depth_mm = o.finishing ? a_mm : (stock_mm - finished) / n;
   strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
   if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);
   const auto b = ways(o, strokes);
   const double path = is_face() ? (D_large_ - D_small_) / 2
                                 : std::hypot(high_ - low_, (D_large_ - D_small_) / 2);
-  const double in_cut = path + b.wall_mm / n;
-  return {in_cut, std::max(in_cut, b.fed_mm / n),
-          b.rapid_mm / plan_->machine.rapid_mm_min};
+  const double fed = b.fed_mm / n, in_cut = std::min(path + b.wall_mm / n, fed);
+  return {in_cut, fed, b.rapid_mm / plan_->machine.rapid_mm_min};
 }
 
 Beside MachinedSurface::ways(const OperationModel& o, const Strokes& strokes) const {
-  return is_face() ? facing(o, strokes.passes) : beside(around_, strokes);
+  return is_face() ? facing(o, strokes) : beside(around_, strokes);
 }
 
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
 // the rest takes.
-Beside MachinedSurface::facing(const OperationModel& o, int passes) const {
-  const double r = o.tool->re_mm, D_c = limited_mm(o), n = passes;
+Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) const {
+  const double r = o.tool->re_mm, D_c = strokes.limited_mm, n = strokes.passes;
   const double small = D_small_ / 2, large = D_large_ / 2;
   const double stock_h = plan_->drawing.stock.outer_mm / 2;
   const bool end = kind_ == Kind::end_face;
