@@ -8,8 +8,8 @@ tw_domain(part DEPENDS base)
 tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
-tw_domain(volumetric DEPENDS base catalogue
-  PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt)
+tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
+tw_domain(toolpath DEPENDS base catalogue)
 tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
@@ -28,6 +28,8 @@ if(BUILD_TESTING)
   target_link_libraries(multipass_test PRIVATE NLopt::nlopt_cxx)
 endif()
 
+tw_domain(volumetric DEPENDS base catalogue gcode
+  PRIVATE_LIBS Eigen3::Eigen Boost::headers fmt::fmt)
 tw_domain(tolerance DEPENDS base part PRIVATE_LIBS fmt::fmt)
 
 tw_domain(planning
@@ -35,7 +37,7 @@ tw_domain(planning
   PRIVATE_LIBS Eigen3::Eigen fmt::fmt
   TEST_DEPENDS document)
 
-tw_domain(nc DEPENDS base part catalogue cutting planning
+tw_domain(nc DEPENDS base part catalogue cutting gcode toolpath planning
   PRIVATE_LIBS fmt::fmt
   TEST_DEPENDS document)
 
@@ -44,19 +46,19 @@ file(RELATIVE_PATH data_from_bin
 set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
-  DEPENDS base catalogue part cutting deflection multipass thermal chatter volumetric
-    tolerance planning nc
+  DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
+    volumetric tolerance planning nc
   PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()
-tw_domain(report DEPENDS base part catalogue volumetric planning nc
+tw_domain(report DEPENDS base part catalogue toolpath volumetric planning nc
   PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt
   TEST_DEPENDS document)
 
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
-tw_domain(service DEPENDS base catalogue planning document report nc
+tw_domain(service DEPENDS base catalogue planning document report gcode nc
   PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp SQLite::SQLite3
     prometheus-cpp::core Boost::headers Threads::Threads TBB::tbb)
 # clang 14 has coroutines but does not say so, and cannot sanitize them.

@@ -111,12 +111,12 @@ bool is_of_programs(std::string_view name) {
   const auto digits = std::min(name.find_first_of("0123456789"), name.size());
   std::size_t number = 0;
   std::from_chars(name.data() + digits, name.data() + name.size(), number);
-  nc::SetupProgram program;
+  toolpath::SetupProgram program;
   program.setup = number - 1;
-  const auto is_name = [&](const nc::Dialect& d) {
+  const auto is_name = [&](const gcode::Dialect& d) {
     return name == document::file_name(program, d.control);
   };
-  return name == kToolTable || std::ranges::any_of(nc::dialects(), is_name);
+  return name == kToolTable || std::ranges::any_of(gcode::dialects(), is_name);
 }
 
 /// Writes the programs of this plan into the folder and removes those of any other plan.
@@ -126,7 +126,7 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
   for (const auto& program : programs.setups)
     files.push_back(
         {document::file_name(program, settings.control), nc::text(program, settings)});
-  if (!files.empty() && settings.control == nc::Control::linuxcnc)
+  if (!files.empty() && settings.control == gcode::Control::linuxcnc)
     files.push_back({kToolTable, nc::tool_table(programs.setups)});
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))

@@ -40,7 +40,7 @@ json shop_tool(const std::string& text) {
 
 std::string control_ids() {
   std::string all;
-  for (const auto& d : nc::dialects())
+  for (const auto& d : gcode::dialects())
     all += (all.empty() ? "" : ", ") + std::string(d.id);
   return all;
 }

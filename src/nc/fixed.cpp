@@ -142,15 +142,12 @@ std::optional<Arc> way_along(const Arc& arc, const std::vector<Piece>& before,
   return Arc{back.at(from), course.at(to), whole->centre, whole->convex};
 }
 
-// Start of the path along an arc: along a falling arc, level, or from above, as the drawn
-// surfaces allow.
-std::optional<Point> beginning(const Arc& drawn, const Point& to,
+// Start of the path along an arc: down a slope of 45 deg onto its beginning, so that the
+// finished surface in front is not touched, or from above, as the drawn surfaces allow.
+std::optional<Point> beginning(const Point& to, double above_mm,
                                const std::vector<Piece>& pieces, const Corner& corner) {
-  const auto n = arc_normal(drawn, drawn.from);
-  const Point along_arc{to.h_mm - n.z * kBefore_mm, to.z_mm + n.h * kBefore_mm};
-  const Point level{to.h_mm, to.z_mm + kBefore_mm};
-  if (n.z < 0 && comes_in({along_arc, to}, pieces, corner)) return along_arc;
-  if (comes_in({level, to}, pieces, corner)) return level;
+  const Point slope{to.h_mm + above_mm, to.z_mm + above_mm};
+  if (comes_in({slope, to}, pieces, corner)) return slope;
   if (comes_in({to}, pieces, corner)) return to;
   return std::nullopt;
 }
@@ -187,7 +184,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
                               s.id, cut.radius_mm, tool.re_mm));
       return;
     }
-    const auto from = beginning(raised, way->from, all, corner);
+    const auto from = beginning(way->from, site.above(p.side), all, corner);
     if (!from) {
       site.refuse(
           o.id,
@@ -196,7 +193,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
       return;
     }
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;
-    site.approach(p.side, *from, tool.re_mm);
+    site.approach(p.side, *from, way->from, tool.re_mm);
     site.to(Kind::feed, p.side, way->from);
     site.moves.push_back(
         {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});

@@ -274,6 +274,8 @@ SetupProgram program(Site& site, Numbers& numbers) {
       p.tools.push_back(tool);
     Step step;
     step.comments = comments(o);
+    if (const auto why = entered_again(site, i))
+      step.comments.push_back("enters the contour again: " + *why);
     step.tool = tool.number;
     step.constant_surface_speed = constant_surface_speed(site, o);
     step.S = step.constant_surface_speed ? o.passes[0].vc_m_min : o.passes[0].n_rpm;

@@ -110,6 +110,14 @@ void Site::approach(const Side& side, const Point& p, double re_mm) {
   to(Move::Kind::feed, side, p);
 }
 
+void Site::approach(const Side& side, const Point& p, const Point& next, double re_mm) {
+  const double stands = side.highest(p.z_mm, p.z_mm + 2 * re_mm);
+  if (p.h_mm < std::max(stands, next.h_mm) + above(side) / 2)
+    approach(side, p, re_mm);
+  else
+    approach(side, p);
+}
+
 void Site::approach(const Side& side, const Point& p) {
   const double x = side.sign * p.h_mm;
   if (side.sign > 0) {

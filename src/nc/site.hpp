@@ -8,12 +8,14 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/approach.hpp"
-#include "turnwright/nc/setup_program.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/toolpath/setup_program.hpp"
 
 /// A setup while it is programmed: the part in the machine, in the program's own
 /// coordinates, and the position of the tool.
 namespace turnwright::nc {
+
+using namespace toolpath;
 
 using planning::kAbove_mm;
 using planning::kAboveBore_mm;
@@ -81,6 +83,9 @@ class Site {
   /// Moves from any position to above a point, clear of the material with the whole
   /// corner, then at feed onto it.
   void approach(const Side& side, const Point& p, double re_mm);
+  /// The same to the start of a pass whose first move ends at `next`: where that comes
+  /// down from half as high as tools come in or more, the start is reached in rapid.
+  void approach(const Side& side, const Point& p, const Point& next, double re_mm);
   /// Moves from any position to a point outside the material.
   void approach(const Side& side, const Point& p);
   /// Moves away from the wall of a bore, as far as narrower bores in front require.

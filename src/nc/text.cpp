@@ -12,6 +12,11 @@
 #include "thread_cuts.hpp"
 
 namespace turnwright::nc {
+
+using gcode::Dialect;
+using gcode::dialect;
+using gcode::OffsetNumber;
+
 namespace {
 
 using std::string_view;

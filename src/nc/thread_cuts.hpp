@@ -3,10 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "turnwright/nc/setup_program.hpp"
+#include "turnwright/toolpath/setup_program.hpp"
 
 /// Threads among the moves of an operation, as the cycles of controls cut them.
 namespace turnwright::nc {
+
+using namespace toolpath;
 
 /// Whether the moves from the k-th are one cut and its way back: in along X, the cut along
 /// Z, out to where it began, and back.

@@ -192,9 +192,17 @@ double lost_mm(const Pass& p) {
   return std::max(step, 0.0) / std::tan(*p.tool().rises_rad);
 }
 
+// Whether the element in front is finished, and ends where and as high as this one begins.
+bool begins_on_finished(const Pass& p) {
+  if (p.k == 0) return false;
+  const auto &s = p.side.items[p.k - 1], &t = p.surface();
+  return !s.stock && s.left < kSame_mm && std::abs(s.z1 - t.z0) < kSame_mm &&
+         std::abs(s.h1 - t.h0) < kStands_mm;
+}
+
 // A finishing pass comes in along the element's own line, from as far away as the
-// surfaces in front allow; where they do not allow it, parallel to the axis.  A roughing
-// pass comes in along the axis.
+// surfaces in front allow; onto the end of a finished surface, down a slope of 45 deg.  A
+// roughing pass comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
@@ -217,9 +225,15 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
                   fmt::format("the minor edge of {} does not clear what is before {}",
                               p.plan().tool, p.surface().id));
   way = {way.rbegin(), way.rend()};
-  if (!stopped || way.empty()) return;
-  const Point level{way.front().h_mm, way.front().z_mm + kBefore_mm};
-  if (comes_in({level, way.front()}, pieces, p.tool())) way.insert(way.begin(), level);
+  if (way.empty() || !(stopped || begins_on_finished(p))) return;
+  if (!stopped) way.front() = tip(c[0], n, p.re_mm);
+  const auto [h, z] = way.front();
+  const double above = p.site.above(p.side);
+  for (const Point& from : {Point{h + above, z + above}, {h, z + kBefore_mm}})
+    if (comes_in({from, way.front()}, pieces, p.tool())) {
+      way.insert(way.begin(), from);
+      return;
+    }
 }
 
 // Starts a pass clear of the material before the free end and of the stock left on
@@ -406,7 +420,7 @@ void pass(const Pass& p) {
   auto& s = p.surface();
   const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
-    if (!p.from_before()) p.site.approach(p.side, way.front(), p.re_mm);
+    if (!p.from_before()) p.site.approach(p.side, way[0], way[1], p.re_mm);
     for (std::size_t i = 1; i < way.size(); ++i) {
       follow(p, way, i);
       p.site.moves.back().entering = i <= entered;
@@ -515,29 +529,26 @@ double corner_mm(const Site& site, const OperationPlan& o) {
   return 0;
 }
 
-bool joined(const Site& site, std::size_t i) {
-  const auto& all = site.answer().operations;
-  if (i + 1 >= all.size()) return false;
-  const auto &a = all[i], &b = all[i + 1];
-  if (!finishes(a) || a.kind != b.kind || a.tool != b.tool || b.passes.size() != 1 ||
-      a.on.size() != 1 || b.on.size() != 1)
-    return false;
+// Why finishing does not run on from operation a into b, its next one; none if it does.
+std::optional<std::string> parted(const Site& site, std::size_t i) {
+  const auto &a = site.answer().operations[i], &b = site.answer().operations[i + 1];
+  if (b.passes.size() != 1) return fmt::format("{} passes", b.passes.size());
   const auto& side = is_bore(a.kind) ? site.inner : site.outer;
   const auto k = place(side, a.on[0]);
-  if (k + 1 >= side.items.size() || side.items[k + 1].id != b.on[0]) return false;
+  if (a.on.size() != 1 || b.on.size() != 1 || k + 1 >= side.items.size() ||
+      side.items[k + 1].id != b.on[0])
+    return "not the next element";
   const auto &s = side.items[k], &t = side.items[k + 1];
   const double falls =
       corrected(site, side, s).back().h_mm - corrected(site, side, t).front().h_mm;
   const auto rad = [](const Surface& e) { return std::atan2(e.h1 - e.h0, e.z0 - e.z1); };
-  // Beside the blank of an arc nothing may keep the corner off what is finished: no step
-  // and no inner corner.
+  if (std::abs(s.z1 - t.z0) >= kSame_mm || t.h0 < s.h1 - kSame_mm)
+    return "behind a falling wall";
+  if (shoulder_stock_mm(site, i, side, k) > 0) return "the shoulder is faced later";
   const bool from_arc = is_arc(site, s), to_arc = is_arc(site, t);
-  const bool kept_off =
-      (to_arc && falls < -kSame_mm) || (from_arc && falls > kSame_mm) ||
-      ((from_arc || to_arc) && (t.h0 > s.h1 + kSame_mm || rad(t) > rad(s) + kSame_mm));
-  if (std::abs(s.z1 - t.z0) >= kSame_mm || t.h0 < s.h1 - kSame_mm || kept_off ||
-      shoulder_stock_mm(site, i, side, k) > 0)
-    return false;
+  if ((to_arc && falls < -kSame_mm) || (from_arc && falls > kSame_mm) ||
+      ((from_arc || to_arc) && (t.h0 > s.h1 + kSame_mm || rad(t) > rad(s) + kSame_mm)))
+    return "no fillet may stay beside an arc's blank";
   const auto length = [](const Surface& e) {
     return std::hypot(e.h1 - e.h0, e.z1 - e.z0);
   };
@@ -545,7 +556,39 @@ bool joined(const Site& site, std::size_t i) {
   passage.cylinders = s.h0 == s.h1 && t.h0 == t.h1;
   passage.least_mm = std::min(length(s), length(t));
   if (t.h0 < s.h1 + kSame_mm) passage.falls_mm = falls;
-  return planning::runs_on(passage, corner_mm(site, a), minor_edge_rad(site, a));
+  if (planning::runs_on(passage, corner_mm(site, a), minor_edge_rad(site, a)))
+    return std::nullopt;
+  return "a cone is too short or falls too steeply";
+}
+
+// Whether two operations finish contours with one tool.
+bool finish_alike(const OperationPlan& a, const OperationPlan& b) {
+  return finishes(a) && a.kind == b.kind && a.tool == b.tool;
+}
+
+bool joined(const Site& site, std::size_t i) {
+  const auto& all = site.answer().operations;
+  return i + 1 < all.size() && finish_alike(all[i], all[i + 1]) && !parted(site, i);
+}
+
+std::optional<std::string> entered_again(const Site& site, std::size_t i) {
+  const auto& all = site.answer().operations;
+  const auto& o = all[i];
+  if (i > 0 && finish_alike(all[i - 1], o)) return parted(site, i - 1);
+  const auto is_profiling = [&](const auto& t) {
+    return t.id == o.tool && t.use == catalogue::FixedUse::profiling;
+  };
+  const bool profiles = std::any_of(site.part.fixed_tools.begin(),
+                                    site.part.fixed_tools.end(), is_profiling);
+  const auto before = [&](const OperationPlan& a) {
+    return a.tool == o.tool && (finish_alike(a, o) || profiles);
+  };
+  if (std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i), before))
+    return profiles ? "arcs, and chamfers of their own, are cut one by one"
+                    : "another operation comes between";
+  if (o.passes.size() > 1 && (profiles || finishes(o)))
+    return fmt::format("{} passes", o.passes.size());
+  return std::nullopt;
 }
 
 void turn(Site& site, std::size_t operation) {

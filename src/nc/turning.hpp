@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <optional>
+#include <string>
 
 #include "site.hpp"
 
@@ -9,6 +11,10 @@ namespace turnwright::nc {
 /// Whether the last pass of an operation continues into that of the next one without
 /// leaving the part: both finish in one pass with one tool, and meet at one height.
 bool joined(const Site& site, std::size_t operation);
+
+/// Why a finishing tool enters the contour again with an operation, for the program's
+/// comments; none if the operation is the tool's first, or goes on from the one before.
+std::optional<std::string> entered_again(const Site& site, std::size_t operation);
 
 /// Turns an element or bores a bore.
 void turn(Site& site, std::size_t operation);

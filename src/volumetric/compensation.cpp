@@ -7,12 +7,15 @@
 #include <optional>
 #include <utility>
 
-#include "nc_writer.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
+#include "turnwright/gcode/nc_writer.hpp"
 #include "turnwright/volumetric/kinematics.hpp"
 
 namespace turnwright::volumetric {
+
+using gcode::NcWriter;
+
 namespace {
 
 Vec3 operator+(const Vec3& a, const Vec3& b) {

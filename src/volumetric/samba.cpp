@@ -29,7 +29,7 @@ constexpr double kLever = 100;  // length that makes angles comparable with shif
 constexpr double kMoves = 5e-5;
 constexpr std::size_t kCoefficients = 10'000'000;  // seconds, and 80 MB a matrix
 
-Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Vector3d column(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 enum class Kind { facet, location, power, reversal };
 
@@ -82,10 +82,10 @@ Vector3d sensitivity(const Parameter& p, const std::vector<AxisEffect>& effects,
   if (p.kind == Kind::facet) return Vector3d::Zero();
   const AxisEffect& effect = *std::ranges::find(effects, p.axis, &AxisEffect::axis);
   const std::size_t k = letter_index(p.axis);
-  const Vector3d e = vector(effect.error[p.direction]);
+  const Vector3d e = column(effect.error[p.direction]);
   switch (p.kind) {
     case Kind::location:
-      return is_rotary(p.axis) ? e : vector(effect.squareness[p.direction - 3]);
+      return is_rotary(p.axis) ? e : column(effect.squareness[p.direction - 3]);
     case Kind::reversal:
       return at.sign[k] * e;
     default:
@@ -96,7 +96,7 @@ Vector3d sensitivity(const Parameter& p, const std::vector<AxisEffect>& effects,
 /// Positions of the axes with a tip at `target`, and the signs of the motion to it.
 Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
                   const Vec3& target, const std::array<double, 3>& sign) {
-  const Vector3d q = R * vector(target) - vector(stylus);
+  const Vector3d q = R * column(target) - column(stylus);
   Position p{.q = {q[0], q[1], q[2], 0, at.B_rad, at.C_rad}};
   std::ranges::copy(sign, p.sign.begin());
   return p;
@@ -106,7 +106,7 @@ Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
 /// each probing, in the order of the readings.
 template <class Ball, class Touch>
 void each_probing(const SambaStrategy& s, Ball ball, Touch touch) {
-  const Vector3d n = vector(s.facet_normal).normalized();
+  const Vector3d n = column(s.facet_normal).normalized();
   for (const Indexation& at : s.indexations) {
     const Matrix3d R = rotation(at);
     const Vector3d on_machine = R * n;
@@ -177,7 +177,7 @@ class Builder {
                             " equations of " + std::to_string(size.unknowns) +
                             " unknowns, at most " + std::to_string(kCoefficients) +
                             " coefficients are solved");
-    const Vector3d n = vector(strategy_.facet_normal).normalized();
+    const Vector3d n = column(strategy_.facet_normal).normalized();
     each_probing(
         strategy_,
         [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus, std::size_t b) {
@@ -193,7 +193,7 @@ class Builder {
         });
     const auto [a, b] = strategy_.scale_bar_ends;
     const Vector3d u =
-        (vector(strategy_.balls_mm[b]) - vector(strategy_.balls_mm[a])).normalized();
+        (column(strategy_.balls_mm[b]) - column(strategy_.balls_mm[a])).normalized();
     VectorXd row = VectorXd::Zero(tip_ + 3);
     row.segment<3>(ball(a)) = -u;
     row.segment<3>(ball(b)) = u;
@@ -350,7 +350,7 @@ SambaFit samba_fit(const SambaStrategy& strategy,
   const auto [i, j] = strategy.scale_bar_ends;
   b << Eigen::Map<const VectorXd>(readings_mm.data(), b.size() - 1),
       strategy.scale_bar_mm -
-          (vector(strategy.balls_mm[j]) - vector(strategy.balls_mm[i])).norm();  // (3)
+          (column(strategy.balls_mm[j]) - column(strategy.balls_mm[i])).norm();  // (3)
   const auto rank = static_cast<Index>(d.of.rank);
   const MatrixXd inverse = d.svd.matrixV().leftCols(rank) *
                            d.svd.singularValues().head(rank).cwiseInverse().asDiagonal();
@@ -390,9 +390,9 @@ std::vector<double> samba_readings(const SambaStrategy& s, const Machine& machin
   const auto error = [&](const Matrix3d& R, const Indexation& at, const Vec3& stylus,
                          const Vec3& target, const std::array<double, 3>& sign) {
     m.tool_point_mm = stylus;
-    return vector(Kinematics(m).tip_error_mm(position(R, at, stylus, target, sign)));
+    return column(Kinematics(m).tip_error_mm(position(R, at, stylus, target, sign)));
   };
-  const Vector3d n = vector(s.facet_normal).normalized();
+  const Vector3d n = column(s.facet_normal).normalized();
   std::vector<double> out;
   each_probing(
       s,

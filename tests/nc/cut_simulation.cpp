@@ -13,8 +13,10 @@ namespace turnwright::nc::test {
 namespace {
 
 constexpr double kFar_mm = 1000;
-constexpr double kMade_mm = 1e-3;    // a surface is finished within this
-constexpr double kInside_mm = 0.1;   // a start so far inside a finished surface counts
+constexpr double kMade_mm = 1e-3;  // a surface is finished within this
+// A start so far inside a finished surface counts; in an inner corner the tool's corner,
+// which touches both sides, may touch that much more.
+constexpr double kInside_mm = 0.1;
 constexpr double kBeside_mm = 0.02;  // next to a wall's plane, in the material
 // Of a live centre: diameters of its 60 deg point and of its body; estimates for a centre
 // of Morse taper 4.
@@ -242,7 +244,9 @@ void CutSimulation::first_touch(const Body& b, const Way& w, const Polygon& swee
     }
   };
   const double inside = std::min(finished_for(1), finished_for(-1));
-  if (inside > kInside_mm) find(Fault::start, w.operation, inside, spot);
+  const double allowed = kInside_mm + (b.cutter.finishes ? b.cutter.re_mm : 0);
+  if (inside > allowed && !b.cutter.plunges)
+    find(Fault::start, w.operation, inside, spot);
 }
 
 void CutSimulation::entered(const Body& b, const Way& w, const Spot& at) {
@@ -326,6 +330,21 @@ std::string listed(const std::vector<Finding>& findings) {
     all += fmt::format("{}: {} by {:.5f} mm at radius {:.3f}, {:.3f} from the left end\n",
                        f.where, name(f.fault), f.mm, f.at.x, f.at.z);
   return all;
+}
+
+bool is_told(const Finding& f, const Programs& all) {
+  if (f.fault != Fault::again) return f.fault == Fault::centre;
+  const auto of_it = [&](const Step& s) {
+    return !s.comments.empty() && s.comments[0].starts_with("operation " + f.where + ":");
+  };
+  const auto tells = [](const std::string& c) {
+    return c.starts_with("enters the contour again: ");
+  };
+  return std::ranges::any_of(all.setups, [&](const SetupProgram& p) {
+    return std::ranges::any_of(p.steps, [&](const Step& s) {
+      return of_it(s) && std::ranges::any_of(s.comments, tells);
+    });
+  });
 }
 
 std::vector<Finding> simulated(const Planned& p, const Programs& all) {

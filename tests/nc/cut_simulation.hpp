@@ -26,13 +26,6 @@ enum class Fault {
   thread   ///< a thread not cut to its depth
 };
 const char* name(Fault fault);
-/// What programs still do (docs/nc.md): a contour is entered again before faced shoulders
-/// and arcs, blanks of arcs and grooves begin on finished neighbours, and nothing knows the
-/// body of the tailstock's live centre.
-constexpr bool known_of_contours(Fault f) {
-  return f == Fault::start || f == Fault::again || f == Fault::centre;
-}
-
 struct Finding {
   Fault fault = Fault::gouge;
   std::string where;  ///< an operation, a surface or a wall
@@ -106,5 +99,9 @@ std::string listed(const std::vector<Finding>& findings);
 
 /// The findings of programs, from their own moves.
 std::vector<Finding> simulated(const Planned& p, const Programs& all);
+
+/// Whether a finding is told: a contour entered again for a reason that the program says,
+/// or the body of the tailstock's live centre, which no plan knows (docs/nc.md).
+bool is_told(const Finding& finding, const Programs& all);
 
 }  // namespace turnwright::nc::test

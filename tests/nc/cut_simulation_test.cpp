@@ -36,7 +36,7 @@ std::string found_beside(const Planned& p, bool forms = false) {
   const auto all = programs(p.part, p.plan);
   auto findings = simulated(p, all);
   std::erase_if(findings, [&](const Finding& f) {
-    return known_of_contours(f.fault) ||
+    return is_told(f, all) ||
            (forms && (f.fault == Fault::rapid || left_by_form(p, all, f)));
   });
   return listed(findings);

@@ -102,6 +102,7 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
       return drill(2 * ap, t.point_deg);
     case FixedUse::grooving:
     case FixedUse::parting:
+      c.plunges = true;
       c.edge = rectangle(0, t.reach, 0, ap);
       if (!is_inner(p, o)) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
       return c;

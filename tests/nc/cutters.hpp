@@ -14,6 +14,7 @@ namespace turnwright::nc::test {
 /// the origin in the programmed point.
 struct Cutter {
   bool inner = false, drills = false, threads = false;
+  bool plunges = false;   ///< a blade: beside its own plunges
   bool finishes = false;  ///< a contour; faces apart
   double re_mm = 0;
   Polygon edge;                 ///< what cuts: the whole insert, a blade, a drill

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/nc/dialect.hpp"
+#include "turnwright/gcode/dialect.hpp"
 #include "turnwright/nc/program.hpp"
 
 /// A reader of programs as the manuals of their controls describe them, which shares no

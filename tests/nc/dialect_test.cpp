@@ -135,7 +135,7 @@ std::vector<Read> read(const Settings& settings, std::size_t setup = 0) {
 
 TEST(NcDialects, NumberToolsAsTheShopDoes) {
   for (const auto control : kControls) {
-    if (dialect(control).offset == OffsetNumber::of_tool) continue;
+    if (dialect(control).offset == gcode::OffsetNumber::of_tool) continue;
     const auto moves =
         read({.control = control, .tools = {{"DRILL 8 mm", 1, 12}, {"OTHER", 2}}});
     EXPECT_EQ(moves.front().tool, 3) << id(control);  // the lowest that is left

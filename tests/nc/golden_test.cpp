@@ -24,7 +24,7 @@ TEST(NcGolden, ProgramsAreThoseThatAreKept) {
   for (const char* name : {"threaded-spindle", "drilled-bush", "pump-shaft"}) {
     const auto p = planned_reference(name);
     const auto made = programs(p.part, p.plan);
-    for (const auto& d : dialects()) {
+    for (const auto& d : gcode::dialects()) {
       const Settings settings{.control = d.control, .program_number = 1001};
       auto all = made.setups;
       number_tools(all, settings);

@@ -159,7 +159,7 @@ TEST(PlanAndProgram, OfReferencePartsTakeTheSameTime) {
 }
 
 TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
-  const int parts = parts_to_try(40);
+  const int parts = parts_to_try(200);
   int made = 0;
   for (int seed = 1; seed <= parts; ++seed) {
     const auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();

@@ -69,14 +69,14 @@ struct Interpreter {
 void runs_as_asked(const Interpreter& rs274, const std::vector<std::string_view>& source,
                    const NcSetup& setup, const Machine& machine,
                    const std::vector<std::string>& before) {
-  const NcProgram program = read_nc(source, setup);
+  const NcProgram program = gcode::read_nc(source, setup);
   ASSERT_TRUE(program.problems.empty());
   const Compensated c = compensate(program, machine, setup);
   std::vector<std::string> lines = before;
   lines.insert(lines.end(), c.lines.begin(), c.lines.end());
   const auto canonical = rs274.moves(lines);
   const std::vector<std::string_view> views(c.lines.begin(), c.lines.end());
-  std::vector<NcMove> asked = read_nc(views, setup).moves;
+  std::vector<NcMove> asked = gcode::read_nc(views, setup).moves;
   std::erase_if(asked, [](const NcMove& m) { return !m.moves; });
   ASSERT_EQ(canonical.size(), asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -166,7 +166,7 @@ TEST(LinuxCnc, ArcsAreReadAlike) {
   const std::vector<std::string> source = random_arcs(200, 7);
   const auto arcs = rs274.arcs(source);
   ASSERT_EQ(arcs.size(), 200u);
-  const auto p = read_nc({source.begin(), source.end()}, {.tolerance_mm = 0.01});
+  const auto p = gcode::read_nc({source.begin(), source.end()}, {.tolerance_mm = 0.01});
   ASSERT_TRUE(p.problems.empty()) << p.problems[0].line << p.problems[0].got;
   constexpr double kPrinted = 3e-4;  // four decimals of ends, centre and start
   Vec3 from = p.moves[2].target_mm;
@@ -224,7 +224,7 @@ TEST(LinuxCnc, ModesAreReadAlike) {
     NcSetup with_1 = setup;
     with_1.tool_offsets_mm[1] = {};
     const std::vector<std::string_view> views(source.begin(), source.end());
-    auto p = read_nc(views, with_1);
+    auto p = gcode::read_nc(views, with_1);
     ASSERT_TRUE(p.problems.empty()) << p.problems[0].line << p.problems[0].got;
     std::erase_if(p.moves, [](const NcMove& m) { return !m.moves; });
     const auto canonical = rs274.moves(source);

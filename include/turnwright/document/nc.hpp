@@ -21,7 +21,7 @@ NcRequest load_nc_request(const nlohmann::json& json, const Catalogue& catalogue
 nc::Settings load_nc_settings(const nlohmann::json& json, const std::string& document);
 
 /// A program's file name, "setup-1.ngc" of the first setup for LinuxCNC.
-std::string file_name(const nc::SetupProgram& program, nc::Control control);
+std::string file_name(const toolpath::SetupProgram& program, gcode::Control control);
 
 /// The result of `nc` (schemas/nc.result.json).
 nlohmann::ordered_json to_json(const nc::Programs& programs,

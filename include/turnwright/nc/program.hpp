@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/nc/setup_program.hpp"
 #include "turnwright/planning/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/toolpath/setup_program.hpp"
 
 /// Turning programs of a process plan, one for each setup.
 ///
@@ -42,6 +42,8 @@
 /// Source: derived here; program_test takes the canonical moves of an interpreter and
 /// moves the tools' circles over the contour.
 namespace turnwright::nc {
+
+using namespace toolpath;
 
 struct Programs {
   std::vector<SetupProgram> setups;  ///< empty for an infeasible plan

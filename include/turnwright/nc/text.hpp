@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/nc/dialect.hpp"
+#include "turnwright/gcode/dialect.hpp"
 #include "turnwright/nc/program.hpp"
 
 /// Programs as text: a control's dialect with a shop's settings.
 namespace turnwright::nc {
+
+using gcode::Control;
 
 enum class BlockNumbers {
   none,

@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/gcode/read_nc.hpp"
 #include "turnwright/volumetric/machine.hpp"
-#include "turnwright/volumetric/nc_program.hpp"
 
 namespace turnwright::volumetric {
+
+using gcode::NcMove;
+using gcode::NcProgram;
+using gcode::NcSetup;
 
 enum class Method {
   full_field,  ///< every point is corrected by the error there

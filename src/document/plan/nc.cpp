@@ -15,10 +15,10 @@ using nlohmann::ordered_json;
 constexpr long kTools = 99;  // two digits in the words of most controls
 constexpr std::size_t kListedTools = 200;
 
-const Choices<nc::Control>& controls() {
+const Choices<gcode::Control>& controls() {
   static const auto kControls = [] {
-    Choices<nc::Control> all;
-    for (const auto& d : nc::dialects()) all.push_back({d.id, d.control});
+    Choices<gcode::Control> all;
+    for (const auto& d : gcode::dialects()) all.push_back({d.id, d.control});
     return all;
   }();
   return kControls;
@@ -42,7 +42,7 @@ std::string quoted_list(std::span<const std::string_view> words) {
   return all;
 }
 
-void read_work_offset(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+void read_work_offset(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   if (!r.has("work_offset")) return;
   s.work_offset = r.text("work_offset");
   if (s.work_offset.empty()) return;  // reported
@@ -54,7 +54,7 @@ void read_work_offset(Reader& r, const nc::Dialect& d, nc::Settings& s) {
                "choice");
 }
 
-void read_program_number(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+void read_program_number(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   if (!r.has("program_number")) return;
   if (d.programs > 0) {
     s.program_number = static_cast<int>(r.integer("program_number", 1, d.programs));
@@ -77,7 +77,7 @@ void read_coolant(Reader& r, nc::Settings& s) {
 }
 
 // Each number, and each offset that is a register of its own, belongs to one tool.
-void read_tools(Reader& r, const nc::Dialect& d, nc::Settings& s) {
+void read_tools(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   std::set<std::string> ids;
   std::set<int> numbers, offsets;
   const auto once = [](Reader& item, std::string_view key, bool first) {
@@ -93,9 +93,9 @@ void read_tools(Reader& r, const nc::Dialect& d, nc::Settings& s) {
     if (item.broken()) continue;
     once(item, "id", ids.insert(tool.id).second);
     once(item, "number", numbers.insert(tool.number).second);
-    if (d.offset == nc::OffsetNumber::free)
+    if (d.offset == gcode::OffsetNumber::free)
       once(item, "offset", offsets.insert(tool.offset.value_or(tool.number)).second);
-    if (d.offset == nc::OffsetNumber::of_tool && tool.offset)
+    if (d.offset == gcode::OffsetNumber::of_tool && tool.offset)
       item.problem_at(
           "offset",
           "none: the offset of " + std::string(d.name) + " is that of the tool's number",
@@ -106,8 +106,8 @@ void read_tools(Reader& r, const nc::Dialect& d, nc::Settings& s) {
 
 nc::Settings read_settings(Reader& r) {
   nc::Settings s;
-  s.control = r.choice_or("control", controls(), nc::Control::linuxcnc);
-  const auto& d = nc::dialect(s.control);
+  s.control = r.choice_or("control", controls(), gcode::Control::linuxcnc);
+  const auto& d = gcode::dialect(s.control);
   read_work_offset(r, d, s);
   read_program_number(r, d, s);
   s.block_numbers = r.choice_or("block_numbers", kBlockNumbers, s.block_numbers);
@@ -123,7 +123,7 @@ nc::Settings read_settings(Reader& r) {
   return s;
 }
 
-ordered_json tools_of(const std::vector<nc::SetupProgram>& programs) {
+ordered_json tools_of(const std::vector<toolpath::SetupProgram>& programs) {
   auto all = ordered_json::array();
   std::set<int> listed;
   for (const auto& p : programs)
@@ -135,8 +135,8 @@ ordered_json tools_of(const std::vector<nc::SetupProgram>& programs) {
 
 // As a request may give them.
 ordered_json settings_json(const nc::Settings& s,
-                           const std::vector<nc::SetupProgram>& programs) {
-  const auto& d = nc::dialect(s.control);
+                           const std::vector<toolpath::SetupProgram>& programs) {
+  const auto& d = gcode::dialect(s.control);
   ordered_json out{{"control", d.id}};
   if (d.programs > 0) out["program_number"] = s.program_number;
   if (const auto offset = nc::work_offset(s); !offset.empty())
@@ -148,7 +148,7 @@ ordered_json settings_json(const nc::Settings& s,
   out["reference_returns"] = s.reference_returns;
   out["cycles"] = s.cycles;
   out["tools"] = tools_of(programs);
-  if (d.offset == nc::OffsetNumber::of_tool)
+  if (d.offset == gcode::OffsetNumber::of_tool)
     for (auto& tool : out["tools"]) tool.erase("offset");
   return out;
 }
@@ -183,9 +183,9 @@ nc::Settings load_nc_settings(const json& settings, const std::string& document)
   return out;
 }
 
-std::string file_name(const nc::SetupProgram& program, nc::Control control) {
+std::string file_name(const toolpath::SetupProgram& program, gcode::Control control) {
   return "setup-" + std::to_string(program.setup + 1) +
-         std::string(nc::dialect(control).extension);
+         std::string(gcode::dialect(control).extension);
 }
 
 ordered_json to_json(const nc::Programs& programs, const planning::ProcessPlan& plan,

@@ -153,9 +153,9 @@ json compensate(const json& request) { return compensated(request).result; }
 CompensateAnswer compensated(const json& request) {
   const CompensationRequest q = read_compensation_request(request);
   const std::vector<std::string_view> lines(q.lines.begin(), q.lines.end());
-  const NcProgram program = read_nc(lines, q.setup);
+  const NcProgram program = gcode::read_nc(lines, q.setup);
   Problems problems{.document = "compensate"};
-  for (const NcProblem& p : program.problems)
+  for (const gcode::NcProblem& p : program.problems)
     problems.add(
         {"/program#line " + std::to_string(p.line), p.got, p.expected, "unsupported"});
   problems.throw_if_any();

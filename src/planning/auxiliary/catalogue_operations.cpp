@@ -551,10 +551,11 @@ void add_arc(Site& s, const CutElement& e) {
       e.cut.path_mm * (1 + (e.cut.convex ? 1 : -1) * f.tool->re_mm / e.cut.radius_mm);
   const std::vector<Pass> passes(static_cast<std::size_t>(*count),
                                  pass_of(d, ap, path / (f.at.f_mm_rev * n)));
-  const double from = e.around.z0 + kBefore_mm, to = e.around.z1 + kAbove_mm;
+  const double enters = std::sqrt(2) * kAbove_mm;  // down a slope
+  const double from = e.around.z0 + kAbove_mm, to = e.around.z1 + kAbove_mm;
   s.out.after.push_back(
       operation(s, a, f, passes,
-                {*count * (kAbove_mm + kBefore_mm) / (f.at.f_mm_rev * n),
+                {*count * enters / (f.at.f_mm_rev * n),
                  *count * (down_and_back_mm(e) + kAbove_mm) + (*count - 1) * (from - to),
                  false, from, to},
                 {d}));

@@ -361,8 +361,9 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
       return s.z0 + r * tip_z(chamfer.axial_mm > 0 ? chamfer_rad : rad, s.before->rad);
     if (last && s.front_falls_mm > kSame_mm)
       return s.z0 - r - below_mm(s.front_falls_mm, r, strokes.minor_rad);
-    if (last && s.front_rad && rad > *s.front_rad)
-      return s.z0 + r * tip_z(rad, *s.front_rad) + kBefore_mm;
+    if (last && s.front_rad)
+      return s.z0 +
+             r * (rad < *s.front_rad ? std::sin(rad) - 1 : tip_z(rad, *s.front_rad));
     const double level = s.z0 + kBefore_mm;
     const double along = chamfer.axial_mm > 0 ? chamfer_rad : rad;
     const double own =
@@ -396,10 +397,17 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const auto cone = [&](double from, double to) {
       return (from - to) / slope * longer(left, (from + to) / 2);
     };
-    const bool along_the_axis = !last || (s.front_rad && rad > *s.front_rad);
-    if (!along_the_axis || (last && from_before)) return cone(a, b);
-    const double first = s.z0 + r * tip_z(last ? *s.front_rad : 0, rad);
+    if (last) return cone(a, b);
+    const double first = s.z0 + r * tip_z(0, rad);  // before that, along the axis
     return (a - first) * longer(left, first) + cone(first, b);
+  };
+
+  // Length at feed from where a pass is approached to its start: onto the end of a finished
+  // surface finishing comes down a slope of 45 deg.
+  const auto enters = [&](bool last) {
+    if (!last) return above;
+    if (s.front_rad || s.front_falls_mm > kSame_mm) return std::sqrt(2) * above;
+    return chamfer.axial_mm > 0 || (kBefore_mm + r) * std::sin(-rad) < above ? above : 0;
   };
 
   Beside sum;
@@ -422,7 +430,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
-    double length = fed(last, left, a, b) + wall + (comes ? above * longer(left, a) : 0);
+    double length =
+        fed(last, left, a, b) + wall + (comes ? enters(last) * longer(left, a) : 0);
     if (chamfers)
       length += edge_mm(s, beyond) *
                 std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));

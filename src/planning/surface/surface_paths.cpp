@@ -9,15 +9,21 @@ namespace {
 
 constexpr double kDepths_mm = 1e-3;  // between which lengths are compared
 
-// Diameter inside which the spindle keeps its limit: at the largest feed, and at the speed
-// of least cost as far as its limits allow.
-double limited_mm(const OperationModel& o, double a) {
-  const double f = o.f.upper, depth = o.depth_mm(a);
-  const auto F = cutting::forces_N(o.cut, depth, f);
-  const double held = spindle_cap(o, F, a), cap = held > o.n_min_rpm ? held : o.n_cap_rpm;
-  const auto window = speed_window(o, f, a, F, cap);
+// Diameter inside which the spindle keeps its limit: at the largest feed that the tool
+// allows, and at the speed of least cost as far as its limits allow.  It does not depend on
+// the conditions that a request gives.
+double limited_mm(OperationModel o, const Strokes& strokes) {
+  const double reach = strokes.depth_mm * (strokes.passes - 1) / 2.0,
+               f = o.f_window.upper;
+  o.vc = o.vc_window;
+  o.depth_mm = {strokes.depth_mm, 0};
+  o.passes = {{{strokes.left_mm + reach, 0}, {}}, {{strokes.left_mm - reach, 0}, {}}};
+  const auto F = cutting::forces_N(o.cut, strokes.depth_mm, f);
+  const double held = spindle_cap(o, F, 0.0);
+  const double cap = held > o.n_min_rpm ? held : o.n_cap_rpm;
+  const auto window = speed_window(o, f, 0.0, F, cap);
   const double least_cost =
-      cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f, depth);
+      cutting::speed_for_life_m_min(o.cut, o.economic_life_min, f, strokes.depth_mm);
   return 1000 * std::min(std::max(least_cost, window.lower), window.upper) /
          (units::kPi * cap);
 }
@@ -63,9 +69,9 @@ MachinedSurface::Lengths MachinedSurface::lengths(const Recipe& recipe,
   const double finished = recipe.finish_passes * a_mm;
   Strokes strokes{n, makes, o.finishing, o.tool->re_mm,
                   units::rad_from_deg(o.tool->minor_kapr_deg)};
-  strokes.limited_mm = limited_mm(o, a_mm);
   strokes.depth_mm = o.finishing ? a_mm : (stock_mm - finished) / n;
   strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
+  strokes.limited_mm = limited_mm(o, strokes);
   if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);
   const auto b = ways(o, strokes);
   const double path = is_face() ? (D_large_ - D_small_) / 2

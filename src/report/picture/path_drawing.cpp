@@ -30,14 +30,14 @@ constexpr double kNothing_mm = 1e-6;
 struct Sheet {
   const PreparedPart& part;
   const planning::SetupPlan& setup;
-  const nc::SetupProgram& program;
+  const toolpath::SetupProgram& program;
   Scale z, x;  ///< x of radii
   Svg svg = {};
   Point place(double z_mm, double x_mm) const { return {z.place(z_mm), x.place(x_mm)}; }
 };
 
 std::string colour(const Sheet& s, int tool) {
-  const auto at = std::ranges::find(s.program.tools, tool, &nc::TableTool::number);
+  const auto at = std::ranges::find(s.program.tools, tool, &toolpath::TableTool::number);
   return fmt::format("tool{}", (at - s.program.tools.begin()) % kColours);
 }
 
@@ -130,10 +130,10 @@ void draw_jaw(Sheet& s) {
 }
 
 void draw_rapids(Sheet& s) {
-  nc::Point at{s.program.change_x_mm, s.program.change_z_mm};
+  toolpath::Point at{s.program.change_x_mm, s.program.change_z_mm};
   for (const auto& step : s.program.steps)
     for (const auto& move : step.moves) {
-      if (move.kind == nc::Move::Kind::rapid)
+      if (move.kind == toolpath::Move::Kind::rapid)
         s.svg.line("rapid", s.place(at.z_mm, at.h_mm), s.place(move.z_mm, move.x_mm));
       at = {move.x_mm, move.z_mm};
     }
@@ -186,7 +186,7 @@ double draw_legend(Sheet& s, const std::vector<CutPass>& all, double y) {
 }
 
 std::string drawn(const PreparedPart& part, const planning::SetupPlan& setup,
-                  const nc::SetupProgram& program) {
+                  const toolpath::SetupProgram& program) {
   const auto all = passes(part, setup, program);
   const auto grid = work_before(part, program.setup);
   const double end = grid.z(grid.rings.size() - 1);

@@ -46,7 +46,8 @@ Cutter fixed_cutter(const catalogue::FixedTool& tool, const OperationPlan& o, bo
   return {};
 }
 
-Cutter cutter(const PreparedPart& part, const OperationPlan& o, const nc::TableTool& t) {
+Cutter cutter(const PreparedPart& part, const OperationPlan& o,
+              const toolpath::TableTool& t) {
   using Shape = Cutter::Shape;
   const bool bore = t.orientation == kInBore;
   if (o.kind == OperationKind::fixed) return fixed_cutter(fixed_tool(part, o), o, bore);
@@ -55,8 +56,9 @@ Cutter cutter(const PreparedPart& part, const OperationPlan& o, const nc::TableT
   return {end_face ? Shape::face : bore ? Shape::bore : Shape::corner, t.re_mm};
 }
 
-const nc::TableTool& listed(const nc::SetupProgram& program, int number) {
-  const auto found = std::ranges::find(program.tools, number, &nc::TableTool::number);
+const toolpath::TableTool& listed(const toolpath::SetupProgram& program, int number) {
+  const auto found =
+      std::ranges::find(program.tools, number, &toolpath::TableTool::number);
   if (found == program.tools.end())
     throw std::domain_error("program_removal: a tool that the program does not list");
   return *found;
@@ -95,16 +97,16 @@ Work work_before(const PreparedPart& part, std::size_t setup) {
 }
 
 std::vector<CutPass> passes(const PreparedPart& part, const planning::SetupPlan& setup,
-                            const nc::SetupProgram& program) {
+                            const toolpath::SetupProgram& program) {
   std::vector<CutPass> all;
   Work work = work_before(part, program.setup);
-  nc::Point at{program.change_x_mm, program.change_z_mm};
+  toolpath::Point at{program.change_x_mm, program.change_z_mm};
   for (const auto& [step, operation] : planned_steps(setup, program)) {
     if (step->stop) continue;
     const auto tool = cutter(part, *operation, listed(program, step->tool));
     bool cutting = false;
     for (const auto& move : step->moves) {
-      const bool feeds = move.kind != nc::Move::Kind::rapid;
+      const bool feeds = move.kind != toolpath::Move::Kind::rapid;
       if (feeds && !cutting)
         all.push_back({step->tool, operation->id, {at}, work.rings, {}});
       if (feeds) {

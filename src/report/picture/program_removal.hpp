@@ -10,7 +10,7 @@ namespace turnwright::report {
 struct CutPass {
   int tool = 0;
   std::string operation;
-  std::vector<nc::Point> way;  ///< of the programmed point, arcs as chords
+  std::vector<toolpath::Point> way;  ///< of the programmed point, arcs as chords
   std::vector<Ring> before, after;
 };
 
@@ -21,6 +21,6 @@ Work work_before(const planning::PreparedPart& part, std::size_t setup);
 /// @throws std::domain_error if the program does not cut the setup's operations.
 std::vector<CutPass> passes(const planning::PreparedPart& part,
                             const planning::SetupPlan& setup,
-                            const nc::SetupProgram& program);
+                            const toolpath::SetupProgram& program);
 
 }  // namespace turnwright::report

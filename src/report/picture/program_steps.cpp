@@ -5,7 +5,7 @@
 namespace turnwright::report {
 
 std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
-                                       const nc::SetupProgram& program) {
+                                       const toolpath::SetupProgram& program) {
   std::vector<PlannedStep> all;
   auto next = setup.operations.begin();
   for (const auto& step : program.steps) {

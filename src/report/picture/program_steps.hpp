@@ -8,13 +8,13 @@ namespace turnwright::report {
 /// A step of a program and the plan's operation: the one it makes or, of a stop to change
 /// the clamping, the one that follows.
 struct PlannedStep {
-  const nc::Step* step = nullptr;
+  const toolpath::Step* step = nullptr;
   const planning::OperationPlan* operation = nullptr;
 };
 
 /// The steps in their order.  A milled place is a stop that takes no time in the program.
 /// @throws std::domain_error if the program does not make the setup's operations.
 std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
-                                       const nc::SetupProgram& program);
+                                       const toolpath::SetupProgram& program);
 
 }  // namespace turnwright::report

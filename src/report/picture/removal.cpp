@@ -52,7 +52,7 @@ double least(F&& f) {
 }
 
 struct Way {
-  nc::Point from, to;
+  toolpath::Point from, to;
   double z(double s) const { return std::lerp(from.z_mm, to.z_mm, s); }
   double x(double s) const { return std::lerp(from.h_mm, to.h_mm, s); }
 };
@@ -82,7 +82,8 @@ void drill(Work& work, const Cutter& c, double tip_z) {
 
 }  // namespace
 
-void take_off(Work& work, const Cutter& c, const nc::Point& from, const nc::Point& to) {
+void take_off(Work& work, const Cutter& c, const toolpath::Point& from,
+              const toolpath::Point& to) {
   if (c.shape == Shape::nothing) return;
   if (c.shape == Shape::drill) return drill(work, c, std::min(from.z_mm, to.z_mm));
   const bool bore = c.shape == Shape::bore || c.shape == Shape::bore_blade;
@@ -103,16 +104,17 @@ void take_off(Work& work, const Cutter& c, const nc::Point& from, const nc::Poin
   }
 }
 
-std::vector<nc::Point> way(const nc::Point& from, const nc::Move& move) {
-  const nc::Point to{move.x_mm, move.z_mm};
-  if (move.kind != nc::Move::Kind::arc) return {to};
+std::vector<toolpath::Point> way(const toolpath::Point& from,
+                                 const toolpath::Move& move) {
+  const toolpath::Point to{move.x_mm, move.z_mm};
+  if (move.kind != toolpath::Move::Kind::arc) return {to};
   const auto& centre = move.centre;
-  const auto angle = [&](const nc::Point& p) {
+  const auto angle = [&](const toolpath::Point& p) {
     return std::atan2(p.h_mm - centre.h_mm, p.z_mm - centre.z_mm);
   };
   const double r = std::hypot(from.h_mm - centre.h_mm, from.z_mm - centre.z_mm);
   const double turn = std::remainder(angle(to) - angle(from), 2 * std::numbers::pi);
-  std::vector<nc::Point> points;
+  std::vector<toolpath::Point> points;
   for (int k = 1; k < kChords; ++k) {
     const double a = angle(from) + turn * k / kChords;
     points.push_back({centre.h_mm + r * std::sin(a), centre.z_mm + r * std::cos(a)});
@@ -121,8 +123,9 @@ std::vector<nc::Point> way(const nc::Point& from, const nc::Move& move) {
   return points;
 }
 
-void take_off(Work& work, const Cutter& c, const nc::Point& from, const nc::Move& move) {
-  nc::Point at = from;
+void take_off(Work& work, const Cutter& c, const toolpath::Point& from,
+              const toolpath::Move& move) {
+  toolpath::Point at = from;
   for (const auto& next : way(from, move)) {
     take_off(work, c, at, next);
     at = next;

@@ -45,14 +45,14 @@ struct Work {
 /// edge that rises at 30 degrees, a level blade, a cone.  (1) is convex in s.  In a bore
 /// heights count downwards.  Source: derived here; removal_test compares areas with
 /// closed forms.
-void take_off(Work& work, const Cutter& cutter, const nc::Point& from,
-              const nc::Point& to);
+void take_off(Work& work, const Cutter& cutter, const toolpath::Point& from,
+              const toolpath::Point& to);
 
 /// The points to which a move goes from `from`: its end, of an arc those of its chords.
-std::vector<nc::Point> way(const nc::Point& from, const nc::Move& move);
+std::vector<toolpath::Point> way(const toolpath::Point& from, const toolpath::Move& move);
 
 /// The same along any move; an arc as chords.
-void take_off(Work& work, const Cutter& cutter, const nc::Point& from,
-              const nc::Move& move);
+void take_off(Work& work, const Cutter& cutter, const toolpath::Point& from,
+              const toolpath::Move& move);
 
 }  // namespace turnwright::report

@@ -125,7 +125,7 @@ std::string zero(const ShopPrograms& shop) {
 }
 
 Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
-              const SetupPlan& s, const nc::Minutes& m) {
+              const SetupPlan& s, const toolpath::Minutes& m) {
   Entries all;
   add(all, "Program",
       fmt::format("{}, of it {} in the cut", duration(m.total()), duration(m.cutting)));
@@ -139,14 +139,14 @@ Entries times(const PreparedPart& p, const planning::ProcessPlan& plan,
 }
 
 /// What a stop of the program asks for, without the word "stop".
-std::string asked(const nc::Step& stop) {
+std::string asked(const toolpath::Step& stop) {
   std::string text;
   for (const auto& c : stop.comments) text += (text.empty() ? "" : "; ") + c;
   constexpr std::string_view kStop = "stop: ";
   return text.starts_with(kStop) ? text.substr(kStop.size()) : text;
 }
 
-std::vector<StopRow> stops(const SetupPlan& s, const nc::SetupProgram& program) {
+std::vector<StopRow> stops(const SetupPlan& s, const toolpath::SetupProgram& program) {
   std::vector<StopRow> all;
   for (const auto& [step, operation] : planned_steps(s, program))
     if (step->stop) all.push_back({operation->id, asked(*step), step->stop_min});

@@ -18,7 +18,7 @@ const catalogue::Tool* turning_tool(const planning::PreparedPart& part,
   return found == part.tools.end() ? nullptr : &*found;
 }
 
-ToolRow row_of(const planning::PreparedPart& part, const nc::TableTool& tool) {
+ToolRow row_of(const planning::PreparedPart& part, const toolpath::TableTool& tool) {
   ToolRow row{tool.number, tool.offset, tool.id, {}, {}, tool.re_mm};
   const auto* turning = turning_tool(part, tool.id);
   if (!turning) return row;
@@ -44,7 +44,7 @@ void add(ToolRow& row, const OperationPlan& o) {
 
 std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
                                const planning::SetupPlan& setup,
-                               const nc::SetupProgram& program) {
+                               const toolpath::SetupProgram& program) {
   std::vector<ToolRow> rows, driven;
   for (const auto& tool : program.tools) rows.push_back(row_of(part, tool));
   for (const auto& [step, operation] : planned_steps(setup, program)) {

@@ -26,7 +26,7 @@ struct ToolRow {
 /// @throws std::domain_error if the program is not that of the setup's operations.
 std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
                                const planning::SetupPlan& setup,
-                               const nc::SetupProgram& program);
+                               const toolpath::SetupProgram& program);
 
 /// Whole parts until this share of an edge is used; none where a part uses nothing.
 std::optional<long> parts_until(double share, double edge_share);

@@ -30,7 +30,7 @@ double nominal(const Contour& contour, double z, bool inner) {
 // Share of the rings, behind the finished face and before the jaws, whose radii are those
 // of the part as drawn, up to offsets in the middle of the limits and the fillets of
 // corners: 0.12 mm.
-double share_as_drawn(const Planned& p, const nc::SetupProgram& program) {
+double share_as_drawn(const Planned& p, const toolpath::SetupProgram& program) {
   const auto s = program.setup;
   const auto all = passes(p.part, p.plan.setups[s], program);
   const auto work = work_before(p.part, s);
@@ -101,7 +101,7 @@ TEST(PathDrawings, FeedsRapidsAndToolsAreTold) {
     for (const auto& step : program.steps) {
       bool cutting = false;
       for (const auto& move : step.moves) {
-        const bool rapid = move.kind == nc::Move::Kind::rapid;
+        const bool rapid = move.kind == toolpath::Move::Kind::rapid;
         rapids += rapid;
         passes_ += !rapid && !cutting;
         cutting = !rapid;

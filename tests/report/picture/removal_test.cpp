@@ -43,7 +43,7 @@ TEST(Removal, AStraightPassLeavesItsRadiusAndTheFilletOfTheCorner) {
 }
 
 // On a cone the tangent corner lies on a line parallel to the way of its tip, at the
-// distance that nc/path.hpp Eq. (1) gives.
+// distance that toolpath/path.hpp Eq. (1) gives.
 TEST(Removal, AConeIsTangentToTheCorner) {
   auto work = bar();
   const double r = 0.8, slope = 0.25;  // of the radius towards the chuck
@@ -114,7 +114,7 @@ TEST(Removal, NothingGrowsBack) {
 // A quarter of a circle of radius 10 about (10, -10), from the face outwards: every point
 // lies on the tip's circle; its chords stay within their sagitta of it.
 TEST(Removal, AnArcIsPassedOnChords) {
-  const nc::Move arc{nc::Move::Kind::arc, 20, -10, {10, -10}, false};
+  const toolpath::Move arc{toolpath::Move::Kind::arc, 20, -10, {10, -10}, false};
   const auto points = way({10, 0}, arc);
   ASSERT_GT(points.size(), 8u);
   for (const auto& p : points)

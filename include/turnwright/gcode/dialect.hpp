@@ -12,7 +12,7 @@
 ///
 /// Sources: LinuxCNC's interpreter, which runs the programs in linuxcnc_test; of the
 /// others [Okuma 5238-E], [Siemens 6FC5298-7AB00] and [gEdit] in docs/bibliography.md.
-namespace turnwright::nc {
+namespace turnwright::gcode {
 
 enum class Control { linuxcnc, fanuc, fanuc_b, haas, siemens_iso, siemens, okuma };
 
@@ -64,4 +64,4 @@ struct Dialect {
 std::span<const Dialect> dialects();
 const Dialect& dialect(Control control);
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::gcode

@@ -1,11 +1,11 @@
-#include "turnwright/nc/path.hpp"
+#include "turnwright/toolpath/path.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-namespace turnwright::nc {
+namespace turnwright::toolpath {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upright
@@ -230,4 +230,4 @@ double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& c
   return tip.length_mm;
 }
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::toolpath

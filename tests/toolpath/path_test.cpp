@@ -1,5 +1,5 @@
 // Ways of the tip over a contour.
-#include "turnwright/nc/path.hpp"
+#include "turnwright/toolpath/path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace turnwright::nc {
+namespace turnwright::toolpath {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -193,4 +193,4 @@ TEST(FreeWay, EndsWhereTheCornerTouches) {
 }
 
 }  // namespace
-}  // namespace turnwright::nc
+}  // namespace turnwright::toolpath

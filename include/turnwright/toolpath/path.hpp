@@ -10,7 +10,7 @@
 /// into the air (h = radius outside, h = -radius in a bore), z along the axis towards the
 /// free end.  The tool cuts towards the chuck, so z falls along a contour; h falls only
 /// on arcs.
-namespace turnwright::nc {
+namespace turnwright::toolpath {
 
 struct Point {
   double h_mm = 0, z_mm = 0;
@@ -104,4 +104,4 @@ Course backwards(Course course);
 /// than 1e-6 mm, so that an edge that the tool just touches does not stop it.
 double free_mm(const Course& tip, std::span<const Piece> pieces, const Corner& corner);
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::toolpath

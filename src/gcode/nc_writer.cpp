@@ -1,4 +1,4 @@
-#include "nc_writer.hpp"
+#include "turnwright/gcode/nc_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,11 @@
 
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::volumetric {
+namespace turnwright::gcode {
+
+using catalogue::kLetters;
+using catalogue::letter_index;
+
 namespace {
 
 constexpr std::array<double, 12> kPowers = {1,   1e1, 1e2, 1e3, 1e4,  1e5,
@@ -91,4 +95,4 @@ double NcWriter::append(double value, int decimals) {
   return negative ? -written : written;
 }
 
-}  // namespace turnwright::volumetric
+}  // namespace turnwright::gcode

@@ -1,11 +1,11 @@
-#include "turnwright/volumetric/nc_program.hpp"
+#include "turnwright/gcode/read_nc.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
-namespace turnwright::volumetric {
+namespace turnwright::gcode {
 namespace {
 
 constexpr double kInch_mm = 25.4;
@@ -554,4 +554,4 @@ NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& set
   return interpreter.result();
 }
 
-}  // namespace turnwright::volumetric
+}  // namespace turnwright::gcode

@@ -6,10 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "turnwright/volumetric/machine.hpp"
+#include "turnwright/catalogue/geometric_errors.hpp"
 
 /// Reading part programs of ISO 6983 as straight moves of the tool tip.
-namespace turnwright::volumetric {
+namespace turnwright::gcode {
+
+using catalogue::Vec3;
 
 struct NcSetup {
   std::string axes = "XYZ";  ///< linear axes of the machine, in the order X Y Z
@@ -73,4 +75,4 @@ struct NcProgram {
 /// The moves are absolute (G90); G2, G3, G90, G91 and arc words are dropped.
 NcProgram read_nc(const std::vector<std::string_view>& lines, const NcSetup& setup);
 
-}  // namespace turnwright::volumetric
+}  // namespace turnwright::gcode

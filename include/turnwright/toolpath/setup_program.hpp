@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "turnwright/catalogue/machine.hpp"
-#include "turnwright/nc/path.hpp"
+#include "turnwright/toolpath/path.hpp"
 
 /// A turning program of one setup: tools, steps and moves, before a control's words.
-namespace turnwright::nc {
+namespace turnwright::toolpath {
 
 struct Move {
   enum class Kind { rapid, feed, arc, thread };
@@ -78,4 +78,4 @@ struct SetupProgram {
 /// numerically.
 Minutes minutes(const SetupProgram& program, const catalogue::Lathe& machine);
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::toolpath

@@ -3,9 +3,9 @@
 
 #include "turnwright/base/dual.hpp"
 #include "turnwright/base/units.hpp"
-#include "turnwright/nc/setup_program.hpp"
+#include "turnwright/toolpath/setup_program.hpp"
 
-namespace turnwright::nc {
+namespace turnwright::toolpath {
 namespace {
 
 // Integral of max(2 pi |x|/(1000 v), 1/n_cap) from the axis to a radius.
@@ -91,4 +91,4 @@ Minutes minutes(const SetupProgram& p, const catalogue::Lathe& machine) {
   return sum;
 }
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::toolpath

@@ -1,9 +1,9 @@
-#include "turnwright/nc/dialect.hpp"
+#include "turnwright/gcode/dialect.hpp"
 
 #include <array>
 #include <cstddef>
 
-namespace turnwright::nc {
+namespace turnwright::gcode {
 namespace {
 
 using std::string_view;
@@ -201,4 +201,4 @@ const Dialect& dialect(Control control) {
   return kDialects[static_cast<std::size_t>(control)];
 }
 
-}  // namespace turnwright::nc
+}  // namespace turnwright::gcode

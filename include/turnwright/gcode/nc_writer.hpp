@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "turnwright/volumetric/nc_program.hpp"
+#include "turnwright/gcode/read_nc.hpp"
 
-namespace turnwright::volumetric {
+namespace turnwright::gcode {
 
 /// Straight moves as blocks of ISO 6983.
 class NcWriter {
@@ -34,4 +34,4 @@ class NcWriter {
   std::string line_;
 };
 
-}  // namespace turnwright::volumetric
+}  // namespace turnwright::gcode
