@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "contour.hpp"
+#include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 
@@ -17,8 +18,6 @@ using catalogue::FixedTool;
 using catalogue::FixedUse;
 using planning::OperationPlan;
 using Kind = Move::Kind;
-
-constexpr double kRunIn = 3;  // of a thread, in pitches
 
 const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
   return *std::find_if(site.part.fixed_tools.begin(), site.part.fixed_tools.end(),
@@ -95,25 +94,11 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const auto& cut = *cut_of(site, s);
   const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
-  double room = INFINITY;
-  for (std::size_t j = p.k; j-- > 0;) {
-    const auto& e = p.side.items[j];
-    // A chamfer may rise to the thread; the thread is then cut into it.
-    const bool chamfer = e.h0 < e.h1 && !(p.side.top(e) > s.h0 + kSame_mm);
-    if (chamfer || !(p.side.top(e) > root + kSame_mm)) continue;
-    room = e.z1 - s.z0 - P / 2;
-    break;
-  }
-  const double run_in = std::min(kRunIn * P, room);
-  if (!(run_in >= P)) {
-    site.refuse(o.id, fmt::format("thread {} begins behind a larger diameter with less "
-                                  "than one pitch "
-                                  "of room for the tool to come in",
-                                  s.id));
-    return;
-  }
+  const auto room = planning::thread_room(
+      site.part, site.setup, site.part.work.setups[site.setup], {s.inner, s.index}, root);
+  const double run_in = planning::run_in_mm(room, P).value();  // else there is no plan
   if (unfaced(site, o, s, s.z0 + run_in)) return;
-  const double end = s.z1 + (rises_behind(site, p, root) ? P : 0);
+  const double end = s.z1 + (room.stands_behind ? P : 0);
   const Point before{s.h0 + site.above(p.side), s.z0 + run_in};
   site.approach(p.side, before);
   double h = s.h0;

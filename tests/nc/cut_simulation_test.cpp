@@ -36,8 +36,7 @@ std::string found_beside(const Planned& p, bool forms = false) {
   const auto all = programs(p.part, p.plan);
   auto findings = simulated(p, all);
   std::erase_if(findings, [&](const Finding& f) {
-    return is_told(f, all) ||
-           (forms && (f.fault == Fault::rapid || left_by_form(p, all, f)));
+    return is_told(f, all) || (forms && left_by_form(p, all, f));
   });
   return listed(findings);
 }

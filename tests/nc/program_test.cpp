@@ -234,10 +234,39 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
     EXPECT_EQ(tight.plan.status, planning::PlanStatus::infeasible);
     EXPECT_TRUE(programs(tight.part, tight.plan).setups.empty());
     ASSERT_EQ(tight.plan.conflicts.size(), 1U);
-    EXPECT_EQ(tight.plan.conflicts[0].sentence,
-              "thread t1: it begins behind a larger diameter with less than one pitch of "
-              "room for the tool to come in");
+    EXPECT_EQ(
+        tight.plan.conflicts[0].sentence,
+        "thread t1: it begins behind a larger diameter with less room for the tool to "
+        "come in than one pitch");
   }
+}
+
+// A cone that rises to the thread is cut by the run-in, which begins before it.
+TEST(NcPrograms, ThreadsBehindAConeBeginBeforeIt) {
+  auto d = nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "pin", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40},
+              {"id": "t1", "kind": "thread", "length_mm": 20, "diameter_mm": 36,
+               "pitch_mm": 1.5},
+              {"id": "c1", "kind": "cone", "length_mm": 12, "left_mm": 36, "right_mm": 30},
+              {"id": "d2", "kind": "cylinder", "length_mm": 18, "diameter_mm": 30}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})");
+  const auto p = planned(d);
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto all = programs(p.part, p.plan);
+  EXPECT_NEAR(threaded(p, all).first, -30 + 12 + 0.75, 1e-9);
+  EXPECT_EQ(listed(faults_of(p, all)), "");
+
+  d["outer"][3]["diameter_mm"] = 36;  // no way in before the cone
+  const auto tight = planned(d);
+  ASSERT_EQ(tight.plan.conflicts.size(), 1U);
+  EXPECT_EQ(
+      tight.plan.conflicts[0].sentence,
+      "thread t1: it begins behind a larger diameter with less room for the tool to "
+      "come in than what rises to it");
 }
 
 TEST(NcPrograms, AThreadWhoseReliefWasCutInAnotherSetupEndsAtItsEnd) {

@@ -28,7 +28,6 @@ using cutting::Load;
 constexpr double kCentreShare = 0.35;     // of the end's diameter
 constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
 constexpr int kLeastInfeeds = 4;          // of a thread
-constexpr double kRunIn = 3;              // of a thread, in pitches
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
 
 struct Site {
@@ -477,12 +476,13 @@ void add_thread(Site& s, const CutElement& e) {
                 [&](double ap) { return times(sqr(e.cut.depth_mm), sqr(ap)); });
   if (!count) return;
   const auto room = thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.root_h());
-  const double run_in = std::min(kRunIn * P, room.before_mm - P / 2);
-  if (!(run_in >= P))
-    return refuse(
-        s, a,
-        "it begins behind a larger diameter with less than one pitch of room for "
-        "the tool to come in");
+  const auto way_in = run_in_mm(room, P);
+  if (!way_in)
+    return refuse(s, a,
+                  fmt::format("it begins behind a larger diameter with less room for the "
+                              "tool to come in than {}",
+                              room.rising_mm > 0 ? "what rises to it" : "one pitch"));
+  const double run_in = *way_in;
   if (unfaced(s, a, e, e.around.z0 + run_in)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double path = e.length_mm - (room.stands_behind ? P : 0);

@@ -471,12 +471,15 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork
   };
   std::size_t k = 0;
   while (all[k].index != element.index) ++k;
-  ThreadRoom room{kInfinity, false};
+  ThreadRoom room{kInfinity};
   for (std::size_t j = k; j-- > 0;) {
     const auto [begin, end] = tops(all[j]);
     const double top = std::max(begin, end);
-    const bool chamfer = begin < end && !(top > all[k].h0 + kSame_mm);
-    if (chamfer || !(top > root_h + kSame_mm)) continue;
+    if (!(top > root_h + kSame_mm)) continue;
+    if (begin < end && !(top > all[k].h0 + kSame_mm)) {
+      room.rising_mm = all[j].z0 - all[k].z0;
+      continue;
+    }
     room.before_mm = all[j].z1 - all[k].z0;
     break;
   }
@@ -484,6 +487,14 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork
   room.stands_behind = follows ? tops(all[k + 1]).first > root_h + kSame_mm
                                : element.inner && hole_ends(p, all[k]);
   return room;
+}
+
+std::optional<double> run_in_mm(const ThreadRoom& room, double P) {
+  constexpr double kPitches = 3;
+  const double least = room.rising_mm > 0 ? room.rising_mm + P / 2 : 0;
+  const double way = std::min(std::max(kPitches * P, least), room.before_mm - P / 2);
+  if (!(way >= std::max(P, least))) return std::nullopt;
+  return way;
 }
 
 double swept_mm2(double from, double to, double D_c) {

@@ -101,13 +101,18 @@ struct Strokes {
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);
 
-/// Room of a thread's tool at the thread's root.
+/// Room of a thread's tool at the thread's root.  A surface in front that rises to the
+/// thread, like a chamfer, is cut by the run-in, which begins before it.
 struct ThreadRoom {
-  double before_mm = 0;  ///< to the nearest higher surface in front, chamfers excepted
+  double before_mm = 0;  ///< to the nearest higher surface in front
+  double rising_mm = 0;  ///< length of what rises to the thread
   bool stands_behind = false;
 };
 ThreadRoom thread_room(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
                        const Element& element, double root_h);
+/// Way of a thread's tool before the thread: three pitches, or what the room allows; none
+/// if that is less than a pitch, or begins in what rises to the thread.
+std::optional<double> run_in_mm(const ThreadRoom& room, double pitch_mm);
 
 /// Revolutions of a facing tool between two radii at constant surface speed, up to a
 /// factor; inside the diameter D_c the spindle runs at its limit,
