@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "check.hpp"
+#include "planning/paths/pass_lengths.hpp"
 #include "random_parts.hpp"
 
 namespace turnwright::nc {
@@ -243,7 +244,7 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
 
 // A cone that rises to the thread is cut by the run-in, which begins before it.
 TEST(NcPrograms, ThreadsBehindAConeBeginBeforeIt) {
-  auto d = nlohmann::json::parse(R"({
+  const auto d = nlohmann::json::parse(R"({
     "format": "turnwright-part/1", "name": "pin", "material": "C45",
     "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
               "left_allowance_mm": 60},
@@ -259,14 +260,16 @@ TEST(NcPrograms, ThreadsBehindAConeBeginBeforeIt) {
   const auto all = programs(p.part, p.plan);
   EXPECT_NEAR(threaded(p, all).first, -30 + 12 + 0.75, 1e-9);
   EXPECT_EQ(listed(faults_of(p, all)), "");
+}
 
-  d["outer"][3]["diameter_mm"] = 36;  // no way in before the cone
-  const auto tight = planned(d);
-  ASSERT_EQ(tight.plan.conflicts.size(), 1U);
-  EXPECT_EQ(
-      tight.plan.conflicts[0].sentence,
-      "thread t1: it begins behind a larger diameter with less room for the tool to "
-      "come in than what rises to it");
+TEST(RunIn, IsThreePitchesOrWhatTheRoomAllows) {
+  using planning::run_in_mm;
+  EXPECT_EQ(run_in_mm({.before_mm = 100}, 2), 6);
+  EXPECT_EQ(run_in_mm({.before_mm = 5}, 2), 4);  // half a pitch clear
+  EXPECT_EQ(run_in_mm({.before_mm = 2.9}, 2), std::nullopt);
+  EXPECT_EQ(run_in_mm({.before_mm = 100, .rising_mm = 9}, 2), 10);
+  EXPECT_EQ(run_in_mm({.before_mm = 11, .rising_mm = 9}, 2), 10);
+  EXPECT_EQ(run_in_mm({.before_mm = 10.9, .rising_mm = 9}, 2), std::nullopt);
 }
 
 TEST(NcPrograms, AThreadWhoseReliefWasCutInAnotherSetupEndsAtItsEnd) {

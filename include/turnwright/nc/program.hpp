@@ -21,10 +21,13 @@
 ///     approach    2 mm before the surface, 1 mm above (in bores 0.2 mm), the last part
 ///                 at feed; a pass that would start in the stock left on an element in
 ///                 front comes down through it on a slope that the minor edge clears, or
-///                 starts in front of an element too short for that
+///                 starts in front of an element too short for that; a finishing pass that
+///                 begins where a finished surface ends, and every arc, comes down on a
+///                 slope of 45 deg onto its beginning
 ///     corners     keep the fillet of the corner's radius r where the contour rises; a
 ///                 pass ends where the corner touches the drawn contour behind, or r, the
-///                 largest r of the plan's tools and 0.2 mm behind an edge that falls
+///                 largest r of the plan's tools and 0.2 mm behind an edge that falls; where
+///                 the part goes on level, 0.2 mm behind the edge
 ///     cones       are roughed parallel to themselves, as far as the stock reaches
 ///     walls       roughing ends the least depth of the finishing tool before them, and
 ///                 draws out along them as far as the pass was deep, so that no wedge of
@@ -34,8 +37,9 @@
 ///                 runs out along the smaller element, a cone too, to where turning ended
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm
 ///     grooves     plunges side by side between the walls, the first at the chuck's
-///     threads     radial infeeds, each from 3 pitches before; where the part rises
-///                 behind without a groove the thread ends one pitch early
+///     threads     radial infeeds, each from 3 pitches before, and from before what rises
+///                 to the thread; where the part rises behind without a groove the thread
+///                 ends one pitch early
 ///     parting     the blade's side towards the part at the face's allowance
 ///     tool change X and Z 50 mm clear of the stock
 ///
