@@ -94,8 +94,8 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const auto& cut = *cut_of(site, s);
   const double P = cut.pitch_mm, root = s.h0 - cut.depth_mm;
-  const auto room = planning::thread_room(
-      site.part, site.setup, site.part.work.setups[site.setup], {s.inner, s.index}, root);
+  const auto room =
+      planning::thread_room(site.part, site.setup, {s.inner, s.index}, root);
   const double run_in = planning::run_in_mm(room, P).value();  // else there is no plan
   if (unfaced(site, o, s, s.z0 + run_in)) return;
   const double end = s.z1 + (room.stands_behind ? P : 0);

@@ -418,6 +418,7 @@ void follow(const Pass& p, const std::vector<Point>& way, std::size_t i) {
 
 void pass(const Pass& p) {
   auto& s = p.surface();
+  if (p.side.sign < 0 && !p.from_before()) p.site.clear_bore();  // as the bores stand yet
   const auto [way, entered] = way_of(p);
   if (way.size() > 1) {
     if (!p.from_before()) p.site.approach(p.side, way[0], way[1], p.re_mm);
@@ -556,9 +557,10 @@ std::optional<std::string> parted(const Site& site, std::size_t i) {
   passage.cylinders = s.h0 == s.h1 && t.h0 == t.h1;
   passage.least_mm = std::min(length(s), length(t));
   if (t.h0 < s.h1 + kSame_mm) passage.falls_mm = falls;
-  if (planning::runs_on(passage, corner_mm(site, a), minor_edge_rad(site, a)))
-    return std::nullopt;
-  return "a cone is too short or falls too steeply";
+  const double r = corner_mm(site, a);
+  if (planning::runs_on(passage, r, minor_edge_rad(site, a))) return std::nullopt;
+  return passage.least_mm < 2 * r ? "an element shorter than the corner"
+                                  : "a step down that the minor edge does not clear";
 }
 
 // Whether two operations finish contours with one tool.

@@ -235,10 +235,10 @@ TEST(NcPrograms, ThreadsBehindWhatTheyDoNotClearNeedRoom) {
     EXPECT_EQ(tight.plan.status, planning::PlanStatus::infeasible);
     EXPECT_TRUE(programs(tight.part, tight.plan).setups.empty());
     ASSERT_EQ(tight.plan.conflicts.size(), 1U);
-    EXPECT_EQ(
-        tight.plan.conflicts[0].sentence,
-        "thread t1: it begins behind a larger diameter with less room for the tool to "
-        "come in than one pitch");
+    EXPECT_EQ(tight.plan.conflicts[0].sentence,
+              fmt::format("thread t1: its tool has {:.3g} mm to come in behind what is "
+                          "higher than the thread's root, and needs {:.3g} mm",
+                          groove_mm, 1.5 * pitch_mm));
   }
 }
 
@@ -251,14 +251,15 @@ TEST(NcPrograms, ThreadsBehindAConeBeginBeforeIt) {
     "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40},
               {"id": "t1", "kind": "thread", "length_mm": 20, "diameter_mm": 36,
                "pitch_mm": 1.5},
-              {"id": "c1", "kind": "cone", "length_mm": 12, "left_mm": 36, "right_mm": 30},
-              {"id": "d2", "kind": "cylinder", "length_mm": 18, "diameter_mm": 30}],
+              {"id": "c1", "kind": "cone", "length_mm": 12, "left_mm": 36, "right_mm": 31},
+              {"id": "d2", "kind": "cylinder", "length_mm": 18, "diameter_mm": 31}],
     "machine": "lathe-medium",
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})");
   const auto p = planned(d);
   ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
   const auto all = programs(p.part, p.plan);
-  EXPECT_NEAR(threaded(p, all).first, -30 + 12 + 0.75, 1e-9);
+  const double depth = 17 / 24.0 * std::sqrt(3) / 2 * 1.5;  // h3 of ISO 724
+  EXPECT_NEAR(threaded(p, all).first, -30 + 12 * depth / 2.5 + 0.75, 1e-4);
   EXPECT_EQ(listed(faults_of(p, all)), "");
 }
 
@@ -267,9 +268,10 @@ TEST(RunIn, IsThreePitchesOrWhatTheRoomAllows) {
   EXPECT_EQ(run_in_mm({.before_mm = 100}, 2), 6);
   EXPECT_EQ(run_in_mm({.before_mm = 5}, 2), 4);  // half a pitch clear
   EXPECT_EQ(run_in_mm({.before_mm = 2.9}, 2), std::nullopt);
-  EXPECT_EQ(run_in_mm({.before_mm = 100, .rising_mm = 9}, 2), 10);
-  EXPECT_EQ(run_in_mm({.before_mm = 11, .rising_mm = 9}, 2), 10);
-  EXPECT_EQ(run_in_mm({.before_mm = 10.9, .rising_mm = 9}, 2), std::nullopt);
+  EXPECT_EQ(run_in_mm({.before_mm = 100, .rising_mm = 5.5}, 2), 6.5);
+  EXPECT_EQ(run_in_mm({.before_mm = 7.5, .rising_mm = 5.5}, 2), 6.5);
+  EXPECT_EQ(run_in_mm({.before_mm = 7.4, .rising_mm = 5.5}, 2), std::nullopt);
+  EXPECT_EQ(run_in_mm({.before_mm = 100, .rising_mm = 6.1}, 2), std::nullopt);
 }
 
 TEST(NcPrograms, AThreadWhoseReliefWasCutInAnotherSetupEndsAtItsEnd) {

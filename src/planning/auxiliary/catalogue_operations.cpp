@@ -443,7 +443,7 @@ void add_groove(Site& s, const CutElement& e) {
   const double n = *plunges, step = n > 1 ? (e.length_mm - f.size_mm) / (n - 1) : 0;
   const double back = e.cut.depth_mm + above_mm(e);
   const bool stands =
-      thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.around.h0).stands_behind;
+      thread_room(s.p, s.setup, {e.inner, e.index}, e.around.h0).stands_behind;
   Way way{above_mm(e) + (stands ? kBehind_mm / n : 0),
           n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step), e.inner,
           e.around.z1, e.around.z1 + (n - 1) * step};
@@ -475,13 +475,20 @@ void add_thread(Site& s, const CutElement& e) {
       passes_of(s, a, std::max(kLeastInfeeds, times(f.tool->passes_per_mm * P, 1)),
                 [&](double ap) { return times(sqr(e.cut.depth_mm), sqr(ap)); });
   if (!count) return;
-  const auto room = thread_room(s.p, s.setup, s.work, {e.inner, e.index}, e.root_h());
+  const auto room = thread_room(s.p, s.setup, {e.inner, e.index}, e.root_h());
   const auto way_in = run_in_mm(room, P);
+  if (!way_in && room.rising_mm > kRunInPitches * P)
+    return refuse(
+        s, a,
+        fmt::format("its run-in would cut {:.3g} mm of what rises to it in front, "
+                    "more than three pitches",
+                    room.rising_mm));
   if (!way_in)
-    return refuse(s, a,
-                  fmt::format("it begins behind a larger diameter with less room for the "
-                              "tool to come in than {}",
-                              room.rising_mm > 0 ? "what rises to it" : "one pitch"));
+    return refuse(
+        s, a,
+        fmt::format("its tool has {:.3g} mm to come in behind what is higher than "
+                    "the thread's root, and needs {:.3g} mm",
+                    room.before_mm, least_run_in_mm(room, P) + P / 2));
   const double run_in = *way_in;
   if (unfaced(s, a, e, e.around.z0 + run_in)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);

@@ -454,8 +454,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   return sum;
 }
 
-ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork&,
-                       const Element& element, double root_h) {
+ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const Element& element,
+                       double root_h) {
   const auto all = items_of(p, setup, element.inner);
   const auto done = finished_after(p, setup);
   const auto& d = p.drawing;
@@ -464,8 +464,8 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork
   const auto tops = [&](const Item& e) -> std::pair<double, double> {
     const auto& made_here = element.inner ? done.inner : done.outer;
     if (!made_here[e.index]) return {stock_h, stock_h};
+    if (const auto seen = drawn(p, e, element.inner)) return {seen->h0, seen->h1};
     const auto& cut = element.inner ? d.inner[e.index].cut : d.outer[e.index].cut;
-    if (!cut || cut->kind != part::CutKind::groove) return {e.h0, e.h1};
     const double floor = (element.inner ? -1 : 1) * cut->drawn.left_mm / 2;
     return {floor, floor};
   };
@@ -477,7 +477,11 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork
     const double top = std::max(begin, end);
     if (!(top > root_h + kSame_mm)) continue;
     if (begin < end && !(top > all[k].h0 + kSame_mm)) {
-      room.rising_mm = all[j].z0 - all[k].z0;
+      // Of a cone, as far as it is above the root; of an arc, all of it.
+      const double from =
+          is_arc(p, all[j], element.inner) ? begin : std::max(begin, root_h);
+      room.rising_mm =
+          all[j].z1 - all[k].z0 + (all[j].z0 - all[j].z1) * (end - from) / (end - begin);
       continue;
     }
     room.before_mm = all[j].z1 - all[k].z0;
@@ -489,11 +493,14 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const SetupWork
   return room;
 }
 
+double least_run_in_mm(const ThreadRoom& room, double P) {
+  return std::max(P, room.rising_mm > 0 ? room.rising_mm + P / 2 : 0);
+}
+
 std::optional<double> run_in_mm(const ThreadRoom& room, double P) {
-  constexpr double kPitches = 3;
-  const double least = room.rising_mm > 0 ? room.rising_mm + P / 2 : 0;
-  const double way = std::min(std::max(kPitches * P, least), room.before_mm - P / 2);
-  if (!(way >= std::max(P, least))) return std::nullopt;
+  const double least = least_run_in_mm(room, P);
+  const double way = std::min(std::max(kRunInPitches * P, least), room.before_mm - P / 2);
+  if (!(way >= least) || room.rising_mm > kRunInPitches * P) return std::nullopt;
   return way;
 }
 

@@ -101,18 +101,21 @@ struct Strokes {
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);
 
-/// Room of a thread's tool at the thread's root.  A surface in front that rises to the
-/// thread, like a chamfer, is cut by the run-in, which begins before it.
+/// Room of a thread's tool at the thread's root.  What rises to the thread in front, like
+/// a chamfer, is cut by the run-in, which begins before it.
 struct ThreadRoom {
   double before_mm = 0;  ///< to the nearest higher surface in front
-  double rising_mm = 0;  ///< length of what rises to the thread
+  double rising_mm = 0;  ///< length of what rises to the thread above its root
   bool stands_behind = false;
 };
-ThreadRoom thread_room(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
+ThreadRoom thread_room(const PreparedPart& plan, std::size_t setup,
                        const Element& element, double root_h);
 /// Way of a thread's tool before the thread: three pitches, or what the room allows; none
-/// if that is less than a pitch, or begins in what rises to the thread.
+/// if that is less than least_run_in_mm, or if more than three pitches rise to the thread.
 std::optional<double> run_in_mm(const ThreadRoom& room, double pitch_mm);
+/// A pitch, and half a pitch more than what rises to the thread.
+double least_run_in_mm(const ThreadRoom& room, double pitch_mm);
+inline constexpr double kRunInPitches = 3;
 
 /// Revolutions of a facing tool between two radii at constant surface speed, up to a
 /// factor; inside the diameter D_c the spindle runs at its limit,
