@@ -224,4 +224,11 @@ bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
   return free_mm(course, pieces, corner) >= course.length_mm;
 }
 
+std::optional<Point> slope_onto(const Point& to, double above_mm,
+                                const std::vector<Piece>& pieces, const Corner& corner) {
+  const Point from{to.h_mm + above_mm, to.z_mm + above_mm};
+  if (!comes_in({from, to}, pieces, corner)) return std::nullopt;
+  return from;
+}
+
 }  // namespace turnwright::nc

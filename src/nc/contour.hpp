@@ -47,5 +47,9 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation,
 /// the nominal contour.
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,
               const Corner& corner);
+/// Start of a slope of 45 deg that comes down to a position, by which the finished surface
+/// in front is not touched; none if something drawn stands in its way.
+std::optional<Point> slope_onto(const Point& to, double above_mm,
+                                const std::vector<Piece>& pieces, const Corner& corner);
 
 }  // namespace turnwright::nc

@@ -127,12 +127,11 @@ std::optional<Arc> way_along(const Arc& arc, const std::vector<Piece>& before,
   return Arc{back.at(from), course.at(to), whole->centre, whole->convex};
 }
 
-// Start of the path along an arc: down a slope of 45 deg onto its beginning, so that the
-// finished surface in front is not touched, or from above, as the drawn surfaces allow.
+// Start of the path along an arc: down a slope onto its beginning, or from above, as the
+// drawn surfaces allow.
 std::optional<Point> beginning(const Point& to, double above_mm,
                                const std::vector<Piece>& pieces, const Corner& corner) {
-  const Point slope{to.h_mm + above_mm, to.z_mm + above_mm};
-  if (comes_in({slope, to}, pieces, corner)) return slope;
+  if (const auto slope = slope_onto(to, above_mm, pieces, corner)) return slope;
   if (comes_in({to}, pieces, corner)) return to;
   return std::nullopt;
 }

@@ -227,13 +227,8 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
   way = {way.rbegin(), way.rend()};
   if (way.empty() || !(stopped || begins_on_finished(p))) return;
   if (!stopped) way.front() = tip(c[0], n, p.re_mm);
-  const auto [h, z] = way.front();
-  const double above = p.site.above(p.side);
-  for (const Point& from : {Point{h + above, z + above}, {h, z + kBefore_mm}})
-    if (comes_in({from, way.front()}, pieces, p.tool())) {
-      way.insert(way.begin(), from);
-      return;
-    }
+  if (const auto from = slope_onto(way.front(), p.site.above(p.side), pieces, p.tool()))
+    way.insert(way.begin(), *from);
 }
 
 // Starts a pass clear of the material before the free end and of the stock left on
