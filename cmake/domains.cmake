@@ -123,6 +123,14 @@ if(BUILD_TESTING)
   tw_quick_to_build(properties_test)
   gtest_discover_tests(properties_test TEST_PREFIX properties.
     PROPERTIES TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
+
+  # The models beside measured cuts.
+  add_executable(reality_test tests/reality/reality_test.cpp)
+  target_link_libraries(reality_test PRIVATE turnwright::document tw_dev GTest::gtest_main)
+  target_compile_definitions(reality_test PRIVATE
+    TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  tw_quick_to_build(reality_test)
+  gtest_discover_tests(reality_test TEST_PREFIX reality. PROPERTIES TIMEOUT 600)
 endif()
 
 # Unity builds (the release preset): the readers stay apart from what needs planning

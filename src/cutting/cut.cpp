@@ -17,6 +17,7 @@ Corner corner_of(double re_mm, double kapr_rad) {
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   Cut c;
   c.kc = kienzle_at(material, tool.gamma_deg);
+  c.thrust = catalogue::thrust_of(material);
   c.kf = material.kf;
   c.kp = material.kp;
   c.taylor = material.taylor;
@@ -24,6 +25,14 @@ Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   c.minor_kapr_rad = units::rad_from_deg(tool.minor_kapr_deg);
   c.hmin_mm = material.hmin_mm;
   c.surface_factor = tool.wiper ? 0.5 : 1.0;
+  return c;
+}
+
+Cut worn(Cut c, double VB_mm, double VB_end_mm) {
+  constexpr double kFriction = 0.4;
+  c.land_N_mm = c.thrust.land_MPa * VB_mm;
+  c.land_Fc_N_mm = kFriction * c.land_N_mm;
+  c.taylor.C *= std::pow(VB_mm / VB_end_mm, c.taylor.n);  // Eq. (8)
   return c;
 }
 

@@ -25,12 +25,14 @@ double drill_point_mm(double D, double point_deg) {
   return D / 2 / std::tan(units::rad_from_deg(point_deg / 2));
 }
 
-Load plunge(const catalogue::Kienzle& k, double b, double f, double D) {
+Load plunge(const catalogue::Kienzle& k, const catalogue::Thrust& thrust, double b,
+            double f, double D) {
   const double Fc = k.k11_MPa * b * std::pow(f, 1 - k.m);  // Eq. (3)
-  return {Fc, 0.5 * Fc, units::torque_Nm(Fc, D)};
+  return {Fc, thrust.ratio * Fc + thrust.edge_N_mm * b, units::torque_Nm(Fc, D)};
 }
 
-std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& k, double h, int n,
+std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& k,
+                                   const catalogue::Thrust& thrust, double h, int n,
                                    double D) {
   const double half = units::rad_from_deg(30);
   const double A = std::tan(half) * h * h / n;  // Eq. (4)
@@ -40,7 +42,8 @@ std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& k, double h, int n,
     const double a = h * std::sqrt(static_cast<double>(i) / n);
     const double L = 2 * a / std::cos(half);
     const double Fc = k.k11_MPa * std::pow(L, k.m) * std::pow(A, 1 - k.m);  // Eq. (5)
-    all.push_back({a - before, {Fc, 0.5 * Fc, units::torque_Nm(Fc, D)}});
+    const double Ff = thrust.ratio * Fc + thrust.edge_N_mm * L * std::sin(half);
+    all.push_back({a - before, {Fc, Ff, units::torque_Nm(Fc, D)}});
     before = a;
   }
   return all;

@@ -160,6 +160,68 @@ KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& optio
   return fit;
 }
 
+namespace {
+
+// Eq. (3) for F = A theta; none if the columns cannot be told apart or a force would not be
+// positive.  A theta/F = 1 is the start.
+std::optional<Regression> thrust_regression(const MatrixXd& A, const VectorXd& F,
+                                            const FitOptions& options,
+                                            Evidence& evidence) {
+  constexpr int kSteps = 50;
+  constexpr double kNear = 1e-13;
+  if (A.rows() <= A.cols() + 1 && A.cols() > 1) return std::nullopt;
+  try {
+    VectorXd theta =
+        least_squares(F.cwiseInverse().asDiagonal() * A, VectorXd::Ones(F.size())).x;
+    for (int step = 0;; ++step) {
+      const VectorXd said = A * theta;
+      if (!(said.minCoeff() > 0)) return std::nullopt;
+      const MatrixXd J = said.cwiseInverse().asDiagonal() * A;
+      const VectorXd y = F.cwiseQuotient(said).array().log() + 1;  // J theta = 1
+      evidence = {};
+      const Regression r = robust(J, y, options.outlier_p, evidence);
+      if ((r.c - theta).norm() <= kNear * theta.norm() || step == kSteps) return r;
+      theta = r.c;
+    }
+  } catch (const ModelRangeError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ThrustFit fit_thrust(std::span<const ThrustPoint> cuts, const catalogue::Thrust& given,
+                     const FitOptions& options) {
+  ThrustFit fit;
+  const auto n = static_cast<Index>(cuts.size());
+  MatrixXd A(n, 2);
+  VectorXd F(n);
+  for (Index i = 0; i < n; ++i) {
+    const ThrustPoint& p = cuts[static_cast<std::size_t>(i)];
+    require(positive(p.Fc_N) && positive(p.L_mm) && positive(p.share) && positive(p.F_N));
+    A.row(i) << p.Fc_N * p.share, p.L_mm * p.share;
+    F[i] = p.F_N;
+  }
+  if (n < 3) return fit;
+  const auto estimate = [&](const Regression& r, Index j, double times) {
+    const double half =
+        quantile((1 + options.confidence) / 2, r.degrees) * std::sqrt(r.covariance(j, j));
+    return Estimate{times * r.c[j], times * (r.c[j] - half), times * (r.c[j] + half)};
+  };
+  const auto both = thrust_regression(A, F, options, fit.evidence);
+  if (both && both->c.minCoeff() >= 0) {
+    fit.ratio = estimate(*both, 0, 1);
+    fit.edge_N_mm = estimate(*both, 1, 1);
+    return fit;
+  }
+  fit.scaled = true;
+  const MatrixXd whole = A * Eigen::Vector2d(given.ratio, given.edge_N_mm);
+  const auto one = thrust_regression(whole, F, options, fit.evidence);
+  fit.ratio = estimate(*one, 0, given.ratio);
+  fit.edge_N_mm = estimate(*one, 0, given.edge_N_mm);
+  return fit;
+}
+
 TaylorFit fit_taylor(std::span<const LifePoint> lives, double given_a, double given_b,
                      const FitOptions& options) {
   TaylorFit fit;

@@ -17,7 +17,8 @@ ChipStiffness chip_stiffness(const catalogue::Kienzle& kc,
                              const catalogue::Material& material, double hm) {
   const double Kt = kc.k11_MPa * std::pow(hm, -kc.m);  // Eq. (4)
   const auto& kf = material.kf;
-  return {Kt, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.5 * Kt};
+  return {Kt, kf ? kf->k11_MPa * std::pow(hm, -kf->m)
+                 : catalogue::thrust_of(material).ratio * Kt};
 }
 
 double milled_power_kW(const catalogue::Kienzle& kc, double hm, double ap, double ae,

@@ -84,15 +84,18 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison&
   return s;
 }
 
-// Tolerances that the corrected path, judged as it is cut, does not keep.
-bool add_missed(ProcessPlan& result) {
+// Tolerances that the corrected path, judged as it is cut, does not keep, or edges that are
+// still new, where the plan was made for those due for change.
+bool add_missed(const PreparedPart& p, ProcessPlan& result) {
+  const bool worn = p.shop.edge_wear_mm > 0;
   for (const auto& t : result.tolerances) {
     if (t.verdict != Verdict::not_met) continue;
     result.conflicts.push_back(
         {t.id + " " + part::name(t.kind), t.of, t.allowed_mm.back() - t.margin_mm,
          t.allowed_mm.back(), "mm",
-         fmt::format("{} of {} is {} mm outside its limits even with the path corrected",
-                     t.id, t.of, readable(-t.margin_mm))});
+         fmt::format("{} of {} is {} mm outside its limits {}", t.id, t.of,
+                     readable(-t.margin_mm),
+                     worn ? "with new edges" : "even with the path corrected")});
   }
   if (result.conflicts.empty()) return false;
   result.status = PlanStatus::infeasible;
@@ -102,7 +105,9 @@ bool add_missed(ProcessPlan& result) {
   result.profit_per_min.reset();
   result.certificate = {};
   result.certificate.reason =
-      "no plan was found: even a corrected tool path does not keep every tolerance";
+      worn
+          ? "no plan was found: what worn edges keep, new ones do not"
+          : "no plan was found: even a corrected tool path does not keep every tolerance";
   return true;
 }
 
@@ -147,9 +152,9 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
     result.setups[s].breakdown = breakdown(p, chosen[s]);
   add_totals(p, result);
   result.certificate = total_certificate(a);
-  if (add_missed(result)) return result;
+  if (add_missed(p, result)) return result;
   result.deviations = deviations(p, chosen);
-  result.offsets = offsets(chosen);
+  result.offsets = offsets(p, chosen);
   result.compensation = compensations(chosen);
   result.prices = prices(p, chosen);
   for (std::size_t k = 0; k < what_if.size(); ++k)

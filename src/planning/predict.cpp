@@ -136,10 +136,11 @@ bool feasible(const std::vector<SolvedSetup>& setups) {
   return std::all_of(setups.begin(), setups.end(), [](auto& s) { return s.feasible(); });
 }
 
-// The surfaces that keep their tolerances with a corrected path and not without.
+// The surfaces that keep their tolerances with a corrected path and not without.  A path
+// is corrected for one force, not for all from a new edge to a worn one.
 std::vector<SolvedSetup> with_corrections(const PreparedPart& p) {
   auto plain = solved(p, {});
-  if (!feasible(plain)) return plain;
+  if (!feasible(plain) || p.shop.edge_wear_mm > 0) return plain;
   auto surfaces = missed(p, tolerance_results(p, plain));
   if (surfaces.empty()) return plain;
   const auto corrected = solved(p, surfaces);
@@ -189,7 +190,7 @@ ProcessPlan predict(const PreparedPart& p) {
     result.worst_conformance = worst_conformance(p, result.tolerances);
     result.setting_up = setting_up(p);
     result.deviations = deviations(p, setups);
-    result.offsets = offsets(setups);
+    result.offsets = offsets(p, setups);
     result.compensation = compensations(setups);
     for (std::size_t s = 0; s < setups.size(); ++s) {
       result.setups[s].breakdown = breakdown(p, setups[s]);

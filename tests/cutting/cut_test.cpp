@@ -13,6 +13,7 @@ using Grad = Dual<double, 2>;
 Cut steel(double kapr_deg = 95, double re_mm = 0.8) {
   Cut c;
   c.kc = {1600, 0.25};
+  c.thrust = {0.4, 56, 20, 850};
   c.taylor = {450, 0.255, 0.35, 0.15};
   c.corner = corner_of(re_mm, kapr_deg * std::numbers::pi / 180);
   c.minor_kapr_rad = 0.087;
@@ -47,11 +48,12 @@ TEST(Cut, EdgeIsArcThenStraightAndJoinsSmoothly) {
 }
 
 TEST(Cut, ForcesOfASharpEdgeFollowItsAngle) {
-  // kappa_eff -> kappa for ap >> f: chord = edge; F_D = Fc/2 normal to it.
+  // kappa_eff -> kappa for ap >> f: chord = edge; F_D normal to it.
   const auto c = steel(60, 0);
   const auto F = forces_N(c, 5.0, 1e-6);
-  EXPECT_NEAR(F.Ff_N / F.Fc_N, 0.5 * std::sin(c.corner.kapr_rad), 1e-6);
-  EXPECT_NEAR(F.Fp_N / F.Fc_N, 0.5 * std::cos(c.corner.kapr_rad), 1e-6);
+  const double F_D = 0.4 * F.Fc_N + 56 * 5 / c.corner.sine;
+  EXPECT_NEAR(F.Ff_N / F_D, std::sin(c.corner.kapr_rad), 1e-6);
+  EXPECT_NEAR(F.Fp_N / F_D, std::cos(c.corner.kapr_rad), 1e-6);
   const auto shallow = forces_N(steel(95), 0.1, 0.2);  // on the corner: mostly passive
   EXPECT_GT(shallow.Fp_N, 1.5 * shallow.Ff_N);
   auto own = steel();
@@ -85,8 +87,10 @@ TEST(Cut, ChatterStiffnessIsThePressureTimesTheSectionsSlope) {
     const double slope = (section(h) - section(-h)) / (2 * h);
     EXPECT_NEAR(slope, ap * flow_cotangent(c, ap, f), 1e-3 * slope) << ap;
     const auto F = forces_N(c, ap, f);
-    EXPECT_NEAR(chatter_stiffness_N_mm(c, F, ap, f), F.Fp_N / (ap * f) * slope,
-                1e-3 * F.Fp_N * slope / (ap * f));
+    const double F_D = std::hypot(F.Ff_N, F.Fp_N);
+    const double chip = 0.4 * F.Fc_N * F.Fp_N / F_D;  // the part that does not plough
+    EXPECT_NEAR(chatter_stiffness_N_mm(c, ap, f), chip / (ap * f) * slope,
+                1e-3 * chip * slope / (ap * f));
   }
 }
 
@@ -98,18 +102,19 @@ TEST(Cut, ChatterStiffnessIsEnclosed) {
   for (int trial = 0; trial < 300; ++trial) {
     auto c = steel(60 + 50 * unit(seed), 0.2 + unit(seed));
     if (trial % 3 == 0) c.kf = c.kp = Kienzle{500, 0.4};
+    if (trial % 5 == 0) c = worn(c, 0.2, 0.3);
     const double w = unit(seed);
     const Interval y(std::log(0.2) + 2 * unit(seed)), z(std::log(0.08) + unit(seed));
     const Interval ap(y.lo, y.lo + w), f(z.lo, z.lo + w);
     const L::Half half{w / 2, w / 2};
     const L a = L::variable(ap, 0, half), b = L::variable(f, 1, half);
-    const auto box = chatter_stiffness_N_mm(c, forces_N(c, a, b), a, b);
+    const auto box = chatter_stiffness_N_mm(c, a, b);
     double before = 0;
     std::array<double, 2> at{};
     for (int k = 0; k < 5; ++k) {
       const std::array<double, 2> x{ap.lo + w * unit(seed), f.lo + w * unit(seed)};
       const double depth = std::exp(x[0]), feed = std::exp(x[1]);
-      const double K = chatter_stiffness_N_mm(c, forces_N(c, depth, feed), depth, feed);
+      const double K = chatter_stiffness_N_mm(c, depth, feed);
       const double slack = 1e-9 * (1 + std::abs(K));
       EXPECT_LE(box.v.lo, K + slack);
       EXPECT_GE(box.v.hi, K - slack);
@@ -122,6 +127,24 @@ TEST(Cut, ChatterStiffnessIsEnclosed) {
       before = K;
       at = x;
     }
+  }
+}
+
+// The land presses along the engaged edge in the direction of flow, and leaves chatter as
+// it was; half the land serves half the life.
+TEST(Cut, AWornEdgePressesOnItsLand) {
+  auto c = steel();
+  for (const bool own : {false, true}) {
+    if (own) c.kf = Kienzle{400, 0.7}, c.kp = Kienzle{300, 0.5};
+    const auto w = worn(c, 0.15, 0.3);
+    const auto F = forces_N(c, 0.5, 0.1), G = forces_N(w, 0.5, 0.1);
+    const double L = engaged_edge_mm(c, 0.5, 0.1), land = 850 * 0.15 * L;
+    EXPECT_NEAR(G.Fc_N - F.Fc_N, 0.4 * land, 1e-9);
+    EXPECT_NEAR(std::hypot(G.Ff_N - F.Ff_N, G.Fp_N - F.Fp_N), land, 1e-9);
+    EXPECT_NEAR((G.Fp_N - F.Fp_N) / (G.Ff_N - F.Ff_N), flow_cotangent(c, 0.5, 0.1), 1e-9);
+    EXPECT_EQ(chatter_stiffness_N_mm(c, 0.5, 0.1), chatter_stiffness_N_mm(w, 0.5, 0.1));
+    EXPECT_NEAR(tool_life_min(w, 200.0, 0.1, 0.5), tool_life_min(c, 200.0, 0.1, 0.5) / 2,
+                1e-9);
   }
 }
 
@@ -197,6 +220,7 @@ TEST(Cut, BoxesHoldValuesAndElasticities) {
   for (int trial = 0; trial < 3000; ++trial) {
     auto c = steel(45 + 70 * unit(seed), trial % 9 == 0 ? 0 : 0.2 + unit(seed));
     if (trial % 7 == 0) c.kf = Kienzle{400, 0.7}, c.kp = Kienzle{300, 0.5};
+    if (trial % 5 == 0) c = worn(c, 0.3 * unit(seed) + 0.01, 0.3);
     const double size = std::pow(unit(seed), 3);  // of the box
     const Interval ap = log(Interval(0.05, 6)), f = log(Interval(0.03, 0.8));
     const auto part = [&](const Interval& x) {

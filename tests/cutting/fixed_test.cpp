@@ -43,17 +43,17 @@ TEST(Drill, PowerIsSpecificForceTimesVolumePerTime) {
 }
 
 TEST(Plunge, IsKienzleOfAStraightEdge) {
-  const auto l = plunge(kSteel, 3, 1, 40);
+  const auto l = plunge(kSteel, {0.4, 60, 20}, 3, 1, 40);
   EXPECT_NEAR(l.Fc_N, 4800, 1e-9);
-  EXPECT_NEAR(l.Ff_N, 2400, 1e-9);
+  EXPECT_NEAR(l.Ff_N, 0.4 * 4800 + 60 * 3, 1e-9);
   EXPECT_NEAR(l.M_Nm, 4800 * 0.02, 1e-9);
-  EXPECT_NEAR(plunge(kSteel, 3, 0.1, 40).Fc_N, 4800 * std::pow(0.1, 0.75), 1e-9);
+  EXPECT_NEAR(plunge(kSteel, {}, 3, 0.1, 40).Fc_N, 4800 * std::pow(0.1, 0.75), 1e-9);
 }
 
 TEST(ThreadInfeeds, HaveEqualChipsAndReachTheDepth) {
   const double h = 0.92;
   for (const int n : {1, 4, 6, 25}) {
-    const auto all = thread_infeeds(kSteel, h, n, 30);
+    const auto all = thread_infeeds(kSteel, {0.4, 60, 20}, h, n, 30);
     ASSERT_EQ(all.size(), static_cast<std::size_t>(n));
     double depth = 0, area = std::tan(units::rad_from_deg(30)) * h * h / n;
     for (const auto& i : all) {
@@ -63,6 +63,7 @@ TEST(ThreadInfeeds, HaveEqualChipsAndReachTheDepth) {
       depth = next;
       const double L = 2 * depth / std::cos(units::rad_from_deg(30));
       EXPECT_NEAR(i.load.Fc_N, 1600 * L * std::pow(area / L, 0.75), 1e-9 * i.load.Fc_N);
+      EXPECT_NEAR(i.load.Ff_N, 0.4 * i.load.Fc_N + 60 * L / 2, 1e-9 * i.load.Ff_N);
       EXPECT_NEAR(i.load.M_Nm, i.load.Fc_N * 0.015, 1e-9);
     }
     EXPECT_NEAR(depth, h, 1e-12);

@@ -1,5 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "document/json/file.hpp"
 #include "turnwright/document/catalogue.hpp"
@@ -93,6 +95,14 @@ inline nlohmann::json as_planned(nlohmann::json d, const ProcessPlan& r) {
 inline PreparedPart part_to_predict(const nlohmann::json& document) {
   return document::prepared_part(document, shop(), "part", document::Purpose::predict)
       .part;
+}
+
+/// An operation of a plan by its id.
+inline const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
+  for (const auto& s : p.setups)
+    for (const auto& o : s.operations)
+      if (o.id == id) return o;
+  throw std::out_of_range(id);
 }
 
 }  // namespace turnwright::planning

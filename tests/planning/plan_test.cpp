@@ -19,13 +19,6 @@ ProcessPlan certified_plan(const nlohmann::json& document) {
   return plan(part(document));
 }
 
-const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
-  for (const auto& s : p.setups)
-    for (const auto& o : s.operations)
-      if (o.id == id) return o;
-  throw std::out_of_range(id);
-}
-
 double length_of(const PreparedPart& p, const std::string& id) {
   for (const auto& e : p.drawing.outer)
     if (e.id == id) return e.length_mm;
@@ -234,7 +227,7 @@ TEST(Plan, CostAgainstTimeOfARobustPlanIsOfRobustPlans) {
   auto d = pin();
   d["rates"]["machine_per_min"] = 0.15;
   d["outer"][1]["limits_mm"] = {-0.015, 0.015};
-  d["budget"]["repeatability_um"] = 2.2;
+  d["budget"]["repeatability_um"] = 2.1;
   d["robust"] = true;
   d["pareto"] = 4;
   const auto p = part(d);
@@ -259,6 +252,7 @@ TEST(Plan, CostAgainstTimeOfARobustPlanIsOfRobustPlans) {
 
 TEST(Plan, GivenConditionsAreKeptAndTheRestChosen) {
   auto d = pin();
+  d["damping_ratio"] = 0.03;
   d["operations"] = {
       {{"id", "f"}, {"setup", 0}, {"kind", "face"}, {"on", {"right"}}},
       {{"id", "r"},
@@ -291,7 +285,7 @@ nlohmann::json long_pin(const std::vector<std::string>& clampings) {
   d["stock"]["length_mm"] = 202;
   d["outer"][1]["length_mm"] = 160;
   d["outer"][1]["diameter_mm"] = 26;
-  d["outer"][1]["limits_mm"] = {-0.008, 0.008};
+  d["outer"][1]["limits_mm"] = {-0.01, 0.01};
   d["setups"][0]["clampings"] = clampings;
   d["damping_ratio"] = 0.5;  // tolerances are what matters here, not chatter
   return d;
@@ -606,6 +600,7 @@ TEST(Plan, MaterialsWithMeasuredFeedAndPassiveForces) {
   material["feed_passive"] =
       file("tests/data/catalogue/materials/test-steel.json")["feed_passive"];
   d["material"] = material;
+  d["damping_ratio"] = 0.005;
   const auto r = certified_plan(d);
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   for (const auto& remedy : r.remedies)
@@ -672,7 +667,7 @@ TEST(Plan, GivenConditionsOutsideTheToolsWindowAreAConflict) {
 // is what the pin springs back, y - s what is left of it on the radius.
 TEST(Plan, ACorrectedPathLeavesNothing) {
   auto d = given_pin("to-chuck");
-  d["outer"][1]["limits_mm"] = {-0.006, 0.006};
+  d["outer"][1]["limits_mm"] = {-0.008, 0.008};
   const auto p = part(d);
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
@@ -845,8 +840,8 @@ TEST(Plan, InfeasibleAsDrawnTellsWhatFailsAndWhatWouldHaveToGive) {
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   std::set<std::string> limits;
   for (const auto& c : r.conflicts) limits.insert(c.limit);
-  EXPECT_EQ(limits, (std::set<std::string>{"chatter stiffness", "d2:diameter diameter",
-                                           "t1 cylindricity"}));
+  EXPECT_EQ(limits, (std::set<std::string>{"chatter stiffness", "d1:diameter diameter",
+                                           "d2:diameter diameter", "t1 cylindricity"}));
   EXPECT_EQ(r.relax.size(), r.conflicts.size());
   for (const auto& c : r.conflicts) EXPECT_GT(c.value, c.allowed);
   for (const auto& x : r.relax) EXPECT_GT(x.needed, x.now);

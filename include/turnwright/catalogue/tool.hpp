@@ -34,7 +34,7 @@ struct BoringBar {
   double min_bore_mm = 0;          ///< smallest hole it enters
   RootCompliance holder;           ///< the same in both planes
   std::optional<double> tip_mm_N;  ///< measured at the tip; replaces shank and holder
-  std::optional<double> damping_ratio;  ///< absent: that of the part
+  std::optional<double> damping_ratio;  ///< absent: PlanRequest::machine_damping_ratio
 };
 
 /// An external holder with a rectangular shank.

@@ -23,7 +23,9 @@ Corner corner_of(double re_mm, double kapr_rad);
 /// Constants of a tool in a material, made by `cut_of`.
 struct Cut {
   Kienzle kc;  ///< kc1.1 [MPa] times K_gamma, and mc
-  std::optional<Kienzle> kf, kp;
+  catalogue::Thrust thrust;
+  double land_N_mm = 0, land_Fc_N_mm = 0;  ///< of a worn edge: thrust, and along vc
+  std::optional<Kienzle> kf, kp;           ///< if both, in place of `thrust`
   catalogue::Taylor taylor;
   Corner corner;
   double minor_kapr_rad = 0;
@@ -35,6 +37,17 @@ struct Cut {
 /// K_gamma = 1 - (gamma - gamma0)/100 with the angles in degrees, limited to 0.7 .. 1.3,
 /// the range of this rule of thumb.
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool);
+
+/// The same tool with a wear land VB on its flank.  The work presses and rubs on the land
+/// along the engaged edge,
+///
+///     F_D += p VB L,  Fc += mu p VB L,  p = Thrust::land_MPa, mu = 0.4               (8)
+///
+/// and the edge is changed there, though it would last until VB_end: with a land that
+/// grows linearly Taylor's life is multiplied by VB/VB_end, C by (VB/VB_end)^n.
+/// Source: derived here from a constant pressure; compared in docs/reality.md.  mu is an
+/// estimate, with which Fc grows by half to two thirds at VB 0.3 mm, as measured.
+Cut worn(Cut cut, double VB_mm, double VB_end_mm);
 
 /// Angle of an arc of the corner by its height x in units of the radius: acos(1 - x).
 template <class T>
@@ -119,22 +132,21 @@ T flow_cotangent(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   return r > 0 ? branch(ap_mm, c.corner.depth_mm, arc, straight) : straight(ap_mm);
 }
 
-/// The three forces by Eq. (5) below.
+/// The three forces from the cutting force and the thrust force F_D by Eq. (6) below.
 template <class T>
-Forces<T> chip_flow_forces_N(const Cut& c, const T& Fc_N, const T& ap_mm,
+Forces<T> chip_flow_forces_N(const Cut& c, const T& Fc_N, const T& F_D, const T& ap_mm,
                              const T& f_mm_rev) {
   using std::sqrt;
   const T u = flow_cotangent(c, ap_mm, f_mm_rev);
-  const T Ff = 0.5 * Fc_N / sqrt(sqr(u) + 1.0);
+  const T Ff = F_D / sqrt(sqr(u) + 1.0);
   return {Fc_N, Ff, Ff * u};
 }
-/// Enclosure of (5): by elasticities where u > 0; where the edge may pull the tool in, by
+/// Enclosure of (6): by elasticities where u > 0; where the edge may pull the tool in, by
 /// the values of sine and cosine at the ends of u.
 template <int N>
 Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
-                                      const LogDual<N>& ap_mm,
+                                      const LogDual<N>& F_D, const LogDual<N>& ap_mm,
                                       const LogDual<N>& f_mm_rev) {
-  const LogDual<N> F_D = 0.5 * Fc_N;
   const auto sine = [](double u) { return 1 / std::hypot(1.0, u); };
   const double least = flow_cotangent(c, std::exp(ap_mm.ln.hi), std::exp(f_mm_rev.ln.lo));
   if (least > 0) {
@@ -165,12 +177,18 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
 }
 
 /// All three forces, divided by `per`.  Ff and Fp follow from the material's own kf1.1
-/// and kp1.1 where it has them, and otherwise from the direction of chip flow:
+/// and kp1.1 where it has them, and otherwise from the thrust force F_D (ISO 3002-4: the
+/// part of the cutting force normal to the cutting speed) in the direction of chip flow:
 ///
-///     F_D = 0.5 Fc,  Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)               (5)
+///     F_D = lambda Fc + ke L                                                         (5)
+///     Ff = F_D sin(kappa_eff),  Fp = F_D cos(kappa_eff)                              (6)
 ///
-/// (5) has an uncertainty of +-30 %.
-/// Source: [Colwell 1954].
+/// The first term of (5) makes the chip, the second is the ploughing of the rounded edge
+/// along its length L, whatever the thickness of the chip; so F_D/Fc rises as the chip
+/// becomes thin.  Constants and their uncertainty: catalogue::Thrust.
+/// A worn edge adds (8).
+/// Source: direction [Colwell 1954]; edge force [Albrecht 1960].  Compared with measured
+/// cuts in docs/reality.md.
 template <class T>
 Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
                    const T& per = T(1.0)) {
@@ -178,38 +196,56 @@ Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
   const auto force = [&](const Kienzle& k) -> T {  // Eq. (3)
     return kienzle_N(k, L, ap_mm, f_mm_rev) / per;
   };
-  if (c.kf && c.kp) return {force(c.kc), force(*c.kf), linear(force(*c.kp))};
-  return chip_flow_forces_N(c, force(c.kc), ap_mm, f_mm_rev);
+  const auto along = [&](double N_mm) -> T { return N_mm * L / per; };
+  const T chip = force(c.kc);
+  const T Fc = c.land_Fc_N_mm > 0 ? T(chip + along(c.land_Fc_N_mm)) : chip;
+  if (c.kf && c.kp) {
+    Forces<T> F{Fc, force(*c.kf), linear(force(*c.kp))};
+    if (!(c.land_N_mm > 0)) return F;
+    const auto land = chip_flow_forces_N(c, Fc, along(c.land_N_mm), ap_mm, f_mm_rev);
+    return {Fc, F.Ff_N + land.Ff_N, F.Fp_N + land.Fp_N};
+  }
+  const double edge_N_mm = c.thrust.edge_N_mm + c.land_N_mm;
+  const T by_chip = c.thrust.ratio * chip;  // Eq. (5)
+  return chip_flow_forces_N(
+      c, Fc, edge_N_mm > 0 ? T(by_chip + along(edge_N_mm)) : by_chip, ap_mm, f_mm_rev);
+}
+
+/// The same without ploughing and wear land.
+template <class T>
+Forces<T> chip_forces_N(Cut c, const T& ap_mm, const T& f_mm_rev) {
+  c.thrust.edge_N_mm = c.land_N_mm = c.land_Fc_N_mm = 0;
+  return forces_N(c, ap_mm, f_mm_rev);
 }
 
 /// Stiffness of regenerative chatter [N/mm]: change of the passive force per radial
 /// motion w of the edge relative to the surface of the turn before:
 ///
-///     dA = (x + f/2) dw,  K = Fp/(ap f) (x + f/2) = (Fp/f) u                         (6)
+///     dA = (x + f/2) dw,  K = Fp'/(ap f) (x + f/2) = (Fp'/f) u                       (7)
 ///
 /// A = ap f is the chip's section, x + f/2 the edge's axial extent, u = cot(kappa_eff) of
-/// (4).  The wave w' of the turn before changes the section by (x - f/2) w'; x + f/2 in
-/// its place is on the safe side.  The slope of (3) at constant b is (1 - mc) K, so the
-/// secant K is on the safe side, too, by less than the +-30 % of Fp.
+/// (4), Fp' the part of the passive force that makes the chip: lambda Fc cos(kappa_eff),
+/// or all of it where the material has kp1.1.  Ploughing does not depend on the surface
+/// of the turn before.  The wave w' of that turn changes the section by (x - f/2) w'; x +
+/// f/2 in its place is on the safe side.  The slope of (3) at constant b is (1 - mc) K,
+/// so the secant K is on the safe side, too.
 /// Source: derived here; cut_test measures the section of two profiles.
 template <class T>
-Signed<T> chatter_stiffness_N_mm(const Cut& c, const Forces<T>& F, const T& ap_mm,
-                                 const T& f_mm_rev) {
-  return F.Fp_N * flow_cotangent(c, ap_mm, f_mm_rev) / f_mm_rev;
+Signed<T> chatter_stiffness_N_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
+  return chip_forces_N(c, ap_mm, f_mm_rev).Fp_N * flow_cotangent(c, ap_mm, f_mm_rev) /
+         f_mm_rev;
 }
-/// Enclosure of (6), by elasticities where u > 0.
+/// Enclosure of (7), by elasticities where u > 0.
 template <int N>
-Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const Forces<LogDual<N>>& F,
-                                         const LogDual<N>& ap_mm,
+Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const LogDual<N>& ap_mm,
                                          const LogDual<N>& f_mm_rev) {
   const double least = flow_cotangent(c, std::exp(ap_mm.ln.hi), std::exp(f_mm_rev.ln.lo));
   if (!(least > 0))
-    return F.Fp_N * flow_cotangent(c, linear(ap_mm), linear(f_mm_rev)) / linear(f_mm_rev);
+    return chip_forces_N(c, ap_mm, f_mm_rev).Fp_N *
+           flow_cotangent(c, linear(ap_mm), linear(f_mm_rev)) / linear(f_mm_rev);
   const LogDual<N> u = flow_cotangent(c, ap_mm, f_mm_rev);
-  if (c.kf && c.kp) {
-    const LogDual<N> L = engaged_edge_mm(c, ap_mm, f_mm_rev);
-    return linear(kienzle_N(*c.kp, L, ap_mm, f_mm_rev) * u / f_mm_rev);
-  }
+  const LogDual<N> L = engaged_edge_mm(c, ap_mm, f_mm_rev);
+  if (c.kf && c.kp) return linear(kienzle_N(*c.kp, L, ap_mm, f_mm_rev) * u / f_mm_rev);
   // u cos(kappa_eff) = u^2/sqrt(1 + u^2), of elasticity 1 + 1/(1 + u^2)
   const LogDual<N> flow = monotone(
       u, [](double ln_u) { return 2 * ln_u - std::log(std::hypot(1.0, std::exp(ln_u))); },
@@ -217,7 +253,7 @@ Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const Forces<LogDual<N>>&
         return Interval(1 + 1 / (1 + std::exp(2 * ln_u.hi)),
                         1 + 1 / (1 + std::exp(2 * ln_u.lo)));
       });
-  return linear(0.5 * F.Fc_N * flow / f_mm_rev);
+  return linear(c.thrust.ratio * kienzle_N(c.kc, L, ap_mm, f_mm_rev) * flow / f_mm_rev);
 }
 
 /// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: [Taylor 1907], extended form.

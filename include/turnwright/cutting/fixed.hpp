@@ -31,11 +31,12 @@ double drill_point_mm(double D_mm, double point_deg);
 
 /// Load on a straight edge of width b that is fed into the work at the diameter D:
 ///
-///     Fc = kc1.1 b f^(1-mc),  Ff = 0.5 Fc,  M = Fc D/2                               (3)
+///     Fc = kc1.1 b f^(1-mc),  Ff = lambda Fc + ke b,  M = Fc D/2                     (3)
 ///
-/// Ff is that of cut.hpp (5) for kappa = 90 deg, +-30 %.  Used for blades, which are fed
-/// towards the axis, and for profiling passes, where b is the depth.
-Load plunge(const catalogue::Kienzle& kc, double b_mm, double f_mm_rev, double D_mm);
+/// Ff is that of cut.hpp (5) for kappa = 90 deg.  Used for blades, which are fed towards
+/// the axis, and for profiling passes, where b is the depth.
+Load plunge(const catalogue::Kienzle& kc, const catalogue::Thrust& thrust, double b_mm,
+            double f_mm_rev, double D_mm);
 
 /// One infeed of a thread.
 struct Infeed {
@@ -49,8 +50,11 @@ struct Infeed {
 ///     L_k = 2 a_k/cos(30 deg),  Fc_k = kc1.1 L_k^mc A^(1-mc)                         (5)
 ///
 /// L_k is the length of both flanks, A/L_k the equivalent chip thickness; the last pass
-/// has the largest load.  Ff is radial, 0.5 Fc.  Source: derived here from the vee.
-std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& kc, double h_mm, int n,
+/// has the largest load.  Ff is radial: lambda Fc by the chips, which both flow towards
+/// the middle of the vee, and what ke presses on the two flanks, ke L_k sin(30 deg).
+/// Source: derived here from the vee.
+std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& kc,
+                                   const catalogue::Thrust& thrust, double h_mm, int n,
                                    double D_mm);
 
 /// Power [kW] that the curves allow at the cut, at a spindle speed within them, by the

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/catalogue/material.hpp"
+
 /// Constants of a material from measured cuts, with confidence intervals.
 namespace turnwright::cutting {
 
@@ -58,6 +60,31 @@ struct KienzleFit {
 /// @throws std::domain_error if a number is not positive and finite; ModelRangeError if
 ///   the measurements do not separate the exponents.
 KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& options = {});
+
+/// A measured part of the thrust force: F = F_D share.
+struct ThrustPoint {
+  double Fc_N = 0, L_mm = 0;  ///< cutting force and engaged length of the edge
+  double share = 0;           ///< cosine (of Fp) or sine (of Ff) of the chip's flow, > 0
+  double F_N = 0;
+};
+
+/// lambda and ke of F_D = lambda Fc + ke L.
+struct ThrustFit {
+  std::optional<Estimate> ratio, edge_N_mm;  ///< none: fewer than three cuts
+  bool scaled = false;                       ///< the given constants times one number
+  Evidence evidence;
+};
+
+/// Least squares on the logarithm of the force, by Gauss and Newton,
+///
+///     ln F = ln((lambda Fc + ke L) share)                                            (3)
+///
+/// with intervals and outliers as in fit_kienzle.  Where the cuts do not tell the two
+/// constants apart, or one of them would be negative, `given` is scaled as a whole.
+/// Source: linear regression of each step; checked in force_fit_test.
+/// @throws std::domain_error if a number is not positive and finite.
+ThrustFit fit_thrust(std::span<const ThrustPoint> cuts, const catalogue::Thrust& given,
+                     const FitOptions& options = {});
 
 struct LifePoint {
   double vc_m_min = 0, f_mm_rev = 0, ap_mm = 0, T_min = 0;

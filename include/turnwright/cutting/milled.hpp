@@ -21,12 +21,12 @@ MilledChip milled_chip(double immersion);
 
 /// Force per chip thickness and depth of cut [MPa], in the form of chatter::LinearForce:
 ///
-///     Kt = kc1.1 hm^-mc,   Kn = kf1.1 hm^-mf, else 0.5 Kt                            (4)
+///     Kt = kc1.1 hm^-mc,   Kn = kf1.1 hm^-mf, else lambda Kt                         (4)
 ///
 /// Kt is the secant of Kienzle's law at hm.  The slope there is (1 - mc) Kt, and its mean
 /// over the tooth's path is below Kt, too; so Kt is on the safe side, by about a fifth in
 /// steel.  Kn acts along the tooth's radius, as the feed force does in turning with
-/// kappa = 90 deg; 0.5 is that of cut.hpp (5), +-30 %.
+/// kappa = 90 deg; lambda is that of cut.hpp (5), whose ploughing makes no chip.
 /// @param kc  with K_gamma of the cutter's rake, fixed.hpp.
 struct ChipStiffness {
   double Kt_MPa = 0, Kn_MPa = 0;

@@ -55,6 +55,10 @@ struct ShopErrors {
   double part_warm_K = 0;       ///< largest excess temperature of the part at finishing
   double life_between_offsets = 0;  ///< share of an edge's life used between corrections
   double wear_land_mm = 0.3;        ///< VB at the end of the life (ISO 3685's criterion)
+  /// VB at which finishing edges are changed, at most wear_land_mm; then every limit and
+  /// tolerance holds from the new edge to this one.  0: forces are those of new edges, and
+  /// edges serve their whole life.
+  double edge_wear_mm = 0;
   catalogue::Rechucking rechucking = {0, 0, 0, 0};  ///< in a later setup
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
   /// Offsets are set by gauging the first part: they take out the machine's mean error of
@@ -130,7 +134,13 @@ struct PlanRequest {
   double machine_share_um = 0;  ///< of every tolerance, in addition to `machine.errors`
   double window_percent = 5;    ///< extra cost allowed within an operation's window
   bool window_curves = false;   ///< with limits and lines of equal cost, if asked for
-  double damping_ratio = 0.03;  ///< of part and machine, for chatter
+  /// Of a part that bends, for chatter.  0.012 is chosen on the safe side from the
+  /// measured shafts of docs/reality.md.
+  double damping_ratio = 0.012;
+  /// Of what holds it and cuts it, joints and all: chuck, centres, rests, toolpost, and
+  /// boring bars without their own.  0.03 is an estimate, with which a steel bar cuts up to
+  /// the four diameters of overhang that its makers allow.
+  double machine_damping_ratio = 0.03;
   /// Factor on the limits of chatter.  No document sets it: it is 1, and larger in the
   /// requests with relaxed limits by which an infeasible part is explained.
   double chatter_times = 1;

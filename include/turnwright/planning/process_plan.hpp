@@ -174,6 +174,9 @@ struct ToolOffset {
   std::string on;
   std::size_t setup = 0;
   double offset_mm = 0;
+  /// Where the edge is changed, if its wear is followed: the offset moves from one to the
+  /// other in proportion to the wear land.
+  std::optional<double> at_change_mm = {};
 };
 
 /// The correction at a position, linear between the entries of its table and constant
@@ -186,6 +189,9 @@ struct Deviation {
   std::size_t setup = 0;
   std::vector<std::pair<double, double>>
       table_mm;  ///< (z, or rho of a face; error of the radius, or along the axis)
+  /// The same where the edge is changed, with the offset of that state; empty if the
+  /// forces are those of new edges.
+  std::vector<std::pair<double, double>> at_change_mm = {};
 };
 
 /// Saving, to first order, by relaxing a number of the request wherever it binds.

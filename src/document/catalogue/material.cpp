@@ -31,7 +31,18 @@ void read_feed_passive(Reader group, catalogue::Material& m) {
   const auto exponent = at_least_below(0, 1);
   m.kf = {.k11_MPa = group.number("kf11_MPa", force), .m = group.number("mf", exponent)};
   m.kp = {.k11_MPa = group.number("kp11_MPa", force), .m = group.number("mp", exponent)};
-  finish_group(group);
+  m.feed_passive_uncertainty_pct = finish_group(group);
+}
+
+void read_thrust(Reader group, catalogue::Material& m) {
+  catalogue::Thrust t;
+  t.ratio = group.number("ratio", within(0, 3));
+  t.edge_N_mm = group.number("edge_N_mm", within(0, 1000, "N/mm"));
+  t.land_MPa = group.number_or("land_MPa", above_up_to(0, 10000, "MPa"), 0);
+  if (t.ratio == 0 && t.edge_N_mm == 0)
+    group.problem_at("ratio", "ratio or edge_N_mm above 0", "0");
+  t.uncertainty_pct = finish_group(group);
+  m.thrust = t;
 }
 
 void read_taylor(Reader group, catalogue::Material& m) {
@@ -62,6 +73,7 @@ catalogue::Material read_material(Reader r) {
   finish_group(hardness);
   read_elastic(r.object("elastic"), m);
   read_kienzle(r.object("kienzle"), m);
+  if (const auto group = r.optional_object("thrust")) read_thrust(*group, m);
   if (const auto group = r.optional_object("feed_passive")) read_feed_passive(*group, m);
   read_taylor(r.object("taylor"), m);
   if (auto chip = r.optional_object("chip")) {

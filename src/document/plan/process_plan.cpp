@@ -172,14 +172,22 @@ ordered_json json_of(const ToleranceResult& t) {
           {"P_conform", t.P_conform}};
 }
 
+ordered_json rows(const Compensation::Table& table) {
+  return list(table, [](const std::pair<double, double>& row) {
+    return ordered_json::array({row.first, row.second});
+  });
+}
+
 // The template type is Compensation or Deviation.
 template <class Table>
 ordered_json json_of_table(const Table& c) {
-  return {{"on", c.on},
-          {"setup", c.setup},
-          {"table_mm", list(c.table_mm, [](const std::pair<double, double>& row) {
-             return ordered_json::array({row.first, row.second});
-           })}};
+  return {{"on", c.on}, {"setup", c.setup}, {"table_mm", rows(c.table_mm)}};
+}
+
+ordered_json json_of_deviation(const Deviation& d) {
+  auto out = json_of_table(d);
+  if (!d.at_change_mm.empty()) out["at_change_mm"] = rows(d.at_change_mm);
+  return out;
 }
 
 ordered_json json_of(const ParetoPoint& x) {
@@ -308,9 +316,11 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["tolerances"] =
       list(plan.tolerances, [](const ToleranceResult& t) { return json_of(t); });
   out["deviations"] =
-      list(plan.deviations, [](const Deviation& d) { return json_of_table(d); });
+      list(plan.deviations, [](const Deviation& d) { return json_of_deviation(d); });
   out["offsets"] = list(plan.offsets, [](const ToolOffset& o) {
-    return ordered_json{{"on", o.on}, {"setup", o.setup}, {"offset_mm", o.offset_mm}};
+    ordered_json json{{"on", o.on}, {"setup", o.setup}, {"offset_mm", o.offset_mm}};
+    if (o.at_change_mm) json["at_change_mm"] = *o.at_change_mm;
+    return json;
   });
   out["compensation"] =
       list(plan.compensation, [](const Compensation& c) { return json_of_table(c); });

@@ -16,7 +16,7 @@
 #include "document/json/reference.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/cut.hpp"
-#include "turnwright/cutting/material_fit.hpp"
+#include "turnwright/cutting/force_fit.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -30,19 +30,25 @@ constexpr std::size_t kCuts = 2000;
 constexpr double kUsual_a = 0.35, kUsual_b = 0.15;
 const Bounds kForce = above_up_to(0, 1e6, "N");
 
-/// A force component: its column, its constants in the result and in a material.
+/// A force component: its column, its error in `left_out`, its constants in the result
+/// and in a material.
 struct Component {
-  const char *column, *group, *k11, *m;
+  const char *column, *error, *group, *k11, *m;
 };
-constexpr std::array<Component, 3> kComponents{{{"Fc_N", "cutting", "kc11_MPa", "mc"},
-                                                {"Ff_N", "feed", "kf11_MPa", "mf"},
-                                                {"Fp_N", "passive", "kp11_MPa", "mp"}}};
+constexpr std::array<Component, cutting::kComponents> kComponents{
+    {{"Fc_N", "Fc_rms_pct", "cutting", "kc11_MPa", "mc"},
+     {"Ff_N", "Ff_rms_pct", "feed", "kf11_MPa", "mf"},
+     {"Fp_N", "Fp_rms_pct", "passive", "kp11_MPa", "mp"}}};
+constexpr std::size_t kCutting = 0, kFeed = 1, kPassive = 2;
 
 struct Cut {
   double vc_m_min = 0, f_mm_rev = 0, ap_mm = 0;
   double h_mm = 0, b_mm = 0;
-  std::array<std::optional<double>, 3> F_N;
+  std::array<std::optional<double>, cutting::kComponents> F_N;
   std::optional<double> T_min;
+  bool has_force() const {
+    return std::ranges::any_of(F_N, [](const auto& F) { return F.has_value(); });
+  }
 };
 
 struct Tool {
@@ -55,7 +61,9 @@ struct FitRequest {
   std::vector<Cut> cuts;
   Tool tool;
   std::optional<json> material;  ///< the document to start from
+  std::optional<catalogue::Material> base;
   std::optional<std::string> id, name;
+  cutting::Cut edge;  ///< the tool in the material as it was given
   double given_a = kUsual_a, given_b = kUsual_b;
   cutting::FitOptions options;
 };
@@ -80,8 +88,7 @@ Cut read_cut(Reader r) {
   for (std::size_t k = 0; k < kComponents.size(); ++k)
     c.F_N[k] = r.optional_number(kComponents[k].column, kForce);
   c.T_min = r.optional_number("T_min", above_up_to(0, 1e6, "min"));
-  if (!c.T_min &&
-      std::ranges::none_of(c.F_N, [](const auto& F) { return F.has_value(); }))
+  if (!c.T_min && !c.has_force())
     r.problem("a measured Fc_N, Ff_N, Fp_N or T_min", "missing");
   r.finish();
   return c;
@@ -131,6 +138,7 @@ void read_base(Reader& r, const Catalogue& catalogue, FitRequest& q) {
       read_material(Reader(*q.material, r.problems(), value->pointer()));
   q.given_a = base.taylor.a;
   q.given_b = base.taylor.b;
+  q.base = base;
 }
 
 FitRequest read_fit_request(const json& document, const Catalogue& catalogue,
@@ -150,50 +158,38 @@ FitRequest read_fit_request(const json& document, const Catalogue& catalogue,
   r.finish();
   problems.throw_if_any();
 
-  cutting::Cut edge;
-  edge.corner = cutting::corner_of(q.tool.re_mm, units::rad_from_deg(q.tool.kapr_deg));
+  catalogue::Tool tool;
+  tool.re_mm = q.tool.re_mm;
+  tool.kapr_deg = q.tool.kapr_deg;
+  tool.gamma_deg = q.tool.rake_deg;
+  q.edge = cutting::cut_of(q.base.value_or(catalogue::Material{}), tool);
   for (Cut& c : q.cuts) {
-    c.b_mm = cutting::engaged_edge_mm(edge, c.ap_mm, c.f_mm_rev);
+    c.b_mm = cutting::engaged_edge_mm(q.edge, c.ap_mm, c.f_mm_rev);
     c.h_mm = c.ap_mm * c.f_mm_rev / c.b_mm;
   }
   return q;
 }
 
-/// A fit and the cuts it was made from.
-template <class Fit>
-struct Fitted {
-  Fit fit;
+struct Lives {
+  cutting::TaylorFit fit;
   std::vector<std::size_t> cuts;  // of the request, in the order of the fit's points
-
-  std::vector<std::size_t> named(const std::vector<std::size_t>& points) const {
-    std::vector<std::size_t> out;
-    for (const std::size_t i : points) out.push_back(cuts[i]);
-    return out;
-  }
 };
-using Kienzle = Fitted<cutting::KienzleFit>;
-using Taylor = Fitted<cutting::TaylorFit>;
 
 struct Fits {
-  std::array<std::optional<Kienzle>, 3> forces;
-  std::optional<Taylor> lives;
+  std::optional<cutting::ForceFit> forces;
+  std::optional<Lives> lives;
+  std::vector<Problem> undetermined;  // constants that the cuts do not tell
 };
 
-std::optional<Kienzle> forces(const FitRequest& q, std::size_t component) {
-  Kienzle out;
-  std::vector<cutting::ForcePoint> points;
-  for (std::size_t i = 0; i < q.cuts.size(); ++i)
-    if (const auto& F = q.cuts[i].F_N[component]) {
-      points.push_back({q.cuts[i].h_mm, q.cuts[i].b_mm, *F});
-      out.cuts.push_back(i);
-    }
-  if (points.empty()) return std::nullopt;
-  out.fit = cutting::fit_kienzle(points, q.options);
-  return out;
+std::optional<cutting::ForceFit> forces(const FitRequest& q) {
+  std::vector<cutting::MeasuredCut> cuts;
+  for (const Cut& c : q.cuts) cuts.push_back({c.ap_mm, c.f_mm_rev, c.F_N});
+  if (std::ranges::none_of(q.cuts, &Cut::has_force)) return std::nullopt;
+  return cutting::fit_forces(cuts, q.edge, q.options);
 }
 
-std::optional<Taylor> lives(const FitRequest& q) {
-  Taylor out;
+std::optional<Lives> lives(const FitRequest& q) {
+  Lives out;
   std::vector<cutting::LifePoint> points;
   for (std::size_t i = 0; i < q.cuts.size(); ++i)
     if (const Cut& c = q.cuts[i]; c.T_min) {
@@ -202,31 +198,45 @@ std::optional<Taylor> lives(const FitRequest& q) {
     }
   if (points.empty()) return std::nullopt;
   out.fit = cutting::fit_taylor(points, q.given_a, q.given_b, q.options);
+  auto& e = out.fit.evidence;
+  for (auto* list : {&e.used, &e.outliers})
+    for (std::size_t& i : *list) i = out.cuts[i];
   return out;
 }
 
-/// Reports the constants that the cuts with a measured `column` do not determine.
-void refuse(const FitRequest& q, std::size_t cuts, const std::string& column,
-            const std::string& constants, const std::string& test, Problems& problems) {
-  problems.add(
-      {q.cuts_pointer,
-       std::to_string(cuts) + " cuts with " + column + " that cannot tell " + constants,
-       test, "identifiability"});
+Problem undetermined(const FitRequest& q, std::size_t cuts, const std::string& column,
+                     const std::string& constants, const std::string& test) {
+  return {
+      q.cuts_pointer,
+      std::to_string(cuts) + " cuts with " + column + " that cannot tell " + constants,
+      test, "identifiability"};
 }
 
+std::size_t measured(const FitRequest& q, std::size_t component) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      q.cuts, [&](const Cut& c) { return c.F_N[component].has_value(); }));
+}
+
+/// All that the cuts determine.  What they do not is listed; it is a refusal only if
+/// nothing else is left.
 Fits fitted(const FitRequest& q, Problems& problems) {
-  Fits all;
-  for (std::size_t k = 0; k < kComponents.size(); ++k) {
-    all.forces[k] = forces(q, k);
+  Fits all{.forces = forces(q), .lives = lives(q), .undetermined = {}};
+  bool some = all.forces && all.forces->law != cutting::ThrustLaw::none;
+  for (std::size_t k = 0; all.forces && k < kComponents.size(); ++k) {
+    const auto& fit = all.forces->kienzle[k];
     const Component& c = kComponents[k];
-    if (all.forces[k] && !all.forces[k]->fit.m)
-      refuse(q, all.forces[k]->cuts.size(), c.column, std::string(c.k11) + " and " + c.m,
-             all.forces[k]->fit.missing[0].test, problems);
+    if (fit && !fit->m)
+      all.undetermined.push_back(undetermined(q, measured(q, k), c.column,
+                                              std::string(c.k11) + " and " + c.m,
+                                              fit->missing[0].test));
+    some = some || (fit && fit->m);
   }
-  all.lives = lives(q);
   if (all.lives && !all.lives->fit.n)
-    refuse(q, all.lives->cuts.size(), "T_min", "n and C", all.lives->fit.missing[0].test,
-           problems);
+    all.undetermined.push_back(undetermined(q, all.lives->cuts.size(), "T_min", "n and C",
+                                            all.lives->fit.missing[0].test));
+  some = some || (all.lives && all.lives->fit.n);
+  if (!some)
+    for (const Problem& p : all.undetermined) problems.add(p);
   problems.throw_if_any();
   return all;
 }
@@ -235,17 +245,30 @@ json described(const Estimate& e) {
   return {{"value", e.value}, {"lower", e.lower}, {"upper", e.upper}};
 }
 
-template <class Fit>
-json described(const Fitted<Fit>& f) {
-  const Evidence& e = f.fit.evidence;
+json described(const Evidence& e) {
   return {{"cuts", e.used.size()},
-          {"outliers", f.named(e.outliers)},
+          {"outliers", e.outliers},
           {"degrees_of_freedom", e.degrees_of_freedom},
           {"s_pct", 100 * e.s}};
 }
 
-json described(const Taylor& t, const FitRequest& q) {
-  json out = described<cutting::TaylorFit>(t);
+json described(const cutting::ThrustFit& t) {
+  json out = described(t.evidence);
+  out["ratio"] = described(*t.ratio);
+  out["edge_N_mm"] = described(*t.edge_N_mm);
+  out["scaled"] = t.scaled;
+  return out;
+}
+
+json described(const cutting::LeftOut& l) {
+  json out{{"ap_mm", l.ap_mm}};
+  for (std::size_t k = 0; k < kComponents.size(); ++k)
+    if (l.rms[k]) out[kComponents[k].error] = 100 * *l.rms[k];
+  return out;
+}
+
+json described(const Lives& t, const FitRequest& q) {
+  json out = described(t.fit.evidence);
   out["C"] = described(*t.fit.C);
   out["n"] = described(*t.fit.n);
   const auto exponent = [&](const char* key, const std::optional<Estimate>& e,
@@ -258,10 +281,10 @@ json described(const Taylor& t, const FitRequest& q) {
 }
 
 /// [least, largest] of `value` over the cuts used.
-template <class Fit, class Value>
-json range(const FitRequest& q, const Fitted<Fit>& f, const Value& value) {
+template <class Value>
+json range(const FitRequest& q, const Evidence& e, const Value& value) {
   double lo = HUGE_VAL, hi = 0;
-  for (const std::size_t i : f.named(f.fit.evidence.used)) {
+  for (const std::size_t i : e.used) {
     lo = std::min(lo, value(q.cuts[i]));
     hi = std::max(hi, value(q.cuts[i]));
   }
@@ -278,50 +301,87 @@ std::string note(const FitRequest& q, const Evidence& e, const std::string& inte
 }
 double percent(double s) { return 100 * s; }
 
-void put_forces(const FitRequest& q, const Fits& fits, json& m) {
-  if (const auto& c = fits.forces[0]) {
-    m["kienzle"] = {
-        {"kc11_MPa", c->fit.k11_MPa->value},
-        {"mc", c->fit.m->value},
-        {"h_mm", range(q, *c, [](const Cut& x) { return x.h_mm; })},
-        {"vc_m_min", range(q, *c, [](const Cut& x) { return x.vc_m_min; })},
-        {"kapr_deg", q.tool.kapr_deg},
-        {"rake_deg", q.tool.rake_deg},
-        {"uncertainty_pct", percent(c->fit.evidence.s_prediction)},
-        {"source", q.source},
-        {"note", note(q, c->fit.evidence,
-                      told("kc11_MPa", *c->fit.k11_MPa) + ", " + told("mc", *c->fit.m))}};
-  }
-  if (const auto& f = fits.forces[1], &p = fits.forces[2]; f && p)
-    m["feed_passive"] = {
-        {"kf11_MPa", f->fit.k11_MPa->value},
-        {"mf", f->fit.m->value},
-        {"kp11_MPa", p->fit.k11_MPa->value},
-        {"mp", p->fit.m->value},
-        {"uncertainty_pct",
-         percent(std::max(f->fit.evidence.s_prediction, p->fit.evidence.s_prediction))},
-        {"source", q.source}};
+/// A group of a material's document, from measured cuts.
+json group(const FitRequest& q, double uncertainty_pct, json constants) {
+  constants["uncertainty_pct"] = std::min(100.0, uncertainty_pct);
+  constants["source"] = q.source;
+  return constants;
 }
 
-void put_life(const FitRequest& q, const Taylor& t, json& m) {
+json kienzle(const FitRequest& q, const cutting::KienzleFit& c) {
+  const Evidence& e = c.evidence;
+  return group(
+      q, percent(e.s_prediction),
+      {{"kc11_MPa", c.k11_MPa->value},
+       {"mc", c.m->value},
+       {"h_mm", range(q, e, [](const Cut& x) { return x.h_mm; })},
+       {"vc_m_min", range(q, e, [](const Cut& x) { return x.vc_m_min; })},
+       {"kapr_deg", q.tool.kapr_deg},
+       {"rake_deg", q.tool.rake_deg},
+       {"note", note(q, e, told("kc11_MPa", *c.k11_MPa) + ", " + told("mc", *c.m))}});
+}
+
+/// The scatter of the next cut, or what cuts of another depth were off by, if that is
+/// more.
+double thrust_uncertainty_pct(const cutting::ForceFit& f, double s_prediction) {
+  double most = s_prediction;
+  for (const auto& l : f.left_out) most = std::max(most, l.rms[kPassive].value_or(0));
+  return percent(most);
+}
+
+json thrust(const FitRequest& q, const cutting::ForceFit& f) {
+  const auto& t = *f.thrust;
+  return group(
+      q, thrust_uncertainty_pct(f, t.evidence.s_prediction),
+      {{"ratio", t.ratio->value},
+       {"edge_N_mm", t.edge_N_mm->value},
+       {"land_MPa", catalogue::thrust_of(*q.base).land_MPa},
+       {"note", note(q, t.evidence,
+                     told("ratio", *t.ratio) + ", " + told("edge_N_mm", *t.edge_N_mm))}});
+}
+
+json feed_passive(const FitRequest& q, const cutting::ForceFit& f) {
+  const auto &feed = *f.kienzle[kFeed], &passive = *f.kienzle[kPassive];
+  return group(q,
+               thrust_uncertainty_pct(f, std::max(feed.evidence.s_prediction,
+                                                  passive.evidence.s_prediction)),
+               {{"kf11_MPa", feed.k11_MPa->value},
+                {"mf", feed.m->value},
+                {"kp11_MPa", passive.k11_MPa->value},
+                {"mp", passive.m->value}});
+}
+
+json taylor(const FitRequest& q, const Lives& t) {
   const double n = t.fit.n->value;
-  m["taylor"] = {
-      {"C", t.fit.C->value},
-      {"n", n},
-      {"a", t.fit.a ? t.fit.a->value : q.given_a},
-      {"b", t.fit.b ? t.fit.b->value : q.given_b},
-      {"tool", q.tool.name},
-      {"vc_m_min", range(q, t, [](const Cut& x) { return x.vc_m_min; })},
-      {"f_mm_rev", range(q, t, [](const Cut& x) { return x.f_mm_rev; })},
-      {"ap_mm", range(q, t, [](const Cut& x) { return x.ap_mm; })},
-      {"uncertainty_pct", percent(n * t.fit.evidence.s_prediction)},  // of C, not of T
-      {"source", q.source},
-      {"note",
-       note(q, t.fit.evidence, told("C", *t.fit.C) + ", " + told("n", *t.fit.n))}};
+  const Evidence& e = t.fit.evidence;
+  return group(q, percent(n * e.s_prediction),  // of C, not of T
+               {{"C", t.fit.C->value},
+                {"n", n},
+                {"a", t.fit.a ? t.fit.a->value : q.given_a},
+                {"b", t.fit.b ? t.fit.b->value : q.given_b},
+                {"tool", q.tool.name},
+                {"vc_m_min", range(q, e, [](const Cut& x) { return x.vc_m_min; })},
+                {"f_mm_rev", range(q, e, [](const Cut& x) { return x.f_mm_rev; })},
+                {"ap_mm", range(q, e, [](const Cut& x) { return x.ap_mm; })},
+                {"note", note(q, e, told("C", *t.fit.C) + ", " + told("n", *t.fit.n))}});
 }
 
-/// The material's document with the measured constants; null, with the reason, if they
-/// are impossible for a material.
+/// Puts a group into the document; where a material cannot have it, the document stays
+/// and a warning says why.
+bool put(const char* name, json value, json& m, json& warnings) {
+  json changed = m;
+  changed[name] = std::move(value);
+  Problems problems{.document = "material"};
+  read_material(Reader(changed, problems));
+  for (const Problem& p : problems.list)
+    warnings.push_back(std::string(name) + " is not replaced: " + p.pointer + ": got " +
+                       p.got + ", expected " + p.expected);
+  if (!problems.list.empty()) return false;
+  m = std::move(changed);
+  return true;
+}
+
+/// The material's document with the measured constants; null without one to start from.
 json material(const FitRequest& q, const Fits& fits, json& warnings) {
   if (!q.material) {
     warnings.push_back("no material given, whose document the constants could go into");
@@ -330,25 +390,51 @@ json material(const FitRequest& q, const Fits& fits, json& warnings) {
   json m = *q.material;
   if (q.id) m["id"] = *q.id;
   if (q.name) m["name"] = *q.name;
-  put_forces(q, fits, m);
-  if (fits.lives) put_life(q, *fits.lives, m);
-  Problems problems{.document = "material"};
-  read_material(Reader(m, problems));
-  for (const Problem& p : problems.list)
-    warnings.push_back("no material document: " + p.pointer + ": got " + p.got +
-                       ", expected " + p.expected);
-  return problems.list.empty() ? m : json();
+  if (const auto& f = fits.forces) {
+    const auto& c = f->kienzle[kCutting];
+    if (c && c->m) put("kienzle", kienzle(q, *c), m, warnings);
+    if (f->law == cutting::ThrustLaw::direction &&
+        put("thrust", thrust(q, *f), m, warnings))
+      m.erase("feed_passive");
+    if (f->law == cutting::ThrustLaw::components)
+      put("feed_passive", feed_passive(q, *f), m, warnings);
+  }
+  if (fits.lives && fits.lives->fit.n) put("taylor", taylor(q, *fits.lives), m, warnings);
+  return m;
+}
+
+/// The law of feed and passive force that goes into the material, or would if there were
+/// one; null if neither does.
+const char* replaced(const Fits& fits, const json& m) {
+  if (!fits.forces || fits.forces->law == cutting::ThrustLaw::none) return nullptr;
+  const bool direction = fits.forces->law == cutting::ThrustLaw::direction;
+  const char* name = direction ? "thrust" : "feed_passive";
+  const double found = direction ? fits.forces->thrust->ratio->value
+                                 : fits.forces->kienzle[kPassive]->k11_MPa->value;
+  const char* key = direction ? "ratio" : "kp11_MPa";
+  return m.is_null() || (m.contains(name) && m[name][key] == found) ? name : nullptr;
 }
 
 void warn(const FitRequest& q, const Fits& fits, json& warnings) {
-  if (fits.lives)
+  for (const Problem& p : fits.undetermined)
+    warnings.push_back("not determined: " + p.got + "; it takes " + p.expected);
+  if (fits.forces && fits.forces->law == cutting::ThrustLaw::none &&
+      measured(q, kFeed) + measured(q, kPassive) > 0)
+    warnings.push_back(
+        "not determined: the thrust force; it takes a known kc1.1 and three "
+        "cuts with Fp_N that flow at less than 70 deg to the radius, or "
+        "with Ff_N that flow at more than 20 deg");
+  if (fits.lives && fits.lives->fit.n)
     for (const cutting::Missing& m : fits.lives->fit.missing)
       warnings.push_back(m.parameter + " stays at its given " +
                          rounded(m.parameter == "a" ? q.given_a : q.given_b) +
                          "; it takes " + m.test);
-  if (fits.forces[1].has_value() != fits.forces[2].has_value())
+  if (fits.forces && fits.forces->law == cutting::ThrustLaw::direction &&
+      fits.forces->thrust->scaled)
     warnings.push_back(
-        "feed_passive is not replaced: it takes both Ff_N and Fp_N of measured cuts");
+        "the cuts do not tell ratio and edge_N_mm of thrust apart: both "
+        "are the given ones times one number; it takes cuts with Fp_N at "
+        "feeds further apart");
 }
 
 }  // namespace
@@ -358,19 +444,30 @@ json calibrate_material(const json& request, const Catalogue& catalogue) {
   const FitRequest q = read_fit_request(request, catalogue, problems);
   const Fits fits = fitted(q, problems);
   json result{{"confidence", q.options.confidence}}, warnings = json::array();
-  for (std::size_t k = 0; k < kComponents.size(); ++k) {
-    if (!fits.forces[k]) continue;
+  for (std::size_t k = 0; fits.forces && k < kComponents.size(); ++k) {
+    const auto& fit = fits.forces->kienzle[k];
+    if (!fit || !fit->m) continue;
     const Component& c = kComponents[k];
-    json& group = result[c.group] = described(*fits.forces[k]);
-    group[c.k11] = described(*fits.forces[k]->fit.k11_MPa);
-    group[c.m] = described(*fits.forces[k]->fit.m);
+    json& group = result[c.group] = described(fit->evidence);
+    group[c.k11] = described(*fit->k11_MPa);
+    group[c.m] = described(*fit->m);
   }
-  if (fits.lives) result["taylor"] = described(*fits.lives, q);
+  if (fits.forces) {
+    const auto& f = *fits.forces;
+    if (f.thrust && f.thrust->ratio) result["thrust"] = described(*f.thrust);
+    if (!f.left_out.empty()) {
+      json& all = result["left_out"] = json::array();
+      for (const auto& l : f.left_out) all.push_back(described(l));
+    }
+  }
+  if (fits.lives && fits.lives->fit.n) result["taylor"] = described(*fits.lives, q);
   warn(q, fits, warnings);
   json chips = json::array();
   for (const Cut& c : q.cuts) chips.push_back({{"h_mm", c.h_mm}, {"b_mm", c.b_mm}});
   result["chips"] = std::move(chips);
-  result["material"] = material(q, fits, warnings);
+  const json m = material(q, fits, warnings);
+  if (const char* law = replaced(fits, m)) result["feed_and_passive_by"] = law;
+  result["material"] = m;
   result["warnings"] = std::move(warnings);
   return result;
 }

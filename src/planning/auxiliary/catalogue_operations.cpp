@@ -222,8 +222,8 @@ Pass pass_of(const Duty& d, double ap_mm, double time_min) {
 }
 
 cutting::Load load_of(const Fitted& f, const PreparedPart& p, double b_mm, double D_mm) {
-  return cutting::plunge(cutting::kienzle_at(p.material, f.tool->gamma_deg), b_mm,
-                         f.at.f_mm_rev, D_mm);
+  return cutting::plunge(cutting::kienzle_at(p.material, f.tool->gamma_deg),
+                         catalogue::thrust_of(p.material), b_mm, f.at.f_mm_rev, D_mm);
 }
 
 // Eq. (2).
@@ -499,7 +499,8 @@ void add_thread(Site& s, const CutElement& e) {
           e.around.z0 + run_in};
   if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
   double deep = 0;
-  for (const auto& infeed : cutting::thread_infeeds(kc, e.cut.depth_mm, *count, D)) {
+  for (const auto& infeed : cutting::thread_infeeds(
+           kc, catalogue::thrust_of(s.p.material), e.cut.depth_mm, *count, D)) {
     duties.push_back({infeed.load, n, D, true});
     passes.push_back(pass_of(duties.back(), infeed.depth_mm, path / (P * n)));
     deep += infeed.depth_mm;

@@ -35,6 +35,8 @@ CutTolerance cut_tolerance(const PreparedPart& p, std::size_t index,
     const bool known = offset == Offset::constant || p.shop.first_part_gauged;
     const bool centred = offset != Offset::none && (known || !p.robust);
     d.shape = centred ? Shape::centred : Shape::size;
+    if (centred && p.shop.edge_wear_mm > 0)
+      d.lag = d.factor * p.shop.life_between_offsets / 2;
     if (offset == Offset::path) {
       d.remainder = d.upper * share / 2;
       d.upper = left_mm(p, index, others, Cut::corrected);

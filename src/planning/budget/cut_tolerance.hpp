@@ -26,6 +26,10 @@ struct CutTolerance {
   double lower = 0, upper = 0;
   double middle_mm = 0;  ///< programmed deviation of a size: the middle of its limits
   double taken_mm = 0;   ///< share of the width that all other sources take
+  /// Of a centred size whose offset follows the wear of the edge: weight of the largest
+  /// error, by which the offset lags, factor u/2 with u the share of the edge's use
+  /// between two corrections.  The middle of the error moves by less than its largest.
+  double lag = 0;
   /// Of a size with a corrected path: what factor |e| may still reach on that path.
   double remainder = 0;
 };

@@ -76,8 +76,9 @@ Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) 
 double wear_um(const PreparedPart& p, const catalogue::Tool& tool) {
   const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
                               units::rad_from_deg(tool.gamma_deg)};
-  return units::um_from_mm(deflection::wear_error_mm(p.shop.wear_land_mm, edge,
-                                                     p.shop.life_between_offsets)) /
+  const double land = p.shop.edge_wear_mm > 0 ? p.shop.edge_wear_mm : p.shop.wear_land_mm;
+  return units::um_from_mm(
+             deflection::wear_error_mm(land, edge, p.shop.life_between_offsets)) /
          2;
 }
 
@@ -197,8 +198,13 @@ double taken_mm(const ToleranceAllocation& a) {
 }
 
 double force_spread(const PreparedPart& p) {
-  return std::hypot(p.material.kc_uncertainty_pct, p.machine.stiffness_uncertainty_pct) /
-         100;
+  const auto& m = p.material;
+  constexpr double kLand_pct = 20;  // the pressure on the wear land is an estimate
+  double passive =
+      m.kp ? m.feed_passive_uncertainty_pct
+           : std::hypot(m.kc_uncertainty_pct, catalogue::thrust_of(m).uncertainty_pct);
+  if (p.shop.edge_wear_mm > 0) passive = std::max(passive, kLand_pct);
+  return std::hypot(passive, p.machine.stiffness_uncertainty_pct) / 100;
 }
 
 double fixed_in_parts_um(const ToleranceAllocation& a) {

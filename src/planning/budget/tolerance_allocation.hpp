@@ -38,6 +38,8 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     rechucking    rayleigh, to a datum that another setup cuts: twice for run-out,
 ///                   coaxiality and position, once for a profile; sqrt(2) D/grip times
 ///                   for tolerances of tilt, D the face's diameter or the axis' length
+///     forces        normal, force_spread() times the error itself; in `shares` of a
+///                   robust plan, not among the sources here
 ///
 /// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
 /// cut by one tool, with the same edge; both look at the free end, so that their errors

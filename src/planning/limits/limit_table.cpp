@@ -295,6 +295,10 @@ LimitRow chatter() {
                           [](auto& p, std::size_t) { return &p.damping_ratio; }, kDamping,
                           ""),
                       number(
+                          Owner::machine,
+                          [](auto& p, std::size_t) { return &p.machine_damping_ratio; },
+                          "damping ratio of chuck and toolpost", ""),
+                      number(
                           Owner::tool,
                           [](auto& p, std::size_t i) {
                             auto& bar = p.tools[i].bar;

@@ -36,7 +36,7 @@ T evaluate(const Chain& chain, const Choice<T>& c, const Sink& sink) {
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
-    chatter_checks(o, i, c.f[i], c.a, F[i], sink);
+    chatter_checks(o, i, c.f[i], c.a, sink);
     speed_checks(o, c.v[i], c.f[i], c.a, F[i], n_cap, tagged<T>(sink, i, true));
     const T life = cutting::tool_life_min(o.cut, c.v[i], c.f[i], o.depth_mm(c.a));
     const T cost =
@@ -72,7 +72,7 @@ Reduced<T> evaluate_at_best_speed(const Chain& chain, Choice<T>& c,
     const auto& o = chain.operations[i];
     const T n_cap = spindle_cap(o, F[i], c.a);
     depth_checks(o, c.f[i], c.a, F[i], tagged<T>(sink, i, false));
-    chatter_checks(o, i, c.f[i], c.a, F[i], sink);
+    chatter_checks(o, i, c.f[i], c.a, sink);
     const auto w = speed_window(o, c.f[i], c.a, F[i], n_cap);
     sink(i, Check::speed_window, true, w.lower, w.upper);
     const auto cost = [&](const BestSpeed<T>& best) {

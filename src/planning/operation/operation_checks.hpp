@@ -41,18 +41,17 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
 
 /// What is held against the limit of the chatter stiffness: K, or -K in the proportion of
 /// both limits where it is negative.
-inline double chatter_N_mm(const OperationModel& o, double f, double a,
-                           const cutting::Forces<double>& F) {
-  const double K = cutting::chatter_stiffness_N_mm(o.cut, F, o.depth_mm(a), f);
+inline double chatter_N_mm(const OperationModel& o, double f, double a) {
+  const double K = cutting::chatter_stiffness_N_mm(o.cut, o.depth_mm(a), f);
   return std::max(K, -o.chatter_inwards * K);
 }
 
 /// And chatter, in terms of either sign: K/limit at each place.
 template <class T, class Sink>
 void chatter_checks(const OperationModel& o, std::size_t operation, const T& f,
-                    const T& a, const cutting::Forces<T>& F, const Sink& sink) {
+                    const T& a, const Sink& sink) {
   if (o.chatter_mm_N.empty()) return;
-  const Signed<T> K = cutting::chatter_stiffness_N_mm(o.cut, F, o.depth_mm(a), f);
+  const Signed<T> K = cutting::chatter_stiffness_N_mm(o.cut, o.depth_mm(a), f);
   const bool pushed = o.cut.kp && o.cut.corner.cotangent < 0;  // K < 0 may be
   for (const auto& c : o.chatter_mm_N) {
     const Signed<T> share = K * c(linear(a));

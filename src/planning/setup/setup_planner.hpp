@@ -56,7 +56,8 @@ class SetupPlanner {
                SharedMemory& shared);
 
   /// Allows from now on a corrected tool path on surfaces that cannot be made without.
-  void allow_compensation() { compensate_ = true; }
+  /// A path is corrected for one force, not for all from a new edge to a worn one.
+  void allow_compensation() { compensate_ = !(p_.shop.edge_wear_mm > 0); }
 
   /// The cheapest tools with their solutions.  Tools with the smallest bound are tried
   /// first; those that cannot cost less than `most` are dropped as soon as that is known.

@@ -19,10 +19,22 @@ Compensation::Table correction(const SolvedSurface& f) {
                                     f.answer.choice);
 }
 
+// The state for which the plan was made, and the edges that it starts with.  Both are one
+// where the plan's forces are those of new edges.
+enum class Edges { changed, fresh };
+
 struct Found {
   const SolvedSurface* feature = nullptr;
   const CutTolerance* cut_tolerance = nullptr;
+  Edges edges = Edges::changed;
 };
+
+tolerance::PiecewisePolynomial error_of(const SolvedSurface& f, Edges edges) {
+  const auto& a = f.answer;
+  if (edges == Edges::changed || !a.model) return a.profile;
+  return f.task.feature.with_new_edges().profile(a.model->recipe(), f.task.economy,
+                                                 a.choice);
+}
 
 Found find(const std::vector<SolvedSetup>& setups, const std::string& surface,
            std::size_t tolerance) {
@@ -37,7 +49,7 @@ Found find(const std::vector<SolvedSetup>& setups, const std::string& surface,
 
 tolerance::Profile profile(const Found& f) {
   if (!f.feature) return tolerance::Samples{};
-  return f.feature->answer.profile;
+  return error_of(*f.feature, f.edges);
 }
 
 // Offset that centres an error about zero.
@@ -52,23 +64,24 @@ tolerance::PiecewisePolynomial moved(tolerance::PiecewisePolynomial e, double by
 }
 
 // 0 if every size keeps its limits without an offset.
-double offset_mm(const SolvedSurface& f) {
+double offset_mm(const SolvedSurface& f, Edges edges) {
   if (f.task.offset != Offset::constant || !f.answer.model) return 0;
-  const auto x = tolerance::extremes(f.answer.profile);
+  const auto e = error_of(f, edges);
+  const auto x = tolerance::extremes(e);
   const double most = std::max(x.max_mm, -x.min_mm);
   const bool needed =
       std::ranges::any_of(f.task.cut_tolerances, [&](const CutTolerance& d) {
         return d.shape == CutTolerance::Shape::centred &&
                d.factor * most > d.upper * (1 + kOver);
       });
-  return needed ? to_middle_mm(f.answer.profile) : 0;
+  return needed ? to_middle_mm(e) : 0;
 }
 
 // The error as made, with the plan's offset or corrected path.
 tolerance::Profile as_made(const Found& f) {
   if (!f.feature) return profile(f);
   if (f.feature->task.offset != Offset::path)
-    return moved(f.feature->answer.profile, offset_mm(*f.feature));
+    return moved(error_of(*f.feature, f.edges), offset_mm(*f.feature, f.edges));
   const auto& a = f.feature->answer;
   const auto& task = f.feature->task;
   return task.feature.corrected_profile(a.model->recipe(), task.economy, a.choice,
@@ -162,15 +175,32 @@ tolerance::Profile scaled_with_forces(const PreparedPart& p, const Found& f) {
   return p.shop.first_part_gauged ? moved(e, to_middle_mm(e)) : e;
 }
 
+// Standard deviation by uncertain forces and stiffness.
+double by_forces_um(const PreparedPart& p, const tolerance::Case& c, const Found& at,
+                    const Found& other) {
+  const auto of = verdict(c, scaled_with_forces(p, at), scaled_with_forces(p, other));
+  return force_spread(p) * units::um_from_mm(scaled_mm(c, of));
+}
+
+// How far the offset lags behind a wearing edge: half of what it moves by between two
+// corrections, on one side of a size.
+double lag_um(const Found& f) {
+  if (!f.feature || !(f.cut_tolerance->lag > 0)) return 0;
+  return f.cut_tolerance->lag *
+         units::um_from_mm(std::abs(offset_mm(*f.feature, Edges::changed) -
+                                    offset_mm(*f.feature, Edges::fresh)));
+}
+
 double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
                   const Found& other, const Taken& all) {
   if (!(all.fixed_mm < width_mm(t) && (at.feature || other.feature))) return 0;
   const auto c = judged(t, at, all.fixed_mm, half_angle_rad(p.drawing, t.of).value_or(0));
-  const double scaled =
-      scaled_mm(c, verdict(c, scaled_with_forces(p, at), scaled_with_forces(p, other)));
-  return tolerance::Spread(all.by.spread)
-      .within(tolerance::room_um(verdict(c, as_made(at), as_made(other))),
-              force_spread(p) * units::um_from_mm(scaled));
+  auto sources = all.by.spread;
+  if (const double lag = lag_um(at) + lag_um(other); lag > 0)
+    sources.push_back({"wear", tolerance::Distribution::uniform, lag, 1});
+  return tolerance::Spread(sources).within(
+      tolerance::room_um(verdict(c, as_made(at), as_made(other))),
+      by_forces_um(p, c, at, other));
 }
 
 // The sources other than the cut need more than the whole width.
@@ -196,6 +226,9 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
                                           : Verdict::met;
   r.shares.insert(r.shares.begin(),
                   {"deflection", all.by.ends * units::um_from_mm(scaled_mm(c, made))});
+  constexpr double kReach = 3;  // standard deviations, as of every normal source
+  const double spread = all.by.ends * kReach * by_forces_um(p, c, at, other);
+  if (p.robust && spread > 0) r.shares.push_back({"forces", spread});
   if (t.limits) {
     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
@@ -241,35 +274,72 @@ void left_as_stock(const PreparedPart& p, const Tolerance& t, ToleranceResult& r
   r.margin_mm = half;
 }
 
+ToleranceResult result(const PreparedPart& p, const std::vector<SolvedSetup>& setups,
+                       std::size_t i, Edges edges) {
+  const auto& t = p.drawing.tolerances[i];
+  const bool length = t.kind == ToleranceKind::length;
+  Found at = find(setups, length ? t.between[1] : t.of, i);
+  Found other = length ? find(setups, t.between[0], i) : Found{};
+  at.edges = other.edges = edges;
+  ToleranceResult r;
+  r.id = t.id;
+  r.kind = t.kind;
+  r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
+  r.width_mm = width_mm(t);
+  const auto all = taken(p, i, at, other);
+  r.shares = shares(all.by);
+  const bool none_left = width_mm(t) <= all.mm;
+  if (none_left || at.feature || other.feature)
+    r.P_conform = conforming(p, t, at, other, all);
+  if (none_left)
+    used_up(t, all.mm, r);
+  else if (!at.feature && half_angle_rad(p.drawing, t.of))
+    not_made(p, t, r);
+  else if (!at.feature && !other.feature)
+    left_as_stock(p, t, r);
+  else
+    predict(p, t, at, other, all, r);
+  return r;
+}
+
+// What holds with new edges and with those that are due for change.
+ToleranceResult both(const ToleranceResult& fresh, const ToleranceResult& changed) {
+  ToleranceResult r = fresh.margin_mm < changed.margin_mm ? fresh : changed;
+  r.verdict = std::max(fresh.verdict, changed.verdict);
+  r.published_verdict = fresh.published_verdict && changed.published_verdict;
+  r.P_conform = std::min(fresh.P_conform, changed.P_conform);
+  if (r.predicted_mm.size() == 2)
+    r.predicted_mm = {std::min(fresh.predicted_mm[0], changed.predicted_mm[0]),
+                      std::max(fresh.predicted_mm[1], changed.predicted_mm[1])};
+  return r;
+}
+
+using Table = std::vector<std::pair<double, double>>;
+
+Table deviation(const SolvedSurface& f, const std::vector<double>& places, Edges edges) {
+  const auto& feature = f.task.feature;
+  const auto& recipe = f.answer.model->recipe();
+  const bool follows = f.task.offset == Offset::path;
+  const auto made = edges == Edges::fresh ? feature.with_new_edges() : feature;
+  const auto e = follows ? made.corrected(recipe, f.task.economy, f.answer.choice, places,
+                                          correction(f))
+                         : made.errors(recipe, f.task.economy, f.answer.choice, places);
+  const double by = offset_mm(f, edges);
+  Table table;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    table.emplace_back(places[k], e[k] + by);
+  return table;
+}
+
 }  // namespace
 
 std::vector<ToleranceResult> tolerance_results(const PreparedPart& p,
                                                const std::vector<SolvedSetup>& setups) {
   std::vector<ToleranceResult> results;
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
-    const auto& t = p.drawing.tolerances[i];
-    const bool length = t.kind == ToleranceKind::length;
-    const Found at = find(setups, length ? t.between[1] : t.of, i);
-    const Found other = length ? find(setups, t.between[0], i) : Found{};
-    ToleranceResult r;
-    r.id = t.id;
-    r.kind = t.kind;
-    r.of = length ? t.between[0] + " .. " + t.between[1] : t.of;
-    r.width_mm = width_mm(t);
-    const auto all = taken(p, i, at, other);
-    r.shares = shares(all.by);
-    const bool none_left = width_mm(t) <= all.mm;
-    if (none_left || at.feature || other.feature)
-      r.P_conform = conforming(p, t, at, other, all);
-    if (none_left)
-      used_up(t, all.mm, r);
-    else if (!at.feature && half_angle_rad(p.drawing, t.of))
-      not_made(p, t, r);
-    else if (!at.feature && !other.feature)
-      left_as_stock(p, t, r);
-    else
-      predict(p, t, at, other, all, r);
-    results.push_back(std::move(r));
+    results.push_back(result(p, setups, i, Edges::changed));
+    if (p.shop.edge_wear_mm > 0)
+      results.back() = both(result(p, setups, i, Edges::fresh), results.back());
   }
   return results;
 }
@@ -283,31 +353,26 @@ std::vector<Deviation> deviations(const PreparedPart& p,
       if (!f.answer.model) continue;
       const auto& feature = f.task.feature;
       if (part::has_cut(p.drawing, feature.surface())) continue;
-      const auto& recipe = f.answer.model->recipe();
       std::vector<double> places;
       for (int k = 0; k < kSections; ++k)
         places.push_back(feature.low_mm() +
                          (feature.high_mm() - feature.low_mm()) * k / (kSections - 1));
-      const bool follows = f.task.offset == Offset::path;
-      const double by = offset_mm(f);
-      const auto e =
-          follows ? feature.corrected(recipe, f.task.economy, f.answer.choice, places,
-                                      correction(f))
-                  : feature.errors(recipe, f.task.economy, f.answer.choice, places);
-      Deviation d{feature.surface(), s.setup, {}};
-      for (std::size_t k = 0; k < places.size(); ++k)
-        d.table_mm.emplace_back(places[k], e[k] + by);
+      Deviation d{feature.surface(), s.setup, deviation(f, places, Edges::fresh)};
+      if (p.shop.edge_wear_mm > 0) d.at_change_mm = deviation(f, places, Edges::changed);
       all.push_back(std::move(d));
     }
   return all;
 }
 
-std::vector<ToolOffset> offsets(const std::vector<SolvedSetup>& setups) {
+std::vector<ToolOffset> offsets(const PreparedPart& p,
+                                const std::vector<SolvedSetup>& setups) {
   std::vector<ToolOffset> all;
   for (const auto& s : setups)
-    for (const auto& f : s.features)
-      if (const double by = offset_mm(f); by != 0)
-        all.push_back({f.task.feature.surface(), s.setup, by});
+    for (const auto& f : s.features) {
+      ToolOffset o{f.task.feature.surface(), s.setup, offset_mm(f, Edges::fresh)};
+      if (p.shop.edge_wear_mm > 0) o.at_change_mm = offset_mm(f, Edges::changed);
+      if (o.offset_mm != 0 || o.at_change_mm.value_or(0) != 0) all.push_back(o);
+    }
   return all;
 }
 

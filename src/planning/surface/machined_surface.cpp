@@ -227,6 +227,11 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   OperationModel o;
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
+  const auto& shop = plan_->shop;
+  if (shop.edge_wear_mm > 0 && !new_edge_)
+    o.cut = cutting::worn(
+        o.cut, finishing || !recipe.finish ? shop.edge_wear_mm : shop.wear_land_mm,
+        shop.wear_land_mm);
   o.range = cutting::speed_ranges(m)[range];
   const Holding held = holding();
   const double force_N = finishing ? held.finishing_N : held.roughing_N;
@@ -263,7 +268,9 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.face = is_face();
   o.inner = kind_ == Kind::bore;
   o.least_D_mm = hole_mm_;
-  o.chatter_inwards = (1 + plan_->damping_ratio) / (1 - plan_->damping_ratio);
+  double most = std::max(plan_->damping_ratio, plan_->machine_damping_ratio);
+  if (o.inner) most = std::max(most, tool.bar->damping_ratio.value_or(0));
+  o.chatter_inwards = (1 + most) / (1 - most);
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -367,12 +374,23 @@ double MachinedSurface::x_mm(const OperationModel& o, double at_mm) const {
 void MachinedSurface::yields(const OperationModel& o, double left_mm, double uncut_mm,
                              const std::vector<double>& x,
                              std::vector<deflection::Flexibility>& radial,
-                             std::vector<deflection::Flexibility>& tangential) const {
+                             std::vector<deflection::Flexibility>& tangential,
+                             bool rigid) const {
   const auto& body = bodies_[o.finishing ? 1 : 0];
   const Element element{kind_ == Kind::bore, index_};
   const bool to_chuck = cut_to_chuck(o);
-  yields(body.shaft(element, to_chuck ? uncut_mm : left_mm),
-         body.shaft(element, to_chuck ? left_mm : uncut_mm), body, x, radial, tangential);
+  const auto shaft = [&](double left) {
+    const auto real = body.shaft(element, left);
+    return rigid ? stiffer(real) : real;
+  };
+  yields(shaft(to_chuck ? uncut_mm : left_mm), shaft(to_chuck ? left_mm : uncut_mm), body,
+         x, radial, tangential);
+}
+
+part::Shaft MachinedSurface::stiffer(part::Shaft shaft) {
+  constexpr double kAllButRigid = 1000;
+  shaft.E_MPa *= kAllButRigid;
+  return shaft;
 }
 
 void MachinedSurface::yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,

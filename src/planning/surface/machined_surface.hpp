@@ -45,6 +45,13 @@ class MachinedSurface {
                                   const Finished& before, std::size_t index,
                                   const GivenConditions& fixed);
 
+  /// The same surface cut by edges that are not worn.
+  MachinedSurface with_new_edges() const {
+    auto other = *this;
+    other.new_edge_ = true;
+    return other;
+  }
+
   Kind kind() const { return kind_; }
   bool is_face() const { return kind_ == Kind::end_face || kind_ == Kind::shoulder; }
   const std::string& surface() const { return surface_; }
@@ -80,12 +87,15 @@ class MachinedSurface {
   /// Largest chatter stiffness [N/mm] allowed in each operation at a finishing depth:
   ///
   ///     K <= 1/C,                                                                    (1)
-  ///     C = (f_ww + c_rr)/(2 zeta (1 + zeta)) + y_w/(2 zeta_b (1 + zeta_b))
+  ///     C = f_b/(2 zeta (1 + zeta)) + (f_s + c_rr)/(2 zeta_m (1 + zeta_m))
+  ///         + y_w/(2 zeta_b (1 + zeta_b)),   f_s + f_b = f_ww
   ///
   /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
-  /// (3) of yielding.hpp, on faces f_pp rho^2 + c_ax in place of f_ww + c_rr; zeta the
-  /// damping ratio of part and machine, zeta_b that of a boring bar.  The compliances are
-  /// static.  For modes of any frequencies and at any spindle speed the limit from the
+  /// (3) of yielding.hpp, on faces f_pp rho^2 and c_ax in place of f_ww and c_rr.  f_s is
+  /// what an all but rigid part yields in its supports, f_b the bending on top of that,
+  /// never negative because a stiffer body yields less everywhere; zeta is the damping
+  /// ratio of the bending part, zeta_m of the machine, zeta_b of a boring bar.  The
+  /// compliances are static.  For modes of any frequencies and at any spindle speed the limit from the
   /// sum of their compliances is at most that of the modes together
   /// (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
@@ -160,7 +170,8 @@ class MachinedSurface {
   // Compliances while a pass leaves left_mm of uncut_mm, at distances from the root.
   void yields(const OperationModel& o, double left_mm, double uncut_mm,
               const std::vector<double>& x, std::vector<deflection::Flexibility>& radial,
-              std::vector<deflection::Flexibility>& tangential) const;
+              std::vector<deflection::Flexibility>& tangential, bool rigid = false) const;
+  static part::Shaft stiffer(part::Shaft shaft);
   // Compliances from the bodies left and right of the tool.
   void yields(const part::Shaft& chuck_side, const part::Shaft& tail_side,
               const SetupBody& body, const std::vector<double>& x,
@@ -188,6 +199,7 @@ class MachinedSurface {
   double Ra_um_ = 0, Rz_um_ = 0;
   Surroundings around_;            // of an element; of a face only the largest corner
   double face_z_ = 0;              // of a face, in the program's coordinates
+  bool new_edge_ = false;          // whatever the wear at which edges are changed
   bool goes_on_ = false;           // into an equally high surface that another setup cuts
   double top_h_ = 0;               // of a shoulder, largest radius behind it
   double amplification_ = 1;       // by the tailstock's thrust

@@ -69,7 +69,7 @@ struct Slice {
       if (!row && !(v <= limit + kKept * std::abs(limit))) row = Row{k, check, false};
     };
     depth_checks(o(), f, at.a, F[i], tagged<double>(sink, i, false));
-    chatter_checks(o(), i, f, at.a, F[i], sink);
+    chatter_checks(o(), i, f, at.a, sink);
     if (!row) tolerance_checks(chain, c, F, sink);
     return row;
   }

@@ -62,7 +62,7 @@ ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
   ConstraintValue c;
   c.name = limit.name;
   c.unit = limit.unit;
-  c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a, x.F[i]);
+  c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a);
   c.limit = limit_N_mm;
   c.margin = -std::log(std::max(c.value / c.limit, 1e-300));
   c.binding = c.margin < kBinding;

@@ -38,8 +38,7 @@ double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
       const Interval y = part(depth, i), z = part(feed, j);
       const L::Half half{width(y) / 2, width(z) / 2};
       const L ap = L::variable(y, 0, half), f = L::variable(z, 1, half);
-      const auto K =
-          cutting::chatter_stiffness_N_mm(o.cut, cutting::forces_N(o.cut, ap, f), ap, f);
+      const auto K = cutting::chatter_stiffness_N_mm(o.cut, ap, f);
       most = std::max({most, K.v.hi, -o.chatter_inwards * K.v.lo});
     }
   return most;
@@ -70,32 +69,41 @@ void add_place(double at_mm, Polynomial c, OperationModel& o) {
 
 }  // namespace
 
-// Error per passive force, divided by 2 zeta (1 + zeta), at positions of a pass.
+// Error per passive force, each compliance divided by its 2 zeta (1 + zeta), at positions
+// of a pass.  What a body yields more than one that is all but rigid is its bending.
 std::vector<double> MachinedSurface::chatter_yields(
     const OperationModel& o, double left_mm, double uncut_mm,
     const std::vector<double>& places) const {
   const auto& m = plan_->machine;
-  const double work = 1 / damped(*plan_, plan_->damping_ratio);
+  const double work = 1 / damped(*plan_, plan_->damping_ratio),
+               machine = 1 / damped(*plan_, plan_->machine_damping_ratio);
+  const auto together = [&](double whole, double rigid) {
+    return work * (whole - rigid) + machine * rigid;
+  };
   std::vector<double> c(places.size());
   if (is_face()) {
-    const auto body = bodies_[0].shaft();
-    std::vector<deflection::Flexibility> r(1), t(1);
+    const auto body = bodies_[0].shaft(), stiff = stiffer(body);
+    std::vector<deflection::Flexibility> r(1), s(1), t(1);
     yields(body, body, bodies_[0], {face_x_}, r, t);
+    yields(stiff, stiff, bodies_[0], {face_x_}, s, t);
     const double axial = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
     for (std::size_t k = 0; k < c.size(); ++k)
-      c[k] = work * (r[0].f_pp_rad_Nmm * places[k] * places[k] + axial);
+      c[k] = together(r[0].f_pp_rad_Nmm, s[0].f_pp_rad_Nmm) * sqr(places[k]) +
+             machine * axial;
     return c;
   }
   std::vector<double> x(places.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = x_mm(o, places[k]);
-  std::vector<deflection::Flexibility> r(x.size()), t(x.size());
+  std::vector<deflection::Flexibility> r(x.size()), s(x.size()), t(x.size());
   yields(o, left_mm, uncut_mm, x, r, t);
+  yields(o, left_mm, uncut_mm, x, s, t, true);
   double bar = 0;
   if (o.inner)
-    bar = tip_of(*o.tool->bar).w /
-          damped(*plan_, o.tool->bar->damping_ratio.value_or(plan_->damping_ratio));
+    bar =
+        tip_of(*o.tool->bar).w /
+        damped(*plan_, o.tool->bar->damping_ratio.value_or(plan_->machine_damping_ratio));
   for (std::size_t k = 0; k < c.size(); ++k)
-    c[k] = work * (r[k].f_ww_mm_N + m.tool_rr_mm_N) + bar;
+    c[k] = together(r[k].f_ww_mm_N, s[k].f_ww_mm_N) + machine * m.tool_rr_mm_N + bar;
   return c;
 }
 
@@ -122,12 +130,10 @@ std::vector<double> MachinedSurface::chatter_limits_N_mm(const Chain& chain,
 }
 
 double MachinedSurface::chatter_share(const Chain& chain, const Choice<double>& c) const {
-  const auto F = forces(chain, c);
   const auto limits = chatter_limits_N_mm(chain, c.a);
   double most = 0;
   for (std::size_t i = 0; i < limits.size(); ++i)
-    most =
-        std::max(most, chatter_N_mm(chain.operations[i], c.f[i], c.a, F[i]) / limits[i]);
+    most = std::max(most, chatter_N_mm(chain.operations[i], c.f[i], c.a) / limits[i]);
   return most;
 }
 

@@ -27,23 +27,24 @@ struct Place {
   double at, value;
 };
 
-// Position of the largest sign * e: the best of a grid, refined between its neighbours.
+// Position of the largest sign * e: every peak of a grid refined between its neighbours,
+// because one that is lower on the grid may be higher between its points.
 Place largest(const std::function<double(double)>& e, double low, double high,
               double sign) {
   const auto at = [&](std::size_t k) {
     return low + (high - low) * static_cast<double>(k) / (kGrid - 1);
   };
-  std::size_t best = 0;
   std::vector<double> v(kGrid);
+  for (std::size_t k = 0; k < kGrid; ++k) v[k] = sign * e(at(k));
+  Place p{at(0), v[0]};
   for (std::size_t k = 0; k < kGrid; ++k) {
-    v[k] = sign * e(at(k));
-    if (v[k] > v[best]) best = k;
+    const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, kGrid - 1);
+    if (v[k] < v[before] || v[k] < v[after]) continue;
+    if (v[k] > p.value) p = {at(k), v[k]};
+    const auto [z, f] = boost::math::tools::brent_find_minima(
+        [&](double x) { return -sign * e(x); }, at(before), at(after), 40);
+    if (-f > p.value) p = {z, -f};
   }
-  Place p{at(best), v[best]};
-  const double a = at(best == 0 ? 0 : best - 1), b = at(std::min(best + 1, kGrid - 1));
-  const auto [z, f] = boost::math::tools::brent_find_minima(
-      [&](double x) { return -sign * e(x); }, a, b, 40);
-  if (-f > p.value) p = {z, -f};
   return p;
 }
 
@@ -98,8 +99,8 @@ void TolerancePoints::add_first(std::size_t cut_tolerance) {
       add({{z, -w}}, -d.lower, d);
     }
   if (of_range(d)) {
-    add({{low, w}, {high, -w}}, d.upper, d);
-    add({{high, w}, {low, -w}}, d.upper, d);
+    add({{low, w + d.lag}, {high, -w}}, d.upper, d);
+    add({{high, w + d.lag}, {low, -w}}, d.upper, d);
   }
   if (d.shape == straightness)
     for (const double sign : {1.0, -1.0})
@@ -138,8 +139,11 @@ bool TolerancePoints::add_violated(const Recipe& recipe, const Economy& economy,
       if (w * top.value > d.upper) add_if_broken({{top.at, w}}, d.upper, i);
       if (w * bottom.value > -d.lower) add_if_broken({{bottom.at, -w}}, -d.lower, i);
     } else if (of_range(d)) {
-      if (w * (top.value + bottom.value) > d.upper)
-        add_if_broken({{top.at, w}, {bottom.at, -w}}, d.upper, i);
+      const double range = w * (top.value + bottom.value);
+      if (range + d.lag * top.value > d.upper)
+        add_if_broken({{top.at, w + d.lag}, {bottom.at, -w}}, d.upper, i);
+      if (d.lag > 0 && range + d.lag * bottom.value > d.upper)
+        add_if_broken({{top.at, w}, {bottom.at, -w - d.lag}}, d.upper, i);
     } else if (d.shape == straightness) {
       const auto zone = tolerance::minimum_zone(profile);
       if (!(zone.width_mm > d.upper)) continue;

@@ -121,7 +121,7 @@ TEST(PartPlan, EveryFieldComesFromItsKey) {
   EXPECT_EQ(assumed(loaded, "/damping_ratio"), nullptr);
 }
 
-// The part's own, else the machine's, else 0.03.
+// The part's own, else the machine's, else an estimate; of bars too.
 TEST(PartPlan, DampingIsTheMachinesWhereThePartSaysNone) {
   auto document = smallest();
   document["machine"] =
@@ -132,6 +132,7 @@ TEST(PartPlan, DampingIsTheMachinesWhereThePartSaysNone) {
   EXPECT_EQ(assumed(loaded, "/damping_ratio")->why, "the machine's own");
   document["damping_ratio"] = 0.02;
   EXPECT_EQ(load(document).plan.damping_ratio, 0.02);
+  EXPECT_EQ(load(document).plan.machine_damping_ratio, 0.02);
 }
 
 TEST(PartPlan, OperationsKeepWhatIsFixedAndLeaveTheRestOpen) {
@@ -345,8 +346,10 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
   const json all{"chuck", "chuck-tailstock", "between-centres"};
   auto budget = parse_file(source_path("machines/lathe-medium.json"))["budget"];
   for (const auto* text : {"source", "note", "uncertainty_pct"}) budget.erase(text);
-  budget.update(
-      {{"wear_land_mm", 0.3}, {"measurement_U_um", 0.0}, {"first_part_gauged", true}});
+  budget.update({{"wear_land_mm", 0.3},
+                 {"edge_wear_mm", 0.0},
+                 {"measurement_U_um", 0.0},
+                 {"first_part_gauged", true}});
   EXPECT_EQ(told, json({{"/name", "part"},
                         {"/machine", "lathe-medium"},
                         {"/tools", {"test-rougher"}},
@@ -364,7 +367,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/budget", budget},
                         {"/robust", true},
                         {"/window_percent", 5.0},
-                        {"/damping_ratio", 0.03},
+                        {"/damping_ratio", 0.012},
                         {"/conformance", 0.9973}}));
   EXPECT_EQ(loaded.part.drawing.stock.left_allowance_mm, 1.5);
   EXPECT_EQ(loaded.part.grips_mm[1], 23);

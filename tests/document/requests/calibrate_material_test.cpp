@@ -84,6 +84,9 @@ TEST(CalibrateMaterial, TurnsThePlannersLawsAround) {
   EXPECT_EQ(m["kienzle"]["rake_deg"], 4);
   EXPECT_EQ(m["kienzle"]["vc_m_min"], json({120.0, 180.0}));
   EXPECT_NEAR(m["feed_passive"]["kf11_MPa"], 420, 1e-7);
+  EXPECT_EQ(r["feed_and_passive_by"], "feed_passive");  // other depths follow it exactly
+  ASSERT_EQ(r["left_out"].size(), 2u);
+  EXPECT_NEAR(r["left_out"][1]["Fp_rms_pct"], 0, 1e-7);
   EXPECT_NEAR(m["taylor"]["n"], 0.28, 1e-10);
   EXPECT_EQ(m["taylor"]["f_mm_rev"], json({0.1, 0.35}));
   EXPECT_EQ(m["elastic"], catalogue().material_documents.at("test-steel")["elastic"]);
@@ -105,16 +108,14 @@ TEST(CalibrateMaterial, CsvIsTheSameAsCuts) {
 TEST(CalibrateMaterial, KeepsWhatWasNotMeasured) {
   json q = campaign();
   for (json& c : q["cuts"]) {
-    for (const char* key : {"Ff_N", "T_min"}) c.erase(key);
+    for (const char* key : {"Ff_N", "Fp_N", "T_min"}) c.erase(key);
   }
   json r = answered(q);
   const json base = catalogue().material_documents.at("test-steel");
   EXPECT_EQ(r["material"]["taylor"], base["taylor"]);
   EXPECT_EQ(r["material"]["feed_passive"], base["feed_passive"]);
-  EXPECT_FALSE(r.contains("taylor"));
-  EXPECT_EQ(r["warnings"],
-            json({"feed_passive is not replaced: it takes both Ff_N and Fp_N of measured "
-                  "cuts"}));
+  EXPECT_FALSE(r.contains("taylor") || r.contains("thrust"));
+  EXPECT_EQ(r["warnings"], json::array());
   q["material"] = base;  // the document itself
   EXPECT_EQ(answered(q), r);
   q.erase("material");
@@ -149,21 +150,104 @@ TEST(CalibrateMaterial, NamesOutliersAndTakesWhatItIsGiven) {
   EXPECT_EQ(answered(q)["cutting"]["outliers"], json({5}));
 }
 
+// The thrust force that the planner assumes, with other constants.
+json thrust_campaign() {
+  cutting::Cut c;
+  c.kc = {1700, 0.22};
+  c.thrust = {0.5, 44, 20};
+  c.corner = cutting::corner_of(0.8, 95 * M_PI / 180);
+  json cuts = json::array();
+  for (const double f : {0.08, 0.12, 0.2})
+    for (const double ap : {0.3, 0.6, 1.0}) {
+      const auto F = cutting::forces_N(c, ap, f);
+      cuts.push_back({{"vc_m_min", 200},
+                      {"f_mm_rev", f},
+                      {"ap_mm", ap},
+                      {"Fc_N", F.Fc_N},
+                      {"Ff_N", F.Ff_N},
+                      {"Fp_N", F.Fp_N}});
+    }
+  return {{"material", "test-steel"}, {"tool", tool()}, {"cuts", cuts}};
+}
+
+TEST(CalibrateMaterial, ThrustTakesThePlaceOfTheComponentsWhereItTurnsWithTheDepth) {
+  const json r = answered(thrust_campaign());
+  EXPECT_EQ(r["feed_and_passive_by"], "thrust");
+  EXPECT_NEAR(r["thrust"]["ratio"]["value"], 0.5, 1e-9);
+  EXPECT_NEAR(r["thrust"]["edge_N_mm"]["value"], 44, 1e-7);
+  EXPECT_FALSE(r["thrust"]["scaled"]);
+  EXPECT_NEAR(r["material"]["thrust"]["edge_N_mm"], 44, 1e-7);
+  EXPECT_FALSE(r["material"].contains("feed_passive"));
+  ASSERT_EQ(r["left_out"].size(), 3u);
+  EXPECT_EQ(r["left_out"][0]["ap_mm"], 0.3);
+  EXPECT_NEAR(r["left_out"][0]["Fp_rms_pct"], 0, 1e-7);
+}
+
+// What was not measured stays, also inside a group; without a material the rest is told.
+TEST(CalibrateMaterial, KeepsThePressureOnTheWearLand) {
+  json q = thrust_campaign();
+  q["material"] = catalogue().material_documents.at("test-steel");
+  q["material"]["thrust"] = {{"ratio", 0.4},
+                             {"edge_N_mm", 50},
+                             {"land_MPa", 1234},
+                             {"uncertainty_pct", 20},
+                             {"source", "test"}};
+  EXPECT_EQ(answered(q)["material"]["thrust"]["land_MPa"], 1234);
+  q.erase("material");
+  for (json& c : q["cuts"]) c["f_mm_rev"] = 0.1;  // one feed and, with it, no kc1.1
+  for (json& c : q["cuts"]) c["ap_mm"] = 0.5;
+  q["cuts"][0]["T_min"] = 20;
+  EXPECT_NE(refused(q).find("cannot tell kc11_MPa and mc"), std::string::npos);
+  q = thrust_campaign();
+  q.erase("material");
+  for (json& c : q["cuts"]) c.erase("Fc_N"), c.erase("Ff_N");
+  const json r = answered(q);
+  EXPECT_TRUE(r["material"].is_null());
+  EXPECT_FALSE(r.contains("thrust") || r.contains("feed_and_passive_by"));
+  EXPECT_TRUE(
+      r["warnings"][0].get<std::string>().starts_with("not determined: the thrust force"))
+      << r["warnings"];
+}
+
+// An exponent that no material has keeps its own group from being written, and only that.
+TEST(CalibrateMaterial, WritesWhatIsGoodBesideWhatIsNot) {
+  json q = thrust_campaign();
+  for (json& c : q["cuts"])
+    c["Fc_N"] = c["Fc_N"].get<double>() *
+                std::pow(c["f_mm_rev"].get<double>() / 0.1, 0.5);  // rises with h
+  json r = answered(q);
+  EXPECT_LT(r["cutting"]["mc"]["value"], 0);
+  const json base = catalogue().material_documents.at("test-steel");
+  EXPECT_EQ(r["material"]["kienzle"], base["kienzle"]);
+  EXPECT_TRUE(r["material"].contains("thrust"));
+  ASSERT_EQ(r["warnings"].size(), 1u);
+  EXPECT_TRUE(r["warnings"][0].get<std::string>().starts_with(
+      "kienzle is not replaced: /kienzle/mc: got -0."))
+      << r["warnings"];
+  q = thrust_campaign();
+  for (json& c : q["cuts"]) c["T_min"] = 15;  // at one speed
+  r = answered(q);
+  EXPECT_EQ(r["material"]["taylor"], base["taylor"]);
+  EXPECT_TRUE(r["material"].contains("thrust"));
+  EXPECT_EQ(
+      r["warnings"],
+      json({"not determined: 9 cuts with T_min that cannot tell n and C; it takes a "
+            "tool life at another cutting speed"}));
+}
+
 TEST(CalibrateMaterial, RefusesCutsThatCannotTell) {
   json q = campaign();
   json one = json::array();
   for (const json& c : q["cuts"])
     if (c["f_mm_rev"] == 0.2 && c["ap_mm"] == 2.0) one.push_back(c);
-  one.push_back(one[0]);
-  one[2].erase("Ff_N");
   for (json& c : one) c["vc_m_min"] = 120;
   q["cuts"] = one;
   EXPECT_EQ(
       refused(q),
-      R"(calibrate-material: /cuts: got 3 cuts with Fc_N that cannot tell kc11_MPa and mc, expected a cut at another chip thickness (another feed)
+      R"(calibrate-material: /cuts: got 2 cuts with Fc_N that cannot tell kc11_MPa and mc, expected a cut at another chip thickness (another feed)
 calibrate-material: /cuts: got 2 cuts with Ff_N that cannot tell kf11_MPa and mf, expected a cut at another chip thickness (another feed)
-calibrate-material: /cuts: got 3 cuts with Fp_N that cannot tell kp11_MPa and mp, expected a cut at another chip thickness (another feed)
-calibrate-material: /cuts: got 3 cuts with T_min that cannot tell n and C, expected a tool life at another cutting speed)");
+calibrate-material: /cuts: got 2 cuts with Fp_N that cannot tell kp11_MPa and mp, expected a cut at another chip thickness (another feed)
+calibrate-material: /cuts: got 2 cuts with T_min that cannot tell n and C, expected a tool life at another cutting speed)");
 }
 
 TEST(CalibrateMaterial, ListsAllThatIsWrong) {

@@ -25,7 +25,7 @@ const OperationPlan* find(const ProcessPlan& r, const std::string& id) {
   return nullptr;
 }
 
-OperationPlan operation(const ProcessPlan& r, const std::string& id) {
+OperationPlan copy_of(const ProcessPlan& r, const std::string& id) {
   const auto* o = find(r, id);
   if (!o) throw std::out_of_range(id);
   return *o;
@@ -56,7 +56,7 @@ TEST(Groove, TakesTheTimeOfItsRings) {
   const auto p = part(grooved());
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto o = operation(r, "s1-groove-g1");
+  const auto o = copy_of(r, "s1-groove-g1");
   const auto& t = tool(p, "GROOVE-EXT");
   const auto& at = *t.conditions_in(p.material.group);
   ASSERT_EQ(o.passes.size(), 1U);  // one blade of 5 mm
@@ -85,12 +85,12 @@ TEST(Groove, WiderThanTheBladeTakesMorePlunges) {
   d["stock"]["length_mm"] = 125;
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
-  EXPECT_EQ(operation(r, "s1-groove-g1").passes.size(), 3U);  // of 6 mm
+  EXPECT_EQ(copy_of(r, "s1-groove-g1").passes.size(), 3U);  // of 6 mm
 }
 
 TEST(Thread, TurnsItsLengthPitchByPitch) {
   const auto p = part(grooved());
-  const auto o = operation(plan(p), "s1-thread-th1");
+  const auto o = copy_of(plan(p), "s1-thread-th1");
   const auto& at = *tool(p, "THREAD-EXT-60").conditions_in(p.material.group);
   const double n = 1000 * at.vc_m_min / (units::kPi * 30);
   ASSERT_EQ(o.passes.size(), 6U);
@@ -109,7 +109,7 @@ TEST(Thread, CarriageLimitsTheSpindle) {
   auto machine = file("machines/lathe-medium.json");
   machine["feed"]["rapid_mm_min"] = 1000;
   d["machine"] = machine;
-  const auto o = operation(plan(part(d)), "s1-thread-th1");
+  const auto o = copy_of(plan(part(d)), "s1-thread-th1");
   EXPECT_NEAR(o.passes[0].n_rpm, 1000 / 1.5, 1e-9);
 }
 
@@ -121,7 +121,7 @@ TEST(FixedOperations, AreInEveryTotal) {
   for (auto& t : p.fixed_tools)
     if (t.id == "GROOVE-EXT") t.edge_cost += 10;
   const auto after = plan(p);
-  const auto o = operation(before, "s1-groove-g1");
+  const auto o = copy_of(before, "s1-groove-g1");
   const double more = 10 * o.time_min / o.passes[0].T_min;
   EXPECT_NEAR(after.cost_per_part - before.cost_per_part, more, 1e-9);
   EXPECT_NEAR(after.certificate.lower_bound - before.certificate.lower_bound, more, 1e-3);
@@ -175,7 +175,7 @@ TEST(Centre, IsDrilledWhereATailstockStands) {
   ASSERT_EQ(r.setups[0].operations.size() > 1, true);
   EXPECT_EQ(r.setups[0].operations[1].id, "s1-centre-right");  // after the face
   EXPECT_EQ(find(r, "s2-centre-left"), nullptr);
-  const auto o = operation(r, "s1-centre-right");
+  const auto o = copy_of(r, "s1-centre-right");
   const auto& t = tool(p, "DIN333-A");
   const auto& at = *t.conditions_in(p.material.group);
   const double D = 10.6;  // the largest below 0.35 of 32 mm
@@ -245,7 +245,7 @@ TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
   for (const double drilled : p.drilled_mm) EXPECT_EQ(drilled, 19);
   const auto r = plan(p);
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto o = operation(r, "s1-drill-b1");
+  const auto o = copy_of(r, "s1-drill-b1");
   EXPECT_EQ(o.tool, "DRILL-HM-5D");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double f = at.f_mm_rev * 19, n = 1000 * at.vc_m_min / (units::kPi * 19);
@@ -319,14 +319,14 @@ TEST(Parting, LeavesItsAllowanceToTheFace) {
   EXPECT_EQ(face_stock_mm(p, part::End::right), 2);
   const auto r = plan(p);
   double faced = 0;
-  for (const auto& pass : operation(r, "s2-face-left").passes) faced += pass.ap_mm;
+  for (const auto& pass : copy_of(r, "s2-face-left").passes) faced += pass.ap_mm;
   EXPECT_NEAR(faced, 0.6, 1e-12);
 }
 
 // To the axis at constant surface speed, the spindle held below its limit.
 TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
   const auto p = part(bush());
-  const auto o = operation(plan(p), "s1-part-left");
+  const auto o = copy_of(plan(p), "s1-part-left");
   const auto& at = *tool(p, o.tool).conditions_in(p.material.group);
   const double force = p.machine.chuck.grip_force_N;
   const double n_cap =
@@ -344,7 +344,7 @@ TEST(Parting, TakesTheTimeOfADiscWithTheSpindleHeld) {
 
 TEST(Arc, PassesAreTheDepthOverTheDeepest) {
   const auto p = part(reference_part("threaded-spindle"));
-  const auto o = operation(plan(p), "s1-arc-a1");
+  const auto o = copy_of(plan(p), "s1-arc-a1");
   // A concave quarter circle of 6 mm below its chord: 6 - 6/sqrt 2 across, times sqrt 2.
   const double depth = (6 - 6 / std::sqrt(2)) * std::sqrt(2);
   ASSERT_EQ(o.passes.size(), static_cast<std::size_t>(std::ceil(depth / 1.5)));
@@ -408,10 +408,10 @@ TEST(Given, FixedOperationsKeepTheirIdsAndConditions) {
   d["operations"][6]["conditions"] = {{"passes", 9}};
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
-  const auto g = operation(r, "groove");
+  const auto g = copy_of(r, "groove");
   EXPECT_EQ(g.passes[0].f_mm_rev, 0.05);
   EXPECT_NEAR(g.passes[0].vc_m_min, 90, 1e-9);
-  EXPECT_EQ(operation(r, "thread").passes.size(), 9U);
+  EXPECT_EQ(copy_of(r, "thread").passes.size(), 9U);
   // The groove's blank is turned with the thread beside it, the smaller one.
   EXPECT_NE(find(r, "r3:g1"), nullptr);
   EXPECT_NE(find(r, "e3:g1"), nullptr);
@@ -449,8 +449,8 @@ TEST(Given, DrillsOfHolesKeepTheirIds) {
   given_operation(d, "s1-drill-b1")["id"] = "hole";
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
-  EXPECT_EQ(operation(r, "hole").passes[0].ap_mm,
-            operation(plan(part(bush())), "s1-drill-b1").passes[0].ap_mm);
+  EXPECT_EQ(copy_of(r, "hole").passes[0].ap_mm,
+            copy_of(plan(part(bush())), "s1-drill-b1").passes[0].ap_mm);
 }
 
 TEST(Given, PassesOfAnArcThatAreTooDeepAreTold) {

@@ -91,7 +91,7 @@ std::vector<chatter::System> systems_of(const PreparedPart& p, const Milled& m,
                      (1 - (cutter.gamma_deg - p.material.gamma0_deg) / 100) *
                      std::pow(hm, -p.material.kc.m);
     const auto& kf = p.material.kf;
-    s.force = chatter::LinearForce{K, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.5 * K};
+    s.force = chatter::LinearForce{K, kf ? kf->k11_MPa * std::pow(hm, -kf->m) : 0.4 * K};
     all.push_back(s);
   }
   return all;

@@ -56,13 +56,6 @@ Making in_chuck(const PreparedPart& p, std::size_t setup) {
   return {setup, Clamping::chuck, &p.tools.at(1)};
 }
 
-const OperationPlan& operation(const ProcessPlan& p, const std::string& id) {
-  for (const auto& s : p.setups)
-    for (const auto& o : s.operations)
-      if (o.id == id) return o;
-  throw std::out_of_range(id);
-}
-
 double share_um(const ToleranceAllocation& a, const std::string& source) {
   for (const auto& s : shares(a))
     if (s.source == source) return s.um;
@@ -376,7 +369,8 @@ TEST(Budget, NarrowsWhatThePlanAllowsAndItsPartsConformAsSaid) {
         std::max(t.predicted_mm[1] + 0.025, -0.025 - t.predicted_mm[0]) * 1000;
     const double kc = p.material.kc_uncertainty_pct,
                  c = p.machine.stiffness_uncertainty_pct;
-    const double sigma = std::hypot(2 * 1.5, std::hypot(kc, c) / 100 * e);
+    const double thrust = catalogue::thrust_of(p.material).uncertainty_pct;
+    const double sigma = std::hypot(2 * 1.5, std::hypot(kc, thrust, c) / 100 * e);
     const double up = (-0.0005 - t.predicted_mm[1]) * 1000,
                  down = (-0.0495 - t.predicted_mm[0]) * 1000;
     double P = 0;

@@ -117,6 +117,7 @@ Numbers numbers(const PlanRequest& p) {
     all["power of " + m.id].push_back(point.M_Nm);
   }
   all["damping ratio of " + m.id] = {p.damping_ratio};
+  all["damping ratio of chuck and toolpost of " + m.id] = {p.machine_damping_ratio};
   all["feed force of " + m.id] = {m.feed_force_max_N};
   all["largest spindle speed of " + m.id] = {std::min(m.n_max_rpm, m.curve.back().n_rpm)};
   all["least spindle speed of " + m.id] = {m.n_min_rpm};

@@ -56,7 +56,7 @@ double share_as_drawn(const Planned& p, const toolpath::SetupProgram& program) {
 // What the moves leave, against the drawing: two ways to the same part.  The rest are
 // walls, fillets, and holes deeper than their bores.
 TEST(PathDrawings, WhatThePassesLeaveIsThePartAsDrawn) {
-  for (const char* name : {"gearbox-input-shaft", "drilled-bush", "flanged-bush"}) {
+  for (const char* name : {"coupling-shaft", "drilled-bush", "flanged-bush"}) {
     const auto p = nc::test::planned_reference(name);
     const auto programs = nc::programs(p.part, p.plan);
     ASSERT_EQ(programs.setups.size(), 2u) << name;

@@ -1,0 +1,180 @@
+#include "turnwright/cutting/force_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace turnwright::cutting {
+namespace {
+
+constexpr double kLeastShare = 0.34;  // cos(70 deg)
+constexpr double kSameDepth = 1e-6;   // relative
+constexpr std::size_t kDepths = 50;   // that are left out, at most
+
+std::size_t number(Component c) { return static_cast<std::size_t>(c); }
+const std::optional<double>& force_of(const MeasuredCut& m, Component c) {
+  return m.F_N[number(c)];
+}
+
+void name_cuts(const std::vector<std::size_t>& cuts, Evidence& e) {
+  for (auto* list : {&e.used, &e.outliers})
+    for (std::size_t& i : *list) i = cuts[i];
+}
+
+std::optional<KienzleFit> component(std::span<const MeasuredCut> all, Component which,
+                                    const Cut& edge, const FitOptions& options) {
+  std::vector<ForcePoint> points;
+  std::vector<std::size_t> cuts;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const auto& F = force_of(all[i], which)) {
+      const double b = engaged_edge_mm(edge, all[i].ap_mm, all[i].f_mm_rev);
+      points.push_back({all[i].ap_mm * all[i].f_mm_rev / b, b, *F});
+      cuts.push_back(i);
+    }
+  if (points.empty()) return std::nullopt;
+  KienzleFit fit = fit_kienzle(points, options);
+  name_cuts(cuts, fit.evidence);
+  return fit;
+}
+
+// Share of a component in the thrust force.
+double share(const MeasuredCut& m, Component which, const Cut& edge) {
+  const double u = flow_cotangent(edge, m.ap_mm, m.f_mm_rev), sine = 1 / std::hypot(1, u);
+  return which == Component::feed ? sine : u * sine;
+}
+
+// The part of the thrust force that it is to be judged by, and its share of it.
+std::optional<std::pair<double, double>> part_of_thrust(const MeasuredCut& m,
+                                                        const Cut& edge) {
+  for (const auto c : {Component::passive, Component::feed})
+    if (const double part = share(m, c, edge); force_of(m, c) && part >= kLeastShare)
+      return std::pair{*force_of(m, c), part};
+  return std::nullopt;
+}
+
+std::optional<ThrustFit> thrust(std::span<const MeasuredCut> all, const Cut& cut,
+                                const FitOptions& options) {
+  if (!(cut.kc.k11_MPa > 0)) return std::nullopt;  // Fc is not known
+  std::vector<ThrustPoint> points;
+  std::vector<std::size_t> cuts;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const auto part = part_of_thrust(all[i], cut)) {
+      const double L = engaged_edge_mm(cut, all[i].ap_mm, all[i].f_mm_rev);
+      points.push_back({kienzle_N(cut.kc, L, all[i].ap_mm, all[i].f_mm_rev), L,
+                        part->second, part->first});
+      cuts.push_back(i);
+    }
+  if (points.empty()) return std::nullopt;
+  ThrustFit fit = fit_thrust(points, cut.thrust, options);
+  name_cuts(cuts, fit.evidence);
+  return fit;
+}
+
+// A law that a material may have.
+std::optional<Kienzle> constants(const std::optional<KienzleFit>& fit) {
+  if (!fit || !fit->m || !(fit->m->value >= 0 && fit->m->value < 1)) return std::nullopt;
+  return Kienzle{fit->k11_MPa->value, fit->m->value};
+}
+
+// The fits to some cuts; feed and passive force by `law`, or `none` if that cannot be.
+ForceFit fitted(std::span<const MeasuredCut> cuts, const Cut& base, ThrustLaw law,
+                const FitOptions& options) {
+  ForceFit fit;
+  fit.cut = base;
+  for (const auto c : {Component::cutting, Component::feed, Component::passive})
+    fit.kienzle[number(c)] = component(cuts, c, base, options);
+  if (const auto kc = constants(fit.kienzle[number(Component::cutting)]))
+    fit.cut.kc = *kc;
+  fit.thrust = thrust(cuts, fit.cut, options);
+  const auto kf = constants(fit.kienzle[number(Component::feed)]),
+             kp = constants(fit.kienzle[number(Component::passive)]);
+  if (law == ThrustLaw::components && kf && kp) {
+    fit.law = law;
+    fit.cut.kf = kf, fit.cut.kp = kp;
+  }
+  if (law == ThrustLaw::direction && fit.thrust && fit.thrust->ratio) {
+    fit.law = law;
+    fit.cut.kf = fit.cut.kp = std::nullopt;
+    fit.cut.thrust.ratio = fit.thrust->ratio->value;
+    fit.cut.thrust.edge_N_mm = fit.thrust->edge_N_mm->value;
+  }
+  return fit;
+}
+
+std::vector<double> depths(std::span<const MeasuredCut> cuts) {
+  std::vector<double> all;
+  for (const auto& m : cuts) all.push_back(m.ap_mm);
+  std::ranges::sort(all);
+  const auto same = [](double a, double b) { return b - a <= kSameDepth * b; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
+// Of feed and passive force where they are a good part of the thrust force.
+LeftOut errors(std::span<const MeasuredCut> cuts, double ap_mm, const Cut& law) {
+  LeftOut out{.ap_mm = ap_mm, .rms = {}};
+  for (const auto c : {Component::cutting, Component::feed, Component::passive}) {
+    const std::size_t k = number(c);
+    double sum = 0;
+    int n = 0;
+    for (const auto& m : cuts) {
+      if (!m.F_N[k] || (c != Component::cutting && share(m, c, law) < kLeastShare))
+        continue;
+      const auto F = forces_N(law, m.ap_mm, m.f_mm_rev);
+      const std::array<double, kComponents> said{F.Fc_N, F.Ff_N, F.Fp_N};
+      sum += sqr(said[k] / *m.F_N[k] - 1);
+      ++n;
+    }
+    if (n > 0) out.rms[k] = std::sqrt(sum / n);
+  }
+  return out;
+}
+
+// Errors at each depth by the law of the others; none if some depth cannot be left out
+// because the others do not determine the law, or if there are too many.
+std::vector<LeftOut> validated(std::span<const MeasuredCut> cuts, const Cut& base,
+                               ThrustLaw law, const FitOptions& options) {
+  std::vector<LeftOut> all;
+  const auto each = depths(cuts);
+  if (each.size() < 2 || each.size() > kDepths) return all;
+  for (const double ap : each) {
+    std::vector<MeasuredCut> kept, left;
+    for (const auto& m : cuts)
+      (std::abs(m.ap_mm - ap) <= kSameDepth * ap ? left : kept).push_back(m);
+    const ForceFit fit = fitted(kept, base, law, options);
+    const auto& Fc = fit.kienzle[number(Component::cutting)];
+    if (fit.law != law || (Fc && !constants(Fc))) return {};
+    all.push_back(errors(left, ap, fit.cut));
+    if (law == ThrustLaw::none)  // says nothing of these
+      for (const auto c : {Component::feed, Component::passive})
+        all.back().rms[number(c)].reset();
+  }
+  return all;
+}
+
+// Mean square over feed and passive force; infinite where nothing was validated.
+double thrust_error(const std::vector<LeftOut>& all) {
+  if (all.empty()) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (const auto& l : all)
+    for (const auto c : {Component::feed, Component::passive})
+      sum += sqr(l.rms[number(c)].value_or(0));
+  return sum;
+}
+
+}  // namespace
+
+ForceFit fit_forces(std::span<const MeasuredCut> cuts, const Cut& base,
+                    const FitOptions& options) {
+  ForceFit direction = fitted(cuts, base, ThrustLaw::direction, options);
+  direction.left_out = validated(cuts, base, direction.law, options);
+  ForceFit components = fitted(cuts, base, ThrustLaw::components, options);
+  if (components.law == ThrustLaw::none) return direction;
+  components.left_out = validated(cuts, base, ThrustLaw::components, options);
+  const bool better =
+      direction.law == ThrustLaw::none ||
+      thrust_error(components.left_out) < thrust_error(direction.left_out);
+  return better ? components : direction;
+}
+
+}  // namespace turnwright::cutting
