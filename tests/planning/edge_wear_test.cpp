@@ -25,12 +25,10 @@ const ToleranceResult& tolerance_of(const ProcessPlan& r, const std::string& id)
   throw std::runtime_error("no tolerance " + id);
 }
 
-double deepest(const ProcessPlan& r, const std::string& on) {
-  double most = 0;
+const Deviation& deviation_of(const ProcessPlan& r, const std::string& on) {
   for (const auto& d : r.deviations)
-    if (d.on == on)
-      for (const auto& [z, e] : d.table_mm) most = std::max(most, std::abs(e));
-  return most;
+    if (d.on == on) return d;
+  throw std::runtime_error("no deviation of " + on);
 }
 
 // The plan holds at every wear up to that of the change, by predictions of its conditions;
@@ -71,7 +69,9 @@ TEST(EdgeWear, NewEdgesAreToldBesideThoseDueForChange) {
           EXPECT_NEAR(worn.table_mm[k].second, alone.table_mm[k].second, 1e-12);
       }
   EXPECT_GT(tolerance_of(fresh, "t").margin_mm, tolerance_of(r, "t").margin_mm);
-  EXPECT_GT(deepest(r, "d2"), 0);
+  const auto& d2 = deviation_of(r, "d2");
+  EXPECT_GT(std::abs(d2.at_change_mm.back().second),
+            1.5 * std::abs(d2.table_mm.back().second));
 }
 
 // Forces written anew: three times the passive force of a new edge at VB 0.3 mm.
@@ -111,6 +111,11 @@ TEST(EdgeWear, ACorrectedPathIsNotProposed) {
   const auto r = plan(part(d));
   EXPECT_EQ(r.status, PlanStatus::infeasible);
   EXPECT_TRUE(r.compensation.empty());
+  double most = 0;
+  for (const auto& [z, e] : deviation_of(wide, "d2").at_change_mm)
+    most = std::max(most, std::abs(e));
+  d.erase("tolerances");
+  d["outer"][1]["limits_mm"] = {-1.5 * most, 1.5 * most};
   const auto given = predict(part_to_predict(as_planned(d, wide)));
   EXPECT_TRUE(given.compensation.empty());
   EXPECT_EQ(tolerance_of(given, "d2:diameter").verdict, Verdict::not_met);
