@@ -16,11 +16,6 @@ const std::optional<double>& force_of(const MeasuredCut& m, Component c) {
   return m.F_N[number(c)];
 }
 
-void name_cuts(const std::vector<std::size_t>& cuts, Evidence& e) {
-  for (auto* list : {&e.used, &e.outliers})
-    for (std::size_t& i : *list) i = cuts[i];
-}
-
 std::optional<KienzleFit> component(std::span<const MeasuredCut> all, Component which,
                                     const Cut& edge, const FitOptions& options) {
   std::vector<ForcePoint> points;
@@ -33,7 +28,7 @@ std::optional<KienzleFit> component(std::span<const MeasuredCut> all, Component 
     }
   if (points.empty()) return std::nullopt;
   KienzleFit fit = fit_kienzle(points, options);
-  name_cuts(cuts, fit.evidence);
+  fit.evidence.rename(cuts);
   return fit;
 }
 
@@ -66,7 +61,7 @@ std::optional<ThrustFit> thrust(std::span<const MeasuredCut> all, const Cut& cut
     }
   if (points.empty()) return std::nullopt;
   ThrustFit fit = fit_thrust(points, cut.thrust, options);
-  name_cuts(cuts, fit.evidence);
+  fit.evidence.rename(cuts);
   return fit;
 }
 
@@ -152,7 +147,7 @@ std::vector<LeftOut> validated(std::span<const MeasuredCut> cuts, const Cut& bas
   return all;
 }
 
-// Mean square over feed and passive force; infinite where nothing was validated.
+// Sum of squares over feed and passive force; infinite where nothing was validated.
 double thrust_error(const std::vector<LeftOut>& all) {
   if (all.empty()) return std::numeric_limits<double>::infinity();
   double sum = 0;

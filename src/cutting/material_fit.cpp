@@ -109,6 +109,13 @@ Estimate ends(double value, double one, double other) {
   return {value, std::min(one, other), std::max(one, other)};
 }
 
+/// c_j by Student's t, times a number.
+Estimate interval(const Regression& r, Index j, double times, const FitOptions& options) {
+  const double t = quantile((1 + options.confidence) / 2, r.degrees);
+  const double half = t * std::sqrt(r.covariance(j, j));
+  return ends(times * r.c[j], times * (r.c[j] - half), times * (r.c[j] + half));
+}
+
 /// -c_i/c_j by Fieller's theorem; c_j differs from 0 by more than its interval.
 Estimate ratio(const Regression& r, Index i, Index j, double t) {
   const double a = r.c[i], b = r.c[j], t2 = t * t;
@@ -127,6 +134,11 @@ Estimate exponential(const Estimate& e) {
 }
 
 }  // namespace
+
+void Evidence::rename(const std::vector<std::size_t>& names) {
+  for (auto* list : {&used, &outliers})
+    for (std::size_t& i : *list) i = names[i];
+}
 
 KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& options) {
   KienzleFit fit;
@@ -150,13 +162,8 @@ KienzleFit fit_kienzle(std::span<const ForcePoint> cuts, const FitOptions& optio
     return fit;
   }
   const Regression r = robust(X, y, options.outlier_p, fit.evidence);
-  const double t = quantile((1 + options.confidence) / 2, r.degrees);
-  const auto interval = [&](Index j, double sign) {
-    const double half = t * std::sqrt(r.covariance(j, j));
-    return Estimate{sign * r.c[j], sign * r.c[j] - half, sign * r.c[j] + half};
-  };
-  fit.k11_MPa = exponential(interval(0, 1));
-  fit.m = interval(1, -1);
+  fit.k11_MPa = exponential(interval(r, 0, 1, options));
+  fit.m = interval(r, 1, -1, options);
   return fit;
 }
 
@@ -203,22 +210,17 @@ ThrustFit fit_thrust(std::span<const ThrustPoint> cuts, const catalogue::Thrust&
     F[i] = p.F_N;
   }
   if (n < 3) return fit;
-  const auto estimate = [&](const Regression& r, Index j, double times) {
-    const double half =
-        quantile((1 + options.confidence) / 2, r.degrees) * std::sqrt(r.covariance(j, j));
-    return Estimate{times * r.c[j], times * (r.c[j] - half), times * (r.c[j] + half)};
-  };
   const auto both = thrust_regression(A, F, options, fit.evidence);
   if (both && both->c.minCoeff() >= 0) {
-    fit.ratio = estimate(*both, 0, 1);
-    fit.edge_N_mm = estimate(*both, 1, 1);
+    fit.ratio = interval(*both, 0, 1, options);
+    fit.edge_N_mm = interval(*both, 1, 1, options);
     return fit;
   }
   fit.scaled = true;
   const MatrixXd whole = A * Eigen::Vector2d(given.ratio, given.edge_N_mm);
   const auto one = thrust_regression(whole, F, options, fit.evidence);
-  fit.ratio = estimate(*one, 0, given.ratio);
-  fit.edge_N_mm = estimate(*one, 0, given.edge_N_mm);
+  fit.ratio = interval(*one, 0, given.ratio, options);
+  fit.edge_N_mm = interval(*one, 0, given.edge_N_mm, options);
   return fit;
 }
 

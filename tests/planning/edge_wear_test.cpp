@@ -19,12 +19,6 @@ nlohmann::json worn_pin(double VB_mm) {
   return d;
 }
 
-const ToleranceResult& tolerance_of(const ProcessPlan& r, const std::string& id) {
-  for (const auto& t : r.tolerances)
-    if (t.id == id) return t;
-  throw std::runtime_error("no tolerance " + id);
-}
-
 const Deviation& deviation_of(const ProcessPlan& r, const std::string& on) {
   for (const auto& d : r.deviations)
     if (d.on == on) return d;
@@ -44,9 +38,9 @@ TEST(EdgeWear, ThePlanHoldsFromTheNewEdgeToTheChange) {
     given["budget"]["edge_wear_mm"] = VB;
     const auto at = predict(part_to_predict(given));
     for (const char* id : {"d2:diameter", "t"})
-      EXPECT_GE(tolerance_of(at, id).margin_mm, -1e-9) << id << ' ' << VB;
-    EXPECT_LE(tolerance_of(at, "t").margin_mm, margin + 1e-12);
-    margin = tolerance_of(at, "t").margin_mm;
+      EXPECT_GE(tolerance(at, id).margin_mm, -1e-9) << id << ' ' << VB;
+    EXPECT_LE(tolerance(at, "t").margin_mm, margin + 1e-12);
+    margin = tolerance(at, "t").margin_mm;
     const double T = operation(at, "s1-finish-d2").passes[0].T_min;
     EXPECT_GT(T, life);
     life = T;
@@ -68,7 +62,7 @@ TEST(EdgeWear, NewEdgesAreToldBesideThoseDueForChange) {
         for (std::size_t k = 0; k < worn.table_mm.size(); ++k)
           EXPECT_NEAR(worn.table_mm[k].second, alone.table_mm[k].second, 1e-12);
       }
-  EXPECT_GT(tolerance_of(fresh, "t").margin_mm, tolerance_of(r, "t").margin_mm);
+  EXPECT_GT(tolerance(fresh, "t").margin_mm, tolerance(r, "t").margin_mm);
   const auto& d2 = deviation_of(r, "d2");
   EXPECT_GT(std::abs(d2.at_change_mm.back().second),
             1.5 * std::abs(d2.table_mm.back().second));
@@ -118,7 +112,7 @@ TEST(EdgeWear, ACorrectedPathIsNotProposed) {
   d["outer"][1]["limits_mm"] = {-1.5 * most, 1.5 * most};
   const auto given = predict(part_to_predict(as_planned(d, wide)));
   EXPECT_TRUE(given.compensation.empty());
-  EXPECT_EQ(tolerance_of(given, "d2:diameter").verdict, Verdict::not_met);
+  EXPECT_EQ(tolerance(given, "d2:diameter").verdict, Verdict::not_met);
 }
 
 // An offset that is corrected rarely lags behind: fewer parts conform.
@@ -136,8 +130,8 @@ TEST(EdgeWear, AnOffsetThatLagsTakesItsShare) {
   const auto always = predict(part_to_predict(given));
   given["budget"]["life_between_offsets"] = 1;
   const auto never = predict(part_to_predict(given));
-  EXPECT_LT(tolerance_of(never, "d2:diameter").P_conform,
-            tolerance_of(always, "d2:diameter").P_conform);
+  EXPECT_LT(tolerance(never, "d2:diameter").P_conform,
+            tolerance(always, "d2:diameter").P_conform);
 }
 
 }  // namespace

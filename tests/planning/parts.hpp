@@ -105,4 +105,11 @@ inline const OperationPlan& operation(const ProcessPlan& p, const std::string& i
   throw std::out_of_range(id);
 }
 
+/// A tolerance of a plan by its id.
+inline const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
+  for (const auto& t : p.tolerances)
+    if (t.id == id) return t;
+  throw std::out_of_range(id);
+}
+
 }  // namespace turnwright::planning

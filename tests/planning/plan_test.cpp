@@ -53,12 +53,6 @@ PinPasses passes_on_pin(bool d2, bool rough, int passes, double depth, double l)
   return all;
 }
 
-const ToleranceResult& tolerance(const ProcessPlan& p, const std::string& id) {
-  for (const auto& t : p.tolerances)
-    if (t.id == id) return t;
-  throw std::out_of_range(id);
-}
-
 TEST(Plan, CylinderCostsWhatItsPassesTake) {
   const auto p = part(pin());
   const auto r = plan(p);

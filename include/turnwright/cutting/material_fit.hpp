@@ -21,6 +21,9 @@ struct Evidence {
   int degrees_of_freedom = 0;
   double s = 0;             ///< standard deviation of the logarithm of one measurement
   double s_prediction = 0;  ///< the same of a further cut at the mean of the conditions
+
+  /// Replaces the index i of each measurement by names[i].
+  void rename(const std::vector<std::size_t>& names);
 };
 
 /// A constant that the cuts do not determine, and a cut that would.

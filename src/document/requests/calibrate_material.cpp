@@ -198,9 +198,7 @@ std::optional<Lives> lives(const FitRequest& q) {
     }
   if (points.empty()) return std::nullopt;
   out.fit = cutting::fit_taylor(points, q.given_a, q.given_b, q.options);
-  auto& e = out.fit.evidence;
-  for (auto* list : {&e.used, &e.outliers})
-    for (std::size_t& i : *list) i = out.cuts[i];
+  out.fit.evidence.rename(out.cuts);
   return out;
 }
 
@@ -381,38 +379,34 @@ bool put(const char* name, json value, json& m, json& warnings) {
   return true;
 }
 
-/// The material's document with the measured constants; null without one to start from.
-json material(const FitRequest& q, const Fits& fits, json& warnings) {
+struct Written {
+  json material;              ///< with the measured constants; null without one given
+  const char* law = nullptr;  ///< of feed and passive force that goes into it, or would
+};
+
+Written written(const FitRequest& q, const Fits& fits, json& warnings) {
+  using cutting::ThrustLaw;
+  const auto& f = fits.forces;
+  const auto law = f ? f->law : ThrustLaw::none;
+  const bool direction = law == ThrustLaw::direction;
+  const char* name = direction ? "thrust" : "feed_passive";
   if (!q.material) {
     warnings.push_back("no material given, whose document the constants could go into");
-    return nullptr;
+    return {nullptr, law == ThrustLaw::none ? nullptr : name};
   }
-  json m = *q.material;
+  Written w{*q.material};
+  json& m = w.material;
   if (q.id) m["id"] = *q.id;
   if (q.name) m["name"] = *q.name;
-  if (const auto& f = fits.forces) {
-    const auto& c = f->kienzle[kCutting];
-    if (c && c->m) put("kienzle", kienzle(q, *c), m, warnings);
-    if (f->law == cutting::ThrustLaw::direction &&
-        put("thrust", thrust(q, *f), m, warnings))
-      m.erase("feed_passive");
-    if (f->law == cutting::ThrustLaw::components)
-      put("feed_passive", feed_passive(q, *f), m, warnings);
+  if (f && f->kienzle[kCutting] && f->kienzle[kCutting]->m)
+    put("kienzle", kienzle(q, *f->kienzle[kCutting]), m, warnings);
+  if (law != ThrustLaw::none &&
+      put(name, direction ? thrust(q, *f) : feed_passive(q, *f), m, warnings)) {
+    w.law = name;
+    if (direction) m.erase("feed_passive");
   }
   if (fits.lives && fits.lives->fit.n) put("taylor", taylor(q, *fits.lives), m, warnings);
-  return m;
-}
-
-/// The law of feed and passive force that goes into the material, or would if there were
-/// one; null if neither does.
-const char* replaced(const Fits& fits, const json& m) {
-  if (!fits.forces || fits.forces->law == cutting::ThrustLaw::none) return nullptr;
-  const bool direction = fits.forces->law == cutting::ThrustLaw::direction;
-  const char* name = direction ? "thrust" : "feed_passive";
-  const double found = direction ? fits.forces->thrust->ratio->value
-                                 : fits.forces->kienzle[kPassive]->k11_MPa->value;
-  const char* key = direction ? "ratio" : "kp11_MPa";
-  return m.is_null() || (m.contains(name) && m[name][key] == found) ? name : nullptr;
+  return w;
 }
 
 void warn(const FitRequest& q, const Fits& fits, json& warnings) {
@@ -465,9 +459,9 @@ json calibrate_material(const json& request, const Catalogue& catalogue) {
   json chips = json::array();
   for (const Cut& c : q.cuts) chips.push_back({{"h_mm", c.h_mm}, {"b_mm", c.b_mm}});
   result["chips"] = std::move(chips);
-  const json m = material(q, fits, warnings);
-  if (const char* law = replaced(fits, m)) result["feed_and_passive_by"] = law;
-  result["material"] = m;
+  Written w = written(q, fits, warnings);
+  if (w.law) result["feed_and_passive_by"] = w.law;
+  result["material"] = std::move(w.material);
   result["warnings"] = std::move(warnings);
   return result;
 }

@@ -31,7 +31,7 @@ struct Found {
 
 tolerance::PiecewisePolynomial error_of(const SolvedSurface& f, Edges edges) {
   const auto& a = f.answer;
-  if (edges == Edges::changed || !a.model) return a.profile;
+  if (edges == Edges::changed || !a.model || !f.task.feature.is_worn()) return a.profile;
   return f.task.feature.with_new_edges().profile(a.model->recipe(), f.task.economy,
                                                  a.choice);
 }

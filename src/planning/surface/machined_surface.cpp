@@ -228,7 +228,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
   const auto& shop = plan_->shop;
-  if (shop.edge_wear_mm > 0 && !new_edge_)
+  if (is_worn())
     o.cut = cutting::worn(
         o.cut, finishing || !recipe.finish ? shop.edge_wear_mm : shop.wear_land_mm,
         shop.wear_land_mm);

@@ -45,6 +45,8 @@ class MachinedSurface {
                                   const Finished& before, std::size_t index,
                                   const GivenConditions& fixed);
 
+  /// Whether the forces are those of worn edges.
+  bool is_worn() const { return plan_->shop.edge_wear_mm > 0 && !new_edge_; }
   /// The same surface cut by edges that are not worn.
   MachinedSurface with_new_edges() const {
     auto other = *this;
@@ -95,8 +97,8 @@ class MachinedSurface {
   /// what an all but rigid part yields in its supports, f_b the bending on top of that,
   /// never negative because a stiffer body yields less everywhere; zeta is the damping
   /// ratio of the bending part, zeta_m of the machine, zeta_b of a boring bar.  The
-  /// compliances are static.  For modes of any frequencies and at any spindle speed the limit from the
-  /// sum of their compliances is at most that of the modes together
+  /// compliances are static.  For modes of any frequencies and at any spindle speed the
+  /// limit from the sum of their compliances is at most that of the modes together
   /// (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
 

@@ -77,15 +77,17 @@ std::vector<double> MachinedSurface::chatter_yields(
   const auto& m = plan_->machine;
   const double work = 1 / damped(*plan_, plan_->damping_ratio),
                machine = 1 / damped(*plan_, plan_->machine_damping_ratio);
+  const bool alike = plan_->damping_ratio == plan_->machine_damping_ratio;
   const auto together = [&](double whole, double rigid) {
     return work * (whole - rigid) + machine * rigid;
   };
   std::vector<double> c(places.size());
   if (is_face()) {
     const auto body = bodies_[0].shaft(), stiff = stiffer(body);
-    std::vector<deflection::Flexibility> r(1), s(1), t(1);
+    std::vector<deflection::Flexibility> r(1), t(1);
     yields(body, body, bodies_[0], {face_x_}, r, t);
-    yields(stiff, stiff, bodies_[0], {face_x_}, s, t);
+    auto s = r;
+    if (!alike) yields(stiff, stiff, bodies_[0], {face_x_}, s, t);
     const double axial = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
     for (std::size_t k = 0; k < c.size(); ++k)
       c[k] = together(r[0].f_pp_rad_Nmm, s[0].f_pp_rad_Nmm) * sqr(places[k]) +
@@ -94,9 +96,10 @@ std::vector<double> MachinedSurface::chatter_yields(
   }
   std::vector<double> x(places.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = x_mm(o, places[k]);
-  std::vector<deflection::Flexibility> r(x.size()), s(x.size()), t(x.size());
+  std::vector<deflection::Flexibility> r(x.size()), t(x.size());
   yields(o, left_mm, uncut_mm, x, r, t);
-  yields(o, left_mm, uncut_mm, x, s, t, true);
+  auto s = r;
+  if (!alike) yields(o, left_mm, uncut_mm, x, s, t, true);
   double bar = 0;
   if (o.inner)
     bar =
