@@ -73,6 +73,11 @@ add_test(NAME service.examples COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/service/examples.bash $<TARGET_FILE:turnwright>
   ${PROJECT_SOURCE_DIR})
 set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
+if(NOT TURNWRIGHT_SANITIZE)  # which takes terabytes of address space
+  add_test(NAME service.attacks COMMAND ${PROJECT_SOURCE_DIR}/tests/service/attacks.py
+    $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 100 100)
+  set_tests_properties(service.attacks PROPERTIES TIMEOUT 600)
+endif()
 
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash

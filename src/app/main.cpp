@@ -130,7 +130,8 @@ void write_programs(const fs::path& folder, const nc::Programs& programs,
     files.push_back({kToolTable, nc::tool_table(programs.setups)});
   service::make_folder(folder);
   for (const auto& name : service::replace_files(folder, files, is_of_programs))
-    std::cerr << "removed " << (folder / name).string() << ", of an earlier plan\n";
+    std::cerr << "removed " << visible((folder / name).string())
+              << ", of an earlier plan\n";
   for (const auto& why : programs.cannot)
     std::cerr << "no NC program: " << visible(why) << '\n';
   if (files.empty() && programs.cannot.empty())
@@ -396,13 +397,13 @@ int main(int argc, char** argv) {
     std::cerr << e.what() << '\n';
     return app::kInput;
   } catch (const ModelRangeError& e) {
-    std::cerr << e.what() << '\n';
+    std::cerr << visible(e.what()) << '\n';
     return app::kRange;
   } catch (const service::OutputError& e) {
-    std::cerr << e.what() << '\n';
+    std::cerr << visible(e.what()) << '\n';
     return app::kOutput;
   } catch (const std::exception& e) {
-    std::cerr << "internal error: " << e.what() << '\n';
+    std::cerr << "internal error: " << visible(e.what()) << '\n';
     return app::kInternal;
   }
 }

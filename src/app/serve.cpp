@@ -7,6 +7,7 @@
 
 #include "options.hpp"
 #include "service/batch/folder.hpp"
+#include "service/http/reserve.hpp"
 #include "service/http/server.hpp"
 #include "service/log.hpp"
 #include "service/output.hpp"
@@ -18,11 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMega = 1'000'000;
+constexpr std::size_t kReserve = 16 * kMega;  // bytes
+
 struct ServeArguments {
   service::ServerOptions options;
   std::optional<fs::path> keys, jobs, page;
   double deadline_s = 60;
   unsigned batch_threads = 1;
+  std::size_t body_memory_MB = service::ServerOptions{}.body_bytes / kMega;
 };
 
 /// Default place of the job store: the user's state folder.
@@ -69,10 +74,16 @@ service::HttpApi::Page page_of(const fs::path& folder) {
   return read;
 }
 
+std::string told_limits(const ServeArguments& arguments) {
+  return "bodies and answers of all calls together: " +
+         std::to_string(arguments.options.body_bytes / kMega) + " MB (--body-memory)";
+}
+
 void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
   if (arguments.keys) arguments.options.keys = service::read_keys(*arguments.keys);
   arguments.options.deadline =
       std::chrono::milliseconds(static_cast<long>(1e3 * arguments.deadline_s));
+  arguments.options.body_bytes = kMega * arguments.body_memory_MB;
   service::start_log();
   const auto folder = document::data_folder(data);
   const auto catalogue = document::load_catalogue(folder);
@@ -83,12 +94,14 @@ void serve(ServeArguments arguments, const std::optional<fs::path>& data) {
   const service::HttpApi api(
       folder, catalogue, batches ? &*batches : nullptr,
       arguments.page ? page_of(*arguments.page) : service::built_in_page);
+  const service::MemoryReserve reserve(kReserve);
   service::Server server(arguments.options, api);
   const bool v6 = arguments.options.address.find(':') != std::string::npos;
   service::print(
       "turnwright serves http://" +
       (v6 ? '[' + arguments.options.address + ']' : arguments.options.address) + ':' +
       std::to_string(server.port()) + "/\n");
+  service::log_event("limits", told_limits(arguments));
   server.run();
   service::log_event("stopped", "every call that had arrived is answered");
 }
@@ -120,6 +133,10 @@ void add_serve(CLI::App& app, const std::optional<fs::path>& data,
                           "calls that may wait for a thread; more are answered 503");
   add_number<std::size_t>(*command, "--connections", options.connections, {1, 1'000'000},
                           "connections open at once");
+  add_number<std::size_t>(*command, "--body-memory", arguments->body_memory_MB,
+                          {4, 1'000'000},
+                          "MB that bodies and answers of all calls may take together; "
+                          "more are answered 503");
   add_number<double>(*command, "--deadline", arguments->deadline_s, {0.001, 86'400},
                      "seconds a call may be computed; then it is answered 504");
   command->footer(

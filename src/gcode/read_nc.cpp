@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "turnwright/base/cancelled.hpp"
+
 namespace turnwright::gcode {
 namespace {
 
@@ -433,6 +435,7 @@ class Interpreter {
   }
 
   void require_room() {
+    leave_if_asked();
     full_ = program_.moves.size() >= setup_.moves_max;
     if (full_)
       throw Fault{"more than " + std::to_string(setup_.moves_max) + " moves",

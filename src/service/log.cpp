@@ -3,14 +3,18 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "turnwright/base/errors.hpp"
+
 namespace turnwright::service {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Members of a JSON object without its braces; they follow time and level.
+/// Members of a JSON object without its braces; they follow time and level.  What JSON
+/// lets stand and a terminal may obey is escaped, too.
 std::string members(const ordered_json& object) {
-  const auto text = object.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  const auto text =
+      visible(object.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
   return text.substr(1, text.size() - 2);
 }
 

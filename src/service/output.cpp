@@ -15,6 +15,8 @@
 #include <set>
 #include <system_error>
 
+#include "turnwright/base/errors.hpp"
+
 namespace turnwright::service {
 namespace {
 
@@ -146,8 +148,15 @@ void make_folder(const fs::path& folder) {
 }
 
 void print(const std::string& text) {
+  std::string shown;
+  for (std::string_view rest = text; !rest.empty();) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    shown += visible(rest.substr(0, end));
+    if (end < rest.size()) shown += '\n';
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
   errno = 0;
-  std::cout << text << std::flush;
+  std::cout << shown << std::flush;
   if (!std::cout)
     throw OutputError(std::string("standard output cannot be written: ") +
                       std::strerror(errno));

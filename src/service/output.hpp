@@ -61,7 +61,9 @@ std::vector<std::string> replace_files(const std::filesystem::path& folder,
 /// Makes the folder and its parents if they are missing.
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes to standard output and checks that all was written.
+/// Writes to standard output and checks that all was written.  Control characters in the
+/// lines are made visible(), so that names cannot command a terminal; JSON keeps its
+/// meaning.
 void print(const std::string& text);
 
 }  // namespace turnwright::service

@@ -9,9 +9,11 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 #include <utility>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/random.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -87,12 +89,14 @@ double unit_draw(Distribution d, double u, double w) {
 
 /// Eq. (1) for the draws first .. first + sums.size() - 1.
 void add_draws(std::span<const Source> sources, std::uint64_t seed, std::size_t first,
-               std::span<double> sums) {
+               std::span<double> sums, const std::stop_token& stop) {
+  constexpr std::size_t kBetweenLooks = 65'536;  // draws, some milliseconds
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Source& s = sources[i];
     const double scale = s.sensitivity * s.value_um;
     const std::uint64_t state = splitmix64(splitmix64(seed, 0), i);
     for (std::size_t j = 0; j < sums.size(); ++j) {
+      if (j % kBetweenLooks == 0 && stop.stop_requested()) return;
       const std::uint64_t k = 2 * static_cast<std::uint64_t>(first + j);
       sums[j] += scale * unit_draw(s.distribution, uniform_draw(splitmix64(state, k)),
                                    uniform_draw(splitmix64(state, k + 1)));
@@ -215,16 +219,20 @@ std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& 
   const std::size_t asked =
       draws.threads ? draws.threads : std::max(1u, std::thread::hardware_concurrency());
   const std::size_t threads = std::min({asked, draws.count, std::size_t{64}});
+  const std::stop_token* const heard = Listening::heard();
+  const std::stop_token stop = heard ? *heard : std::stop_token();
   const auto part = [&](std::size_t t) {
     const std::size_t first = draws.count * t / threads;
     const std::size_t last = draws.count * (t + 1) / threads;
-    add_draws(sources, draws.seed, first, std::span(sums).subspan(first, last - first));
+    add_draws(sources, draws.seed, first, std::span(sums).subspan(first, last - first),
+              stop);
   };
   {
     std::vector<std::jthread> others;
     for (std::size_t t = 1; t < threads; ++t) others.emplace_back(part, t);
     part(0);
   }
+  leave_if(stop);
   std::ranges::sort(sums);
   return sums;
 }

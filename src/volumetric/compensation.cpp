@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/least_squares.hpp"
 #include "turnwright/gcode/nc_writer.hpp"
@@ -127,6 +128,7 @@ class Walk {
     Vec3 from = program.start_mm, sign{},
          at_from = field_.error(*tool_, from, sign, from);
     for (const NcMove& m : program.moves) {
+      leave_if_asked();
       if (!m.moves) {
         visit(Stop{.move = &m});
         continue;
@@ -223,6 +225,7 @@ void fitted(Method method, const Field& field, int passes, std::vector<Stop>& st
   if (n == 0) return;
   Eigen::MatrixXd A(n, columns), e(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
+    leave_if_asked();
     Stop& s = *moving[static_cast<std::size_t>(i)];
     correct(field, passes, s.error, s);
     A(i, 0) = 1;
@@ -489,6 +492,7 @@ Compensated compensate(const NcProgram& program, const Machine& machine,
   });
   if (!full) fitted(options.method, field, options.passes, stops);
   for (Stop& s : stops) {
+    leave_if_asked();
     if (s.move->moves)
       write(s);
     else

@@ -197,6 +197,36 @@ TEST_F(CommandLine, EachProblemHasALineWithItsPlace) {
     EXPECT_NE(outcome.err.find(place), std::string::npos) << outcome.err;
 }
 
+// Names come from elsewhere: what a terminal would obey is shown instead, and JSON means
+// the same as before.
+TEST_F(CommandLine, ControlCharactersOfNamesAreShownNotObeyed) {
+  auto part =
+      nlohmann::json::parse(contents(TURNWRIGHT_SOURCE_DIR "/parts/pump-shaft.json"));
+  const std::string name =
+      "Shaft\x1b[31m\x7f\xc2\x9b"
+      "31m \u00d820";
+  part["name"] = name;
+  put(folder_ / "part.json", part.dump());
+  for (const char* how : {"", " --json", " --report report.html"}) {
+    const auto run = shell("turnwright plan part.json -o plan.json" + std::string(how));
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const char* control : {"\x1b", "\x7f", "\xc2\x9b"}) {
+      EXPECT_EQ(run.out.find(control), std::string::npos) << how;
+      EXPECT_EQ(run.err.find(control), std::string::npos) << how;
+    }
+    EXPECT_NE(run.out.find("\\u009b31m \u00d820"), std::string::npos)
+        << how << run.out.substr(0, 300);
+  }
+  const auto printed = shell("turnwright drawing part.json").out;
+  EXPECT_EQ(nlohmann::json::parse(printed).at("name"), name);
+  const auto page = contents(folder_ / "report.html");
+  for (const char* control : {"\x1b", "\x7f", "\xc2\x9b"})
+    EXPECT_EQ(page.find(control), std::string::npos);
+  const auto file = shell("turnwright plan \"$(printf 'no\\033[31mfile')\"");
+  EXPECT_EQ(file.code, 2);
+  EXPECT_NE(file.err.find("no\\u001b[31mfile"), std::string::npos) << file.err;
+}
+
 TEST_F(CommandLine, FilesThatAreNoDocumentsAreNamed) {
   put(folder_ / "cut.json", "{\"shaft\": ");
   put(folder_ / "twice.json", "{\"shaft\": 1, \"shaft\": 2}");

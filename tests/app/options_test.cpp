@@ -61,7 +61,7 @@ TEST_F(Options, NumbersAreDecimalAndWithinTheirRange) {
     refused(option.command + ' ' + option.name + " ''",
             "command line: " + option.name + ": got \"\", expected a");
   }
-  EXPECT_EQ(numbers, 10);  // six of serve, three of batch, the setup of nc
+  EXPECT_EQ(numbers, 11);  // seven of serve, three of batch, the setup of nc
   for (const std::string zero :
        {"serve --deadline 0", "serve --connections 0", "serve --batch-threads 0",
         "batch lines.jsonl -o r --jobs 0", "batch lines.jsonl -o r --chunk 0"})

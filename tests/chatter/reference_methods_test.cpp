@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cutters.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/chatter/limits.hpp"
 
 namespace turnwright::chatter {
@@ -97,6 +98,16 @@ TEST(Simulation, AgreesOnGrowthAndVerdict) {
         EXPECT_EQ(growth > 1, right.unstable > 0) << n << " " << w;
       }
     }
+}
+
+// A kilobyte a step: the period is refused before its memory is taken.
+TEST(Simulation, RefusesAPeriodOfTooManySteps) {
+  const System s = slot_cutter();
+  const double steps = simulation_steps(s, 100);
+  EXPECT_NEAR(simulation_steps(s, 50), 2 * steps, 2);  // whole steps on each arc
+  EXPECT_THROW(simulation(s, 100, 0.1, {.most_steps = steps - 1}), ModelRangeError);
+  EXPECT_NO_THROW(simulation(s, 100, 0.1, {.periods = 12, .most_steps = steps}));
+  EXPECT_THROW(simulation(s, 1, 0.1), ModelRangeError);
 }
 
 }  // namespace

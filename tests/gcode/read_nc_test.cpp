@@ -7,6 +7,7 @@
 #include <random>
 
 #include "moves.hpp"
+#include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::gcode {
 namespace {
@@ -230,6 +231,14 @@ TEST(NcProgram, AskForWhatTheyDoNotKnow) {
   p = read_nc({"G91", "X900000", "X900000", "G20 X90000"}, {});
   ASSERT_EQ(p.problems.size(), 2u);
   EXPECT_EQ(p.problems[0].line, 3u);
+}
+
+TEST(NcProgram, IsLeftWhenNobodyWaits) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto token = stop.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(read_nc({"G1 X1"}, {}), Cancelled);
 }
 
 TEST(NcProgram, EndsOnce) {

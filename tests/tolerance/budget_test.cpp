@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::tolerance {
@@ -511,6 +512,14 @@ TEST(BudgetRefusals, NameTheRule) {
             "budget: there must be a draw");
   EXPECT_EQ(message({.sources = {}}, {nan, 1}),
             "budget: the ends of the range that the sources may use must not be NaN");
+}
+
+TEST(Budget, IsLeftWhenNobodyWaits) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto token = stop.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(rising_sum_um(std::vector{source(normal, 1)}, {.count = 100}), Cancelled);
 }
 
 }  // namespace

@@ -31,9 +31,16 @@ Dominant time_finite_elements(const System& system, double n_rpm, double ap_mm,
 struct SimulationOptions {
   int periods = 120;          ///< with more periods the lesser multipliers have decayed
   double steps_per_rad = 20;  ///< of the fastest mode
+  double most_steps = 1e5;    ///< of a period; each takes a kilobyte
 };
+/// @throws ModelRangeError if a period takes more steps than the options allow.
 Dominant simulation(const System& system, double n_rpm, double ap_mm,
                     const SimulationOptions& options = {});
+
+/// Steps that simulation() takes a period; its time is proportional to them and to the
+/// number of periods.
+double simulation_steps(const System& system, double n_rpm,
+                        const SimulationOptions& options = {});
 
 /// The limits of stability that `method` finds on `depths` equal steps up to ap_max, each
 /// change of its verdict bisected.  Islands thinner than a step are missed;

@@ -93,7 +93,7 @@ struct Draws {
 /// are parts of one cycle of 2^64 at random positions: any two of 100 sources with 10^7
 /// draws overlap with probability 1e-8.
 /// @throws std::domain_error if a value is negative or not finite (fixed: not finite), a
-///   sensitivity is not finite, or draws is 0.
+///   sensitivity is not finite, or draws is 0; Cancelled if the thread is asked to leave.
 std::vector<double> rising_sum_um(std::span<const Source> sources, const Draws& draws);
 
 /// The p-quantile of rising draws, interpolated linearly at the rank (n - 1) p.  With

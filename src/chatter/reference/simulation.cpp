@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "chatter/model/eigenvalues.hpp"
 #include "chatter/model/free_vibration.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/chatter/reference_methods.hpp"
 
@@ -50,15 +52,22 @@ struct Grid {
   std::vector<Directional> h;  // at begin, middle and end of each step
 };
 
-Grid grid(const System& system, double n_rpm, double steps_per_rad) {
+double steps_of(const System& system, const Arc& arc, double n_rpm,
+                double steps_per_rad) {
+  constexpr double kFewest = 8;
   const double rad_s = 2 * units::kPi * n_rpm / 60;
   double fastest = 0;
   for (const Mode& m : system.modes) fastest = std::max(fastest, rate(m));
+  return std::max(kFewest, std::ceil((arc.end_rad - arc.begin_rad) / rad_s * fastest *
+                                     steps_per_rad));
+}
+
+Grid grid(const System& system, double n_rpm, double steps_per_rad) {
+  const double rad_s = 2 * units::kPi * n_rpm / 60;
   Grid out;
   for (const Arc& arc : arcs(system)) {
     const double length = arc.end_rad - arc.begin_rad;
-    const double steps =
-        std::max(8.0, std::ceil(length / rad_s * fastest * steps_per_rad));
+    const double steps = steps_of(system, arc, n_rpm, steps_per_rad);
     for (double i = 0; i < steps; ++i) {
       out.step.push_back(length / steps / rad_s);
       for (const double x : {0.0, 0.5, 1.0})
@@ -92,8 +101,22 @@ std::complex<double> largest_multiplier(const std::vector<State>& seen) {
 
 }  // namespace
 
+double simulation_steps(const System& system, double n_rpm,
+                        const SimulationOptions& options) {
+  double steps = 0;
+  for (const Arc& arc : arcs(system))
+    steps += steps_of(system, arc, n_rpm, options.steps_per_rad);
+  return steps;
+}
+
 Dominant simulation(const System& system, double n_rpm, double ap_mm,
                     const SimulationOptions& options) {
+  const double asked = simulation_steps(system, n_rpm, options);
+  if (!(asked <= options.most_steps))
+    throw ModelRangeError("a period of the simulation takes " +
+                          std::to_string(std::llround(asked)) + " steps, and at most " +
+                          std::to_string(std::llround(options.most_steps)) +
+                          " are simulated; a higher speed has fewer");
   const Grid steps = grid(system, n_rpm, options.steps_per_rad);
   const std::size_t size = steps.step.size();
   State u(2 * system.modes.size());

@@ -17,6 +17,7 @@ using namespace volumetric;
 using nlohmann::json;
 
 constexpr std::size_t kLines = 2'000'000, kLineBytes = 1000;
+constexpr std::size_t kMoves = 500'000;  // 500 MB with the corrected program
 const Bounds kPlace = within(-1e5, 1e5, "mm"), kTolerance = within(1e-6, 1, "mm");
 
 struct CompensationRequest {
@@ -112,6 +113,7 @@ CompensationRequest read_compensation_request(const json& document) {
   q.setup.axes.clear();
   for (const char axis : {'X', 'Y', 'Z'})
     if (chain.find(axis) != std::string::npos) q.setup.axes += axis;
+  q.setup.moves_max = kMoves;
   q.setup.lathe = r.boolean_or("lathe", q.setup.axes == "XZ");
   q.setup.diameter = r.boolean_or("diameter", false);
   q.setup.tolerance_mm = r.number_or("tolerance_mm", kTolerance, 1e-3);

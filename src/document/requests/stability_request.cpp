@@ -9,6 +9,7 @@
 
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
+#include "reference_work.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 #include "turnwright/cutting/milled.hpp"
@@ -400,6 +401,7 @@ Request read_request(const json& request, const Catalogue& catalogue,
   few("speeds_rpm", q.speeds_rpm.size());
   few("points", q.points.size());
   if (q.shaped()) refuse_beside_shape(r, q);
+  if (problems.list.size() == problems_before) limit_reference_work(r, q);
   if (!r.broken() && !r.has("speeds_rpm") && !r.has("points"))
     r.problem_at("speeds_rpm", "speeds_rpm or points", "missing");
   if (!r.broken() && r.has("speeds_rpm") && !r.has("ap_max_mm"))

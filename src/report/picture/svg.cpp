@@ -74,9 +74,13 @@ const char* name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
 
-// Bytes of the first character if XML 1.0 does not know it, else 0.
+// Bytes of the first character if XML 1.0 does not know it or HTML refuses it as a
+// control character, else 0.
 std::size_t unknown(std::string_view text) {
   const auto c = static_cast<unsigned char>(text[0]);
+  const auto second = static_cast<unsigned char>(text.size() > 1 ? text[1] : 0);
+  if (c == 0x7f) return 1;
+  if (c == 0xc2 && second >= 0x80 && second < 0xa0) return 2;  // U+0080 to U+009F
   if (c < 0x20) return c != '\t' && c != '\n' && c != '\r' ? 1 : 0;
   const auto three = text.substr(0, 3);  // U+FFFE, U+FFFF
   return three == "\xef\xbf\xbe" || three == "\xef\xbf\xbf" ? 3 : 0;

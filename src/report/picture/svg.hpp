@@ -14,7 +14,7 @@ struct Point {
 std::string plain(double value, int decimals = 3);
 
 /// Escapes text and attribute values of XML; what XML 1.0 does not know as a character
-/// becomes U+FFFD.
+/// becomes U+FFFD, and so do other control characters.
 std::string escaped(std::string_view text);
 
 enum class Anchor { start, middle, end };

@@ -32,6 +32,11 @@ BatchInput::BatchInput(const std::filesystem::path& file)
   if (descriptor_ < 0) unreadable(file, "nothing readable");
 }
 
+BatchInput::BatchInput(int descriptor, std::filesystem::path file)
+    : file_(std::move(file)), descriptor_(descriptor), buffer_(kBuffer) {
+  if (descriptor_ < 0) unreadable(file_, "nothing readable");
+}
+
 BatchInput::~BatchInput() { ::close(descriptor_); }
 
 bool BatchInput::fill() {
@@ -44,7 +49,7 @@ bool BatchInput::fill() {
   return count > 0;
 }
 
-bool BatchInput::next(Sha256& digest, std::string* text) {
+bool BatchInput::read(Sha256* digest, std::string* text) {
   if (text) text->clear();
   for (bool begun = false;; begun = true) {
     if (begin_ == end_ && !fill()) return begun;
@@ -53,7 +58,7 @@ bool BatchInput::next(Sha256& digest, std::string* text) {
     const std::size_t size = end ? static_cast<std::size_t>(end - from) : end_ - begin_;
     if (text) text->append(from, std::min(size, kLongest - text->size()));
     const std::size_t taken = size + (end ? 1 : 0);
-    digest.update({from, taken});
+    if (digest) digest->update({from, taken});
     begin_ += taken;
     position_ += static_cast<std::int64_t>(taken);
     if (end) return true;

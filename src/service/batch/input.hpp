@@ -14,6 +14,8 @@ class BatchInput {
  public:
   /// @throws InputError if the file is not a readable regular file, here and below.
   explicit BatchInput(const std::filesystem::path& file);
+  /// Reads an open file, which it closes; `file` names it in errors.
+  BatchInput(int descriptor, std::filesystem::path file);
   ~BatchInput();
   BatchInput(const BatchInput&) = delete;
   BatchInput& operator=(const BatchInput&) = delete;
@@ -21,7 +23,8 @@ class BatchInput {
   /// Reads the next line; false behind the last one.  `digest` receives all its bytes.
   /// `text`, if given, receives the line without its end, but at most one byte more than
   /// the largest request (document::ParseLimits).
-  bool next(Sha256& digest, std::string* text = nullptr);
+  bool next(Sha256& digest, std::string* text = nullptr) { return read(&digest, text); }
+  bool next(std::string& text) { return read(nullptr, &text); }
 
   /// Position of the next line [bytes].
   std::int64_t position() const { return position_; }
@@ -38,6 +41,7 @@ class BatchInput {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  bool read(Sha256* digest, std::string* text);
   bool fill();
 
   std::filesystem::path file_;

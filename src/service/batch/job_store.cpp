@@ -7,6 +7,7 @@
 
 #include "fatal_lines.hpp"
 #include "line.hpp"
+#include "spool.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {
@@ -85,34 +86,32 @@ bool blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-struct Given {
-  struct Line {
-    std::int64_t number = 0;
-    std::string_view text;
-  };
-  std::int64_t lines = 0;
-  std::vector<Line> requests;  ///< those that are not blank
-};
+/// A job without its lines.  @return its id.
+std::int64_t new_job(SQLite::Database& database, const std::string& data) {
+  SQLite::Statement job(database,
+                        "INSERT INTO job (state, data, lines, open) VALUES (?, ?, 0, 0)");
+  job.bind(1, "running");
+  job.bind(2, data);
+  job.exec();
+  return database.getLastInsertRowid();
+}
 
-/// None if there are too many.
-std::optional<Given> given(std::string_view text) {
-  Given all;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    const auto line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++all.lines;
-    if (blank(line)) continue;
-    if (all.requests.size() == JobStore::kMostLines) return std::nullopt;
-    all.requests.push_back({all.lines, line});
-  }
-  return all;
+void tell_lines(SQLite::Database& database, std::int64_t id, std::int64_t lines,
+                std::int64_t open) {
+  SQLite::Statement job(database,
+                        "UPDATE job SET state = ?, lines = ?, open = ? WHERE id = ?");
+  job.bind(1, open == 0 ? "done" : "running");
+  job.bind(2, lines);
+  job.bind(3, open);
+  job.bind(4, id);
+  job.exec();
 }
 
 }  // namespace
 
 JobStore::JobStore(const std::filesystem::path& file, std::string data) try
-    : fatal_file_(file.string() + "-fatal"),
+    : file_(file),
+      fatal_file_(file.string() + "-fatal"),
       data_(std::move(data)),
       database_(std::make_unique<SQLite::Database>(
           file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)) {
@@ -133,31 +132,42 @@ void JobStore::finish_fatal_lines() {
   std::filesystem::remove(fatal_file_);
 }
 
+std::shared_ptr<Spool> JobStore::spool() const { return std::make_shared<Spool>(file_); }
+
 std::optional<std::int64_t> JobStore::submit(std::string_view text,
                                              const std::stop_token& stop) {
-  const auto all = given(text);
-  if (!all) return std::nullopt;
+  return submit(
+      [&text](std::string& line) {
+        if (text.empty()) return false;
+        const auto end = std::min(text.find('\n'), text.size());
+        line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        return true;
+      },
+      stop);
+}
+
+std::optional<std::int64_t> JobStore::submit(const NextLine& next,
+                                             const std::stop_token& stop) {
   const std::lock_guard lock(mutex_);
   SQLite::Transaction transaction(*database_);
-  const auto open = static_cast<std::int64_t>(all->requests.size());
-  SQLite::Statement job(*database_,
-                        "INSERT INTO job (state, data, lines, open) VALUES (?, ?, ?, ?)");
-  job.bind(1, open == 0 ? "done" : "running");
-  job.bind(2, data_);
-  job.bind(3, all->lines);
-  job.bind(4, open);
-  job.exec();
-  const std::int64_t id = database_->getLastInsertRowid();
+  const std::int64_t id = new_job(*database_, data_);
   SQLite::Statement insert(*database_,
                            "INSERT INTO line (job, number, request) VALUES (?, ?, ?)");
-  for (const auto& line : all->requests) {
+  std::int64_t lines = 0;
+  std::size_t open = 0;
+  for (std::string line; next(line);) {
     leave_if(stop);
+    ++lines;
+    if (blank(line)) continue;
+    if (++open > kMostLines) return std::nullopt;  // what was stored is taken back
     insert.bind(1, id);
-    insert.bind(2, line.number);
-    insert.bind(3, std::string(line.text));
+    insert.bind(2, lines);
+    insert.bindNoCopy(3, line);
     insert.exec();
     insert.reset();
   }
+  tell_lines(*database_, id, lines, static_cast<std::int64_t>(open));
   transaction.commit();
   return id;
 }

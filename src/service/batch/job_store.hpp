@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +17,8 @@ class Database;
 }
 
 namespace turnwright::service {
+
+class Spool;
 
 /// State of a batch.
 struct Job {
@@ -59,14 +62,22 @@ class JobStore {
   JobStore(const std::filesystem::path& file, std::string data);
   ~JobStore();
 
+  /// File in which lines of a job may be kept while they arrive.
+  std::shared_ptr<Spool> spool() const;
   /// File in which lines that end the process are noted for the next one.
   const std::filesystem::path& fatal_file() const { return fatal_file_; }
 
-  /// Stores a job of lines that end in "\n".  Blank lines are counted, so that numbers
+  /// The lines of a job: true and the next one, or false behind the last.
+  using NextLine = std::function<bool(std::string& line)>;
+
+  /// Stores a job of lines, which are not kept in memory.  Blank lines are counted, so that numbers
   /// are those of the file that was sent, but have no record.
   /// @return its id; none, with nothing stored, if more than kMostLines lines are not
   ///   blank.
   /// @throws Cancelled, with nothing stored, if a stop is requested before the end.
+  std::optional<std::int64_t> submit(const NextLine& next,
+                                     const std::stop_token& stop = {});
+  /// The same for lines that end in "\n".
   std::optional<std::int64_t> submit(std::string_view text,
                                      const std::stop_token& stop = {});
   static constexpr std::size_t kMostLines = 1'000'000;
@@ -91,7 +102,7 @@ class JobStore {
   void finish_fatal_lines();
 
   mutable std::mutex mutex_;
-  std::filesystem::path fatal_file_;
+  std::filesystem::path file_, fatal_file_;
   std::string data_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::int64_t, std::int64_t> taken_;  ///< last line taken, by job

@@ -10,6 +10,7 @@
 #include "document/json/parse.hpp"
 #include "openapi.hpp"
 #include "page.hpp"
+#include "service/batch/spool.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {
@@ -174,10 +175,17 @@ Reply job_reply(Batches& batches, std::int64_t id, const Call& call) {
   return {200, "application/json", text_of(to_json(*job)), {}};
 }
 
+std::optional<std::int64_t> stored(JobStore& store, const Call& call,
+                                   const std::stop_token& stop) {
+  if (!call.lines) return store.submit(call.body, stop);
+  auto lines = call.lines->lines();
+  return store.submit([&lines](std::string& line) { return lines.next(line); }, stop);
+}
+
 Reply submit(Batches& batches, const Call& call, const std::stop_token& stop) {
   if (!is_type(call.content_type, "application/jsonl"))
     return wrong_type(call, "application/jsonl");
-  const auto id = batches.store().submit(call.body, stop);
+  const auto id = stored(batches.store(), call, stop);
   if (!id)
     return problem(413, "lines",
                    fmt::format("expected at most {} lines", JobStore::kMostLines), call);
@@ -311,6 +319,11 @@ HttpApi::HttpApi(const std::filesystem::path& folder,
     for (const auto& [id, name] : names) index.push_back({{"id", id}, {"name", name}});
     listing.index = text_of(index);
   }
+}
+
+std::shared_ptr<Spool> HttpApi::spool(const Call& call) const {
+  const bool batch = call.method == "POST" && call.path() == "/v1/batches";
+  return batches_ && batch ? batches_->store().spool() : nullptr;
 }
 
 std::size_t HttpApi::body_limit(const Call& call) {

@@ -44,6 +44,9 @@ class HttpApi {
   /// @throws Cancelled if a stop was requested.
   Reply reply(const Call& call, std::stop_token stop) const;
 
+  /// Where the body of a batch is kept while it arrives; null for other calls.
+  std::shared_ptr<Spool> spool(const Call& call) const;
+
   /// Largest permitted body of a call [bytes].
   static std::size_t body_limit(const Call& call);
 

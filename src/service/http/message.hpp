@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,8 @@
 /// Requests and replies of HTTP, without the network.
 namespace turnwright::service {
 
+class Spool;
+
 struct Call {
   std::string method;           ///< "GET"
   std::string target;           ///< "/v1/parts/pump-shaft?x=1"
@@ -18,6 +21,7 @@ struct Call {
   std::string request_id;       ///< names this call in the log and in errors
   std::string body;
   std::string host = {};  ///< of an absolute target, otherwise of the Host header
+  std::shared_ptr<const Spool> lines = {};  ///< the body of a batch, if kept in a file
 
   /// The target without its query; "" if it is not a path ("*").
   std::string_view path() const;

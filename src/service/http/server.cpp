@@ -60,6 +60,7 @@ void admit(ServerState& state, tcp::socket socket) {
 }
 
 asio::awaitable<void> accept(ServerState& state) {
+  asio::steady_timer pause(state.io);
   while (state.acceptor.is_open()) {
     boost::system::error_code ec;
     auto socket = co_await state.acceptor.async_accept(
@@ -67,10 +68,20 @@ asio::awaitable<void> accept(ServerState& state) {
     if (!ec) {
       admit(state, std::move(socket));
     } else {  // out of file descriptors, or the client has gone; others may succeed
-      asio::steady_timer pause(state.io, std::chrono::milliseconds(20));
+      pause.expires_after(std::chrono::milliseconds(20));
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ec));
     }
   }
+}
+
+/// Runs until there is nothing to do.  A handler that throws has no memory; what it was
+/// for ends with it, a connection or less.
+void run_on(asio::io_context& io) {
+  for (;;) try {
+      io.run();
+      return;
+    } catch (const std::bad_alloc&) {
+    }
 }
 
 /// Accepts connections that the system has already queued, because they may carry calls.
@@ -127,7 +138,7 @@ void Server::run() {
     if (!ec) begin_drain(state);
   });
   asio::co_spawn(state.io, accept(state), asio::detached);
-  state.io.run();
+  run_on(state.io);
 }
 
 void Server::stop() {

@@ -12,8 +12,10 @@ struct ServerOptions {
   unsigned threads = 0;               ///< computing threads; 0: one per core
   std::size_t queue = 256;         ///< calls that may wait for a thread; others get 503
   std::size_t connections = 4096;  ///< open at once; others get 503 and are closed
-  std::size_t header_bytes = 16'384;           ///< of request line and header together
-  std::chrono::milliseconds idle{60'000};      ///< between two calls of a connection
+  std::size_t body_bytes = 128'000'000;  ///< all bodies and answers on their way together
+  std::size_t spool_bytes = 1'000'000'000;  ///< of disk, all batches that arrive together
+  std::size_t header_bytes = 16'384;        ///< of request line and header together
+  std::chrono::milliseconds idle{60'000};   ///< between two calls of a connection
   std::chrono::milliseconds header{10'000};    ///< from the first byte to the last header
   std::chrono::milliseconds body{60'000};      ///< from there to the last byte
   std::chrono::milliseconds writing{60'000};   ///< for the client to take the answer

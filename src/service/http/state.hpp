@@ -7,6 +7,7 @@
 #include <set>
 
 #include "api.hpp"
+#include "budget.hpp"
 #include "metrics.hpp"
 #include "server_options.hpp"
 
@@ -36,6 +37,7 @@ struct ServerState {
   ServerOptions options;
   const HttpApi& api;
   Metrics metrics;
+  Budget memory{options.body_bytes}, disk{options.spool_bytes};
   asio::io_context io{1};
   asio::thread_pool pool;
   tcp::acceptor acceptor{io};

@@ -372,9 +372,16 @@ TEST(Budget, RefusesTooMuchWork) {
         {{"name", "a"}, {"distribution", "fixed"}, {"value_um", 0}});
   const json c{
       {"tolerance", "flatness"}, {"e_mm", {0}}, {"value_mm", 1}, {"budget", budget}};
+  const std::string expected =
+      ", expected budgets of 1e9 draws times sources in all, three sources more for each "
+      "budget to sort its draws";
   EXPECT_EQ(refused({{"cases", {c, c}}}),
-            "acceptance: /cases: got a list of 2 entries, expected budgets of 1e9 draws "
-            "times sources in all");
+            "acceptance: /cases: got a list of 2 entries" + expected);
+  // Sorting alone takes longer.
+  json small = c;
+  small["budget"]["sources"] = {budget["sources"][0]};
+  EXPECT_EQ(refused({{"cases", json::array_t(26, small)}}),
+            "acceptance: /cases: got a list of 26 entries" + expected);
 }
 
 }  // namespace

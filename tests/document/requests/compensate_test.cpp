@@ -82,6 +82,16 @@ TEST(CompensateDoor, RefusesWithLineNumbers) {
             std::string::npos);
 }
 
+// However short the program is, what it makes is bounded.
+TEST(CompensateDoor, ArcsOfTooManyChordsAreRefused) {
+  json request{{"chain", "wXYfZt"},
+               {"axes", {{{"name", "X"}}, {{"name", "Y"}}, {{"name", "Z"}}}},
+               {"tolerance_mm", 1e-6},
+               {"program", {"G17 G1 X0 Y0 F100", "G2 I20000", "G2 I20000"}}};
+  EXPECT_NE(refused(request).find("/program#line 3: got more than 500000 moves"),
+            std::string::npos);
+}
+
 TEST(CompensateDoor, AssumptionsAreSaid) {
   json request = example();
   request.erase("start_mm");

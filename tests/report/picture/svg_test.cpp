@@ -12,6 +12,11 @@ TEST(Svg, TextOfAnyCharactersIsXml) {
                     "d"),
             "a\ufffdb\ufffdc\ufffdd");
   EXPECT_EQ(escaped("\uffee\xef\xbf"), "\uffee\xef\xbf");
+  // Controls that XML knows, but neither HTML nor a terminal should be sent.
+  EXPECT_EQ(escaped("a\x7f"
+                    "b\xc2\x9b"
+                    "c\xc2\x85\xc2\xa0\xc2"),
+            "a\ufffdb\ufffdc\ufffd\xc2\xa0\xc2");
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "service/batch/batches.hpp"
 #include "service/batch/fatal_lines.hpp"
 #include "service/batch/line.hpp"
+#include "service/batch/spool.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {
@@ -63,6 +64,28 @@ TEST_F(JobStoreTest, TooManyLinesAreNoJobAndEmptyOnesAreNone) {
   EXPECT_TRUE(store.submit(std::string(2 * JobStore::kMostLines, '\n') + "a"));
   EXPECT_EQ(store.take(9).at(0).number,
             static_cast<std::int64_t>(2 * JobStore::kMostLines + 1));
+}
+
+TEST_F(JobStoreTest, LinesComeFromAFileAsFromMemory) {
+  JobStore store(file(), "data");
+  const auto spool = store.spool();
+  spool->write("a\n\nb");
+  auto lines = spool->lines();
+  const auto next = [&lines](std::string& line) { return lines.next(line); };
+  const auto id = *store.submit(next);
+  EXPECT_EQ(store.job(id)->lines, 3);
+  EXPECT_EQ(store.job(id)->done, 1);
+  const auto taken = store.take(9);
+  ASSERT_EQ(taken.size(), 2U);
+  EXPECT_EQ(taken[0].text + taken[1].text, "ab");
+  EXPECT_EQ(taken[1].number, 3);
+  // Of a batch with too many lines nothing is kept.
+  std::size_t given = 0;
+  EXPECT_FALSE(store.submit([&given](std::string& line) {
+    line = "0";
+    return ++given <= JobStore::kMostLines + 1;
+  }));
+  EXPECT_TRUE(store.take(9).empty());
 }
 
 TEST_F(JobStoreTest, ResultsStopWhereOneIsMissing) {

@@ -281,6 +281,67 @@ TEST(Server, TakesChunksAndExpectations) {
   EXPECT_EQ(status_of(client.rest()), 200);
 }
 
+// Nothing more is sent: who waited for the end of the line would wait for the time-out.
+TEST(Server, AChunkThatIsNoneIsRefusedAtOnce) {
+  const Running server;
+  for (const std::string chunk : {"0x\r\n", "0x", "1\n", "1\r\n{XY", "0 \r\n",
+                                  "0\r\nX\r\n", "0\r\n\n", "00000000000000000"}) {
+    const auto client = server.client();
+    client.send(
+        "POST /v1/multipass HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+        "Transfer-Encoding: chunked\r\n\r\n" +
+        chunk);
+    EXPECT_EQ(status_of(client.rest()), 400) << chunk;
+  }
+}
+
+TEST(Server, BodiesBeyondTheirMemoryAreRefusedAndSmallOnesAreNot) {
+  ServerOptions options;
+  options.body_bytes = 4'000'000;
+  const Running server(options);
+  const std::string most(1'900'000, ' ');
+  auto slow = server.client();
+  slow.send(
+      "POST /v1/multipass HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+      "Content-Length: 1900002\r\n\r\n" +
+      most);
+  std::string refused;
+  do {  // until all of the slow one has arrived
+    const auto client = server.client();
+    client.send(post("/v1/multipass", most + "{}", "Connection: close\r\n"));
+    refused = client.rest();
+  } while (status_of(refused) == 200);
+  EXPECT_EQ(status_of(refused), 503);
+  EXPECT_NE(refused.find("Retry-After: 1\r\n"), std::string::npos);
+  EXPECT_NE(refused.find("--body-memory"), std::string::npos);
+  auto small = server.client();
+  EXPECT_EQ(status_of(small.ask(post("/v1/multipass", "{}"))), 200);
+  slow.send("{}");
+  EXPECT_EQ(status_of(slow.answer()), 200);
+  EXPECT_EQ(status_of(small.ask(post("/v1/multipass", most + "{}"))), 200);
+}
+
+// An answer is counted until it has been sent.
+TEST(Server, AnswersBeyondTheMemoryAreRefused) {
+  ServerOptions options;
+  options.body_bytes = 200'000;  // the description has more
+  const Running server(options);
+  auto client = server.client();
+  const auto answer = client.ask(get("/openapi.json"));
+  EXPECT_EQ(status_of(answer), 503);
+  EXPECT_NE(answer.find("Retry-After: 1\r\n"), std::string::npos);
+  EXPECT_EQ(status_of(client.ask(get("/v1/materials"))), 200);
+}
+
+TEST(Server, AHeaderOfManyFieldsIsTooLong) {
+  const Running server;
+  std::string fields;
+  for (int i = 0; i < 99; ++i) fields += "a:\r\n";
+  auto client = server.client();
+  EXPECT_EQ(status_of(client.ask(get("/healthz", fields))), 200);
+  EXPECT_EQ(status_of(client.ask(get("/healthz", fields + "b:\r\n"))), 431);
+}
+
 TEST(Server, SlowCallersAreCutAndDoNotHoldOthersUp) {
   ServerOptions options;
   options.header = 200ms;
