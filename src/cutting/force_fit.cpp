@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace turnwright::cutting {
 namespace {
 
 constexpr double kLeastShare = 0.34;  // cos(70 deg)
 constexpr double kSameDepth = 1e-6;   // relative
-constexpr std::size_t kDepths = 50;   // that are left out, at most
+constexpr std::size_t kLeftOut = 50;  // depths or replicas, at most
 
 std::size_t number(Component c) { return static_cast<std::size_t>(c); }
 const std::optional<double>& force_of(const MeasuredCut& m, Component c) {
@@ -23,7 +24,7 @@ std::optional<KienzleFit> component(std::span<const MeasuredCut> all, Component 
   for (std::size_t i = 0; i < all.size(); ++i)
     if (const auto& F = force_of(all[i], which)) {
       const double b = engaged_edge_mm(edge, all[i].ap_mm, all[i].f_mm_rev);
-      points.push_back({all[i].ap_mm * all[i].f_mm_rev / b, b, *F});
+      points.push_back({all[i].ap_mm * all[i].f_mm_rev / b, b, *F, all[i].lab});
       cuts.push_back(i);
     }
   if (points.empty()) return std::nullopt;
@@ -47,7 +48,16 @@ std::optional<std::pair<double, double>> part_of_thrust(const MeasuredCut& m,
   return std::nullopt;
 }
 
+// Factor of a lab on kc1.1; 1 where none is known.
+double lab_factor(const std::optional<KienzleFit>& Fc, std::size_t lab) {
+  if (Fc && Fc->labs)
+    for (const Lab& l : Fc->labs->each)
+      if (l.lab == lab) return l.factor.value;
+  return 1;
+}
+
 std::optional<ThrustFit> thrust(std::span<const MeasuredCut> all, const Cut& cut,
+                                const std::optional<KienzleFit>& Fc,
                                 const FitOptions& options) {
   if (!(cut.kc.k11_MPa > 0)) return std::nullopt;  // Fc is not known
   std::vector<ThrustPoint> points;
@@ -55,8 +65,8 @@ std::optional<ThrustFit> thrust(std::span<const MeasuredCut> all, const Cut& cut
   for (std::size_t i = 0; i < all.size(); ++i)
     if (const auto part = part_of_thrust(all[i], cut)) {
       const double L = engaged_edge_mm(cut, all[i].ap_mm, all[i].f_mm_rev);
-      points.push_back({kienzle_N(cut.kc, L, all[i].ap_mm, all[i].f_mm_rev), L,
-                        part->second, part->first});
+      const double Fc_N = kienzle_N(cut.kc, L, all[i].ap_mm, all[i].f_mm_rev);
+      points.push_back({Fc_N * lab_factor(Fc, all[i].lab), L, part->second, part->first});
       cuts.push_back(i);
     }
   if (points.empty()) return std::nullopt;
@@ -80,7 +90,7 @@ ForceFit fitted(std::span<const MeasuredCut> cuts, const Cut& base, ThrustLaw la
     fit.kienzle[number(c)] = component(cuts, c, base, options);
   if (const auto kc = constants(fit.kienzle[number(Component::cutting)]))
     fit.cut.kc = *kc;
-  fit.thrust = thrust(cuts, fit.cut, options);
+  fit.thrust = thrust(cuts, fit.cut, fit.kienzle[number(Component::cutting)], options);
   const auto kf = constants(fit.kienzle[number(Component::feed)]),
              kp = constants(fit.kienzle[number(Component::passive)]);
   if (law == ThrustLaw::components && kf && kp) {
@@ -106,8 +116,8 @@ std::vector<double> depths(std::span<const MeasuredCut> cuts) {
 }
 
 // Of feed and passive force where they are a good part of the thrust force.
-LeftOut errors(std::span<const MeasuredCut> cuts, double ap_mm, const Cut& law) {
-  LeftOut out{.ap_mm = ap_mm, .rms = {}};
+PredictionErrors errors(std::span<const MeasuredCut> cuts, const Cut& law) {
+  PredictionErrors rms;
   for (const auto c : {Component::cutting, Component::feed, Component::passive}) {
     const std::size_t k = number(c);
     double sum = 0;
@@ -120,30 +130,59 @@ LeftOut errors(std::span<const MeasuredCut> cuts, double ap_mm, const Cut& law) 
       sum += sqr(said[k] / *m.F_N[k] - 1);
       ++n;
     }
-    if (n > 0) out.rms[k] = std::sqrt(sum / n);
+    if (n > 0) rms[k] = std::sqrt(sum / n);
   }
-  return out;
+  return rms;
 }
 
-// Errors at each depth by the law of the others; none if some depth cannot be left out
-// because the others do not determine the law, or if there are too many.
-std::vector<LeftOut> validated(std::span<const MeasuredCut> cuts, const Cut& base,
-                               ThrustLaw law, const FitOptions& options) {
-  std::vector<LeftOut> all;
-  const auto each = depths(cuts);
-  if (each.size() < 2 || each.size() > kDepths) return all;
-  for (const double ap : each) {
+// Errors of the cuts with each value of a key by the law of the others; none if some value
+// cannot be left out because the others do not determine the law, or if there are too many.
+template <class Key, class Same>
+std::vector<PredictionErrors> left_out(std::span<const MeasuredCut> cuts,
+                                       const std::vector<Key>& each, const Same& same,
+                                       const Cut& base, ThrustLaw law,
+                                       const FitOptions& options) {
+  std::vector<PredictionErrors> all;
+  if (each.size() < 2 || each.size() > kLeftOut) return all;
+  for (const Key& key : each) {
     std::vector<MeasuredCut> kept, left;
-    for (const auto& m : cuts)
-      (std::abs(m.ap_mm - ap) <= kSameDepth * ap ? left : kept).push_back(m);
+    for (const auto& m : cuts) (same(m, key) ? left : kept).push_back(m);
     const ForceFit fit = fitted(kept, base, law, options);
     const auto& Fc = fit.kienzle[number(Component::cutting)];
     if (fit.law != law || (Fc && !constants(Fc))) return {};
-    all.push_back(errors(left, ap, fit.cut));
+    all.push_back(errors(left, fit.cut));
     if (law == ThrustLaw::none)  // says nothing of these
       for (const auto c : {Component::feed, Component::passive})
-        all.back().rms[number(c)].reset();
+        all.back()[number(c)].reset();
   }
+  return all;
+}
+
+std::vector<LeftOut> left_out_depths(std::span<const MeasuredCut> cuts, const Cut& base,
+                                     ThrustLaw law, const FitOptions& options) {
+  const auto each = depths(cuts);
+  const auto same = [](const MeasuredCut& m, double ap) {
+    return std::abs(m.ap_mm - ap) <= kSameDepth * ap;
+  };
+  const auto rms = left_out(cuts, each, same, base, law, options);
+  std::vector<LeftOut> all;
+  for (std::size_t i = 0; i < rms.size(); ++i) all.push_back({each[i], rms[i]});
+  return all;
+}
+
+std::vector<LeftOutReplica> left_out_replicas(std::span<const MeasuredCut> cuts,
+                                              const Cut& base, ThrustLaw law,
+                                              const FitOptions& options) {
+  std::set<std::size_t> names;
+  for (const auto& m : cuts)
+    if (m.replica) names.insert(*m.replica);
+  const std::vector<std::size_t> each(names.begin(), names.end());
+  const auto same = [](const MeasuredCut& m, std::size_t name) {
+    return m.replica == name;
+  };
+  const auto rms = left_out(cuts, each, same, base, law, options);
+  std::vector<LeftOutReplica> all;
+  for (std::size_t i = 0; i < rms.size(); ++i) all.push_back({each[i], rms[i]});
   return all;
 }
 
@@ -162,14 +201,17 @@ double thrust_error(const std::vector<LeftOut>& all) {
 ForceFit fit_forces(std::span<const MeasuredCut> cuts, const Cut& base,
                     const FitOptions& options) {
   ForceFit direction = fitted(cuts, base, ThrustLaw::direction, options);
-  direction.left_out = validated(cuts, base, direction.law, options);
+  direction.left_out = left_out_depths(cuts, base, direction.law, options);
   ForceFit components = fitted(cuts, base, ThrustLaw::components, options);
-  if (components.law == ThrustLaw::none) return direction;
-  components.left_out = validated(cuts, base, ThrustLaw::components, options);
+  if (components.law != ThrustLaw::none)
+    components.left_out = left_out_depths(cuts, base, components.law, options);
   const bool better =
-      direction.law == ThrustLaw::none ||
-      thrust_error(components.left_out) < thrust_error(direction.left_out);
-  return better ? components : direction;
+      components.law != ThrustLaw::none &&
+      (direction.law == ThrustLaw::none ||
+       thrust_error(components.left_out) < thrust_error(direction.left_out));
+  ForceFit& chosen = better ? components : direction;
+  chosen.left_out_replicas = left_out_replicas(cuts, base, chosen.law, options);
+  return chosen;
 }
 
 }  // namespace turnwright::cutting

@@ -205,5 +205,45 @@ TEST(ForceFit, NamesOutliersByTheirCut) {
             std::vector<std::size_t>{7});
 }
 
+// Of three replicas one is a tenth larger: the others predict it that much too small, and
+// cuts without a replica stay among those that predict.
+TEST(ForceFit, EachReplicaIsPredictedFromTheOthers) {
+  std::vector<MeasuredCut> all;
+  for (std::size_t run = 0; run < 3; ++run)
+    for (auto& m : cuts_of(tool(), {0.25, 0.5}, [&] { return run == 2 ? 1.1 : 1.0; })) {
+      m.replica = 4 - run;
+      all.push_back(m);
+    }
+  for (const auto& m : cuts_of(tool(), {0.8}, exactly)) all.push_back(m);
+  const auto fit = fit_forces(all, tool(), {.outlier_p = 0});
+  ASSERT_EQ(fit.left_out_replicas.size(), 3u);
+  EXPECT_EQ(fit.left_out_replicas[0].replica, 2u);
+  for (const auto& rms : fit.left_out_replicas[0].rms)
+    EXPECT_NEAR(*rms, 1 - 1 / 1.1, 1e-9);
+  EXPECT_LT(*fit.left_out_replicas[1].rms[0], 0.08);
+  EXPECT_GT(*fit.left_out_replicas[1].rms[0], 0.01);
+  for (auto& m : all) m.replica.reset();
+  EXPECT_TRUE(fit_forces(all, tool()).left_out_replicas.empty());
+}
+
+// Bars of another hardness: Fc differs by the lab, lambda of it and ke do not.
+TEST(ForceFit, ThrustIsOfTheCuttingForceOfItsLab) {
+  std::vector<MeasuredCut> all;
+  for (std::size_t lab = 0; lab < 2; ++lab) {
+    Cut law = tool();
+    law.kc.k11_MPa *= lab == 0 ? 1.2 : 1 / 1.2;
+    for (auto& m : cuts_of(law, {0.25, 0.5, 0.8}, exactly)) {
+      m.lab = lab;
+      all.push_back(m);
+    }
+  }
+  const auto fit = fit_forces(all, tool());
+  EXPECT_EQ(fit.law, ThrustLaw::direction);
+  EXPECT_NEAR(fit.cut.kc.k11_MPa, 1700, 1e-7);
+  EXPECT_NEAR(fit.kienzle[0]->labs->each[0].factor.value, 1.2, 1e-10);
+  EXPECT_NEAR(fit.thrust->ratio->value, 0.4, 1e-9);
+  EXPECT_NEAR(fit.thrust->edge_N_mm->value, 60, 1e-7);
+}
+
 }  // namespace
 }  // namespace turnwright::cutting

@@ -7,6 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "turnwright/cutting/life_fit.hpp"
+
 namespace turnwright::cutting {
 namespace {
 

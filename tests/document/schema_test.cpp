@@ -171,6 +171,10 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInACalibration) {
   request["outlier_p"] = 0;
   request["name"] = "a name";
   try_all(schema, refused_by<calibrated>, request);
+  request = parse_file(source_path("schemas/calibrate-material.request.json"))
+                .at("examples")
+                .at(3);
+  try_all(schema, refused_by<calibrated>, request);
 }
 
 TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {

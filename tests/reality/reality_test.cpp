@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "turnwright/base/units.hpp"
@@ -82,6 +83,45 @@ TEST(Shafts12L14, RoughnessOfStableCuts) {
   }
   EXPECT_EQ(n, 75);
   EXPECT_LT(std::sqrt(square / n), 0.25);
+}
+
+// hmin by calibrate-material from the same readings: beyond the 2 um of the catalogue, and
+// the roughness of a feed within the range of the others comes from those.
+TEST(Shafts12L14, RoughnessCalibrated) {
+  const auto calibrated = [](double left_out_f) {
+    json cuts = json::array();
+    for (const auto& [at, Ra] : shafts())
+      if (!(at.D_mm == 30 && at.at == "Live centre") && at.f_mm_rev != left_out_f)
+        cuts.push_back({{"vc_m_min", at.vc_m_min},
+                        {"f_mm_rev", at.f_mm_rev},
+                        {"ap_mm", at.ap_mm},
+                        {"Ra_um", Ra}});
+    return document::calibrate_material({{"material", "C15"},
+                                         {"tool",
+                                          {{"name", "of the shafts"},
+                                           {"re_mm", kCorner_mm},
+                                           {"kapr_deg", 95},
+                                           {"rake_deg", 6}}},
+                                         {"cuts", cuts}},
+                                        catalogue());
+  };
+  const json all = calibrated(0)["roughness"];
+  EXPECT_EQ(all["cuts"], 75);
+  EXPECT_GT(all["hmin_mm"]["lower"], 0.002);
+  EXPECT_LT(all["s_pct"], 25);
+  cutting::Cut c;
+  c.corner = cutting::corner_of(kCorner_mm, 95 * std::numbers::pi / 180);
+  for (const double f : {0.08, 0.1, 0.12}) {
+    c.hmin_mm = calibrated(f)["roughness"]["hmin_mm"]["value"];
+    double square = 0;
+    int n = 0;
+    for (const auto& [at, Ra] : shafts()) {
+      if ((at.D_mm == 30 && at.at == "Live centre") || at.f_mm_rev != f) continue;
+      square += std::pow(cutting::Ra_um(c, f) / Ra - 1, 2);
+      ++n;
+    }
+    EXPECT_LT(std::sqrt(square / n), 0.25) << f;
+  }
 }
 
 // Largest chatter stiffness over its limit in one pass over a shaft on a live centre.
@@ -199,10 +239,7 @@ TEST(ForcesH13, PassiveForceBlind) {
   EXPECT_LT(std::abs(sum / static_cast<double>(cuts.size())), 0.15);
 }
 
-// Calibrated on two depths, a third is predicted.
-TEST(ForcesH13, OfAnotherDepth) {
-  const auto cuts = h13();
-  if (cuts.empty()) GTEST_SKIP() << "TURNWRIGHT_H13_CUTS is not set";
+json calibrated(const std::vector<MeasuredForces>& cuts) {
   json list = json::array();
   for (const auto& m : cuts)
     list.push_back({{"ap_mm", m.ap_mm},
@@ -211,18 +248,45 @@ TEST(ForcesH13, OfAnotherDepth) {
                     {"Fc_N", m.Fc_N},
                     {"Ff_N", m.Ff_N},
                     {"Fp_N", m.Fp_N}});
-  const json r = document::calibrate_material(
+  return document::calibrate_material(
       {{"material", "42CrMo4-A"},
        {"tool",
         {{"name", "TNMG 160404-PF"}, {"re_mm", 0.4}, {"kapr_deg", 93}, {"rake_deg", 8}}},
        {"cuts", list}},
       catalogue());
+}
+
+// Calibrated on two depths, a third is predicted.
+TEST(ForcesH13, OfAnotherDepth) {
+  const auto cuts = h13();
+  if (cuts.empty()) GTEST_SKIP() << "TURNWRIGHT_H13_CUTS is not set";
+  const json r = calibrated(cuts);
   EXPECT_FALSE(r["material"].is_null());
   EXPECT_EQ(r["feed_and_passive_by"], "thrust");
   ASSERT_GE(r["left_out"].size(), 3u);
   for (const json& depth : r["left_out"]) {
     EXPECT_LT(depth["Fc_rms_pct"], 15) << depth;
     EXPECT_LT(depth["Fp_rms_pct"], 15) << depth;
+  }
+}
+
+// From any two of three depths both groups of the material are written, with the errors at
+// each depth by the other.
+TEST(ForcesH13, EverySplitOfDepthsIsWritten) {
+  const auto cuts = h13();
+  if (cuts.empty()) GTEST_SKIP() << "TURNWRIGHT_H13_CUTS is not set";
+  const json& steel = catalogue().material_documents.at("42CrMo4-A");
+  std::set<double> depths;
+  for (const auto& m : cuts) depths.insert(m.ap_mm);
+  ASSERT_GE(depths.size(), 3u);
+  for (const double left : depths) {
+    auto some = cuts;
+    std::erase_if(some, [&](const MeasuredForces& m) { return m.ap_mm == left; });
+    const json r = calibrated(some);
+    EXPECT_NE(r["material"]["kienzle"], steel["kienzle"]) << left;
+    EXPECT_TRUE(r["material"].contains("thrust")) << left;
+    EXPECT_EQ(r["warnings"], json::array()) << left;
+    EXPECT_EQ(r["left_out"].size(), depths.size() - 1) << left;
   }
 }
 

@@ -16,14 +16,25 @@ constexpr std::size_t kComponents = 3;
 struct MeasuredCut {
   double ap_mm = 0, f_mm_rev = 0;
   std::array<std::optional<double>, kComponents> F_N;  ///< by Component
+  std::size_t lab = 0;
+  std::optional<std::size_t> replica =
+      {};  ///< the run of the plan of tests it belongs to
 };
 
-/// Root mean square of the relative errors with which the cuts of one depth are predicted
-/// by the law that the other depths give; of Ff and Fp where they are at least a third of
-/// the thrust force.
+/// Root mean square of the relative errors with which some cuts are predicted by the law
+/// that the others give; of Ff and Fp where they are at least a third of the thrust force.
+using PredictionErrors = std::array<std::optional<double>, kComponents>;
+
+/// Errors at one depth by the law of the other depths.
 struct LeftOut {
   double ap_mm = 0;
-  std::array<std::optional<double>, kComponents> rms;
+  PredictionErrors rms;
+};
+
+/// Errors of one replica by the law of all other cuts.
+struct LeftOutReplica {
+  std::size_t replica = 0;
+  PredictionErrors rms;
 };
 
 /// Which law feed and passive force follow.
@@ -40,11 +51,16 @@ struct ForceFit {
   /// Of `law`, one for each depth; none of one depth, of more than 50, or where the others
   /// do not determine the law.
   std::vector<LeftOut> left_out;
+  std::vector<LeftOutReplica> left_out_replicas;  ///< likewise, one for each replica
   Cut cut;  ///< the tool with every constant that was determined
 };
 
 /// Kienzle's law for each component and the thrust force, with all evidence by the index
 /// of the cut.
+///
+/// Each lab has its own factor on a component's constant, as fit_kienzle says, and Fc in
+/// (5) of cut.hpp is that of the cut's own lab; errors of cuts left out are those of the
+/// pooled constants.
 ///
 /// The thrust force follows from the passive force, which makes the error of a diameter:
 /// F_D = Fp/cos(kappa_eff).  Fp says little where the chip flows along the axis; there,

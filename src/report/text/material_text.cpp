@@ -43,6 +43,78 @@ std::string group(const ordered_json& result, const char* key, const char* title
          table({{"", Align::left}, {"value"}, {"from"}, {"to"}, {"", Align::left}}, rows);
 }
 
+// 14.2 (11.9 to 16.4) min
+std::string minutes(const ordered_json& edges, const char* key) {
+  const auto& e = object(edges, key);
+  return fmt::format("{} min ({} to {})", significant(number(e, "value"), 3),
+                     significant(number(e, "lower"), 3),
+                     significant(number(e, "upper"), 3));
+}
+
+// How the lives of edges scatter.
+std::string edges(const ordered_json& result) {
+  const auto& life = object(result, "taylor");
+  const auto& e = object(life, "edges");
+  if (e.empty()) return "";
+  const auto& at = object(e, "at");
+  std::string text = paragraph(
+      "  ",
+      fmt::format("half of the edges reach {}, 90 % of them {}, at vc {} m/min, f {} "
+                  "mm/rev, ap {} mm",
+                  minutes(e, "T50_min"), minutes(e, "T90_min"),
+                  significant(number(at, "vc_m_min"), 3),
+                  significant(number(at, "f_mm_rev"), 3),
+                  significant(number(at, "ap_mm"), 3)));
+  const bool weibull = word(e, "distribution") == "weibull";
+  text += paragraph(
+      "  ", fmt::format("their lives are likelier {}; Weibull's shape is {}",
+                        weibull ? "Weibull's than lognormal" : "lognormal than Weibull's",
+                        significant(number(e, "weibull_shape"), 3)));
+  if (const auto& s = object(e, "scatter_pct"); !s.empty())
+    text += paragraph(
+        "  ", fmt::format("edges at equal conditions scatter by {} % ({} to {}), lack of "
+                          "fit {} %",
+                          shown(number(s, "value"), 1), shown(number(s, "lower"), 1),
+                          shown(number(s, "upper"), 1),
+                          shown(number(e, "lack_of_fit_pct"), 1)));
+  if (const auto n = number(life, "censored"))
+    text += paragraph("  ", "longer than their test: " + shown(n, 0) + " lives");
+  return text;
+}
+
+std::string labs(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& lab : list(result, "labs"))
+    for (const auto& [name, factor] : lab.items())
+      if (factor.is_object()) {
+        Row row = constant(name, factor);
+        row.cells.insert(row.cells.begin(), word(lab, "lab"));
+        row.cells.back() = shown(number(factor, "cuts"), 0);
+        rows.push_back(row);
+      }
+  if (rows.empty()) return "";
+  return "\nLABS\n" + table({{"", Align::left},
+                             {"", Align::left},
+                             {"factor"},
+                             {"from"},
+                             {"to"},
+                             {"cuts"}},
+                            rows);
+}
+
+// Errors of cuts that the others predict.
+std::string replicas(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& l : list(result, "left_out_replicas"))
+    rows.push_back(
+        {{word(l, "replica"), shown(number(l, "Fc_rms_pct"), 1),
+          shown(number(l, "Ff_rms_pct"), 1), shown(number(l, "Fp_rms_pct"), 1)},
+         ""});
+  if (rows.empty()) return "";
+  return "\nREPLICAS PREDICTED FROM THE OTHERS, rms error in %\n" +
+         table({{"", Align::left}, {"Fc"}, {"Ff"}, {"Fp"}}, rows);
+}
+
 std::string material(const ordered_json& result) {
   const auto& m = object(result, "material");
   if (m.empty()) return "";
@@ -64,7 +136,9 @@ std::string material_text(const ordered_json& result) {
                  " %") +
          group(result, "cutting", "CUTTING FORCE") + group(result, "feed", "FEED FORCE") +
          group(result, "passive", "PASSIVE FORCE") +
-         group(result, "taylor", "TOOL LIFE") + material(result) + warnings(result);
+         group(result, "taylor", "TOOL LIFE") + edges(result) +
+         group(result, "roughness", "ROUGHNESS") + labs(result) + replicas(result) +
+         material(result) + warnings(result);
 }
 
 }  // namespace turnwright::report

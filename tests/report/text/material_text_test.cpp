@@ -37,6 +37,50 @@ TEST(MaterialText, ConstantsHaveTheirIntervals) {
   EXPECT_TRUE(has(text, "\n - b stays at its given 0.15\n"));
 }
 
+TEST(MaterialText, LivesOfEdgesLabsAndReplicas) {
+  auto result = answered();
+  result["taylor"]["censored"] = 2;
+  result["taylor"]["edges"] = ordered_json::parse(R"({
+    "distribution": "weibull", "ln_likelihood_ratio": -1.5, "weibull_shape": 3.456,
+    "scatter_pct": {"value": 31.23, "lower": 22, "upper": 51.26},
+    "lack_of_fit_pct": 4.44, "lack_of_fit_p": 0.3,
+    "T50_min": {"value": 20.44, "lower": 17, "upper": 24},
+    "T90_min": {"value": 12.34, "lower": 9.87, "upper": 15},
+    "at": {"vc_m_min": 200, "f_mm_rev": 0.2, "ap_mm": 1.5}})");
+  result["roughness"] = {
+      {"cuts", 4},
+      {"outliers", ordered_json::array()},
+      {"degrees_of_freedom", 3},
+      {"s_pct", 12},
+      {"hmin_mm", {{"value", 0.00234}, {"lower", 0}, {"upper", 0.004}}}};
+  result["labs"] = {
+      {{"lab", "ours"},
+       {"kc11_factor", {{"value", 1.08}, {"lower", 1.01}, {"upper", 1.15}, {"cuts", 6}}}},
+      {{"lab", "maker"}}};
+  result["left_out_replicas"] = {{{"replica", "first"}, {"Fc_rms_pct", 3.21}}};
+  const auto text = flat(material_text(result));
+  EXPECT_TRUE(has(text,
+                  "\n half of the edges reach 20.4 min (17 to 24), 90 % of them 12.3 min "
+                  "(9.87 to 15), at vc 200"))
+      << text;
+  EXPECT_TRUE(has(text,
+                  "\n their lives are likelier Weibull's than lognormal; Weibull's shape "
+                  "is 3.46\n"))
+      << text;
+  EXPECT_TRUE(
+      has(text,
+          "\n edges at equal conditions scatter by 31.2 % (22.0 to 51.3), lack of "
+          "fit 4.4 %\n"))
+      << text;
+  EXPECT_TRUE(has(text, "\n longer than their test: 2 lives\n")) << text;
+  EXPECT_TRUE(has(text, "\nROUGHNESS\n 4 cuts")) << text;
+  EXPECT_TRUE(has(text, "\n hmin_mm 0.00234 0 0.004\n")) << text;
+  EXPECT_TRUE(
+      has(text, "\nLABS\n factor from to cuts\n ours kc11_factor 1.08 1.01 1.15 6\n"))
+      << text;
+  EXPECT_TRUE(has(text, "rms error in %\n Fc Ff Fp\n first 3.2 - -\n")) << text;
+}
+
 TEST(MaterialText, LacksWhatTheResultLacks) {
   const auto text = flat(material_text(ordered_json::object()));
   EXPECT_TRUE(has(text, "confidence of - %"));
