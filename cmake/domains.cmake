@@ -10,6 +10,7 @@ tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)
 tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
 tw_domain(toolpath DEPENDS base catalogue)
+tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen)
 tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
@@ -47,8 +48,8 @@ set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES CO
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
-    volumetric tolerance planning nc
-  PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt)
+    exchange volumetric tolerance planning nc
+  PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt OpenSSL::Crypto)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()

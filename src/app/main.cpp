@@ -19,6 +19,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "import.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
 #include "progress_line.hpp"
@@ -270,6 +271,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
 std::vector<service::Entry> entries(const Arguments& arguments) {
   const auto folder = document::data_folder(arguments.data);
   if (arguments.listed == "parts") return service::list_parts(folder);
+  if (arguments.listed == "schemas") return service::list_schemas(folder);
   const auto catalogue = document::load_catalogue(folder);
   if (arguments.listed == "tools") return service::list_tools(catalogue);
   if (arguments.listed == "machines") return service::list_machines(catalogue);
@@ -287,9 +289,11 @@ Exit run_list(const Arguments& arguments) {
   return kOk;
 }
 
-/// Adds the subcommands: one per row of the request table, and `list`.
+/// Adds a subcommand per row of the request table, but for `import`, whose request is a
+/// drawing.
 void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   for (const auto& row : service::requests()) {
+    if (row.name == "import") continue;
     auto* command = app.add_subcommand(row.name, row.summary);
     command
         ->add_option("REQUEST", arguments.file,
@@ -322,13 +326,29 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       chosen = [&row, &arguments] { return run_request(row, arguments); };
     });
   }
+}
+
+/// Adds `list` and `schema`.
+void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
-  list->add_option("WHAT", arguments.listed, "materials, tools, machines or parts")
+  list->add_option("WHAT", arguments.listed,
+                   "materials, tools, machines, parts or schemas")
       ->required()
-      ->check(CLI::IsMember({"materials", "tools", "machines", "parts"}));
+      ->check(CLI::IsMember({"materials", "tools", "machines", "parts", "schemas"}));
   list->footer("Example:\n  turnwright list materials");
   list->callback(
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
+  auto* schema = app.add_subcommand("schema", "prints the JSON schema of a document");
+  schema->add_option("NAME", arguments.listed, "a name that `list schemas` shows")
+      ->required();
+  schema->footer("Example:\n  turnwright schema part");
+  schema->callback([&arguments, &chosen] {
+    chosen = [&arguments] {
+      service::print(
+          service::schema(document::data_folder(arguments.data), arguments.listed));
+      return kOk;
+    };
+  });
 }
 
 /// Reports an unknown command.
@@ -357,8 +377,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
   std::string examples =
-      "Examples:\n  turnwright list parts\n  turnwright batch --help\n"
-      "  turnwright serve --help\n";
+      "Examples:\n  turnwright list parts\n  turnwright schema part\n"
+      "  turnwright batch --help\n  turnwright serve --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
@@ -368,12 +388,14 @@ int run(int argc, char** argv) {
       examples);
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
+  add_lists(app, arguments, chosen);
   const auto choose = [&chosen](std::function<void()> work) {
     chosen = [work = std::move(work)] {
       work();
       return kOk;
     };
   };
+  add_import(app, arguments.data, choose);
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
   try {

@@ -192,6 +192,7 @@ ProcessPlan predict(const PreparedPart& p) {
     result.deviations = deviations(p, setups);
     result.offsets = offsets(p, setups);
     result.compensation = compensations(setups);
+    result.breakdown.stock.cost = p.stock_price;
     for (std::size_t s = 0; s < setups.size(); ++s) {
       result.setups[s].breakdown = breakdown(p, setups[s]);
       result.breakdown += result.setups[s].breakdown;

@@ -1,9 +1,14 @@
 #include "listing.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "document/json/file.hpp"
 #include "document/json/reader.hpp"
+#include "document/json/reference.hpp"
+#include "requests.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::service {
@@ -35,20 +40,48 @@ std::vector<Entry> list_machines(const document::Catalogue& catalogue) {
   return entries(catalogue.machines);
 }
 
-std::vector<Entry> list_parts(const std::filesystem::path& folder) {
+namespace {
+
+// Every *.json file in a folder, called by its member `name_key`.
+std::vector<Entry> list_folder(const std::filesystem::path& folder,
+                               std::string_view name_key) {
   std::vector<Entry> list;
-  if (!std::filesystem::is_directory(folder / "parts")) return list;
-  for (const auto& file : std::filesystem::directory_iterator(folder / "parts")) {
+  if (!std::filesystem::is_directory(folder)) return list;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".json") continue;
     const auto json = document::parse_file(file.path());
     document::Problems problems{.document = file.path().string()};
-    std::string name = document::Reader(json, problems).as_object().text("name");
+    std::string name = document::Reader(json, problems).as_object().text(name_key);
     problems.throw_if_any();
     list.push_back({file.path().stem().string(), std::move(name)});
   }
   std::sort(list.begin(), list.end(),
             [](const Entry& a, const Entry& b) { return a.id < b.id; });
   return list;
+}
+
+}  // namespace
+
+std::vector<Entry> list_parts(const std::filesystem::path& folder) {
+  return list_folder(folder / "parts", "name");
+}
+
+std::vector<Entry> list_schemas(const std::filesystem::path& folder) {
+  return list_folder(folder / "schemas", "title");
+}
+
+std::string schema(const std::filesystem::path& folder, const std::string& name) {
+  std::string id = name;
+  for (const auto& row : requests())
+    if (row.name == name) id = std::filesystem::path(request_schema(row)).stem().string();
+  std::vector<std::string> ids;
+  for (const auto& entry : list_schemas(folder)) ids.push_back(entry.id);
+  if (std::find(ids.begin(), ids.end(), id) == ids.end())
+    throw InputError("command line",
+                     {{"NAME", '"' + name + '"',
+                       document::expected_reference(name, ids, "a schema"), "choice"}});
+  std::ifstream in(folder / "schemas" / (id + ".json"), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace turnwright::service

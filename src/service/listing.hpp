@@ -20,4 +20,12 @@ std::vector<Entry> list_machines(const document::Catalogue& catalogue);
 /// file's name without ".json".  @throws InputError if one is no JSON object with a name.
 std::vector<Entry> list_parts(const std::filesystem::path& folder);
 
+/// The schemas in `folder`/schemas; the id is the file's name without ".json".
+std::vector<Entry> list_schemas(const std::filesystem::path& folder);
+
+/// The text of a schema: that of its id ("part", "plan.result"), or of the request of a
+/// capability ("plan").
+/// @throws InputError if there is none, with the most similar name.
+std::string schema(const std::filesystem::path& folder, const std::string& name);
+
 }  // namespace turnwright::service

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "document/exchange/outline.hpp"
 #include "report/page/html.hpp"
 #include "report/page/stability_html.hpp"
 #include "report/picture/budget_drawing.hpp"
@@ -22,6 +23,7 @@
 #include "turnwright/document/deflection.hpp"
 #include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
+#include "turnwright/document/import.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -29,6 +31,7 @@
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
+#include "turnwright/planning/choice.hpp"
 #include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -140,6 +143,11 @@ constexpr const char* kStabilityExample = R"({
 constexpr const char* kMultipassExample = R"({
   "dt_mm": 8, "cost": "literal", "PU": 4, "T": [25, 45], "n_max": 6})";
 
+constexpr const char* kImportExample = R"({
+  "name": "Pin", "material": "C45", "machine": "lathe-small", "general": "ISO 2768-mK",
+  "stock": {"kind": "bar", "diameter_mm": 52, "length_mm": 76, "left_allowance_mm": 2},
+  "text": "d50 h7 x 40 Ra1.6; 1x45; d30 k6 x 32 Ra0.8"})";
+
 constexpr const char* kCalibrateExample = R"({
   "material": "C45", "id": "C45-lot-17", "name": "C45, lot 17",
   "tool": {"name": "CNMG 120408, VB = 0.3 mm", "re_mm": 0.8, "kapr_deg": 95, "rake_deg": 6},
@@ -150,16 +158,28 @@ constexpr const char* kCalibrateExample = R"({
     {"vc_m_min": 260, "f_mm_rev": 0.3, "ap_mm": 2, "Fc_N": 1263, "T_min": 11.5},
     {"vc_m_min": 320, "f_mm_rev": 0.2, "ap_mm": 2, "Fc_N": 941, "T_min": 8.6}]})";
 
-// A plan is one that can be programmed.
-planning::ProcessPlan planned(const document::PreparedDocument& part) {
-  auto plan = planning::plan(part.part, part.what_if);
-  nc::refuse_unprogrammed(part.part, plan);
-  return plan;
+struct Planned {
+  document::PreparedDocument part;
+  planning::ProcessPlan plan;
+};
+
+// The best of what the request leaves open.
+Planned planned(document::Candidates&& all,
+                const planning::Judge& judge = nc::refuse_unprogrammed) {
+  std::vector<planning::Candidate> candidates;
+  for (const auto& [name, document] : all.usable)
+    candidates.push_back({name, document.part, document.what_if});
+  auto choice = planning::choose(candidates, judge);
+  for (const auto& [name, why] : all.refused)
+    choice.plan.alternatives.push_back(
+        {.name = name, .why = why, .sentence = name + ": cannot be planned: " + why});
+  return {std::move(all.usable[choice.chosen].document), std::move(choice.plan)};
 }
 
 ordered_json plan(const json& request, const Context& context) {
-  const auto part = document::prepared_part(request, context.catalogue, "plan");
-  return document::plan_result(planned(part), part);
+  const auto [part, plan] =
+      planned(document::prepared_candidates(request, context.catalogue, "plan"));
+  return document::plan_result(plan, part);
 }
 
 ordered_json predict(const json& request, const Context& context) {
@@ -171,8 +191,11 @@ ordered_json predict(const json& request, const Context& context) {
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
 
 ordered_json nc_programs(const json& request, const Context& context) {
-  const auto [part, settings] = document::load_nc_request(request, context.catalogue);
-  const auto plan = planning::plan(part.part);
+  auto [candidates, settings] = document::load_nc_request(request, context.catalogue);
+  // The only plan is an answer even if it cannot be programmed: `cannot` says why.
+  planning::Judge judge = nc::refuse_unprogrammed;
+  if (candidates.usable.size() == 1) judge = [](const auto&, auto&) {};
+  const auto [part, plan] = planned(std::move(candidates), judge);
   return document::to_json(nc::programs(part.part, plan), plan, settings);
 }
 
@@ -185,8 +208,10 @@ std::string nc_text(const ordered_json& result) {
 }
 
 ordered_json drawing(const json& request, const Context& context) {
-  return document::drawing(
-      document::prepared_part(request, context.catalogue, "drawing"));
+  auto result =
+      document::drawing(document::prepared_part(request, context.catalogue, "drawing"));
+  result["notation"] = document::part_notation(request);
+  return result;
 }
 
 // The names and work offset under which the machine finds the programs.
@@ -229,10 +254,9 @@ std::string plan_report(std::string_view name, const Drawn& drawn) {
 }
 
 Drawn drawn_plan(const json& request, const Context& context) {
-  auto loaded = document::load_part_plan(request, context.catalogue, "plan");
-  loaded.plan.window_curves = true;
-  const auto part = document::prepared(std::move(loaded), context.catalogue);
-  return drawn(part, planned(part), context.settings);
+  const auto [part, plan] =
+      planned(document::prepared_candidates(request, context.catalogue, "plan", true));
+  return drawn(part, plan, context.settings);
 }
 
 Drawn drawn_predict(const json& request, const Context& context) {
@@ -299,6 +323,10 @@ std::span<const Request> requests() {
        kPredictExample, predict, report::text, drawn_predict, plan_report},
       {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
        nc_programs, nc_text},
+      {"import", "STEP, DXF or a line of text -> part document for plan", kImportExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::import(request, context.catalogue);
+       }},
       {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
        kPlanExample, drawing},
       {"deflection", "shaft, clamping, load -> flexibilities, deflections, slopes",

@@ -95,6 +95,7 @@ TEST_F(Options, PathsAreNames) {
 
 TEST_F(Options, OutputToADashIsStandardOutput) {
   for (const auto& row : service::requests()) {
+    if (row.name == "import") continue;  // its output is the part alone: import_test
     put(folder_ / "request.json", row.example);
     const std::string command = "turnwright " + row.name + " request.json ";
     const auto run = shell(command + "-o -");

@@ -38,6 +38,10 @@ def seeds():
                 yield "program", program
                 yield "program-lathe", program
             yield from (("csv-" + door, table) for table in tables(example))
+    for kind, pattern in ("step", "step/cases/*.step"), ("dxf", "dxf/*.dxf"):
+        for drawing in sorted((ROOT / "tests" / "data").glob(pattern)):
+            yield f"drawing-{kind}", drawing.read_text()
+    yield "drawing-notation", "d50 h7 x 40 Ra1.6; 1x45; d30 k6 x 32; bore d20 H7 x 60"
     yield "http", http("GET", "/v1/parts/pump-shaft")
     yield "http", ("POST /v1/plan HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n"
                    "\r\n2\r\n{}\r\n0\r\n\r\n")

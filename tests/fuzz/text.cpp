@@ -85,6 +85,9 @@ Target text_target(const std::string& name) {
         [](std::string_view text) { (void)document::parse(text, "fuzz"); });
   if (name == "program") return in_request("compensate", program("wfXYZt"));
   if (name == "program-lathe") return in_request("compensate", program("wCfZXt"));
+  if (name.starts_with("drawing-"))
+    return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
+                                 json::json_pointer("/text")});
   if (!name.starts_with("csv-")) return {};
   return in_request(name.substr(4), table_of(door_named(name.substr(4))));
 }

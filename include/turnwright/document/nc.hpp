@@ -9,7 +9,7 @@ namespace turnwright::document {
 
 /// The request of `nc` (schemas/nc.request.json): a part document and the shop's settings.
 struct NcRequest {
-  PreparedDocument part = {};
+  Candidates part = {};
   nc::Settings settings = {};
 };
 

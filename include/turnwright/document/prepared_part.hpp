@@ -25,4 +25,22 @@ PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& cata
                                const std::string& document,
                                Purpose purpose = Purpose::plan);
 
+/// The documents among which a part document leaves the choice ("choose").
+struct Candidates {
+  struct Usable {
+    std::string name;  ///< "lathe-small; bar 50 x 188 mm", empty without a choice
+    PreparedDocument document;
+  };
+  struct Refused {
+    std::string name, why;  ///< a bar that is too thin for the part, say
+  };
+  std::vector<Usable> usable;  ///< one at least
+  std::vector<Refused> refused;
+};
+
+/// @param window_curves  as in the request for a plan.
+/// @throws InputError if no candidate can be read, with the problems of the first one.
+Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& catalogue,
+                               const std::string& document, bool window_curves = false);
+
 }  // namespace turnwright::document

@@ -130,6 +130,7 @@ struct PlanRequest {
   Objective objective = Objective::cost;
   std::optional<double> batch;  ///< absent: preparing the machine is left out of a part
   double machine_per_min = 0;   ///< cost of a machine minute
+  double stock_price = 0;       ///< of the piece of stock for one part
   std::optional<double> price;  ///< of a part; needed for `profit`
   double machine_share_um = 0;  ///< of every tolerance, in addition to `machine.errors`
   double window_percent = 5;    ///< extra cost allowed within an operation's window

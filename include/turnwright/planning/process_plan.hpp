@@ -113,6 +113,7 @@ struct Breakdown {
   Spending edges;           ///< changing worn edges, and the edges themselves
   Spending loading;         ///< part in and out
   Spending setup_share;     ///< preparing the machine, over the batch
+  Spending stock;           ///< the piece of stock, of the whole part alone
 
   Breakdown& operator+=(const Breakdown& other);
   Spending total() const;
@@ -122,7 +123,7 @@ struct Breakdown {
 inline constexpr std::array kSpendings{
     &Breakdown::cutting,        &Breakdown::air,   &Breakdown::tool_changes,
     &Breakdown::operator_stops, &Breakdown::edges, &Breakdown::loading,
-    &Breakdown::setup_share};
+    &Breakdown::setup_share,    &Breakdown::stock};
 
 struct SetupPlan {
   part::End hold = part::End::left;
@@ -275,6 +276,16 @@ struct WhatIfAnswer {
   std::string sentence;
 };
 
+/// One of the requests among which the plan was chosen.
+struct Alternative {
+  std::string name;  ///< "lathe-small; held left, then right"
+  bool feasible = false, chosen = false;
+  std::optional<double> cost_per_part = {}, time_per_part_min = {};  ///< if feasible
+  std::optional<double> lower_bound = {};  ///< of its certificate, of the objective
+  std::string why = {};                    ///< it has no plan
+  std::string sentence = {};
+};
+
 /// The tolerance that fewest parts keep.
 struct WorstConformance {
   std::string tolerance;
@@ -304,9 +315,10 @@ struct ProcessPlan {
   std::vector<Deviation> deviations;
   std::vector<ToolOffset> offsets;
   std::vector<Compensation> compensation;
-  std::vector<Price> prices;          ///< largest saving first
-  std::vector<WhatIfAnswer> what_if;  ///< in the order of the request
-  std::vector<ParetoPoint> pareto;    ///< cheapest first, if requested
+  std::vector<Price> prices;              ///< largest saving first
+  std::vector<WhatIfAnswer> what_if;      ///< in the order of the request
+  std::vector<Alternative> alternatives;  ///< if the request left a choice
+  std::vector<ParetoPoint> pareto;        ///< cheapest first, if requested
   std::vector<Conflict> conflicts;
   std::vector<Relaxation> relax;
   std::vector<Remedy> remedies;    ///< cheapest first

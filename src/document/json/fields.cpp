@@ -38,6 +38,7 @@ std::string read_id(Reader& r, std::string_view key) {
 }
 
 void read_format(Reader& r, const std::string& format) {
+  r.optional_text("$schema", 2000);
   if (const auto value = r.find("format"))
     if (!value->is_text() || value->json() != format)
       value->problem('"' + format + '"', "format");

@@ -16,7 +16,8 @@ namespace turnwright::document {
 /// An id, which consists of at most 64 letters, digits and "_.+-".
 std::string read_id(Reader& r, std::string_view key = "id");
 
-/// The member "format", which must be `format` if present.
+/// The member "format", which must be `format` if present.  "$schema", which editors read,
+/// is allowed beside it.
 void read_format(Reader& r, const std::string& format);
 void read_required_format(Reader& r, const std::string& format);
 

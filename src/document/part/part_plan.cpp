@@ -1,5 +1,6 @@
 #include "turnwright/document/part_plan.hpp"
 
+#include "choices.hpp"
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
 
@@ -181,14 +182,12 @@ void read_budget(Draft& draft) {
                      "the first part");
 }
 
-}  // namespace
-
-LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue,
-                          const std::string& document, Purpose purpose) {
+LoadedPart load(const nlohmann::json& request, const Catalogue& catalogue,
+                const std::string& document, Purpose purpose) {
   Problems problems{.document = document};
-  Reader root = Reader(json, problems).as_object();
+  Reader root = Reader(request, problems).as_object();
   Draft draft{.root = root, .catalogue = catalogue, .purpose = purpose};
-  draft.loaded.json = json;
+  draft.loaded.json = request;
   draft.loaded.document = document;
   if (!root.broken()) {
     read_format(root, "turnwright-part/1");
@@ -211,6 +210,32 @@ LoadedPart load_part_plan(const nlohmann::json& json, const Catalogue& catalogue
   }
   problems.throw_if_any();
   return std::move(draft.loaded);
+}
+
+}  // namespace
+
+LoadedPart load_variant(const Variant& variant, const Catalogue& catalogue,
+                        const std::string& document, Purpose purpose) {
+  try {
+    return load(variant.document, catalogue, document, purpose);
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    for (auto& problem : problems)
+      for (const auto& [place, in_request] : variant.places)
+        if (problem.pointer.starts_with(place))
+          problem.pointer.replace(0, place.size(), in_request);
+    throw InputError(document, std::move(problems));
+  }
+}
+
+LoadedPart load_part_plan(const nlohmann::json& request, const Catalogue& catalogue,
+                          const std::string& document, Purpose purpose) {
+  Problems problems{.document = document};
+  if (purpose == Purpose::predict && request.is_object() && request.contains("choose"))
+    problems.add({"/choose", "a choice", "nothing: only plan chooses", "unsupported"});
+  const auto all = variants(request, problems);
+  problems.throw_if_any();
+  return load_variant(all.front(), catalogue, document, purpose);
 }
 
 }  // namespace turnwright::document

@@ -74,6 +74,7 @@ void read_stock(Draft& draft) {
                  "half of what the stock is longer than the part");
   }
   stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));
+  draft.plan().stock_price = r.number_or("price", within(0, 1e9), 0);
   r.finish();
   check_diameters(r, draft, drawing);
   check_length(r, draft, drawing);

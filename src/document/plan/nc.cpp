@@ -163,7 +163,7 @@ NcRequest load_nc_request(const json& request, const Catalogue& catalogue) {
   NcRequest out{.settings = read_settings(r)};
   r.finish();
   try {
-    if (!part.broken()) out.part = prepared_part(part.json(), catalogue, "nc");
+    if (!part.broken()) out.part = prepared_candidates(part.json(), catalogue, "nc");
   } catch (const InputError& e) {
     for (auto problem : e.problems()) {
       problem.pointer = part.pointer() + problem.pointer;

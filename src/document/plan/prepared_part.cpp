@@ -5,6 +5,7 @@
 
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
+#include "document/part/choices.hpp"
 #include "document/part/part_sections.hpp"
 #include "document/part/what_if.hpp"
 #include "planning/auxiliary/milled_ways.hpp"
@@ -154,6 +155,27 @@ PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
 PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& catalogue,
                                const std::string& document, Purpose purpose) {
   return prepared(load_part_plan(json, catalogue, document, purpose), catalogue);
+}
+
+Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& catalogue,
+                               const std::string& document, bool window_curves) {
+  Problems problems{.document = document};
+  const auto all = variants(json, problems);
+  problems.throw_if_any();
+  Candidates out;
+  std::optional<InputError> first;
+  for (const auto& variant : all) try {
+      auto loaded = load_variant(variant, catalogue, document);
+      loaded.plan.window_curves = window_curves;
+      out.usable.push_back({variant.name, prepared(std::move(loaded), catalogue)});
+    } catch (const InputError& error) {
+      if (!first) first = error;
+      const auto& p = error.problems().front();
+      out.refused.push_back(
+          {variant.name, p.pointer + ": got " + p.got + ", expected " + p.expected});
+    }
+  if (out.usable.empty()) throw *first;
+  return out;
 }
 
 }  // namespace turnwright::document

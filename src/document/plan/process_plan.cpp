@@ -124,13 +124,15 @@ ordered_json json_of(const Spending& s) {
 }
 
 ordered_json json_of(const Breakdown& b) {
-  return {{"cutting", json_of(b.cutting)},
-          {"air", json_of(b.air)},
-          {"tool_changes", json_of(b.tool_changes)},
-          {"operator_stops", json_of(b.operator_stops)},
-          {"edges", json_of(b.edges)},
-          {"loading", json_of(b.loading)},
-          {"setup_share", json_of(b.setup_share)}};
+  ordered_json out{{"cutting", json_of(b.cutting)},
+                   {"air", json_of(b.air)},
+                   {"tool_changes", json_of(b.tool_changes)},
+                   {"operator_stops", json_of(b.operator_stops)},
+                   {"edges", json_of(b.edges)},
+                   {"loading", json_of(b.loading)},
+                   {"setup_share", json_of(b.setup_share)}};
+  if (b.stock.cost > 0) out["stock"] = json_of(b.stock);
+  return out;
 }
 
 ordered_json json_of(const SetupPlan& s) {
@@ -281,6 +283,15 @@ ordered_json json_of(const Remedy& r) {
   return out;
 }
 
+ordered_json json_of(const Alternative& a) {
+  ordered_json out{{"name", a.name}, {"feasible", a.feasible}, {"chosen", a.chosen}};
+  if (a.cost_per_part) out["cost_per_part"] = *a.cost_per_part;
+  if (a.time_per_part_min) out["time_per_part_min"] = *a.time_per_part_min;
+  if (a.lower_bound) out["lower_bound"] = *a.lower_bound;
+  out["sentence"] = a.sentence;
+  return out;
+}
+
 ordered_json json_of(const TriedChange& t) {
   auto out = json_of(t.change);
   out["sentence"] = t.sentence;
@@ -329,6 +340,9 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
   if (!plan.what_if.empty())
     out["what_if"] = list(plan.what_if, [](const WhatIfAnswer& a) { return json_of(a); });
+  if (!plan.alternatives.empty())
+    out["alternatives"] =
+        list(plan.alternatives, [](const Alternative& a) { return json_of(a); });
   out["conflicts"] = list(plan.conflicts, [](const Conflict& c) { return json_of(c); });
   out["relax"] = list(plan.relax, [](const Relaxation& r) { return json_of(r); });
   if (!plan.remedies.empty())

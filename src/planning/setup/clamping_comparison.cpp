@@ -118,6 +118,8 @@ Economy economy_of(const PreparedPart& p, double profit_rate) {
 
 Attempt attempt(const PreparedPart& p, Economy economy) {
   Attempt a;
+  a.breakdown.stock.cost = p.stock_price;
+  a.objective = a.lower_bound = economy.edge * p.stock_price;
   auto done = nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     a.setups.push_back(compare_clampings(p, s, p.work.setups[s], done, economy));

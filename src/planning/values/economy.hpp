@@ -2,7 +2,7 @@
 
 namespace turnwright::planning {
 
-/// Weights of the objective: of a minute, and of an edge.
+/// Weights of the objective: of a minute, and of what edges and the stock cost.
 struct Economy {
   double minute = 0, edge = 0;
 };

@@ -274,6 +274,8 @@ std::string html(std::string_view name, const ordered_json& result,
          setups(result) + tolerances(result, figures) + prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
+         section("Alternatives: each combination of choose, planned",
+                 sentences_of(list(result, "alternatives"))) +
          offsets(result) + compensation(result) + stability(result, figures) +
          windows(result, figures) + assumptions(result);
   for (const auto& sheet : sheets) out += sheet_html(sheet, figures);

@@ -192,7 +192,8 @@ std::vector<SpendingRow> spending(const ordered_json& result) {
       {"operator_stops", "operator's stops"},
       {"edges", "worn edges"},
       {"loading", "loading"},
-      {"setup_share", "preparing the machine, share of the batch"}};
+      {"setup_share", "preparing the machine, share of the batch"},
+      {"stock", "the piece of stock"}};
   const auto& b = object(result, "breakdown");
   std::vector<SpendingRow> rows;
   SpendingRow sum{"together"};

@@ -228,6 +228,13 @@ std::string what_if(const ordered_json& result) {
   return "\nWHAT IF  planned anew with a change\n" + numbered(sentences_of(all));
 }
 
+std::string alternatives(const ordered_json& result) {
+  const auto& all = list(result, "alternatives");
+  if (all.empty()) return "";
+  return "\nALTERNATIVES  each combination of choose, planned\n" +
+         numbered(sentences_of(all));
+}
+
 // One line each: a long value gives way to the reason.
 std::string assumptions(const ordered_json& result) {
   constexpr std::size_t kWidth = kPageWidth - 2, kLeastValue = 16;
@@ -250,7 +257,7 @@ std::string text(const ordered_json& plan_result) {
          relaxations(plan_result) + remedies(plan_result) + setups(plan_result) +
          tolerances(plan_result) + budget(plan_result) + offsets(plan_result) +
          compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
-         assumptions(plan_result);
+         alternatives(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

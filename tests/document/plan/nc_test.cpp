@@ -30,16 +30,17 @@ json request(const std::string& part) {
 json answered(const json& request) {
   static const SchemaCheck kRequest("nc.request.json"), kResult("nc.result.json");
   EXPECT_EQ(kRequest.fault(request), "");
-  const auto [part, settings] = load_nc_request(request, catalogue());
-  const auto plan = planning::plan(part.part);
-  json result = to_json(nc::programs(part.part, plan), plan, settings);
+  const auto [candidates, settings] = load_nc_request(request, catalogue());
+  const auto& part = candidates.usable.front().document.part;
+  const auto plan = planning::plan(part);
+  json result = to_json(nc::programs(part, plan), plan, settings);
   EXPECT_EQ(kResult.fault(result), "");
   return result;
 }
 
 std::string refused(const json& request) {
   return refusal(
-      [](const json& r) { return load_nc_request(r, catalogue()).part.part.batch; },
+      [](const json& r) { return load_nc_request(r, catalogue()).part.refused.size(); },
       request);
 }
 

@@ -1,0 +1,92 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "turnwright/part/drawing.hpp"
+#include "turnwright/part/tolerance_kind.hpp"
+
+/// What a foreign drawing (a STEP file, a DXF file, a line of text) says of a turned part:
+/// the geometry of a part document before stock, machine and clamping are added.  z = 0 at
+/// the left end of the part; sizes are diameters.  document/ writes it as a part document.
+namespace turnwright::exchange {
+
+/// Shapes of an element of the contour, as the part document names them.
+enum class Shape { cylinder, cone, arc, groove, thread };
+
+/// What the drawing asks of one surface: an element, the shoulder between two, an end.
+struct Demands {
+  std::optional<std::string> fit = {};      ///< ISO 286 tolerance class, "k6"
+  std::optional<part::Limits> limits = {};  ///< not together with `fit`
+  std::optional<double> Ra_um = {}, Rz_um = {};
+};
+
+/// One element of the outer contour or of a bore.
+struct Element {
+  std::string id;  ///< "d1", "d2" .. outside; "b1", "b2" .. inside
+  Shape shape = Shape::cylinder;
+  double length_mm = 0;
+  /// Diameters at its ends along the part; equal for a cylinder, for a groove (its floor)
+  /// and for a thread (its nominal diameter).
+  double left_mm = 0, right_mm = 0;
+  double pitch_mm = 0;                ///< of a thread; 0: the coarse one of ISO 261
+  double radius_mm = 0;               ///< of an arc
+  bool convex = true;                 ///< an arc bulges out of the material
+  part::End from = part::End::right;  ///< end that an inner element is reached from
+  Demands demands = {};
+  /// Names of what it was read from: "#123", a face of a STEP file; "LINE 2F" of a DXF.
+  std::vector<std::string> sources = {};
+};
+
+/// An edge of the contour, named as in the part document: "left", "d1|d2", "left|b1".
+struct Edge {
+  std::string at;
+  std::optional<double> chamfer_mm = {};  ///< along the axis
+  double angle_deg = 45;                  ///< of the chamfer, from the axis
+  std::optional<double> fillet_mm = {};
+  std::optional<std::string> undercut = {};  ///< form E of DIN 509: "E0.8x0.3"
+  std::vector<std::string> sources = {};
+};
+
+/// "left", "right", or "d1|d2" for the shoulder between two neighbouring elements.
+struct FaceOf {
+  std::string id;
+  Demands demands = {};  ///< roughness only
+  std::vector<std::string> sources = {};
+};
+
+/// A milled place on an outer cylinder.
+struct Milled {
+  enum class Kind { flat, keyway, slot };
+  std::string id;  ///< "m1", "m2" ..
+  Kind kind = Kind::keyway;
+  std::string on;  ///< the element
+  double z_mm = 0, length_mm = 0;
+  double width_mm = 0;  ///< not of a flat
+  double depth_mm = 0;  ///< below the cylinder's rim
+  double angle_deg = 0;
+  std::vector<std::string> sources = {};
+};
+
+/// Something that was taken to be so, or that could not be understood, and where.
+struct Remark {
+  std::string at;    ///< "#123", "LINE 2F", "d1", "" for the whole drawing
+  std::string text;  ///< a whole sentence
+};
+
+struct Outline {
+  std::string name;  ///< "" if the drawing has none
+  part::TitleBlock title = {};
+  std::string material;  ///< as the drawing calls it, "" if it does not
+  std::string general;   ///< general tolerances, "ISO 2768-mK"; "" if it does not say
+  std::vector<Element> outer;  ///< left to right
+  std::vector<Element> inner;  ///< those of one end from it inwards
+  std::vector<Edge> edges = {};
+  std::vector<FaceOf> faces = {};
+  std::vector<part::Tolerance> tolerances =
+      {};  ///< `of`, `datum`, `between`: ids as above
+  std::vector<Milled> milled = {};
+  std::vector<Remark> assumed = {}, ignored = {};
+};
+
+}  // namespace turnwright::exchange

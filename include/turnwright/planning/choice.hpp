@@ -1,0 +1,33 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "turnwright/planning/changed_request.hpp"
+#include "turnwright/planning/process_plan.hpp"
+
+namespace turnwright::planning {
+
+/// A request among which a plan chooses, and the changes of it whose savings are asked.
+struct Candidate {
+  std::string name;
+  PreparedPart part;
+  std::vector<WhatIf> what_if = {};
+};
+
+struct ChosenPlan {
+  std::size_t chosen = 0;  ///< index of the candidate
+  ProcessPlan plan;        ///< of it, with what each candidate costs in `alternatives`
+};
+
+/// Makes a plan infeasible that cannot be carried out (nc::refuse_unprogrammed).
+using Judge = std::function<void(const PreparedPart&, ProcessPlan&)>;
+
+/// The plan of the candidate with the best objective; the first of equals.  Each candidate's
+/// plan has its own certificate, so no candidate can be made for less than the least of their
+/// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
+/// the first candidate and explains why.
+/// @throws std::domain_error without a candidate, or if profit is the objective and no price
+///   is given.
+ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge);
+
+}  // namespace turnwright::planning

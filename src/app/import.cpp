@@ -1,0 +1,163 @@
+#include "import.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "document/json/parse.hpp"
+#include "options.hpp"
+#include "service/output.hpp"
+#include "service/requests.hpp"
+#include "turnwright/document/import.hpp"
+
+namespace turnwright::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ImportArguments {
+  std::string file;
+  std::optional<fs::path> output;
+  bool json = false, quiet = false;
+  nlohmann::json members =
+      nlohmann::json::object();  ///< of the request, beside the drawing
+};
+
+std::string read_all(std::istream& in, const std::string& name) {
+  std::string bytes, block(1 << 20, '\0');
+  while (in.read(block.data(), std::ssize(block)) || in.gcount() > 0) {
+    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > document::kLargestDrawing)
+      throw InputError(
+          name, {{"", "more than " + std::to_string(document::kLargestDrawing) + " bytes",
+                  "a drawing of at most so many", "limit"}});
+  }
+  return bytes;
+}
+
+std::string read_drawing(const std::string& file) {
+  if (file == "-") return read_all(std::cin, "standard input");
+  std::ifstream in(file, std::ios::binary);
+  if (!in || fs::is_directory(file))
+    throw InputError(file,
+                     {{"", "nothing readable", "a STEP, DXF or text file", "file"}});
+  return read_all(in, file);
+}
+
+std::string name_of(const std::string& file) {
+  return file == "-" ? "standard input" : file;
+}
+
+const service::Request& row() {
+  const auto rows = service::requests();
+  return *std::find_if(rows.begin(), rows.end(),
+                       [](const auto& r) { return r.name == "import"; });
+}
+
+// A drawing's problems under its own name, those of options under theirs.
+[[noreturn]] void rethrow(const InputError& e, const std::string& file) {
+  auto problems = e.problems();
+  const auto of_drawing = [](const Problem& p) {
+    return p.pointer == "/text" || p.pointer == "/base64" || p.pointer.empty();
+  };
+  const bool drawing = std::all_of(problems.begin(), problems.end(), of_drawing);
+  for (auto& p : problems) {
+    if (of_drawing(p))
+      p.pointer.clear();
+    else
+      p.pointer.replace(0, 1, "--");
+  }
+  throw InputError(drawing ? name_of(file) : "command line", std::move(problems));
+}
+
+// A drawing, or a request of the capability as other commands take one.
+nlohmann::json request_of(const ImportArguments& arguments) {
+  auto bytes = read_drawing(arguments.file);
+  const auto first = bytes.find_first_not_of(" \t\r\n");
+  const bool drawing = first == std::string::npos || bytes[first] != '{';
+  auto request =
+      drawing ? document::import_request(std::move(bytes))
+              : document::parse(bytes, name_of(arguments.file), document::kLocalLimits);
+  request.update(arguments.members);
+  return request;
+}
+
+nlohmann::ordered_json imported(const ImportArguments& arguments, const fs::path& data) {
+  const auto request = request_of(arguments);
+  const auto catalogue = document::load_catalogue(data);
+  try {
+    return service::answer(row(), request, {catalogue});
+  } catch (const InputError& e) {
+    rethrow(e, arguments.file);
+  }
+}
+
+void tell(const char* what, const nlohmann::ordered_json& remarks) {
+  for (const auto& r : remarks) {
+    const auto at = r["at"].get<std::string>();
+    std::cerr << what << ": "
+              << visible((at.empty() ? "" : at + ": ") + r["text"].get<std::string>())
+              << '\n';
+  }
+}
+
+void run(const ImportArguments& arguments, const std::optional<fs::path>& data) {
+  const auto result = imported(arguments, document::data_folder(data));
+  const auto text = (arguments.json ? result : result["part"]).dump(2) + '\n';
+  if (arguments.output && *arguments.output != "-")
+    service::write_file(*arguments.output, text);
+  else
+    service::print(text);
+  if (arguments.json || arguments.quiet) return;
+  tell("assumed", result["assumed"]);
+  tell("ignored", result["ignored"]);
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, const std::optional<fs::path>& data,
+                const std::function<void(std::function<void()>)>& chosen) {
+  auto* command = app.add_subcommand(
+      "import", "STEP, DXF or a line of text -> part document for plan");
+  auto arguments = std::make_shared<ImportArguments>();
+  command
+      ->add_option("DRAWING", arguments->file,
+                   "STEP or DXF file, or elements as text; - reads standard input")
+      ->required();
+  add_path(*command, "-o,--output", arguments->output,
+           "write the part document here; - is standard output",
+           Dash::is_standard_output);
+  command->add_flag("--json", arguments->json,
+                    "the whole result: part, what was assumed and what was ignored");
+  command->add_flag("--quiet", arguments->quiet,
+                    "do not tell what was assumed and ignored");
+  const auto text = [&](const char* option, const char* key, const char* help) {
+    command
+        ->add_option_function<std::string>(
+            option,
+            [arguments, key](const std::string& word) { arguments->members[key] = word; },
+            help)
+        ->type_name("WORD");
+  };
+  text("--material", "material", "id of the material, if the drawing names none");
+  text("--machine", "machine", "id of the lathe; otherwise lathe-medium");
+  text("--general", "general", "general tolerances; otherwise ISO 2768-mK");
+  text("--name", "name", "name of the part; otherwise the drawing's");
+  text("--body", "body", "which body of a STEP file with several, by name");
+  text("--source", "source", "step, dxf or notation, if it is not recognised");
+  command->footer(
+      "Examples:\n"
+      "  echo 'd50 h7 x 40 Ra1.6; d30 k6 x 32' | turnwright import - --material C45 "
+      "--json\n"
+      "  echo 'd50 x 40; 1x45; d30 h7 x 32' | turnwright import - --material C45 --quiet "
+      "| "
+      "turnwright plan -");
+  command->callback([arguments, &data, chosen] {
+    chosen([arguments, &data] { run(*arguments, data); });
+  });
+}
+
+}  // namespace turnwright::app

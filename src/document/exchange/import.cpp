@@ -1,0 +1,305 @@
+#include "turnwright/document/import.hpp"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "document/json/fields.hpp"
+#include "document/json/reference.hpp"
+#include "outline.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/exchange/dxf.hpp"
+#include "turnwright/exchange/notation.hpp"
+#include "turnwright/exchange/step.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using exchange::Outline;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+enum class Source { step, dxf, notation };
+const Choices<Source> kSources{
+    {"step", Source::step}, {"dxf", Source::dxf}, {"notation", Source::notation}};
+
+constexpr double kFacing_mm = 2;  // for each end
+constexpr const char* kGeneral = "ISO 2768-mK";
+
+// Round bars as dealers keep them, an estimate: every millimetre counts when thin.
+constexpr double kBars_mm[] = {
+    6,   8,   10,  12,  14,  15,  16,  18,  20,  22,  25,  28,  30,  32,  35,  36,  40,
+    42,  45,  48,  50,  52,  55,  60,  65,  70,  75,  80,  85,  90,  95,  100, 105, 110,
+    115, 120, 125, 130, 140, 150, 160, 170, 180, 190, 200, 210, 220, 230, 240, 250};
+
+double bar_mm(double largest_mm) {
+  constexpr double kLeast_mm = 1, kStep_mm = 10;  // to take off; beyond the list
+  for (const double d : kBars_mm)
+    if (d >= largest_mm + kLeast_mm) return d;
+  return kStep_mm * std::ceil((largest_mm + kLeast_mm) / kStep_mm);
+}
+
+// The drawing's bytes and the place in the request where they stand.
+struct Given {
+  std::string bytes, pointer;
+};
+
+std::string decoded(const Reader& r) {
+  auto text = r.json().get<std::string>();
+  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+  const auto pads = static_cast<std::size_t>(std::count(
+      text.end() - std::min<std::ptrdiff_t>(2, std::ssize(text)), text.end(), '='));
+  std::string out(text.size() / 4 * 3, '\0');
+  const int written = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                                      reinterpret_cast<const unsigned char*>(text.data()),
+                                      static_cast<int>(text.size()));
+  if (written < 0 || text.empty()) {
+    r.problem("base64 (RFC 4648) of the drawing's bytes", "format");
+    return {};
+  }
+  out.resize(static_cast<std::size_t>(written) - pads);
+  return out;
+}
+
+Given read_bytes(Reader& r) {
+  const bool text = r.has("text"), base64 = r.has("base64");
+  if (text == base64) {
+    r.problem(text ? "text and base64" : "no drawing",
+              "\"text\" with the drawing, or \"base64\" with its bytes", "conflict");
+    r.find("text");
+    r.find("base64");
+    return {};
+  }
+  const Reader at = text ? r.at("text") : r.at("base64");
+  const std::string as_given = at.as_text(kLargestDrawing);
+  if (as_given.empty()) return {};
+  return {text ? as_given : decoded(at), at.pointer()};
+}
+
+// A STEP file and a DXF file say at their beginning what they are.
+Source recognised(const std::string& bytes) {
+  const auto begin = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const std::string_view rest = begin == std::string::npos
+                                    ? std::string_view()
+                                    : std::string_view(bytes).substr(begin);
+  if (rest.starts_with("ISO-10303-21") || rest.starts_with("/*")) return Source::step;
+  const auto line = rest.substr(0, rest.find_first_of("\r\n"));
+  const bool code = line == "0" || line == "999";
+  return code || rest.starts_with("AutoCAD Binary DXF") ? Source::dxf : Source::notation;
+}
+
+Outline read_drawing(const Given& given, Source source,
+                     const std::optional<std::string>& body) {
+  switch (source) {
+    case Source::step:
+      return exchange::read_step(given.bytes, {.body = body.value_or("")});
+    case Source::dxf:
+      return exchange::read_dxf(given.bytes);
+    case Source::notation:
+      break;
+  }
+  return exchange::read_notation(given.bytes);
+}
+
+// Letters and digits in lower case: "42CrMo4 +A" and "42CrMo4-A" are one name.
+std::string key(const std::string& name) {
+  std::string out;
+  for (const unsigned char c : name)
+    if (std::isalnum(c) != 0) out += static_cast<char>(std::tolower(c));
+  return out;
+}
+
+// The id of the one material that is called so, or whose name begins so.
+std::optional<std::string> material_called(const std::string& name,
+                                           const Catalogue& catalogue) {
+  std::vector<std::string> found;
+  for (const auto& m : catalogue.materials)
+    if (key(m.id) == key(name) || key(m.name) == key(name)) return m.id;
+  for (const auto& m : catalogue.materials)
+    if (!key(name).empty() && key(m.id).starts_with(key(name))) found.push_back(m.id);
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+}
+
+struct Choice {
+  ordered_json material, stock, machine, general, batch;
+  std::string name;
+};
+
+// What a drawing does not say and a plan needs, as the request gives it.
+Choice read_choice(Reader& r) {
+  Choice c;
+  const auto member = [&](const char* name) {
+    const auto value = r.find(name);
+    return value && !value->broken() ? ordered_json(value->json()) : ordered_json();
+  };
+  c.material = member("material");
+  c.stock = member("stock");
+  c.machine = member("machine");
+  c.batch = member("batch");
+  c.general = member("general");
+  c.name = r.text_or("name", "");
+  return c;
+}
+
+class Remarks {
+ public:
+  void add(std::string at, std::string text) {
+    list_.push_back({{"at", std::move(at)}, {"text", std::move(text)}});
+  }
+  void add(const std::vector<exchange::Remark>& remarks) {
+    for (const auto& r : remarks) add(r.at, r.text);
+  }
+  ordered_json json() const { return list_; }
+
+ private:
+  ordered_json list_ = ordered_json::array();
+};
+
+double largest_mm(const Outline& o) {
+  double largest = 0;
+  for (const auto& e : o.outer) largest = std::max({largest, e.left_mm, e.right_mm});
+  return largest;
+}
+
+ordered_json next_bar(const Outline& o, Remarks& assumed) {
+  double length_mm = 0;
+  for (const auto& e : o.outer) length_mm += e.length_mm;
+  const double d_mm = bar_mm(largest_mm(o));
+  assumed.add("/stock", "The stock is the next round bar, " + mm_text(d_mm) + ", with " +
+                            mm_text(kFacing_mm) + " to face at each end.");
+  return {{"kind", "bar"},
+          {"diameter_mm", d_mm},
+          {"length_mm", std::round((length_mm + 2 * kFacing_mm) * 1e6) / 1e6},
+          {"left_allowance_mm", kFacing_mm}};
+}
+
+ordered_json material_of_part(const Outline& o, const Choice& choice,
+                              const Catalogue& catalogue, Reader& r, Remarks& assumed) {
+  if (!choice.material.is_null()) return choice.material;
+  const auto known = material_called(o.material, catalogue);
+  if (known) {
+    assumed.add("/material",
+                "The drawing says " + o.material + ": " + *known + " of the catalogue.");
+    return *known;
+  }
+  std::vector<std::string> ids;
+  for (const auto& m : catalogue.materials) ids.push_back(m.id);
+  r.problem_at(
+      "material",
+      o.material.empty()
+          ? "a material, which the drawing does not name: " +
+                expected_reference("", ids, "a material of the catalogue")
+          : "a material of the catalogue for the drawing's \"" + o.material + "\": " +
+                expected_reference(o.material, ids, "a material of the catalogue"),
+      "missing");
+  return nullptr;
+}
+
+ordered_json part_document(const Outline& o, const Choice& choice,
+                           const Catalogue& catalogue, Reader& r, Remarks& assumed) {
+  ordered_json part{{"format", "turnwright-part/1"}};
+  const std::string name = choice.name.empty() ? o.name : choice.name;
+  if (!name.empty()) part["name"] = name;
+  part["material"] = material_of_part(o, choice, catalogue, r, assumed);
+  part["stock"] = choice.stock.is_null() ? next_bar(o, assumed) : choice.stock;
+  part.update(part_members(o));
+  if (!choice.general.is_null()) {
+    part["general"] = choice.general;
+  } else if (!o.general.empty()) {
+    part["general"] = o.general;
+  } else {
+    part["general"] = kGeneral;
+    assumed.add("/general", std::string("Sizes left open have the general tolerances ") +
+                                kGeneral + ".");
+  }
+  if (!choice.machine.is_null()) part["machine"] = choice.machine;
+  part["choose"] = {{"setups", "auto"}};
+  if (!choice.batch.is_null()) part["batch"] = choice.batch;
+  return part;
+}
+
+// What the planner would refuse of the part: of a member that the request gives a problem
+// with the request; of the drawing a remark, for the part can be edited.
+void check_part(const ordered_json& part, const json& request, const Catalogue& catalogue,
+                Problems& problems, Remarks& ignored) {
+  try {
+    load_part_plan(part, catalogue, "import");
+  } catch (const InputError& error) {
+    for (const auto& p : error.problems()) {
+      const auto member = p.pointer.substr(0, p.pointer.find('/', 1));
+      if (member.size() > 1 && request.contains(member.substr(1)))
+        problems.add(p);
+      else
+        ignored.add(p.pointer, "The planner refuses this: got " + p.got + ", expected " +
+                                   p.expected + ".");
+    }
+  }
+}
+
+// The place in the drawing goes before what was found there; the pointer is the request's.
+[[noreturn]] void rethrow(const InputError& error, const std::string& pointer) {
+  Problems problems{.document = "import"};
+  for (auto p : error.problems()) {
+    if (!p.pointer.empty()) p.got = p.pointer + ": " + p.got;
+    p.pointer = pointer;
+    problems.add(std::move(p));
+  }
+  problems.throw_if_any();
+  throw error;
+}
+
+}  // namespace
+
+ordered_json import(const json& request, const Catalogue& catalogue) {
+  Problems problems{.document = "import"};
+  Reader r = Reader(request, problems).as_object();
+  read_format(r, "turnwright-import/1");
+  const Given given = read_bytes(r);
+  const auto as = r.optional_choice("source", kSources);
+  const auto body = r.optional_text("body");
+  const Choice choice = read_choice(r);
+  r.finish();
+  problems.throw_if_any();
+
+  const Source source = as.value_or(recognised(given.bytes));
+  Outline outline;
+  try {
+    outline = read_drawing(given, source, body);
+  } catch (const InputError& error) {
+    rethrow(error, given.pointer);
+  }
+  Remarks assumed, ignored;
+  assumed.add(outline.assumed);
+  ignored.add(outline.ignored);
+  auto part = part_document(outline, choice, catalogue, r, assumed);
+  problems.throw_if_any();
+  check_part(part, request, catalogue, problems, ignored);
+  problems.throw_if_any();
+  const auto word = std::find_if(kSources.begin(), kSources.end(),
+                                 [&](const auto& s) { return s.second == source; });
+  return {{"source", word->first},
+          {"part", std::move(part)},
+          {"assumed", assumed.json()},
+          {"ignored", ignored.json()}};
+}
+
+json import_request(std::string bytes) {
+  json text(std::move(bytes));
+  try {
+    text.dump();
+    return {{"text", std::move(text)}};
+  } catch (const json::type_error&) {  // not UTF-8
+    const auto& raw = text.get_ref<const std::string&>();
+    std::string encoded((raw.size() + 2) / 3 * 4 + 1, '\0');
+    const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
+                                       reinterpret_cast<const unsigned char*>(raw.data()),
+                                       static_cast<int>(raw.size()));
+    encoded.resize(static_cast<std::size_t>(length));
+    return {{"base64", std::move(encoded)}};
+  }
+}
+
+}  // namespace turnwright::document

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "elements.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::exchange {
+namespace {
+
+void leave_sharp(Outline& out, const std::string& at, const Corner& c, const char* why) {
+  const char* what = c.kind == Corner::Kind::chamfer    ? "chamfer"
+                     : c.kind == Corner::Kind::fillet   ? "fillet"
+                     : c.kind == Corner::Kind::undercut ? "undercut"
+                     : c.kind == Corner::Kind::rounded  ? "rounded edge"
+                                                        : "recess in the corner";
+  const double size = c.kind == Corner::Kind::chamfer ? c.axial_mm : c.radius_mm;
+  const std::string of =
+      size > 0 ? fmt::format(" of {:.6g} mm", tidy_mm(size)) : std::string();
+  out.ignored.push_back(
+      {c.sources.empty() ? at : fmt::format("{}", fmt::join(c.sources, ", ")),
+       fmt::format("The {}{} at {} is left out: {}.", what, of, at, why)});
+}
+
+// Whether a document can have an edge in a corner between these two.
+bool plain(const Element* a, const Element* b) {
+  const auto has_edges = [](const Element* e) {
+    return !e || (e->shape != Shape::groove && e->shape != Shape::arc);
+  };
+  return has_edges(a) && has_edges(b);
+}
+
+}  // namespace
+
+double tidy_mm(double mm) {
+  constexpr double kDigits = 1e9;
+  return std::round(mm * kDigits) / kDigits;
+}
+
+Element element_of(const Band& b) {
+  return {.id = "",
+          .shape = b.shape,
+          .length_mm = tidy_mm(b.to.z_mm - b.from.z_mm),
+          .left_mm = tidy_mm(2 * std::abs(b.from.r_mm)),
+          .right_mm = tidy_mm(2 * std::abs(b.to.r_mm)),
+          .radius_mm = tidy_mm(b.radius_mm),
+          .convex = b.convex,
+          .sources = b.sources};
+}
+
+void add_corner(Outline& out, const std::string& at, const Corner& c, const Element* a,
+                const Element* b) {
+  const bool face = !a || !b;
+  const auto edge = [&] {
+    Edge e{.at = at, .sources = c.sources};
+    if (c.kind == Corner::Kind::chamfer) {
+      e.chamfer_mm = tidy_mm(c.axial_mm);
+      e.angle_deg = tidy_mm(units::deg_from_rad(c.angle_rad));
+    } else if (c.kind == Corner::Kind::fillet) {
+      e.fillet_mm = tidy_mm(c.radius_mm);
+    } else {
+      e.undercut = c.undercut;
+    }
+    out.edges.push_back(std::move(e));
+  };
+  if (c.kind == Corner::Kind::rounded)
+    leave_sharp(out, at, c, "a part document has no rounded edges, the edge stays sharp");
+  else if (c.kind == Corner::Kind::recess)
+    leave_sharp(out, at, c,
+                "of DIN 509 a part document has form E alone, the corner stays sharp");
+  else if (!plain(a, b))
+    leave_sharp(out, at, c, "edges beside grooves and arcs are left to their tools");
+  else if (face && c.kind != Corner::Kind::chamfer)
+    leave_sharp(out, at, c, "the corner lies at the bottom of a bore");
+  else
+    edge();
+}
+
+void add_outside(Outline& out, const Parts& parts, double join_mm) {
+  std::vector<Side> sides{parts.left};
+  sides.insert(sides.end(), parts.outside.begin(), parts.outside.end());
+  sides.push_back(parts.right);
+  const Chain chain = chain_of(sides, join_mm);
+  if (chain.bands.empty())
+    throw InputError(
+        "profile", {{place(parts.left.sources, parts.left.from), "a part without length",
+                     "an outer contour", "geometry"}});
+  for (const Band& b : chain.bands) {
+    out.outer.push_back(element_of(b));
+    out.outer.back().id = fmt::format("d{}", out.outer.size());
+  }
+  const auto name = [&](std::size_t k) {
+    if (k == 0) return std::string("left");
+    if (k == out.outer.size()) return std::string("right");
+    return pair(out.outer[k - 1].id, out.outer[k].id);
+  };
+  for (std::size_t k = 0; k < chain.walls.size(); ++k)
+    if (!chain.walls[k].empty())
+      out.faces.push_back({.id = name(k), .sources = chain.walls[k]});
+  add_corners(out, chain, out.outer, name);
+}
+}  // namespace turnwright::exchange

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+
+#include "step_pmi_place.hpp"
+
+namespace turnwright::exchange {
+namespace {
+
+using part::DatumFeature;
+using part::Toleranced;
+using part::ToleranceKind;
+
+constexpr double kWidest_mm = 10;  // as the part document has it
+
+std::string described_datum(const DatumReference& d) {
+  auto text = fmt::format("{}", fmt::join(d.letters, "-"));
+  if (!d.modifiers.empty()) text += fmt::format(" ({})", fmt::join(d.modifiers, ", "));
+  return text;
+}
+
+/// "position of diameter 1.27 mm (maximum material requirement) to A, B".
+std::string described_tolerance(const GeometricTolerance& t) {
+  auto text = std::string(name(t.symbol)) + " tolerance";
+  if (t.width_mm)
+    text += fmt::format(" of {}{} mm", t.diametral ? "diameter " : "", *t.width_mm);
+  if (!t.modifiers.empty()) text += fmt::format(" ({})", fmt::join(t.modifiers, ", "));
+  for (std::size_t i = 0; i < t.datums.size(); ++i)
+    text += (i == 0 ? " to " : ", ") + described_datum(t.datums[i]);
+  return text;
+}
+
+void leave_tolerance_out(const GeometricTolerance& t, const std::string& reason,
+                         Outline& outline) {
+  outline.ignored.push_back(
+      {t.at, "The " + described_tolerance(t) + " is left out: " + reason + "."});
+}
+
+// The kind of a symbol on an element or on a face; nothing for those a part document lacks.
+std::optional<ToleranceKind> tolerance_kind(Symbol symbol, bool face, bool datum) {
+  switch (symbol) {
+    case Symbol::angularity:
+      return ToleranceKind::angularity;
+    case Symbol::circular_runout:
+      return face ? ToleranceKind::circular_axial_runout
+                  : ToleranceKind::circular_radial_runout;
+    case Symbol::coaxiality:
+    case Symbol::concentricity:
+      return ToleranceKind::coaxiality;
+    case Symbol::cylindricity:
+      return ToleranceKind::cylindricity;
+    case Symbol::flatness:
+      return ToleranceKind::flatness;
+    case Symbol::line_profile:
+    case Symbol::surface_profile:
+      return datum ? ToleranceKind::profile : ToleranceKind::profile_without_datum;
+    case Symbol::parallelism:
+      return ToleranceKind::parallelism;
+    case Symbol::perpendicularity:
+      return ToleranceKind::perpendicularity;
+    case Symbol::position:
+      return ToleranceKind::position;
+    case Symbol::roundness:
+      return ToleranceKind::circularity;
+    case Symbol::straightness:
+      return ToleranceKind::straightness;
+    case Symbol::total_runout:
+      return face ? ToleranceKind::total_axial_runout
+                  : ToleranceKind::total_radial_runout;
+    case Symbol::symmetry:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool suits(Toleranced of, const Place& place) {
+  switch (of) {
+    case Toleranced::cylinder:
+      return place.kind == PlaceKind::cylinder;
+    case Toleranced::element:
+      return place.is_element();
+    case Toleranced::face:
+      return place.is_face();
+    case Toleranced::element_or_face:
+      return place.is_element() || place.is_face();
+    case Toleranced::two_faces:
+      break;
+  }
+  return false;
+}
+
+Toleranced datum_suits(DatumFeature wanted, const Place& toleranced) {
+  if (wanted == DatumFeature::element) return Toleranced::element;
+  if (wanted == DatumFeature::face) return Toleranced::face;
+  if (wanted == DatumFeature::other)
+    return toleranced.is_face() ? Toleranced::element : Toleranced::face;
+  return Toleranced::element_or_face;
+}
+
+const char* wanted_feature(Toleranced of) {
+  if (of == Toleranced::cylinder) return "a cylinder";
+  if (of == Toleranced::element) return "a cylinder or cone";
+  return of == Toleranced::face ? "a face" : "an element or a face";
+}
+
+// What is said of the axis of a feature, as the zone or the aspect has it.
+bool is_of_axis(const GeometricTolerance& t) { return t.of.axis || t.diametral; }
+
+// What stands in the way whatever the tolerance is of; "" if nothing does.
+std::string obstacle(const GeometricTolerance& t) {
+  if (!t.width_mm) return "the file gives no value";
+  if (!(*t.width_mm > 0 && *t.width_mm <= kWidest_mm))
+    return "a part document has values > 0 and up to 10 mm";
+  if (!t.modifiers.empty()) return "a part document has no such modifier";
+  for (const auto& d : t.datums)
+    if (!d.modifiers.empty()) return "a part document has no modifiers of datums";
+  const bool form = t.symbol == Symbol::straightness || t.symbol == Symbol::flatness ||
+                    t.symbol == Symbol::roundness || t.symbol == Symbol::cylindricity ||
+                    t.symbol == Symbol::circular_runout ||
+                    t.symbol == Symbol::total_runout;
+  if (form && is_of_axis(t))
+    return "a part document has it of a surface, not of an axis or median plane";
+  if (t.symbol == Symbol::position && !is_of_axis(t))
+    return "a part document has the position of an axis, in a cylindrical zone";
+  return "";
+}
+
+struct DatumPlace {
+  std::optional<Place> place = {};
+  std::string reason = {};  ///< why there is none; "" if the tolerance has no datum
+};
+
+using Datums = std::map<std::string, DatumPlace, std::less<>>;
+
+// By their letters; writers may repeat a datum for every tolerance that names it.
+Datums datums_of(const Pmi& pmi, const Places& places) {
+  std::map<std::string, Datum, std::less<>> merged;
+  for (const auto& datum : pmi.datums) {
+    auto& one = merged[datum.letter];
+    one.targets = one.targets || datum.targets;
+    one.of.faces.insert(one.of.faces.end(), datum.of.faces.begin(), datum.of.faces.end());
+  }
+  Datums all;
+  for (const auto& [letter, datum] : merged) {
+    const auto found = places.of(datum.of);
+    auto& place = all[letter];
+    if (datum.targets)
+      place.reason = "datum " + letter + " is made of datum targets";
+    else if (found.empty())
+      place.reason = "datum " + letter + " is not in the outline";
+    else if (found.size() > 1)
+      place.reason = "datum " + letter + " is on more than one feature: " + ids(found);
+    else
+      place.place = found.front();
+  }
+  return all;
+}
+
+DatumPlace datum_of(const std::string& letter, const Datums& datums) {
+  const auto found = datums.find(letter);
+  if (found != datums.end()) return found->second;
+  return {.reason = "the file has no datum " + letter};
+}
+
+// The single datum of a tolerance.  The reason against several says where they are, so that
+// the author of the document can choose.
+DatumPlace single_datum(const GeometricTolerance& t, const Datums& datums) {
+  std::vector<std::string> letters;
+  for (const auto& d : t.datums)
+    letters.insert(letters.end(), d.letters.begin(), d.letters.end());
+  if (letters.empty() && !t.datums.empty()) return {.reason = "its datum has no letter"};
+  if (letters.empty()) return {};
+  if (letters.size() == 1) return datum_of(letters.front(), datums);
+  std::string where;
+  for (const auto& letter : letters)
+    if (const auto datum = datum_of(letter, datums); datum.place)
+      where +=
+          fmt::format("{} {} is {}", where.empty() ? ";" : ",", letter, datum.place->id);
+  return {.reason = "a part document has one datum" + where};
+}
+
+void add_to(const Place& place, const GeometricTolerance& t,
+            const std::optional<Place>& datum, Outline& outline) {
+  const auto kind = tolerance_kind(t.symbol, place.is_face(), datum.has_value());
+  if (!kind)
+    return leave_tolerance_out(t, "a part document has no tolerance of this kind",
+                               outline);
+  if (place.kind == PlaceKind::cut)
+    return leave_tolerance_out(t, place.id + " is made at fixed conditions", outline);
+  const auto& facts = part::facts(*kind);
+  if (!suits(facts.of, place))
+    return leave_tolerance_out(
+        t,
+        fmt::format("it is of {} in a part document, and {} is {}",
+                    wanted_feature(facts.of), place.id, name(place.kind)),
+        outline);
+  if ((facts.datum == DatumFeature::none) == datum.has_value())
+    return leave_tolerance_out(
+        t, datum ? "it has no datum in a part document" : "it has no datum", outline);
+  if (datum && datum->id == place.id)
+    return leave_tolerance_out(t, "its datum is " + place.id + " itself", outline);
+  if (datum && !suits(datum_suits(facts.datum, place), *datum))
+    return leave_tolerance_out(
+        t,
+        fmt::format("its datum is {} in a part document, and {} is {}",
+                    wanted_feature(datum_suits(facts.datum, place)), datum->id,
+                    name(datum->kind)),
+        outline);
+  outline.tolerances.push_back({.id = fmt::format("t{}", outline.tolerances.size() + 1),
+                                .kind = *kind,
+                                .of = place.id,
+                                .datum = datum ? datum->id : std::string(),
+                                .between = {},
+                                .value_mm = *t.width_mm,
+                                .limits = {}});
+}
+
+void add_tolerance(const GeometricTolerance& t, const Datums& datums,
+                   const Places& places, Outline& outline) {
+  if (const auto reason = obstacle(t); !reason.empty())
+    return leave_tolerance_out(t, reason, outline);
+  const auto of = places.of(t.of);
+  if (of.empty())
+    return leave_tolerance_out(t, "its feature is not in the outline", outline);
+  const auto datum = single_datum(t, datums);
+  if (!datum.reason.empty()) return leave_tolerance_out(t, datum.reason, outline);
+  for (const auto& place : of) add_to(place, t, datum.place, outline);
+}
+
+}  // namespace
+
+void add_tolerances(const Pmi& pmi, const Places& places, Outline& outline) {
+  const auto datums = datums_of(pmi, places);
+  for (const auto& t : pmi.tolerances) add_tolerance(t, datums, places, outline);
+}
+
+}  // namespace turnwright::exchange

@@ -1,0 +1,160 @@
+#include "turnwright/exchange/notation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "notation_element.hpp"
+#include "notation_features.hpp"
+
+namespace turnwright::exchange {
+namespace notated {
+namespace {
+
+// A corner without the names of its elements: after how many outer elements it stands.
+struct Corner {
+  std::size_t after = 0;
+  Edge edge;
+};
+
+class Notation {
+ public:
+  explicit Notation(std::string_view text) : text_(text), mistakes_(text) {}
+
+  Outline read() {
+    if (const auto n = utf8_length(text_); n < text_.size()) {
+      mistakes_.add(text_.substr(n, 1), "a text in UTF-8", "a byte that is none");
+      mistakes_.throw_if_any();
+    }
+    for (const Word s : statements(text_)) read_statement(s);
+    if (out_.outer.empty() && out_.inner.empty() && mistakes_.none())
+      mistakes_.add(text_.substr(0, 0), "elements like d50 h7 x 40; d30 k6 x 32",
+                    "no element");
+    place_corners();
+    check_names();
+    mistakes_.throw_if_any();
+    out_.faces = std::move(features_.faces);
+    out_.tolerances = std::move(features_.tolerances);
+    out_.milled = std::move(features_.milled);
+    return std::move(out_);
+  }
+
+ private:
+  void read_statement(Word statement) {
+    const auto colon = statement.find(':');
+    if (colon != Word::npos)
+      return read_headed(trimmed(statement.substr(0, colon)),
+                         trimmed(statement.substr(colon + 1)));
+    const auto w = words(statement);
+    if (begins_element(w[0])) return add_element(w);
+    if (begins_corner(w[0])) {
+      for (Edge& e : corner(w, mistakes_))
+        corners_.push_back({out_.outer.size(), std::move(e)});
+      return;
+    }
+    if (read_feature(w, features_, mistakes_)) return;
+    mistakes_.add(w[0],
+                  "an element like d50 h7 x 40, M24x1.5 x 25, groove d26 x 3 or bore d20 "
+                  "H7 x 60, a corner like 1x45, a face, a tolerance, a keyway, or a "
+                  "title like name: Pin");
+  }
+
+  void add_element(const std::vector<Word>& w) {
+    ReadElement read = element(w, mistakes_);
+    auto& list = read.inner ? out_.inner : out_.outer;
+    read.element.id = fmt::format("{}{}", read.inner ? 'b' : 'd', list.size() + 1);
+    list.push_back(std::move(read.element));
+  }
+
+  // "name: Pin", "left: 1x45".
+  void read_headed(Word head, Word rest) {
+    if (std::string* text = title(head)) return read_text(*text, head, rest);
+    const bool edge =
+        same(head, "left") || same(head, "right") || head.find('|') != Word::npos;
+    if (!edge)
+      return mistakes_.add(head,
+                           "name, material, general, drawing, revision, customer, or an "
+                           "edge like left or d1|d2 before the colon");
+    features_.named.push_back({head, true});
+    if (rest.empty()) return mistakes_.add(head, "a feature like 1x45 after the colon");
+    for (Edge& e : corner(words(rest), mistakes_)) {
+      e.at = std::string(head);
+      edges_.push_back(std::move(e));
+    }
+  }
+
+  std::string* title(Word head) {
+    if (same(head, "name")) return &out_.name;
+    if (same(head, "material")) return &out_.material;
+    if (same(head, "general")) return &out_.general;
+    if (same(head, "drawing")) return &out_.title.drawing_number;
+    if (same(head, "revision")) return &out_.title.revision;
+    if (same(head, "customer")) return &out_.title.customer;
+    return nullptr;
+  }
+
+  void read_text(std::string& text, Word head, Word rest) {
+    if (!text.empty()) return mistakes_.add(head, "this line of the title once");
+    if (rest.empty()) return mistakes_.add(head, "a text after the colon");
+    if (rest[0] != '"') {
+      text = std::string(rest);
+      return;
+    }
+    for (std::size_t i = 1; i < rest.size(); ++i) {
+      const bool mark = rest[i] == '"';
+      if (mark && i + 1 == rest.size()) return;
+      if (mark && rest[++i] != '"') break;
+      text += rest[i];
+    }
+    mistakes_.add(rest, "a text that ends with its '\"'");
+  }
+
+  void place_corners() {
+    const std::size_t last = out_.outer.size();
+    for (Corner& c : corners_) {
+      c.edge.at = c.after == 0      ? "left"
+                  : c.after == last ? "right"
+                                    : fmt::format("d{}|d{}", c.after, c.after + 1);
+      out_.edges.push_back(std::move(c.edge));
+    }
+    std::move(edges_.begin(), edges_.end(), std::back_inserter(out_.edges));
+  }
+
+  void check_names() {
+    std::unordered_set<std::string> ids;
+    for (const auto* list : {&out_.outer, &out_.inner})
+      for (const Element& e : *list) ids.insert(e.id);
+    const auto known = [&](Word id, bool end_too) {
+      return ids.count(std::string(id)) > 0 ||
+             (end_too && (id == "left" || id == "right"));
+    };
+    for (const Named& n : features_.named) {
+      const auto bar = n.word.find('|');
+      const bool two = bar != Word::npos && n.face_too;
+      if (two ? known(n.word.substr(0, bar), true) && known(n.word.substr(bar + 1), false)
+              : known(n.word, n.face_too))
+        continue;
+      mistakes_.add(
+          n.word,
+          fmt::format(
+              "an element of d1 to d{}{}{}", out_.outer.size(),
+              out_.inner.empty() ? "" : fmt::format(", b1 to b{}", out_.inner.size()),
+              n.face_too ? ", left, right, or two with | between" : ""));
+    }
+  }
+
+  std::string_view text_;
+  Mistakes mistakes_;
+  Outline out_;
+  std::vector<Corner> corners_;
+  std::vector<Edge> edges_;
+  Features features_;
+};
+
+}  // namespace
+}  // namespace notated
+
+Outline read_notation(std::string_view text) { return notated::Notation(text).read(); }
+
+}  // namespace turnwright::exchange

@@ -1,0 +1,148 @@
+#include "notation_demands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace turnwright::exchange::notated {
+namespace {
+
+constexpr double kLargestRa_um = 100, kLargestRz_um = 400;
+
+bool one_of(char c, std::string_view set) {
+  return set.find(c) != std::string_view::npos;
+}
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+bool begins_with_digit(Word word) { return !word.empty() && is_digit(word[0]); }
+
+// "AxANGLE", the angle 45 if there is none.
+bool take_chamfer(Word at, Word word, Edge& edge, Mistakes& mistakes) {
+  const auto axial = take_number(word);
+  double angle = 45;
+  if (axial && take(word, {"x", "×"})) {
+    const auto read = take_number(word);
+    take(word, {"°"});
+    angle = read.value_or(0);
+  }
+  if (!axial || !word.empty() || !(angle >= 1 && angle <= 89)) {
+    mistakes.add(at,
+                 "a chamfer like 1x45, its length along the axis and its angle of 1 "
+                 "to 89 deg from it");
+    return false;
+  }
+  edge.chamfer_mm = axial;
+  edge.angle_deg = angle;
+  return in_range(at, *axial, kLargest_mm, "mm", mistakes);
+}
+
+bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
+  Word rest = word;
+  take(rest, {"e"});
+  const auto sizes = product(rest);
+  if (!sizes || sizes->size() != 2) {
+    mistakes.add(word,
+                 "an undercut of form E of DIN 509 by radius and depth, like E0.8x0.3");
+    return false;
+  }
+  edge.undercut = fmt::format("E{}x{}", (*sizes)[0], (*sizes)[1]);
+  return true;
+}
+
+bool take_fillet(Word word, Edge& edge, Mistakes& mistakes) {
+  Word rest = word;
+  take(rest, {"r"});
+  edge.fillet_mm = number(rest);
+  if (!edge.fillet_mm) {
+    mistakes.add(word, "a fillet like R0.8");
+    return false;
+  }
+  return in_range(word, *edge.fillet_mm, kLargest_mm, "mm", mistakes);
+}
+
+}  // namespace
+
+bool is_fit(Word word) {
+  std::size_t n = 0;
+  while (n < word.size() && n < 2 && is_letter(word[n])) ++n;
+  const std::size_t digits = word.size() - n;
+  if (n == 0 || digits < 1 || digits > 2) return false;
+  for (; n < word.size(); ++n)
+    if (!is_digit(word[n])) return false;
+  return true;
+}
+
+bool is_thread_class(Word word) {
+  if (word.size() != 2 && word.size() != 4) return false;
+  for (std::size_t i = 0; i < word.size(); i += 2)
+    if (!one_of(word[i], "3456789") || !one_of(word[i + 1], "abcdefghABCDEFGH"))
+      return false;
+  return true;
+}
+
+bool in_range(Word at, double x, double most, const char* unit, Mistakes& mistakes) {
+  if (x > 0 && x <= most) return true;
+  mistakes.add(at, fmt::format("a number > 0 and <= {} {}", most, unit));
+  return false;
+}
+
+std::optional<part::Limits> limits(Word word) {
+  if (take(word, {"±", "+-", "+/-"})) {
+    const auto x = number(word);
+    if (!x) return std::nullopt;
+    return part::Limits{-*x, *x};
+  }
+  const auto a = take_signed_number(word);
+  if (!a || !take(word, {"/"})) return std::nullopt;
+  const auto b = take_signed_number(word);
+  if (!b || !word.empty()) return std::nullopt;
+  return part::Limits{std::min(*a, *b), std::max(*a, *b)};
+}
+
+bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
+  Word rest = word;
+  const bool Ra = take(rest, {"ra"});
+  if (!Ra && !take(rest, {"rz"})) return false;
+  auto& value = Ra ? demands.Ra_um : demands.Rz_um;
+  if (value) {
+    mistakes.add(word, Ra ? "one Ra" : "one Rz");
+  } else if (const auto x = number(rest)) {
+    if (in_range(word, *x, Ra ? kLargestRa_um : kLargestRz_um, "um", mistakes)) value = x;
+  } else {
+    mistakes.add(word, Ra ? "a roughness like Ra1.6" : "a roughness like Rz6.3");
+  }
+  return true;
+}
+
+bool begins_corner(Word word) {
+  if (same(word, "chamfer") || begins_with_digit(word)) return true;
+  return take(word, {"r", "e"}) && begins_with_digit(word);
+}
+
+std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    Edge edge;
+    Word first = words[i];
+    bool read = false;
+    if (same(words[i], "chamfer") && i + 1 < words.size()) {
+      ++i;
+      read = take_chamfer(words[i], words[i], edge, mistakes);
+    } else if (begins_with_digit(first)) {
+      read = take_chamfer(first, first, edge, mistakes);
+    } else if (take(first, {"e"}) && begins_with_digit(first)) {
+      read = take_undercut(words[i], edge, mistakes);
+    } else if (take(first, {"r"}) && begins_with_digit(first)) {
+      read = take_fillet(words[i], edge, mistakes);
+    } else {
+      mistakes.add(
+          words[i],
+          "a chamfer like 1x45, a fillet like R0.8 or an undercut like E0.8x0.3");
+    }
+    if (read) edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+}  // namespace turnwright::exchange::notated

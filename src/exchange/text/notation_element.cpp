@@ -1,0 +1,213 @@
+#include "notation_element.hpp"
+
+#include <array>
+
+namespace turnwright::exchange::notated {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Shape>, 4> kShapes{
+    {{"cone", Shape::cone},
+     {"arc", Shape::arc},
+     {"groove", Shape::groove},
+     {"thread", Shape::thread}}};
+
+std::optional<Shape> shape_word(Word word) {
+  for (const auto& [name, shape] : kShapes)
+    if (same(word, name)) return shape;
+  return std::nullopt;
+}
+
+bool take_d(Word& word) { return take(word, {"d", "Ø", "ø", "⌀"}); }
+
+bool begins_with_number(Word word) {
+  return !word.empty() && (is_digit(word[0]) || word[0] == '.');
+}
+
+// Reads the words of one element, one after the other.
+class ElementWords {
+ public:
+  ElementWords(const std::vector<Word>& words, Mistakes& mistakes)
+      : words_(words), mistakes_(mistakes) {}
+
+  ReadElement read() {
+    read_place();
+    if (read_head()) {
+      while (next_ < words_.size()) read_demand(words_[next_++]);
+      finish();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Element& e() { return out_.element; }
+
+  // "bore", "bore left", and the word of the shape.
+  void read_place() {
+    if (same(words_[0], "bore")) {
+      out_.inner = true;
+      ++next_;
+      const bool left = next_ < words_.size() && same(words_[next_], "left");
+      if (left || (next_ < words_.size() && same(words_[next_], "right"))) ++next_;
+      e().from = left ? part::End::left : part::End::right;
+    }
+    if (next_ == words_.size()) return;
+    if (const auto shape = shape_word(words_[next_])) {
+      e().shape = *shape;
+      ++next_;
+    }
+  }
+
+  bool read_head() {
+    const bool ends = next_ == words_.size();
+    const Word word = ends ? words_.back() : words_[next_++];
+    Word rest = word;
+    const bool cylinder = e().shape == Shape::cylinder;
+    if (!ends && (cylinder || e().shape == Shape::thread) && take(rest, {"m"}))
+      return read_thread(word, rest);
+    if (!ends && e().shape != Shape::thread && take_d(rest))
+      return read_diameters(word, rest);
+    return head_mistake(word);
+  }
+
+  bool head_mistake(Word word) {
+    const char* wanted =
+        "a diameter like d50, two of a cone like d30-d40, or a thread "
+        "like M24x1.5";
+    if (e().shape == Shape::thread) wanted = "a thread like M24x1.5";
+    if (e().shape == Shape::groove)
+      wanted = "the diameter of the groove's floor like d26";
+    if (e().shape == Shape::cone || e().shape == Shape::arc)
+      wanted = "the diameters at both ends like d30-d40";
+    mistakes_.add(word, wanted);
+    return false;
+  }
+
+  bool read_thread(Word word, Word rest) {
+    e().shape = Shape::thread;
+    const auto d = take_number(rest);
+    if (!d) return head_mistake(word);
+    if (take(rest, {"x", "×"})) {
+      const auto pitch = take_number(rest);
+      if (!pitch) return head_mistake(word);
+      pitch_given_ = in_range(word, *pitch, kLargest_mm, "mm", mistakes_);
+      e().pitch_mm = *pitch;
+    }
+    e().left_mm = e().right_mm = *d;
+    return in_range(word, *d, kLargest_mm, "mm", mistakes_) && read_glued(word, rest);
+  }
+
+  bool read_diameters(Word word, Word rest) {
+    const auto left = take_number(rest);
+    if (!left) return head_mistake(word);
+    auto right = left;
+    const bool two = take(rest, {"-", "/"});
+    if (two) {
+      take_d(rest);
+      right = take_number(rest);
+      if (e().shape == Shape::cylinder) e().shape = Shape::cone;
+    }
+    const bool wants_two = e().shape == Shape::cone || e().shape == Shape::arc;
+    if (!right || two != wants_two) return head_mistake(word);
+    e().left_mm = *left;
+    e().right_mm = *right;
+    return in_range(word, std::min(*left, *right), kLargest_mm, "mm", mistakes_) &&
+           in_range(word, std::max(*left, *right), kLargest_mm, "mm", mistakes_) &&
+           read_glued(word, rest);
+  }
+
+  // A length without a blank before it: d50x40.
+  bool read_glued(Word word, Word rest) {
+    if (rest.empty()) return true;
+    Word length = rest;
+    if (!take(length, {"x", "×"}) || !number(length)) return head_mistake(word);
+    read_demand(rest);
+    return true;
+  }
+
+  void read_demand(Word word) {
+    Word rest = word;
+    if (take(rest, {"x", "×"})) return read_length(word, rest);
+    if (take_roughness(word, e().demands, mistakes_)) return;
+    if (e().shape == Shape::arc && read_arc(word)) return;
+    const bool thread = e().shape == Shape::thread;
+    if (thread ? is_thread_class(word) : is_fit(word)) return read_fit(word);
+    if (const auto l = limits(word)) return read_limits(word, *l);
+    mistakes_.add(word, thread ? "a length like x 40, a class like 6g, limits like "
+                                 "+0.02/-0.01 or a roughness like Ra1.6"
+                               : "a length like x 40, a fit like h7, limits like "
+                                 "+0.02/-0.01 or a roughness like Ra1.6");
+  }
+
+  void read_length(Word word, Word rest) {
+    const int before = lengths_++;
+    const auto x = number(rest);
+    if (!x) return mistakes_.add(word, "a length like x 40");
+    if (!in_range(word, *x, kLargest_mm, "mm", mistakes_)) return;
+    if (before == 1 && e().shape == Shape::thread && !pitch_given_)
+      e().pitch_mm = e().length_mm;
+    else if (before > 0)
+      return mistakes_.add(word, "one length");
+    e().length_mm = *x;
+  }
+
+  bool read_arc(Word word) {
+    if (same(word, "convex") || same(word, "concave")) {
+      e().convex = same(word, "convex");
+      return true;
+    }
+    Word rest = word;
+    if (!take(rest, {"r"}) || !begins_with_number(rest)) return false;
+    const auto radius = number(rest);
+    if (!radius)
+      mistakes_.add(word, "a radius like R60");
+    else if (in_range(word, *radius, 1e6, "mm", mistakes_))
+      e().radius_mm = *radius;
+    radius_given_ = true;
+    return true;
+  }
+
+  void read_fit(Word word) {
+    if (e().shape == Shape::cone || e().shape == Shape::arc)
+      return mistakes_.add(word,
+                           "limits like +0.02/-0.01 here; fits are of cylinders, "
+                           "grooves and threads");
+    if (e().demands.fit || e().demands.limits) return sized_twice(word);
+    e().demands.fit = std::string(word);
+  }
+
+  void read_limits(Word word, const part::Limits& l) {
+    if (e().demands.fit || e().demands.limits) return sized_twice(word);
+    if (!(l.lower_mm < l.upper_mm))
+      return mistakes_.add(word, "limits that differ, like +0.02/-0.01");
+    e().demands.limits = l;
+  }
+
+  void sized_twice(Word word) { mistakes_.add(word, "one fit, or limits instead of it"); }
+
+  void finish() {
+    if (lengths_ == 0)
+      mistakes_.add(words_.back(), "a length like x 40 for this element");
+    if (e().shape == Shape::arc && !radius_given_)
+      mistakes_.add(words_.back(), "a radius like R60 for this arc");
+  }
+
+  const std::vector<Word>& words_;
+  Mistakes& mistakes_;
+  ReadElement out_;
+  std::size_t next_ = 0;
+  int lengths_ = 0;
+  bool pitch_given_ = false, radius_given_ = false;
+};
+
+}  // namespace
+
+bool begins_element(Word word) {
+  if (same(word, "bore") || shape_word(word)) return true;
+  return (take_d(word) || take(word, {"m"})) && begins_with_number(word);
+}
+
+ReadElement element(const std::vector<Word>& words, Mistakes& mistakes) {
+  return ElementWords(words, mistakes).read();
+}
+
+}  // namespace turnwright::exchange::notated

@@ -1,0 +1,166 @@
+#include "notation_features.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace turnwright::exchange::notated {
+namespace {
+
+using part::ToleranceKind;
+
+const part::ToleranceFacts* kind_of_tolerance(Word word) {
+  for (const auto& row : part::tolerance_kinds())
+    if (same(word, row.name)) return &row;
+  return nullptr;
+}
+
+std::optional<Milled::Kind> kind_of_milled(Word word) {
+  using enum Milled::Kind;
+  if (same(word, "keyway")) return keyway;
+  if (same(word, "slot")) return slot;
+  if (same(word, "flat")) return flat;
+  return std::nullopt;
+}
+
+// The words of a statement with a place that is told where one is missing.
+class Rest {
+ public:
+  Rest(const std::vector<Word>& words, Mistakes& mistakes)
+      : words_(words), mistakes_(mistakes) {}
+
+  bool done() const { return next_ == words_.size(); }
+  Word here() const { return done() ? words_.back() : words_[next_]; }
+  Word take() { return words_[next_++]; }
+  bool take(std::string_view word) {
+    const bool found = !done() && same(words_[next_], word);
+    if (found) ++next_;
+    return found;
+  }
+  /// Always false.
+  bool mistake(const std::string& expected) {
+    mistakes_.add(here(), expected, done() ? "nothing more after it" : "");
+    return false;
+  }
+  bool end() { return done() || mistake("nothing more here"); }
+
+ private:
+  const std::vector<Word>& words_;
+  Mistakes& mistakes_;
+  std::size_t next_ = 1;
+};
+
+bool take_id(Rest& rest, Features& out, std::string& id, Named named) {
+  if (rest.done())
+    return rest.mistake(named.face_too ? "an element or a face: d2, left, d1|d2"
+                                       : "an element like d2");
+  named.word = rest.take();
+  id = std::string(named.word);
+  out.named.push_back(named);
+  return true;
+}
+
+bool take_value(Rest& rest, const char* expected, double& value) {
+  Word word = rest.done() ? Word() : rest.here();
+  const auto x = take_signed_number(word);
+  take(word, {"°"});
+  if (!x || !word.empty()) return rest.mistake(expected);
+  rest.take();
+  value = *x;
+  return true;
+}
+
+void read_face(Rest rest, Features& out, Mistakes& mistakes) {
+  FaceOf face;
+  if (!take_id(rest, out, face.id, {.word = {}, .face_too = true})) return;
+  if (rest.done()) {
+    rest.mistake("a roughness like Ra1.6");
+    return;
+  }
+  while (!rest.done())
+    if (take_roughness(rest.here(), face.demands, mistakes))
+      rest.take();
+    else if (!rest.mistake("a roughness like Ra1.6"))
+      return;
+  out.faces.push_back(std::move(face));
+}
+
+// "d3 to d2 0.04": what it is of, its datum, its width.
+bool read_zone(Rest& rest, Features& out, part::Tolerance& t, Mistakes& mistakes) {
+  if (!take_id(rest, out, t.of, {.word = {}, .face_too = true})) return false;
+  if (rest.take("to") && !take_id(rest, out, t.datum, {.word = {}, .face_too = true}))
+    return false;
+  const Word width = rest.here();
+  constexpr double kWidest_mm = 10;
+  return take_value(rest, "the width of the tolerance zone like 0.02", t.value_mm) &&
+         in_range(width, t.value_mm, kWidest_mm, "mm", mistakes);
+}
+
+// "left to right ±0.15", "d2 +0.1/0": sizes have limits.
+bool read_size(Rest& rest, Features& out, part::Tolerance& t) {
+  if (t.kind == ToleranceKind::length) {
+    if (!take_id(rest, out, t.between[0], {.word = {}, .face_too = true})) return false;
+    if (!rest.take("to")) return rest.mistake("to and the second face");
+    if (!take_id(rest, out, t.between[1], {.word = {}, .face_too = true})) return false;
+  } else if (!take_id(rest, out, t.of, {})) {
+    return false;
+  }
+  t.limits = rest.done() ? std::nullopt : limits(rest.here());
+  if (!t.limits || !(t.limits->lower_mm < t.limits->upper_mm))
+    return rest.mistake("limits like +0.05/-0.02 or ±0.05");
+  rest.take();
+  t.value_mm = t.limits->upper_mm - t.limits->lower_mm;
+  return true;
+}
+
+void read_tolerance(Rest rest, ToleranceKind kind, Features& out, Mistakes& mistakes) {
+  part::Tolerance t{.id = {}, .kind = kind, .of = {}, .datum = {}, .between = {}};
+  const bool size = kind == ToleranceKind::length || kind == ToleranceKind::diameter;
+  if (!(size ? read_size(rest, out, t) : read_zone(rest, out, t, mistakes))) return;
+  if (!rest.end()) return;
+  t.id = fmt::format("t{}", out.tolerances.size() + 1);
+  out.tolerances.push_back(std::move(t));
+}
+
+void read_milled(Rest rest, Milled::Kind kind, Features& out) {
+  Milled m{.id = fmt::format("m{}", out.milled.size() + 1), .kind = kind, .on = {}};
+  const bool flat = kind == Milled::Kind::flat;
+  const auto sizes = rest.done() ? std::nullopt : product(rest.here());
+  const bool all = sizes && sizes->size() == (flat ? 2 : 3) &&
+                   *std::min_element(sizes->begin(), sizes->end()) > 0;
+  if (!all) {
+    rest.mistake(flat ? "depth and length like 2x25, each > 0"
+                      : "width, depth and length like 10x5x40, each > 0");
+    return;
+  }
+  rest.take();
+  m.width_mm = flat ? 0 : sizes->front();
+  m.depth_mm = (*sizes)[sizes->size() - 2];
+  m.length_mm = sizes->back();
+  bool read = rest.take("on") ? take_id(rest, out, m.on, {})
+                              : rest.mistake("on and an element, like on d2");
+  read = read && (rest.take("at")
+                      ? take_value(rest, "a place along the part like at 12", m.z_mm)
+                      : rest.mistake("at and its left end along the part, like at 12"));
+  if (read && rest.take("angle"))
+    read = take_value(rest, "an angle like 90", m.angle_deg);
+  if (read && rest.end()) out.milled.push_back(std::move(m));
+}
+
+}  // namespace
+
+bool read_feature(const std::vector<Word>& words, Features& features,
+                  Mistakes& mistakes) {
+  const Rest rest(words, mistakes);
+  if (same(words[0], "face"))
+    read_face(rest, features, mistakes);
+  else if (const auto* row = kind_of_tolerance(words[0]))
+    read_tolerance(rest, row->kind, features, mistakes);
+  else if (const auto kind = kind_of_milled(words[0]))
+    read_milled(rest, *kind, features);
+  else
+    return false;
+  return true;
+}
+
+}  // namespace turnwright::exchange::notated

@@ -1,0 +1,134 @@
+#include "turnwright/planning/choice.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "certified_plan.hpp"
+#include "completed_plan.hpp"
+#include "planning/values/readable.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// Smaller is better.
+double objective(const PreparedPart& p, const ProcessPlan& plan) {
+  switch (p.objective) {
+    case Objective::time:
+      return plan.time_per_part_min;
+    case Objective::profit:
+      return -plan.profit_per_min.value_or(0);
+    case Objective::cost:
+      break;
+  }
+  return plan.cost_per_part;
+}
+
+Alternative alternative(const std::string& name, const ProcessPlan& plan) {
+  const bool feasible = plan.status == PlanStatus::ok;
+  Alternative a{.name = name, .feasible = feasible};
+  if (feasible) {
+    a.cost_per_part = plan.cost_per_part;
+    a.time_per_part_min = plan.time_per_part_min;
+    a.lower_bound = plan.certificate.lower_bound;
+  } else {
+    a.why = plan.conflicts.empty() ? plan.certificate.reason
+                                   : plan.conflicts.front().sentence;
+  }
+  return a;
+}
+
+int strength(CertificateKind kind) {
+  return kind == CertificateKind::global ? 2 : kind == CertificateKind::local ? 1 : 0;
+}
+
+// What is proved of all candidates: that none costs less than the least lower bound.
+void add(const Certificate& other, Certificate& c) {
+  const double best = c.lower_bound / (1 - c.gap);
+  if (other.lower_bound < c.lower_bound) {
+    c.lower_bound = other.lower_bound;
+    c.gap = (best - c.lower_bound) / best;
+  }
+  if (strength(other.kind) < strength(c.kind)) {
+    c.kind = other.kind;
+    c.reason = other.reason;
+  }
+  c.nodes += other.nodes;
+}
+
+std::string sentence(const Alternative& a, const ProcessPlan& best) {
+  if (a.chosen) return fmt::format("{}: chosen", a.name);
+  if (!a.feasible)
+    return fmt::format("{}: no feasible plan{}{}", a.name, a.why.empty() ? "" : ": ",
+                       a.why);
+  const double more = *a.cost_per_part - best.cost_per_part;
+  const double seconds = 60 * (*a.time_per_part_min - best.time_per_part_min);
+  return fmt::format("{}: {} {} per part, {} s {}", a.name, readable(std::abs(more)),
+                     more < 0 ? "less" : "more", readable(std::abs(seconds)),
+                     seconds < 0 ? "shorter" : "longer");
+}
+
+// Plans without explanations, and what becomes of them in the judge's eyes.
+struct Compared {
+  std::vector<ProcessPlan> certified, judged;
+};
+
+Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
+  Compared all;
+  for (const auto& c : candidates) {
+    all.certified.push_back(certified_plan(c.part, c.what_if));
+    all.judged.push_back(all.certified.back());
+    judge(c.part, all.judged.back());
+  }
+  return all;
+}
+
+std::size_t best_of(const std::vector<Candidate>& candidates,
+                    const std::vector<ProcessPlan>& plans) {
+  const auto feasible = [&](std::size_t i) { return plans[i].status == PlanStatus::ok; };
+  const auto value = [&](std::size_t i) {
+    return objective(candidates[i].part, plans[i]);
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < plans.size(); ++i)
+    if (feasible(i) && (!feasible(best) || value(i) < value(best))) best = i;
+  return best;
+}
+
+void add_alternatives(const std::vector<Candidate>& candidates,
+                      const std::vector<ProcessPlan>& plans, ChosenPlan& choice) {
+  auto& plan = choice.plan;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    auto a = alternative(candidates[i].name, plans[i]);
+    a.chosen = i == choice.chosen && a.feasible;
+    if (a.feasible && !a.chosen) add(plans[i].certificate, plan.certificate);
+    a.sentence = sentence(a, plan);
+    plan.alternatives.push_back(std::move(a));
+  }
+}
+
+}  // namespace
+
+ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge) {
+  if (candidates.empty()) throw std::domain_error("choose: no candidate");
+  const auto complete = [&](std::size_t i, ProcessPlan certified) {
+    const auto& c = candidates[i];
+    ChosenPlan choice{i, completed_plan(c.part, c.what_if, std::move(certified))};
+    judge(c.part, choice.plan);
+    return choice;
+  };
+  for (const auto& c : candidates)
+    if (c.part.objective == Objective::profit && !c.part.price)
+      throw std::domain_error("choose: the most profitable plan needs a price");
+  if (candidates.size() == 1)
+    return complete(0, certified_plan(candidates[0].part, candidates[0].what_if));
+  auto all = compare(candidates, judge);
+  const auto best = best_of(candidates, all.judged);
+  auto choice = complete(best, std::move(all.certified[best]));
+  add_alternatives(candidates, all.judged, choice);
+  return choice;
+}
+
+}  // namespace turnwright::planning

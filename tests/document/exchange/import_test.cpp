@@ -1,0 +1,146 @@
+#include "turnwright/document/import.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "../slips.hpp"
+#include "document/exchange/outline.hpp"
+#include "document/json/file.hpp"
+#include "turnwright/document/prepared_part.hpp"
+#include "turnwright/exchange/notation.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+const Catalogue& shop() {
+  static const Catalogue kShop = load_catalogue(source_path(""));
+  return kShop;
+}
+
+json answered(const json& request) {
+  static const SchemaCheck kRequest("import.request.json"), kPart("part.json");
+  EXPECT_EQ(kRequest.fault(request), "") << request;
+  json result = import(request, shop());
+  EXPECT_EQ(kPart.fault(result["part"]), "") << result["part"];
+  return result;
+}
+
+std::string refused(const json& request) {
+  return input_refusal([](const json& r) { import(r, shop()); }, request);
+}
+
+json line(const std::string& text) { return {{"text", text}, {"material", "C45"}}; }
+
+TEST(Import, ALineOfTextIsAPart) {
+  const json part = answered(line("d50 h7 x 40 Ra1.6; 1x45; d30 k6 x 32"))["part"];
+  EXPECT_EQ(part["outer"], json::parse(R"([
+    {"id": "d1", "kind": "cylinder", "length_mm": 40.0, "diameter_mm": 50.0,
+     "fit": "h7", "Ra_um": 1.6},
+    {"id": "d2", "kind": "cylinder", "length_mm": 32.0, "diameter_mm": 30.0,
+     "fit": "k6"}])"));
+  EXPECT_EQ(part["edges"], json::parse(R"([{"at": "d1|d2", "chamfer_mm": 1.0}])"));
+  EXPECT_EQ(part["stock"], json::parse(R"({"kind": "bar", "diameter_mm": 52.0,
+    "length_mm": 76.0, "left_allowance_mm": 2.0})"));
+  EXPECT_EQ(part["general"], "ISO 2768-mK");
+  EXPECT_EQ(part["choose"], json::parse(R"({"setups": "auto"})"));
+}
+
+// What a reference part's drawing says comes back from its notation, named anew.
+TEST(Import, ReferencePartsComeBackFromTheirNotation) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_path("parts"))) {
+    if (entry.path().extension() != ".json") continue;
+    SCOPED_TRACE(entry.path());
+    const json document = parse_file(entry.path());
+    const auto outline = outline_of_part(document);
+    const auto text = exchange::notation(outline);
+    const json part = answered({{"text", text},
+                                {"stock", document["stock"]},
+                                {"machine", document["machine"]}})["part"];
+    const auto again = outline_of_part(part);
+    EXPECT_EQ(exchange::notation(again), text);
+    ASSERT_EQ(again.outer.size(), outline.outer.size());
+    for (std::size_t i = 0; i < again.outer.size(); ++i) {
+      EXPECT_EQ(again.outer[i].length_mm, outline.outer[i].length_mm);
+      EXPECT_EQ(again.outer[i].left_mm, outline.outer[i].left_mm);
+      EXPECT_EQ(again.outer[i].right_mm, outline.outer[i].right_mm);
+    }
+    EXPECT_EQ(again.tolerances.size(), outline.tolerances.size());
+    EXPECT_NO_THROW(prepared_part(part, shop(), "part"));
+  }
+}
+
+TEST(Import, WritesThePartThatItsOutlineIsReadFrom) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_path("parts"))) {
+    if (entry.path().extension() != ".json") continue;
+    SCOPED_TRACE(entry.path());
+    const json document = parse_file(entry.path());
+    const json members = part_members(outline_of_part(document));
+    for (const char* key : {"inner", "edges", "faces", "tolerances", "milling"})
+      EXPECT_EQ(members.value(key, json()), document.value(key, json())) << key;
+  }
+}
+
+TEST(Import, TheBytesInBase64AreTheSameDrawing) {
+  const json text = answered(line("d50 x 40"))["part"];
+  const json base64 =
+      answered({{"base64", "ZDUw\nIHggNDA="}, {"material", "C45"}})["part"];
+  EXPECT_EQ(base64, text);
+  EXPECT_EQ(refused({{"base64", "ZDUwIHggNDA"}, {"material", "C45"}}),
+            "import: /base64: got \"ZDUwIHggNDA\", expected base64 (RFC 4648) of the "
+            "drawing's bytes");
+}
+
+TEST(Import, BytesThatAreNoTextGoInBase64) {
+  EXPECT_EQ(import_request("d50 x 40"), (json{{"text", "d50 x 40"}}));
+  EXPECT_EQ(import_request("d50 x 40\xE9"), (json{{"base64", "ZDUwIHggNDDp"}}));
+}
+
+TEST(Import, ADrawingNamesItsMaterial) {
+  const json result = answered({{"text", "d50 x 40; material: 42 CrMo 4 A"}});
+  EXPECT_EQ(result["part"]["material"], "42CrMo4-A");
+  const auto none = refused({{"text", "d50 x 40"}});
+  EXPECT_EQ(none.rfind("import: /material: got nothing, expected a material, which the "
+                       "drawing does not name",
+                       0),
+            0u)
+      << none;
+  const auto unknown = refused({{"text", "d50 x 40; material: Kryptonite"}});
+  EXPECT_NE(unknown.find("for the drawing's \"Kryptonite\""), unknown.npos) << unknown;
+}
+
+TEST(Import, MistakesInTheDrawingStandAtTheDrawing) {
+  const auto wrong = refused(line("d50 x 4O; d30 y"));
+  EXPECT_EQ(wrong.rfind("import: /text: got line 1, column", 0), 0u) << wrong;
+  EXPECT_NE(wrong.find('\n'), wrong.npos) << "both mistakes: " << wrong;
+  EXPECT_EQ(refused({{"material", "C45"}}),
+            "import: document: got no drawing, expected \"text\" with the drawing, or "
+            "\"base64\" with its bytes");
+  EXPECT_NE(refused(line("")), "");
+}
+
+TEST(Import, WhatThePlannerRefusesIsToldAtOnce) {
+  json request = line("d50 x 40");
+  request["stock"] = {{"kind", "bar"}, {"diameter_mm", 49}, {"length_mm", 44}};
+  request["machine"] = "lathe-unknown";
+  const auto wrong = refused(request);
+  EXPECT_NE(wrong.find("import: /stock/diameter_mm: got 49"), wrong.npos) << wrong;
+  EXPECT_NE(wrong.find("import: /machine: got \"lathe-unknown\""), wrong.npos) << wrong;
+  const json ignored = answered(line("d50 x 40 h7; 30x45; d30 x 20"))["ignored"];
+  ASSERT_EQ(ignored.size(), 1u) << ignored;
+  EXPECT_EQ(ignored[0]["at"], "/edges/0/chamfer_mm");
+}
+
+TEST(Import, TheNextBarLeavesAMillimetre) {
+  for (const auto& [largest, bar] :
+       std::map<double, double>{{50, 52}, {51, 52}, {51.5, 55}, {250, 260}, {5, 6}}) {
+    const json part = answered(line("d" + std::to_string(largest) + " x 40"))["part"];
+    EXPECT_EQ(part["stock"]["diameter_mm"], bar) << largest;
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::document

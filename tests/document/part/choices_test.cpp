@@ -1,0 +1,115 @@
+#include "document/part/choices.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../test_catalogue.hpp"
+#include "document/json/file.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/part_plan.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> names(const json& request) {
+  Problems problems{.document = "t"};
+  std::vector<std::string> all;
+  for (const auto& v : variants(request, problems)) all.push_back(v.name);
+  problems.throw_if_any();
+  return all;
+}
+
+std::string refusal(const json& request) {
+  try {
+    names(request);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Choices, WithoutAChoiceTheRequestIsItsOwnOnlyVariant) {
+  Problems problems{.document = "t"};
+  const json request{{"machine", "lathe-small"}};
+  const auto all = variants(request, problems);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].document, request);
+  EXPECT_EQ(all[0].name, "");
+}
+
+TEST(Choices, AreAllCombinationsInTheOrderOfTheLists) {
+  const json request{
+      {"choose",
+       {{"machine", {"lathe-small", "lathe-medium"}},
+        {"stock",
+         {{{"kind", "bar"}, {"diameter_mm", 50}, {"length_mm", 120}},
+          {{"kind", "tube"}, {"outer_mm", 52}, {"inner_mm", 20}, {"length_mm", 120}}}},
+        {"edge_wear_mm", {0.2}}}}};
+  EXPECT_EQ(names(request),
+            (std::vector<std::string>{
+                "lathe-small; bar 50 x 120 mm; edges changed at 0.2 mm",
+                "lathe-small; tube 52/20 x 120 mm; edges changed at 0.2 mm",
+                "lathe-medium; bar 50 x 120 mm; edges changed at 0.2 mm",
+                "lathe-medium; tube 52/20 x 120 mm; edges changed at 0.2 mm"}));
+  Problems problems{.document = "t"};
+  const auto all = variants(request, problems);
+  EXPECT_EQ(all[1].document["stock"]["kind"], "tube");
+  EXPECT_EQ(all[1].document["budget"]["edge_wear_mm"], 0.2);
+  EXPECT_FALSE(all[1].document.contains("choose"));
+}
+
+TEST(Choices, AutomaticSetupsAreBothOrdersAndEachEndAlone) {
+  EXPECT_EQ(names({{"choose", {{"setups", "auto"}}}}),
+            (std::vector<std::string>{"held left, then right", "held right, then left",
+                                      "held left", "held right"}));
+}
+
+TEST(Choices, WrongListsAreToldWithTheirPlaces) {
+  EXPECT_EQ(refusal({{"choose", 3}}), "t: /choose: got 3, expected an object");
+  EXPECT_EQ(refusal({{"choose", {{"machine", json::array()}}}}),
+            "t: /choose/machine: got an empty list, expected a list of 1 to 20 entries");
+  EXPECT_EQ(refusal({{"choose", {{"setups", "any"}}}}),
+            "t: /choose/setups: got \"any\", expected \"auto\", or a list of lists of "
+            "setups");
+  EXPECT_EQ(refusal({{"machine", "lathe-small"}, {"choose", {{"machine", {"a"}}}}}),
+            "t: /choose/machine: got [\"a\"], expected no choice, for /machine is "
+            "given");
+  EXPECT_EQ(refusal({{"choose", {{"colour", {"red"}}}}}).rfind("t: /choose/colour", 0),
+            0u);
+  json many = json::array();
+  for (int i = 0; i < 11; ++i) many.push_back(0.1 + 0.01 * i);
+  EXPECT_EQ(refusal({{"choose",
+                      {{"machine", {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"}},
+                       {"edge_wear_mm", many}}}}),
+            "t: /choose/edge_wear_mm: got a list of 11 entries, expected at most 100 "
+            "combinations in all");
+}
+
+TEST(Choices, AProblemOfAMemberStandsWhereTheRequestHasIt) {
+  json request = parse_file(source_path("tests/data/every_key_of_a_part.json"));
+  json stock = request["stock"];
+  stock["length_mm"] = -4;
+  request.erase("stock");
+  request["choose"] = {{"stock", {stock}}};
+  try {
+    load_part_plan(request, test_catalogue(), "t");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].pointer, "/choose/stock/0/length_mm");
+  }
+}
+
+TEST(Choices, OnlyAPlanChooses) {
+  json request = parse_file(source_path("tests/data/every_key_of_a_part.json"));
+  request["choose"] = {{"edge_wear_mm", {0.1}}};
+  try {
+    load_part_plan(request, test_catalogue(), "t", Purpose::predict);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].expected, "nothing: only plan chooses");
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::document

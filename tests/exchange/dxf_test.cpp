@@ -1,0 +1,403 @@
+#include "turnwright/exchange/dxf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "reference_outlines.hpp"
+#include "same_outline.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/exchange/notation.hpp"
+
+namespace turnwright::exchange {
+namespace {
+
+using compared::expect_same;
+
+std::string dxf_file(const std::string& name) {
+  std::ifstream in(TURNWRIGHT_SOURCE_DIR "/tests/data/dxf/" + name + ".dxf");
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+std::string told(const std::vector<Remark>& remarks) {
+  std::string out;
+  for (const Remark& r : remarks) out += r.at + ": " + r.text + '\n';
+  return out;
+}
+
+// A drawing shows a thread as a cylinder of its nominal diameter.
+Outline as_drawn(Outline o) {
+  for (auto* list : {&o.outer, &o.inner})
+    for (Element& e : *list)
+      if (e.shape == Shape::thread) e.shape = Shape::cylinder;
+  return o;
+}
+
+class ReferencePart : public testing::TestWithParam<const char*> {};
+
+TEST_P(ReferencePart, IsReadFromItsDrawing) {
+  for (const auto& [name, o] : reference::outlines()) {
+    SCOPED_TRACE(name + GetParam());
+    Outline read;
+    ASSERT_NO_THROW(
+        try {
+          read = read_dxf(dxf_file(name + GetParam()));
+        } catch (const InputError& e) {
+          ADD_FAILURE() << e.what();
+          throw;
+        });
+    SCOPED_TRACE(told(read.assumed) + told(read.ignored) + notation(read));
+    expect_same(read, as_drawn(o));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Dxf, ReferencePart, testing::Values("-half", "-full"));
+
+// The parts of write_dxf.py that are no reference parts.
+Outline shaft() {
+  return read_notation("1x45; d30 x 30; R0.8; d50 x 40; d24 x 25; 1.5x45");
+}
+Outline bush() {
+  return read_notation("d60 x 20; d45 x 30; bore d30 x 35; bore d20 x 15");
+}
+
+class Shaft : public testing::TestWithParam<const char*> {};
+
+TEST_P(Shaft, IsReadHoweverItIsWritten) {
+  expect_same(read_dxf(dxf_file(GetParam())), shaft());
+}
+INSTANTIATE_TEST_SUITE_P(Dxf, Shaft,
+                         testing::Values("blocks", "old-polyline", "seen-from-behind"));
+
+TEST(Dxf, HalfSectionGivesItsBoreFromTheHalfThatShowsIt) {
+  const Outline o = read_dxf(dxf_file("half-section"));
+  expect_same(o, bush());
+  EXPECT_EQ(told(o.ignored), ": 1 x HATCH: not read.\n");
+}
+
+class Dimensioned : public testing::TestWithParam<const char*> {};
+
+TEST_P(Dimensioned, GivesItsElementsWhatTheDimensionsSay) {
+  const Outline o = read_dxf(dxf_file(GetParam()));
+  SCOPED_TRACE(told(o.ignored));
+  ASSERT_EQ(o.outer.size(), 3u);
+  EXPECT_EQ(o.outer[0].demands.fit, "k6");
+  ASSERT_TRUE(o.outer[1].demands.limits);
+  EXPECT_NEAR(o.outer[1].demands.limits->upper_mm, 0.02, 1e-9);
+  EXPECT_NEAR(o.outer[1].demands.limits->lower_mm, -0.01, 1e-9);
+  EXPECT_EQ(o.outer[2].shape, Shape::thread);
+  EXPECT_EQ(o.outer[2].pitch_mm, 1.5);
+  EXPECT_EQ(o.outer[2].demands.fit, "6g");
+  EXPECT_EQ(o.outer[2].demands.Ra_um, 1.6);
+  ASSERT_EQ(o.tolerances.size(), 2u);
+  EXPECT_EQ(o.tolerances[0].between[0], "left");
+  EXPECT_EQ(o.tolerances[0].between[1], "d1|d2");
+  EXPECT_NEAR(o.tolerances[0].limits->upper_mm, 0.1, 1e-9);
+  EXPECT_NEAR(o.tolerances[0].limits->lower_mm, -0.05, 1e-9);
+  EXPECT_EQ(o.tolerances[1].between[0], "d2|d3");
+  EXPECT_EQ(o.tolerances[1].between[1], "right");
+  EXPECT_NEAR(o.tolerances[1].limits->upper_mm, 0.2, 1e-9);
+  EXPECT_EQ(o.general, "ISO 2768-mK");
+  const std::string ignored = told(o.ignored);
+  EXPECT_NE(ignored.find("\"<> +0.1/0\" does not measure between two faces"),
+            std::string::npos);
+  EXPECT_NE(ignored.find("\"Ø26 h7\" does not say the drawn size, 24 mm"),
+            std::string::npos);
+  EXPECT_NE(ignored.find("The text \"Ra 3,2\""), std::string::npos);
+  EXPECT_EQ(o.ignored.size(), 4u);  // and the circle of the view from the end
+}
+INSTANTIATE_TEST_SUITE_P(Dxf, Dimensioned,
+                         testing::Values("dimensions", "dimensions-inch"));
+
+// A drawing written by hand, entity by entity.
+class Sheet {
+ public:
+  Sheet& group(int code, const std::string& value) {
+    text_ += std::to_string(code) + '\n' + value + '\n';
+    return *this;
+  }
+  Sheet& group(int code, double value) {
+    std::ostringstream digits;
+    digits.precision(17);
+    digits << value;
+    return group(code, digits.str());
+  }
+  Sheet& line(double x0, double y0, double x1, double y1, const char* layer = "0",
+              const char* linetype = "BYLAYER") {
+    group(0, "LINE").group(8, layer).group(6, linetype);
+    return group(10, x0).group(20, y0).group(11, x1).group(21, y1);
+  }
+  Sheet& lines(const std::vector<std::pair<double, double>>& points) {
+    for (std::size_t i = 1; i < points.size(); ++i)
+      line(points[i - 1].first, points[i - 1].second, points[i].first, points[i].second);
+    return *this;
+  }
+  Sheet& axis(double x0, double x1, double y = 0) {
+    return line(x0, y, x1, y, "0", "CENTER");
+  }
+  std::string text() const {
+    return before_ + "0\nSECTION\n2\nENTITIES\n" + text_ + "0\nENDSEC\n0\nEOF\n";
+  }
+  std::string entities() const { return text_; }
+  Sheet& before(const std::string& sections) {
+    before_ += sections;
+    return *this;
+  }
+
+ private:
+  std::string before_ = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n", text_;
+};
+
+std::string dxf_refusal(const std::string& text, const DxfOptions& options = {}) {
+  try {
+    return "read as " + notation(read_dxf(text, options));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+Outline pin() { return read_notation("d20 x 30; d40 x 10"); }
+const std::vector<std::pair<double, double>> kPin{{0, 0},   {0, 10},  {30, 10},
+                                                  {30, 20}, {40, 20}, {40, 0}};
+
+TEST(Dxf, TakesLinesInAnyOrderAndDirectionTwiceAndInPieces) {
+  Sheet s;
+  s.line(40, 20, 30, 20).line(0, 10, 12, 10).line(30, 10, 12, 10).line(0, 0, 0, 10);
+  s.line(40, 0, 40, 20).line(30, 20, 30, 10).line(40, 20, 30, 20).line(5, 10, 25, 10);
+  expect_same(read_dxf(s.text()), pin());
+}
+
+TEST(Dxf, ShoulderLinesAcrossAFullProfileAreUnderstood) {
+  Sheet s;
+  s.axis(-5, 45).lines(kPin).line(30, 20, 30, -20).line(0, 0, 0, -10);
+  s.line(0, -10, 30, -10).line(30, -20, 40, -20).line(40, -20, 40, 0);
+  const Outline o = read_dxf(s.text());
+  expect_same(o, pin());
+  EXPECT_TRUE(o.ignored.empty()) << told(o.ignored);
+}
+
+TEST(Dxf, SymmetryIsTheAxisOfAFullProfileWithoutACentreLine) {
+  Sheet s;
+  for (const double side : {1.0, -1.0})
+    s.line(7, 50, 7, 50 + side * 10)
+        .line(7, 50 + side * 10, 37, 50 + side * 10)
+        .line(37, 50 + side * 10, 37, 50 + side * 20)
+        .line(37, 50 + side * 20, 47, 50 + side * 20)
+        .line(47, 50 + side * 20, 47, 50);
+  const Outline o = read_dxf(s.text());
+  expect_same(o, pin());
+  EXPECT_NE(told(o.assumed).find("the axis of its symmetry"), std::string::npos);
+}
+
+TEST(Dxf, UprightDrawingBeginsBelow) {
+  Sheet s;
+  for (std::size_t i = 1; i < kPin.size(); ++i)
+    s.line(-kPin[i - 1].second, kPin[i - 1].first, -kPin[i].second, kPin[i].first);
+  expect_same(read_dxf(s.text()), pin());
+}
+
+TEST(Dxf, SmallGapIsClosedAndTold) {
+  Sheet s;
+  s.lines({{0, 0}, {0, 10}, {29.9996, 10}});
+  s.lines({{30, 10.0003}, {30, 20}, {40, 20}, {40, 0}});
+  const Outline o = read_dxf(s.text());
+  expect_same(o, pin());
+  EXPECT_NE(told(o.assumed).find("A gap of 0.0005 mm at x = 30, y = 10.0003 was closed"),
+            std::string::npos)
+      << told(o.assumed);
+}
+
+TEST(Dxf, LargeGapAndABranchAreNamedByTheirPlaces) {
+  Sheet gap;
+  gap.axis(-5, 45).lines({{0, 0}, {0, 10}, {29, 10}});
+  gap.lines({{30, 10}, {30, 20}, {40, 20}, {40, 0}});
+  const std::string said = dxf_refusal(gap.text());
+  EXPECT_NE(said.find("x = 29, y = 10"), std::string::npos) << said;
+  EXPECT_NE(said.find("x = 30, y = 10"), std::string::npos) << said;
+  Sheet branch;
+  branch.lines(kPin).line(30, 20, 30, 27);
+  EXPECT_NE(dxf_refusal(branch.text()).find("LINE of line 86 at x = 30, y = 27"),
+            std::string::npos)
+      << dxf_refusal(branch.text());
+}
+
+TEST(Dxf, HalvesThatDifferAreNamedByThePlace) {
+  Sheet s;
+  s.axis(-5, 45).lines(kPin).lines({{0, 0}, {0, -10}, {28, -10}, {28, -20}});
+  s.lines({{28, -20}, {40, -20}, {40, 0}});
+  const std::string said = dxf_refusal(s.text());
+  EXPECT_NE(said.find("two halves whose outsides differ at x = "), std::string::npos)
+      << said;
+}
+
+TEST(Dxf, HiddenBlindBoreWithTheDrillsPointIsABore) {
+  Sheet s;
+  s.axis(-5, 45).lines(kPin).line(30, 10, 30, 0);
+  const auto hidden = [&s](double x0, double y0, double x1, double y1) {
+    s.line(x0, y0, x1, y1, "0", "HIDDEN");
+  };
+  hidden(40, 5, 20, 5);
+  hidden(20, 5, 20, 0);
+  hidden(20, 5, 20 - 5 / std::sqrt(3.0), 0);
+  const Outline o = read_dxf(s.text());
+  expect_same(o, read_notation("d20 x 30; d40 x 10; bore d10 x 20"));
+  EXPECT_NE(told(o.assumed).find("left to the drill's point"), std::string::npos);
+}
+
+TEST(Dxf, LinesOfAnOuterThreadAreNoBore) {
+  Sheet s;  // core line, and the end of the thread across the part
+  s.axis(-5, 45).lines(kPin).line(0, 9, 20, 9).line(20, 10, 20, 0).line(30, 10, 30, 0);
+  const Outline o = read_dxf(s.text());
+  expect_same(o, pin());
+  EXPECT_NE(told(o.ignored).find("A line inside the contour that is no bore"),
+            std::string::npos);
+}
+
+TEST(Dxf, BoresOfBothEndsAreReadFromTheirs) {
+  Sheet s;  // a section: no end face inside of the mouths
+  s.axis(-5, 65).lines({{0, 8}, {0, 25}, {60, 25}, {60, 12}, {35, 12}, {35, 0}});
+  s.lines({{0, 8}, {20, 8}, {20, 0}});
+  expect_same(read_dxf(s.text()),
+              read_notation("d50 x 60; bore d24 x 25; bore left d16 x 20"));
+}
+
+TEST(Dxf, OtherViewsAndFramesBeyondTheCentreLineAreLeftOut) {
+  Sheet s;
+  s.axis(-5, 45).lines(kPin).lines({{100, 0}, {100, 20}, {120, 20}, {120, 0}});
+  s.line(-50, -90, 200, -90).line(-50, 90, 200, 90).line(-50, -90, -50, 90);
+  expect_same(read_dxf(s.text()), pin());
+}
+
+TEST(Dxf, LayersSayWhatIsNoContour) {
+  Sheet s;
+  s.before(
+      "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nOLD\n70\n1\n62\n7\n6\n"
+      "CONTINUOUS\n0\nLAYER\n2\nSPARE\n70\n0\n62\n-"
+      "7\n6\nCONTINUOUS\n0\nLAYER\n2\nFINE\n70\n"
+      "0\n62\n7\n6\nCENTER2\n0\nENDTAB\n0\nENDSEC\n");
+  s.lines(kPin).line(0, 15, 50, 15, "OLD").line(0, 15, 50, 15, "spare");
+  s.line(-3, 0, 43, 0, "Fine")
+      .line(0, 60, 50, 60, "Bemassung")
+      .line(0, 50, 9, 50, "Rahmen");
+  expect_same(read_dxf(s.text()), pin());
+}
+
+TEST(Dxf, UnitIsToldWhereTheFileIsSilent) {
+  Sheet s;
+  s.lines(kPin);
+  std::string text = s.text();
+  text = text.substr(text.find("0\nSECTION\n2\nENTITIES"));
+  const Outline mm = read_dxf(text);
+  expect_same(mm, pin());
+  EXPECT_NE(told(mm.assumed).find("it is taken to be in mm"), std::string::npos);
+  const Outline inch =
+      read_dxf("0\nSECTION\n2\nHEADER\n9\n$MEASUREMENT\n70\n0\n0\nENDSEC\n" + text);
+  EXPECT_NEAR(inch.outer[0].left_mm, 20 * 25.4, 1e-9);
+  const Outline given = read_dxf(text, {.join_mm = 1e-3, .unit_mm = 10});
+  EXPECT_NEAR(given.outer[0].left_mm, 200, 1e-9);
+  EXPECT_EQ(told(given.assumed).find("taken to be in mm"), std::string::npos);
+}
+
+TEST(Dxf, RefusesWhatItCannotReadByName) {
+  const auto with = [](const char* type) {
+    Sheet s;
+    s.lines(kPin).group(0, type).group(5, "2F").group(8, "0");
+    return dxf_refusal(s.text());
+  };
+  EXPECT_NE(with("SPLINE").find("SPLINE 2F: got SPLINE in the contour"),
+            std::string::npos);
+  EXPECT_NE(with("ELLIPSE").find("ELLIPSE 2F"), std::string::npos);
+  EXPECT_NE(with("ARC").find("ARC 2F: got an arc without a radius"), std::string::npos);
+  EXPECT_NE(with("INSERT").find("INSERT 2F: got no block"), std::string::npos);
+  EXPECT_NE(dxf_refusal("AutoCAD Binary DXF\r\n\x1a\0").find("a binary DXF file"),
+            std::string::npos);
+  EXPECT_NE(dxf_refusal("AC1027\0\0").find("a DWG file"), std::string::npos);
+  EXPECT_NE(dxf_refusal("").find("no section ENTITIES"), std::string::npos);
+  EXPECT_NE(
+      dxf_refusal("hello\nworld\n").find("line 1: got \"hello\", expected a group code"),
+      std::string::npos);
+  EXPECT_NE(
+      dxf_refusal("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n").find("a group code without"),
+      std::string::npos);
+  EXPECT_NE(dxf_refusal("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n").find("breaks off"),
+            std::string::npos);
+  Sheet nan, far, none, away;
+  nan.lines(kPin).group(0, "LINE").group(10, "nan");
+  EXPECT_NE(dxf_refusal(nan.text()).find("got \"nan\", expected a number"),
+            std::string::npos);
+  far.lines(kPin).line(0, 0, 1e300, 3);
+  EXPECT_NE(dxf_refusal(far.text()).find("more than 10 km from the origin"),
+            std::string::npos);
+  EXPECT_NE(dxf_refusal(none.text()).find("no lines of a contour"), std::string::npos);
+  away.lines({{5, 5}, {5, 10}, {30, 10}, {30, 17}, {40, 17}, {40, 5}, {5, 5}});
+  EXPECT_NE(dxf_refusal(away.text()).find("no axis"), std::string::npos);
+}
+
+std::string block(const std::string& name, const std::string& entities) {
+  return "0\nBLOCK\n2\n" + name + "\n10\n0\n20\n0\n" + entities + "0\nENDBLK\n";
+}
+std::string insert(const std::string& name) { return "0\nINSERT\n2\n" + name + "\n"; }
+std::string blocks(const std::string& all) {
+  return "0\nSECTION\n2\nBLOCKS\n" + all + "0\nENDSEC\n";
+}
+
+TEST(Dxf, BlocksWithinThemselvesDeepOrMultipliedEndInAMessage) {
+  Sheet s;
+  s.group(0, "INSERT").group(2, "A");
+  const auto with = [&](const std::string& all) {
+    Sheet sheet = s;
+    return dxf_refusal(sheet.before(blocks(all)).text());
+  };
+  EXPECT_NE(with(block("A", insert("B")) + block("B", insert("a"))).find("within itself"),
+            std::string::npos);
+  std::string deep, many;
+  for (int i = 0; i < 40; ++i)
+    deep += block(i == 0 ? "A" : "N" + std::to_string(i),
+                  insert("N" + std::to_string(i + 1)));
+  EXPECT_NE(with(deep).find("nested more than 16 deep"), std::string::npos);
+  for (int i = 0; i < 12; ++i) {  // 10^12 entities
+    std::string ten;
+    for (int k = 0; k < 10; ++k) ten += insert("N" + std::to_string(i + 1));
+    many += block(i == 0 ? "A" : "N" + std::to_string(i), ten);
+  }
+  many += block("N12", "0\nPOINT\n10\n0\n");
+  EXPECT_NE(with(many).find("more than 2000000 entities"), std::string::npos);
+}
+
+TEST(Dxf, MillionLinesEndInAMessageAndAMillionNotesInAnAnswer) {
+  std::string lines, points;
+  for (int i = 0; i < 1000000; ++i) {
+    lines += "0\nLINE\n8\n0\n10\n" + std::to_string(i % 977) + "\n20\n1\n11\n5\n21\n2\n";
+    points += "0\nPOINT\n8\n0\n10\n1\n";
+  }
+  Sheet pin_sheet;
+  pin_sheet.lines(kPin);
+  const auto file_of = [](const std::string& entities) {
+    return "0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+  };
+  EXPECT_NE(dxf_refusal(file_of(lines)).find("more than 5000 lines and arcs"),
+            std::string::npos);
+  expect_same(read_dxf(file_of(pin_sheet.entities() + points)), pin());
+}
+
+// Broken files: an outline or an InputError, nothing else.
+TEST(Dxf, NeverFallsOverABrokenFile) {
+  for (const char* name : {"motor-shaft-full", "dimensions", "blocks", "half-section"}) {
+    const std::string whole = dxf_file(name);
+    for (std::size_t n = 0; n < whole.size(); n += 37) dxf_refusal(whole.substr(0, n));
+    std::mt19937 random(3);
+    for (int i = 0; i < 400; ++i) {
+      std::string changed = whole;
+      for (int k = 0; k < 4; ++k)
+        changed[random() % changed.size()] = "0123456789.-\nAE"[random() % 15];
+      dxf_refusal(changed);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace turnwright::exchange

@@ -1,0 +1,237 @@
+#include "turnwright/exchange/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "drawn_profile.hpp"
+#include "turnwright/base/errors.hpp"
+
+namespace turnwright::exchange {
+namespace {
+
+Element cylinder(const char* id, double d_mm, double length_mm,
+                 part::End from = part::End::right) {
+  return {
+      .id = id, .length_mm = length_mm, .left_mm = d_mm, .right_mm = d_mm, .from = from};
+}
+
+void expect_same(const Element& read, const Element& drawn) {
+  SCOPED_TRACE(drawn.id);
+  EXPECT_EQ(read.id, drawn.id);
+  EXPECT_EQ(read.shape, drawn.shape);
+  EXPECT_NEAR(read.length_mm, drawn.length_mm, 1e-9);
+  EXPECT_NEAR(read.left_mm, drawn.left_mm, 1e-9);
+  EXPECT_NEAR(read.right_mm, drawn.right_mm, 1e-9);
+  EXPECT_NEAR(read.radius_mm, drawn.radius_mm, 1e-9);
+  EXPECT_EQ(read.convex, drawn.convex);
+  EXPECT_EQ(read.from, drawn.from);
+}
+
+void expect_same(const Outline& read, const Outline& drawn) {
+  ASSERT_EQ(read.outer.size(), drawn.outer.size());
+  ASSERT_EQ(read.inner.size(), drawn.inner.size());
+  for (std::size_t i = 0; i < drawn.outer.size(); ++i)
+    expect_same(read.outer[i], drawn.outer[i]);
+  for (std::size_t i = 0; i < drawn.inner.size(); ++i)
+    expect_same(read.inner[i], drawn.inner[i]);
+  EXPECT_EQ(read.edges.size(), drawn.edges.size());
+  for (const Edge& e : drawn.edges) {
+    SCOPED_TRACE(e.at);
+    const auto found =
+        std::find_if(read.edges.begin(), read.edges.end(), [&](const Edge& r) {
+          return r.at == e.at && r.chamfer_mm.has_value() == e.chamfer_mm.has_value();
+        });
+    ASSERT_NE(found, read.edges.end());
+    EXPECT_NEAR(found->chamfer_mm.value_or(0), e.chamfer_mm.value_or(0), 1e-9);
+    EXPECT_NEAR(found->angle_deg, e.angle_deg, 1e-7);
+    EXPECT_NEAR(found->fillet_mm.value_or(0), e.fillet_mm.value_or(0), 1e-9);
+    EXPECT_EQ(found->undercut, e.undercut);
+  }
+}
+
+Outline motor_shaft() {
+  Outline o;
+  o.outer = {cylinder("d1", 32, 60), cylinder("d2", 40, 35), cylinder("d3", 50, 170),
+             cylinder("d4", 40, 35), cylinder("d5", 35, 60)};
+  o.edges = {{.at = "left", .chamfer_mm = 1.5},
+             {.at = "d1|d2", .chamfer_mm = 1},
+             {.at = "d1|d2", .fillet_mm = 0.8},
+             {.at = "d2|d3", .chamfer_mm = 1},
+             {.at = "d2|d3", .undercut = "E0.8x0.3"},
+             {.at = "d3|d4", .chamfer_mm = 1, .angle_deg = 30},
+             {.at = "d3|d4", .undercut = "E0.8x0.3"},
+             {.at = "right", .chamfer_mm = 2, .angle_deg = 15}};
+  return o;
+}
+
+TEST(Profile, EdgesAreAttributesOfTheElementsTheyAreCutFrom) {
+  const Outline drawn = motor_shaft();
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
+TEST(Profile, ABoreGoesWithTheEndItIsReachedFrom) {
+  Outline drawn;
+  drawn.outer = {cylinder("d1", 90, 30), cylinder("d2", 70, 60)};
+  drawn.inner = {cylinder("b1", 50, 20), cylinder("b2", 40, 30),
+                 cylinder("b3", 60, 25, part::End::left),
+                 cylinder("b4", 45, 15, part::End::left)};
+  drawn.edges = {{.at = "right|b1", .chamfer_mm = 1},
+                 {.at = "left|b3", .chamfer_mm = 1.5, .angle_deg = 30}};
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);  // through: 20 + 30 + 25 + 15
+
+  drawn.outer[1].length_mm = 80;  // and with 20 mm of material in the middle
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
+TEST(Profile, AGrooveIsANarrowBandBetweenLargerOnes) {
+  Outline drawn;
+  drawn.outer = {cylinder("d1", 40, 30), cylinder("d2", 36, 3), cylinder("d3", 40, 30),
+                 cylinder("d4", 30, 25), cylinder("d5", 40, 30)};
+  drawn.outer[1].shape = Shape::groove;
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
+TEST(Profile, AnArcWithoutAWallIsAnElement) {
+  Outline drawn;
+  drawn.outer = {cylinder("d1", 40, 30), cylinder("d2", 28, 6), cylinder("d3", 28, 50)};
+  drawn.outer[1] = {.id = "d2",
+                    .shape = Shape::arc,
+                    .length_mm = 6,
+                    .left_mm = 40,
+                    .right_mm = 28,
+                    .radius_mm = 6,
+                    .convex = false};
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
+TEST(Profile, AConeAtTheEndIsNoChamfer) {
+  Outline drawn;
+  drawn.outer = {
+      cylinder("d1", 100, 18),
+      {.id = "d2", .shape = Shape::cone, .length_mm = 24, .left_mm = 76, .right_mm = 70}};
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
+// Shafts and bores with edges drawn at random come back as they were drawn.
+TEST(Profile, RandomPartsComeBackAsDrawn) {
+  std::mt19937 random(7);
+  const auto number = [&](double lower, double upper) {
+    const double x = std::uniform_real_distribution<>(lower, upper)(random);
+    return std::round(x * 100) / 100;
+  };
+  for (int part = 0; part < 300; ++part) {
+    SCOPED_TRACE(part);
+    Outline drawn;
+    const int steps = 1 + static_cast<int>(random() % 6);
+    double length = 0, before = 0;
+    for (int i = 0; i < steps; ++i) {
+      double d = number(40, 100);
+      if (std::abs(d - before) < 8) d = before > 70 ? before - 12 : before + 12;
+      drawn.outer.push_back(
+          cylinder(("d" + std::to_string(i + 1)).c_str(), d, number(12, 60)));
+      length += drawn.outer.back().length_mm;
+      before = d;
+    }
+    double hole = 30, depth = 0;
+    for (int i = 0; i < static_cast<int>(random() % 4) && depth < length / 2; ++i) {
+      drawn.inner.push_back(cylinder(("b" + std::to_string(i + 1)).c_str(), hole,
+                                     std::min(number(4, 20), length / 2)));
+      depth += drawn.inner.back().length_mm;
+      hole -= 6;
+    }
+    const auto chamfer = [&](const std::string& at) {
+      if (random() % 2)
+        drawn.edges.push_back(
+            {.at = at, .chamfer_mm = number(0.3, 1.5), .angle_deg = number(20, 60)});
+    };
+    chamfer("left");
+    for (std::size_t i = 1; i < drawn.outer.size(); ++i) {
+      const std::string at = drawn.outer[i - 1].id + "|" + drawn.outer[i].id;
+      chamfer(at);
+      if (random() % 3 == 0)
+        drawn.edges.push_back({.at = at, .fillet_mm = number(0.2, 1.2)});
+      else if (random() % 2)
+        drawn.edges.push_back({.at = at, .undercut = "E0.8x0.3"});
+    }
+    chamfer("right");
+    if (!drawn.inner.empty()) chamfer("right|b1");
+    expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+  }
+}
+
+TEST(Profile, DividedFacesAreOneElement) {
+  Outline drawn;
+  drawn.outer = {cylinder("d1", 32, 60), cylinder("d2", 40, 35)};
+  Profile whole = drawn::profile_of(drawn), divided;
+  for (const Side& s : whole.sides) {
+    const Point middle{(s.from.z_mm + s.to.z_mm) / 2, (s.from.r_mm + s.to.r_mm) / 2};
+    divided.sides.push_back({.from = s.from, .to = middle});
+    divided.sides.push_back({.from = middle, .to = s.to});
+  }
+  expect_same(outline_of(divided), drawn);
+  std::rotate(divided.sides.begin(), divided.sides.begin() + 3, divided.sides.end());
+  expect_same(outline_of(divided), drawn);
+}
+
+TEST(Profile, ADrillsPointIsLeftToTheDrill) {
+  Profile p;
+  const auto to = [&](double z, double r) {
+    p.sides.push_back(
+        {.from = p.sides.empty() ? Point{} : p.sides.back().to, .to = {z, r}});
+  };
+  for (const auto& [z, r] :
+       std::vector<std::array<double, 2>>{{0, 20}, {60, 20}, {60, 5}, {30, 5}, {27, 0}})
+    to(z, r);
+  const Outline o = outline_of(p);
+  ASSERT_EQ(o.inner.size(), 1u);
+  expect_same(o.inner[0], cylinder("b1", 10, 30));
+  ASSERT_EQ(o.assumed.size(), 1u);
+  EXPECT_EQ(o.assumed[0].text,
+            "The conical bottom of the bore is left to the drill's point.");
+}
+
+TEST(Profile, ACentreHoleIsNoBore) {
+  Profile p;
+  for (const auto& [z, r] :
+       std::vector<std::array<double, 2>>{{0, 20},
+                                          {60, 20},
+                                          {60, 4.25},
+                                          {60 - 2.25 / std::tan(std::acos(-1) / 6), 2},
+                                          {53, 2},
+                                          {51.8, 0}})
+    p.sides.push_back(
+        {.from = p.sides.empty() ? Point{} : p.sides.back().to, .to = {z, r}});
+  const Outline o = outline_of(p);
+  EXPECT_TRUE(o.inner.empty());
+  ASSERT_EQ(o.assumed.size(), 1u);
+}
+
+std::string profile_refused(const Profile& p) {
+  try {
+    outline_of(p);
+  } catch (const InputError& error) {
+    return error.problems().front().got;
+  }
+  return "";
+}
+
+TEST(Profile, WhatIsNoHalfProfileIsRefused) {
+  EXPECT_EQ(profile_refused({}), "no sides");
+  Profile gap = drawn::profile_of(motor_shaft());
+  gap.sides[4].to.z_mm += 0.01;
+  gap.sides[4].from.z_mm += 0.01;
+  EXPECT_EQ(profile_refused(gap).rfind("a gap of 0.01 mm", 0), 0u)
+      << profile_refused(gap);
+  Profile nan = drawn::profile_of(motor_shaft());
+  nan.sides[2].to.r_mm = std::nan("");
+  EXPECT_EQ(profile_refused(nan), "a place that is no number");
+  Profile below = drawn::profile_of(motor_shaft());
+  for (Side& s : below.sides) s.from.r_mm = -s.from.r_mm, s.to.r_mm = -s.to.r_mm;
+  EXPECT_EQ(profile_refused(below), "a side below the axis");
+  Profile tip{{{.from = {0, 0}, .to = {30, 10}}, {.from = {30, 10}, .to = {30, 0}}}};
+  EXPECT_EQ(profile_refused(tip), "no plane at the left end");
+}
+
+}  // namespace
+}  // namespace turnwright::exchange
