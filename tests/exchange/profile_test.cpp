@@ -5,49 +5,18 @@
 #include <random>
 
 #include "drawn_profile.hpp"
+#include "same_outline.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::exchange {
 namespace {
 
+using compared::expect_same;
+
 Element cylinder(const char* id, double d_mm, double length_mm,
                  part::End from = part::End::right) {
   return {
       .id = id, .length_mm = length_mm, .left_mm = d_mm, .right_mm = d_mm, .from = from};
-}
-
-void expect_same(const Element& read, const Element& drawn) {
-  SCOPED_TRACE(drawn.id);
-  EXPECT_EQ(read.id, drawn.id);
-  EXPECT_EQ(read.shape, drawn.shape);
-  EXPECT_NEAR(read.length_mm, drawn.length_mm, 1e-9);
-  EXPECT_NEAR(read.left_mm, drawn.left_mm, 1e-9);
-  EXPECT_NEAR(read.right_mm, drawn.right_mm, 1e-9);
-  EXPECT_NEAR(read.radius_mm, drawn.radius_mm, 1e-9);
-  EXPECT_EQ(read.convex, drawn.convex);
-  EXPECT_EQ(read.from, drawn.from);
-}
-
-void expect_same(const Outline& read, const Outline& drawn) {
-  ASSERT_EQ(read.outer.size(), drawn.outer.size());
-  ASSERT_EQ(read.inner.size(), drawn.inner.size());
-  for (std::size_t i = 0; i < drawn.outer.size(); ++i)
-    expect_same(read.outer[i], drawn.outer[i]);
-  for (std::size_t i = 0; i < drawn.inner.size(); ++i)
-    expect_same(read.inner[i], drawn.inner[i]);
-  EXPECT_EQ(read.edges.size(), drawn.edges.size());
-  for (const Edge& e : drawn.edges) {
-    SCOPED_TRACE(e.at);
-    const auto found =
-        std::find_if(read.edges.begin(), read.edges.end(), [&](const Edge& r) {
-          return r.at == e.at && r.chamfer_mm.has_value() == e.chamfer_mm.has_value();
-        });
-    ASSERT_NE(found, read.edges.end());
-    EXPECT_NEAR(found->chamfer_mm.value_or(0), e.chamfer_mm.value_or(0), 1e-9);
-    EXPECT_NEAR(found->angle_deg, e.angle_deg, 1e-7);
-    EXPECT_NEAR(found->fillet_mm.value_or(0), e.fillet_mm.value_or(0), 1e-9);
-    EXPECT_EQ(found->undercut, e.undercut);
-  }
 }
 
 Outline motor_shaft() {

@@ -191,7 +191,7 @@ TEST(Step, MilledPlacesAreReadWithTheBandsWhole) {
   for (const auto& c : {Place{"slot", slot, "d2", 76, 24, 8, 5, 0},
                         Place{"square-keyway", keyway, "d2", 60, 30, 8, 5, 0},
                         Place{"d-shaft", flat, "d1", 0, 40, 0, 4, 0},
-                        Place{"oblique-flat", flat, "d2", 70, 25, 0, 3, -33}}) {
+                        Place{"oblique-flat", flat, "d2", 70, 25, 0, 3, 33}}) {
     SCOPED_TRACE(c.name);
     const auto outline = read_case(c.name);
     ASSERT_EQ(outline.milled.size(), 1U);
@@ -202,7 +202,7 @@ TEST(Step, MilledPlacesAreReadWithTheBandsWhole) {
     EXPECT_NEAR(m.length_mm, c.length, kSame_mm);
     EXPECT_NEAR(m.width_mm, c.width, kSame_mm);
     EXPECT_NEAR(m.depth_mm, c.depth, kSame_mm);
-    EXPECT_NEAR(std::abs(m.angle_deg), std::abs(c.angle), 1e-9);
+    EXPECT_NEAR(m.angle_deg, c.angle, 1e-9);
     ASSERT_EQ(outline.outer.size(), 2U);
     EXPECT_NEAR(outline.outer[0].length_mm, 40, kSame_mm);
     EXPECT_NEAR(outline.outer[1].length_mm, 60, kSame_mm);

@@ -16,14 +16,25 @@ namespace {
 constexpr std::array kThreads_mm{3.,  4.,  5.,  6.,  8.,  10., 12., 16.,
                                  20., 24., 30., 36., 42., 48., 56., 64.};
 
-/// A cosmetic thread is a cylinder in the file.
+// At an end of the part or beside a groove, without a fit or limits.
+bool may_be_thread(const std::vector<Element>& all, std::size_t i) {
+  const auto ends_at = [&](std::size_t k) {
+    return k >= all.size() || all[k].shape == Shape::groove;
+  };
+  const Element& e = all[i];
+  return e.shape == Shape::cylinder && !e.demands.fit && !e.demands.limits &&
+         (i == 0 || ends_at(i - 1) || ends_at(i + 1));
+}
+
+// A cosmetic thread is a cylinder in the file.
 void offer_threads(Outline& outline) {
   constexpr double kDiameter_mm = 1e-6;
-  for (const auto& e : outline.outer) {
+  for (std::size_t i = 0; i < outline.outer.size(); ++i) {
+    const Element& e = outline.outer[i];
     const auto size =
         std::find_if(kThreads_mm.begin(), kThreads_mm.end(),
                      [&e](double d) { return std::abs(e.left_mm - d) < kDiameter_mm; });
-    if (e.shape == Shape::cylinder && size != kThreads_mm.end())
+    if (may_be_thread(outline.outer, i) && size != kThreads_mm.end())
       outline.assumed.push_back(
           {e.id, fmt::format("{} is a cylinder with the diameter of M{:g}; if it is a "
                              "thread, say so.",
