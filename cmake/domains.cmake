@@ -138,11 +138,15 @@ endif()
 # (architecture.part_reader), and so do files of one name for everything, one per door or
 # picture; g++ 12 takes the frames of two files' coroutines for unused functions, and a
 # replaced `new` beside what uses it for a mismatch.
-foreach(room IN ITEMS json catalogue part)
-  file(GLOB in_room CONFIGURE_DEPENDS src/document/${room}/*.cpp)
-  set_source_files_properties(${in_room} PROPERTIES UNITY_GROUP ${room})
-endforeach()
-set_target_properties(turnwright_document PROPERTIES UNITY_BUILD_MODE GROUP)
+function(tw_unity_by_room domain)
+  foreach(room IN LISTS ARGN)
+    file(GLOB in_room CONFIGURE_DEPENDS src/${domain}/${room}/*.cpp)
+    set_source_files_properties(${in_room} PROPERTIES UNITY_GROUP ${room})
+  endforeach()
+  set_target_properties(turnwright_${domain} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+tw_unity_by_room(document json catalogue part exchange)
+tw_unity_by_room(exchange records solid demands contour lines text)
 file(GLOB apart CONFIGURE_DEPENDS src/report/picture/*.cpp src/service/http/arrival.cpp
   src/service/http/connection.cpp tests/service/little_memory.cpp)
 set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
