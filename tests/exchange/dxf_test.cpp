@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -232,6 +233,46 @@ TEST(Dxf, HalvesThatDifferAreNamedByThePlace) {
   const std::string said = dxf_refusal(s.text());
   EXPECT_NE(said.find("two halves whose outsides differ at x = "), std::string::npos)
       << said;
+}
+
+TEST(Dxf, HalvesThatDifferAtTheLeftEndAreNamedToo) {
+  Sheet s;  // chamfered above alone
+  s.axis(-5, 45).lines({{0, 0}, {0, 8}, {2, 10}, {30, 10}, {30, 20}, {40, 20}, {40, 0}});
+  s.lines({{0, 0}, {0, -10}, {30, -10}, {30, -20}, {40, -20}, {40, 0}});
+  const std::string said = dxf_refusal(s.text());
+  EXPECT_NE(said.find("two halves whose outsides differ at x = "), std::string::npos)
+      << said;
+}
+
+// A dimension of the pin's first diameter, with what it changes of its style.
+Sheet dimensioned(const std::string& style, std::optional<double> factor = {}) {
+  Sheet s;
+  s.lines(kPin).group(0, "DIMENSION").group(8, "0").group(3, style).group(70, "0");
+  s.group(13, 10.0).group(23, 10.0).group(14, 10.0).group(24, 0.0);
+  if (factor)
+    s.group(1001, "ACAD").group(1000, "DSTYLE").group(1002, "{").group(1070, "144");
+  if (factor) s.group(1040, *factor).group(1002, "}");
+  return s;
+}
+constexpr const char* kStyles =
+    "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nDIMSTYLE\n0\nDIMSTYLE\n2\nhalf\n144\n0.5\n"
+    "0\nDIMSTYLE\n2\ntight\n71\n1\n0\nENDTAB\n0\nENDSEC\n";
+
+TEST(Dxf, APartDrawnAtAScaleIsRefused) {
+  const auto refused = [](Sheet s) { return dxf_refusal(s.before(kStyles).text()); };
+  EXPECT_NE(refused(dimensioned("half")).find("0.5 times what is drawn (DIMLFAC)"),
+            std::string::npos);
+  EXPECT_NE(refused(dimensioned("tight", 2.0)).find("2 times what is drawn"),
+            std::string::npos);
+  EXPECT_EQ(refused(dimensioned("half", 1.0)).find("DIMLFAC"), std::string::npos);
+}
+
+TEST(Dxf, LimitsOfAStyleAreTold) {
+  const Outline o = read_dxf(dimensioned("tight").before(kStyles).text());
+  EXPECT_NE(
+      told(o.ignored).find("The dimension style TIGHT adds limits to its dimensions"),
+      std::string::npos)
+      << told(o.ignored);
 }
 
 TEST(Dxf, HiddenBlindBoreWithTheDrillsPointIsABore) {

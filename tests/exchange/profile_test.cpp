@@ -176,6 +176,34 @@ TEST(Profile, ACentreHoleIsNoBore) {
   ASSERT_EQ(o.assumed.size(), 1u);
 }
 
+Profile solid(const std::vector<Point>& corners) {
+  Profile p;
+  for (const Point& to : corners)
+    p.sides.push_back({.from = p.sides.empty() ? Point{} : p.sides.back().to, .to = to});
+  return p;
+}
+
+TEST(Profile, ACountersunkBoreIsNoCentreHole) {
+  const double cone = 4 / std::tan(std::acos(-1) / 6);  // 60 deg from Ø16 to Ø8
+  const auto o =
+      outline_of(solid({{0, 30}, {60, 30}, {60, 8}, {60 - cone, 4}, {20, 4}, {17.6, 0}}));
+  ASSERT_EQ(o.inner.size(), 2u);
+  EXPECT_EQ(o.inner[1].left_mm, 8);
+  EXPECT_NEAR(o.inner[1].length_mm, 40 - cone, 1e-9);
+}
+
+TEST(Profile, ARadiusThatNoToolsCornerLeavesIsTurned) {
+  Profile p = solid({{0, 25}, {30, 25}, {38, 33}, {38, 45}, {60, 45}, {60, 0}});
+  p.sides[2].centre = Point{30, 33};
+  p.sides[2].counterclockwise = true;
+  const auto o = outline_of(p);
+  ASSERT_EQ(o.outer.size(), 3u);
+  EXPECT_EQ(o.outer[1].shape, Shape::arc);
+  EXPECT_EQ(o.outer[1].radius_mm, 8);
+  EXPECT_FALSE(o.outer[1].convex);
+  EXPECT_TRUE(o.edges.empty());
+}
+
 std::string profile_refused(const Profile& p) {
   try {
     outline_of(p);
@@ -200,6 +228,8 @@ TEST(Profile, WhatIsNoHalfProfileIsRefused) {
   EXPECT_EQ(profile_refused(below), "a side below the axis");
   Profile tip{{{.from = {0, 0}, .to = {30, 10}}, {.from = {30, 10}, .to = {30, 0}}}};
   EXPECT_EQ(profile_refused(tip), "no plane at the left end");
+  EXPECT_EQ(profile_refused(solid({{0, 30}, {60, 30}, {60, 20}, {40, 20}, {10, 0}})),
+            "a bore that ends in a point of 67.38 deg");
 }
 
 }  // namespace

@@ -189,6 +189,9 @@ TEST(Step, MilledPlacesAreReadWithTheBandsWhole) {
   };
   using enum Milled::Kind;
   for (const auto& c : {Place{"slot", slot, "d2", 76, 24, 8, 5, 0},
+                        Place{"round-keyway", keyway, "d2", 60, 30, 8, 5, 0},
+                        Place{"round-keyway-off-seam", keyway, "d2", 60, 30, 8, 5, 90},
+                        Place{"open-slot-off-seam", slot, "d1", 0, 29, 8, 5, 90},
                         Place{"square-keyway", keyway, "d2", 60, 30, 8, 5, 0},
                         Place{"d-shaft", flat, "d1", 0, 40, 0, 4, 0},
                         Place{"oblique-flat", flat, "d2", 70, 25, 0, 3, 33}}) {

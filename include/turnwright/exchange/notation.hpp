@@ -12,10 +12,9 @@
 /// and the corners between them, which are read from left to right.  [ ] may be left out,
 /// { } may be repeated, | divides choices:
 ///
-///     element   = [bore [left | right]] shape x LENGTH {demand}
+///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N}
 ///     shape     = d D | [cone] d D-d D | arc d D-d D R RADIUS [convex | concave]
 ///               | groove d D | M D[x PITCH]
-///     demand    = FIT | limits | Ra N | Rz N
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05
 ///     corner    = feature {feature}
 ///     feature   = AxANGLE | chamfer AxANGLE | R RADIUS | E RxT      1x45  R0.8  E0.8x0.3

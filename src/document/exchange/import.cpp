@@ -27,6 +27,8 @@ const Choices<Source> kSources{
     {"step", Source::step}, {"dxf", Source::dxf}, {"notation", Source::notation}};
 
 constexpr double kFacing_mm = 2;  // for each end
+constexpr double kHeld_mm = 40,
+                 kPartedOff_mm = 0.6;  // of a bar from which parts are parted
 constexpr const char* kGeneral = "ISO 2768-mK";
 
 // Round bars as dealers keep them, an estimate: every millimetre counts when thin.
@@ -158,27 +160,65 @@ class Remarks {
   ordered_json list_ = ordered_json::array();
 };
 
+// A convex arc may bulge beyond its ends: with its centre at (z, r), up to r + R.
+double largest_mm(const exchange::Element& e) {
+  const double ends_mm = std::max(e.left_mm, e.right_mm);
+  if (e.shape != exchange::Shape::arc || !e.convex) return ends_mm;
+  const double rise = (e.right_mm - e.left_mm) / 2,
+               half = std::hypot(e.length_mm, rise) / 2;
+  const double off = std::sqrt(std::max(0.0, e.radius_mm * e.radius_mm - half * half));
+  const double z = (e.length_mm + off * rise / half) / 2;
+  const double r = (e.left_mm + e.right_mm) / 4 - off * e.length_mm / (2 * half);
+  return z > 0 && z < e.length_mm ? std::max(ends_mm, 2 * (r + e.radius_mm)) : ends_mm;
+}
+
 double largest_mm(const Outline& o) {
   double largest = 0;
-  for (const auto& e : o.outer) largest = std::max({largest, e.left_mm, e.right_mm});
+  for (const auto& e : o.outer) largest = std::max(largest, largest_mm(e));
   return largest;
+}
+
+// One diameter from end to end: no shoulder behind which a second setup could hold it.
+bool plain(const Outline& o) {
+  return std::all_of(o.outer.begin(), o.outer.end(), [&](const auto& e) {
+    return e.left_mm == o.outer.front().left_mm && e.right_mm == e.left_mm;
+  });
 }
 
 ordered_json next_bar(const Outline& o, Remarks& assumed) {
   double length_mm = 0;
   for (const auto& e : o.outer) length_mm += e.length_mm;
   const double d_mm = bar_mm(largest_mm(o));
+  const auto micrometres = [](double mm) { return std::round(mm * 1e6) / 1e6; };
+  if (plain(o)) {
+    const double held_mm = std::max(kHeld_mm, d_mm);
+    assumed.add("/stock", "The stock is the next round bar, " + mm_text(d_mm) + ": " +
+                              mm_text(held_mm) +
+                              " of it are held, and the part is parted off.");
+    return {{"kind", "bar"},
+            {"diameter_mm", d_mm},
+            {"length_mm", micrometres(length_mm + held_mm + kFacing_mm)},
+            {"left_allowance_mm", held_mm},
+            {"part_off_allowance_mm", kPartedOff_mm}};
+  }
   assumed.add("/stock", "The stock is the next round bar, " + mm_text(d_mm) + ", with " +
                             mm_text(kFacing_mm) + " to face at each end.");
   return {{"kind", "bar"},
           {"diameter_mm", d_mm},
-          {"length_mm", std::round((length_mm + 2 * kFacing_mm) * 1e6) / 1e6},
+          {"length_mm", micrometres(length_mm + 2 * kFacing_mm)},
           {"left_allowance_mm", kFacing_mm}};
 }
 
 ordered_json material_of_part(const Outline& o, const Choice& choice,
                               const Catalogue& catalogue, Reader& r, Remarks& assumed) {
-  if (!choice.material.is_null()) return choice.material;
+  if (!choice.material.is_null()) {
+    if (!o.material.empty() &&
+        !(choice.material.is_string() &&
+          material_called(o.material, catalogue) == choice.material.get<std::string>()))
+      assumed.add("/material", "The request's material is taken, not the drawing's " +
+                                   o.material + ".");
+    return choice.material;
+  }
   const auto known = material_called(o.material, catalogue);
   if (known) {
     assumed.add("/material",

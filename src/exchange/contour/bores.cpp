@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elements.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::exchange {
@@ -41,9 +42,23 @@ bool falls_to_axis(const Point& from, const Point& to, double join_mm) {
          std::abs(to.z_mm - from.z_mm) > join_mm;
 }
 
+// Points of drills have 90 to 150 deg.
+void require_point(const Side& s) {
+  const double along = std::abs(s.to.z_mm - s.from.z_mm),
+               across = std::abs(s.to.r_mm - s.from.r_mm);
+  const double deg = 2 * units::deg_from_rad(std::atan2(across, along));
+  if (deg < 89 || deg > 151)
+    throw InputError(
+        "profile",
+        {{place(s.sources, s.from),
+          fmt::format("a bore that ends in a point of {:.4g} deg", deg),
+          "a flat bottom, or the point of a drill, 90 to 150 deg", "geometry"}});
+}
+
 // A plane in the place of the drill's point at the bottom of a blind bore.
 void take_point(std::vector<Side>& sides, double join_mm, Outline& out) {
   const auto leave = [&](const Side& point) {
+    require_point(point);
     out.assumed.push_back(
         {named({point}), "The conical bottom of the bore is left to the drill's point."});
   };
@@ -57,18 +72,27 @@ void take_point(std::vector<Side>& sides, double join_mm, Outline& out) {
   }
 }
 
-// A cone of 60 deg at the mouth, and behind it a hole of at most half its diameter: the
-// forms A and B of ISO 6411.
+// A cone of 60 deg at the mouth, and behind it a hole of at most half its diameter, all of it
+// no larger and deeper than centre drills make it: the forms A and B of ISO 6411.
 bool is_centre_hole(const std::vector<Side>& sides, double join_mm) {
   constexpr std::size_t kMost = 5;  // sides, with the point of the drill
+  constexpr double kLargest_mm = 12.5,
+                   kDeepest = 1.5;  // hole; depth over the mouth's width
   if (sides.size() < 2 || sides.size() > kMost) return false;
   const bool blind =
       on_axis(sides.front().from, join_mm) || on_axis(sides.back().to, join_mm);
+  double mouth_mm = 0, z0 = sides.front().from.z_mm, z1 = z0;
+  for (const Side& s : sides) {
+    mouth_mm = std::max({mouth_mm, 2 * s.from.r_mm, 2 * s.to.r_mm});
+    z0 = std::min({z0, s.from.z_mm, s.to.z_mm});
+    z1 = std::max({z1, s.from.z_mm, s.to.z_mm});
+  }
+  if (z1 - z0 > kDeepest * mouth_mm) return false;
   return blind && std::any_of(sides.begin(), sides.end(), [&](const Side& s) {
            const double r0 = std::min(s.from.r_mm, s.to.r_mm),
                         r1 = std::max(s.from.r_mm, s.to.r_mm);
            const double angle = std::atan2(r1 - r0, std::abs(s.to.z_mm - s.from.z_mm));
-           return !s.centre && r0 > join_mm && r0 <= r1 / 2 &&
+           return !s.centre && r0 > join_mm && r0 <= r1 / 2 && 2 * r0 <= kLargest_mm &&
                   std::abs(angle - kCentreHole_rad) < kAngle_rad;
          });
 }

@@ -19,6 +19,7 @@ constexpr double kFlattest_rad = 10 * std::numbers::pi / 180;
 constexpr double kEdge_mm = 1, kEdgeShare = 0.12;      // largest edge, of the diameter
 constexpr double kGroove_mm = 6, kGrooveShare = 0.15;  // widest groove
 constexpr double kLeastWall_mm = 0.05;                 // beside a chamfer
+constexpr double kFillet_mm = 1.6;  // the largest that tools' corners leave
 constexpr double kTangent_rad = 0.02;
 constexpr double kRecess_mm = 6;  // of an undercut along the axis
 
@@ -111,6 +112,7 @@ bool take_radius(Items& items, std::size_t i) {
   if (!tangent(before.side, edge.side) || !tangent(edge.side, after.side)) return false;
   const bool inner_corner = edge.side.counterclockwise;
   const double r = radius_mm(edge.side);
+  if (inner_corner && r > kFillet_mm) return false;  // a radius that is turned
   if (r > largest_edge_mm(
               std::max(std::abs(edge.side.from.r_mm), std::abs(edge.side.to.r_mm))))
     return false;

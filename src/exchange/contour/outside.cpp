@@ -59,6 +59,10 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
       e.angle_deg = tidy_mm(units::deg_from_rad(c.angle_rad));
     } else if (c.kind == Corner::Kind::fillet) {
       e.fillet_mm = tidy_mm(c.radius_mm);
+      out.assumed.push_back(
+          {at, fmt::format("The radius of {:g} mm at {} is the largest that may stay: a "
+                           "tool's smaller corner may cut it.",
+                           *e.fillet_mm, at)});
     } else {
       e.undercut = c.undercut;
     }

@@ -90,9 +90,13 @@ class Sections {
 
   void read_tables() {
     Layer* layer = nullptr;
-    Group at;
+    DimensionStyle* style = nullptr;
     for (auto g = need("ENDSEC"); !ends(g); g = need("the end of the section, ENDSEC")) {
-      if (g.code == 0) layer = g.value == "LAYER" ? &unnamed_ : nullptr;
+      if (g.code == 0) {
+        layer = g.value == "LAYER" ? &unnamed_ : nullptr;
+        style = g.value == "DIMSTYLE" ? &unnamed_style_ : nullptr;
+      }
+      if (style) read_style(g, style);
       if (!layer) continue;
       if (g.code == 2) {
         layer = &out_.layers[capital(g.value)];
@@ -102,6 +106,13 @@ class Sections {
       if (g.code == 62 && integer(g) < 0) layer->visible = false;
       if (g.code == 6) layer->linetype = g.value;
     }
+  }
+
+  void read_style(const Group& g, DimensionStyle*& style) {
+    if (g.code == 2) style = &(out_.styles[capital(g.value)] = {});
+    if (g.code == 3) style->affixed = !g.value.empty() && g.value != "<>";
+    if ((g.code == 71 || g.code == 72) && integer(g) != 0) style->limits = true;
+    if (g.code == 144) style->factor = number(g);
   }
 
   void read_blocks() {
@@ -144,6 +155,7 @@ class Sections {
   Groups groups_;
   File out_;
   Layer unnamed_;
+  DimensionStyle unnamed_style_;
 };
 
 }  // namespace

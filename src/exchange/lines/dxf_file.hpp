@@ -66,9 +66,17 @@ struct Block {
   std::vector<Entity> entities;
 };
 
+/// What a style adds to the dimensions that refer to it.
+struct DimensionStyle {
+  bool limits = false;   ///< DIMTOL, DIMLIM
+  bool affixed = false;  ///< DIMPOST: text before or behind the size
+  double factor = 1;     ///< DIMLFAC: sizes shown for a length drawn
+};
+
 struct File {
   std::unordered_map<std::string, Group> header;  ///< "$INSUNITS": its first value
   std::unordered_map<std::string, Layer> layers;  ///< by their names in capitals
+  std::unordered_map<std::string, DimensionStyle> styles;
   std::unordered_map<std::string, Block> blocks;
   std::vector<Entity> entities;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -347,13 +348,15 @@ Half read_half(const std::vector<Stroke>& strokes, double join_mm, const View& v
 
 std::optional<Place> difference(const Half& a, const Half& b,
                                 std::vector<Link> Half::*chain, double within_mm) {
-  for (const Link& of_a : a.*chain) {
-    const Place& p = a.graph.nodes[of_a.to];
-    bool found = false;
-    for (const Link& of_b : b.*chain)
-      found = found || distance_mm(b.graph, of_b, p) <= within_mm;
-    if (!found) return p;
-  }
+  const auto lies_there = [&](const Place& p) {
+    const auto near = [&](const Link& of_b) {
+      return distance_mm(b.graph, of_b, p) <= within_mm;
+    };
+    return std::any_of((b.*chain).begin(), (b.*chain).end(), near);
+  };
+  for (const Link& of_a : a.*chain)
+    for (const Node end : {of_a.from, of_a.to})
+      if (!lies_there(a.graph.nodes[end])) return a.graph.nodes[end];
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "dxf_dimensions.hpp"
+#include "dxf_styles.hpp"
 #include "dxf_text.hpp"
 #include "exchange/text/notation_words.hpp"
 #include "turnwright/exchange/dxf.hpp"
@@ -24,6 +25,8 @@ Outline read_dxf(std::string_view text, const DxfOptions& options) {
     text = converted;
   }
   const dxf::File file = dxf::read_file(text);
+  std::vector<Remark> not_read;
+  dxf::check_styles(file, not_read);
   dxf::Drawn drawn = dxf::draw(file, options.unit_mm);
   dxf::ProfileRead read = dxf::profile_of(drawn, options.join_mm);
   Outline out = outline_of(read.profile, options.join_mm);
@@ -34,6 +37,7 @@ Outline read_dxf(std::string_view text, const DxfOptions& options) {
   append(out.assumed, read.assumed);
   append(out.ignored, drawn.ignored);
   append(out.ignored, read.ignored);
+  append(out.ignored, not_read);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "exchange/contour/elements.hpp"
 #include "step_pocket.hpp"
 
 namespace turnwright::exchange {
@@ -59,9 +60,11 @@ bool put(Pocket f, double left_mm, Outline& outline) {
   if (!on || !(f.floor_mm > 0)) return false;
   auto& m = f.milled;
   m.on = on->id;
-  m.depth_mm = on->left_mm / 2 - f.floor_mm;
+  m.depth_mm = tidy_mm(on->left_mm / 2 - f.floor_mm);
+  m.width_mm = tidy_mm(m.width_mm);
+  m.length_mm = tidy_mm(m.length_mm);
   if (!(m.depth_mm > 0 && m.length_mm > 0)) return false;
-  m.z_mm = std::max(m.z_mm, 0.0);
+  m.z_mm = std::max(tidy_mm(m.z_mm), 0.0);
   m.id = fmt::format("m{}", outline.milled.size() + 1);
   if (f.square_ends)
     outline.assumed.push_back(

@@ -125,17 +125,18 @@ bool rounds(const Face& end, const Flat& floor, double width, const Axis& axis) 
          floor.normal.cross(axis.radial(s.origin)).norm() < kSame_mm;
 }
 
-/// A floor between two walls; the ends are half cylinders as wide as the walls are apart,
-/// square, or open.
-std::optional<Pocket> keyway(const Sides& p, const Flat& floor, double width,
-                             const Axis& axis) {
-  Range z = floor.z;
+/// A floor between walls that run along z; the ends are half cylinders as wide as the walls
+/// are apart, their axes where the walls end, square, or open.
+std::optional<Pocket> keyway(const Sides& p, const Flat& floor, const Range& walls,
+                             double width, const Axis& axis) {
+  Range z = walls;
   bool left = false, right = false;
   for (const auto* end : p.round) {
     if (!rounds(*end, floor, width, axis)) return std::nullopt;
     const double middle = axis.z_mm(end->surface.origin);
-    const Range own = z_range(*end, axis);
-    const bool at_left = own.from < middle - kSame_mm;
+    const bool at_left = std::abs(middle - walls.from) < std::abs(middle - walls.to);
+    if (std::abs(middle - (at_left ? walls.from : walls.to)) > kSame_mm)
+      return std::nullopt;
     (at_left ? left : right) = true;
     z.add(middle + (at_left ? -1 : 1) * width / 2);
   }
@@ -153,9 +154,11 @@ std::optional<Pocket> keyway(const Sides& p, const std::vector<const Face*>& gro
                              const Axis& axis) {
   if (p.along.size() != 3 || !p.others.empty()) return std::nullopt;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& floor = p.along[i];
-    const auto width = width_mm(floor, p.along[(i + 1) % 3], p.along[(i + 2) % 3]);
-    auto f = width ? keyway(p, floor, *width, axis) : std::nullopt;
+    const auto &floor = p.along[i], &a = p.along[(i + 1) % 3], &b = p.along[(i + 2) % 3];
+    const auto width = width_mm(floor, a, b);
+    Range walls = a.z;
+    walls.add(b.z.from), walls.add(b.z.to);
+    auto f = width ? keyway(p, floor, walls, *width, axis) : std::nullopt;
     if (!f) continue;
     for (const auto* face : group) f->milled.sources.push_back(name_of(face->id));
     return f;

@@ -131,7 +131,14 @@ class ElementWords {
     if (e().shape == Shape::arc && read_arc(word)) return;
     const bool thread = e().shape == Shape::thread;
     if (thread ? is_thread_class(word) : is_fit(word)) return read_fit(word);
-    if (const auto l = limits(word)) return read_limits(word, *l);
+    if (const auto l = limits(word)) {
+      if (e().length_mm > 0)
+        return mistakes_.add(word,
+                             "limits of the diameter before the length: d50 "
+                             "+0.02/-0.01 x 40 (those of a length: length left to "
+                             "right +0.1/-0.1)");
+      return read_limits(word, *l);
+    }
     mistakes_.add(word, thread ? "a length like x 40, a class like 6g, limits like "
                                  "+0.02/-0.01 or a roughness like Ra1.6"
                                : "a length like x 40, a fit like h7, limits like "

@@ -69,6 +69,12 @@ def cases():
     yield "cross-hole", body.cut(cylinder(6, 60, (20, 0, -30), Z))
     yield "slot", body.cut(box((30, 8, 20), (80, -4, 15)).fuse(
         cylinder(8, 20, (80, 0, 15), Z)))
+    key = box((22, 8, 20), (64, -4, 15)).fuse(
+        [cylinder(8, 20, (64, 0, 15), Z), cylinder(8, 20, (86, 0, 15), Z)])
+    yield "round-keyway", body.cut(key).removeSplitter()
+    yield "round-keyway-off-seam", body.cut(rolled_x(key.copy(), 90)).removeSplitter()
+    open_left = box((30, 8, 20), (-5, -4, 10)).fuse(cylinder(8, 20, (25, 0, 10), Z))
+    yield "open-slot-off-seam", body.cut(rolled_x(open_left, 90)).removeSplitter()
     yield "square-keyway", body.cut(box((30, 8, 20), (60, -4, 15)))
     yield "d-shaft", body.cut(box((40, 60, 20), (0, -30, 11)))
     yield "double-d", body.cut(box((40, 60, 20), (0, -30, 11))).cut(

@@ -134,10 +134,32 @@ TEST(Import, WhatThePlannerRefusesIsToldAtOnce) {
   EXPECT_EQ(ignored[0]["at"], "/edges/0/chamfer_mm");
 }
 
+TEST(Import, APartOfOneDiameterIsPartedOffABar) {
+  const json stock = answered(line("d30 x 60; left: 1x45"))["part"]["stock"];
+  EXPECT_EQ(stock, json::parse(R"({"kind": "bar", "diameter_mm": 32.0,
+    "length_mm": 102.0, "left_allowance_mm": 40.0, "part_off_allowance_mm": 0.6})"));
+}
+
+TEST(Import, ABarHoldsTheBulgeOfAnArc) {
+  // Centre (10, 15), radius hypot(10, 5): the top is at 15 + 11.18.
+  const json part =
+      answered(line("d40 x 30; arc d40-d40 x 20 R11.180339887 convex"))["part"];
+  EXPECT_EQ(part["stock"]["diameter_mm"], 55) << part;
+}
+
+TEST(Import, AnotherMaterialThanTheDrawingsIsTold) {
+  const json a =
+      answered({{"text", "d50 x 40; material: 42CrMo4-A"}, {"material", "C45"}});
+  EXPECT_EQ(a["part"]["material"], "C45");
+  EXPECT_EQ(a["assumed"][0]["text"],
+            "The request's material is taken, not the drawing's 42CrMo4-A.");
+}
+
 TEST(Import, TheNextBarLeavesAMillimetre) {
   for (const auto& [largest, bar] :
        std::map<double, double>{{50, 52}, {51, 52}, {51.5, 55}, {250, 260}, {5, 6}}) {
-    const json part = answered(line("d" + std::to_string(largest) + " x 40"))["part"];
+    const json part =
+        answered(line("d" + std::to_string(largest) + " x 40; d4 x 10"))["part"];
     EXPECT_EQ(part["stock"]["diameter_mm"], bar) << largest;
   }
 }
