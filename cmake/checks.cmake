@@ -75,7 +75,7 @@ add_test(NAME service.examples COMMAND bash
 set_tests_properties(service.examples PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
 if(NOT TURNWRIGHT_SANITIZE)  # which takes terabytes of address space
   add_test(NAME service.attacks COMMAND ${PROJECT_SOURCE_DIR}/tests/service/attacks.py
-    $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 100 100)
+    $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 50 50)
   set_tests_properties(service.attacks PROPERTIES TIMEOUT 600)
 endif()
 
