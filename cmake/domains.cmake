@@ -134,24 +134,19 @@ if(BUILD_TESTING)
   gtest_discover_tests(reality_test TEST_PREFIX reality. PROPERTIES TIMEOUT 600)
 endif()
 
-# Unity builds (the release preset): the readers stay apart from what needs planning
-# (architecture.part_reader), and so do files of one name for everything, one per door or
-# picture; g++ 12 takes the frames of two files' coroutines for unused functions, and a
-# replaced `new` beside what uses it for a mismatch.
-function(tw_unity_by_room domain)
-  foreach(room IN LISTS ARGN)
-    file(GLOB in_room CONFIGURE_DEPENDS src/${domain}/${room}/*.cpp)
-    set_source_files_properties(${in_room} PROPERTIES UNITY_GROUP ${room})
-  endforeach()
-  set_target_properties(turnwright_${domain} PROPERTIES UNITY_BUILD_MODE GROUP)
-endfunction()
-tw_unity_by_room(document json catalogue part exchange)
-tw_unity_by_room(exchange records solid demands contour lines text)
-file(GLOB apart CONFIGURE_DEPENDS src/report/picture/*.cpp src/service/http/arrival.cpp
-  src/service/http/connection.cpp tests/service/little_memory.cpp)
-set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# Unity builds (the release preset) compile a folder as one file.  Apart stay pictures whose
+# sheets have measures of one name; requests that speak in the names of one domain where
+# others speak in those of another; coroutines, for g++ 12 takes the frames of two files'
+# coroutines for unused functions; and a replaced `new`, which it takes for a mismatch beside
+# what uses it.
+set_source_files_properties(src/report/picture/drawing.cpp
+  src/report/picture/milled_drawing.cpp src/report/picture/path_drawing.cpp
+  src/report/picture/stability_chart.cpp src/report/picture/window_drawing.cpp
+  src/document/requests/chuck.cpp src/document/requests/deflection.cpp
+  src/document/requests/stability.cpp src/document/requests/stability_request.cpp
+  src/service/http/arrival.cpp src/service/http/connection.cpp
+  tests/service/little_memory.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(BUILD_TESTING)
-  foreach(program IN ITEMS document_test reference_parts_test)
-    set_target_properties(${program} PROPERTIES UNITY_BUILD OFF)
-  endforeach()
+  set_target_properties(reference_parts_test PROPERTIES UNITY_BUILD OFF)
 endif()

@@ -23,11 +23,11 @@ using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 using std::numbers::pi;
 
-constexpr double kTukey = 4.685;      // 95 % efficient on normal errors: handbook value
-constexpr double kMad = 1.4826;       // median of |normal| times this is sigma
-constexpr double kNoRank = 1e-6;      // see identifiability()
-constexpr double kRounding = 1e-13;   // of y: residuals below it are rounding
-constexpr double kLeastZ_mm = 1e-12;  // all cuts at the jaws: z has no scale then
+constexpr double kTukey = 4.685;  // 95 % efficient on normal errors: handbook value
+constexpr double kMad = 1.4826;   // median of |normal| times this is sigma
+constexpr double kNoRank = 1e-6;  // see identifiability()
+constexpr double kRoundingOfFit = 1e-13;  // of y: residuals below it are rounding
+constexpr double kLeastZ_mm = 1e-12;      // all cuts at the jaws: z has no scale then
 
 Vector3d row(double z, double F, double C) {  // Eq. (2)
   return {F, 2 * z * F + C, z * z * F + z * C};
@@ -74,8 +74,8 @@ Design design(std::span<const PlaneTest> tests) {
   if (F == 0) F = 1;
   d.unit = Vector3d(1, 1 / Z, 1 / (Z * Z)) / (F * std::sqrt(static_cast<double>(n)));
   d.X *= d.unit.asDiagonal();
-  d.rounding =
-      std::max(kRounding * d.y.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  d.rounding = std::max(kRoundingOfFit * d.y.cwiseAbs().maxCoeff(),
+                        std::numeric_limits<double>::min());
   return d;
 }
 
@@ -140,7 +140,7 @@ struct Fit {
   VectorXd r;
 };
 
-Fit least_squares(const Design& d, const VectorXd& w) {
+Fit weighted_least_squares(const Design& d, const VectorXd& w) {
   const Centred c = centred(d, w);
   const Vector3d theta = turnwright::least_squares(c.X, c.y).x;
   return {theta, residuals(d, c.mean, theta)};
@@ -148,11 +148,11 @@ Fit least_squares(const Design& d, const VectorXd& w) {
 
 /// Least absolute deviations by reweighting, good enough as one of the starts.
 Fit absolute_deviations(const Design& d) {
-  Fit fit = least_squares(d, VectorXd::Ones(d.rows()));
+  Fit fit = weighted_least_squares(d, VectorXd::Ones(d.rows()));
   double floor = fit.r.cwiseAbs().maxCoeff();
   for (int step = 0; step < 60; ++step) {
     floor = std::max(floor / 2, d.rounding);
-    fit = least_squares(d, fit.r.cwiseAbs().cwiseMax(floor).cwiseInverse());
+    fit = weighted_least_squares(d, fit.r.cwiseAbs().cwiseMax(floor).cwiseInverse());
   }
   return fit;
 }
@@ -219,7 +219,7 @@ Fit least_trimmed(const Design& d) {
   const auto lead_down = [&](Fit fit, int steps) {
     Trimmed t = trimmed(fit.r, h);
     for (int step = 0; step < steps; ++step) {
-      Fit next = least_squares(d, t.w);
+      Fit next = weighted_least_squares(d, t.w);
       Trimmed lower = trimmed(next.r, h);
       if (!(lower.sum < t.sum)) break;
       fit = std::move(next);
@@ -234,7 +234,7 @@ Fit least_trimmed(const Design& d) {
   lead_down(best, 20);
   const std::uint64_t starts = 40 + static_cast<std::uint64_t>(10000 / n);
   for (std::uint64_t k = 0; k < starts; ++k)
-    lead_down(least_squares(d, elemental(d, k)), 3);
+    lead_down(weighted_least_squares(d, elemental(d, k)), 3);
   lead_down(best, 20);
   return best;
 }
@@ -253,7 +253,7 @@ Fit tukey(const Design& d, Fit fit, double s) {
   for (int step = 0; step < 50; ++step) {
     const VectorXd u = fit.r / (kTukey * s);
     const VectorXd w = (1 - u.array().square()).cwiseMax(0).square();
-    const Fit next = least_squares(d, w);
+    const Fit next = weighted_least_squares(d, w);
     const double moved = (next.r - fit.r).cwiseAbs().maxCoeff();
     fit = next;
     if (moved < 1e-6 * s) break;
@@ -277,7 +277,7 @@ Chosen fit_through(const Design& d, std::vector<bool> used) {
   const VectorXd w = as_weights(used);
   Centred c = centred(d, w);
   const Matrix3d H = c.X.transpose() * c.X;
-  Fit fit = least_squares(d, w);
+  Fit fit = weighted_least_squares(d, w);
   const long free = static_cast<long>(w.sum()) - 3 -
                     static_cast<long>((c.mean.weight.array() > 0).count());
   const double rss = fit.r.cwiseAbs2().dot(w);

@@ -19,7 +19,7 @@ using catalogue::FixedUse;
 using planning::OperationPlan;
 using Kind = Move::Kind;
 
-const FixedTool& tool_of(const Site& site, const OperationPlan& o) {
+const FixedTool& fixed_tool_of(const Site& site, const OperationPlan& o) {
   return *std::find_if(site.part.fixed_tools.begin(), site.part.fixed_tools.end(),
                        [&](const FixedTool& t) { return t.id == o.tool; });
 }
@@ -216,11 +216,13 @@ void part_off(Site& site, const OperationPlan& o) {
 
 }  // namespace
 
-FixedUse use_of(const Site& site, const OperationPlan& o) { return tool_of(site, o).use; }
+FixedUse use_of(const Site& site, const OperationPlan& o) {
+  return fixed_tool_of(site, o).use;
+}
 
 void fixed(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
-  const auto& tool = tool_of(site, o);
+  const auto& tool = fixed_tool_of(site, o);
   switch (tool.use) {
     case FixedUse::centring:
     case FixedUse::drilling:

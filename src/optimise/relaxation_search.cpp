@@ -11,13 +11,13 @@ namespace {
 constexpr double kNarrow = 1e-12;  // a box that rounding keeps from being split
 constexpr double kEdge = 0.1;      // no part is smaller than this share of its box
 
-struct Node {
+struct OpenBox {
   double lower = -kInfinity;
   long birth = 0;
   Box box;
 };
-struct Later {
-  bool operator()(const Node& a, const Node& b) const {
+struct HigherBound {
+  bool operator()(const OpenBox& a, const OpenBox& b) const {
     return a.lower != b.lower ? a.lower > b.lower : a.birth > b.birth;
   }
 };
@@ -33,7 +33,7 @@ SearchResult relaxation_search(
   result.complete = true;
   double settled = kInfinity;
   const auto cut = [&] { return result.upper_bound - options.gap; };
-  std::priority_queue<Node, std::vector<Node>, Later> queue;
+  std::priority_queue<OpenBox, std::vector<OpenBox>, HigherBound> queue;
   long births = 0;
   queue.push({-kInfinity, births++, box});
   while (!queue.empty() && queue.top().lower < cut()) {
@@ -41,7 +41,7 @@ SearchResult relaxation_search(
       result.complete = false;
       break;
     }
-    const Node node = queue.top();
+    const OpenBox node = queue.top();
     queue.pop();
     ++result.nodes;
     const Relaxed r = relax(node.box, cut());
@@ -54,7 +54,7 @@ SearchResult relaxation_search(
     }
     const double margin = kEdge * width(side);
     const double at = std::clamp(r.at, side.lo + margin, side.hi - margin);
-    Node left{lower, births++, node.box}, right{lower, births++, node.box};
+    OpenBox left{lower, births++, node.box}, right{lower, births++, node.box};
     left.box[r.split].hi = at;
     right.box[r.split].lo = at;
     queue.push(left);

@@ -90,7 +90,7 @@ double worst_circle(const Surface& s, const std::vector<double>& e) {
   return out;
 }
 
-double mean(std::span<const double> v) {
+double mean_of(std::span<const double> v) {
   double sum = 0;
   for (const double x : v) sum += x;
   return sum / static_cast<double>(v.size());
@@ -223,7 +223,7 @@ double parallelism_mm(const Surface& face, const Surface& datum) {
 }
 
 double length_error_mm(const Surface& left, const Surface& right) {
-  return mean(right.e_mm) - mean(left.e_mm);
+  return mean_of(right.e_mm) - mean_of(left.e_mm);
 }
 
 std::vector<double> cylinder_residual_mm(const Surface& cylinder) {

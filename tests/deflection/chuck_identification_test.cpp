@@ -18,16 +18,11 @@
 namespace turnwright::deflection {
 namespace {
 
-using random_shafts::between;
+using random_shafts::between, random_shafts::normal;
 
 const Root kChuck{1.8e-5, 8.6e-8, 1.1e-9}, kAcross{1.5e-5, 7e-8, 8.9e-10};
 
 /// A standard normal deviate, spelled out: the library's differ between vendors.
-double normal(std::mt19937_64& random) {
-  const double u = between(random, 0x1p-53, 1), v = between(random, 0, 1);
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
-
 double deflection_mm(const Root& s, double z, double F, double C) {
   return s.c0_mm_N * F + s.c1_rad_N * (2 * z * F + C) +
          s.c2_rad_Nmm * (z * z * F + z * C);

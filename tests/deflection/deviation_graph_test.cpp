@@ -14,12 +14,7 @@
 namespace turnwright::deflection {
 namespace {
 
-using random_shafts::between;
-
-double normal(std::mt19937_64& random) {
-  const double u = between(random, 0x1p-53, 1), v = between(random, 0, 1);
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
+using random_shafts::between, random_shafts::normal;
 
 std::vector<double> places(std::size_t n, double length) {
   std::vector<double> z(n);

@@ -14,11 +14,11 @@ namespace turnwright::deflection {
 namespace {
 
 // A place with f_ww = 1e-3 mm/N and nothing else.
-constexpr Flexibility kSpring{1e-3, 0, 0, 0, 0};
+constexpr Flexibility kYielding{1e-3, 0, 0, 0, 0};
 
 TEST(Feedback, LinearForceGivesMuOverOnePlusMu) {
   for (const double mu : {1e-6, 0.1, 0.75, 1.0, 3.7, 50.0, 1e6}) {
-    const Equilibrium e = equilibrium(40, kSpring, {}, {mu * 1e3, 1, 0, 0, 1.5});
+    const Equilibrium e = equilibrium(40, kYielding, {}, {mu * 1e3, 1, 0, 0, 1.5});
     EXPECT_NEAR(e.loop_gain / mu, 1, 1e-14);
     EXPECT_NEAR(e.radius_error_mm / (1.5 * mu / (1 + mu)), 1, 1e-13);
     EXPECT_NEAR(e.Fr_N / (1e3 * 1.5 * mu / (1 + mu)), 1, 1e-13);
@@ -78,11 +78,11 @@ TEST(Feedback, LoopGainIsTheSlopeOfTheUncoupledErrorInTheDepth) {
   // B = 0: de/dap of e = A c ap^x
   for (const double x : {0.75, 1.0, 1.6}) {
     const auto uncoupled = [&](double ap) {
-      return equilibrium(40, kSpring, {}, {220, x, 0, 0, ap})
+      return equilibrium(40, kYielding, {}, {220, x, 0, 0, ap})
           .radius_error_without_feedback_mm;
     };
     const double slope = (uncoupled(2 + 1e-5) - uncoupled(2 - 1e-5)) / 2e-5;
-    EXPECT_NEAR(equilibrium(40, kSpring, {}, {220, x, 0, 0, 2}).loop_gain / slope, 1,
+    EXPECT_NEAR(equilibrium(40, kYielding, {}, {220, x, 0, 0, 2}).loop_gain / slope, 1,
                 1e-9);
   }
 }
@@ -92,7 +92,7 @@ TEST(Feedback, TakingTurnsDivergesWhereNewtonDoesNot) {
   double e = 0;
   for (int turn = 0; turn < 20; ++turn) e = mu * (ap - e);
   EXPECT_GT(std::abs(e), 1e6);
-  EXPECT_NEAR(equilibrium(40, kSpring, {}, {mu * 1e3, 1, 0, 0, ap}).radius_error_mm,
+  EXPECT_NEAR(equilibrium(40, kYielding, {}, {mu * 1e3, 1, 0, 0, ap}).radius_error_mm,
               mu / (1 + mu), 1e-14);
 }
 
@@ -111,7 +111,7 @@ TEST(Feedback, ACoupleThatPullsInCutsDeeper) {
 TEST(Feedback, EveryPassAlsoCutsWhatTheLastOneLeft) {
   const double mu = 0.75;
   const std::vector<double> ap{2, 2, 0.5, 0.1};
-  const auto e = radius_errors_of_passes(40, kSpring, {}, {mu * 1e3, 1, 0, 0, 0}, ap);
+  const auto e = radius_errors_of_passes(40, kYielding, {}, {mu * 1e3, 1, 0, 0, 0}, ap);
   ASSERT_EQ(e.size(), ap.size());
   double left = 0;
   for (std::size_t n = 0; n < ap.size(); ++n) {
@@ -122,7 +122,7 @@ TEST(Feedback, EveryPassAlsoCutsWhatTheLastOneLeft) {
 
 TEST(Feedback, SpringPassesTakeMuOverOnePlusMuEach) {
   for (const double mu : {0.05, 0.75, 3.7}) {
-    const auto e = radius_errors_of_passes(40, kSpring, {}, {mu * 1e3, 1, 0, 0, 0},
+    const auto e = radius_errors_of_passes(40, kYielding, {}, {mu * 1e3, 1, 0, 0, 0},
                                            std::vector<double>{1.5, 0, 0, 0});
     for (std::size_t k = 0; k < e.size(); ++k)
       EXPECT_NEAR(e[k], 1.5 * std::pow(mu / (1 + mu), static_cast<double>(k + 1)), 1e-13);
@@ -131,7 +131,7 @@ TEST(Feedback, SpringPassesTakeMuOverOnePlusMuEach) {
   EXPECT_EQ(radius_errors_of_passes(40, {}, {}, {200, 0.8, 0.6, 2.2, 0},
                                     std::vector<double>{2, 0, 0}),
             (std::vector<double>{0, 0, 0}));
-  EXPECT_THROW(radius_errors_of_passes(40, kSpring, {}, {200, 1, 0, 0, 0},
+  EXPECT_THROW(radius_errors_of_passes(40, kYielding, {}, {200, 1, 0, 0, 0},
                                        std::vector<double>{1, -0.1}),
                std::domain_error);
 }
@@ -148,8 +148,8 @@ TEST(Feedback, RefusesWhatIsNoCut) {
   for (const ForceLaw& law :
        {ForceLaw{0, 1, 0, 0, 1}, ForceLaw{1, 0, 0, 0, 1}, ForceLaw{1, 1, 0, 0, 0},
         ForceLaw{nan, 1, 0, 0, 1}, ForceLaw{1, 1, 0, 0, nan}})
-    EXPECT_THROW(equilibrium(40, kSpring, {}, law), std::domain_error);
-  EXPECT_THROW(equilibrium(0, kSpring, {}, {1, 1, 0, 0, 1}), std::domain_error);
+    EXPECT_THROW(equilibrium(40, kYielding, {}, law), std::domain_error);
+  EXPECT_THROW(equilibrium(0, kYielding, {}, {1, 1, 0, 0, 1}), std::domain_error);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace turnwright::deflection {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 /// The section counted out in small squares.
 Section counted(double R, const std::vector<Slot>& slots) {
@@ -236,14 +236,15 @@ TEST(Ovality, RefusesWhatIsNoSection) {
   EXPECT_THROW(round_section(0), std::domain_error);
   EXPECT_THROW(round_section(10, 10), std::domain_error);
   const Section disc = round_section(40);
-  for (const Slot& slot : {Slot{0, 15, 0}, Slot{41, 0, 0}, Slot{10, -1, 0},
-                           Slot{10, 19.9, 0}, Slot{kNaN, 15, 0}, Slot{10, kNaN, 0}})
+  for (const Slot& slot :
+       {Slot{0, 15, 0}, Slot{41, 0, 0}, Slot{10, -1, 0}, Slot{10, 19.9, 0},
+        Slot{kUndefined, 15, 0}, Slot{10, kUndefined, 0}})
     EXPECT_THROW(without_slot(disc, 40, slot), std::domain_error);
   EXPECT_THROW(without_flat(disc, 40, 21, 0), std::domain_error);
   const std::vector<Stretch> good{{100, disc}};
   EXPECT_THROW(oval_flexibility(good, 0, {}, 50), std::domain_error);
   EXPECT_THROW(oval_flexibility(good, 210000, {}, 101), std::domain_error);
-  EXPECT_THROW(oval_flexibility(good, 210000, {}, kNaN), std::domain_error);
+  EXPECT_THROW(oval_flexibility(good, 210000, {}, kUndefined), std::domain_error);
   EXPECT_THROW(oval_flexibility(std::vector<Stretch>{{100, Section{}}}, 210000, {}, 50),
                std::domain_error);
   EXPECT_THROW(oval_flexibility(std::vector<Stretch>{{0, disc}}, 210000, {}, 0),

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,6 +18,12 @@ struct Named {
 inline double between(std::mt19937_64& random, double low, double high) {
   // spelled out: the standard library's distributions differ between vendors
   return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
+
+/// Normally distributed about 0 with deviation 1 (Box and Muller).
+inline double normal(std::mt19937_64& random) {
+  const double u = between(random, 0x1p-53, 1), v = between(random, 0, 1);
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
 inline std::vector<Named> all(unsigned seed) {

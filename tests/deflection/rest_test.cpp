@@ -18,7 +18,7 @@ namespace turnwright::deflection {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPromised = 1e-12;
+constexpr double kOfLargest = 1e-12;
 
 /// Differences of a part's flexibilities in parts of the largest, of its reactions in
 /// parts of the largest of tail and rest.
@@ -75,7 +75,7 @@ TEST(Rest, FiniteElementsWithASpringAgreeOnEveryKindOfShaft) {
                                 std::to_string(place) + (c > 0 ? " elastic" : " rigid");
       const auto compare = [&](Field f, double scale) {
         const auto x = column(mine.part, f), y = column(theirs.flexibility, f);
-        EXPECT_LE(apart(x, y), kPromised * std::max(scale, largest(y))) << which;
+        EXPECT_LE(apart(x, y), kOfLargest * std::max(scale, largest(y))) << which;
       };
       compare(&Flexibility::f_ww_mm_N, 0);
       compare(&Flexibility::f_wp_rad_N, 0);
@@ -87,10 +87,10 @@ TEST(Rest, FiniteElementsWithASpringAgreeOnEveryKindOfShaft) {
         const auto tail_N = column(theirs.flexibility, &Flexibility::tail_per_N),
                    tail_Nmm = column(theirs.flexibility, &Flexibility::tail_per_Nmm);
         EXPECT_LE(apart(mine.per_N, theirs.rest_per_N),
-                  kPromised * std::max(largest(tail_N), per_N))
+                  kOfLargest * std::max(largest(tail_N), per_N))
             << which;
         EXPECT_LE(apart(mine.per_Nmm, theirs.rest_per_Nmm),
-                  kPromised * std::max(largest(tail_Nmm), per_Nmm))
+                  kOfLargest * std::max(largest(tail_Nmm), per_Nmm))
             << which;
       }
     }
@@ -113,7 +113,7 @@ TEST(Rest, AsSoftAsNothingItChangesNothingAndAStiffOneIsTheLimit) {
         EXPECT_NEAR(soft.at(a).rest_per_N, 0, 1e-9) << name;
         EXPECT_NEAR(stiff.at(a).rest_per_N, rigid.at(a).rest_per_N, 1e-9) << name;
       }
-      EXPECT_LE(difference(with_soft, free), kPromised) << name;
+      EXPECT_LE(difference(with_soft, free), kOfLargest) << name;
       EXPECT_LE(difference(with_stiff, with_rigid), 1e-9) << name;
     }
   }
@@ -166,7 +166,7 @@ TEST(Rest, APartBeingCutIsTheTwoBodiesJoinedAtTheTool) {
                             .at(a)
                             .part);
       }
-      EXPECT_LE(difference(joined, built), kPromised) << name;
+      EXPECT_LE(difference(joined, built), kOfLargest) << name;
     }
   }
 }

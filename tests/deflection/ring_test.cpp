@@ -10,7 +10,8 @@
 namespace turnwright::deflection {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 const Ring kRing{40, 3e6};
 
 /// Eq. (1) of ring.hpp, summed from the small end; what is left out is below
@@ -21,12 +22,12 @@ double series(const Ring& r, int jaws, double F, double t) {
     const long double m = static_cast<long double>(k) * jaws;
     sum += std::cos(m * t) / ((m * m - 1) * (m * m - 1));
   }
-  return static_cast<double>(jaws * F * std::pow(r.R_mm, 3) / (kPi * r.EI_Nmm2) * sum);
+  return static_cast<double>(jaws * F * std::pow(r.R_mm, 3) / (pi * r.EI_Nmm2) * sum);
 }
 
 TEST(Ring, ClosedFormIsTheSeries) {
   for (const int jaws : {2, 3, 4, 6})
-    for (const double t : {0.0, 0.3, 1.0, kPi / 3, 2.0, kPi, 4.0, -1.0, 7.0}) {
+    for (const double t : {0.0, 0.3, 1.0, pi / 3, 2.0, pi, 4.0, -1.0, 7.0}) {
       const double lobe = lobing_mm(kRing, jaws, 2500);
       EXPECT_NEAR(squeeze_mm(kRing, jaws, 2500, t), series(kRing, jaws, 2500, t),
                   1e-11 * lobe)
@@ -44,8 +45,8 @@ TEST(Ring, ThreeJawsLobeBy302TenThousandths) {
 TEST(Ring, TwoOpposedForcesAreTheTextbookRing) {
   // diameter shortens by F R^3/EI (pi/4 - 2/pi) along the forces and lengthens by
   // F R^3/EI (2/pi - 1/2) across them: handbook values
-  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, 0), kPi / 4 - 2 / kPi, 1e-14);
-  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, kPi / 2), 0.5 - 2 / kPi, 1e-14);
+  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, 0), pi / 4 - 2 / pi, 1e-14);
+  EXPECT_NEAR(2 * squeeze_mm({1, 1}, 2, 1, pi / 2), 0.5 - 2 / pi, 1e-14);
 }
 
 TEST(Ring, NoStretchOnAverageAndLargestInwardsAtTheJaws) {
@@ -53,13 +54,13 @@ TEST(Ring, NoStretchOnAverageAndLargestInwardsAtTheJaws) {
     double mean = 0, largest = 0;
     const int n = 3600;
     for (int i = 0; i < n; ++i) {
-      const double w = squeeze_mm(kRing, jaws, 2500, 2 * kPi * (i + 0.5) / n);
+      const double w = squeeze_mm(kRing, jaws, 2500, 2 * pi * (i + 0.5) / n);
       mean += w / n;
       largest = std::max(largest, w);
     }
     EXPECT_NEAR(mean, 0, 1e-5 * largest);
     EXPECT_LE(largest, squeeze_mm(kRing, jaws, 2500, 0));
-    EXPECT_LT(squeeze_mm(kRing, jaws, 2500, kPi / jaws), 0);
+    EXPECT_LT(squeeze_mm(kRing, jaws, 2500, pi / jaws), 0);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using units::rad_from_deg;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Heat, AWarmPartIsMeasuredSmaller) {
   // steel, 11.5e-6/K, 20 K, 60 mm: the diameter shrinks by 13.8 um
@@ -22,7 +22,7 @@ TEST(Heat, AWarmPartIsMeasuredSmaller) {
   EXPECT_EQ(heat_error_mm(11.5e-6, 0, 60), 0);
   EXPECT_GT(heat_error_mm(11.5e-6, -5, 60), 0);
   EXPECT_THROW(heat_error_mm(-1e-6, 1, 60), std::domain_error);
-  EXPECT_THROW(heat_error_mm(1e-6, kNaN, 60), std::domain_error);
+  EXPECT_THROW(heat_error_mm(1e-6, kNotANumber, 60), std::domain_error);
   EXPECT_THROW(heat_error_mm(1e-6, 1, 0), std::domain_error);
 }
 
@@ -60,9 +60,9 @@ TEST(Wear, RefusesWhatIsNoWedge) {
   EXPECT_THROW(wear_error_mm(0.1, {0.8, 0.8}, 1), std::domain_error);
   EXPECT_THROW(wear_error_mm(0.1, {1.6, -1}, 1), std::domain_error);
   EXPECT_THROW(wear_error_mm(0.1, {0.1, -1.6}, 1), std::domain_error);
-  EXPECT_THROW(wear_error_mm(0.1, {0.1, kNaN}, 1), std::domain_error);
+  EXPECT_THROW(wear_error_mm(0.1, {0.1, kNotANumber}, 1), std::domain_error);
   EXPECT_THROW(wear_error_mm(0.1, {0.1, 0}, 1.1), std::domain_error);
-  EXPECT_THROW(wear_error_mm(kNaN, {0.1, 0}, 1), std::domain_error);
+  EXPECT_THROW(wear_error_mm(kNotANumber, {0.1, 0}, 1), std::domain_error);
 }
 
 TEST(Toolpost, LumpedStiffnessAndACrossTerm) {

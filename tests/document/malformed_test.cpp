@@ -13,7 +13,7 @@
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::malformed_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST(Malformed, ReferencesAndContradictionsAreBeyondTheSchema) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::malformed_test

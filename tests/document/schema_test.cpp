@@ -11,7 +11,7 @@
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/document/stability.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInAStabilityRequest) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::schema_test

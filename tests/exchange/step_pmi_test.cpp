@@ -15,7 +15,7 @@ using Lines = std::vector<std::string>;
 
 // d1 30 x 40, d2 50 x 30, a cone d3, a groove d4, a bore b1 from the right.  The faces are
 // named after them: "#d1", "#left" ..
-Outline shaft() {
+Outline toleranced_shaft() {
   Outline o;
   const auto element = [](const char* id, Shape shape, double l, double d) {
     return Element{.id = id,
@@ -75,7 +75,7 @@ Lines lines(const Outline& o) {
 Lines lines(const GeometricTolerance& t) {
   auto pmi = with_datums();
   pmi.tolerances = {t};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   return lines(o);
 }
@@ -201,7 +201,7 @@ TEST(StepPmi, DatumsThatCannotBeAreNamed) {
   pmi.tolerances = {tolerance(Symbol::coaxiality, "#b1", "A"),
                     tolerance(Symbol::parallelism, "#d1|d2", "B"),
                     tolerance(Symbol::coaxiality, "#b1", "D")};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   ASSERT_EQ(o.ignored.size(), 3u);
   EXPECT_NE(o.ignored[0].text.find("datum A is made of datum targets"),
@@ -234,7 +234,7 @@ Dimension diameter(const char* face, double nominal_mm, double lower_mm,
 Outline with(const Dimension& d) {
   Pmi pmi;
   pmi.dimensions = {d};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   return o;
 }
@@ -256,7 +256,7 @@ TEST(StepPmi, DiametersGiveLimitsOrFits) {
 
 // Modelled at 29.9 where the drawing says 30 -0.2/0: the limits of size stay 29.8 and 30.
 TEST(StepPmi, LimitsStayLimitsOfSize) {
-  auto shape = shaft();
+  auto shape = toleranced_shaft();
   shape.outer[0].left_mm = shape.outer[0].right_mm = 29.9;
   Pmi pmi;
   pmi.dimensions = {diameter("#d1", 30, -0.2, 0)};
@@ -315,7 +315,7 @@ TEST(StepPmi, BasicSizesAreCountedTogether) {
   Pmi pmi;
   pmi.dimensions = {d,
                     {.at = "#7", .name = "diameter", .nominal_mm = 50, .of = on("#d2")}};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   EXPECT_EQ(lines(o),
             Lines{"2 dimensions are without a tolerance: the shape has the size."});
@@ -325,7 +325,7 @@ TEST(StepPmi, BasicSizesAreCountedTogether) {
 TEST(StepPmi, SecondToleranceOfADiameterIsNamed) {
   Pmi pmi;
   pmi.dimensions = {diameter("#d1", 30, -0.1, 0.1), diameter("#d1b", 30, -0.2, 0.2)};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   EXPECT_EQ(o.outer[0].demands.limits->upper_mm, 0.1);
   EXPECT_EQ(o.ignored.size(), 1u);
@@ -340,7 +340,7 @@ TEST(StepPmi, RoughnessIsADemandOfItsSurface) {
                   {.at = "#6", .parameter = "Rmr", .value_um = 1, .of = on("#d2")},
                   {.at = "#6", .parameter = "Ra", .value_um = 1, .of = on("#edge")},
                   {.at = "#6", .parameter = "Ra", .value_um = 1, .of = on("#elsewhere")}};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   EXPECT_EQ(o.outer[0].demands.Ra_um, 1.6);
   EXPECT_EQ(o.faces[0].demands.Rz_um, 25);
@@ -355,12 +355,12 @@ TEST(StepPmi, TitleMaterialAndGeneralTolerancesAreFilledIn) {
   pmi.part_name = "shaft";
   pmi.revision = "C";
   pmi.material = "C45";
-  auto o = shaft();
+  auto o = toleranced_shaft();
   o.title.revision = "D";  // known already
   add_pmi(pmi, o);
   EXPECT_EQ(o.title.drawing_number, "4711-08");
   pmi.part_number = pmi.part_name;  // the name of a model is no number of a drawing
-  auto unnumbered = shaft();
+  auto unnumbered = toleranced_shaft();
   add_pmi(pmi, unnumbered);
   EXPECT_EQ(unnumbered.title.drawing_number, "");
   EXPECT_EQ(o.title.revision, "D");
@@ -378,7 +378,7 @@ TEST(StepPmi, TitleMaterialAndGeneralTolerancesAreFilledIn) {
       {"sharp edges broken", ""}};
   for (const auto& [note, general] : notes) {
     pmi.notes = {{.at = "#5", .name = "", .text = note}};
-    auto with_note = shaft();
+    auto with_note = toleranced_shaft();
     add_pmi(pmi, with_note);
     EXPECT_EQ(with_note.general, general) << note;
   }
@@ -394,21 +394,21 @@ TEST(StepPmi, AnglesAndStrokesAreNamed) {
                  .upper_rad = 0.5 * kDeg}};
   pmi.annotations = 3;
   pmi.strokes_alone = {"Note.1", "Note.2"};
-  auto o = shaft();
+  auto o = toleranced_shaft();
   add_pmi(pmi, o);
   EXPECT_EQ(lines(o),
             (Lines{"The angle 60 +0.5/-0.5 deg is left out: a part document has no "
                    "tolerances of angles.",
                    "2 of 3 annotations are strokes without data: Note.1, Note.2."}));
   pmi.angles.clear();
-  auto drawn_only = shaft();
+  auto drawn_only = toleranced_shaft();
   add_pmi(pmi, drawn_only);
   EXPECT_EQ(lines(drawn_only),
             Lines{"Dimensions and tolerances are drawn only: 3 annotations are strokes "
                   "without data, of which nothing was read."});
 }
 
-// Holds a tolerance on shaft() with datums A, B, D against the table of kinds.
+// Holds a tolerance on toleranced_shaft() with datums A, B, D against the table of kinds.
 void expect_allowed(const part::Tolerance& t) {
   using Of = part::Toleranced;
   using Wanted = part::DatumFeature;
@@ -436,7 +436,7 @@ TEST(StepPmi, KindsKeepTheRulesOfTheirTable) {
           t.diametral = diametral;
           auto pmi = with_datums();
           pmi.tolerances = {t};
-          auto o = shaft();
+          auto o = toleranced_shaft();
           add_pmi(pmi, o);
           ASSERT_EQ(o.tolerances.size() + o.ignored.size(), 1u);
           made += o.tolerances.size();
@@ -447,7 +447,7 @@ TEST(StepPmi, KindsKeepTheRulesOfTheirTable) {
 
 // The three steps of the files in tests/data/step/pmi, with the faces that these hold.
 Outline three_steps(const Exchange& file) {
-  auto o = shaft();
+  auto o = toleranced_shaft();
   o.outer.resize(3);
   o.inner.clear();
   o.edges.clear();

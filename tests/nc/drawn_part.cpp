@@ -11,9 +11,9 @@ namespace turnwright::nc::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kChord_mm = 2e-6;  // of arcs
-constexpr double kStep_mm = 5e-3;   // along the centres of a rolling corner
-constexpr double kTouch_mm = 1e-7;  // of its distance
+constexpr double kArcChord_mm = 2e-6;  // of arcs
+constexpr double kStep_mm = 5e-3;      // along the centres of a rolling corner
+constexpr double kTouch_mm = 1e-7;     // of its distance
 
 constexpr double kBucket_mm = 0.2;
 
@@ -92,7 +92,8 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   std::vector<double> at{0, 1};
   if (e.cut && e.cut->kind == part::CutKind::arc) {
     const double R = e.cut->radius_mm;
-    const int n = 1 + static_cast<int>(2 * e.cut->path_mm / std::sqrt(8 * R * kChord_mm));
+    const int n =
+        1 + static_cast<int>(2 * e.cut->path_mm / std::sqrt(8 * R * kArcChord_mm));
     for (int i = 1; i < n; ++i) at.push_back((1 - std::cos(M_PI * i / n)) / 2);
   }
   for (const auto& c : p_.plan.compensation)
@@ -222,7 +223,7 @@ void DrawnPart::roll(Rolled& rolled, double r, std::size_t i) const {
   const auto along = [&](double u) { return Spot{a.x + u * way.x, a.z + u * way.z}; };
   keep_clear(rolled, r, l / kStep_mm, [&](double u) { return beside(along(u), normal); });
   if (turn < 0)  // an edge: the corner goes round it
-    keep_clear(rolled, r, -turn / std::sqrt(8 * kChord_mm / r),
+    keep_clear(rolled, r, -turn / std::sqrt(8 * kArcChord_mm / r),
                [&](double u) { return beside(b, normal + u * turn); });
   constexpr double kChords_rad = 0.02;  // more than between the chords of arcs
   if (turn > kChords_rad) {

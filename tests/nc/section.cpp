@@ -7,7 +7,7 @@
 namespace turnwright::nc::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // Lines lie between the round numbers of drawings.
 constexpr double kOffset = 0.4937;
 
@@ -16,7 +16,7 @@ double dot(const Spot& a, const Spot& b) { return a.z * b.z + a.x * b.x; }
 
 // Extent of a polygon in a direction.
 Interval extent(const Polygon& polygon, const Spot& direction) {
-  Interval all{kInfinity, -kInfinity};
+  Interval all{kUnbounded, -kUnbounded};
   for (const auto& p : polygon) {
     all.from = std::min(all.from, dot(p, direction));
     all.to = std::max(all.to, dot(p, direction));
@@ -166,7 +166,7 @@ std::size_t Lines::from(double place) const {
 }
 
 std::pair<std::size_t, std::size_t> Lines::range(const Polygon& polygon) const {
-  double low = kInfinity, high = -kInfinity;
+  double low = kUnbounded, high = -kUnbounded;
   for (const auto& p : polygon) {
     low = std::min(low, across(p));
     high = std::max(high, across(p));
@@ -175,7 +175,7 @@ std::pair<std::size_t, std::size_t> Lines::range(const Polygon& polygon) const {
 }
 
 void Lines::spans(const Polygon& convex, std::size_t first, std::size_t last) const {
-  spans_.assign(last - first, {kInfinity, -kInfinity});
+  spans_.assign(last - first, {kUnbounded, -kUnbounded});
   for (std::size_t k = 0; k < convex.size(); ++k) {
     const auto *a = &convex[k], *b = &convex[(k + 1) % convex.size()];
     if (across(*a) > across(*b)) std::swap(a, b);
@@ -224,8 +224,8 @@ double Lines::common(const Polygon& convex) const {
 }
 
 void Lines::keep_only(std::size_t i, const Interval& kept) {
-  take_off(on_[i], {-kInfinity, kept.from});
-  take_off(on_[i], {kept.to, kInfinity});
+  take_off(on_[i], {-kUnbounded, kept.from});
+  take_off(on_[i], {kept.to, kUnbounded});
 }
 
 Section::Section(const Spot& low, const Spot& high, double pitch)

@@ -9,14 +9,14 @@
 namespace turnwright::optimise {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // f(x) = cos(3 x) + x/5 over [-4, 4], bounded by its steepest slope between the points of
 // a grid.
 Relaxed waves(const Box& box, double) {
   const auto f = [](double x) { return std::cos(3 * x) + x / 5; };
   const Interval x = box[0];
-  double lower = kInfinity, at = mid(x);
+  double lower = kUnbounded, at = mid(x);
   for (int i = 0; i <= 64; ++i) {  // |f'| <= 3.2
     const double y = x.lo + width(x) * i / 64;
     if (f(y) - 3.2 * width(x) / 128 < lower) lower = f(at = y) - 3.2 * width(x) / 128;
@@ -25,7 +25,7 @@ Relaxed waves(const Box& box, double) {
 }
 
 double least_on_grid() {
-  double best = kInfinity;
+  double best = kUnbounded;
   for (int i = 0; i <= 800000; ++i) {
     const double x = -4 + 1e-5 * i;
     best = std::min(best, std::cos(3 * x) + x / 5);
@@ -36,7 +36,7 @@ double least_on_grid() {
 const Box kBox{Interval(-4, 4), Interval(0), Interval(0)};
 
 TEST(RelaxationSearch, BracketsTheLeastOfManyValleys) {
-  const auto r = relaxation_search(kBox, kInfinity, waves, {.gap = 1e-6});
+  const auto r = relaxation_search(kBox, kUnbounded, waves, {.gap = 1e-6});
   EXPECT_TRUE(r.complete);
   EXPECT_LE(r.lower_bound, least_on_grid());
   EXPECT_NEAR(r.upper_bound, least_on_grid(), 1e-6);
@@ -45,18 +45,19 @@ TEST(RelaxationSearch, BracketsTheLeastOfManyValleys) {
 }
 
 TEST(RelaxationSearch, WhatItKnowsWhenTheBudgetEnds) {
-  const auto r = relaxation_search(kBox, kInfinity, waves, {.gap = 1e-9, .max_nodes = 4});
+  const auto r =
+      relaxation_search(kBox, kUnbounded, waves, {.gap = 1e-9, .max_nodes = 4});
   EXPECT_FALSE(r.complete);
   EXPECT_EQ(r.nodes, 4);
   EXPECT_LE(r.lower_bound, least_on_grid());
 }
 
 TEST(RelaxationSearch, NothingAllowedAndNothingBetter) {
-  const auto nothing = relaxation_search(kBox, kInfinity, [](const Box&, double) {
-    return Relaxed{kInfinity, kInfinity, 0, 0};
+  const auto nothing = relaxation_search(kBox, kUnbounded, [](const Box&, double) {
+    return Relaxed{kUnbounded, kUnbounded, 0, 0};
   });
-  EXPECT_EQ(nothing.lower_bound, kInfinity);
-  EXPECT_EQ(nothing.upper_bound, kInfinity);
+  EXPECT_EQ(nothing.lower_bound, kUnbounded);
+  EXPECT_EQ(nothing.upper_bound, kUnbounded);
   const auto known = relaxation_search(kBox, -5, waves);
   EXPECT_EQ(known.upper_bound, -5);
   EXPECT_EQ(known.nodes, 1);

@@ -7,7 +7,7 @@
 #include "service/requests.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::answer_test {
 namespace {
 
 using nlohmann::json;
@@ -82,4 +82,4 @@ TEST(Requests, EveryRowIsNamedOnceAndItsExampleIsAnswered) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::answer_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace turnwright::service {
+namespace turnwright::service::digest_test {
 namespace {
 
 // NIST's example messages for SHA-256 (FIPS 180-4 and its test vectors).
@@ -20,4 +20,4 @@ TEST(Sha256, EqualsThePublishedExamples) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::digest_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-namespace turnwright::service {
+namespace turnwright::service::listing_test {
 namespace {
 
 std::set<std::string> ids(const std::vector<Entry>& list) {
@@ -48,4 +48,4 @@ TEST(Listing, AFolderWithoutPartsHasNone) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::listing_test

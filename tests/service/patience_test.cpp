@@ -10,7 +10,7 @@
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::patience_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -150,4 +150,4 @@ TEST(Patience, WorkWithoutEndIsRefusedBeforeItIsBegun) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::patience_test

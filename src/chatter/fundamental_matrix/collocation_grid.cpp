@@ -10,7 +10,7 @@
 namespace turnwright::chatter {
 namespace {
 
-constexpr double kGrowth = 4;  // largest contribution of one interval to ln |Phi|
+constexpr double kIntervalGrowth = 4;  // largest contribution of one interval to ln |Phi|
 constexpr std::size_t kFewest = 6, kMost = 20;  // nodes of an interval without roots
 constexpr double kStretches = 20000;            // of a period: a bound on time and memory
 
@@ -110,7 +110,7 @@ class Stretcher {
     const Receptance r = receptance(system_);
     const double force = kappa_max_ * load.largest_MPa;
     const double by_force =
-        kGrowth / std::min(force * r.impulse, std::sqrt(force * r.push));
+        kIntervalGrowth / std::min(force * r.impulse, std::sqrt(force * r.push));
     // Phases: Green's function has those of the free modes, the motion faster ones by the
     // force, and the directional factors twice that of the spindle.
     const double turns =

@@ -8,7 +8,7 @@
 namespace turnwright::chatter {
 namespace {
 
-constexpr double kDropped = 1e-17;  // terms of the series relative to Phi
+constexpr double kDroppedTerm = 1e-17;  // terms of the series relative to Phi
 constexpr std::size_t kDegree = 60;
 
 /// out = matrix f for a matrix of `rows` rows, stored column by column, and f row by row
@@ -94,7 +94,7 @@ class Expansion {
       double largest = 0;
       for (std::size_t e = 0; e < m * m; ++e)
         largest = std::max(largest, std::abs(end[e]));
-      if (largest * scale < kDropped) break;
+      if (largest * scale < kDroppedTerm) break;
       for (std::size_t a = 0; a < 2; ++a)
         if (stretches_.used[a])
           multiply(kernel.axis[a].data(), p, m, std::span(&force[a * p * m], p * m),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "periodic.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
@@ -11,10 +12,6 @@ namespace {
 using units::kPi;
 
 constexpr double kSame = 1e-11;  // rad: rounding of angles
-
-double remainder_of(double x, double period) {
-  return x - period * std::floor(x / period);
-}
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 

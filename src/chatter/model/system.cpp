@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chatter/model/periodic.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::chatter {
 namespace {
 
 constexpr double kNoArc = 1e-12;  // of a period: shorter arcs are rounding of angles
-
-double remainder_of(double x, double period) {
-  return x - period * std::floor(x / period);
-}
 
 double power_law_MPa(const PowerLawForce& f, double tau, double phi) {
   const double s = std::max(std::sin(phi), 0.0);

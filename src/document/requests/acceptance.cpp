@@ -21,15 +21,15 @@ using tolerance::Case;
 using tolerance::counts_deflection;
 using tolerance::Profile;
 
-constexpr std::size_t kCases = 10000, kPoints = 100000, kPieces = 2000,
+constexpr std::size_t kCases = 10000, kSamples = 100000, kPieces = 2000,
                       kCoefficients = 16;
 constexpr double kLargest_mm = 1000;
 constexpr double kMostWork = 1e9;    // draws times sources of one request: half a minute
 constexpr std::size_t kSorting = 3;  // sources whose drawing takes as long as the sorting
 const Bounds kDeviation = within(-kLargest_mm, kLargest_mm, "mm");
-const Bounds kPlace = within(-1e6, 1e6, "mm");
+const Bounds kAlong = within(-1e6, 1e6, "mm");
 
-struct Named {
+struct NamedCase {
   std::string id;  ///< empty: the request gave none
   Case value;
   std::optional<tolerance::BudgetDemand> budget;
@@ -47,7 +47,7 @@ const Choices<Kind>& kinds() {
 tolerance::PiecewisePolynomial read_polynomial(Reader r) {
   tolerance::PiecewisePolynomial f;
   const std::size_t before = r.problems().list.size();
-  f.breaks_mm = r.numbers("breaks_mm", kPlace, 2, kPieces + 1);
+  f.breaks_mm = r.numbers("breaks_mm", kAlong, 2, kPieces + 1);
   for (std::size_t k = 0; k + 1 < f.breaks_mm.size(); ++k)
     if (f.breaks_mm[k + 1] <= f.breaks_mm[k]) {
       r.problem_at("breaks_mm", "rising places", "order");
@@ -70,7 +70,7 @@ Profile read_profile(const Reader& r) {
     r.problem("a list of samples or an object with breaks_mm and coefficients", "type");
     return {};
   }
-  return tolerance::Samples{.e_mm = r.as_numbers(kDeviation, 1, kPoints)};
+  return tolerance::Samples{.e_mm = r.as_numbers(kDeviation, 1, kSamples)};
 }
 
 /// A length's e_mm that gives both faces: a list of two lists or objects.
@@ -81,7 +81,7 @@ bool is_pair(const Reader& e) {
 void read_places(Reader& r, Profile& profile) {
   if (!r.has("z_mm")) return;
   auto* samples = std::get_if<tolerance::Samples>(&profile);
-  const auto z = r.numbers("z_mm", kPlace, 1, kPoints);
+  const auto z = r.numbers("z_mm", kAlong, 1, kSamples);
   if (!samples) {
     r.problem_at("z_mm", "none beside breaks_mm", "combination");
     return;
@@ -147,11 +147,11 @@ std::optional<Case> read_case(Reader& r) {
   return c;
 }
 
-std::vector<Named> read_request(const nlohmann::json& request) {
+std::vector<NamedCase> read_request(const nlohmann::json& request) {
   Problems problems{.document = "acceptance"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-acceptance/1");
-  std::vector<Named> out;
+  std::vector<NamedCase> out;
   for (Reader item : r.items("cases", 1, kCases)) {
     item = item.as_object();
     std::string id = item.text_or("id", "");
@@ -163,7 +163,7 @@ std::vector<Named> read_request(const nlohmann::json& request) {
     }
   }
   double work = 0;
-  for (const Named& c : out)
+  for (const NamedCase& c : out)
     if (c.budget)
       work += static_cast<double>(c.budget->draws.count *
                                   (c.budget->sources.size() + kSorting));

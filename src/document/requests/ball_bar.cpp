@@ -18,10 +18,10 @@ namespace {
 using namespace volumetric;
 using nlohmann::json;
 
-constexpr std::size_t kPoints = 20000;
+constexpr std::size_t kTracePoints = 20000;
 constexpr std::size_t kLeast = 7;  // of each path: more values than terms
 const Bounds kRadius = above_up_to(0, 1e5, "mm"), kValue = within(-1e3, 1e3, "mm"),
-             kAngle = within(-1e3, 1e3, "rad"), kPlace = within(-1e5, 1e5, "mm");
+             kAngle = within(-1e3, 1e3, "rad"), kCentre = within(-1e5, 1e5, "mm");
 
 Plane read_plane(Reader& r) {
   return r.choice<Plane>("plane",
@@ -37,10 +37,10 @@ Simulation read_simulation(Reader r) {
   Simulation s{.machine = read_chain(r), .test = {}};
   s.test.plane = read_plane(r);
   s.test.R_mm = r.number("R_mm", kRadius);
-  s.test.n = static_cast<std::size_t>(r.integer("n", 1, kPoints));
+  s.test.n = static_cast<std::size_t>(r.integer("n", 1, kTracePoints));
   if (r.has("centre_offset_mm"))
     s.test.centre_offset_mm = read_vec3(r, "centre_offset_mm", kValue);
-  if (r.has("centre_mm")) s.test.centre_mm = read_vec3(r, "centre_mm", kPlace);
+  if (r.has("centre_mm")) s.test.centre_mm = read_vec3(r, "centre_mm", kCentre);
   s.test.theta0_rad = r.optional_number("theta0_rad", kAngle);
   r.finish();
   if (!chain_fault(s.machine.chain).empty()) return s;
@@ -69,7 +69,7 @@ void read_table(Reader& r, Trace& t) {
   }
   for (const CsvRow& row : csv_rows(r.at("csv", "the text of a table, or its lines"),
                                     {{.name = theta}, {.name = ccw}, {.name = cw}},
-                                    OtherColumns::ignored, kPoints)) {
+                                    OtherColumns::ignored, kTracePoints)) {
     Reader cells(row.value, r.problems(), row.pointer);
     const double at = cells.number(theta, within(-1e5, 1e5));
     t.theta_rad.push_back(degrees ? units::rad_from_deg(at) : at);
@@ -81,13 +81,13 @@ void read_table(Reader& r, Trace& t) {
 }
 
 void read_lists(Reader& r, Trace& t) {
-  t.ccw_mm = r.numbers("ccw_mm", kValue, kLeast, kPoints);
-  t.cw_mm = r.numbers("cw_mm", kValue, kLeast, kPoints);
+  t.ccw_mm = r.numbers("ccw_mm", kValue, kLeast, kTracePoints);
+  t.cw_mm = r.numbers("cw_mm", kValue, kLeast, kTracePoints);
   const std::size_t n = t.ccw_mm.size();
   if (n > 0 && !t.cw_mm.empty() && t.cw_mm.size() != n)
     r.problem_at("cw_mm", "as many values as ccw_mm has", "count");
   if (r.has("theta_rad")) {
-    t.theta_rad = r.numbers("theta_rad", kAngle, kLeast, kPoints);
+    t.theta_rad = r.numbers("theta_rad", kAngle, kLeast, kTracePoints);
     if (n > 0 && !t.theta_rad.empty() && t.theta_rad.size() != n)
       r.problem_at("theta_rad", "as many angles as ccw_mm has values", "count");
     if (r.has("theta0_rad"))
@@ -104,7 +104,7 @@ void read_lists(Reader& r, Trace& t) {
 Trace read_trace(Reader r, Vec3& centre_mm) {
   Trace t;
   t.plane = read_plane(r);
-  if (r.has("centre_mm")) centre_mm = read_vec3(r, "centre_mm", kPlace);
+  if (r.has("centre_mm")) centre_mm = read_vec3(r, "centre_mm", kCentre);
   t.R_mm = r.number("R_mm", kRadius);
   if (r.has("csv"))
     read_table(r, t);

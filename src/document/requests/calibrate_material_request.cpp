@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kCuts = 2000, kWearPoints = 1000, kLabs = 12;
+constexpr std::size_t kMeasuredCuts = 2000, kWearPoints = 1000, kLabs = 12;
 // Usual for turning with carbide (handbook values), where no material gives its own.
 constexpr double kUsual_a = 0.35, kUsual_b = 0.15;
 
@@ -120,7 +120,7 @@ std::vector<Reader> cuts_of(Reader& r, Request& q, std::vector<CsvRow>& rows) {
     return {};
   }
   q.cuts_pointer = csv ? "/csv" : "/cuts";
-  if (!csv) return r.items("cuts", 1, kCuts);
+  if (!csv) return r.items("cuts", 1, kMeasuredCuts);
   const auto optional = [](const char* name, bool text = false) {
     return CsvColumn{.name = name, .required = false, .text = text};
   };
@@ -138,7 +138,7 @@ std::vector<Reader> cuts_of(Reader& r, Request& q, std::vector<CsvRow>& rows) {
                    optional("edge", true),
                    optional("lab", true),
                    optional("replica", true)},
-                  OtherColumns::refused, kCuts);
+                  OtherColumns::refused, kMeasuredCuts);
   std::vector<Reader> all;
   for (const CsvRow& row : rows) all.emplace_back(row.value, r.problems(), row.pointer);
   return all;

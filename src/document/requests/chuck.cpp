@@ -20,9 +20,9 @@ namespace {
 using namespace turnwright::deflection;
 using nlohmann::json;
 
-constexpr std::size_t kTests = 2000, kPoints = 2000;
-const Bounds kPlace = within(0, 1e6, "mm"), kDiameter = above_up_to(0, 1e5, "mm"),
-             kForce = within(-1e6, 1e6, "N"), kError = within(-1000, 1000, "mm"),
+constexpr std::size_t kTests = 2000, kGraphPoints = 2000;
+const Bounds kTestPlace = within(0, 1e6, "mm"), kDiameter = above_up_to(0, 1e5, "mm"),
+             kTestForce = within(-1e6, 1e6, "N"), kError = within(-1000, 1000, "mm"),
              kArm = above_up_to(0, 1e6, "mm"), kTool = within(-1, 1, "mm/N");
 
 /// Above this a standard error of the predicted deflection causes a warning.
@@ -47,10 +47,10 @@ struct ChuckRequest {
   std::optional<Graph> graph;
 };
 
-Load read_load(Reader& r) {
-  return {.Fr_N = r.number("Fr_N", kForce),
-          .Ft_N = r.number("Ft_N", kForce),
-          .Fa_N = r.number("Fa_N", kForce)};
+Load read_test_load(Reader& r) {
+  return {.Fr_N = r.number("Fr_N", kTestForce),
+          .Ft_N = r.number("Ft_N", kTestForce),
+          .Fa_N = r.number("Fa_N", kTestForce)};
 }
 
 /// Members that a cut and a prediction have in common.
@@ -58,7 +58,7 @@ TestCut read_place(Reader& r, const Bounds& places) {
   TestCut cut;
   cut.z_mm = r.number("z_mm", places);
   cut.D_mm = r.number("D_mm", kDiameter);
-  cut.load = read_load(r);
+  cut.load = read_test_load(r);
   return cut;
 }
 
@@ -114,8 +114,8 @@ void read_cuts(Reader& r, const Bounds& places, ChuckRequest& q) {
 }
 
 Graph read_graph(Reader r) {
-  Graph g{.z_mm = r.numbers("z_mm", within(-1e6, 1e6, "mm"), 3, kPoints),
-          .e_mm = r.numbers("e_mm", kError, 3, kPoints),
+  Graph g{.z_mm = r.numbers("z_mm", within(-1e6, 1e6, "mm"), 3, kGraphPoints),
+          .e_mm = r.numbers("e_mm", kError, 3, kGraphPoints),
           .options = {}};
   g.options.max_degree =
       static_cast<int>(r.integer_or("max_degree", 0, 6, g.options.max_degree));
@@ -143,12 +143,12 @@ ChuckRequest read_chuck_request(const json& document, Problems& problems) {
   if (auto s = r.optional_object("shaft")) shaft = read_shaft(*s);
   const bool whole = shaft && problems.list.size() == before;
   const Bounds places =
-      whole ? within(0, part::length_mm(shaft->segments), "mm") : kPlace;
+      whole ? within(0, part::length_mm(shaft->segments), "mm") : kTestPlace;
 
   if (r.has("tests") || r.has("csv") || !r.has("graph")) read_cuts(r, places, q);
   for (Reader item : r.optional_items("predict", 0, kTests)) {
     item = item.as_object();
-    q.predict.push_back(read_place(item, kPlace));
+    q.predict.push_back(read_place(item, kTestPlace));
     item.finish();
   }
   q.Lc_mm = r.optional_number("Lc_mm", kArm);
@@ -283,7 +283,9 @@ json described(const PlaneAnswer& a, std::optional<double> Lc_mm) {
   return out;
 }
 
-std::string percent(double x) { return number_text(std::round(1000 * x) / 10) + " %"; }
+std::string percent_text(double x) {
+  return number_text(std::round(1000 * x) / 10) + " %";
+}
 
 void warn(const PlaneAnswer& a, const ChuckRequest& q, json& warnings) {
   const auto say = [&](const std::string& text) {
@@ -306,7 +308,7 @@ void warn(const PlaneAnswer& a, const ChuckRequest& q, json& warnings) {
   }
   if (coarsest > kCoarse)
     say("predicted deflections at the cuts have standard errors up to " +
-        percent(coarsest) + "; most useful next: " + words(a.can.most_useful));
+        percent_text(coarsest) + "; most useful next: " + words(a.can.most_useful));
   if (q.Lc_mm && !springs(fit.root, *q.Lc_mm))
     say("no three springs with this Lc_mm give this compliance");
 }

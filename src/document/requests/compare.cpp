@@ -20,29 +20,29 @@ using namespace volumetric;
 using nlohmann::json;
 
 constexpr std::size_t kParameters = 500, kRuns = 1000;
-const Bounds kValue = within(-1e6, 1e6);
+const Bounds kRun = within(-1e6, 1e6);
 
-struct Row {
+struct RunRow {
   Runs runs;
   std::string group, unit, pointer;
 };
 
 struct Calibration {
   std::string name;
-  std::vector<Row> rows;
+  std::vector<RunRow> rows;
 };
 
-Row named_row(Reader& r) {
+RunRow named_row(Reader& r) {
   return {.runs = {r.text("name", 32), {}},
           .group = r.text_or("group", ""),
           .unit = r.text_or("unit", "", 32),
           .pointer = r.pointer()};
 }
 
-Row read_row(Reader r) {
+RunRow read_row(Reader r) {
   r = r.as_object();
-  Row row = named_row(r);
-  for (const double value : r.numbers("runs", kValue, 2, kRuns))
+  RunRow row = named_row(r);
+  for (const double value : r.numbers("runs", kRun, 2, kRuns))
     row.runs.value.emplace_back(value);
   r.finish();
   return row;
@@ -70,24 +70,24 @@ std::vector<CsvColumn> columns_of(const Reader& csv) {
 }
 
 /// A line of a table; a blank cell means that the run has no value.
-Row line_row(const CsvRow& line, const std::map<std::size_t, std::string>& run_columns,
-             Problems& problems) {
+RunRow line_row(const CsvRow& line, const std::map<std::size_t, std::string>& run_columns,
+                Problems& problems) {
   json named{{"name", line.value.value("param", "")}};
   for (const char* key : {"group", "unit"})
     if (line.value.contains(key)) named[key] = line.value[key];
   Reader r(named, problems, line.pointer);
-  Row row = named_row(r);
+  RunRow row = named_row(r);
   Reader cells(line.value, problems, line.pointer);
   row.runs.value.resize(run_columns.rbegin()->first);
   for (const auto& [run, column] : run_columns)
-    row.runs.value[run - 1] = cells.optional_number(column, kValue);
+    row.runs.value[run - 1] = cells.optional_number(column, kRun);
   if (const auto n = values(row.runs).size(); n < 2)
     problems.add(
         {line.pointer, std::to_string(n) + " runs", "two runs or more", "count"});
   return row;
 }
 
-std::vector<Row> read_table(const Reader& csv) {
+std::vector<RunRow> read_table(const Reader& csv) {
   const std::size_t before = csv.problems().list.size();
   const auto columns = columns_of(csv);
   if (csv.problems().list.size() > before) return {};
@@ -108,7 +108,7 @@ std::vector<Row> read_table(const Reader& csv) {
     if (!c.text && !run_columns.emplace(run_of(c.name), c.name).second)
       csv.problem("a first line with run " + std::to_string(run_of(c.name)) + " twice",
                   "each run once", "duplicate");
-  std::vector<Row> out;
+  std::vector<RunRow> out;
   for (const CsvRow& line : csv_rows(csv, columns, OtherColumns::refused, kParameters))
     out.push_back(line_row(line, run_columns, csv.problems()));
   return out;
@@ -138,7 +138,7 @@ Calibration read_calibration(Reader r) {
   for (auto row = c.rows.begin(); row != c.rows.end(); ++row) {
     const std::string& name = row->runs.name;
     if (std::any_of(c.rows.begin(), row,
-                    [&](const Row& other) { return other.runs.name == name; }))
+                    [&](const RunRow& other) { return other.runs.name == name; }))
       r.problems().add(
           {row->pointer + "/name", '"' + name + '"', "each parameter once", "duplicate"});
     double factor = sign * (name.ends_with('b') ? reversal : 1.0);
@@ -152,9 +152,9 @@ Calibration read_calibration(Reader r) {
   return c;
 }
 
-const Row* row_of(const Calibration& c, const std::string& name) {
-  const auto found =
-      std::ranges::find_if(c.rows, [&](const Row& row) { return row.runs.name == name; });
+const RunRow* row_of(const Calibration& c, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      c.rows, [&](const RunRow& row) { return row.runs.name == name; });
   return found == c.rows.end() ? nullptr : &*found;
 }
 
@@ -162,7 +162,7 @@ json summary_json(const Summary& s, std::size_t n) {
   return {{"mean", s.mean}, {"sd", s.sd}, {"n", n}};
 }
 
-json agreement_json(const Row& a, const Row& b) {
+json agreement_json(const RunRow& a, const RunRow& b) {
   const Agreement found = agreement(a.runs, b.runs);
   json out{{"name", found.name},
            {"a", summary_json(found.a, values(a.runs).size())},
@@ -184,18 +184,18 @@ json agreement_json(const Row& a, const Row& b) {
 void add_jumps(const Calibration& own, const Calibration& other, json& jumps,
                json& notes) {
   std::vector<std::pair<std::string, std::string>> groups;  // of one unit each
-  for (const Row& row : own.rows)
+  for (const RunRow& row : own.rows)
     if (const std::pair of(row.group, row.unit);
         std::ranges::find(groups, of) == groups.end())
       groups.push_back(of);
   for (const auto& [group, unit] : groups) {
     std::vector<Runs> runs;
-    for (const Row& row : own.rows)
+    for (const RunRow& row : own.rows)
       if (row.group == group && row.unit == unit) runs.push_back(row.runs);
     for (const CommonJump& jump : common_jumps(runs)) {
       json changed = json::array();
       for (const Runs& r : runs) {
-        const Row* against = row_of(other, r.name);
+        const RunRow* against = row_of(other, r.name);
         if (!against || values(r).size() < 3) continue;
         const bool before = agreement(r, against->runs).overlap;
         if (agreement(without_run(r, jump.run), against->runs).overlap != before)
@@ -226,23 +226,23 @@ json compare(const json& request) {
   const Calibration a = read_calibration(r.object("a")),
                     b = read_calibration(r.object("b"));
   r.finish();
-  for (const Row& row : a.rows) {
-    const Row* other = row_of(b, row.runs.name);
+  for (const RunRow& row : a.rows) {
+    const RunRow* other = row_of(b, row.runs.name);
     if (other && other->unit != row.unit)
       problems.add({other->pointer + "/unit", '"' + other->unit + '"',
                     "the unit of a's " + row.runs.name + ", \"" + row.unit + '"',
                     "conflict"});
   }
   const bool common = std::ranges::any_of(
-      a.rows, [&](const Row& row) { return row_of(b, row.runs.name) != nullptr; });
+      a.rows, [&](const RunRow& row) { return row_of(b, row.runs.name) != nullptr; });
   if (problems.list.empty() && !common)
     r.problem("no parameter in both", "at least one parameter in both", "conflict");
   problems.throw_if_any();
 
   json parameters = json::array(), agreeing = json::array(), only_a = json::array(),
        only_b = json::array(), jumps = json::array(), notes = json::array();
-  for (const Row& row : a.rows) {
-    const Row* other = row_of(b, row.runs.name);
+  for (const RunRow& row : a.rows) {
+    const RunRow* other = row_of(b, row.runs.name);
     if (!other) {
       only_a.push_back(row.runs.name);
       continue;
@@ -250,7 +250,7 @@ json compare(const json& request) {
     parameters.push_back(agreement_json(row, *other));
     if (parameters.back()["overlap"]) agreeing.push_back(row.runs.name);
   }
-  for (const Row& row : b.rows)
+  for (const RunRow& row : b.rows)
     if (!row_of(a, row.runs.name)) only_b.push_back(row.runs.name);
   notes.push_back(std::to_string(agreeing.size()) + " of " +
                   std::to_string(parameters.size()) +

@@ -23,7 +23,7 @@ using chatter::ModalFit;
 using chatter::NoFit;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kRows = 20000, kLines = 5000;
+constexpr std::size_t kRows = 20000, kFrequencyLines = 5000;
 const Bounds kFrequency = within(0, 1e6, "Hz"), kPart = within(-1e12, 1e12);
 
 /// Unit of a response: its order of derivative by time, and its length in mm.
@@ -190,8 +190,9 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   const std::vector<Line> lines = in_band(r, std::move(all));
   const auto modes = r.optional_integer("modes", 1, chatter::kMostModes);
   r.finish();
-  if (lines.size() > kLines)
-    r.problem_at("csv", "at most " + std::to_string(kLines) + " lines in the band",
+  if (lines.size() > kFrequencyLines)
+    r.problem_at("csv",
+                 "at most " + std::to_string(kFrequencyLines) + " lines in the band",
                  "count");
   if (r.broken() || r.problems().list.size() > before) return std::nullopt;
   const auto found =

@@ -10,7 +10,7 @@ namespace {
 using namespace volumetric;
 using nlohmann::json;
 
-constexpr std::size_t kPoints = 100000;
+constexpr std::size_t kGeometryPoints = 100000;
 
 Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -29,8 +29,8 @@ GeometryRequest read_geometry_request(const json& request) {
   GeometryRequest q{.machine = read_chain(r), .points = {}, .surfaces = {}};
   q.machine.tool_point_mm = read_vec3(r, "tool_point_mm", within(-1e6, 1e6, "mm"));
   q.surfaces = read_turned(r, q.machine.chain);
-  const auto items = r.has("turned") ? r.optional_items("points", 1, kPoints)
-                                     : r.items("points", 1, kPoints);
+  const auto items = r.has("turned") ? r.optional_items("points", 1, kGeometryPoints)
+                                     : r.items("points", 1, kGeometryPoints);
   for (const Reader& point : items) q.points.push_back(read_position(point, q.machine));
   r.finish();
   problems.throw_if_any();

@@ -17,8 +17,8 @@ using namespace volumetric;
 using nlohmann::json;
 
 constexpr std::size_t kIndexations = 500, kBalls = 100, kPerIndexation = 100;
-const Bounds kPlace = within(-1e5, 1e5, "mm"), kReading = within(-100, 100, "mm"),
-             kAngle = within(-3600, 3600, "deg");
+const Bounds kBallPlace = within(-1e5, 1e5, "mm"), kReading = within(-100, 100, "mm"),
+             kPoseAngle = within(-3600, 3600, "deg");
 
 struct CalibrationRequest {
   SambaStrategy strategy;
@@ -69,7 +69,7 @@ void check_scale_bar(Reader& r, const SambaStrategy& s) {
 SambaStrategy read_strategy(Reader r) {
   SambaStrategy s;
   for (const Reader& pose : r.items("indexations_deg", 1, kIndexations)) {
-    const auto bc = pose.as_numbers(kAngle, 2, 2);
+    const auto bc = pose.as_numbers(kPoseAngle, 2, 2);
     if (bc.size() == 2)
       s.indexations.push_back(
           {units::rad_from_deg(bc[0]), units::rad_from_deg(bc[1]), {}, {}});
@@ -77,7 +77,7 @@ SambaStrategy read_strategy(Reader r) {
       s.indexations.push_back({});
   }
   for (const Reader& ball : r.items("balls_mm", 2, kBalls))
-    s.balls_mm.push_back(vec3(ball, kPlace));
+    s.balls_mm.push_back(vec3(ball, kBallPlace));
   const auto seen = r.items("balls_seen", 1, kIndexations);
   if (!seen.empty() && !s.indexations.empty() && seen.size() != s.indexations.size())
     r.problem_at("balls_seen", "one list for each of indexations_deg", "count");
@@ -90,7 +90,7 @@ SambaStrategy read_strategy(Reader r) {
   if (auto moves = r.optional_object("pre_moves")) read_pre_moves(*moves, s);
   const bool touched = std::ranges::any_of(
       s.indexations, [](const Indexation& at) { return !at.pre_moves.empty(); });
-  if (touched || r.has("facet_mm")) s.facet_mm = read_vec3(r, "facet_mm", kPlace);
+  if (touched || r.has("facet_mm")) s.facet_mm = read_vec3(r, "facet_mm", kBallPlace);
   if (touched || r.has("facet_normal")) {
     s.facet_normal = read_vec3(r, "facet_normal", within(-1, 1));
     if (r.has("facet_normal") && r.json()["facet_normal"] == json{0, 0, 0})
@@ -101,7 +101,7 @@ SambaStrategy read_strategy(Reader r) {
   if (r.has("styli_mm")) {
     s.styli_mm.clear();
     for (const Reader& tip : r.items("styli_mm", 1, 10))
-      s.styli_mm.push_back(vec3(tip, kPlace));
+      s.styli_mm.push_back(vec3(tip, kBallPlace));
   }
   r.finish();
   return s;

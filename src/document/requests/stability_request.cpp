@@ -26,7 +26,7 @@ constexpr std::size_t kDrawn = 10000, kSearches = 100'000;  // samples, times sp
 constexpr double kSlenderDamping = 0.03;
 constexpr std::size_t kShapedSpeeds = 500;  // of cutters beyond straight and even edges
 const Bounds kSpeed = within(1, 1e6, "1/min"), kDepth = above_up_to(0, 1000, "mm"),
-             kPointDepth = within(0, 1000, "mm"), kFrequency = within(0.1, 1e6, "Hz"),
+             kPointDepth = within(0, 1000, "mm"), kModeFrequency = within(0.1, 1e6, "Hz"),
              kDamping = within(1e-6, 10), kMass = within(1e-9, 1e9, "kg"),
              kStiffness = within(1e-6, 1e12, "N/mm"),
              kPressure = within(1e-3, 1e6, "MPa"), kFeed = above_up_to(0, 10, "mm");
@@ -48,7 +48,7 @@ double read_stiffness(Reader& r, double wn_rad_s) {
 
 Mode read_mode(Reader r, Axis axis, std::optional<double> damping) {
   Mode mode{.axis = axis};
-  mode.wn_rad_s = 2 * units::kPi * r.number("frequency_Hz", kFrequency);
+  mode.wn_rad_s = 2 * units::kPi * r.number("frequency_Hz", kModeFrequency);
   mode.zeta = damping ? r.number_or("damping_ratio", kDamping, *damping)
                       : r.number("damping_ratio", kDamping);
   mode.k_N_mm = read_stiffness(r, mode.wn_rad_s);

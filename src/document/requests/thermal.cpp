@@ -23,19 +23,19 @@ namespace {
 using namespace turnwright::thermal;
 using nlohmann::json;
 
-constexpr std::size_t kRows = 50000, kParts = 10000;
+constexpr std::size_t kLogRows = 50000, kParts = 10000;
 const Bounds kTime = within(-1e9, 1e9, "s"), kSpan = above_up_to(0, 1e9, "s"),
-             kSpeed = within(0, 1e6, "1/min"), kFeed = within(0, 1e6, "mm/min"),
-             kAmbient = within(-100, 200, "degC"), kError = within(-1e6, 1e6, "um");
+             kLogSpeed = within(0, 1e6, "1/min"), kFeedRate = within(0, 1e6, "mm/min"),
+             kAmbient = within(-100, 200, "degC"), kDrift = within(-1e6, 1e6, "um");
 
 using Columns = std::map<std::string, std::vector<double>>;
 
 const std::map<std::string, Bounds>& log_bounds() {
   static const std::map<std::string, Bounds> kAll{{"time_s", kTime},
-                                                  {"rpm", kSpeed},
+                                                  {"rpm", kLogSpeed},
                                                   {"ambient_degC", kAmbient},
-                                                  {"error_um", kError},
-                                                  {"feed_mm_min", kFeed}};
+                                                  {"error_um", kDrift},
+                                                  {"feed_mm_min", kFeedRate}};
   return kAll;
 }
 
@@ -65,9 +65,9 @@ Columns read_table(Reader& r, const std::vector<std::string>& required,
                    const std::vector<std::string>& optional) {
   Columns out;
   for (const auto& key : required)
-    out[key] = r.numbers(key, log_bounds().at(key), 1, kRows);
+    out[key] = r.numbers(key, log_bounds().at(key), 1, kLogRows);
   for (const auto& key : optional)
-    if (r.has(key)) out[key] = r.numbers(key, log_bounds().at(key), 1, kRows);
+    if (r.has(key)) out[key] = r.numbers(key, log_bounds().at(key), 1, kLogRows);
   return out;
 }
 
@@ -82,7 +82,8 @@ Columns read_csv_log(Reader& r) {
   std::vector<CsvColumn> columns;
   for (const auto& [key, name] : names) columns.push_back({.name = name});
   Columns out;
-  for (const CsvRow& row : csv_rows(r.at("csv"), columns, OtherColumns::ignored, kRows)) {
+  for (const CsvRow& row :
+       csv_rows(r.at("csv"), columns, OtherColumns::ignored, kLogRows)) {
     Reader cells(row.value, r.problems(), row.pointer);
     for (const auto& [key, name] : names)
       out[key].push_back(cells.number(name, log_bounds().at(key)));

@@ -16,7 +16,7 @@ namespace {
 constexpr double kInside = 1e-6;           // ln n: from an excluded speed
 constexpr double kBracket = 1e-7;          // ln n: a loss of stability is known to this
 constexpr double kCoarse = 4, kFine = 16;  // speeds per margin
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfSpeed = 1e-9;
 constexpr long kSteps = 4000;  // points tried
 
 struct Span {
@@ -71,7 +71,7 @@ std::vector<Span> left_by(const MilledCase& c, const std::vector<Lost>& losses) 
   double from = whole->lo;
   bool cut = false;  // whether the rest begins at a speed that is itself ruled out
   const auto keep = [&](double to) {
-    if (to > from * (1 + kRounding)) left.push_back({from, to});
+    if (to > from * (1 + kRoundingOfSpeed)) left.push_back({from, to});
   };
   for (const auto& s : out) {
     if (s.hi < whole->lo || s.lo > whole->hi) continue;

@@ -15,15 +15,15 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kKept = 8e-10;      // beyond a limit: what the optimum's places leave
-constexpr int kLooks = 24;           // feeds looked at to each side of the optimum
-constexpr int kBisections = 20;      // of a feed
-constexpr int kRounds = 20;          // of adding positions of tolerances
-constexpr int kStretches = 8;        // of a curve to begin with
-constexpr int kHalvings = 8;         // of one of them
-constexpr double kChord = 1e-4;      // ln: how far a chord may be from its curve
-constexpr double kMeets = 1e-9;      // of the feed: where one limit takes over
-constexpr std::size_t kCost = 1000;  // in place of a limit's number
+constexpr double kLimitKept = 8e-10;  // beyond a limit: what the optimum's places leave
+constexpr int kLooks = 24;            // feeds looked at to each side of the optimum
+constexpr int kBisections = 20;       // of a feed
+constexpr int kPositionRounds = 20;   // of adding positions of tolerances
+constexpr int kStretches = 8;         // of a curve to begin with
+constexpr int kHalvings = 8;          // of one of them
+constexpr double kChord = 1e-4;       // ln: how far a chord may be from its curve
+constexpr double kMeets = 1e-9;       // of the feed: where one limit takes over
+constexpr std::size_t kCost = 1000;   // in place of a limit's number
 
 std::string cost_name(double percent) { return fmt::format("cost +{:g} %", percent); }
 
@@ -66,7 +66,8 @@ struct Slice {
     const auto F = forces(chain, c);
     std::optional<Row> row;
     const auto sink = [&](std::size_t k, Check check, bool, double v, double limit) {
-      if (!row && !(v <= limit + kKept * std::abs(limit))) row = Row{k, check, false};
+      if (!row && !(v <= limit + kLimitKept * std::abs(limit)))
+        row = Row{k, check, false};
     };
     depth_checks(o(), f, at.a, F[i], tagged<double>(sink, i, false));
     chatter_checks(o(), i, f, at.a, sink);
@@ -87,7 +88,7 @@ struct Slice {
         (upper ? s.upper : s.lower) = {v, k};
       ++k;
     });
-    if (!(s.lower.v <= s.upper.v * (1 + kKept))) return {};
+    if (!(s.lower.v <= s.upper.v * (1 + kLimitKept))) return {};
     s.upper.v = std::max(s.lower.v, s.upper.v);
     const double best = best_speed(o(), f, at.a, Window<double>{s.lower.v, s.upper.v}).v;
     if (!(cost(best, f, n_cap) <= most)) return {};
@@ -117,7 +118,7 @@ struct Slice {
     const auto F = force(f);
     const double n_cap = spindle_cap(o(), F, at.a);
     const auto w = speed_window(o(), f, at.a, F, n_cap);
-    if (!(w.lower <= w.upper * (1 + kKept))) return false;
+    if (!(w.lower <= w.upper * (1 + kLimitKept))) return false;
     return cost(best_speed(o(), f, at.a, w).v, f, n_cap) <= most;
   }
 
@@ -352,7 +353,7 @@ std::optional<OperatingWindow> operating_window(const PreparedPart& plan,
   Feeds feeds;
   double most = 0;
   bool more = true;
-  for (int round = 0; more && round < kRounds; ++round) {
+  for (int round = 0; more && round < kPositionRounds; ++round) {
     chain =
         task.feature.chain(recipe, task.economy, exchange.stations(), answer.choice.a);
     if (!chain) return {};

@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMost = 40;  // rows of a table
 
-std::string header(const ordered_json& result) {
+std::string chart_header(const ordered_json& result) {
   std::string out = tag("h1", "Stability of the cut");
   if (const auto& best = object(result, "best"); !best.empty()) {
     out += "<dl>\n";
@@ -140,7 +140,7 @@ std::string points(const ordered_json& result) {
 std::string stability_html(std::string_view, const ordered_json& result,
                            const std::vector<Figure>& figures) {
   return page("Stability of the cut",
-              header(result) +
+              chart_header(result) +
                   figure_named(figures, "stability.svg", "Depth over spindle speed") +
                   warnings(result) + force(result) + responses(result) + points(result) +
                   speeds(result) + assumptions(result));

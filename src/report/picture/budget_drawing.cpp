@@ -15,7 +15,7 @@ namespace {
 using planning::ToleranceResult;
 
 // Millimetres of paper.
-constexpr double kPage = 190, kFirst = 66, kWhole = 100, kMost = 1.2;  // of kWhole
+constexpr double kPage = 190, kNamesEnd = 66, kWhole = 100, kMost = 1.2;  // of kWhole
 constexpr double kRow = 6.5, kBar = 4, kTop = 20, kKey = 3, kKeyWidth = 30;
 constexpr std::size_t kName = 60, kLabel = 36, kKeysARow = 6;
 
@@ -43,18 +43,18 @@ void box(Svg& svg, const std::string& css_class, double x0, double x1, double y0
 
 void draw_bar(Svg& svg, const ToleranceResult& t, const Stack& s, double y) {
   const double scale = kWhole / units::um_from_mm(t.width_mm);
-  const double last = kFirst + kMost * kWhole;
+  const double last = kNamesEnd + kMost * kWhole;
   const auto label = t.id + ": " + kind_words(part::name(t.kind)) + " of " + t.of;
-  svg.text({kFirst - 2, y + kBar - 1}, Anchor::end, clipped(label, kLabel));
-  double x = kFirst;
+  svg.text({kNamesEnd - 2, y + kBar - 1}, Anchor::end, clipped(label, kLabel));
+  double x = kNamesEnd;
   for (const auto& [source, um] : s.slices) {
     const double to = std::min(last, x + scale * std::max(0.0, um));
     if (to > x) box(svg, paint(source), x, to, y, y + kBar);
     x = to;
   }
-  box(svg, "frame", kFirst, kFirst + kWhole, y, y + kBar);
+  box(svg, "frame", kNamesEnd, kNamesEnd + kWhole, y, y + kBar);
   svg.text(
-      {std::max(x, kFirst + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
+      {std::max(x, kNamesEnd + kWhole) + 1.5, y + kBar - 1}, Anchor::start,
       plain(units::um_from_mm(t.width_mm), 1) + " \u00b5m" + (s.over() ? ", over" : ""),
       s.over() ? "accent" : "");
 }

@@ -12,7 +12,7 @@ using planning::PreparedPart;
 
 constexpr double kNothing_mm = 1e-9;  // shorter runs are rounding of sums of lengths
 
-constexpr int kChords = 12;  // of an arc
+constexpr int kArcChords = 12;  // of an arc
 
 // Points of an arc are M + t e +- n (sqrt(R^2 - t^2) - d), M the middle of its chord, t
 // along it, d = sqrt(R^2 - c^2/4) the centre's distance from it.
@@ -23,8 +23,8 @@ Runs chords(const part::Cut& arc, double z, double length) {
   const double d = std::sqrt(std::max(0.0, R * R - c * c / 4));
   Runs all;
   Run run{z, z, r0, r0};
-  for (int k = 1; k <= kChords; ++k) {
-    const double t = c * (static_cast<double>(k) / kChords - 0.5);
+  for (int k = 1; k <= kArcChords; ++k) {
+    const double t = c * (static_cast<double>(k) / kArcChords - 0.5);
     const double off = side * (std::sqrt(std::max(0.0, R * R - t * t)) - d);
     run.z1 = z + length / 2 + t * e_z - off * e_r;
     run.r1 = (r0 + r1) / 2 + t * e_r + off * e_z;

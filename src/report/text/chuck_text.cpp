@@ -74,7 +74,7 @@ std::string compliance(const ordered_json& root, const ordered_json& fit) {
                                      shown(number(springs, "Lc_mm"), 1), arm(0), arm(1)));
 }
 
-std::string offsets(const ordered_json& fit) {
+std::string fitted_offsets(const ordered_json& fit) {
   std::vector<std::string> all;
   for (const auto& o : list(fit, "offsets"))
     all.push_back(
@@ -103,7 +103,7 @@ std::string fitted(const char* plane, const ordered_json& result) {
                      fmt::format("at the border of the elastic chucks, the best of all "
                                  "fits {} s^2 better",
                                  shown(number(fit, "contradiction"), 2)));
-  return out + offsets(fit) + outliers(fit);
+  return out + fitted_offsets(fit) + outliers(fit);
 }
 
 /// Identifiability by planned cuts, for which no errors are given.

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string header(const ordered_json& result) {
+std::string multipass_header(const ordered_json& result) {
   std::string out = "MULTI-PASS TURNING\n";
   if (word(result, "status") != "ok")
     return out + paragraph("status  ", word(result, "status"));
@@ -37,7 +37,7 @@ Row pass(const char* name, const ordered_json& x) {
   return row;
 }
 
-std::string conditions(const ordered_json& result) {
+std::string multipass_conditions(const ordered_json& result) {
   const auto& rough = object(result, "rough");
   if (!rough.empty())
     return "\nCONDITIONS\n" +
@@ -83,7 +83,7 @@ std::string counts(const ordered_json& result) {
          table({{"n"}, {"cost"}, {"at least"}, {"status", Align::left}}, rows);
 }
 
-std::string conflicts(const ordered_json& result) {
+std::string multipass_conflicts(const ordered_json& result) {
   std::vector<std::string> names;
   for (const auto& c : list(result, "conflicts"))
     if (c.is_string()) names.push_back(c.get<std::string>());
@@ -106,8 +106,8 @@ std::string conflicts(const ordered_json& result) {
 }  // namespace
 
 std::string multipass_text(const ordered_json& result) {
-  return header(result) + made_by(result) + conflicts(result) + conditions(result) +
-         binding(result) + counts(result);
+  return multipass_header(result) + made_by(result) + multipass_conflicts(result) +
+         multipass_conditions(result) + binding(result) + counts(result);
 }
 
 }  // namespace turnwright::report

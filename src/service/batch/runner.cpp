@@ -29,7 +29,7 @@ struct Item {
 };
 
 // A line that BatchInput has cut off is not blank, even if it begins with blanks.
-bool blank(const std::string& line) {
+bool blank_item(const std::string& line) {
   return line.size() <= document::ParseLimits{}.bytes &&
          line.find_first_not_of(" \t\r") == std::string::npos;
 }
@@ -96,7 +96,7 @@ class Missing {
 };
 
 void answer(Item& item, const document::Catalogue& catalogue, KnownAnswers& known) {
-  if (blank(item.text)) return item.text.clear();
+  if (blank_item(item.text)) return item.text.clear();
   BatchRecord record;
   try {
     const auto request = read_batch_line(item.text);

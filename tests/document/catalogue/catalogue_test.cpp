@@ -9,7 +9,7 @@
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::catalogue_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -489,4 +489,4 @@ TEST(DataFolder, TheArgumentBeatsTheEnvironmentBeatsTheSourceTree) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::catalogue_test

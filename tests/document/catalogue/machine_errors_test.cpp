@@ -15,7 +15,7 @@
 #include "turnwright/volumetric/samba.hpp"
 
 // The member "errors" of a machine's document.
-namespace turnwright::document {
+namespace turnwright::document::machine_errors_test {
 namespace {
 
 using nlohmann::json;
@@ -311,4 +311,4 @@ TEST(Calibration, OfMachinesThatLackAnAxisIsRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::machine_errors_test

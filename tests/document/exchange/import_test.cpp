@@ -10,7 +10,7 @@
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/exchange/notation.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::import_test {
 namespace {
 
 using nlohmann::json;
@@ -165,4 +165,4 @@ TEST(Import, TheNextBarLeavesAMillimetre) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::import_test

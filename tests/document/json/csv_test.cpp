@@ -7,7 +7,7 @@
 
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::csv_test {
 namespace {
 
 using nlohmann::json;
@@ -208,4 +208,4 @@ TEST(Csv, AMissingMemberIsReportedByItsReaderAlone) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::csv_test

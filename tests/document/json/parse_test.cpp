@@ -7,7 +7,7 @@
 
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::parse_test {
 namespace {
 
 std::string refusal(std::string_view text, const ParseLimits& limits = {}) {
@@ -121,4 +121,4 @@ TEST(Parse, AnswersInPrintableAscii) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::parse_test

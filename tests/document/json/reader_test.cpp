@@ -6,7 +6,7 @@
 
 #include "document/json/parse.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::reader_test {
 namespace {
 
 // What the list of problems reads like, one per line, without the document's name.
@@ -22,12 +22,12 @@ enum class Colour { red, green };
 const Choices<Colour> kColours{{"red", Colour::red}, {"green", Colour::green}};
 
 TEST(Reader, ReadsWhatIsThere) {
-  const auto json = parse(
+  const auto document = parse(
       R"({"d_mm": 40, "n": 3, "name": "shaft", "hard": true, "colour": "green",
           "list_mm": [1, 2.5], "inner": {"x": 0}})",
       "test");
   Problems problems;
-  Reader r(json, problems);
+  Reader r(document, problems);
   EXPECT_EQ(r.number("d_mm", above(0, "mm")), 40);
   EXPECT_EQ(r.integer("n", 1, 6), 3);
   EXPECT_EQ(r.text("name"), "shaft");
@@ -44,12 +44,12 @@ TEST(Reader, ReadsWhatIsThere) {
 }
 
 TEST(Reader, ListsEveryProblemWithPointerValueUnitAndLimits) {
-  const auto json = parse(
+  const auto document = parse(
       R"({"d_mm": -40, "n": 3.7, "name": 5, "colour": "blue", "list": [1, "x", 9],
           "inner": 3, "x/y": {"z": 2}, "diamter_mm": 1, "zzz": 1})",
       "test");
   Problems problems;
-  Reader r(json, problems);
+  Reader r(document, problems);
   EXPECT_TRUE(std::isnan(r.number("d_mm", above(0, "mm"))));
   EXPECT_EQ(r.integer("n", 1, 6), 1);
   EXPECT_EQ(r.text("name"), "");
@@ -90,11 +90,11 @@ TEST(Reader, ARangeEndsWhereItsSignSays) {
 
 // Lengths that no shape has, and what overflows once it is divided by.
 TEST(Reader, WhatIsTooSmallToComputeWithIsZero) {
-  const auto json = parse(R"({"a_mm": 1e-10, "b_mm": 1e-8, "c_mm": 1e-10, "d_mm": -1e-10,
+  const auto document = parse(R"({"a_mm": 1e-10, "b_mm": 1e-8, "c_mm": 1e-10, "d_mm": -1e-10,
                               "e": 5e-324, "f": 1e-99, "g": 5e-324})",
                           "test");
   Problems problems;
-  Reader r(json, problems);
+  Reader r(document, problems);
   r.number("a_mm", above(0, "mm"));
   EXPECT_EQ(r.number("b_mm", above(0, "mm")), 1e-8);
   EXPECT_EQ(r.number("c_mm", at_least(0, "mm")), 1e-10);
@@ -108,9 +108,9 @@ TEST(Reader, WhatIsTooSmallToComputeWithIsZero) {
 }
 
 TEST(Reader, AnIntegerNeverWraps) {
-  const auto json = parse("[18446744073709551615, 5.0, 1e3, -1]", "test");
+  const auto document = parse("[18446744073709551615, 5.0, 1e3, -1]", "test");
   Problems problems;
-  for (const auto& item : Reader(json, problems).as_items(4, 4)) item.as_integer(0, 10);
+  for (const auto& item : Reader(document, problems).as_items(4, 4)) item.as_integer(0, 10);
   EXPECT_EQ(told(problems),
             "/0: got 18446744073709551615, expected a whole number from 0 to 10 [range]\n"
             "/1: got 5.0, expected a whole number from 0 to 10 [type]\n"
@@ -125,4 +125,4 @@ TEST(Reader, SuggestsOnlyWhatIsNear) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::reader_test

@@ -7,7 +7,7 @@
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::choices_test {
 namespace {
 
 using nlohmann::json;
@@ -112,4 +112,4 @@ TEST(Choices, OnlyAPlanChooses) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::choices_test

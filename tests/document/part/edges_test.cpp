@@ -8,7 +8,7 @@
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::edges_test {
 namespace {
 
 using nlohmann::json;
@@ -195,4 +195,4 @@ TEST(Edges, OfAnUnreadablePartAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::edges_test

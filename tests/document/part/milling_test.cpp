@@ -9,7 +9,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::milling_test {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ TEST(Milling, SchemaAgreesWithTheReaderOnEverySlip) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::milling_test

@@ -9,7 +9,7 @@
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/prepared_part.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::part_plan_test {
 namespace {
 
 using nlohmann::json;
@@ -702,4 +702,4 @@ TEST(WhatIf, RefusalsNameTheChange) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::part_plan_test

@@ -5,7 +5,7 @@
 #include "../schema_check.hpp"
 #include "document/json/file.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::drawing_test {
 namespace {
 
 using nlohmann::json;
@@ -131,4 +131,4 @@ TEST(Drawing, FitsItsSchemaForEveryReferencePart) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::drawing_test

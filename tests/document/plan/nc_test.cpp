@@ -13,7 +13,7 @@
 #include "turnwright/document/compensate.hpp"
 #include "turnwright/planning/plan.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::nc_test {
 namespace {
 
 using nlohmann::json;
@@ -187,4 +187,4 @@ TEST(NcDoor, PointsIntoThePart) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::nc_test

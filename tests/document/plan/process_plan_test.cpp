@@ -8,7 +8,7 @@
 #include "../schema_check.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::process_plan_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -206,4 +206,4 @@ TEST(ProcessPlan, ANumberThatIsNoneIsABrokenPromise) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::process_plan_test

@@ -11,7 +11,7 @@
 #include "../slips.hpp"
 #include "turnwright/part/tolerance_kind.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::acceptance_test {
 namespace {
 
 using nlohmann::json;
@@ -385,4 +385,4 @@ TEST(Budget, RefusesTooMuchWork) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::acceptance_test

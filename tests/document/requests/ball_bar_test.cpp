@@ -8,7 +8,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::ball_bar_test {
 namespace {
 
 using nlohmann::json;
@@ -142,4 +142,4 @@ TEST(BallBarDoor, SchemaAndReaderAgreeOnEverySlip) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::ball_bar_test

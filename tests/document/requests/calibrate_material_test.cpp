@@ -12,7 +12,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/cutting/cut.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::calibrate_material_test {
 namespace {
 
 using nlohmann::json;
@@ -636,4 +636,4 @@ calibrate-material: /cuts/6: got an object, expected a lab, as other cuts have)"
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::calibrate_material_test

@@ -10,7 +10,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/document/deflection.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::chuck_test {
 namespace {
 
 using nlohmann::json;
@@ -362,4 +362,4 @@ TEST(Chuck, MembersThatExcludeEachOtherAndNothingAtAll) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::chuck_test

@@ -12,7 +12,7 @@
 #include "../slips.hpp"
 #include "document/json/file.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::compare_test {
 namespace {
 
 using nlohmann::json;
@@ -196,4 +196,4 @@ TEST(CompareDoor, SchemaAndReaderAgreeOnEverySlip) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::compare_test

@@ -8,7 +8,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::compensate_test {
 namespace {
 
 using nlohmann::json;
@@ -118,4 +118,4 @@ TEST(CompensateDoor, SchemaAndReaderAgreeOnEverySlip) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::compensate_test

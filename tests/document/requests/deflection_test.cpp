@@ -10,7 +10,7 @@
 #include "../slips.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::deflection_test {
 namespace {
 
 using nlohmann::json;
@@ -581,4 +581,4 @@ TEST(Deflection, AnythingButAnObjectIsRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::deflection_test

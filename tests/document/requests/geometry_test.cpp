@@ -9,7 +9,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::geometry_test {
 namespace {
 
 using nlohmann::json;
@@ -276,4 +276,4 @@ TEST(GeometryTurned, SlipsAreSeenBySchemaAndReader) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::geometry_test

@@ -9,7 +9,7 @@
 #include "../slips.hpp"
 #include "document/json/file.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::multipass_test {
 namespace {
 
 using nlohmann::json;
@@ -147,4 +147,4 @@ multipass: /single_pass/limits/2/atmost: got 1, expected no such key (did you me
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::multipass_test

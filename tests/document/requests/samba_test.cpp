@@ -7,7 +7,7 @@
 #include "../slips.hpp"
 #include "document/json/file.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::samba_test {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ TEST(SambaDoor, SchemaAndReaderAgreeOnEverySlip) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::samba_test

@@ -12,7 +12,7 @@
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::stability_test {
 namespace {
 
 using nlohmann::json;
@@ -643,4 +643,4 @@ TEST(Stability, SpeedsOutOfBoundsAreToldWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::stability_test

@@ -17,7 +17,7 @@
 #include "document/json/file.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::document {
+namespace turnwright::document::thermal_test {
 namespace {
 
 using nlohmann::json;
@@ -294,4 +294,4 @@ TEST(Thermal, PublicLogOfARealSpindle) {
 }
 
 }  // namespace
-}  // namespace turnwright::document
+}  // namespace turnwright::document::thermal_test

@@ -6,7 +6,7 @@
 
 #include "report/picture/svg.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::html_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -194,4 +194,4 @@ TEST(Html, ADocumentWithoutAnythingIsStillAPage) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::html_test

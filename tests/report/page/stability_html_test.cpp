@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace turnwright::report {
+namespace turnwright::report::stability_html_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -71,4 +71,4 @@ TEST(StabilityHtml, LacksWhatTheDocumentLacks) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::stability_html_test

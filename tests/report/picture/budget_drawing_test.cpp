@@ -7,7 +7,7 @@
 
 #include "report/text/stack.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::budget_drawing_test {
 namespace {
 
 // 20 um: 8 of deflection, 4 left, so 8 by all else, whose own shares are 4, 3 and 9.
@@ -102,4 +102,4 @@ TEST(BudgetDrawing, IsNoneOfAPlanWithoutTolerancesAndRefusesNoNumbers) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::budget_drawing_test

@@ -11,7 +11,7 @@
 #include "svg_check.hpp"
 #include "turnwright/planning/prepare.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::drawing_test {
 namespace {
 
 using planning::Clamping;
@@ -409,4 +409,4 @@ TEST(SetupDrawings, WhatIsNotFiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::drawing_test

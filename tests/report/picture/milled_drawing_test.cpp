@@ -8,7 +8,7 @@
 #include "report/page/html.hpp"
 #include "report/text/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::milled_drawing_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -95,4 +95,4 @@ TEST(MilledWords, TheReportHasTheChart) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::milled_drawing_test

@@ -12,7 +12,7 @@
 #include "report/picture/program_removal.hpp"
 #include "svg_check.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::path_drawing_test {
 namespace {
 
 using nc::test::Planned;
@@ -149,4 +149,4 @@ TEST(PathDrawings, AnotherPlansProgramsAreRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::path_drawing_test

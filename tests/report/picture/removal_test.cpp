@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace turnwright::report {
+namespace turnwright::report::removal_test {
 namespace {
 
 using Shape = Cutter::Shape;
@@ -133,4 +133,4 @@ TEST(Removal, AThreadsToolTakesNothingOff) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::removal_test

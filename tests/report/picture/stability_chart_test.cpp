@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-namespace turnwright::report {
+namespace turnwright::report::stability_chart_test {
 namespace {
 
 using nlohmann::json;
@@ -139,4 +139,4 @@ TEST(StabilityChart, OfOneSpeedIsAsWideAsATenthOfIt) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::stability_chart_test

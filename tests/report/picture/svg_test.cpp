@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace turnwright::report {
+namespace turnwright::report::svg_test {
 namespace {
 
 TEST(Svg, TextOfAnyCharactersIsXml) {
@@ -20,4 +20,4 @@ TEST(Svg, TextOfAnyCharactersIsXml) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::svg_test

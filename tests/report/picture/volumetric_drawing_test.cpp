@@ -13,7 +13,7 @@
 #include "../words.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::volumetric_drawing_test {
 namespace {
 
 using namespace volumetric;
@@ -131,4 +131,4 @@ TEST(ErrorMap, ShowsEachErrorOnce) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::volumetric_drawing_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace turnwright::report {
+namespace turnwright::report::window_drawing_test {
 namespace {
 
 planning::OperationPlan operation() {
@@ -55,4 +55,4 @@ TEST(WindowDrawing, EqualWindowsGiveEqualBytesAndNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::window_drawing_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace turnwright::report {
+namespace turnwright::report::gauge_test {
 namespace {
 
 // The uncertainties of the header: calliper 30 um, micrometer 4 um, each at most a fifth
@@ -34,4 +34,4 @@ TEST(Gauge, RoughnessBelowWhatPlatesTellNeedsATester) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::gauge_test

@@ -10,7 +10,7 @@
 #include "report/page/sheet_html.hpp"
 #include "turnwright/nc/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::setup_sheet_test {
 namespace {
 
 using nc::test::Planned;
@@ -279,4 +279,4 @@ TEST(SetupSheetPage, HasNothingOfThePlannersAlone) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::setup_sheet_test

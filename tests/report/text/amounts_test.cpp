@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace turnwright::report {
+namespace turnwright::report::amounts_test {
 namespace {
 
 TEST(Amounts, TimesAreToldAsPeopleSayThem) {
@@ -41,4 +41,4 @@ TEST(Amounts, MoneyHasTwoDecimalsAndThreeDigits) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::amounts_test

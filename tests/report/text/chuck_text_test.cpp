@@ -5,7 +5,7 @@
 #include "../words.hpp"
 #include "report/text/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::chuck_text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -113,4 +113,4 @@ TEST(ChuckText, WhatIsMissingLeavesItsLineOut) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::chuck_text_test

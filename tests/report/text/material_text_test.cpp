@@ -3,7 +3,7 @@
 #include "../words.hpp"
 #include "report/text/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::material_text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -88,4 +88,4 @@ TEST(MaterialText, LacksWhatTheResultLacks) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::material_text_test

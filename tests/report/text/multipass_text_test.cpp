@@ -3,7 +3,7 @@
 #include "../words.hpp"
 #include "report/text/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::multipass_text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -69,4 +69,4 @@ TEST(MultipassText, LacksWhatTheResultLacks) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::multipass_text_test

@@ -8,7 +8,7 @@
 
 #include "../words.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -454,4 +454,4 @@ TEST(Text, LongOrHostileNamesStayInsideThePage) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::text_test

@@ -5,7 +5,7 @@
 #include "../words.hpp"
 #include "report/text/text.hpp"
 
-namespace turnwright::report {
+namespace turnwright::report::thermal_text_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -96,4 +96,4 @@ TEST(ThermalText, WhatIsMissingLeavesItsLineOut) {
 }
 
 }  // namespace
-}  // namespace turnwright::report
+}  // namespace turnwright::report::thermal_text_test

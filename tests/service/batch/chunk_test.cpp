@@ -6,7 +6,7 @@
 
 #include "../../temporary_folder.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::chunk_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST_F(BatchChunk, OfBlankLinesHoldsOnlyItsSeal) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::chunk_test

@@ -8,7 +8,7 @@
 #include "service/batch/runner.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ TEST_F(DataDigest, ChangesWithEveryFileAndName) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::folder_test

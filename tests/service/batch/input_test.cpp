@@ -7,7 +7,7 @@
 #include "../../temporary_folder.hpp"
 #include "turnwright/base/errors.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::input_test {
 namespace {
 
 using BatchInputTest = TemporaryFolder;
@@ -75,4 +75,4 @@ TEST_F(BatchInputTest, WantsARegularFile) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::input_test

@@ -20,7 +20,7 @@
 #include "service/batch/spool.hpp"
 #include "turnwright/base/cancelled.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::job_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -446,4 +446,4 @@ TEST_F(JobStoreTest, WorkersTakeALineAtATime) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::job_store_test

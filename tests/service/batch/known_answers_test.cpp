@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-namespace turnwright::service {
+namespace turnwright::service::known_answers_test {
 namespace {
 
 TEST(KnownAnswers, KeepsTheFirstAnswerAndNoErrors) {
@@ -39,4 +39,4 @@ TEST(KnownAnswers, SpillsToTheDiskAndTakesSeveralThreads) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::known_answers_test

@@ -7,7 +7,7 @@
 
 #include "document/json/parse.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::api_test {
 namespace {
 
 using nlohmann::json;
@@ -313,4 +313,4 @@ TEST(HttpApi, SchemasAreTheDescriptionsDialect) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::api_test

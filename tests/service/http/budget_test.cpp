@@ -8,7 +8,7 @@
 #include "../../temporary_folder.hpp"
 #include "service/http/intake.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::budget_test {
 namespace {
 
 namespace errc = boost::system::errc;
@@ -100,4 +100,4 @@ TEST_F(IntakeTest, KeepsABatchInAFileWithoutAName) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::budget_test

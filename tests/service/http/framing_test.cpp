@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace turnwright::service {
+namespace turnwright::service::framing_test {
 namespace {
 
 struct Read {
@@ -102,4 +102,4 @@ TEST(Framing, LimitsTheContentAndWhatIsIgnored) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::framing_test

@@ -7,7 +7,7 @@
 #include "document/json/parse.hpp"
 #include "service/http/api.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::malformed_requests_test {
 namespace {
 
 using nlohmann::json;
@@ -138,4 +138,4 @@ TEST(MalformedRequests, AreAnsweredByProblemsThatPointAtThem) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::malformed_requests_test

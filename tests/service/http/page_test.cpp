@@ -6,7 +6,7 @@
 
 #include "service/digest.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::page_test {
 namespace {
 
 TEST(Page, IsTheFileThatIsCheckedIn) {
@@ -47,4 +47,4 @@ TEST(Digest, Base64OfTheEmptyText) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::page_test

@@ -12,7 +12,7 @@
 #include "client.hpp"
 #include "turnwright/document/catalogue.hpp"
 
-namespace turnwright::service {
+namespace turnwright::service::server_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -606,4 +606,4 @@ TEST(Server, CarriesTheCallersIdBack) {
 }
 
 }  // namespace
-}  // namespace turnwright::service
+}  // namespace turnwright::service::server_test
