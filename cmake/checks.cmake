@@ -69,6 +69,12 @@ foreach(step IN ITEMS build check round)
 endforeach()
 set_tests_properties(page.round PROPERTIES COST 100)  # seconds: begun first
 
+add_test(NAME service.mcp COMMAND ${CMAKE_COMMAND}
+  -D SOURCE=${PROJECT_SOURCE_DIR}/tests/service/mcp -D WORK_DIR=${PROJECT_BINARY_DIR}/mcp-test
+  -D PROGRAM=$<TARGET_FILE:turnwright> -D DATA=${PROJECT_SOURCE_DIR}
+  -P ${PROJECT_SOURCE_DIR}/tests/service/mcp/run.cmake)
+set_tests_properties(service.mcp PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED" TIMEOUT 300)
+
 add_test(NAME service.examples COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/service/examples.bash $<TARGET_FILE:turnwright>
   ${PROJECT_SOURCE_DIR})

@@ -20,6 +20,7 @@
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
 #include "import.hpp"
+#include "mcp.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
 #include "progress_line.hpp"
@@ -378,7 +379,8 @@ int run(int argc, char** argv) {
   add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
   std::string examples =
       "Examples:\n  turnwright list parts\n  turnwright schema part\n"
-      "  turnwright batch --help\n  turnwright serve --help\n";
+      "  turnwright batch --help\n  turnwright serve --help\n"
+      "  turnwright mcp --help\n";
   for (const auto& row : service::requests())
     examples += "  turnwright " + row.name + " --help\n";
   app.footer(
@@ -398,6 +400,7 @@ int run(int argc, char** argv) {
   add_import(app, arguments.data, choose);
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
+  add_mcp(app, arguments.data, choose);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -6,11 +6,11 @@
 #include <charconv>
 #include <functional>
 
-#include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "openapi.hpp"
 #include "page.hpp"
 #include "service/batch/spool.hpp"
+#include "service/documents.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {
@@ -304,20 +304,11 @@ HttpApi::HttpApi(const std::filesystem::path& folder,
       batches_(batches),
       page_(std::move(page)),
       openapi_(text_of(openapi(folder))) {
-  for (const char* what : {"materials", "tools", "machines", "parts"}) {
-    auto& listing = listings_[what];
+  for (auto& [what, documents] : read_documents(folder)) {
     auto index = ordered_json::array();
-    std::map<std::string, std::string> names;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(folder / what)) {
-      if (entry.path().extension() != ".json") continue;
-      const auto document = document::parse_file(entry.path());
-      const auto id = document.value("id", entry.path().stem().string());
-      names[id] = document.value("name", id);
-      listing.documents[id] = text_of(document);
-    }
-    for (const auto& [id, name] : names) index.push_back({{"id", id}, {"name", name}});
-    listing.index = text_of(index);
+    for (const auto& [id, name] : documents.names)
+      index.push_back({{"id", id}, {"name", name}});
+    listings_[what] = {text_of(index), std::move(documents.texts)};
   }
 }
 

@@ -1,0 +1,120 @@
+#include "messages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "service/listing.hpp"
+
+namespace turnwright::service::mcp {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::array kRevisions{"2025-06-18", "2025-11-25"};
+constexpr std::string_view kScheme = "turnwright://";
+constexpr const char* kInstructions =
+    "Plans turned parts: clamping, passes, speed, feed and depth of every operation at "
+    "the "
+    "lowest cost inside all tolerances, with proof. Read turnwright://schemas/part and a "
+    "document of turnwright://parts before writing a part; materials, machines and tools "
+    "are named by the ids of their resources. Errors name the place in the document by a "
+    "JSON pointer.";
+
+std::string uri_of(const std::string& kind, const std::string& id) {
+  return std::string(kScheme) + kind + '/' + id;
+}
+
+std::string schema_of(const Request& row) {
+  return uri_of("schemas", std::filesystem::path(request_schema(row)).stem().string());
+}
+
+ordered_json tool(const Request& row) {
+  return {{"name", row.name},
+          {"title", row.summary},
+          {"description", row.summary + ". The arguments are a document of the schema " +
+                              schema_of(row)},
+          {"inputSchema",
+           {{"type", "object"},
+            {"description", "as in " + schema_of(row)},
+            {"examples", ordered_json::array({ordered_json::parse(row.example)})}}},
+          {"annotations", {{"readOnlyHint", true}, {"openWorldHint", false}}}};
+}
+
+ordered_json text_content(const std::string& text) {
+  return ordered_json::array({{{"type", "text"}, {"text", text}}});
+}
+
+}  // namespace
+
+ordered_json response(const json& id, ordered_json result) {
+  return {{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}};
+}
+
+ordered_json error(const json& id, Fault fault, const std::string& message) {
+  return {{"jsonrpc", "2.0"},
+          {"id", id},
+          {"error", {{"code", static_cast<int>(fault)}, {"message", message}}}};
+}
+
+ordered_json welcome(const json& parameters) {
+  const auto asked = parameters.find("protocolVersion");
+  const bool known = asked != parameters.end() &&
+                     std::ranges::find(kRevisions, *asked) != kRevisions.end();
+  return {{"protocolVersion", known ? ordered_json(*asked) : kRevisions.front()},
+          {"capabilities",
+           {{"tools", ordered_json::object()}, {"resources", ordered_json::object()}}},
+          {"serverInfo",
+           {{"name", "turnwright"}, {"title", "Turnwright"}, {"version", version()}}},
+          {"instructions", kInstructions}};
+}
+
+ordered_json tools() {
+  auto all = ordered_json::array();
+  for (const auto& row : requests()) all.push_back(tool(row));
+  return {{"tools", std::move(all)}};
+}
+
+ordered_json tool_result(const Request& row, ordered_json result) {
+  auto text = row.text ? row.text(result) : result.dump();
+  return {{"content", text_content(text)},
+          {"structuredContent", std::move(result)},
+          {"isError", false}};
+}
+
+ordered_json tool_failure(const std::string& message) {
+  return {{"content", text_content(message)}, {"isError", true}};
+}
+
+Resources::Resources(const std::filesystem::path& folder)
+    : kinds_(read_documents(folder)) {
+  auto& schemas = kinds_["schemas"];
+  for (const auto& [id, name] : list_schemas(folder)) {
+    schemas.names[id] = name;
+    schemas.texts[id] = schema(folder, id);
+  }
+}
+
+ordered_json Resources::list() const {
+  auto all = ordered_json::array();
+  for (const auto& [kind, documents] : kinds_)
+    for (const auto& [id, name] : documents.names)
+      all.push_back({{"uri", uri_of(kind, id)},
+                     {"name", id},
+                     {"title", name},
+                     {"mimeType", "application/json"}});
+  return {{"resources", std::move(all)}};
+}
+
+std::optional<ordered_json> Resources::read(const std::string& uri) const {
+  for (const auto& [kind, documents] : kinds_)
+    for (const auto& [id, text] : documents.texts)
+      if (uri_of(kind, id) == uri)
+        return {{{"contents", ordered_json::array({{{"uri", uri},
+                                                    {"mimeType", "application/json"},
+                                                    {"text", text}}})}}};
+  return std::nullopt;
+}
+
+}  // namespace turnwright::service::mcp
