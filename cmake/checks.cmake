@@ -60,7 +60,7 @@ add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
 
-foreach(step IN ITEMS build check round)
+foreach(step IN ITEMS build check unit round)
   add_test(NAME page.${step} COMMAND ${CMAKE_COMMAND} -D STEP=${step}
     -D WEB=${PROJECT_SOURCE_DIR}/web -D WORK_DIR=${PROJECT_BINARY_DIR}/page/web
     -D PROGRAM=$<TARGET_FILE:turnwright> -P ${PROJECT_SOURCE_DIR}/web/test/run.cmake)

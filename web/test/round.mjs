@@ -84,7 +84,7 @@ async function planner() {
     await plan(page);
     assert.ok((await cost(page)) > 0);
     if (part === 'roller-tube') {
-      await page.getByRole('button', { name: 'Setup 2' }).click();
+      await page.getByRole('button', { name: 'Setup 2', exact: true }).click();
       await page.getByText('chuck steady, grip').waitFor(); // on a steady rest
     }
     await look(page, `02-${part}`);
@@ -98,7 +98,7 @@ async function planner() {
   const before = await cost(page);
   const prices = await page.getByText(/saves .* per part/).allInnerTexts();
   assert.ok(prices.length > 3);
-  await page.getByRole('button', { name: 'Setup 1' }).click();
+  await page.getByRole('button', { name: 'Setup 1', exact: true }).click();
   await page.getByRole('button', { name: /s1-rough/ }).first().click();
   await look(page, '04-planned');
   await page.setViewportSize({ width: 1280, height: 1000 });

@@ -1,5 +1,6 @@
 # STEP build: the page builds from its source to the bytes that are checked in.
 # STEP check: types and accessibility of the components, by svelte-check.
+# STEP unit: the page's own logic (test/unit), without a browser.
 # STEP round: a newcomer's round in Chromium (round.mjs), pictures in WORK_DIR/pictures.
 # Each is skipped where node, npm's packages or Chromium are not to be had.
 find_program(node node)
@@ -41,6 +42,11 @@ if(STEP STREQUAL "build")
   endif()
 elseif(STEP STREQUAL "check")
   run(${npm} run check)
+elseif(STEP STREQUAL "unit")
+  cmake_path(GET WEB PARENT_PATH root)
+  set(ENV{TURNWRIGHT_ROOT} ${root})
+  file(GLOB tests ${WORK_DIR}/test/unit/*.test.mjs)
+  run(${node} --test ${tests})
 else()
   set(ENV{CHROMIUM} ${chromium})
   run(${node} test/round.mjs ${PROGRAM} ${WORK_DIR}/pictures)
