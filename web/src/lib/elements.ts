@@ -145,9 +145,7 @@ function shape(kind: Kind, side: Side, [left, right]: [number, number], length: 
 export function reshaped(part: Part, side: Side, index: number, kind: Kind): Part {
   const list = [...(part[side] as Element[])];
   const e = list[index];
-  const rest = Object.fromEntries(Object.entries(e).filter(([key]) => !shapes.includes(key)));
-  const fitted = ['cylinder', 'groove'];
-  if (!(fitted.includes(kind) && fitted.includes(e.kind))) delete rest.fit;
+  const rest = Object.fromEntries(Object.entries(e).filter(([key]) => !shapes.includes(key) && key !== 'fit'));
   const known = ends(e).map((d) => (Number.isFinite(d) ? d : 20)) as [number, number];
   list[index] = { ...rest, kind, ...shape(kind, side, known, Number(e.length_mm) || 10) };
   return { ...part, [side]: list };

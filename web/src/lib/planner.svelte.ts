@@ -14,6 +14,8 @@ export class Planner {
   seconds = $state(0);
   /** The page was loaded anew while it planned. */
   interrupted = $state(false);
+  /** The page is going: calls that end now were not answered. */
+  leaving = false;
 
   constructor(private desk: Desk) {}
 
@@ -74,13 +76,15 @@ export class Planner {
       clearInterval(clock);
       if (this.running === own) {
         this.running = undefined;
-        sessionStorage.removeItem(runningKey);
+        // Calls are ended before the page knows that it goes; a page that went comes here no more.
+        setTimeout(() => this.leaving || sessionStorage.removeItem(runningKey));
       }
     }
   }
 
   cancel() {
-    this.running?.abort();
+    if (!this.running) return;
+    this.running.abort();
     this.running = undefined;
     sessionStorage.removeItem(runningKey);
   }

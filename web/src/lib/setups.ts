@@ -1,12 +1,15 @@
 // Setups in the document: where it says nothing, those that the drawing shows are written in.
 import type { Drawing, Part } from './types';
 
-/** The document with the setups that hold without it saying so. */
+/**
+ * The document with the setups that hold without it saying so. What they grip and the
+ * clampings they may have stay the planner's choice.
+ */
 export function written(part: Part, drawing: Drawing | undefined): Part {
   if (Array.isArray(part.setups) || !drawing) return part;
   const { choose, ...rest } = part;
   const { setups: _, ...others } = choose ?? {};
-  const setups = drawing.setups.map(({ hold, grip_mm, clampings }) => ({ hold, grip_mm, clampings }));
+  const setups = drawing.setups.map(({ hold }) => ({ hold }));
   return { ...rest, ...(Object.keys(others).length && { choose: others }), setups };
 }
 

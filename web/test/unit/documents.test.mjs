@@ -8,6 +8,7 @@ const { begun, redone, stepped, undone } = await load('history');
 const { machinesOf, ticked, toolsOf, withMachines, withTools } = await load('means');
 const { withMilled } = await load('milled');
 const { handy, withSetup, written } = await load('setups');
+const { at, put } = await load('pointer');
 const { reformed } = await load('tolerances');
 
 test('a demand is a fit or limits, as drawings write them', () => {
@@ -40,6 +41,24 @@ test('stock that fitted follows the contour, stock written by hand stays', () =>
   assert.deepEqual(stockFollows(fitted, { ...fitted, ...shaft(60, 60) }).stock, { ...fitting(shaft(60, 60)), price: 7 });
   const own = { ...shaft(40, 50), stock: { kind: 'bar', diameter_mm: 80, length_mm: 44, left_allowance_mm: 2 } };
   assert.equal(stockFollows(own, { ...own, ...shaft(60, 60) }).stock, own.stock);
+});
+
+test('a change at a pointer shares all beside it, makes what is missing, takes members away', () => {
+  const before = { a: [{ b: 1 }, { 'c/d': 2 }], e: { f: 3 } };
+  const next = put(before, '/a/1/c~1d', 5);
+  assert.deepEqual(next, { a: [{ b: 1 }, { 'c/d': 5 }], e: { f: 3 } });
+  assert.equal(next.e, before.e);
+  assert.equal(next.a[0], before.a[0]);
+  assert.equal(before.a[1]['c/d'], 2);
+  assert.deepEqual(put(before, '/a/0', undefined).a, [{ 'c/d': 2 }]);
+  assert.deepEqual(put({}, '/rates/price', 4), { rates: { price: 4 } });
+  assert.equal(at(next, '/a/1/c~1d'), 5);
+  assert.equal(at(next, '/a/7/x'), undefined);
+});
+
+test('stock follows an edit of one field', () => {
+  const fitted = { ...shaft(40, 50), stock: fitting(shaft(40, 50)) };
+  assert.equal(stockFollows(fitted, put(fitted, '/outer/0/length_mm', 50)).stock.length_mm, 54);
 });
 
 test('undo goes back through every document, redo forth again', () => {
@@ -84,7 +103,7 @@ test('a new keyway lies inside its cylinder', () => {
 test('jaws that are dragged write the setups that were not written', () => {
   const drawing = { setups: [{ hold: 'left', grip_mm: 15, jaws_z_mm: 13, clampings: ['chuck'] }, { hold: 'right', grip_mm: 20, jaws_z_mm: 60, clampings: ['chuck'] }] };
   const next = withSetup({ choose: { setups: 'auto' }, own: 1 }, drawing, 1, 'grip_mm', 24.5);
-  assert.deepEqual(next, { own: 1, setups: [{ hold: 'left', grip_mm: 15, clampings: ['chuck'] }, { hold: 'right', grip_mm: 24.5, clampings: ['chuck'] }] });
+  assert.deepEqual(next, { own: 1, setups: [{ hold: 'left' }, { hold: 'right', grip_mm: 24.5 }] });
   assert.equal(written(next, drawing), next);
   assert.deepEqual([handy(3.3, 0.5, 9), handy(-4, 0.5, 9), handy(99, 0.5, 9)], [3.5, 0.5, 9]);
 });

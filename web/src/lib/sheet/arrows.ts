@@ -2,6 +2,8 @@
 
 export const noteRow_px = 19;
 export const lengthRow_px = 20;
+/** From the part to the first row of lengths; letters of datums stand between. */
+export const belowPart_px = (datums: boolean): number => (datums ? 40 : 22);
 
 const long = 8, half = 1.6;
 const ways = { left: [-1, 0], right: [1, 0], up: [0, -1], down: [0, 1] };

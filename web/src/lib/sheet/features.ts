@@ -71,7 +71,7 @@ export function centreHoles(drawing: Drawing, clampings: string[][]): CentreHole
     if (!D || hollow(z)) return [];
     const r = D / pilot / 2, cone = (D / 2 - r) / Math.tan(Math.PI / 6);
     return [{
-      end, text: `centre A ⌀${significant(D, 4)}`,
+      end, text: `A ⌀${significant(D, 4)}`,
       profile: [[0, D / 2], [cone, r], [Math.max(cone, D - r / Math.sqrt(3)), r], [Math.max(D, cone), 0]],
     }];
   });

@@ -4,7 +4,7 @@ import { significant } from '../numbers';
 import type { Drawing, DrawnTolerance, Part, Surface } from '../types';
 import { profile, radii } from './contour';
 import { calloutRows, lengthRows, type Callout, type LaidCallout, type LaidSpan, type Span } from './dimensions';
-import { centreHoles, datumLetters, lengthText, milledShapes, sizeText } from './features';
+import { datumLetters, lengthText, milledShapes, sizeText } from './features';
 
 /** A callout with where its line ends, as radii: at the named surface, and across the axis. */
 export interface Note extends Callout {
@@ -39,13 +39,16 @@ function ownSize(part: Part, e: Surface): string {
   return sizeText(asked?.limits_mm ? e : { ...e, limits_mm: undefined });
 }
 
+/** Share of the part's length below which a surface has little room for its text: it comes first. */
+const narrow = 0.12;
+
 /** Diameters stand nearer to the left of a surface, those of bores nearer to its right. */
 function sizes(part: Part, drawing: Drawing): Unplaced[] {
   return drawing.elements.map((e) => {
     const straight = e.kind !== 'cone' && e.kind !== 'arc', outer = e.side === 'outer';
     const [a, b] = radii(e), r = straight ? a : (a + b) / 2;
     return {
-      id: e.id, text: ownSize(part, e), rank: 0, r,
+      id: e.id, text: ownSize(part, e), rank: e.z_mm[1] - e.z_mm[0] < narrow * drawing.length_mm ? 0 : 1, r,
       ...(straight ? { over: e.z_mm, share: outer ? 0.3 : 0.72 } : { at: (e.z_mm[0] + e.z_mm[1]) / 2, asides: outwards[''] }),
       kind: outer && straight ? 'diameter' : outer ? 'leader' : 'bore', until: outer ? (straight ? -r : r) : -0.12 * r,
     };
@@ -63,7 +66,7 @@ function corners(drawing: Drawing): Unplaced[] {
       const end = e.z_mm[side === 'left' ? 0 : 1], r = (r0 + r1) / 2;
       const asides = outwards[end < 1e-6 ? 'left' : end > drawing.length_mm - 1e-6 ? 'right' : ''];
       const place = `${e.side}:${end.toFixed(4)}`, there = all.get(place);
-      const note = { id: `corner:${place}`, text, rank: 2, at: (z0 + z1) / 2, asides, r, kind: 'leader' as const, until: r };
+      const note = { id: `corner:${place}`, text, rank: 3, at: (z0 + z1) / 2, asides, r, kind: 'leader' as const, until: r };
       all.set(place, there ? { ...(there.r > r ? there : note), text: `${there.text}, ${text}` } : note);
     }
   return [...all.values()];
@@ -75,15 +78,9 @@ function cornerText(e: Surface, side: 'left' | 'right'): string {
   return undercut ? undercut.replace('x', '×') : fillet ? `R${lengthText(fillet)} max` : '';
 }
 
-function features(part: Part, drawing: Drawing, clampings: string[][]): Unplaced[] {
-  const milled = milledShapes(part, drawing).map((m) => {
-    return { id: m.id, text: m.text, rank: 1, over: m.z, share: 0.62, r: m.half, kind: 'leader' as const, until: m.half };
-  });
-  const holes = centreHoles(drawing, clampings).map((h) => {
-    const z = h.end === 'left' ? 0 : drawing.length_mm;
-    return { id: h.end, text: h.text, rank: 3, at: z, asides: outwards[h.end], r: 0, kind: 'leader' as const, until: 0 };
-  });
-  return [...milled, ...holes];
+function milledNotes(part: Part, drawing: Drawing): Unplaced[] {
+  return milledShapes(part, drawing).map((m) =>
+    ({ id: m.id, text: m.text, rank: 2, over: m.z, share: 0.62, r: m.half, kind: 'leader' as const, until: m.half }));
 }
 
 /** Geometrical tolerances that the part asks for, as frames. */
@@ -97,7 +94,7 @@ function frames(part: Part, drawing: Drawing): Unplaced[] {
     const place = e ? { over: e.z_mm, share: 0.55 } : { at: z, asides: outwards[''] };
     const beside = drawing.elements.filter((s) => s.side === 'outer' && s.z_mm[0] <= z + 1e-9 && s.z_mm[1] >= z - 1e-9);
     const r = e ? radii(e)[0] : Math.max(...beside.flatMap(radii)) * 0.94;
-    return [{ id: t.id, text: `   ${frame.value}  ${frame.datum}`, rank: 1, ...place, r, kind: 'frame', until: r, frame }];
+    return [{ id: t.id, text: `   ${frame.value}  ${frame.datum}`, rank: 2, ...place, r, kind: 'frame', until: r, frame }];
   });
 }
 
@@ -107,10 +104,10 @@ export const drawnTolerances = (part: Part, drawing: Drawing): DrawnTolerance[] 
   return drawing.tolerances.filter((t) => own.has(t.id) && t.kind !== 'length' && t.kind !== 'diameter');
 };
 
-/** Everything above the part; `clampings` are those that each setup may have. */
-export function notes(part: Part, drawing: Drawing, clampings: string[][], x: (z: number) => number, width: number): LaidNote[] {
+/** Everything that is written above the part. */
+export function notes(part: Part, drawing: Drawing, x: (z: number) => number, width: number): LaidNote[] {
   const most = width < 560 ? 3 : 6;
-  const all = [...sizes(part, drawing), ...features(part, drawing, clampings), ...frames(part, drawing), ...corners(drawing)];
+  const all = [...sizes(part, drawing), ...milledNotes(part, drawing), ...frames(part, drawing), ...corners(drawing)];
   const placed = all.map((n): Note => 'at' in n
     ? { ...n, anchor: x(n.at), xs: n.asides.map((px) => x(n.at) + px) }
     : { ...n, xs: along(n.over, n.share).map(x) });
