@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { begin, cost, documentOf, drawn, field, inTurn, picture, plan, press, stage, wide, write } from './stage.mjs';
 
-const { open, look, close } = await stage();
+const { open, pictured, look, close } = await stage();
 
 /** Types into the field that has the focus, and into those behind it. */
 async function types(page, ...values) {
@@ -24,7 +24,8 @@ async function reloaded(page) {
   assert.equal(await cost(page), was);
   assert.equal(await page.getByText('The document has changed since').count(), 0);
 }
-async function narrowed(page, name) {
+/** A picture at 400 px, where results come first. */
+async function narrowed(page, name, seen = pictured) {
   await page.setViewportSize({ width: 400, height: 800 });
   // Speed, feed and depth of the first operation are seen without scrolling sideways.
   for (const column of [1, 2, 3]) {
@@ -33,7 +34,7 @@ async function narrowed(page, name) {
   }
   const [contour, results] = await Promise.all(['[aria-label="Contour"]', '.results'].map((place) => page.locator(place).boundingBox()));
   assert.ok(results.y < contour.y, 'what is planned stands before what is edited');
-  await look(page, name);
+  await seen(page, name);
   await page.setViewportSize(wide.viewport);
 }
 
@@ -93,7 +94,7 @@ async function shaft() {
   await drags(page);
   await plan(page);
   await look(page, 'shaft-1400');
-  await narrowed(page, 'shaft-400');
+  await narrowed(page, 'shaft-400', look);
   await reloaded(page);
   await page.context().close();
 }

@@ -39,6 +39,8 @@ test('stock is what import takes for the same contour', () => {
 test('stock that fitted follows the contour, stock written by hand stays', () => {
   const fitted = { ...shaft(40, 50), stock: { ...fitting(shaft(40, 50)), price: 7 } };
   assert.deepEqual(stockFollows(fitted, { ...fitted, ...shaft(60, 60) }).stock, { ...fitting(shaft(60, 60)), price: 7 });
+  const byHand = { ...fitted.stock, length_mm: 99 };
+  assert.equal(stockFollows(fitted, { ...fitted, ...shaft(60, 60), stock: byHand }).stock, byHand);
   const own = { ...shaft(40, 50), stock: { kind: 'bar', diameter_mm: 80, length_mm: 44, left_allowance_mm: 2 } };
   assert.equal(stockFollows(own, { ...own, ...shaft(60, 60) }).stock, own.stock);
 });
