@@ -9,7 +9,7 @@ const fall = Math.tan(Math.PI / 12); // of an undercut, 15 deg
 const drillPoint = Math.tan((59 * Math.PI) / 180);
 const same_mm = 1e-6;
 
-/** Height of the profile's triangle that a drawing shows of a thread: ISO 68-1's 5/8 H, both sides. */
+/** Of the pitch: what a thread's minor diameter is less, 2 (5/8) H of turnwright/part/cut.hpp. */
 const threadDeep = 1.0825;
 export const minor = (e: Surface): number => Math.max(0.2, e.diameters_mm[0] - threadDeep * (e.pitch_mm ?? 0));
 

@@ -38,7 +38,7 @@ function room(s: Span, width: number): { box: Box; at: number; inside: boolean }
   return { box, at, inside: false };
 }
 
-/** Rows for lengths: the shorter the nearer to the part (ISO 129-1), none over another. */
+/** Rows for lengths: the shorter the nearer to the part, none over another. */
 export function lengthRows(spans: Span[], width: number): LaidSpan[] {
   const rows: Box[][] = [];
   return [...spans]
