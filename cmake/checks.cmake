@@ -60,14 +60,19 @@ add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
 
-foreach(step IN ITEMS build check round)
-  add_test(NAME page.${step} COMMAND ${CMAKE_COMMAND} -D STEP=${step}
+foreach(step IN ITEMS build check unit round builder odd)
+  set(when)
+  if(step STREQUAL "odd")
+    set(when CONFIGURATIONS slow)
+  endif()
+  add_test(NAME page.${step} ${when} COMMAND ${CMAKE_COMMAND} -D STEP=${step}
     -D WEB=${PROJECT_SOURCE_DIR}/web -D WORK_DIR=${PROJECT_BINARY_DIR}/page/web
     -D PROGRAM=$<TARGET_FILE:turnwright> -P ${PROJECT_SOURCE_DIR}/web/test/run.cmake)
   set_tests_properties(page.${step} PROPERTIES LABELS page TIMEOUT 900
     SKIP_REGULAR_EXPRESSION "SKIPPED" RESOURCE_LOCK page)
 endforeach()
 set_tests_properties(page.round PROPERTIES COST 100)  # seconds: begun first
+set_tests_properties(page.odd PROPERTIES LABELS "page;slow")
 
 add_test(NAME service.mcp COMMAND ${CMAKE_COMMAND}
   -D SOURCE=${PROJECT_SOURCE_DIR}/tests/service/mcp -D WORK_DIR=${PROJECT_BINARY_DIR}/mcp-test

@@ -4,75 +4,11 @@
 //
 // Usage: node test/round.mjs TURNWRIGHT FOLDER [PAGE]
 // Pictures of every state are put into FOLDER; PAGE is the folder of another page.
-import { spawn } from 'node:child_process';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { createInterface } from 'node:readline';
+import { readFileSync, writeFileSync } from 'node:fs';
 import assert from 'node:assert/strict';
-import { chromium } from 'playwright-core';
+import { choose, cost, inTurn, plan, stage } from './stage.mjs';
 
-const [program, folder, own] = process.argv.slice(2);
-const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
-const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-mkdirSync(folder, { recursive: true });
-
-const server = spawn(program, ['serve', '--port', '0', ...(own ? ['--page', own] : [])], {
-  stdio: ['ignore', 'pipe', 'ignore'],
-  env: { ...process.env, XDG_STATE_HOME: folder },
-});
-const base = await new Promise((resolve, reject) => {
-  createInterface({ input: server.stdout }).once('line', (line) => resolve(line.split(' ').pop()));
-  server.once('exit', (code) => reject(new Error(`turnwright serve ended with ${code}`)));
-});
-
-const browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox'] });
-let checks = 0;
-
-async function open(options) {
-  const context = await browser.newContext({ acceptDownloads: true, ...options });
-  const page = await context.newPage();
-  const faults = (page.faults = []);
-  page.setDefaultTimeout(90_000);
-  page.on('request', (request) => {
-    const url = request.url();
-    if (!/^(data|blob):/.test(url) && !url.startsWith(base)) faults.push(`left the host: ${url}`);
-  });
-  page.on('pageerror', (error) => faults.push(`the page threw: ${error}`));
-  page.on('console', (message) => {
-    // What is refused or fails is shown to the planner; the console has it too.
-    const refused = /Failed to load resource/.test(message.text());
-    if (message.type() === 'error' && !refused) faults.push(`console: ${message.text()}`);
-  });
-  await page.goto(base);
-  return page;
-}
-
-/** A picture of the state, no violation of axe-core, nothing wider than the window. */
-async function look(page, name) {
-  await page.evaluate(() => scrollTo(0, 0));
-  await page.screenshot({ path: `${folder}/${name}.png`, fullPage: true });
-  const found = await page.evaluate(`${axeSource}; axe.run()`); // by DevTools: no CSP in its way
-  assert.deepEqual(
-    found.violations.map((v) => `${v.id}: ${v.nodes.slice(0, 4).map((n) => n.target.join(' ')).join(', ')}`), [], name);
-  const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  assert.ok(over <= 0, `${name} is ${over} px wider than its window`);
-  assert.deepEqual(page.faults?.splice(0) ?? [], [], name);
-  checks += 1;
-}
-
-const cost = (page) => page.locator('[data-test=cost]').innerText().then(Number);
-
-async function choose(page, part) {
-  await page.getByLabel('Part', { exact: true }).selectOption(part);
-  await page.getByRole('group', { name: /^Drawing of/ }).waitFor();
-}
-
-async function plan(page) {
-  const done = page.waitForResponse((r) => r.url().endsWith('/v1/plan'));
-  await page.getByRole('button', { name: /^Plan/ }).click();
-  await done;
-  await page.getByRole('heading', { name: 'Operations' }).waitFor();
-}
+const { base, browser, folder, open, look, close } = await stage();
 
 async function planner() {
   const page = await open({ viewport: { width: 1360, height: 900 } });
@@ -84,7 +20,7 @@ async function planner() {
     await plan(page);
     assert.ok((await cost(page)) > 0);
     if (part === 'roller-tube') {
-      await page.getByRole('button', { name: 'Setup 2' }).click();
+      await page.getByRole('button', { name: 'Setup 2', exact: true }).click();
       await page.getByText('chuck steady, grip').waitFor(); // on a steady rest
     }
     await look(page, `02-${part}`);
@@ -98,7 +34,7 @@ async function planner() {
   const before = await cost(page);
   const prices = await page.getByText(/saves .* per part/).allInnerTexts();
   assert.ok(prices.length > 3);
-  await page.getByRole('button', { name: 'Setup 1' }).click();
+  await page.getByRole('button', { name: 'Setup 1', exact: true }).click();
   await page.getByRole('button', { name: /s1-rough/ }).first().click();
   await look(page, '04-planned');
   await page.setViewportSize({ width: 1280, height: 1000 });
@@ -373,23 +309,8 @@ async function others() {
   await page.context().close();
 }
 
-let failed = 0;
-async function inTurn(...rounds) {
-  for (const round of rounds) {
-    try {
-      await round();
-      console.log(`passed: ${round.name}`);
-    } catch (error) {
-      failed += 1;
-      console.error(`FAILED: ${round.name}\n${error.stack}`);
-    }
-  }
-}
 await Promise.all([
   inTurn(papers),
   inTurn(planner, otherwise, cancelled, impossible, locked, narrow, others),
 ]);
-await browser.close();
-server.kill('SIGTERM');
-console.log(`${checks} states looked at, ${failed} rounds failed`);
-process.exitCode = failed ? 1 : 0;
+await close();

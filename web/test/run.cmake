@@ -1,11 +1,13 @@
 # STEP build: the page builds from its source to the bytes that are checked in.
 # STEP check: types and accessibility of the components, by svelte-check.
-# STEP round: a newcomer's round in Chromium (round.mjs), pictures in WORK_DIR/pictures.
+# STEP unit: the page's own logic (test/unit), without a browser.
+# STEP round, builder, odd: rounds in Chromium (round.mjs, builder.mjs, odd.mjs) of what the
+# page shows, of parts built on it and of what may go wrong; pictures in WORK_DIR/pictures.
 # Each is skipped where node, npm's packages or Chromium are not to be had.
 find_program(node node)
 find_program(npm npm)
 find_program(chromium NAMES chromium chromium-browser)
-if(NOT node OR NOT npm OR (STEP STREQUAL "round" AND NOT chromium))
+if(NOT node OR NOT npm OR (STEP MATCHES "^(round|builder|odd)$" AND NOT chromium))
   message("SKIPPED: the page's tests need node, npm and chromium; scripts/setup --page installs them")
   return()
 endif()
@@ -41,7 +43,12 @@ if(STEP STREQUAL "build")
   endif()
 elseif(STEP STREQUAL "check")
   run(${npm} run check)
+elseif(STEP STREQUAL "unit")
+  cmake_path(GET WEB PARENT_PATH root)
+  set(ENV{TURNWRIGHT_ROOT} ${root})
+  file(GLOB tests ${WORK_DIR}/test/unit/*.test.mjs)
+  run(${node} --test ${tests})
 else()
   set(ENV{CHROMIUM} ${chromium})
-  run(${node} test/round.mjs ${PROGRAM} ${WORK_DIR}/pictures)
+  run(${node} test/${STEP}.mjs ${PROGRAM} ${WORK_DIR}/pictures)
 endif()

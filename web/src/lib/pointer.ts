@@ -16,15 +16,25 @@ export function at(document: unknown, pointer: string): unknown {
   return value;
 }
 
-/** A copy of the document with another value there; undefined takes the member away. */
+type Holder = Record<string, unknown> | unknown[];
+
+const holder = (value: unknown): value is Holder => value !== null && typeof value === 'object';
+
+/**
+ * The document with another value there; undefined takes the member away. What lies beside
+ * the way is shared with the document before, so that equal members stay identical.
+ */
 export function put<T>(document: T, pointer: string, value: unknown): T {
-  const copy = structuredClone(document);
-  const path = steps(pointer);
-  const last = path.pop()!;
-  let parent = copy as Record<string, unknown>;
-  for (const step of path) parent = (parent[step] ??= {}) as Record<string, unknown>;
-  if (value !== undefined) parent[last] = value;
-  else if (Array.isArray(parent)) parent.splice(Number(last), 1);
-  else delete parent[last];
+  return placed(document, steps(pointer), value) as T;
+}
+
+function placed(parent: unknown, path: string[], value: unknown): unknown {
+  const [step, ...rest] = path;
+  const copy: Holder = Array.isArray(parent) ? [...parent] : holder(parent) ? { ...parent } : {};
+  const members = copy as Record<string, unknown>;
+  if (rest.length) members[step] = placed(members[step], rest, value);
+  else if (value !== undefined) members[step] = value;
+  else if (Array.isArray(copy)) copy.splice(Number(step), 1);
+  else delete members[step];
   return copy;
 }

@@ -17,6 +17,13 @@ export interface Surface {
   kind: 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread';
   z_mm: Pair;
   diameters_mm: Pair;
+  /** Of a chamfer: along the axis and on the radius. */
+  left_chamfer_mm?: Pair;
+  right_chamfer_mm?: Pair;
+  left_fillet_mm?: number;
+  right_fillet_mm?: number;
+  left_undercut?: string;
+  right_undercut?: string;
   pitch_mm?: number;
   radius_mm?: number;
   convex?: boolean;
@@ -186,4 +193,16 @@ export interface Plan {
   assumed: { pointer: string; value: unknown; why: string }[];
   turnwright_version: string;
   request_digest: string;
+}
+
+/** What an import assumed or ignored. */
+export interface Remark {
+  at: string;
+  text: string;
+}
+
+export interface Imported {
+  part: Part;
+  assumed: Remark[];
+  ignored: Remark[];
 }

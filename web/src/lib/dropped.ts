@@ -1,0 +1,51 @@
+// A file that is dropped or opened: a part document, or a drawing for /v1/import.
+import type { Part } from './types';
+
+export const largest_bytes = 100e6;
+
+export type Dropped =
+  | { kind: 'part'; part: Part }
+  | { kind: 'drawing'; request: Part }
+  | { kind: 'refused'; why: string };
+
+/** Bytes in base64, in pieces that a call's argument list can take. */
+function base64(bytes: Uint8Array): string {
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  return btoa(text);
+}
+
+/** The drawing's text where it is UTF-8, else its bytes. */
+function drawing(bytes: Uint8Array): Part {
+  try {
+    return { text: new TextDecoder('utf-8', { fatal: true }).decode(bytes) };
+  } catch {
+    return { base64: base64(bytes) };
+  }
+}
+
+function document(name: string, text: string): Dropped {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch (error) {
+    return { kind: 'refused', why: `${name} is no JSON: ${(error as Error).message}` };
+  }
+  if (value === null || typeof value !== 'object' || Array.isArray(value))
+    return { kind: 'refused', why: `${name} is no part document: expected an object, {..}` };
+  const { format } = value as Part;
+  if (format !== undefined && format !== 'turnwright-part/1')
+    return { kind: 'refused', why: `${name} is no part document: its format is ${JSON.stringify(format)}` };
+  return { kind: 'part', part: value as Part };
+}
+
+/** What a file is, by its name and its first character. */
+export function readDropped(name: string, bytes: Uint8Array): Dropped {
+  if (bytes.length === 0) return { kind: 'refused', why: `${name} is empty` };
+  if (bytes.length > largest_bytes)
+    return { kind: 'refused', why: `${name} has ${Math.round(bytes.length / 1e6)} MB, more than ${largest_bytes / 1e6} MB` };
+  const given = drawing(bytes);
+  const text: string = (given.text ?? '').replace(/^\uFEFF/, '');
+  if (/\.json$/i.test(name) || text.trimStart().startsWith('{')) return document(name, text);
+  return { kind: 'drawing', request: given };
+}

@@ -1,0 +1,59 @@
+import assert from 'node:assert/strict';
+import { readdirSync } from 'node:fs';
+import { test } from 'node:test';
+import { load, part, projectFile } from './load.mjs';
+
+const { edgeIndex, edgePlaces, undercuts, withEdge } = await load('edges');
+const parts = readdirSync(process.env.TURNWRIGHT_ROOT ? `${process.env.TURNWRIGHT_ROOT}/parts` : new URL('../../../parts', import.meta.url));
+
+test('every edge of the shipped parts is at a place where it may be', () => {
+  let seen = 0;
+  for (const file of parts) {
+    const document = part(file.replace('.json', '')), all = edgePlaces(document);
+    for (const e of document.edges ?? []) {
+      const place = all.find((p) => p.at === e.at);
+      assert.ok(place, `${file}: ${e.at}`);
+      const kind = e.chamfer_mm ? 'chamfer' : e.undercut ? 'undercut' : 'fillet';
+      assert.ok(place[kind], `${file}: ${kind} ${e.at}`);
+      seen += 1;
+    }
+  }
+  assert.ok(seen >= 15);
+});
+
+test('undercuts are those of the planner', () => {
+  const table = [...projectFile('src/part/drawing.cpp').matchAll(/Undercut\{([\d.]+), ([\d.]+), ([\d.]+)\}/g)];
+  assert.equal(table.length, Object.keys(undercuts).length);
+  for (const [, radius, depth, width] of table)
+    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius: Number(radius), depth: Number(depth), width: Number(width) });
+});
+
+test('no edge stands where there is no step, at grooves and at arcs', () => {
+  const e = (id, kind, d) => ({ id, kind, length_mm: 5, diameter_mm: d });
+  const names = edgePlaces({ outer: [e('a', 'cylinder', 20), e('b', 'cylinder', 20), e('g', 'groove', 15), e('c', 'cylinder', 20)] }).map((p) => p.at);
+  assert.deepEqual(names, ['left', 'right']);
+});
+
+test('the chamfer is on what stands: out of the larger shaft, into the smaller bore', () => {
+  const e = (id, kind, d, from) => ({ id, kind, length_mm: 5, from, ...(kind === 'cone' ? { left_mm: d, right_mm: d } : { diameter_mm: d }) });
+  const shaft = edgePlaces({ outer: [e('a', 'cone', 30), e('b', 'cylinder', 20)] }).find((p) => p.at === 'a|b');
+  assert.deepEqual([shaft.chamfer, shaft.undercut], [false, true]);
+  const bore = edgePlaces({ outer: [e('a', 'cylinder', 90), e('z', 'cylinder', 90)], inner: [e('b', 'cylinder', 30, 'right'), e('c', 'cone', 20, 'right')] });
+  assert.deepEqual(bore.filter((p) => p.at === 'c|b').map((p) => [p.chamfer, p.undercut]), [[false, false]]);
+});
+
+test('an edge is written, changed and taken away, and its neighbours stay', () => {
+  const before = { edges: [{ at: 'd1|d2', fillet_mm: 0.8 }] };
+  const one = withEdge(before, 'd1|d2', 'chamfer_mm', 1);
+  assert.deepEqual(one.edges, [{ at: 'd1|d2', fillet_mm: 0.8 }, { at: 'd1|d2', chamfer_mm: 1 }]);
+  const steep = withEdge(one, 'd1|d2', 'angle_deg', 30);
+  assert.deepEqual(steep.edges[1], { at: 'd1|d2', chamfer_mm: 1, angle_deg: 30 });
+  assert.deepEqual(withEdge(steep, 'd1|d2', 'angle_deg', undefined), one);
+  assert.deepEqual(withEdge(one, 'd1|d2', 'chamfer_mm', undefined), before);
+  assert.deepEqual(withEdge({}, 'left', 'angle_deg', 30), {});
+});
+
+test('bores may be named from either side', () => {
+  const document = { edges: [{ at: 'cb|bore', chamfer_mm: 1 }] };
+  assert.equal(edgeIndex(document, 'bore|cb', 'chamfer_mm'), 0);
+});

@@ -1,0 +1,116 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { load, part } from './load.mjs';
+
+const { ends, freshId, inserted, moved, places, removed, renamed, reshaped } = await load('elements');
+
+const stepped = () => ({
+  own: { kept: true },
+  outer: [
+    { id: 'd1', kind: 'cylinder', length_mm: 10, diameter_mm: 30, note: 'mine' },
+    { id: 'd2', kind: 'cylinder', length_mm: 20, diameter_mm: 40 },
+    { id: 'd3', kind: 'cylinder', length_mm: 30, diameter_mm: 50 },
+  ],
+  edges: [{ at: 'd1|d2', chamfer_mm: 1 }, { at: 'd2|d3', undercut: 'E0.8x0.3' }, { at: 'left', chamfer_mm: 1 }],
+  faces: [{ id: 'd2|d3', Ra_um: 1.6 }],
+  tolerances: [{ id: 't1', kind: 'coaxiality', of: 'd3', datum: 'd1', value_mm: 0.01 }, { id: 't2', kind: 'length', between: ['left', 'd1|d2'], limits_mm: [-1, 1] }],
+  milling: [{ id: 'k1', kind: 'keyway', on: 'd2', z_mm: 12 }],
+});
+const at = (p) => p.edges.map((e) => e.at);
+
+test('an insertion keeps every demand: the step goes on with the element behind', () => {
+  const { part: next, id, lost } = inserted(stepped(), 'outer', 1, 'cylinder');
+  assert.equal(id, 'd4');
+  assert.deepEqual(next.outer.map((e) => e.id), ['d1', 'd4', 'd2', 'd3']);
+  assert.equal(next.outer[1].diameter_mm, 30);
+  assert.deepEqual(at(next), ['d4|d2', 'd2|d3', 'left']);
+  assert.deepEqual(next.tolerances[1].between, ['left', 'd4|d2']);
+  assert.deepEqual(lost, []);
+});
+
+test('an insertion that divides a step takes its edge away and says so', () => {
+  const { part: next, lost } = inserted(stepped(), 'outer', 1, 'groove');
+  assert.deepEqual(at(next), ['d2|d3', 'left']);
+  assert.deepEqual(lost, ['chamfer d1|d2', 'tolerance t2']);
+});
+
+test('a removal takes along what named the element, and nothing else', () => {
+  const { part: next, lost } = removed(stepped(), 'outer', 1);
+  assert.deepEqual(next.outer.map((e) => e.id), ['d1', 'd3']);
+  assert.deepEqual(lost, ['chamfer d1|d2', 'undercut d2|d3', 'roughness of d2|d3', 'tolerance t2', 'keyway k1']);
+  assert.deepEqual(at(next), ['left']);
+  assert.deepEqual(next.tolerances.map((t) => t.id), ['t1']);
+  assert.deepEqual(next.own, { kept: true });
+});
+
+test('documents are never changed in place', () => {
+  const before = stepped(), text = JSON.stringify(before);
+  inserted(before, 'outer', 1, 'cylinder');
+  removed(before, 'outer', 0);
+  moved(before, 'outer', 0, 1);
+  renamed(before, 'outer', 0, 'neck');
+  reshaped(before, 'outer', 0, 'thread');
+  assert.equal(JSON.stringify(before), text);
+});
+
+test('there and back again is the same contour', () => {
+  const there = moved(stepped(), 'outer', 0, 1);
+  assert.deepEqual(there.part.outer.map((e) => e.id), ['d2', 'd1', 'd3']);
+  assert.deepEqual(moved(there.part, 'outer', 1, -1).part.outer, stepped().outer);
+  assert.deepEqual(moved(stepped(), 'outer', 0, -1).part, stepped());
+  assert.deepEqual(moved(stepped(), 'outer', 2, 1).part, stepped());
+});
+
+test('a move loses only edges of neighbours that are no more', () => {
+  const { part: next, lost } = moved(stepped(), 'outer', 0, 1);
+  assert.deepEqual(at(next), ['left']);
+  assert.deepEqual(lost, ['chamfer d1|d2', 'undercut d2|d3', 'roughness of d2|d3', 'tolerance t2']);
+  assert.deepEqual(next.milling, stepped().milling);
+});
+
+test('another name stands wherever the old one stood', () => {
+  const next = renamed(stepped(), 'outer', 1, 'seat');
+  assert.ok(!JSON.stringify(next).includes('d2'));
+  assert.deepEqual(at(next), ['d1|seat', 'seat|d3', 'left']);
+  assert.equal(next.milling[0].on, 'seat');
+  assert.equal(JSON.stringify(renamed(next, 'outer', 1, 'd2')), JSON.stringify(stepped()));
+});
+
+test('names that the contour never had are left for the planner to refuse', () => {
+  const odd = { ...stepped(), edges: [{ at: 'x|y', chamfer_mm: 1 }, null, 7] };
+  assert.deepEqual(removed(odd, 'outer', 0).part.edges, odd.edges);
+});
+
+test('another kind keeps name, length, roughness and unknown members, not the old shape', () => {
+  const cone = reshaped(stepped(), 'outer', 0, 'cone').outer[0];
+  assert.deepEqual(Object.keys(cone).sort(), ['id', 'kind', 'left_mm', 'length_mm', 'note', 'right_mm']);
+  const thread = reshaped({ outer: [{ id: 'a', kind: 'cylinder', length_mm: 5, diameter_mm: 20, fit: 'h7' }] }, 'outer', 0, 'thread').outer[0];
+  assert.deepEqual(thread, { id: 'a', kind: 'thread', length_mm: 5, diameter_mm: 20, pitch_mm: 1.5 });
+});
+
+test('a first element, a first bore and a first groove need nothing before them', () => {
+  const one = inserted({}, 'outer', 0, 'cylinder').part;
+  assert.equal(one.outer[0].diameter_mm, 30);
+  const bored = inserted(one, 'inner', 0, 'cylinder', 'left').part;
+  assert.deepEqual([bored.inner[0].from, bored.inner[0].diameter_mm], ['left', 15]);
+  assert.equal(inserted(one, 'outer', 1, 'groove').part.outer[1].diameter_mm, 27);
+});
+
+test('new names are free, whatever else has one', () => {
+  assert.equal(freshId({ outer: [{ id: 'd1' }, { id: 'd3' }, null], tolerances: [{ id: 'd2' }] }, 'd'), 'd4');
+});
+
+test('diameters come from every kind', () => {
+  assert.deepEqual(ends({ designation: 'M30x1.5' }), [30, 30]);
+  assert.deepEqual(ends({ left_mm: 3, right_mm: 4 }), [3, 4]);
+  assert.deepEqual(ends({}), [NaN, NaN]);
+});
+
+test('every name that the shipped parts use is a place', () => {
+  for (const id of ['motor-shaft', 'flanged-bush', 'drilled-bush', 'iron-hub', 'threaded-spindle']) {
+    const document = part(id), all = places(document);
+    const named = [...(document.edges ?? []).map((e) => e.at), ...(document.faces ?? []).map((f) => f.id),
+      ...(document.tolerances ?? []).flatMap((t) => [t.of, t.datum, ...(t.between ?? [])])].filter(Boolean);
+    for (const name of named) assert.ok(all.has(name), `${id}: ${name}`);
+  }
+});
