@@ -14,6 +14,11 @@ Corner corner_of(double re_mm, double kapr_rad) {
           re_mm * (1 - std::cos(kapr_rad))};
 }
 
+double hmin_mm(const catalogue::Material& material, const catalogue::Tool& tool) {
+  if (!(material.hmin_edge_um > 0 && tool.edge_um > 0)) return material.hmin_mm;
+  return material.hmin_mm * tool.edge_um / material.hmin_edge_um;  // Eq. (9)
+}
+
 Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   Cut c;
   c.kc = kienzle_at(material, tool.gamma_deg);
@@ -23,7 +28,7 @@ Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   c.taylor = material.taylor;
   c.corner = corner_of(tool.re_mm, units::rad_from_deg(tool.kapr_deg));
   c.minor_kapr_rad = units::rad_from_deg(tool.minor_kapr_deg);
-  c.hmin_mm = material.hmin_mm;
+  c.hmin_mm = hmin_mm(material, tool);
   c.surface_factor = tool.wiper ? 0.5 : 1.0;
   return c;
 }

@@ -8,6 +8,7 @@
 #include "contour.hpp"
 #include "fixed.hpp"
 #include "planning/clamping/supports.hpp"
+#include "planning/values/tool_label.hpp"
 #include "turning.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/spindle.hpp"
@@ -135,6 +136,17 @@ std::vector<std::string> comments(const OperationPlan& o) {
                       p.n_rpm, p.Fc_N, p.Pc_kW, p.T_min, o.time_min)};
 }
 
+// What a call of a tool says of its edge.
+std::string edge_words(const Site& site, const std::string& tool) {
+  const auto& all = site.answer().edges;
+  const auto e = std::ranges::find(all, tool, &planning::EdgeSchedule::tool);
+  if (e == all.end()) return "";
+  if (e->parts_per_edge == 1) return "change edge every part";
+  if (e->parts_per_edge > 1)
+    return fmt::format("change edge every {} parts", e->parts_per_edge);
+  return fmt::format("a part wears {:.3g} edges", e->edges_per_part);
+}
+
 std::string clamping_change(const Site& site) {
   switch (site.clamping) {
     case Clamping::chuck:
@@ -199,13 +211,9 @@ class Numbers {
  public:
   explicit Numbers(const planning::PreparedPart& part) : part_(part) {}
   TableTool tool(const Site& site, const OperationPlan& o) {
-    TableTool t{.id = o.tool, .re_mm = corner_mm(site, o), .orientation = 3};
-    if (o.kind == OperationKind::fixed) {
-      const auto use = use_of(site, o);
-      if (use != FixedUse::threading && use != FixedUse::profiling)
-        t.id += fmt::format(" {:g} mm", (drills(site, o) ? 2 : 1) * o.passes[0].ap_mm);
-      if (drills(site, o)) t.orientation = kDrillOrientation;
-    }
+    TableTool t{.id = planning::tool_label(part_, o),
+                .re_mm = corner_mm(site, o),
+                .orientation = drills(site, o) ? kDrillOrientation : 3};
     const auto* e = o.on.empty() ? nullptr : &o.on[0];
     const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
     if (extent && extent->inner && t.orientation == 3) t.orientation = 2;
@@ -261,6 +269,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
   p.change_z_mm = site.at.z_mm;
   const auto& operations = site.answer().operations;
   const auto changes = stops(site);
+  int called = 0;
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const auto& o = operations[i];
     p.steps.insert(p.steps.end(), changes[i].begin(), changes[i].end());
@@ -277,6 +286,9 @@ SetupProgram program(Site& site, Numbers& numbers) {
     if (const auto why = entered_again(site, i))
       step.comments.push_back("enters the contour again: " + *why);
     step.tool = tool.number;
+    if (auto words = edge_words(site, tool.id); called != tool.number && !words.empty())
+      step.comments.push_back(std::move(words));
+    called = tool.number;
     step.constant_surface_speed = constant_surface_speed(site, o);
     step.S = step.constant_surface_speed ? o.passes[0].vc_m_min : o.passes[0].n_rpm;
     step.n_max_rpm = spindle_limit_rpm(site, i);
@@ -311,7 +323,10 @@ void refuse_unprogrammed(const planning::PreparedPart& part,
   plan.cost_per_part = plan.time_per_part_min = 0;
   plan.profit_per_min.reset();
   plan.breakdown = {};
-  for (auto& s : plan.setups) s.breakdown = {};
+  for (auto& s : plan.setups) {
+    s.breakdown = {};
+    s.edges.clear();
+  }
   plan.certificate = {};
   plan.certificate.reason = "the plan found cannot be programmed";
   for (const auto& why : cannot) plan.conflicts.push_back({"program", "", 0, 0, "", why});

@@ -10,6 +10,7 @@
 #include "planning/explain/sensitivity.hpp"
 #include "planning/explain/stock_conflicts.hpp"
 #include "planning/setup/clamping_comparison.hpp"
+#include "planning/setup/edge_schedule.hpp"
 #include "planning/setup/operation_order.hpp"
 #include "planning/setup/setup_totals.hpp"
 #include "planning/setup/tolerance_verdicts.hpp"
@@ -85,17 +86,18 @@ SetupPlan setup_plan(const PreparedPart& p, std::size_t index, const Comparison&
 }
 
 // Tolerances that the corrected path, judged as it is cut, does not keep, or edges that are
-// still new, where the plan was made for those due for change.
+// newer, where the plan was made for those due for change.
 bool add_missed(const PreparedPart& p, ProcessPlan& result) {
   const bool worn = p.shop.edge_wear_mm > 0;
   for (const auto& t : result.tolerances) {
     if (t.verdict != Verdict::not_met) continue;
-    result.conflicts.push_back(
-        {t.id + " " + part::name(t.kind), t.of, t.allowed_mm.back() - t.margin_mm,
-         t.allowed_mm.back(), "mm",
-         fmt::format("{} of {} is {} mm outside its limits {}", t.id, t.of,
-                     readable(-t.margin_mm),
-                     worn ? "with new edges" : "even with the path corrected")});
+    result.conflicts.push_back({t.id + " " + part::name(t.kind), t.of,
+                                t.allowed_mm.back() - t.margin_mm, t.allowed_mm.back(),
+                                "mm",
+                                fmt::format("{} of {} is {} mm outside its limits {}",
+                                            t.id, t.of, readable(-t.margin_mm),
+                                            worn ? "with edges that are not yet due"
+                                                 : "even with the path corrected")});
   }
   if (result.conflicts.empty()) return false;
   result.status = PlanStatus::infeasible;
@@ -106,7 +108,7 @@ bool add_missed(const PreparedPart& p, ProcessPlan& result) {
   result.certificate = {};
   result.certificate.reason =
       worn
-          ? "no plan was found: what worn edges keep, new ones do not"
+          ? "no plan was found: what worn edges keep, newer ones do not"
           : "no plan was found: even a corrected tool path does not keep every tolerance";
   return true;
 }
@@ -156,6 +158,9 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
   result.deviations = deviations(p, chosen);
   result.offsets = offsets(p, chosen);
   result.compensation = compensations(chosen);
+  for (std::size_t s = 0; s < chosen.size(); ++s)
+    result.setups[s].edges =
+        edge_schedules(p, chosen[s], result.setups[s].operations, result.offsets);
   result.prices = prices(p, chosen);
   for (std::size_t k = 0; k < what_if.size(); ++k)
     result.what_if[k].first_order_saves_per_part =

@@ -9,6 +9,7 @@
 
 #include "planning/clamping/clamping_checks.hpp"
 #include "planning/explain/stock_conflicts.hpp"
+#include "planning/setup/edge_schedule.hpp"
 #include "planning/setup/infeasibility_reason.hpp"
 #include "planning/setup/operation_order.hpp"
 #include "planning/setup/setup_planner.hpp"
@@ -195,6 +196,8 @@ ProcessPlan predict(const PreparedPart& p) {
     result.breakdown.stock.cost = p.stock_price;
     for (std::size_t s = 0; s < setups.size(); ++s) {
       result.setups[s].breakdown = breakdown(p, setups[s]);
+      result.setups[s].edges =
+          edge_schedules(p, setups[s], result.setups[s].operations, result.offsets);
       result.breakdown += result.setups[s].breakdown;
     }
     add_totals(p, result);

@@ -155,6 +155,20 @@ TEST(Cut, LifeAndSpeedAreOneLaw) {
   EXPECT_NEAR(tool_life_min(c, 2 * v, 0.25, 1.7), 17 * std::pow(0.5, 1 / 0.255), 1e-12);
 }
 
+// Half the depth, 2^(b/n) times the life; at 1 mm both laws agree.
+TEST(Cut, ShallowCutsMayHaveTheirOwnExponentOfTheDepth) {
+  auto c = steel();
+  const auto life = [&](double ap) { return tool_life_min(c, 200.0, 0.2, ap); };
+  const double one = life(1), two = life(2), half = life(0.5);
+  EXPECT_NEAR(half / one, std::pow(2, 0.15 / 0.255), 1e-12);
+  c.taylor.b_shallow = 0.04;
+  EXPECT_EQ(life(1), one);
+  EXPECT_EQ(life(2), two);
+  EXPECT_NEAR(life(0.5) / one, std::pow(2, 0.04 / 0.255), 1e-12);
+  EXPECT_NEAR(tool_life_min(c, speed_for_life_m_min(c, 17.0, 0.25, 0.3), 0.25, 0.3), 17,
+              1e-12);
+}
+
 TEST(Cut, EconomicLifeMakesTheCostStationary) {
   const auto c = steel();
   const double change = 1.5, ratio = 4.0, f = 0.3, ap = 2;
@@ -175,6 +189,22 @@ TEST(Cut, RoughnessHasBrammertzFloor) {
   c.hmin_mm = 0;
   EXPECT_NEAR(Ra_um(c, 0.2), 1000 * 0.04 / (18 * std::sqrt(3.0) * 0.8), 1e-12);
   EXPECT_NEAR(Rz_um(c, 0.2), 1000 * 0.04 / (8 * 0.8), 1e-12);
+}
+
+// Twice the rounding, twice the thickness that still makes a chip; what is not known
+// changes nothing.
+TEST(Cut, TheLeastChipIsInProportionToTheRoundedEdge) {
+  catalogue::Material m;
+  m.hmin_mm = 0.002;
+  catalogue::Tool t;
+  t.edge_um = 25;
+  EXPECT_EQ(cut_of(m, t).hmin_mm, 0.002);
+  m.hmin_edge_um = 50;
+  EXPECT_NEAR(cut_of(m, t).hmin_mm, 0.001, 1e-18);
+  t.edge_um = 100;
+  EXPECT_NEAR(cut_of(m, t).hmin_mm, 0.004, 1e-18);
+  t.edge_um = 0;
+  EXPECT_EQ(cut_of(m, t).hmin_mm, 0.002);
 }
 
 TEST(Cut, RakeCorrectsOnePercentADegreeWithinLimits) {
@@ -221,6 +251,7 @@ TEST(Cut, BoxesHoldValuesAndElasticities) {
     auto c = steel(45 + 70 * unit(seed), trial % 9 == 0 ? 0 : 0.2 + unit(seed));
     if (trial % 7 == 0) c.kf = Kienzle{400, 0.7}, c.kp = Kienzle{300, 0.5};
     if (trial % 5 == 0) c = worn(c, 0.3 * unit(seed) + 0.01, 0.3);
+    if (trial % 4 == 0) c.taylor.b_shallow = 0.3 * unit(seed);
     const double size = std::pow(unit(seed), 3);  // of the box
     const Interval ap = log(Interval(0.05, 6)), f = log(Interval(0.03, 0.8));
     const auto part = [&](const Interval& x) {

@@ -264,6 +264,45 @@ TEST(NcDialects, CommentsHoldNothingThatEndsThem) {
   }
 }
 
+// Every call of a tool, in whichever words, follows the number of parts that its edge
+// makes, taken from the plan's own passes.
+TEST(NcDialects, CallsOfToolsSayWhenTheEdgeIsChanged) {
+  const auto p = test::planned_reference("drilled-bush");
+  const auto all = programs(p.part, p.plan);
+  std::size_t calls = 0;
+  for (const auto& program : all.setups) {
+    std::vector<std::string> wanted;
+    int called = 0;
+    for (const auto& step : program.steps) {
+      if (step.stop || step.tool == called) continue;
+      called = step.tool;
+      const auto& id = std::ranges::find(program.tools, called, &TableTool::number)->id;
+      for (const auto& e : p.plan.setups[program.setup].edges)
+        if (e.tool == id)
+          wanted.push_back(
+              "every " +
+              std::to_string(static_cast<long>(std::floor(1 / e.edges_per_part))) +
+              " parts");
+    }
+    ASSERT_FALSE(wanted.empty());
+    calls += wanted.size();
+    for (const auto control : kControls) {
+      DialectReader reader(control);
+      reader.read(text(program, {.control = control}));
+      std::vector<std::string> told;
+      for (auto c : reader.comments()) {
+        std::ranges::transform(c, c.begin(),
+                               [](unsigned char x) { return std::tolower(x); });
+        const auto at = c.find("change edge every ");
+        if (at != c.npos)
+          told.push_back(c.substr(at + 12, c.find(" parts") + 6 - at - 12));
+      }
+      EXPECT_EQ(told, wanted) << id(control);
+    }
+  }
+  EXPECT_GE(calls, 4u);
+}
+
 // A thread of six cuts of equal area, outside or in a bore.
 Step thread_step(double sign) {
   auto s = step(3, 0, Move::Kind::thread);

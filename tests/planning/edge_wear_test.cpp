@@ -88,13 +88,38 @@ TEST(EdgeWear, ForcesAreThoseOfTheWornEdge) {
 }
 
 // The price of changing earlier: fewer parts of an edge, where its wear binds nothing.
-TEST(EdgeWear, AnEarlierChangeHasAPrice) {
+// What is told of it is the plan of that request.
+TEST(EdgeWear, AnEarlierChangeHasAPriceThatIsTold) {
   auto d = worn_pin(0.3);
   d.erase("tolerances");
   d["outer"][1]["limits_mm"] = {-0.2, 0.2};
-  const double late = plan(part(d)).cost_per_part;
+  d["what_if"] = {{{"name", "change at 0.2"}, {"set", {{"/budget/edge_wear_mm", 0.2}}}}};
+  const auto loaded = document::prepared_part(d, shop(), "part");
+  const auto r = plan(loaded.part, loaded.what_if);
+  d.erase("what_if");
   d["budget"]["edge_wear_mm"] = 0.2;
-  EXPECT_GT(plan(part(d)).cost_per_part, late);
+  const auto early = plan(part(d));
+  EXPECT_GT(early.cost_per_part, r.cost_per_part);
+  ASSERT_EQ(r.what_if.size(), 1u);
+  EXPECT_NEAR(*r.what_if[0].saves_per_part, r.cost_per_part - early.cost_per_part, 1e-9);
+  EXPECT_TRUE(r.what_if[0].sentence.starts_with("change at 0.2"))
+      << r.what_if[0].sentence;
+}
+
+// Rougher and finisher are changed when each is due: a new finisher meets what a worn
+// rougher has left, written anew as a prediction in which nothing but that is worn.
+TEST(EdgeWear, EitherEdgeMayBeNewWhileTheOtherIsWorn) {
+  auto d = worn_pin(0.3);
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  auto given = as_planned(d, r);
+  given["budget"]["edge_wear_mm"] = 1e-6;  // the finisher is new, the rougher at 0.3
+  const auto at = predict(part_to_predict(given));
+  EXPECT_GE(tolerance(r, "t").predicted_mm[0], tolerance(at, "t").predicted_mm[0]);
+  EXPECT_LE(tolerance(r, "t").P_conform, tolerance(at, "t").P_conform + 1e-12);
+  given["budget"]["edge_wear_mm"] = 0;
+  const auto fresh = predict(part_to_predict(given));
+  EXPECT_GE(tolerance(at, "t").predicted_mm[0], tolerance(fresh, "t").predicted_mm[0]);
 }
 
 // No path is corrected for a force that grows, neither in a plan nor in a prediction.

@@ -45,6 +45,31 @@ RC_GTEST_PROP(AnyPlan, KeepsItsLimitsAsPredicted, (const RandomShaft& shaft)) {
       for (const auto& c : o.constraints) RC_ASSERT(c.margin >= -1e-9);
 }
 
+// More wear never widens a margin, whichever tolerance it is, and never lets more parts be
+// kept.  Without offsets: one that more wear makes necessary brings a size to its middle.
+RC_GTEST_PROP(AnyPlan, WithMoreWearHasNoWiderMargin, (const RandomShaft& shaft)) {
+  auto d = json_of(shaft);
+  d["budget"] = {{"edge_wear_mm", 0.1}, {"first_part_gauged", false}};
+  const auto r = plan(part(d));
+  RC_CLASSIFY(made(r));
+  if (!made(r)) return;
+  auto conditions = as_planned(d, r);
+  auto& operations = conditions["operations"];
+  for (std::size_t k = operations.size(); k-- > 0;)
+    if (operations[k]["kind"] == "fixed") operations.erase(k);
+  auto before = r.tolerances;
+  for (const double VB_mm : {0.15, 0.2, 0.3}) {
+    conditions["budget"]["edge_wear_mm"] = VB_mm;
+    const auto at = predict(part_to_predict(conditions));
+    RC_ASSERT(at.tolerances.size() == before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      RC_ASSERT(at.tolerances[i].margin_mm <= before[i].margin_mm + 1e-9);
+      RC_ASSERT(at.tolerances[i].P_conform <= before[i].P_conform + 1e-6);
+    }
+    before = at.tolerances;
+  }
+}
+
 // A plan of the harder part also makes the easier one.  Where only a corrected path makes
 // the harder part, an easier part that needs none is planned without, see
 // docs/planning-proof.md.

@@ -22,9 +22,11 @@ struct Thrust {
   double land_MPa = 0;          ///< pressure on the wear land of an edge
 };
 
-/// T = (C / (vc f^a ap^b))^(1/n): vc [m/min], f [mm/rev], ap [mm], T [min].
+/// T = (C / (vc f^a ap^b))^(1/n): vc [m/min], f [mm/rev], ap [mm], T [min].  Both laws of
+/// the depth agree at 1 mm.
 struct Taylor {
   double C = 0, n = 0, a = 0, b = 0;
+  std::optional<double> b_shallow = {};  ///< in place of b below a depth of 1 mm
 };
 
 struct Material {
@@ -40,7 +42,10 @@ struct Material {
   double feed_passive_uncertainty_pct = 0;
   Taylor taylor;
   double taylor_uncertainty_pct = 0;  ///< of C
+  double life_scatter_pct = 0;        ///< of ln T between edges, one standard deviation
   double hmin_mm = 0;                 ///< least chip thickness (Brammertz), 0 = ideal
+  double hmin_uncertainty_pct = 0;    ///< one standard deviation
+  double hmin_edge_um = 0;  ///< radius of the rounded edge that hmin belongs to; 0: any
 };
 
 /// The material's thrust force, or where it has none an estimate,

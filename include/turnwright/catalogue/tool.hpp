@@ -75,6 +75,7 @@ struct Tool {
   double alpha_deg = 0;  ///< clearance
   double re_mm = 0;      ///< corner radius RE
   bool wiper = false;
+  double edge_um = 0;            ///< radius of the rounded edge, 0: not known
   Range f_mm_rev, ap_mm;         ///< chip breaker's window, or the range that contains it
   std::vector<ChipPiece> chip;   ///< convex pieces of a window that is a polygon
   Range vc_m_min;                ///< cutting speeds of the grade over all materials

@@ -33,6 +33,15 @@ struct Cut {
   double surface_factor = 1;  ///< 0.5 with a wiper edge
 };
 
+/// Least chip thickness of this tool in this material [mm].  Ploughing at a rounded edge
+/// that is small against all else is similar at every radius r_n, so
+///
+///     hmin = hmin of the material r_n of the tool/r_n it belongs to                 (9)
+///
+/// where both radii are known; else it is the material's.
+/// Source: derived here by similarity; not compared with measurements.
+double hmin_mm(const catalogue::Material& material, const catalogue::Tool& tool);
+
 /// Constants of this tool in this material.  The correction for the rake is
 /// K_gamma = 1 - (gamma - gamma0)/100 with the angles in degrees, limited to 0.7 .. 1.3,
 /// the range of this rule of thumb.
@@ -256,12 +265,22 @@ Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const LogDual<N>& ap_mm,
   return linear(c.thrust.ratio * kienzle_N(c.kc, L, ap_mm, f_mm_rev) * flow / f_mm_rev);
 }
 
+/// ap^b, with the material's other exponent below 1 mm where it has one.
+template <class T>
+T depth_power(const catalogue::Taylor& t, const T& ap_mm) {
+  using std::pow;
+  if (!t.b_shallow) return pow(ap_mm, t.b);
+  return branch(
+      ap_mm, 1.0, [&](const T& ap) -> T { return pow(ap, *t.b_shallow); },
+      [&](const T& ap) -> T { return pow(ap, t.b); });
+}
+
 /// Tool life [min], T = (C/(vc f^a ap^b))^(1/n).  Source: [Taylor 1907], extended form.
 template <class T>
 T tool_life_min(const Cut& c, const T& vc_m_min, const T& f_mm_rev, const T& ap_mm) {
   using std::pow;
   const auto& t = c.taylor;
-  return pow(t.C / (vc_m_min * pow(f_mm_rev, t.a) * pow(ap_mm, t.b)), 1 / t.n);
+  return pow(t.C / (vc_m_min * pow(f_mm_rev, t.a) * depth_power(t, ap_mm)), 1 / t.n);
 }
 
 /// Cutting speed [m/min] that gives the life T [min]: the same law solved for vc.
@@ -270,7 +289,7 @@ T speed_for_life_m_min(const Cut& c, const Life& T_min, const T& f_mm_rev,
                        const T& ap_mm) {
   using std::pow;
   const auto& t = c.taylor;
-  return t.C * pow(T_min, -t.n) / (pow(f_mm_rev, t.a) * pow(ap_mm, t.b));
+  return t.C * pow(T_min, -t.n) / (pow(f_mm_rev, t.a) * depth_power(t, ap_mm));
 }
 
 /// Roughness Rz [um] that the corner radius generates, with the floor by the least chip

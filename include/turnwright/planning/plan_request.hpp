@@ -142,11 +142,17 @@ struct PlanRequest {
   /// boring bars without their own.  0.03 is an estimate, with which a steel bar cuts up to
   /// the four diameters of overhang that its makers allow.
   double machine_damping_ratio = 0.03;
+  /// Standard deviation of the logarithm of the limits of chatter, which are proportional
+  /// to zeta (1 + zeta).  0: both ratios are taken as they are.
+  double damping_uncertainty_pct = 0;
   /// Factor on the limits of chatter.  No document sets it: it is 1, and larger in the
   /// requests with relaxed limits by which an infeasible part is explained.
   double chatter_times = 1;
   ShopErrors shop;
   double conformance = 0.9973;
+  /// Probability with which roughness is kept, where the material's hmin is uncertain.
+  /// Absent: hmin itself decides.
+  std::optional<double> roughness_conformance = {};
   bool robust = true;  ///< require `conformance` of every tolerance, not only nominally
   std::size_t pareto = 0;  ///< corners of cost against time to find, 0: none
 };

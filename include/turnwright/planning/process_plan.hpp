@@ -80,6 +80,7 @@ struct OperationPlan {
   std::vector<Pass> passes;
   double time_min = 0;  ///< cutting
   double cost = 0;      ///< of the cut, approach and return, and edges
+  double edges = 0;     ///< of its tool's edge that one part uses up, as `cost` counts it
   std::vector<ConstraintValue> constraints;
   Certificate certificate;
   std::optional<OperatingWindow> window;  ///< of conditions that were chosen
@@ -125,6 +126,29 @@ inline constexpr std::array kSpendings{
     &Breakdown::operator_stops, &Breakdown::edges, &Breakdown::loading,
     &Breakdown::setup_share,    &Breakdown::stock};
 
+/// The offset of a tool while its edge wears: from the part after `after_part` of an edge
+/// on it is by `um` beyond what the program holds for a new edge, on the diameter, of a
+/// face along the axis.
+struct OffsetStep {
+  long after_part = 0;
+  double um = 0;
+};
+
+/// The steps of the offset at one surface, from the new edge to its change.
+struct FollowedOffset {
+  std::string on;
+  std::vector<OffsetStep> steps;
+};
+
+/// When a tool's edge is changed, and what is corrected until then.
+struct EdgeSchedule {
+  std::string tool;           ///< as programs list it, drills and blades with their size
+  double edges_per_part = 0;  ///< of an edge that one part uses up
+  long parts_per_edge = 0;    ///< whole parts; 0: an edge does not last for one
+  std::optional<long> edges_per_batch = {};  ///< begun in a batch, if there is one
+  std::vector<FollowedOffset> offsets = {};  ///< at its sizes
+};
+
 struct SetupPlan {
   part::End hold = part::End::left;
   Clamping clamping = Clamping::chuck;
@@ -133,7 +157,8 @@ struct SetupPlan {
   std::vector<RejectedClamping> rejected;
   std::vector<RejectedTool> rejected_tools;  ///< in the clamping chosen
   std::vector<OperationPlan> operations;
-  Breakdown breakdown;  ///< zero if the part has no plan
+  std::vector<EdgeSchedule> edges;  ///< in the order of use; none if the part has no plan
+  Breakdown breakdown;              ///< zero if the part has no plan
 };
 
 enum class Verdict { met, met_with_offset, not_met };

@@ -50,6 +50,8 @@ void read_taylor(Reader group, catalogue::Material& m) {
   m.taylor.n = group.number("n", above_up_to(0, 1));
   m.taylor.a = group.number("a", within(0, 2));
   m.taylor.b = group.number("b", within(0, 2));
+  m.taylor.b_shallow = group.optional_number("b_shallow", within(0, 2));
+  m.life_scatter_pct = group.number_or("scatter_pct", within(0, 300, "%"), 0);
   group.text("tool");
   read_range(group, "vc_m_min", kCuttingSpeed);
   read_range(group, "f_mm_rev", above_up_to(0, 5, "mm/rev"));
@@ -78,7 +80,8 @@ catalogue::Material read_material(Reader r) {
   read_taylor(r.object("taylor"), m);
   if (auto chip = r.optional_object("chip")) {
     m.hmin_mm = chip->number("hmin_mm", within(0, 1, "mm"));
-    finish_group(*chip);
+    m.hmin_edge_um = chip->number_or("edge_um", kEdgeRadius, 0);
+    m.hmin_uncertainty_pct = finish_group(*chip);
   }
   r.finish();
   return m;

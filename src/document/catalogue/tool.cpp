@@ -186,6 +186,10 @@ catalogue::Tool read_tool(Reader r) {
   t.groups = read_set(r, "groups", iso_groups());
   read_turning_geometry(r.object("geometry"), t);
   read_window(r.object("window"), t);
+  if (auto rounding = r.optional_object("rounding")) {
+    t.edge_um = rounding->number("edge_um", kEdgeRadius);
+    finish_group(*rounding);
+  }
   Reader strength = r.object("strength");
   t.Fc_max_N = strength.number("Fc_max_N", above_up_to(0, 1e6, "N"));
   finish_group(strength);

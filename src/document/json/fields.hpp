@@ -39,6 +39,9 @@ catalogue::RootCompliance read_compliance(Reader r);
 /// Damping ratio of a mode of slender work or of a bar, "damping_ratio".
 inline const Bounds kDamping = above_up_to(0, 0.5);
 
+/// Radius of a rounded cutting edge, "edge_um".
+inline const Bounds kEdgeRadius = above_up_to(0, 500, "um");
+
 /// "modes": {"axis": "x" along the feed or "y" across it, "frequency_Hz",
 /// "damping_ratio", "stiffness_N_mm"}, one to ten of them.
 std::vector<catalogue::TipMode> read_tip_modes(Reader& r);

@@ -89,13 +89,17 @@ void read_economics(Draft& draft) {
   else
     draft.assume("/robust", plan.robust,
                  "every tolerance is kept with the probability conformance");
-  plan.conformance = or_assumed(draft, "conformance",
-                                r.optional_number("conformance", at_least_below(0.5, 1)),
-                                plan.conformance, plan.conformance);
+  const auto probability = at_least_below(0.5, 1);
+  plan.conformance =
+      or_assumed(draft, "conformance", r.optional_number("conformance", probability),
+                 plan.conformance, plan.conformance);
+  plan.roughness_conformance = r.optional_number("roughness_conformance", probability);
 }
 
 void read_damping(Draft& draft) {
   auto& plan = draft.plan();
+  plan.damping_uncertainty_pct =
+      draft.root.number_or("damping_uncertainty_pct", within(0, 100, "%"), 0);
   if (const auto given = draft.root.optional_number("damping_ratio", kDamping)) {
     plan.damping_ratio = plan.machine_damping_ratio = *given;
     return;

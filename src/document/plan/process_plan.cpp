@@ -135,6 +135,21 @@ ordered_json json_of(const Breakdown& b) {
   return out;
 }
 
+ordered_json json_of(const EdgeSchedule& e) {
+  ordered_json out{{"tool", e.tool},
+                   {"edges_per_part", e.edges_per_part},
+                   {"parts_per_edge", e.parts_per_edge}};
+  if (e.edges_per_batch) out["edges_per_batch"] = *e.edges_per_batch;
+  out["offsets"] = list(e.offsets, [](const FollowedOffset& o) {
+    return ordered_json{
+        {"on", o.on},
+        {"steps", list(o.steps, [](const OffsetStep& step) {
+           return ordered_json{{"after_part", step.after_part}, {"um", step.um}};
+         })}};
+  });
+  return out;
+}
+
 ordered_json json_of(const SetupPlan& s) {
   ordered_json out{
       {"hold", word(s.hold)},
@@ -147,6 +162,8 @@ ordered_json json_of(const SetupPlan& s) {
        list(s.rejected_tools, [](const RejectedTool& r) { return json_of(r); })},
       {"operations",
        list(s.operations, [](const OperationPlan& op) { return json_of(op); })}};
+  if (!s.edges.empty())
+    out["edges"] = list(s.edges, [](const EdgeSchedule& e) { return json_of(e); });
   if (s.breakdown.total().time_min > 0) out["breakdown"] = json_of(s.breakdown);
   return out;
 }

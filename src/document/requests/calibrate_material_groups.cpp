@@ -89,17 +89,20 @@ json feed_passive(const Request& q, const cutting::ForceFit& f) {
 json taylor(const Request& q, const Lives& t) {
   const double n = t.fit.n->value;
   const Evidence& e = t.fit.evidence;
-  return group(
-      q, percent(n * e.s_prediction),  // of C, not of T
-      {{"C", t.fit.C->value},
-       {"n", n},
-       {"a", t.fit.a ? t.fit.a->value : q.given_a},
-       {"b", t.fit.b ? t.fit.b->value : q.given_b},
-       {"tool", q.tool.name},
-       {"vc_m_min", range(q, e, [](const MeasuredCut& x) { return x.vc_m_min; })},
-       {"f_mm_rev", range(q, e, [](const MeasuredCut& x) { return x.f_mm_rev; })},
-       {"ap_mm", range(q, e, [](const MeasuredCut& x) { return x.ap_mm; })},
-       {"note", note(q, e, told("C", *t.fit.C) + ", " + told("n", *t.fit.n))}});
+  auto out =
+      group(q, percent(n * e.s_prediction),  // of C, not of T
+            {{"C", t.fit.C->value},
+             {"n", n},
+             {"a", t.fit.a ? t.fit.a->value : q.given_a},
+             {"b", t.fit.b ? t.fit.b->value : q.given_b},
+             {"tool", q.tool.name},
+             {"vc_m_min", range(q, e, [](const MeasuredCut& x) { return x.vc_m_min; })},
+             {"f_mm_rev", range(q, e, [](const MeasuredCut& x) { return x.f_mm_rev; })},
+             {"ap_mm", range(q, e, [](const MeasuredCut& x) { return x.ap_mm; })},
+             {"note", note(q, e, told("C", *t.fit.C) + ", " + told("n", *t.fit.n))}});
+  if (t.scatter && t.scatter->s_between)
+    out["scatter_pct"] = percent(t.scatter->s_between->value);
+  return out;
 }
 
 /// One standard deviation of hmin, by its interval.

@@ -186,10 +186,10 @@ AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
     pass.T_min = f.at.T_min;
     plan.time_min += pass.time_min;
   }
-  const double edges = plan.time_min / f.at.T_min;
+  plan.edges = plan.time_min / f.at.T_min;
   o.air_min = way.fed_min + way.rapid_mm / s.p.machine.rapid_mm_min;
-  o.change_min = f.tool->change_min * edges;
-  o.edges_cost = f.tool->edge_cost * edges;
+  o.change_min = f.tool->change_min * plan.edges;
+  o.edges_cost = f.tool->edge_cost * plan.edges;
   o.order = {f.size_mm > 0 ? fmt::format("{} {:g}", f.tool->id, f.size_mm) : f.tool->id,
              s.stage,
              sized_by_diameter(a.use),

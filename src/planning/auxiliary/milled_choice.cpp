@@ -227,10 +227,10 @@ AuxiliaryOperation milled_operation(const MilledSite& s, const MilledChoice& c,
   pass.T_min = life_min(k, n);
   plan.passes.assign(static_cast<std::size_t>(c.passes), pass);
   plan.time_min = c.passes * pass.time_min;
-  const double edges = plan.time_min / pass.T_min;
+  plan.edges = plan.time_min / pass.T_min;
   o.air_min = back_min(s, c);
-  o.change_min = c.cutter->change_min * edges;
-  o.edges_cost = c.cutter->edge_cost * edges;
+  o.change_min = c.cutter->change_min * plan.edges;
+  o.edges_cost = c.cutter->edge_cost * plan.edges;
   plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
   plan.milled = cut_at(s, c, k, n, fz);
   plan.constraints = cutter_limits(s, c, n, fz, plan.milled->limit_mm);

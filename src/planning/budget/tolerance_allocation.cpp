@@ -11,6 +11,7 @@
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/interval.hpp"
 #include "turnwright/deflection/shop_errors.hpp"
+#include "uncertain_limits.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -73,13 +74,9 @@ Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) 
   return both;
 }
 
+// Half of what an edge recedes by between two corrections.
 double wear_um(const PreparedPart& p, const catalogue::Tool& tool) {
-  const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
-                              units::rad_from_deg(tool.gamma_deg)};
-  const double land = p.shop.edge_wear_mm > 0 ? p.shop.edge_wear_mm : p.shop.wear_land_mm;
-  return units::um_from_mm(
-             deflection::wear_error_mm(land, edge, p.shop.life_between_offsets)) /
-         2;
+  return units::um_from_mm(recession_mm(p, tool, p.shop.life_between_offsets)) / 2;
 }
 
 double rechucking_um(const PreparedPart& p, std::size_t setup, Clamping clamping) {
@@ -154,6 +151,23 @@ double largest(double most, const Suffices& suffices) {
   return low;
 }
 
+// (1) to (3), where this share of the parts may fail.
+double robust_left_mm(const PreparedPart& p, std::size_t tolerance,
+                      const ToleranceAllocation& a, Cut cut, double may_fail) {
+  const bool corrected = cut == Cut::corrected;
+  const double width = width_mm(p.drawing.tolerances[tolerance]);
+  const double h = (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
+  if (!(h > 0)) return 0;
+  const double wanted = 1 - may_fail * std::min(1.0, 2 / a.ends);
+  const double r = cut == Cut::none ? 0 : error_spread(p);
+  const tolerance::Spread spread(a.spread);
+  const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
+    const double up = corrected ? h : h - e;
+    return spread.within({a.ends == 1 ? -kInfinity : -up, up}, r * e) >= wanted;
+  });
+  return units::mm_from_um(a.ends * E);
+}
+
 }  // namespace
 
 ToleranceAllocation tolerance_allocation(const PreparedPart& p, std::size_t tolerance,
@@ -183,8 +197,11 @@ ToleranceAllocation tolerance_allocation(const PreparedPart& p, std::size_t tole
         t.kind == ToleranceKind::length ? shop.drift_axial_um : shop.drift_um;
     if (!both.setup) spread("drift", Distribution::uniform, drift, s);
     spread("repeatability", Distribution::normal, shop.repeatability_um, s);
-    if (making.last && !both.tool)
-      spread("wear", Distribution::uniform, wear_um(p, *making.last), s);
+    if (making.last && !both.tool) {
+      const double wear = wear_um(p, *making.last);
+      spread("wear", Distribution::uniform, wear, s);
+      spread(kLife, Distribution::normal, wear * life_spread(p), s);
+    }
     spread(kHeat, Distribution::uniform, heat_um(p, t), s);
   }
   add_rechucking(p, t, making, a);
@@ -197,6 +214,14 @@ double taken_mm(const ToleranceAllocation& a) {
   return units::mm_from_um(um);
 }
 
+double recession_mm(const PreparedPart& p, const catalogue::Tool& tool,
+                    double life_used) {
+  const deflection::Edge edge{units::rad_from_deg(tool.alpha_deg),
+                              units::rad_from_deg(tool.gamma_deg)};
+  const double land = p.shop.edge_wear_mm > 0 ? p.shop.edge_wear_mm : p.shop.wear_land_mm;
+  return deflection::wear_error_mm(land, edge, life_used);
+}
+
 double force_spread(const PreparedPart& p) {
   const auto& m = p.material;
   constexpr double kLand_pct = 20;  // the pressure on the wear land is an estimate
@@ -205,6 +230,16 @@ double force_spread(const PreparedPart& p) {
            : std::hypot(m.kc_uncertainty_pct, catalogue::thrust_of(m).uncertainty_pct);
   if (p.shop.edge_wear_mm > 0) passive = std::max(passive, kLand_pct);
   return std::hypot(passive, p.machine.stiffness_uncertainty_pct) / 100;
+}
+
+double life_spread(const PreparedPart& p) {
+  constexpr double kReach = 3;
+  return std::expm1(kReach * p.material.life_scatter_pct / 100) / kReach;  // Eq. (4)
+}
+
+double error_spread(const PreparedPart& p) {
+  const double life = p.shop.edge_wear_mm > 0 ? life_spread(p) : 0;
+  return life > 0 ? std::hypot(force_spread(p), life) : force_spread(p);
 }
 
 double fixed_in_parts_um(const ToleranceAllocation& a) {
@@ -216,19 +251,16 @@ double fixed_in_parts_um(const ToleranceAllocation& a) {
 
 double left_mm(const PreparedPart& p, std::size_t tolerance, const ToleranceAllocation& a,
                Cut cut) {
-  const bool corrected = cut == Cut::corrected;
-  const double width = width_mm(p.drawing.tolerances[tolerance]);
-  if (!p.robust) return std::max(0.0, width - taken_mm(a));
-  const double h = (units::um_from_mm(width) - fixed_in_parts_um(a)) / a.ends;
-  if (!(h > 0)) return 0;
-  const double wanted = 1 - (1 - p.conformance) * std::min(1.0, 2 / a.ends);
-  const double r = cut == Cut::none ? 0 : force_spread(p);
-  const tolerance::Spread spread(a.spread);
-  const double E = largest(corrected ? h / std::max(r, 1e-3) : h, [&](double e) {
-    const double up = corrected ? h : h - e;
-    return spread.within({a.ends == 1 ? -kInfinity : -up, up}, r * e) >= wanted;
-  });
-  return units::mm_from_um(a.ends * E);
+  if (!p.robust)
+    return std::max(0.0, width_mm(p.drawing.tolerances[tolerance]) - taken_mm(a));
+  return robust_left_mm(p, tolerance, a, cut, (1 - p.conformance) * left_by_chatter(p));
+}
+
+double damping_share_mm(const PreparedPart& p, std::size_t tolerance,
+                        const ToleranceAllocation& a, Cut cut) {
+  if (!p.robust || !(p.damping_uncertainty_pct > 0)) return 0;
+  return robust_left_mm(p, tolerance, a, cut, 1 - p.conformance) -
+         left_mm(p, tolerance, a, cut);
 }
 
 std::vector<Share> shares(const ToleranceAllocation& a) {

@@ -18,6 +18,7 @@ struct Making {
 
 inline constexpr const char* kMachine = "machine";  ///< sources, below
 inline constexpr const char* kHeat = "heat";
+inline constexpr const char* kLife = "life";
 inline constexpr const char* kMeasurement = "measurement";
 
 /// Contributions of the sources.  They move a size (diameter, length, a profile located
@@ -34,12 +35,18 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     drift         +- drift_um, uniform           sizes; axial ones of lengths
 ///     repeatability normal                         sizes
 ///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
+///     life          normal, life_spread() of r u/2: an edge that wears out sooner than
+///                   thought recedes faster
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, to a datum that another setup cuts: twice for run-out,
 ///                   coaxiality and position, once for a profile; sqrt(2) D/grip times
 ///                   for tolerances of tilt, D the face's diameter or the axis' length
 ///     forces        normal, force_spread() times the error itself; in `shares` of a
 ///                   robust plan, not among the sources here
+///     life          likewise life_spread() of the error by worn edges: the land is larger
+///                   where the edge is changed
+///     damping       what left_mm leaves less than it would if the limits of chatter were
+///                   known (uncertain_limits.hpp)
 ///
 /// Two faces of a length that one setup cuts stand minutes apart in the same drift and,
 /// cut by one tool, with the same edge; both look at the free end, so that their errors
@@ -68,8 +75,27 @@ double taken_mm(const ToleranceAllocation& allocation);
 /// uncertainty of its measurement.
 double fixed_in_parts_um(const ToleranceAllocation& allocation);
 
-/// Relative standard deviation of the deflection, from those of forces and stiffness.
+/// Recession of an edge [mm] by the share `life_used` of its life, to the wear land where it
+/// is changed ((2) of deflection/shop_errors.hpp).
+double recession_mm(const PreparedPart& plan, const catalogue::Tool& tool,
+                    double life_used);
+
+/// Relative standard deviation of the deflection, from those of forces and stiffness alone.
 double force_spread(const PreparedPart& plan);
+
+/// Relative standard deviation of the wear land at a given time, from the scatter s of ln T
+/// between edges, normal.  The land is in proportion to 1/T; a normal land that is as large
+/// at 3 s as the lognormal one,
+///
+///     (exp(3 s) - 1)/3,                                                              (4)
+///
+/// is on the safe side of it for all edges between there and the middle.  0 where the
+/// material tells no scatter.
+double life_spread(const PreparedPart& plan);
+
+/// Relative standard deviation of the deflection.  With forces of worn edges life_spread() is
+/// counted of the whole of it, on the safe side, because a part of it is the new edge's.
+double error_spread(const PreparedPart& plan);
 
 /// The cut's part in a tolerance: none, its deflection, or the remainder of a deflection
 /// for which the tool path is corrected.
@@ -78,7 +104,7 @@ enum class Cut { none, error, corrected };
 /// Room that a tolerance of width w leaves to the cut.  In a nominal plan it is
 /// w - taken.  A robust plan judges the parts themselves, not their measurement: at each
 /// end, at the distance h = (w - fixed)/ends from the middle of a size or from 0 of a zone, it
-/// is the largest E with which parts whose force and stiffness spread by r keep the limit
+/// is the largest E with which parts whose deflection spreads by r = error_spread() keep the limit
 /// with the required probability p,
 ///
 ///     P(S + r E Z <= h - E) = p                                                     (1)
@@ -98,6 +124,7 @@ enum class Cut { none, error, corrected };
 ///
 ///     P(|S + r E Z| <= h) = p                                                       (3)
 ///
+/// p is `conformance`, or with uncertain damping (1 + conformance)/2.
 /// Where the cut has no part in the tolerance, E is the room that S leaves, (1) with
 /// r = 0.
 /// Source: derived here; the left sides fall as E grows.
@@ -105,6 +132,10 @@ enum class Cut { none, error, corrected };
 /// @return ends E [mm]
 double left_mm(const PreparedPart& plan, std::size_t tolerance,
                const ToleranceAllocation& allocation, Cut cut);
+
+/// Share of the width [mm] that uncertain limits of chatter take of a robust plan.
+double damping_share_mm(const PreparedPart& plan, std::size_t tolerance,
+                        const ToleranceAllocation& allocation, Cut cut);
 
 /// Share of the width that each source takes alone, for sources that spread their reach;
 /// both faces of a length together.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/budget/uncertain_limits.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
@@ -19,9 +20,24 @@ Compensation::Table correction(const SolvedSurface& f) {
                                     f.answer.choice);
 }
 
-// The state for which the plan was made, and the edges that it starts with.  Both are one
-// where the plan's forces are those of new edges.
-enum class Edges { changed, fresh };
+// The state for which the plan was made, that of all new edges, and those where one of them
+// has been changed before the other.  All are one where the plan's forces are those of new
+// edges.
+enum class Edges { changed, fresh, new_rougher, new_finisher };
+
+MachinedSurface cut_by(Edges edges, const MachinedSurface& surface) {
+  switch (edges) {
+    case Edges::changed:
+      break;
+    case Edges::fresh:
+      return surface.with_edges({.rough = false, .finish = false});
+    case Edges::new_rougher:
+      return surface.with_edges({.rough = false});
+    case Edges::new_finisher:
+      return surface.with_edges({.finish = false});
+  }
+  return surface;
+}
 
 struct Found {
   const SolvedSurface* feature = nullptr;
@@ -32,8 +48,8 @@ struct Found {
 tolerance::PiecewisePolynomial error_of(const SolvedSurface& f, Edges edges) {
   const auto& a = f.answer;
   if (edges == Edges::changed || !a.model || !f.task.feature.is_worn()) return a.profile;
-  return f.task.feature.with_new_edges().profile(a.model->recipe(), f.task.economy,
-                                                 a.choice);
+  return cut_by(edges, f.task.feature)
+      .profile(a.model->recipe(), f.task.economy, a.choice);
 }
 
 Found find(const std::vector<SolvedSetup>& setups, const std::string& surface,
@@ -175,11 +191,19 @@ tolerance::Profile scaled_with_forces(const PreparedPart& p, const Found& f) {
   return p.shop.first_part_gauged ? moved(e, to_middle_mm(e)) : e;
 }
 
-// Standard deviation by uncertain forces and stiffness.
-double by_forces_um(const PreparedPart& p, const tolerance::Case& c, const Found& at,
-                    const Found& other) {
+// The error that they scale, as a size or form.
+double scaled_um(const PreparedPart& p, const tolerance::Case& c, const Found& at,
+                 const Found& other) {
   const auto of = verdict(c, scaled_with_forces(p, at), scaled_with_forces(p, other));
-  return force_spread(p) * units::um_from_mm(scaled_mm(c, of));
+  return units::um_from_mm(scaled_mm(c, of));
+}
+
+double stable(const PreparedPart& p, const Found& f) {
+  if (!f.feature || !(p.damping_uncertainty_pct > 0)) return 1;
+  const auto& a = f.feature->answer;
+  if (!a.model) return 1;
+  return stable_probability(
+      p, f.feature->task.feature.chatter_share(a.model->chain(), a.choice));
 }
 
 // How far the offset lags behind a wearing edge: half of what it moves by between two
@@ -196,11 +220,14 @@ double conforming(const PreparedPart& p, const Tolerance& t, const Found& at,
   if (!(all.fixed_mm < width_mm(t) && (at.feature || other.feature))) return 0;
   const auto c = judged(t, at, all.fixed_mm, half_angle_rad(p.drawing, t.of).value_or(0));
   auto sources = all.by.spread;
-  if (const double lag = lag_um(at) + lag_um(other); lag > 0)
+  if (const double lag = lag_um(at) + lag_um(other); lag > 0) {
     sources.push_back({"wear", tolerance::Distribution::uniform, lag, 1});
-  return tolerance::Spread(sources).within(
+    sources.push_back({kLife, tolerance::Distribution::normal, lag * life_spread(p), 1});
+  }
+  const double kept = tolerance::Spread(sources).within(
       tolerance::room_um(verdict(c, as_made(at), as_made(other))),
-      by_forces_um(p, c, at, other));
+      error_spread(p) * scaled_um(p, c, at, other));
+  return kept * stable(p, at) * stable(p, other);
 }
 
 // The sources other than the cut need more than the whole width.
@@ -210,6 +237,35 @@ void used_up(const Tolerance& t, double taken_mm, ToleranceResult& r) {
   r.predicted_mm = {taken_mm};
   r.allowed_mm = {width_mm(t)};
   r.margin_mm = width_mm(t) - taken_mm;
+}
+
+void add_share(const Share& share, std::vector<Share>& all) {
+  if (!(share.um > 0)) return;
+  const auto same = std::ranges::find(all, share.source, &Share::source);
+  if (same != all.end())
+    same->um += share.um;
+  else
+    all.push_back(share);
+}
+
+Cut part_of_cut(const Found& f) {
+  if (f.cut_tolerance->shape == CutTolerance::Shape::none) return Cut::none;
+  return f.feature->task.offset == Offset::path ? Cut::corrected : Cut::error;
+}
+
+// What a robust plan keeps for forces, tool life and damping that are not well known.
+void add_robust_shares(const PreparedPart& p, const tolerance::Case& c, const Found& at,
+                       const Found& other, const Taken& all, ToleranceResult& r) {
+  constexpr double kReach = 3;  // standard deviations, as of every normal source
+  const double scaled = all.by.ends * kReach * scaled_um(p, c, at, other);
+  add_share({"forces", force_spread(p) * scaled}, r.shares);
+  if (p.shop.edge_wear_mm > 0) add_share({kLife, life_spread(p) * scaled}, r.shares);
+  const auto& made = at.feature ? at : other;
+  const auto tolerance = made.cut_tolerance->tolerance;
+  const double damping = damping_share_mm(
+      p, tolerance, tolerance_allocation(p, tolerance, made.feature->task.making),
+      part_of_cut(made));
+  add_share({"damping", units::um_from_mm(damping)}, r.shares);
 }
 
 void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
@@ -226,9 +282,7 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
                                           : Verdict::met;
   r.shares.insert(r.shares.begin(),
                   {"deflection", all.by.ends * units::um_from_mm(scaled_mm(c, made))});
-  constexpr double kReach = 3;  // standard deviations, as of every normal source
-  const double spread = all.by.ends * kReach * by_forces_um(p, c, at, other);
-  if (p.robust && spread > 0) r.shares.push_back({"forces", spread});
+  if (p.robust) add_robust_shares(p, c, at, other, all, r);
   if (t.limits) {
     const double middle = (t.limits->upper_mm + t.limits->lower_mm) / 2;
     const double factor = t.kind == ToleranceKind::diameter ? 2 : 1;
@@ -302,15 +356,15 @@ ToleranceResult result(const PreparedPart& p, const std::vector<SolvedSetup>& se
   return r;
 }
 
-// What holds with new edges and with those that are due for change.
-ToleranceResult both(const ToleranceResult& fresh, const ToleranceResult& changed) {
-  ToleranceResult r = fresh.margin_mm < changed.margin_mm ? fresh : changed;
-  r.verdict = std::max(fresh.verdict, changed.verdict);
-  r.published_verdict = fresh.published_verdict && changed.published_verdict;
-  r.P_conform = std::min(fresh.P_conform, changed.P_conform);
+// What holds in two states of the edges.
+ToleranceResult both(const ToleranceResult& a, const ToleranceResult& b) {
+  ToleranceResult r = a.margin_mm < b.margin_mm ? a : b;
+  r.verdict = std::max(a.verdict, b.verdict);
+  r.published_verdict = a.published_verdict && b.published_verdict;
+  r.P_conform = std::min(a.P_conform, b.P_conform);
   if (r.predicted_mm.size() == 2)
-    r.predicted_mm = {std::min(fresh.predicted_mm[0], changed.predicted_mm[0]),
-                      std::max(fresh.predicted_mm[1], changed.predicted_mm[1])};
+    r.predicted_mm = {std::min(a.predicted_mm[0], b.predicted_mm[0]),
+                      std::max(a.predicted_mm[1], b.predicted_mm[1])};
   return r;
 }
 
@@ -320,7 +374,7 @@ Table deviation(const SolvedSurface& f, const std::vector<double>& places, Edges
   const auto& feature = f.task.feature;
   const auto& recipe = f.answer.model->recipe();
   const bool follows = f.task.offset == Offset::path;
-  const auto made = edges == Edges::fresh ? feature.with_new_edges() : feature;
+  const auto made = cut_by(edges, feature);
   const auto e = follows ? made.corrected(recipe, f.task.economy, f.answer.choice, places,
                                           correction(f))
                          : made.errors(recipe, f.task.economy, f.answer.choice, places);
@@ -338,8 +392,9 @@ std::vector<ToleranceResult> tolerance_results(const PreparedPart& p,
   std::vector<ToleranceResult> results;
   for (std::size_t i = 0; i < p.drawing.tolerances.size(); ++i) {
     results.push_back(result(p, setups, i, Edges::changed));
-    if (p.shop.edge_wear_mm > 0)
-      results.back() = both(result(p, setups, i, Edges::fresh), results.back());
+    if (!(p.shop.edge_wear_mm > 0)) continue;
+    for (const auto edges : {Edges::fresh, Edges::new_rougher, Edges::new_finisher})
+      results.back() = both(result(p, setups, i, edges), results.back());
   }
   return results;
 }

@@ -8,7 +8,7 @@
 namespace turnwright::planning {
 
 /// Predicted and allowed values of every tolerance of the drawing, at the solution; the
-/// worse of new and worn edges where the plan counts their wear.
+/// worst of new and worn roughing and finishing edges where the plan counts their wear.
 std::vector<ToleranceResult> tolerance_results(const PreparedPart& plan,
                                                const std::vector<SolvedSetup>& setups);
 

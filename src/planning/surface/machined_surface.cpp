@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "planning/budget/uncertain_limits.hpp"
 #include "planning/clamping/clamping_speed.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/supports.hpp"
@@ -227,11 +228,12 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   OperationModel o;
   o.tool = &tool;
   o.cut = cutting::cut_of(plan_->material, tool);
+  o.cut.hmin_mm *= least_chip_factor(*plan_);
   const auto& shop = plan_->shop;
-  if (is_worn())
-    o.cut = cutting::worn(
-        o.cut, finishing || !recipe.finish ? shop.edge_wear_mm : shop.wear_land_mm,
-        shop.wear_land_mm);
+  const bool finisher = finishing || !recipe.finish;
+  if (shop.edge_wear_mm > 0 && (finisher ? due_.finish : due_.rough))
+    o.cut = cutting::worn(o.cut, finisher ? shop.edge_wear_mm : shop.wear_land_mm,
+                          shop.wear_land_mm);
   o.range = cutting::speed_ranges(m)[range];
   const Holding held = holding();
   const double force_N = finishing ? held.finishing_N : held.roughing_N;

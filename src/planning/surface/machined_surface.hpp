@@ -46,11 +46,17 @@ class MachinedSurface {
                                   const GivenConditions& fixed);
 
   /// Whether the forces are those of worn edges.
-  bool is_worn() const { return plan_->shop.edge_wear_mm > 0 && !new_edge_; }
-  /// The same surface cut by edges that are not worn.
-  MachinedSurface with_new_edges() const {
+  bool is_worn() const {
+    return plan_->shop.edge_wear_mm > 0 && (due_.rough || due_.finish);
+  }
+  /// Which edges are due for change, where the plan counts their wear.
+  struct DueEdges {
+    bool rough = true, finish = true;
+  };
+  /// The same surface cut by such edges; the others are new.
+  MachinedSurface with_edges(DueEdges due) const {
     auto other = *this;
-    other.new_edge_ = true;
+    other.due_ = due;
     return other;
   }
 
@@ -199,9 +205,9 @@ class MachinedSurface {
   double hole_mm_ = 0;                 // of a bore, the hole it starts from
   double depth_mm_ = 0;                // of a bore, from the free end to its inner end
   double Ra_um_ = 0, Rz_um_ = 0;
-  Surroundings around_;            // of an element; of a face only the largest corner
-  double face_z_ = 0;              // of a face, in the program's coordinates
-  bool new_edge_ = false;          // whatever the wear at which edges are changed
+  Surroundings around_;  // of an element; of a face only the largest corner
+  double face_z_ = 0;    // of a face, in the program's coordinates
+  DueEdges due_ = {};
   bool goes_on_ = false;           // into an equally high surface that another setup cuts
   double top_h_ = 0;               // of a shoulder, largest radius behind it
   double amplification_ = 1;       // by the tailstock's thrust

@@ -198,6 +198,7 @@ std::vector<OperationPlan> operation_results(const PreparedPart& plan, std::size
     p.passes = passes(x, i);
     const auto d = duty_of(x, i);
     p.time_min = d.time_min;
+    p.edges = d.edges;
     p.cost = rates.machine_per_min *
                  (d.time_min + air_min(o, d, a.choice.a) + o.tool->change_min * d.edges) +
              o.tool->edge_cost * d.edges;

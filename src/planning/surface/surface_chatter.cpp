@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "machined_surface.hpp"
+#include "planning/budget/uncertain_limits.hpp"
 #include "planning/operation/bar_tip.hpp"
 #include "planning/operation/chebyshev.hpp"
 #include "planning/operation/evaluate.hpp"
@@ -15,7 +16,7 @@ constexpr int kParts = 4;           // of the ranges of depth and feed
 
 // Divisor of a static compliance that gives the compliance of regeneration at any speed.
 double damped(const PreparedPart& p, double zeta) {
-  return 2 * zeta * (1 + zeta) * p.chatter_times;
+  return 2 * zeta * (1 + zeta) * p.chatter_times * chatter_factor(p);
 }
 
 double largest(const std::vector<double>& c) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "report/picture/svg.hpp"
 #include "report/text/amounts.hpp"
 #include "report/text/json_fields.hpp"
@@ -24,18 +26,29 @@ std::string numbered(int number) {
   return number > 0 ? fmt::format("T{}", number) : "driven";
 }
 
+std::string lasts(const ToolRow& tool) {
+  if (!tool.edge) return "-";
+  const long parts = tool.edge->parts_per_edge;
+  return parts > 0 ? fmt::format("{} parts", parts) : "less than a part";
+}
+
+std::string in_batch(const ToolRow& tool) {
+  return tool.edge && tool.edge->edges_per_batch
+             ? std::to_string(*tool.edge->edges_per_batch)
+             : "-";
+}
+
 std::string tools(const SetupSheet& sheet) {
   std::string rows;
   for (const auto& t : sheet.tools) {
-    const auto lasts = parts_until(1, t.edge_share);
     rows += "<tr>" + words_cell(numbered(t.number)) +
             number_cell(t.offset > 0 ? std::to_string(t.offset) : "-") +
             words_cell(t.holder.empty() ? t.id : t.holder) +
             words_cell(t.insert.empty() ? "-" : t.insert) +
             number_cell(t.re_mm > 0 ? plain(t.re_mm) : "-") +
             number_cell(t.stick_out_mm ? plain(*t.stick_out_mm, 1) : "-") +
-            words_cell(joined(t.on)) +
-            number_cell(lasts ? fmt::format("{} parts", *lasts) : "-") + "</tr>\n";
+            words_cell(joined(t.on)) + number_cell(lasts(t)) + number_cell(in_batch(t)) +
+            "</tr>\n";
   }
   return tag("h2", "Tools") +
          table_head({{"tool", "", false},
@@ -45,7 +58,40 @@ std::string tools(const SetupSheet& sheet) {
                      {"corner", "mm"},
                      {"stick-out", "mm"},
                      {"cuts", "", false},
-                     {"new edge every", ""}}) +
+                     {"new edge every", ""},
+                     {"edges", "of the batch"}}) +
+         rows + kTableFoot;
+}
+
+// "0: -1, 33: -3": whole micrometres, as controls take them, where they change.
+std::string step_words(const planning::FollowedOffset& offset) {
+  std::string text;
+  long now = 0;
+  for (const auto& step : offset.steps) {
+    const long um = std::lround(step.um);
+    if (um == now) continue;
+    text += fmt::format("{}{}: {:+}", text.empty() ? "" : ", ", step.after_part, um);
+    now = um;
+  }
+  return text;
+}
+
+std::string followed_offsets(const SetupSheet& sheet) {
+  std::string rows;
+  for (const auto& t : sheet.tools) {
+    if (!t.edge) continue;
+    for (const auto& offset : t.edge->offsets)
+      if (const auto moved = step_words(offset); !moved.empty())
+        rows += "<tr>" + words_cell(numbered(t.number)) + words_cell(offset.on) +
+                words_cell(moved) + "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return tag("h2", "Offsets while an edge wears") +
+         table_head({{"tool", "", false},
+                     {"at", "", false},
+                     {"after so many parts of an edge: offset on the diameter, of a face "
+                      "along Z",
+                      "\u00b5m", false}}) +
          rows + kTableFoot;
 }
 
@@ -98,7 +144,8 @@ std::string sheet_html(const SetupSheet& sheet, const Figures& figures) {
   Entries facts = sheet.clamping;
   facts.insert(facts.end(), sheet.times.begin(), sheet.times.end());
   out += entries(facts, "facts");
-  out += tools(sheet) + stops(sheet) + checks(sheet) + signatures() + "</section>\n";
+  out += tools(sheet) + followed_offsets(sheet) + stops(sheet) + checks(sheet) +
+         signatures() + "</section>\n";
   const auto path = figure_named(figures, fmt::format("path-{}.svg", sheet.setup),
                                  setup + ": tool path and material taken off");
   if (!path.empty())

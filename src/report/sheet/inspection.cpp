@@ -8,6 +8,7 @@
 
 #include "gauge.hpp"
 #include "planning/clamping/made_surfaces.hpp"
+#include "planning/setup/edge_schedule.hpp"
 #include "report/picture/svg.hpp"
 #include "report/text/plan_words.hpp"
 #include "turnwright/base/units.hpp"
@@ -90,18 +91,20 @@ const ToolRow* finishing_tool(const std::vector<ToolRow>& tools,
 }
 
 /// "first, then 1 in 12"; without a number where the batch is over before.
-std::string every(const PreparedPart& p, std::optional<long> parts, bool new_edge) {
-  if (!parts || (p.batch && static_cast<double>(*parts) >= *p.batch)) return "first part";
-  if (*parts <= 1) return "every part";
-  return new_edge ? fmt::format("first of each edge ({} parts)", *parts)
-                  : fmt::format("first, then 1 in {}", *parts);
+std::string every(const PreparedPart& p, long parts, bool new_edge) {
+  if (p.batch && static_cast<double>(parts) >= *p.batch) return "first part";
+  if (parts <= 1) return "every part";
+  return new_edge ? fmt::format("first of each edge ({} parts)", parts)
+                  : fmt::format("first, then 1 in {}", parts);
 }
 
 std::string when(const PreparedPart& p, const ToolRow* tool, bool size) {
-  if (!tool) return "first part";
-  const auto corrected = parts_until(p.shop.life_between_offsets, tool->edge_share);
+  if (!tool || !tool->edge) return "first part";
+  const auto& edge = *tool->edge;
+  const auto corrected =
+      planning::parts_until(p.shop.life_between_offsets, edge.edges_per_part);
   return size && corrected ? every(p, std::max(1L, *corrected), false)
-                           : every(p, parts_until(1, tool->edge_share), true);
+                           : every(p, edge.parts_per_edge, true);
 }
 
 Check check(const PreparedPart& p, const planning::SetupPlan& setup,

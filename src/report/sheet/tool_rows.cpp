@@ -1,7 +1,6 @@
 #include "tool_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "report/picture/program_steps.hpp"
@@ -36,8 +35,6 @@ void add(ToolRow& row, const OperationPlan& o) {
   row.operations.push_back(o.id);
   for (const auto& id : o.on)
     if (std::ranges::find(row.on, id) == row.on.end()) row.on.push_back(id);
-  for (const auto& pass : o.passes)
-    if (pass.T_min > 0) row.edge_share += pass.time_min / pass.T_min;
 }
 
 }  // namespace
@@ -63,12 +60,11 @@ std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
   }
   std::ranges::sort(rows, {}, &ToolRow::number);
   rows.insert(rows.end(), driven.begin(), driven.end());
+  for (auto& row : rows) {
+    const auto e = std::ranges::find(setup.edges, row.id, &planning::EdgeSchedule::tool);
+    if (e != setup.edges.end()) row.edge = *e;
+  }
   return rows;
-}
-
-std::optional<long> parts_until(double share, double edge_share) {
-  if (!(edge_share > 0) || !(share > 0)) return std::nullopt;
-  return static_cast<long>(std::floor(share / edge_share * (1 + 1e-12)));
 }
 
 }  // namespace turnwright::report

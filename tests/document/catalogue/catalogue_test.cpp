@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
@@ -352,6 +354,8 @@ TEST(Catalogue, CuttersThatContradictThemselvesAreRefused) {
 }
 
 TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
+  const std::set<std::string> may_be_absent{"/chip/edge_um", "/taylor/b_shallow",
+                                            "/taylor/scatter_pct"};
   for (const auto& [name, read] :
        {std::pair{kMaterial,
                   +[](const nlohmann::json& j) { return problems_of(read_material, j); }},
@@ -372,8 +376,12 @@ TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
       bad = good;
       const nlohmann::json::json_pointer at(pointer);
       bad[at.parent_pointer()].erase(at.back());
-      EXPECT_NE(read(bad).find(pointer + ": got nothing"), std::string::npos)
-          << name << pointer;
+      if (may_be_absent.contains(pointer)) {
+        EXPECT_EQ(read(bad), "") << name << pointer;
+      } else {
+        EXPECT_NE(read(bad).find(pointer + ": got nothing"), std::string::npos)
+            << name << pointer;
+      }
     }
   }
 }

@@ -100,9 +100,16 @@ TEST(PartPlan, EveryFieldComesFromItsKey) {
   EXPECT_EQ(d.faces[1].Rz_um, 10);
   EXPECT_EQ(d.faces[1].Ra_um, std::nullopt);
   EXPECT_EQ(plan.material.id, "test-steel");
+  EXPECT_EQ(plan.material.life_scatter_pct, 25);
+  EXPECT_EQ(plan.material.taylor.b_shallow, 0.04);
+  EXPECT_EQ(plan.material.hmin_edge_um, 40);
+  EXPECT_EQ(plan.material.hmin_uncertainty_pct, 50);
+  EXPECT_EQ(plan.damping_uncertainty_pct, 20);
+  EXPECT_EQ(plan.roughness_conformance, 0.95);
   EXPECT_EQ(plan.machine.id, "lathe-medium");
   ASSERT_EQ(plan.tools.size(), 1U);
   EXPECT_EQ(plan.tools[0].id, "test-rougher");
+  EXPECT_EQ(plan.tools[0].edge_um, 40);
   ASSERT_EQ(plan.setups.size(), 2U);
   EXPECT_EQ(plan.setups[0].hold, part::End::left);
   EXPECT_EQ(plan.setups[1].hold, part::End::right);

@@ -317,6 +317,7 @@ TEST(CalibrateMaterial, EdgesScatterAboutTheLaw) {
   EXPECT_NEAR(r["taylor"]["n"]["value"], 0.28, 1e-9);
   const json& e = r["taylor"]["edges"];
   EXPECT_NEAR(e["scatter_pct"]["value"], 10 * std::sqrt(16.0 / 8), 1e-6);
+  EXPECT_NEAR(r["material"]["taylor"]["scatter_pct"], 10 * std::sqrt(16.0 / 8), 1e-6);
   EXPECT_NEAR(e["lack_of_fit_pct"], 0, 1e-6);
   EXPECT_NEAR(e["lack_of_fit_p"], 1, 1e-6);
   EXPECT_NEAR(e["at"]["vc_m_min"], std::sqrt(160.0 * 220), 1e-9);
@@ -330,6 +331,7 @@ TEST(CalibrateMaterial, EdgesScatterAboutTheLaw) {
   json same = answered(plain);
   EXPECT_FALSE(same["taylor"].contains("edges"));
   same["taylor"]["edges"] = e;
+  same["material"]["taylor"]["scatter_pct"] = e["scatter_pct"]["value"];
   EXPECT_EQ(same, r);
 }
 

@@ -87,33 +87,20 @@ TEST(SetupSheet, TellsWhatSticksOutOfTheJaws) {
   EXPECT_EQ(value(s.all[0].clamping, "Support"), "");
 }
 
-double change_min(const Planned& p, const std::string& tool) {
-  for (const auto& t : p.part.tools)
-    if (t.id == tool) return t.change_min;
-  for (const auto& t : p.part.fixed_tools)
-    if (tool.starts_with(t.id)) return t.change_min;
-  return std::nan("");
-}
-
-// The lines of all tools have every operation once.  To change the edges they use takes
-// what the plan counts, of faces at most: T is the life at their highest speed.
+// The lines of all tools have every operation once, and every edge that the plan changes.
 TEST(SetupSheet, ToolsShareTheSetupsOperationsAndItsEdges) {
   const auto& s = bush_sheets();
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& plan = s.planned.plan.setups[i];
-    std::size_t operations = 0;
-    double all_min = 0, faces_min = 0;
+    std::size_t operations = 0, edges = 0;
     for (const auto& row : s.all[i].tools) {
       operations += row.operations.size();
-      all_min += change_min(s.planned, row.id) * row.edge_share;
+      if (!row.edge) continue;
+      ++edges;
+      EXPECT_EQ(row.edge->tool, row.id);
     }
-    for (const auto& o : plan.operations)
-      if (o.kind == planning::OperationKind::face)
-        for (const auto& pass : o.passes)
-          faces_min += change_min(s.planned, o.tool) * pass.time_min / pass.T_min;
     EXPECT_EQ(operations, plan.operations.size());
-    EXPECT_GE(all_min, plan.breakdown.edges.time_min);
-    EXPECT_LE(all_min - faces_min, plan.breakdown.edges.time_min);
+    EXPECT_EQ(edges, plan.edges.size());
   }
 }
 
@@ -128,13 +115,6 @@ TEST(SetupSheet, NumbersAreTheShops) {
   EXPECT_EQ(row->number, 7);
   EXPECT_EQ(row->offset, 17);
   EXPECT_TRUE(value(sheet.clamping, "Zero").starts_with("G55: X on"));
-}
-
-TEST(SetupSheet, PartsUntilAnEdgeIsWornAreWhole) {
-  EXPECT_EQ(parts_until(1, 0.25), 4);
-  EXPECT_EQ(parts_until(1, 0.3), 3);
-  EXPECT_EQ(parts_until(0.03, 0.01), 3);
-  EXPECT_EQ(parts_until(1, 0), std::nullopt);
 }
 
 TEST(SetupSheet, OnlyABoringBarsStickOutIsKnown) {
@@ -205,7 +185,8 @@ TEST(SetupSheet, SizesAreCheckedWhenCorrectionsFallDue) {
     return std::ranges::find(t.operations, "s1-finish-d2") != t.operations.end();
   });
   ASSERT_NE(finishing, sheet.tools.end());
-  const double due = s.planned.part.shop.life_between_offsets / finishing->edge_share;
+  const double due =
+      s.planned.part.shop.life_between_offsets / finishing->edge->edges_per_part;
   EXPECT_EQ(check(sheet, "\u00d836 h7").when,
             "first, then 1 in " + std::to_string(static_cast<int>(due)));
   auto small = bush();
@@ -264,6 +245,23 @@ TEST(SetupSheet, ProgramsOfAnotherPlanAreRefused) {
                std::domain_error);
   EXPECT_THROW(setup_sheets(s.planned.part, s.planned.plan, s.programs, {{"a"}, ""}),
                std::domain_error);
+}
+
+// Whole micrometres, where they change; the sheet says nothing where none does.
+TEST(SetupSheetPage, TellsHowOffsetsFollowTheEdge) {
+  SetupSheet sheet;
+  ToolRow row{2, 2, "finisher", {}, {}};
+  row.edge = planning::EdgeSchedule{"finisher", 0.025, 40, 3, {{"d2", {}}}};
+  auto& steps = row.edge->offsets[0].steps;
+  steps = {{0, -0.4}, {10, -1.2}, {20, -1.4}, {30, -2.6}};
+  sheet.tools = {row};
+  const auto page = sheet_html(sheet, {});
+  EXPECT_NE(page.find("10: -1, 30: -3"), std::string::npos);
+  EXPECT_NE(page.find("40 parts"), std::string::npos);
+  EXPECT_EQ(page.find("20: "), std::string::npos);
+  steps = {{0, -0.4}};
+  sheet.tools = {row};
+  EXPECT_EQ(sheet_html(sheet, {}).find("Offsets while"), std::string::npos);
 }
 
 TEST(SetupSheetPage, HasNothingOfThePlannersAlone) {

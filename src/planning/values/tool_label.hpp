@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "turnwright/planning/process_plan.hpp"
+
+namespace turnwright::planning {
+
+/// The tool of an operation as programs and schedules list it: its id, and of drills,
+/// centre drills and blades their size, because each size is a tool of its own.
+std::string tool_label(const PlanRequest& request, const OperationPlan& operation);
+
+}  // namespace turnwright::planning

@@ -1,0 +1,242 @@
+#include "planning/budget/uncertain_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "../parts.hpp"
+#include "planning/budget/tolerance_allocation.hpp"
+#include "turnwright/cutting/cut.hpp"
+#include "turnwright/planning/plan.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+// z with P(Z > z) = q, by halving erfc.
+double beyond(double q) {
+  double low = -10, high = 10;
+  for (int k = 0; k < 100; ++k) {
+    const double z = (low + high) / 2;
+    (std::erfc(z / std::sqrt(2.0)) / 2 > q ? low : high) = z;
+  }
+  return low;
+}
+
+PlanRequest with(double damping_pct, bool robust) {
+  PlanRequest p;
+  p.damping_uncertainty_pct = damping_pct;
+  p.conformance = 0.99;
+  p.robust = robust;
+  return p;
+}
+
+TEST(UncertainLimits, WhatIsKnownIsTakenAsItIs) {
+  for (const bool robust : {true, false}) {
+    const auto p = with(0, robust);
+    EXPECT_EQ(chatter_factor(p), 1);
+    EXPECT_EQ(left_by_chatter(p), 1);
+    EXPECT_EQ(stable_probability(p, 1.5), 1);
+    EXPECT_EQ(least_chip_factor(p), 1);
+  }
+}
+
+TEST(UncertainLimits, ACutAtTheLimitOfARobustPlanChattersInAQuarterOfTheFailures) {
+  const auto p = with(20, true);
+  const double z = beyond(0.01 / 4);
+  EXPECT_NEAR(chatter_factor(p), std::exp(-0.2 * z), 1e-9);
+  EXPECT_NEAR(stable_probability(p, 1), 1 - 0.01 / 4, 1e-12);
+  EXPECT_NEAR(stable_probability(p, std::exp(0.2 * z)), 0.5, 1e-9);
+  EXPECT_EQ(left_by_chatter(p), 0.5);
+  // Two faces and what the sizes may fail by are the whole.
+  EXPECT_NEAR(2 * 0.25 + left_by_chatter(p), 1, 1e-15);
+}
+
+TEST(UncertainLimits, ANominalPlanIsStableInHalfOfTheCasesAtItsLimit) {
+  const auto p = with(20, false);
+  EXPECT_EQ(chatter_factor(p), 1);
+  EXPECT_NEAR(stable_probability(p, 1), 0.5, 1e-15);
+  EXPECT_NEAR(stable_probability(p, std::exp(-0.2 * 3)), 1 - std::erfc(3 / M_SQRT2) / 2,
+              1e-12);
+}
+
+TEST(UncertainLimits, MoreSpreadNeverMakesACutSafer) {
+  double factor = 1;
+  for (const double pct : {1, 5, 20, 60, 100}) {
+    const auto p = with(pct, true);
+    EXPECT_LT(chatter_factor(p), factor);
+    factor = chatter_factor(p);
+    double probability = 1;
+    for (const double share : {0.1, 0.5, 0.9, 1.0, 1.1, 2.0}) {
+      EXPECT_LE(stable_probability(p, share), probability);
+      probability = stable_probability(p, share);
+    }
+  }
+}
+
+TEST(UncertainLimits, RoughnessIsJudgedWithTheQuantileOfHmin) {
+  auto p = with(0, true);
+  p.material.hmin_uncertainty_pct = 50;
+  EXPECT_EQ(least_chip_factor(p), 1);
+  p.roughness_conformance = 0.95;
+  EXPECT_NEAR(least_chip_factor(p), 1 + 0.5 * beyond(0.05), 1e-9);
+  p.roughness_conformance = 0.5;
+  EXPECT_NEAR(least_chip_factor(p), 1, 1e-9);
+}
+
+// A pin whose worn edges decide, with lives of edges that scatter.
+nlohmann::json scattering_pin(double scatter_pct) {
+  auto d = pin();
+  d["material"] = file("materials/C45.json");
+  if (scatter_pct > 0) d["material"]["taylor"]["scatter_pct"] = scatter_pct;
+  d["outer"][1]["limits_mm"] = {-0.06, 0.06};
+  d["damping_ratio"] = 0.1;
+  d["robust"] = true;
+  d["budget"]["edge_wear_mm"] = 0.3;
+  return d;
+}
+
+double share_um(const ToleranceResult& t, const std::string& source) {
+  for (const auto& s : t.shares)
+    if (s.source == source) return s.um;
+  return 0;
+}
+
+TEST(UncertainLife, DocumentsWithoutScatterArePlannedAsBefore) {
+  auto d = scattering_pin(0);
+  const auto without = plan(part(d));
+  ASSERT_EQ(without.status, PlanStatus::ok);
+  EXPECT_EQ(share_um(tolerance(without, "d2:diameter"), "life"), 0);
+  d["material"]["taylor"]["scatter_pct"] = 0;
+  EXPECT_EQ(plan(part(d)).cost_per_part, without.cost_per_part);
+}
+
+// Edges drawn one by one: each has a land of its own when it is changed, VB exp(-s Z) of
+// a lognormal life, which makes the error that the new edge does not.
+TEST(UncertainLife, EdgesThatWearOutEarlyAreCounted) {
+  for (const double s : {0.15, 0.3}) {
+    const auto d = scattering_pin(100 * s);
+    const auto p = part(d);
+    const auto r = plan(p);
+    ASSERT_EQ(r.status, PlanStatus::ok) << s;
+    const auto& t = tolerance(r, "d2:diameter");
+    EXPECT_GT(share_um(t, "life"), 0);
+    EXPECT_GE(t.P_conform, 0.9973 - 1e-6);
+    const Deviation* d2 = nullptr;
+    for (const auto& e : r.deviations)
+      if (e.on == "d2") d2 = &e;
+    ASSERT_NE(d2, nullptr);
+    std::mt19937_64 random(2026);
+    std::normal_distribution<double> normal;
+    int kept = 0;
+    constexpr int kEdges = 100'000;
+    for (int k = 0; k < kEdges; ++k) {
+      const double land = std::exp(s * normal(random));
+      const double force = 1 + force_spread(p) * normal(random);
+      double worst = 0;
+      for (std::size_t i = 0; i < d2->table_mm.size(); ++i) {
+        const double fresh = d2->table_mm[i].second, worn = d2->at_change_mm[i].second;
+        worst = std::max(worst, 2 * force * (fresh + land * (worn - fresh)));
+      }
+      kept += worst <= 0.06 - 0.0005;  // and the machine's share at each limit
+    }
+    EXPECT_GE(static_cast<double>(kept) / kEdges, t.P_conform - 0.001) << s;
+  }
+}
+
+TEST(UncertainLife, MoreScatterNeverMakesPartsSafer) {
+  const auto r = plan(part(scattering_pin(0)));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  double P = 1;
+  for (const double pct : {0, 10, 25, 50, 90}) {
+    const auto at = predict(part_to_predict(as_planned(scattering_pin(pct), r)));
+    const double now = tolerance(at, "d2:diameter").P_conform;
+    EXPECT_LE(now, P) << pct;
+    P = now;
+  }
+  EXPECT_LT(P, 0.99);
+}
+
+// With new edges only what they recede by between two corrections counts.
+TEST(UncertainLife, WidensTheWearBetweenCorrections) {
+  auto d = scattering_pin(30);
+  d["budget"].erase("edge_wear_mm");
+  d["budget"]["life_between_offsets"] = 0.1;
+  const auto p = part(d);
+  const auto a = tolerance_allocation(p, 0, {0, Clamping::chuck, &p.tools[1]});
+  double wear = 0, life = 0;
+  for (const auto& s : a.spread) {
+    if (s.name == "wear") wear = s.value_um;
+    if (s.name == "life") life = s.value_um;
+  }
+  EXPECT_GT(wear, 0);
+  EXPECT_NEAR(life, wear * (std::exp(0.9) - 1) / 3, 1e-12 * wear);
+}
+
+// A slender pin, for which chatter decides.
+nlohmann::json slender_pin(double damping_pct) {
+  auto d = pin();
+  d["stock"]["length_mm"] = 180;
+  d["outer"][0]["limits_mm"] = {-0.05, 0.05};
+  d["outer"][1]["length_mm"] = 138;
+  d["outer"][1]["limits_mm"] = {-0.05, 0.05};
+  d["robust"] = true;
+  d["budget"]["first_part_gauged"] = true;
+  if (damping_pct > 0) d["damping_uncertainty_pct"] = damping_pct;
+  return d;
+}
+
+double chatter_share(const ProcessPlan& r) {
+  double most = 0;
+  for (const auto& s : r.setups)
+    for (const auto& o : s.operations)
+      for (const auto& c : o.constraints)
+        if (c.name == "chatter stiffness") most = std::max(most, c.value / c.limit);
+  return most;
+}
+
+TEST(UncertainDamping, ARobustPlanKeepsClearOfChatter) {
+  const auto known = plan(part(slender_pin(0)));
+  ASSERT_EQ(known.status, PlanStatus::ok);
+  ASSERT_NEAR(chatter_share(known), 1, 1e-6) << "chatter is to decide";
+  EXPECT_EQ(share_um(tolerance(known, "d1:diameter"), "damping"), 0);
+  const auto unsure = plan(part(slender_pin(3)));
+  ASSERT_EQ(unsure.status, PlanStatus::ok);
+  EXPECT_GT(unsure.cost_per_part, known.cost_per_part);
+  EXPECT_LE(chatter_share(unsure), 1 + 1e-6);
+  EXPECT_GT(share_um(tolerance(unsure, "d1:diameter"), "damping"), 0);
+  EXPECT_GE(tolerance(unsure, "d1:diameter").P_conform, 0.9973 - 1e-6);
+  // The plan that takes the ratios as they are chatters in every other case.
+  auto given = as_planned(slender_pin(3), known);
+  const auto at = predict(part_to_predict(given));
+  EXPECT_EQ(at.status, PlanStatus::infeasible);
+  given["robust"] = false;
+  const auto nominal = predict(part_to_predict(given));
+  EXPECT_LT(tolerance(nominal, "d1:diameter").P_conform, 0.51);
+  EXPECT_GT(tolerance(nominal, "d1:diameter").P_conform, 0.4);
+}
+
+// hmin 2 um with 50 %: Ra of the formula with the quantile in place of hmin.
+TEST(UncertainRoughness, IsKeptWithTheProbabilityThatIsAskedFor) {
+  auto d = pin();
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  auto given = as_planned(d, r);
+  const auto Ra_um = [&] {
+    const auto at = predict(part_to_predict(given));
+    for (const auto& c : operation(at, "s1-finish-d2").constraints)
+      if (c.name == "roughness Ra") return c.value;
+    return 0.0;
+  };
+  const double before = Ra_um();
+  given["roughness_conformance"] = 0.95;
+  const auto& pass = operation(r, "s1-finish-d2").passes[0];
+  const double h = 0.002 * (1 + 0.5 * beyond(0.05)), corner = 0.4;
+  const double f = pass.f_mm_rev;
+  const double Rz = f * f / (8 * corner) + h / 2 * (1 + corner * h / (f * f));
+  EXPECT_NEAR(Ra_um(), 1000 * Rz * 8 / (18 * std::sqrt(3.0)), 1e-6);
+  EXPECT_GT(Ra_um(), before);
+}
+
+}  // namespace
+}  // namespace turnwright::planning
