@@ -59,10 +59,10 @@ std::vector<ParetoPoint> hull(const std::vector<ParetoPoint>& rising) {
     return (b.cost_per_part - a.cost_per_part) /
            (a.time_per_part_min - b.time_per_part_min);
   };
-  constexpr double kRounding = 1e-9;
+  constexpr double kOfTime = 1e-9;
   for (const auto& x : rising) {
     if (!kept.empty() &&
-        !(x.time_per_part_min < kept.back().time_per_part_min * (1 - kRounding)))
+        !(x.time_per_part_min < kept.back().time_per_part_min * (1 - kOfTime)))
       continue;
     while (kept.size() > 1 &&
            minute(kept.end()[-2], kept.back()) >= minute(kept.back(), x))
