@@ -230,6 +230,19 @@ TEST(Dxf, ARingWithoutACentreLineTurnsAboutItsBore) {
   expect_same(read_dxf(upright.text()), ring);
 }
 
+TEST(Dxf, AnInchThreadOfADimensionIsInMillimetres) {
+  Sheet s;
+  s.lines({{0, 0}, {0, 6.35}, {25, 6.35}, {25, 20}, {40, 20}, {40, 0}});
+  s.group(0, "DIMENSION").group(8, "0").group(70, "0").group(1, "1/2-13 UNC-2A Ra3.2");
+  s.group(50, 90.0).group(13, 10.0).group(23, -6.35).group(14, 10.0).group(24, 6.35);
+  const Outline o = read_dxf(s.text());
+  ASSERT_EQ(o.outer.size(), 2u);
+  EXPECT_EQ(o.outer[0].shape, Shape::thread) << told(o.ignored);
+  EXPECT_EQ(o.outer[0].pitch_mm, 25.4 / 13);
+  EXPECT_EQ(o.outer[0].demands.fit, "2A");
+  EXPECT_EQ(o.outer[0].demands.Ra_um, 3.2);
+}
+
 TEST(Dxf, InvisibleEntitiesAreNotThere) {
   Sheet s;
   s.lines(kPin).line(30, 20, 30, 27).group(60, "1");
