@@ -293,7 +293,7 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   return h;
 }
 
-// Whether the machine drives a drill at its conditions, whatever holds the part.
+// Whether the spindle drives a drill at its conditions, whatever holds the part.
 bool drives(const PlanRequest& p, const FixedTool& t, double D_mm) {
   const auto* at = t.conditions_in(p.material.group);
   if (!at) return false;
@@ -303,8 +303,7 @@ bool drives(const PlanRequest& p, const FixedTool& t, double D_mm) {
   const double n = std::clamp(units::spindle_rpm(at->vc_m_min, D_mm),
                               ranges.front().n_min_rpm, ranges.back().n_max_rpm);
   const double P_kW = units::shaft_power_kW(load.M_Nm, n);
-  return load.Ff_N <= p.machine.feed_force_max_N &&
-         P_kW <= cutting::available_kW(ranges, n, false) &&
+  return P_kW <= cutting::available_kW(ranges, n, false) &&
          P_kW <= cutting::available_kW(ranges, n, true);
 }
 
@@ -331,7 +330,7 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   return nullptr;
 }
 
-// The largest drill that the machine drives; if it drives none, or the drilling is given,
+// The largest drill that the spindle drives; if it drives none, or the drilling is given,
 // the largest of all, whose limits then tell why it cannot be.
 Fitted fitted_drill(const PlanRequest& p, const Asked& a) {
   if (a.given) return fitted(p, a);
