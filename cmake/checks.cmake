@@ -110,6 +110,19 @@ add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
 set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
   SKIP_REGULAR_EXPRESSION "SKIPPED")
 
+# Reference parts as two other programs write them today; stored files are read in every run.
+add_test(NAME exchange.live-writers CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/exchange/live_writers.bash $<TARGET_FILE:exchange_test>
+  ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/live-writers)
+set_tests_properties(exchange.live-writers PROPERTIES LABELS slow TIMEOUT 1800
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
+
+# Choices among all machines; every run has those of one.
+add_test(NAME planning.choices-of-machines CONFIGURATIONS slow
+  COMMAND planning_test --gtest_filter=*OfTen*)
+set_tests_properties(planning.choices-of-machines PROPERTIES LABELS slow TIMEOUT 1800
+  ENVIRONMENT "TURNWRIGHT_SLOW=1")
+
 # A short batch; scripts/faults runs a long one.
 add_test(NAME cluster.batch COMMAND bash ${PROJECT_SOURCE_DIR}/tests/cluster/batch.bash
   $<TARGET_FILE:turnwright> ${PROJECT_SOURCE_DIR} 300)

@@ -35,8 +35,11 @@ tw_domain(tolerance DEPENDS base part PRIVATE_LIBS fmt::fmt)
 
 tw_domain(planning
   DEPENDS base part catalogue optimise deflection cutting volumetric chatter tolerance
-  PRIVATE_LIBS Eigen3::Eigen fmt::fmt
+  PRIVATE_LIBS Eigen3::Eigen fmt::fmt TBB::tbb
   TEST_DEPENDS document)
+if(BUILD_TESTING)
+  target_link_libraries(planning_test PRIVATE TBB::tbb)
+endif()
 
 tw_domain(nc DEPENDS base part catalogue cutting gcode toolpath planning
   PRIVATE_LIBS fmt::fmt

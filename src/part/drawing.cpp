@@ -94,6 +94,10 @@ std::optional<double> half_angle_rad(const Drawing& d, const std::string& id) {
   return std::atan2(std::abs(at->right_mm - at->left_mm) / 2, at->z1_mm - at->z0_mm);
 }
 
+std::string datum_words(const Tolerance& t) {
+  return t.common_datum.empty() ? t.datum : t.datum + "-" + t.common_datum;
+}
+
 double width_mm(const Tolerance& t) {
   return t.limits ? t.limits->upper_mm - t.limits->lower_mm : t.value_mm;
 }

@@ -194,6 +194,63 @@ TEST(Dxf, SymmetryIsTheAxisOfAFullProfileWithoutACentreLine) {
   EXPECT_NE(told(o.assumed).find("the axis of its symmetry"), std::string::npos);
 }
 
+// Half of the drawing is the section of a bore with many lines, half is seen from outside:
+// fewer than half of the lines have a mirror image, but there is a centre line.
+TEST(Dxf, ADrawnCentreLineIsTheAxisOfAHalfSection) {
+  Sheet s;
+  s.axis(-5, 65).lines({{0, 0}, {0, 30}, {60, 30}, {60, 0}});
+  s.lines({{0, -24}, {0, -30}, {60, -30}, {60, -12}});
+  s.lines({{60, -12},
+           {45, -12},
+           {45, -15},
+           {30, -15},
+           {30, -18},
+           {20, -18},
+           {20, -21},
+           {10, -21},
+           {10, -24},
+           {0, -24}});
+  expect_same(
+      read_dxf(s.text()),
+      read_notation("d60 x 60; bore d24 x 15; bore left d48 x 10; bore left d42 x 10; "
+                    "bore left d36 x 10; bore left d30 x 15"));
+}
+
+// The sections of a ring lie on either side of its axis, whichever way it is drawn.
+TEST(Dxf, ARingWithoutACentreLineTurnsAboutItsBore) {
+  const Outline ring = read_notation("d50 x 20; bore d30 x 20");
+  Sheet level, upright;
+  for (const double side : {1.0, -1.0}) {
+    level.lines({{0, side * 15}, {0, side * 25}, {20, side * 25}, {20, side * 15}});
+    level.line(0, side * 15, 20, side * 15);
+    upright.lines({{side * 15, 0}, {side * 25, 0}, {side * 25, 20}, {side * 15, 20}});
+    upright.line(side * 15, 0, side * 15, 20);
+  }
+  expect_same(read_dxf(level.text()), ring);
+  expect_same(read_dxf(upright.text()), ring);
+}
+
+TEST(Dxf, AnInchThreadOfADimensionIsInMillimetres) {
+  Sheet s;
+  s.lines({{0, 0}, {0, 6.35}, {25, 6.35}, {25, 20}, {40, 20}, {40, 0}});
+  s.group(0, "DIMENSION").group(8, "0").group(70, "0").group(1, "1/2-13 UNC-2A Ra3.2");
+  s.group(50, 90.0).group(13, 10.0).group(23, -6.35).group(14, 10.0).group(24, 6.35);
+  const Outline o = read_dxf(s.text());
+  ASSERT_EQ(o.outer.size(), 2u);
+  EXPECT_EQ(o.outer[0].shape, Shape::thread) << told(o.ignored);
+  EXPECT_EQ(o.outer[0].pitch_mm, 25.4 / 13);
+  EXPECT_EQ(o.outer[0].demands.fit, "2A");
+  EXPECT_EQ(o.outer[0].demands.Ra_um, 3.2);
+}
+
+TEST(Dxf, InvisibleEntitiesAreNotThere) {
+  Sheet s;
+  s.lines(kPin).line(30, 20, 30, 27).group(60, "1");
+  const Outline o = read_dxf(s.text());
+  expect_same(o, pin());
+  EXPECT_EQ(told(o.ignored), ": 1 x invisible entity: not read.\n");
+}
+
 TEST(Dxf, UprightDrawingBeginsBelow) {
   Sheet s;
   for (std::size_t i = 1; i < kPin.size(); ++i)

@@ -63,6 +63,7 @@ void expect_equal(const std::vector<part::Tolerance>& a,
     EXPECT_EQ(a[i].kind, b[i].kind);
     EXPECT_EQ(a[i].of, b[i].of);
     EXPECT_EQ(a[i].datum, b[i].datum);
+    EXPECT_EQ(a[i].common_datum, b[i].common_datum);
     EXPECT_EQ(a[i].between, b[i].between);
     EXPECT_EQ(a[i].value_mm, b[i].value_mm);
     expect_equal(a[i].limits, b[i].limits);
@@ -184,6 +185,33 @@ TEST(Notation, MeasuresAChamferAlongTheAxis) {
   EXPECT_EQ(o.edges[1].angle_deg, 30);
 }
 
+TEST(Notation, LimitsWithBlanksAreOneMistake) {
+  const auto said = mistakes("d50 +0,02 / -0,01 x 40");
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 0) << said;
+}
+
+TEST(Notation, HasInchThreads) {
+  const Outline o = read_notation(
+      "1/2-13 UNC x 25; 1-1/4-7 UNC-2A x 40; thread #10-24 UNC 2A x 8 Ra3.2\n"
+      "bore 3/8-24 UNF 2B x 20; .500-20 x 12");
+  ASSERT_EQ(o.outer.size(), 4u);
+  EXPECT_EQ(o.outer[0].shape, Shape::thread);
+  EXPECT_EQ(o.outer[0].left_mm, 12.7);
+  EXPECT_EQ(o.outer[0].pitch_mm, 25.4 / 13);
+  EXPECT_EQ(o.outer[0].length_mm, 25);
+  EXPECT_EQ(o.outer[1].left_mm, 31.75);
+  EXPECT_EQ(o.outer[1].demands.fit, "2A");
+  EXPECT_NEAR(o.outer[2].left_mm, 4.826, 1e-12);
+  EXPECT_EQ(o.outer[2].demands.Ra_um, 3.2);
+  EXPECT_EQ(o.outer[3].pitch_mm, 1.27);
+  ASSERT_EQ(o.inner.size(), 1u);
+  EXPECT_EQ(o.inner[0].demands.fit, "2B");
+  EXPECT_EQ(notation(o),
+            "1/2-13 UN x 25\n1-1/4-7 UN 2A x 40\n#10-24 UN 2A x 8 Ra3.2\n"
+            "1/2-20 UN x 12\nbore 3/8-24 UN 2B x 20\n");
+  expect_equal(read_notation(notation(o)), o);
+}
+
 TEST(Notation, HasFacesTolerancesAndMilledPlaces) {
   const Outline o = read_notation(
       "name: Pin; drawing: 4711-A; revision: B; customer: \"Smith; Sons\"\n"
@@ -191,6 +219,7 @@ TEST(Notation, HasFacesTolerancesAndMilledPlaces) {
       "d30 x 40; d40 x 50; face left Ra3.2; face d1|d2 Ra 1.6 Rz 10\n"
       "total-radial-runout d2 to d1 0.04; cylindricity d1 0,008\n"
       "length left to d1|d2 +0.1/0; diameter d2 ±0.02\n"
+      "circular-axial-runout d1|d2 to d1-d2 0.03\n"
       "keyway 10x5x40 on d2 at 42; flat 2x25 on d1 at 0 angle 90°; slot 8x4x20 on d1 at "
       "0");
   EXPECT_EQ(o.name, "Pin");
@@ -200,7 +229,9 @@ TEST(Notation, HasFacesTolerancesAndMilledPlaces) {
   EXPECT_EQ(o.general, "ISO 2768-mK");
   ASSERT_EQ(o.faces.size(), 2u);
   EXPECT_EQ(o.faces[1].demands.Rz_um, 10);
-  ASSERT_EQ(o.tolerances.size(), 4u);
+  ASSERT_EQ(o.tolerances.size(), 5u);
+  EXPECT_EQ(o.tolerances[4].datum, "d1");
+  EXPECT_EQ(o.tolerances[4].common_datum, "d2");
   EXPECT_EQ(o.tolerances[0].kind, part::ToleranceKind::total_radial_runout);
   EXPECT_EQ(o.tolerances[0].datum, "d1");
   EXPECT_EQ(o.tolerances[0].value_mm, 0.04);
@@ -221,7 +252,7 @@ TEST(Notation, NamesEveryMistakeByLineAndColumn) {
       mistakes("d50 h7 Ra1.6 x4O; d3O x 20\nnmae: Pin; Ø60 y7 x 5 (2)"),
       "notation: line 1, column 14: got \"x4O\", expected a length like x 40\n"
       "notation: line 1, column 19: got \"d3O\", expected a diameter like d50, two of "
-      "a cone like d30-d40, or a thread like M24x1.5\n"
+      "a cone like d30-d40, or a thread like M24x1.5 or 1/2-13 UNC\n"
       "notation: line 2, column 1: got \"nmae\", expected name, material, general, "
       "drawing, revision, customer, or an edge like left or d1|d2 before the colon\n"
       "notation: line 2, column 23: got \"(2)\", expected a length like x 40, a fit "
@@ -265,6 +296,17 @@ TEST(Notation, RefusesWhatIsMissingOrTwiceOrOutOfRange) {
       {"d50 x 40; cylindricity d1 0.1 0.2", "got \"0.2\", expected nothing more"},
       {"d50 x 40; coaxiality d1 to d7 0.1",
        "got \"d7\", expected an element of d1 to d1"},
+      {"d50h7 x 40", "blanks between diameter, fit and length, like d50 h7 x 40"},
+      {"d50h7x40", "blanks between diameter, fit and length, like d50 h7 x 40"},
+      {"d50 h7 x 40, d30 k6 x 32", "got \"x 40,\", expected ';' or a new line"},
+      {"d50 h7, x 40", "got \"h7,\", expected ';' or a new line"},
+      {"d50, x 40", "got \"d50,\", expected ';' or a new line"},
+      {"d50 +0,02 / -0,01 x 40",
+       "got \"+0,02\", expected limits without blanks, like +0.02/-0.01"},
+      {"d50 x 40; coaxiality d1 to d1-d7 0.1", "got \"d7\", expected an element of d1"},
+      {"d50 x 40; coaxiality d1 to d1-d1 0.1", "two different elements"},
+      {"d50 x 40; coaxiality d1 to left-d1 0.1", "got \"left\", expected an element"},
+      {"d50 x 40; coaxiality d1 to - 0.1", "expected two different elements"},
       {"d50 x 40; length left right ±0.1", "got \"right\", expected to"},
       {"d50 x 40; length left to right 0.1", "limits like +0.05/-0.02"},
       {"d50 x 40; keyway 10x5 on d1 at 2", "width, depth and length like 10x5x40"},
@@ -417,6 +459,8 @@ class Chance {
     } else {
       t.value_mm = static_cast<double>(count(1, 999)) / 1e4;
       if (row.datum != part::DatumFeature::none) t.datum = "right";
+      if (o.outer.size() > 1 && !t.datum.empty() && one_in(3))
+        t.datum = o.outer.back().id, t.common_datum = "d1";
     }
     o.tolerances.push_back(t);
   }

@@ -428,6 +428,18 @@ TEST(Pmi, WhatManyShareHasToBeShort) {
   EXPECT_EQ(found, 0u);
 }
 
+// One property with a name of 1 MB, whose relations would each decode it.
+TEST(Pmi, ALongNameThatManyRelationsShareIsNotReadByEach) {
+  std::string data = "#200=PROPERTY_DEFINITION('" + std::string(1 << 20, 'A') +
+                     "','',#9);"
+                     "#201=REPRESENTATION('',(#202),#1);#202=DESCRIPTIVE_REPRESENTATION_"
+                     "ITEM('','text');";
+  for (int i = 0; i < 100000; ++i)
+    data += fmt::format("#{}=PROPERTY_DEFINITION_REPRESENTATION(#200,#201);", 1000 + i);
+  std::size_t found = 1;
+  EXPECT_LT(seconds(data, found), 10);
+}
+
 // A chain of composites with a tolerance on each link: the faces of all would be n^2 / 2.
 TEST(Pmi, FeaturesThatOutgrowTheFileAreRefused) {
   std::string data = "#1000=SHAPE_ASPECT('','',#9,.F.);";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "drawn_profile.hpp"
@@ -211,6 +212,30 @@ std::string profile_refused(const Profile& p) {
     return error.problems().front().got;
   }
   return "";
+}
+
+// A recess into the cylinder at 15 deg and into the face at 8 deg: form F 0.8 x 0.3.
+TEST(Profile, AnUndercutOfFormFIsToldByItsName) {
+  const double turn = std::acos(-1) / 22.5, run = 0.3 / std::tan(std::acos(-1) / 12);
+  const Point centre{39.4, 15.5};
+  const Point end{centre.z_mm + 0.8 * std::cos(turn), centre.r_mm + 0.8 * std::sin(turn)};
+  const Point wall{40, end.r_mm + (end.z_mm - 40) / std::tan(turn)};
+  Profile p;
+  p.sides = {{.from = {0, 0}, .to = {0, 15}}};
+  drawn::line(p.sides, {37.5, 15});
+  drawn::line(p.sides, {37.5 + run, 14.7});
+  drawn::line(p.sides, {39.4, 14.7});
+  drawn::arc(p.sides, end, centre, true);
+  for (const Point to : {wall, Point{40, 25}, Point{60, 25}, Point{60, 0}})
+    drawn::line(p.sides, to);
+  const Outline o = outline_of(p);
+  ASSERT_EQ(o.outer.size(), 2u);
+  EXPECT_NEAR(o.outer[0].length_mm, 40, 1e-9);
+  EXPECT_NEAR(o.outer[0].left_mm, 30, 1e-9);
+  ASSERT_EQ(o.ignored.size(), 1u);
+  EXPECT_EQ(o.ignored[0].text,
+            "The undercut F0.8x0.3 at d1|d2 is left out: of DIN 509 a part document has "
+            "form E alone, the corner stays sharp.");
 }
 
 TEST(Profile, WhatIsNoHalfProfileIsRefused) {

@@ -33,9 +33,15 @@ struct StepFile {
   const Exchange exchange;
 };
 
-/// The text of a file below tests/data/step/.
+/// tests/data/step/, or the folder in which a test has its files written anew.
+inline std::string step_folder() {
+  const char* given = std::getenv("TURNWRIGHT_STEP_FILES");
+  return given ? given : TURNWRIGHT_SOURCE_DIR "/tests/data/step";
+}
+
+/// The text of a file of that folder.
 inline std::string step_text(const std::string& name) {
-  std::ifstream file(TURNWRIGHT_SOURCE_DIR "/tests/data/step/" + name, std::ios::binary);
+  std::ifstream file(step_folder() + "/" + name, std::ios::binary);
   std::ostringstream all;
   all << file.rdbuf();
   return all.str();

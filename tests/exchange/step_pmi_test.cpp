@@ -60,7 +60,7 @@ std::string text(const part::Tolerance& t) {
   out += t.limits ? fmt::format("{}..{} {} {}", t.between[0], t.between[1],
                                 t.limits->lower_mm, t.limits->upper_mm)
                   : fmt::format("{} {}", t.of, t.value_mm);
-  return t.datum.empty() ? out : out + " to " + t.datum;
+  return t.datum.empty() ? out : out + " to " + part::datum_words(t);
 }
 
 // Tolerances of the outline, then the remarks.
@@ -129,6 +129,65 @@ TEST(StepPmi, SplitFacesAreOneFeatureAndTwoFeaturesAreTwo) {
   EXPECT_EQ(lines(t), (Lines{"t1 circularity d1 0.02", "t2 circularity d2 0.02"}));
 }
 
+TEST(StepPmi, ANoteMakesAThreadOfADiameter) {
+  const auto with_note = [](const char* face, const char* note) {
+    Pmi pmi;
+    pmi.dimensions = {{.at = "#8",
+                       .name = "diameter",
+                       .nominal_mm = 30,
+                       .notes = {note},
+                       .of = on(face)}};
+    pmi.tolerances = {tolerance(Symbol::roundness, face)};
+    auto o = shaft();
+    add_pmi(pmi, o);
+    return o;
+  };
+  const auto o = with_note("#d1", "M30x1.5-6g");
+  EXPECT_EQ(o.outer[0].shape, Shape::thread);
+  EXPECT_EQ(o.outer[0].pitch_mm, 1.5);
+  EXPECT_EQ(o.outer[0].demands.fit, "6g");
+  EXPECT_EQ(lines(o),
+            Lines{"The roundness tolerance of 0.02 mm is left out: d1 is made at "
+                  "fixed conditions."});
+  EXPECT_EQ(with_note("#d1", "M30").outer[0].shape, Shape::thread);
+  EXPECT_EQ(lines(with_note("#d2", "1-1/4-7 UNC")).back(),
+            "The diameter 30 mm (1-1/4-7 UNC) is left out: d2 has a diameter of 50 mm.");
+  EXPECT_EQ(lines(with_note("#left", "M30")).front(),
+            "The diameter 30 mm (M30) is left out: a thread is of one cylinder.");
+  EXPECT_EQ(with_note("#d1", "theoretical").outer[0].shape, Shape::cylinder);
+}
+
+TEST(StepPmi, ACommonDatumIsTheAxisOfTwoElements) {
+  const auto common = [](Symbol symbol, const char* face,
+                         std::vector<std::string> letters) {
+    auto t = tolerance(symbol, face, "A");
+    t.datums[0].letters = std::move(letters);
+    return lines(t);
+  };
+  EXPECT_EQ(common(Symbol::circular_runout, "#d3", {"A", "D"}),
+            Lines{"t1 circular-radial-runout d3 0.02 to d1-d2"});
+  EXPECT_EQ(common(Symbol::total_runout, "#right", {"D", "A"}),
+            Lines{"t1 total-axial-runout right 0.02 to d2-d1"});
+  // The run-out of a seat to both seats.
+  EXPECT_EQ(common(Symbol::circular_runout, "#d2", {"A", "D"}),
+            Lines{"t1 circular-radial-runout d2 0.02 to d1-d2"});
+  EXPECT_EQ(
+      common(Symbol::circular_runout, "#d3", {"A", "B"}),
+      Lines{"The circular run-out tolerance of 0.02 mm to A-B is left out: its datum "
+            "is a cylinder or cone in a part document, and left is a face."});
+  EXPECT_EQ(
+      common(Symbol::surface_profile, "#d3", {"A", "B"}),
+      Lines{"The surface profile tolerance of 0.02 mm to A-B is left out: its datum "
+            "is a cylinder or cone in a part document, and left is a face."});
+  EXPECT_EQ(common(Symbol::circular_runout, "#d3", {"A", "A"}),
+            Lines{"The circular run-out tolerance of 0.02 mm to A-A is left out: both "
+                  "elements of its common datum are d1."});
+  EXPECT_EQ(
+      common(Symbol::circular_runout, "#d3", {"A", "X"}),
+      Lines{"The circular run-out tolerance of 0.02 mm to A-X is left out: the file "
+            "has no datum X."});
+}
+
 TEST(StepPmi, WhatQualifiesAToleranceKeepsItOut) {
   auto modified = tolerance(Symbol::coaxiality, "#d2", "A");
   modified.modifiers = {"maximum material requirement"};
@@ -142,16 +201,12 @@ TEST(StepPmi, WhatQualifiesAToleranceKeepsItOut) {
       lines(datum),
       Lines{"The coaxiality tolerance of 0.02 mm to A (least material requirement) is "
             "left out: a part document has no modifiers of datums."});
-  auto common = tolerance(Symbol::circular_runout, "#d2", "A");
-  common.datums[0].letters = {"A", "D"};
-  EXPECT_EQ(lines(common),
-            Lines{"The circular run-out tolerance of 0.02 mm to A-D is left "
-                  "out: a part document has one datum; A is d1, D is d2."});
   auto two = tolerance(Symbol::surface_profile, "#d2", "A");
   two.datums.push_back({.letters = {"B"}});
   EXPECT_EQ(lines(two),
             Lines{"The surface profile tolerance of 0.02 mm to A, B is left out: "
-                  "a part document has one datum; A is d1, B is left."});
+                  "a part document has one datum, or the common one of two elements; A "
+                  "is d1, B is left."});
 }
 
 // Reasons behind "is left out: ".
@@ -520,10 +575,9 @@ TEST(StepPmi, FileWrittenByHandGivesWhatItSays) {
       lines(o),
       (Lines{"t1 length left..right -0.3 0", "t2 cylindricity d1 0.0127",
              "t3 circular-radial-runout d3 0.02 to d1",
-             "t4 circular-axial-runout d1|d2 0.03 to d1", "t5 straightness d1 0.03",
+             "t4 circular-axial-runout d1|d2 0.03 to d1",
+             "t5 total-radial-runout d2 0.03 to d1-d3", "t6 straightness d1 0.03",
              "1 dimension is without a tolerance: the shape has the size.",
-             "The total run-out tolerance of 0.03 mm to A-B is left out: a part "
-             "document has one datum; A is d1, B is d3.",
              "The coaxiality tolerance of diameter 0.03 mm (maximum material "
              "requirement) to A is left out: a part document has no such modifier."}));
 }

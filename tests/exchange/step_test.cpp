@@ -120,7 +120,7 @@ double volume_mm3(const Profile& profile) {
 }
 
 TEST(Step, VolumesAgreeWithOpenCascade) {
-  std::ifstream in(TURNWRIGHT_SOURCE_DIR "/tests/data/step/reference/volumes.json");
+  std::ifstream in(step_folder() + "/reference/volumes.json");
   const auto volumes = nlohmann::json::parse(in);
   EXPECT_EQ(volumes.size(), 16U);
   for (const auto& [name, of] : volumes.items())
@@ -167,6 +167,19 @@ TEST(Step, TurnedStepsOfTheCorpusAreTheBandsExpected) {
     EXPECT_TRUE(outline.ignored.empty());
   }
   EXPECT_EQ(read_case("groove").outer[1].shape, Shape::groove);
+}
+
+// The name that Open CASCADE writes for want of any is no name of the part.
+TEST(Step, TheWritersNameIsNotTheParts) {
+  auto text = step_text("cases/turned-x.step");
+  const std::string name = "'turned-x'", own = "'Open CASCADE STEP translator 7.6 1'";
+  ASSERT_NE(text.find(name), text.npos);
+  EXPECT_EQ(read_step(text).name, "turned-x");
+  for (auto at = text.find(name); at != text.npos; at = text.find(name, at + 1))
+    text.replace(at, name.size(), own);
+  const auto outline = read_step(text);
+  EXPECT_EQ(outline.name, "");
+  EXPECT_EQ(outline.title.drawing_number, "");
 }
 
 TEST(Step, OneOfSeveralSolidsIsChosen) {

@@ -1,11 +1,15 @@
 #include "turnwright/planning/choice.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <string>
 
 #include "parts.hpp"
+#include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/planning/plan.hpp"
 
@@ -27,7 +31,7 @@ json without(json document, const std::string& key) {
   return document;
 }
 
-json with(json document, const std::string& pointer, const json& value) {
+json having(json document, const std::string& pointer, const json& value) {
   document[json::json_pointer(pointer)] = value;
   return document;
 }
@@ -35,55 +39,139 @@ json with(json document, const std::string& pointer, const json& value) {
 json left_then_right() { return {{{"hold", "left"}}, {{"hold", "right"}}}; }
 json right_then_left() { return {{{"hold", "right"}}, {{"hold", "left"}}}; }
 
-// The same part planned once for each member of the product by hand.
-double cheapest(const json& document, const std::vector<json>& machines,
-                const std::vector<json>& setups) {
+// How a part may be held and what it is made of, without asking the choice.
+struct Way {
+  json setups, stock;
+};
+
+// A piece of the same bar of which 40 mm or a diameter is held, to part the whole part off.
+json longer_bar(const json& document, const char* hold) {
+  double length_mm = 0;
+  for (const auto& e : document["outer"]) length_mm += e["length_mm"].get<double>();
+  json bar = document["stock"];
+  const double spare_mm = bar["length_mm"].get<double>() - length_mm;
+  const double left_mm = bar.value("left_allowance_mm", spare_mm / 2);
+  const double held_mm = std::max(40.0, bar["diameter_mm"].get<double>());
+  const bool left = hold == std::string("left");
+  bar["left_allowance_mm"] = left ? held_mm : left_mm;
+  bar["length_mm"] = length_mm + held_mm + (left ? spare_mm - left_mm : left_mm);
+  bar["part_off_allowance_mm"] = 0;
+  return bar;
+}
+
+std::vector<Way> ways(const json& document) {
+  const json &stock = document["stock"], left{{"hold", "left"}}, right{{"hold", "right"}};
+  std::vector<Way> all{{left_then_right(), stock},
+                       {right_then_left(), stock},
+                       {json::array({left}), stock},
+                       {json::array({right}), stock}};
+  if (stock["kind"] != "bar" || stock.contains("part_off_allowance_mm")) return all;
+  const auto free = [&](const std::string& end) {  // nothing is asked of it
+    return (document.value("faces", json()).dump() +
+            document.value("edges", json()).dump() +
+            document.value("tolerances", json()).dump())
+               .find('"' + end + '"') == std::string::npos;
+  };
+  if (free("left")) all.push_back({json::array({left}), longer_bar(document, "left")});
+  if (free("right")) all.push_back({json::array({right}), longer_bar(document, "right")});
+  return all;
+}
+
+// The same part planned once for each machine and way, alone.
+double cheapest(const json& document, const std::vector<json>& machines) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& m : machines)
-    for (const auto& s : setups) try {
-        const auto alone = plan(part(with(with(document, "/machine", m), "/setups", s)));
+    for (const auto& way : ways(document)) try {
+        auto d = having(having(document, "/machine", m), "/setups", way.setups);
+        d["stock"] = way.stock;
+        const auto alone = plan(part(d));
         if (alone.status == PlanStatus::ok) least = std::min(least, alone.cost_per_part);
       } catch (const InputError&) {  // not to be held there
       }
   return least;
 }
 
-TEST(Choice, IsTheCheapestOfAllCombinationsPlannedAlone) {
-  const std::vector<json> machines{"lathe-small", "lathe-medium"};
-  const std::vector<json> setups{left_then_right(), right_then_left(),
-                                 json::array({{{"hold", "left"}}}),
-                                 json::array({{{"hold", "right"}}})};
-  for (const char* name : {"coupling-shaft", "titanium-pin", "drilled-bush"}) {
-    SCOPED_TRACE(name);
-    const json bare = without(without(reference_part(name), "setups"), "machine");
-    const auto c =
-        chosen(with(bare, "/choose", {{"machine", machines}, {"setups", "auto"}}));
-    EXPECT_EQ(c.plan.cost_per_part, cheapest(bare, machines, setups));
-    EXPECT_LE(c.plan.certificate.lower_bound, c.plan.cost_per_part);
-    EXPECT_EQ(c.plan.certificate.kind, CertificateKind::global);
-    for (const auto& a : c.plan.alternatives)
-      if (a.feasible) {
-        EXPECT_GE(*a.cost_per_part, c.plan.cost_per_part) << a.name;
-        EXPECT_GE(*a.lower_bound, c.plan.certificate.lower_bound) << a.name;
-      }
-  }
+// All of the machines with `ctest -C slow`.
+std::vector<json> machines() {
+  if (std::getenv("TURNWRIGHT_SLOW")) return {"lathe-small", "lathe-medium", "turn-mill"};
+  return {"lathe-medium"};
 }
 
+class OfTen : public testing::TestWithParam<const char*> {};
+
+TEST_P(OfTen, IsTheCheapestOfAllCombinationsPlannedAlone) {
+  const json bare = without(without(reference_part(GetParam()), "setups"), "machine");
+  const auto c =
+      chosen(having(bare, "/choose", {{"machine", machines()}, {"setups", "auto"}}));
+  EXPECT_EQ(c.plan.cost_per_part, cheapest(bare, machines()));
+  EXPECT_LE(c.plan.certificate.lower_bound, c.plan.cost_per_part);
+  EXPECT_EQ(c.plan.certificate.kind, CertificateKind::global);
+  for (const auto& a : c.plan.alternatives)
+    if (a.feasible) {
+      EXPECT_GE(*a.cost_per_part, c.plan.cost_per_part) << a.name;
+      EXPECT_GE(*a.lower_bound, c.plan.certificate.lower_bound) << a.name;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Choice, OfTen,
+                         testing::Values("bearing-seat", "coupling-shaft", "drilled-bush",
+                                         "flanged-bush", "gearbox-input-shaft",
+                                         "iron-hub", "piston-rod", "pump-shaft",
+                                         "spindle-nose", "titanium-pin"));
+
 TEST(Choice, OneEndAloneIsNoPlanOfAPartWithTwo) {
-  const auto c = chosen(with(without(pin(), "setups"), "/choose", {{"setups", "auto"}}));
-  ASSERT_EQ(c.plan.alternatives.size(), 4u);
+  auto d = having(without(pin(), "setups"), "/choose", {{"setups", "auto"}});
+  d["outer"][0]["diameter_mm"] = 30;  // no end from which all of it is reached
+  d["outer"].push_back(d["outer"][0]);
+  d["outer"][2]["id"] = "d3";
+  d["stock"]["length_mm"] = 132;
+  const auto c = chosen(d);
+  ASSERT_EQ(c.plan.alternatives.size(), 6u);
   EXPECT_EQ(c.plan.setups.size(), 2u);
   EXPECT_FALSE(c.plan.alternatives[2].feasible);
   EXPECT_FALSE(c.plan.alternatives[2].why.empty());
+}
+
+// A pin that falls towards its free end is done in one setup.
+TEST(Choice, APinIsPartedOffABar) {
+  const auto c =
+      chosen(having(without(pin(), "setups"), "/choose", {{"setups", "auto"}}));
+  ASSERT_EQ(c.plan.status, PlanStatus::ok);
+  ASSERT_EQ(c.plan.setups.size(), 1u);
+  EXPECT_TRUE(c.plan.alternatives[4].chosen);
+  EXPECT_EQ(c.plan.alternatives[4].name, "held left, parted off a bar");
+  EXPECT_LT(c.plan.cost_per_part, *c.plan.alternatives[0].cost_per_part);
+}
+
+TEST(Choice, IsTheSameOnOneThreadAndOnMany) {
+  const json d = having(without(pin(), "setups"), "/choose", {{"setups", "auto"}});
+  tbb::task_arena one(1);
+  const auto alone = one.execute([&] { return chosen(d); });
+  const auto together = chosen(d);
+  EXPECT_EQ(alone.chosen, together.chosen);
+  EXPECT_EQ(alone.plan.cost_per_part, together.plan.cost_per_part);
+  EXPECT_EQ(alone.plan.certificate.nodes, together.plan.certificate.nodes);
+  ASSERT_EQ(alone.plan.alternatives.size(), together.plan.alternatives.size());
+  for (std::size_t i = 0; i < alone.plan.alternatives.size(); ++i)
+    EXPECT_EQ(alone.plan.alternatives[i].sentence,
+              together.plan.alternatives[i].sentence);
+}
+
+TEST(Choice, ACancelledRequestLeavesOnEveryThread) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto token = stop.get_token();
+  const Listening listening(token);
+  EXPECT_THROW(chosen(having(without(pin(), "setups"), "/choose", {{"setups", "auto"}})),
+               Cancelled);
 }
 
 TEST(Choice, TheStocksPriceIsPartOfTheCost) {
   const json bars = {
       {{"kind", "bar"}, {"diameter_mm", 42}, {"length_mm", 92}, {"price", 9}},
       {{"kind", "bar"}, {"diameter_mm", 45}, {"length_mm", 92}, {"price", 3}}};
-  const auto c = chosen(with(without(pin(), "stock"), "/choose", {{"stock", bars}}));
+  const auto c = chosen(having(without(pin(), "stock"), "/choose", {{"stock", bars}}));
   EXPECT_EQ(c.chosen, 1u);
-  const auto thick = plan(part(with(pin(), "/stock", without(bars[1], "price"))));
+  const auto thick = plan(part(having(pin(), "/stock", without(bars[1], "price"))));
   EXPECT_NEAR(c.plan.cost_per_part, thick.cost_per_part + 3, 1e-12);
   EXPECT_NEAR(c.plan.certificate.lower_bound, thick.certificate.lower_bound + 3, 1e-9);
   EXPECT_EQ(c.plan.breakdown.stock.cost, 3);
@@ -94,8 +182,8 @@ TEST(Choice, TheShortestTimeDoesNotLookAtThePrice) {
   const json bars = {
       {{"kind", "bar"}, {"diameter_mm", 42}, {"length_mm", 92}, {"price", 90}},
       {{"kind", "bar"}, {"diameter_mm", 60}, {"length_mm", 92}, {"price", 1}}};
-  const json p = with(without(pin(), "stock"), "/choose", {{"stock", bars}});
-  EXPECT_EQ(chosen(with(p, "/objective", "time")).chosen, 0u);
+  const json p = having(without(pin(), "stock"), "/choose", {{"stock", bars}});
+  EXPECT_EQ(chosen(having(p, "/objective", "time")).chosen, 0u);
   EXPECT_EQ(chosen(p).chosen, 1u);
 }
 
@@ -103,7 +191,7 @@ TEST(Choice, ABarThatIsTooThinIsRefusedByName) {
   const json bars = {{{"kind", "bar"}, {"diameter_mm", 30}, {"length_mm", 92}},
                      {{"kind", "bar"}, {"diameter_mm", 42}, {"length_mm", 92}}};
   const auto all = document::prepared_candidates(
-      with(without(pin(), "stock"), "/choose", {{"stock", bars}}), shop(), "part");
+      having(without(pin(), "stock"), "/choose", {{"stock", bars}}), shop(), "part");
   ASSERT_EQ(all.usable.size(), 1u);
   EXPECT_EQ(all.usable[0].name, "bar 42 x 92 mm");
   ASSERT_EQ(all.refused.size(), 1u);
@@ -116,10 +204,10 @@ TEST(Choice, TheChangeOfEdgesIsTheCheapestOfThoseGiven) {
   json p = reference_part("coupling-shaft");
   if (p.contains("budget")) p["budget"].erase("edge_wear_mm");
   const std::vector<double> lands{0.1, 0.2, 0.3};
-  const auto c = chosen(with(p, "/choose", {{"edge_wear_mm", lands}}));
+  const auto c = chosen(having(p, "/choose", {{"edge_wear_mm", lands}}));
   double least = std::numeric_limits<double>::infinity();
   for (const double land : lands) {
-    const auto alone = plan(part(with(p, "/budget/edge_wear_mm", land)));
+    const auto alone = plan(part(having(p, "/budget/edge_wear_mm", land)));
     if (alone.status == PlanStatus::ok) least = std::min(least, alone.cost_per_part);
   }
   EXPECT_EQ(c.plan.cost_per_part, least);
@@ -127,7 +215,7 @@ TEST(Choice, TheChangeOfEdgesIsTheCheapestOfThoseGiven) {
 
 TEST(Choice, WithoutAPlanTheFirstCandidateSaysWhy) {
   json p = without(without(reference_part("infeasible-as-drawn"), "machine"), "setups");
-  const auto c = chosen(with(
+  const auto c = chosen(having(
       p, "/choose",
       {{"setups", {left_then_right()}}, {"machine", {"lathe-small", "lathe-medium"}}}));
   EXPECT_EQ(c.plan.status, PlanStatus::infeasible);

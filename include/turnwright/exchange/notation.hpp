@@ -14,7 +14,7 @@
 ///
 ///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N}
 ///     shape     = d D | [cone] d D-d D | arc d D-d D R RADIUS [convex | concave]
-///               | groove d D | M D[x PITCH]
+///               | groove d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05
 ///     corner    = feature {feature}
 ///     feature   = AxANGLE | chamfer AxANGLE | R RADIUS | E RxT      1x45  R0.8  E0.8x0.3
@@ -28,14 +28,16 @@
 /// - Diameters, lengths, radii, widths in mm, roughness in um, angles in degrees.  D is the
 ///   floor of a groove and the nominal diameter of a thread, whose pitch is the coarse one
 ///   of ISO 261 where none is written.  The pitch is written without a blank, "M24x1.5 x
-///   25", or before the length, "M24 x 1.5 x 25".
+///   25", or before the length, "M24 x 1.5 x 25".  Inch threads of N threads per inch are
+///   written "1/2-13 UNC 2A x 25", "1-1/4-7 x 40", "#10-24 UNC x 12" (part/inch_thread.hpp).
 /// - A corner that stands between two outer elements is the edge between them, before the
 ///   first one the left end's, after the last one the right end's.  Edges of bores are
 ///   named.  A is measured along the axis, ANGLE from the axis; E RxT is form E of DIN 509.
 /// - Outer elements are named d1, d2 .. from left to right, grooves and threads counted too.
 ///   Bores are named b1, b2 .. in the order in which they are written; those of one end from
 ///   it inwards, at the right end unless it says left.  EDGE and FACE are "left", "right" or
-///   two neighbours, "d1|d2"; KIND is a name of part/tolerance_kind.hpp.
+///   two neighbours, "d1|d2"; KIND is a name of part/tolerance_kind.hpp.  DATUM is one of
+///   these, or two elements for their common axis, "d2-d6".
 /// - T and Z of a milled place: depth below the rim of the cylinder, and its left end
 ///   measured from the left end of the part.
 /// - Ø or ⌀ stand for d, × for x, +- or +/- for ±, 45° for 45.  A comma between digits is a

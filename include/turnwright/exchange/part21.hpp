@@ -96,6 +96,9 @@ class Parameter {
   std::string text() const;
   /// "" if absent.
   std::string text_or_empty() const { return absent() ? std::string() : text(); }
+  /// Likewise of a text that many instances may share, so that it is read again and again:
+  /// nothing if it has more than 1000 bytes in the file.
+  std::optional<std::string> short_text() const;
   /// The word between the dots of an enumeration.
   std::string_view word() const;
   /// .T. or .F.

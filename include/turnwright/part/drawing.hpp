@@ -92,6 +92,9 @@ struct Tolerance {
   std::array<std::string, 2> between;  ///< the two faces of a `length`
   double value_mm = 0;                 ///< width of the zone (upper - lower for a size)
   std::optional<Limits> limits = {};   ///< of a size: `diameter`, `length`
+  /// The second element of a common datum A-B, whose axis goes through the middles of
+  /// `datum` and of this; empty of a single datum.
+  std::string common_datum = {};
 };
 
 enum class StockKind { bar, tube };
@@ -157,6 +160,8 @@ struct Extent {
 std::optional<Extent> extent(const Drawing& drawing, const std::string& id);
 /// Half angle [rad] of an element, 0 of a cylinder; nothing for a face.
 std::optional<double> half_angle_rad(const Drawing& drawing, const std::string& id);
+/// The datum as it is written in a tolerance frame, "d2" or "d2-d6"; "" without.
+std::string datum_words(const Tolerance& tolerance);
 /// Upper less lower limit, or the zone's width [mm].
 double width_mm(const Tolerance& tolerance);
 /// Multiplies the width by `times`; limits stay centred about their middle.

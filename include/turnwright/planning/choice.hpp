@@ -19,13 +19,15 @@ struct ChosenPlan {
   ProcessPlan plan;        ///< of it, with what each candidate costs in `alternatives`
 };
 
-/// Makes a plan infeasible that cannot be carried out (nc::refuse_unprogrammed).
+/// Makes a plan infeasible that cannot be carried out (nc::refuse_unprogrammed).  Called
+/// by several threads at once.
 using Judge = std::function<void(const PreparedPart&, ProcessPlan&)>;
 
 /// The plan of the candidate with the best objective; the first of equals.  Each candidate's
 /// plan has its own certificate, so no candidate can be made for less than the least of their
 /// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
-/// the first candidate and explains why.
+/// the first candidate and explains why.  Candidates are planned side by side on as many
+/// threads as the calling task arena has; the plan does not depend on their number.
 /// @throws std::domain_error without a candidate, or if profit is the objective and no price
 ///   is given.
 ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge);

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "document/part/datum_json.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -66,7 +68,7 @@ ordered_json tolerance(const part::Tolerance& t) {
     out["between"] = {t.between[0], t.between[1]};
   else
     out["of"] = t.of;
-  if (!t.datum.empty()) out["datum"] = t.datum;
+  if (!t.datum.empty()) out["datum"] = datum_json(t);
   if (t.limits)
     out["limits_mm"] = {t.limits->lower_mm, t.limits->upper_mm};
   else

@@ -4,6 +4,7 @@
 
 #include "outline.hpp"
 #include "turnwright/exchange/notation.hpp"
+#include "turnwright/part/inch_thread.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -49,8 +50,14 @@ Shape shape_of(const std::string& kind) {
   return Shape::thread;
 }
 
-// "M24x1.5", or "M24" of the coarse series.
+// "M24x1.5", or "M24" of the coarse series; "1/2-13 UNC".
 void read_designation(const std::string& text, Element& e) {
+  if (const auto inch = part::inch_thread(text)) {
+    e.left_mm = e.right_mm = inch->d_mm;
+    e.pitch_mm = inch->pitch_mm;
+    if (!inch->tolerance_class.empty()) e.demands.fit = inch->tolerance_class;
+    return;
+  }
   const auto x = std::min(text.find('x'), text.size());
   e.left_mm = e.right_mm = std::stod(text.substr(1, x - 1));
   if (x < text.size()) e.pitch_mm = std::stod(text.substr(x + 1));
@@ -87,12 +94,17 @@ exchange::Edge edge_of(const json& object) {
 part::Tolerance tolerance_of(const json& object) {
   part::Tolerance t{.id = text_of(object, "id"),
                     .of = text_of(object, "of"),
-                    .datum = text_of(object, "datum"),
+                    .datum = {},
                     .between = {},
                     .value_mm = number_of(object, "value_mm").value_or(0),
                     .limits = limits_of(object)};
   for (const auto& row : part::tolerance_kinds())
     if (text_of(object, "kind") == row.name) t.kind = row.kind;
+  if (const auto datum = object.find("datum"); datum != object.end()) {
+    const bool common = datum->is_array();
+    (common ? datum->at(0) : *datum).get_to(t.datum);
+    if (common) datum->at(1).get_to(t.common_datum);
+  }
   if (const auto& between = list_of(object, "between"); !between.empty())
     t.between = {between[0].get<std::string>(), between[1].get<std::string>()};
   return t;

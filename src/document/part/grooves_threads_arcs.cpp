@@ -7,6 +7,7 @@
 
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
+#include "turnwright/part/inch_thread.hpp"
 #include "turnwright/tolerance/iso286.hpp"
 
 namespace turnwright::document {
@@ -62,7 +63,7 @@ double number(const std::ssub_match& digits) {
   return x;
 }
 
-// "M30x1.5", or "M30" of the coarse series.
+// "M30x1.5", or "M30" of the coarse series; "1/2-13 UNC" in inches.
 Size read_designation(Reader& r) {
   static const std::regex kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
   const auto text = r.text("designation", 20);
@@ -71,8 +72,11 @@ Size read_designation(Reader& r) {
       r.problem_at(key, "designation, or diameter_mm and pitch_mm, not both", "conflict");
   std::smatch m;
   if (text.empty()) return {};
+  if (const auto inch = part::inch_thread(text)) return {inch->d_mm, inch->pitch_mm};
   if (!std::regex_match(text, m, kForm)) {
-    r.problem_at("designation", "an ISO metric thread like \"M30x1.5\" or \"M30\"",
+    r.problem_at("designation",
+                 "an ISO metric thread like \"M30x1.5\" or \"M30\", or a Unified inch "
+                 "thread like \"1/2-13 UNC\"",
                  "choice");
     return {};
   }
@@ -110,10 +114,11 @@ Size read_thread_size(Draft& draft, Reader& r) {
 }
 
 void check_thread_class(Reader& r) {
-  static const std::regex kClass("[3-9][a-hA-H]([3-9][a-hA-H])?");
+  static const std::regex kClass("[3-9][a-hA-H]([3-9][a-hA-H])?|[123][AB]");
   const auto fit = r.optional_text("fit", 8);
   if (fit && !fit->empty() && !std::regex_match(*fit, kClass))
-    r.problem_at("fit", "a thread's tolerance class like \"6g\" or \"6H\"", "choice");
+    r.problem_at("fit", "a thread's tolerance class like \"6g\", \"6H\" or \"2A\"",
+                 "choice");
 }
 
 part::Shaped read_thread(Draft& draft, Reader& r, Where where) {

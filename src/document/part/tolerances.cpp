@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "document/json/fields.hpp"
@@ -164,7 +165,9 @@ class ToleranceReader {
       return;
     }
     const Of want = of.feature ? datum_of(wants, *of.feature) : Of::element_or_face;
-    const auto datum = find_feature(r.at("datum", wanted_feature(want)), features_);
+    const Reader value = r.at("datum", wanted_feature(want));
+    if (value.is_array()) return read_common_datum(r, t, want);
+    const auto datum = find_feature(value, features_);
     t.datum = datum.id;
     if (datum.feature && !fits(want, *datum.feature))
       r.problem_at(
@@ -173,6 +176,28 @@ class ToleranceReader {
           "kind");
     else if (!t.datum.empty() && t.datum == t.of)
       r.problem_at("datum", "another feature than the toleranced one", "conflict");
+  }
+
+  // "datum": ["d2", "d6"], written A-B in a tolerance frame.
+  void read_common_datum(Reader& r, part::Tolerance& t, Of want) const {
+    if (want == Of::face)
+      return r.problem_at("datum", "one face: only elements have a common axis", "kind");
+    const auto ends = r.items("datum", 2, 2);
+    if (ends.size() != 2) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto found = find_feature(ends[i], features_);
+      (i == 0 ? t.datum : t.common_datum) = found.id;
+      if (found.feature && !fits(Of::element, *found.feature))
+        ends[i].problem("a cylinder or cone, for only elements have a common axis",
+                        "kind");
+    }
+    const auto a = part::extent(draft_.drawing(), t.datum),
+               b = part::extent(draft_.drawing(), t.common_datum);
+    if (a && b && !(std::abs(a->z0_mm + a->z1_mm - b->z0_mm - b->z1_mm) > 0))
+      r.problem_at("datum",
+                   "two elements whose middles lie apart along the axis, which goes "
+                   "through both",
+                   "conflict");
   }
 
   Draft& draft_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "document/json/finite.hpp"
+#include "document/part/datum_json.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "title_block.hpp"
@@ -114,7 +115,7 @@ ordered_json faces(const PreparedPart& part) {
 ordered_json json_of(const part::Tolerance& t) {
   ordered_json out{{"id", t.id}, {"kind", part::name(t.kind)}};
   if (!t.of.empty()) out["of"] = t.of;
-  if (!t.datum.empty()) out["datum"] = t.datum;
+  if (!t.datum.empty()) out["datum"] = datum_json(t);
   if (t.of.empty()) out["between"] = t.between;
   out["value_mm"] = t.value_mm;
   if (t.limits) out["limits_mm"] = pair(*t.limits);

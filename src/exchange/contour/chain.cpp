@@ -147,6 +147,31 @@ bool take_undercut(Items& items, std::size_t first, std::size_t last, double joi
   return true;
 }
 
+// Form F of DIN 509 by radius and depth, "F0.8x0.3": form E's slope and floor, and an arc
+// from which a slope 8 deg off the wall leads back to it.  "" of other recesses.
+std::string form_f(const Items& items, std::size_t first, std::size_t last,
+                   double join_mm) {
+  constexpr double kBack_rad = 8 * std::numbers::pi / 180;
+  double radius = 0, depth = 0;
+  bool slope = false, back = false, floor = false;
+  for (std::size_t i = first; i < last; ++i) {
+    const Item& item = items[i];
+    if (item.kind == Kind::arc) radius = std::max(radius, radius_mm(item.side));
+    if (item.kind != Kind::straight) continue;
+    const double w = std::abs(dy(item)), l = std::abs(dx(item));
+    if (level(item, join_mm)) {
+      floor = true;
+    } else if (dx(item) < 0) {
+      back = std::abs(std::atan2(l, w) - kBack_rad) <= kTangent_rad;
+    } else {
+      slope = std::abs(std::atan2(w, l) - part::kUndercutFalls_rad) <= kTangent_rad;
+      depth = w;
+    }
+  }
+  if (!(slope && floor && back && radius > 0)) return "";
+  return fmt::format("F{:.2g}x{:.2g}", radius, depth);
+}
+
 // A recess that reaches behind a wall, as forms F to H of DIN 509 do.
 bool take_recess(Items& items, std::size_t back, double join_mm) {
   const auto small = [&](const Item& i) {
@@ -164,7 +189,9 @@ bool take_recess(Items& items, std::size_t back, double join_mm) {
     last += 2;
   if (first == 0 || last >= items.size() || !wall_and_band(items[first - 1], items[last]))
     return false;
-  sharpen(items, first, last, {.kind = Corner::Kind::recess});
+  sharpen(
+      items, first, last,
+      {.kind = Corner::Kind::recess, .undercut = form_f(items, first, last, join_mm)});
   return true;
 }
 

@@ -10,11 +10,13 @@ namespace turnwright::exchange {
 namespace {
 
 void leave_sharp(Outline& out, const std::string& at, const Corner& c, const char* why) {
-  const char* what = c.kind == Corner::Kind::chamfer    ? "chamfer"
+  std::string what = c.kind == Corner::Kind::chamfer    ? "chamfer"
                      : c.kind == Corner::Kind::fillet   ? "fillet"
                      : c.kind == Corner::Kind::undercut ? "undercut"
                      : c.kind == Corner::Kind::rounded  ? "rounded edge"
                                                         : "recess in the corner";
+  if (c.kind == Corner::Kind::recess && !c.undercut.empty())
+    what = "undercut " + c.undercut;
   const double size = c.kind == Corner::Kind::chamfer ? c.axial_mm : c.radius_mm;
   const std::string of =
       size > 0 ? fmt::format(" of {:.6g} mm", tidy_mm(size)) : std::string();

@@ -2,6 +2,7 @@
 #include <array>
 #include <set>
 
+#include "exchange/records/given_name.hpp"
 #include "pmi_read.hpp"
 
 namespace turnwright::exchange {
@@ -30,8 +31,8 @@ void read_identity(const Instance& shape, Pmi& pmi) {
   const auto formation = (*of_product)[2].instance();
   const auto f = formation.record(0);
   const auto product = f[2].instance().as("PRODUCT");
-  pmi.part_number = product[0].text_or_empty();
-  pmi.part_name = product[1].text_or_empty();
+  pmi.part_number = given_name(product[0].text_or_empty());
+  pmi.part_name = given_name(product[1].text_or_empty());
   pmi.revision = f[0].text_or_empty();
 }
 
@@ -59,7 +60,7 @@ void read_property(const Instance& relation, std::set<Id>& told, Pmi& pmi) {
   const auto definition = r[0].instance();
   const auto property = definition.find("PROPERTY_DEFINITION");
   if (!property) return;
-  const auto name = (*property)[0].text_or_empty();
+  const auto name = (*property)[0].short_text().value_or("");
   if (is_validation(name)) return;
   const auto representation = r[1].instance();
   if (!representation.is("REPRESENTATION") || !told.insert(representation.id()).second)

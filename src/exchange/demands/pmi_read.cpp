@@ -92,9 +92,9 @@ std::string lower_case(std::string text) {
 }
 
 std::string short_text(const Parameter& parameter) {
-  auto text = parameter.text_or_empty();
-  if (text.size() > kLongestText) parameter.refuse("at most 200 bytes");
-  return text;
+  auto text = parameter.short_text();
+  if (!text || text->size() > kLongestText) parameter.refuse("at most 200 bytes");
+  return std::move(*text);
 }
 
 std::string in_words(const Parameter& enumeration) {

@@ -55,7 +55,7 @@ void read_definition(const Instance& definition, const ByInstance& tolerances) {
 // The lower segments of a composite tolerance refine the first one and do not locate.
 void read_composite(const Instance& relation, const ByInstance& tolerances) {
   const auto r = relation.as("GEOMETRIC_TOLERANCE_RELATIONSHIP");
-  if (lower_case(r[0].text_or_empty()) != "composite") return;
+  if (lower_case(r[0].short_text().value_or("")) != "composite") return;
   const auto lower = tolerances.find(r[3].id());
   if (lower != tolerances.end())
     lower->second->modifiers.push_back("lower segment of the composite tolerance " +

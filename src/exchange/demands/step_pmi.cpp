@@ -127,9 +127,9 @@ void tell_strokes(const Pmi& pmi, Outline& outline) {
 }  // namespace
 
 void add_pmi(const Pmi& pmi, Outline& outline) {
-  const Places places(outline);
   add_product(pmi, outline);
-  add_sizes(pmi, places, outline);
+  add_sizes(pmi, Places(outline), outline);
+  const Places places(outline);  // some cylinders are threads by now
   add_tolerances(pmi, places, outline);
   for (const auto& texture : pmi.textures) add_texture(texture, places, outline);
   leave_out_angles(pmi, outline);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "exchange/text/thread_words.hpp"
 #include "step_pmi_place.hpp"
 
 namespace turnwright::exchange {
@@ -113,6 +114,28 @@ std::vector<Place> ends_of_size(const Dimension& d, const Places& places) {
   return all;
 }
 
+// "M24x1.5-6g" or "1/2-13 UNC" as a note of a diameter.
+std::optional<notated::Thread> thread_of(const Dimension& d) {
+  for (const auto& note : d.notes)
+    if (const auto found = notated::thread(note)) return found;
+  return std::nullopt;
+}
+
+void make_thread(const Dimension& d, const notated::Thread& t, const Places& places,
+                 Outline& outline) {
+  const auto of = places.of(d.of);
+  if (of.size() != 1 || of[0].kind != PlaceKind::cylinder)
+    return leave_size_out(d, "a thread is of one cylinder", outline);
+  auto& e = (of[0].inner ? outline.inner : outline.outer)[of[0].index];
+  if (!(std::abs(e.left_mm - t.d_mm) <= kSame_mm))
+    return leave_size_out(d, fmt::format("{} has a diameter of {} mm", e.id, e.left_mm),
+                          outline);
+  e.shape = Shape::thread;
+  e.left_mm = e.right_mm = t.d_mm;
+  e.pitch_mm = t.pitch_mm;
+  if (!t.tolerance_class.empty()) e.demands.fit = t.tolerance_class;
+}
+
 bool has_modifier(const Dimension& d) { return !d.notes.empty(); }
 
 void demand_of_size(const Dimension& d, const Places& places, Outline& outline) {
@@ -147,7 +170,9 @@ void tell_plain(std::size_t count, Outline& outline) {
 void add_sizes(const Pmi& pmi, const Places& places, Outline& outline) {
   std::size_t plain = 0;
   for (const auto& d : pmi.dimensions)
-    if (is_plain(d))
+    if (const auto thread = thread_of(d))
+      make_thread(d, *thread, places, outline);
+    else if (is_plain(d))
       ++plain;
     else
       demand_of_size(d, places, outline);

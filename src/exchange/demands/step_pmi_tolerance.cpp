@@ -163,26 +163,62 @@ DatumPlace datum_of(const std::string& letter, const Datums& datums) {
   return {.reason = "the file has no datum " + letter};
 }
 
-// The single datum of a tolerance.  The reason against several says where they are, so that
-// the author of the document can choose.
-DatumPlace single_datum(const GeometricTolerance& t, const Datums& datums) {
+// What a tolerance refers to: nothing, one place, or two for a common datum A-B.
+struct Reference {
+  std::vector<Place> places = {};
+  std::string reason = {};  ///< why it cannot be told
+};
+
+// The reason against a system of several datums says where they are, so that the author of
+// the document can choose.
+Reference reference_of(const GeometricTolerance& t, const Datums& datums) {
   std::vector<std::string> letters;
   for (const auto& d : t.datums)
     letters.insert(letters.end(), d.letters.begin(), d.letters.end());
   if (letters.empty() && !t.datums.empty()) return {.reason = "its datum has no letter"};
-  if (letters.empty()) return {};
-  if (letters.size() == 1) return datum_of(letters.front(), datums);
-  std::string where;
-  for (const auto& letter : letters)
-    if (const auto datum = datum_of(letter, datums); datum.place)
-      where +=
-          fmt::format("{} {} is {}", where.empty() ? ";" : ",", letter, datum.place->id);
-  return {.reason = "a part document has one datum" + where};
+  const bool common = t.datums.size() == 1 && letters.size() == 2;
+  if (letters.size() > 1 && !common) {
+    std::string where;
+    for (const auto& letter : letters)
+      if (const auto datum = datum_of(letter, datums); datum.place)
+        where += fmt::format("{} {} is {}", where.empty() ? ";" : ",", letter,
+                             datum.place->id);
+    return {.reason = "a part document has one datum, or the common one of two elements" +
+                      where};
+  }
+  Reference all;
+  for (const auto& letter : letters) {
+    const auto datum = datum_of(letter, datums);
+    if (!datum.place) return {.reason = datum.reason};
+    all.places.push_back(*datum.place);
+  }
+  return all;
+}
+
+// Why a tolerance of a kind cannot refer to these places; "" if it can.
+std::string unsuitable(const std::vector<Place>& datum, const part::ToleranceFacts& facts,
+                       const Place& of) {
+  if ((facts.datum == DatumFeature::none) != datum.empty())
+    return datum.empty() ? "it has no datum" : "it has no datum in a part document";
+  const bool common = datum.size() > 1;
+  if (common && datum.front().id == datum.back().id)
+    return "both elements of its common datum are " + datum.front().id;
+  for (const auto& place : datum) {
+    if (!common && place.id == of.id) return "its datum is " + place.id + " itself";
+    auto wanted = datum_suits(facts.datum, of);
+    if (common && wanted == Toleranced::element_or_face) wanted = Toleranced::element;
+    if (!suits(wanted, place))
+      return fmt::format("its datum is {} in a part document, and {} is {}",
+                         wanted_feature(wanted), place.id, name(place.kind));
+  }
+  if (common && datum_suits(facts.datum, of) == Toleranced::face)
+    return "its datum is one face in a part document";
+  return "";
 }
 
 void add_to(const Place& place, const GeometricTolerance& t,
-            const std::optional<Place>& datum, Outline& outline) {
-  const auto kind = tolerance_kind(t.symbol, place.is_face(), datum.has_value());
+            const std::vector<Place>& datum, Outline& outline) {
+  const auto kind = tolerance_kind(t.symbol, place.is_face(), !datum.empty());
   if (!kind)
     return leave_tolerance_out(t, "a part document has no tolerance of this kind",
                                outline);
@@ -195,25 +231,17 @@ void add_to(const Place& place, const GeometricTolerance& t,
         fmt::format("it is of {} in a part document, and {} is {}",
                     wanted_feature(facts.of), place.id, name(place.kind)),
         outline);
-  if ((facts.datum == DatumFeature::none) == datum.has_value())
-    return leave_tolerance_out(
-        t, datum ? "it has no datum in a part document" : "it has no datum", outline);
-  if (datum && datum->id == place.id)
-    return leave_tolerance_out(t, "its datum is " + place.id + " itself", outline);
-  if (datum && !suits(datum_suits(facts.datum, place), *datum))
-    return leave_tolerance_out(
-        t,
-        fmt::format("its datum is {} in a part document, and {} is {}",
-                    wanted_feature(datum_suits(facts.datum, place)), datum->id,
-                    name(datum->kind)),
-        outline);
-  outline.tolerances.push_back({.id = fmt::format("t{}", outline.tolerances.size() + 1),
-                                .kind = *kind,
-                                .of = place.id,
-                                .datum = datum ? datum->id : std::string(),
-                                .between = {},
-                                .value_mm = *t.width_mm,
-                                .limits = {}});
+  if (const auto reason = unsuitable(datum, facts, place); !reason.empty())
+    return leave_tolerance_out(t, reason, outline);
+  outline.tolerances.push_back(
+      {.id = fmt::format("t{}", outline.tolerances.size() + 1),
+       .kind = *kind,
+       .of = place.id,
+       .datum = datum.empty() ? std::string() : datum.front().id,
+       .between = {},
+       .value_mm = *t.width_mm,
+       .limits = {},
+       .common_datum = datum.size() > 1 ? datum.back().id : std::string()});
 }
 
 void add_tolerance(const GeometricTolerance& t, const Datums& datums,
@@ -223,9 +251,9 @@ void add_tolerance(const GeometricTolerance& t, const Datums& datums,
   const auto of = places.of(t.of);
   if (of.empty())
     return leave_tolerance_out(t, "its feature is not in the outline", outline);
-  const auto datum = single_datum(t, datums);
+  const auto datum = reference_of(t, datums);
   if (!datum.reason.empty()) return leave_tolerance_out(t, datum.reason, outline);
-  for (const auto& place : of) add_to(place, t, datum.place, outline);
+  for (const auto& place : of) add_to(place, t, datum.places, outline);
 }
 
 }  // namespace

@@ -89,6 +89,29 @@ std::vector<Axis> centre_lines(const std::vector<Stroke>& strokes) {
   return out;
 }
 
+// The centre line about which the contour lies: on one side of it, mirrored, or at least as
+// far out on both sides, as in a half section of a bored part.
+std::optional<Axis> of_centre_lines(const std::vector<Stroke>& strokes, double join_mm) {
+  const auto lines = centre_lines(strokes);
+  const auto first = [&](const auto& suits) -> std::optional<Axis> {
+    for (const Axis& axis : lines) {
+      const auto beside = along(axis, strokes);
+      if (std::any_of(beside.begin(), beside.end(), is_contour) && suits(beside))
+        return axis;
+    }
+    return std::nullopt;
+  };
+  if (const auto axis = first([&](const std::vector<Stroke>& beside) {
+        return one_sided(extents({}, beside), join_mm) ||
+               symmetry({}, beside, join_mm) >= kSymmetric;
+      }))
+    return axis;
+  return first([&](const std::vector<Stroke>& beside) {
+    const auto e = extents({}, beside);
+    return std::abs(e.r0 + e.r1) <= join_mm;
+  });
+}
+
 // The direction in which most of the contour runs, along it or across; x first.
 std::vector<Place> directions(const std::vector<Stroke>& strokes) {
   constexpr double kStep_rad = 1e-6, kRight_rad = 1.5707963267948966;
@@ -175,6 +198,16 @@ std::optional<Axis> at_origin(const std::vector<Stroke>& strokes, double join_mm
   return axis;
 }
 
+// Whether a line of the contour goes from one side of the axis to the other.
+bool crossed(const Axis& axis, const std::vector<Stroke>& strokes, double join_mm) {
+  return std::any_of(strokes.begin(), strokes.end(), [&](const Stroke& s) {
+    const auto [low, high] = std::minmax({axis.local(s.from).y, axis.local(s.to).y});
+    return is_contour(s) && low < -join_mm && high > join_mm;
+  });
+}
+
+// Of two axes of symmetry one that no line crosses lies in the bore of a ring; the other
+// cuts its section.
 std::optional<Axis> of_symmetry(const std::vector<Stroke>& strokes, double join_mm,
                                 std::vector<Remark>& assumed) {
   std::optional<Axis> best;
@@ -186,7 +219,10 @@ std::optional<Axis> of_symmetry(const std::vector<Stroke>& strokes, double join_
     axis.origin = axis.drawn({0, (e.r0 + e.r1) / 2});
     const double share = symmetry(axis, strokes, join_mm);
     both = best && share == most;
-    if (share > most || (!best && share == most)) {
+    const bool apart =
+        both && crossed(*best, strokes, join_mm) && !crossed(axis, strokes, join_mm);
+    if (apart) both = false;
+    if (share > most || apart || (!best && share == most)) {
       most = share;
       best = axis;
     }
@@ -205,13 +241,7 @@ Axis find_axis(const std::vector<Stroke>& strokes, double join_mm,
                std::vector<Remark>& assumed) {
   if (std::none_of(strokes.begin(), strokes.end(), is_contour))
     refuse("", "no lines of a contour", "lines and arcs on a layer for the contour");
-  for (const Axis& axis : centre_lines(strokes)) {
-    const auto beside = along(axis, strokes);
-    if (std::any_of(beside.begin(), beside.end(), is_contour) &&
-        (one_sided(extents({}, beside), join_mm) ||
-         symmetry({}, beside, join_mm) >= kSymmetric))
-      return axis;
-  }
+  if (const auto axis = of_centre_lines(strokes, join_mm)) return *axis;
   if (const auto axis = through_open_ends(strokes, join_mm, assumed)) return *axis;
   if (const auto axis = at_origin(strokes, join_mm, true, assumed)) return *axis;
   if (const auto axis = of_symmetry(strokes, join_mm, assumed)) return *axis;

@@ -68,6 +68,7 @@ class Drawing {
     Groups groups = e.groups();
     for (auto g = groups.next(); g && g->code != 0; g = groups.next()) {
       if (g->code == 67 && integer(*g) == 1) return leave("entity of the paper space");
+      if (g->code == 60 && integer(*g) == 1) return leave("invisible entity");
       if (g->code == 8) layer_name = g->value;
       if (g->code == 6) linetype_name = g->value;
     }

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "exchange/text/notation_demands.hpp"
+#include "exchange/text/thread_words.hpp"
 
 namespace turnwright::exchange::dxf {
 namespace {
@@ -103,6 +104,7 @@ bool take_size(notated::Word& word, Said& out) {
     if (!pitch || !(*pitch > 0)) return false;
     out.pitch = *pitch;
   }
+  if (out.thread) take(word, {"-"});  // M24x1.5-6g
   return *out.size > 0;
 }
 
@@ -146,10 +148,18 @@ std::optional<Said> said(const std::string& shown) {
   const auto words = notated::words(shown);
   if (words.empty()) return Said{};
   Said out;
-  notated::Word first = words[0];
-  if (!take_size(first, out)) return std::nullopt;
-  if (!first.empty() && !take_demand(first, out)) return std::nullopt;
-  for (std::size_t i = 1; i < words.size(); ++i)
+  std::size_t next = 0;
+  if (const auto inch = notated::take_inch_thread(words, next)) {
+    out.thread = true;
+    out.size = inch->d_mm;
+    out.pitch = inch->pitch_mm;
+    if (!inch->tolerance_class.empty()) out.demands.fit = inch->tolerance_class;
+  } else {
+    notated::Word first = words[next++];
+    if (!take_size(first, out)) return std::nullopt;
+    if (!first.empty() && !take_demand(first, out)) return std::nullopt;
+  }
+  for (std::size_t i = next; i < words.size(); ++i)
     if (!take_demand(words[i], out)) return std::nullopt;
   return out;
 }

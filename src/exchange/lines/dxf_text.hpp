@@ -16,7 +16,7 @@ std::string in_utf8(std::string_view text);
 /// (Ø for every sign of a diameter), a stacked tolerance \S+0.02^-0.01; as " +0.02/-0.01".
 std::string shown_text(std::string_view text);
 
-/// What the text of a dimension says, in the units of the drawing.
+/// What the text of a dimension says, in the units of the drawing; threads in mm.
 struct Said {
   std::optional<double> size;  ///< nothing where the measured value stands, "<>"
   bool diameter = false, thread = false;
@@ -24,7 +24,7 @@ struct Said {
   Demands demands = {};
 };
 
-/// "Ø50 k6", "<> h7", "M24x1.5 6g", "50 +0.02/-0.01 Ra 1.6"; nothing if there are other
+/// "Ø50 k6", "<> h7", "M24x1.5 6g", "1/2-13 UNC-2A", "50 +0.02/-0.01 Ra 1.6"; nothing if there are other
 /// words.
 std::optional<Said> said(const std::string& shown);
 

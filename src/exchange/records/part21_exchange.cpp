@@ -119,6 +119,14 @@ std::string Parameter::text() const {
   return part21_text(text_of(required(ValueKind::text, "a string")));
 }
 
+std::optional<std::string> Parameter::short_text() const {
+  constexpr std::size_t kLongest = 1000;
+  if (absent()) return "";
+  const auto encoded = text_of(required(ValueKind::text, "a string"));
+  if (encoded.size() > kLongest) return std::nullopt;
+  return part21_text(encoded);
+}
+
 std::string_view Parameter::word() const {
   return text_of(required(ValueKind::enumeration, "a word between dots"));
 }

@@ -93,7 +93,7 @@ std::optional<Measure> step_measure(const Instance& measure) {
 std::string measure_name(const Instance& measure) {
   for (const auto name : {"REPRESENTATION_ITEM", "MEASURE_REPRESENTATION_ITEM"})
     if (const auto r = measure.find(name); r && r->size() >= 1)
-      return (*r)[0].text_or_empty();
+      return (*r)[0].short_text().value_or("");
   return "";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "exchange/records/given_name.hpp"
 #include "exchange/records/step_unit.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -95,8 +96,8 @@ std::string name_of_product(const Instance& item) {
   const auto product = where ? product_of(where->representation) : std::nullopt;
   if (!product) return "";
   const auto record = product->as("PRODUCT");
-  const auto name = first_text(record, 1);
-  return name.empty() ? first_text(record, 0) : name;
+  const auto name = given_name(first_text(record, 1));
+  return name.empty() ? given_name(first_text(record, 0)) : name;
 }
 
 std::string quoted_names(const std::vector<Instance>& all) {

@@ -111,7 +111,8 @@ Surface Geometry::surface(Instance item) const {
 /// the way of the turn.  The normal of Part 42's surface is t x d.
 Surface Geometry::revolved(const Record& revolution) const {
   Surface s{.name = std::string(revolution.name())};
-  const auto [O, a] = placement(revolution[2].instance());
+  const auto about = placement(revolution[2].instance());
+  const Vector3d &O = about.origin, &a = about.axis;
   bool along = true;
   const auto curve = bare_curve(revolution[1].instance(), along);
   const auto radial = [&O, &a](const Vector3d& p) -> Vector3d {

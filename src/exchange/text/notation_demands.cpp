@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kLargestRa_um = 100, kLargestRz_um = 400;
 
-bool one_of(char c, std::string_view set) {
-  return set.find(c) != std::string_view::npos;
-}
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 bool begins_with_digit(Word word) { return !word.empty() && is_digit(word[0]); }
@@ -70,14 +67,6 @@ bool is_fit(Word word) {
   if (n == 0 || digits < 1 || digits > 2) return false;
   for (; n < word.size(); ++n)
     if (!is_digit(word[n])) return false;
-  return true;
-}
-
-bool is_thread_class(Word word) {
-  if (word.size() != 2 && word.size() != 4) return false;
-  for (std::size_t i = 0; i < word.size(); i += 2)
-    if (!one_of(word[i], "3456789") || !one_of(word[i + 1], "abcdefghABCDEFGH"))
-      return false;
   return true;
 }
 

@@ -12,8 +12,6 @@ inline constexpr double kLargest_mm = 20000;
 /// Whether the word has the form of a tolerance class of ISO 286: one or two letters and a
 /// grade of one or two digits.
 bool is_fit(Word word);
-/// Of ISO 965, for a thread: "6g", "6H", "4h6h".
-bool is_thread_class(Word word);
 
 /// "+0.02/-0.01", "+0.1/0", "±0.05".
 std::optional<part::Limits> limits(Word word);

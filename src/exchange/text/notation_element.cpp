@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "thread_words.hpp"
+
 namespace turnwright::exchange::notated {
 namespace {
 
@@ -18,6 +20,24 @@ std::optional<Shape> shape_word(Word word) {
 }
 
 bool take_d(Word& word) { return take(word, {"d", "Ø", "ø", "⌀"}); }
+
+// What to write instead of a habit of the pen; "" if the word is none of these.
+std::string hint(Word word) {
+  if (word.ends_with(','))
+    return "';' or a new line before the next element: a comma is a decimal comma";
+  if (word == "/" || (take_signed_number(word) && word.empty()))
+    return "limits without blanks, like +0.02/-0.01";
+  return "";
+}
+
+// "h7x40": one or two letters and a digit, not a length.
+bool begins_with_fit(Word word) {
+  Word length = word;
+  if (take(length, {"x", "×"})) return false;
+  for (std::size_t n = 1; n <= 2 && n < word.size(); ++n)
+    if (is_digit(word[n])) return is_fit(word.substr(0, n + 1));
+  return false;
+}
 
 bool begins_with_number(Word word) {
   return !word.empty() && (is_digit(word[0]) || word[0] == '.');
@@ -59,6 +79,8 @@ class ElementWords {
 
   bool read_head() {
     const bool ends = next_ == words_.size();
+    if (!ends && (e().shape == Shape::cylinder || e().shape == Shape::thread))
+      if (const auto inch = take_inch_thread(words_, next_)) return read_inch(*inch);
     const Word word = ends ? words_.back() : words_[next_++];
     Word rest = word;
     const bool cylinder = e().shape == Shape::cylinder;
@@ -72,14 +94,23 @@ class ElementWords {
   bool head_mistake(Word word) {
     const char* wanted =
         "a diameter like d50, two of a cone like d30-d40, or a thread "
-        "like M24x1.5";
-    if (e().shape == Shape::thread) wanted = "a thread like M24x1.5";
+        "like M24x1.5 or 1/2-13 UNC";
+    if (e().shape == Shape::thread) wanted = "a thread like M24x1.5 or 1/2-13 UNC";
     if (e().shape == Shape::groove)
       wanted = "the diameter of the groove's floor like d26";
     if (e().shape == Shape::cone || e().shape == Shape::arc)
       wanted = "the diameters at both ends like d30-d40";
     mistakes_.add(word, wanted);
     return false;
+  }
+
+  bool read_inch(const part::InchThread& inch) {
+    e().shape = Shape::thread;
+    e().left_mm = e().right_mm = inch.d_mm;
+    e().pitch_mm = inch.pitch_mm;
+    pitch_given_ = true;
+    if (!inch.tolerance_class.empty()) e().demands.fit = inch.tolerance_class;
+    return true;
   }
 
   bool read_thread(Word word, Word rest) {
@@ -119,9 +150,17 @@ class ElementWords {
   bool read_glued(Word word, Word rest) {
     if (rest.empty()) return true;
     Word length = rest;
-    if (!take(length, {"x", "×"}) || !number(length)) return head_mistake(word);
-    read_demand(rest);
-    return true;
+    if (take(length, {"x", "×"}) && number(length)) {
+      read_demand(rest);
+      return true;
+    }
+    if (const auto said = hint(word); !said.empty()) {
+      mistakes_.add(word, said);
+      return false;
+    }
+    if (!begins_with_fit(rest)) return head_mistake(word);
+    mistakes_.add(word, "blanks between diameter, fit and length, like d50 h7 x 40");
+    return false;
   }
 
   void read_demand(Word word) {
@@ -139,15 +178,25 @@ class ElementWords {
                              "right +0.1/-0.1)");
       return read_limits(word, *l);
     }
+    if (const auto said = hint(word); !said.empty()) return add_hint(word, said);
     mistakes_.add(word, thread ? "a length like x 40, a class like 6g, limits like "
                                  "+0.02/-0.01 or a roughness like Ra1.6"
                                : "a length like x 40, a fit like h7, limits like "
                                  "+0.02/-0.01 or a roughness like Ra1.6");
   }
 
+  // "+0.02 / -0.01" is one mistake; what stands behind a comma is another element.
+  void add_hint(Word word, const std::string& said) {
+    mistakes_.add(word, said);
+    broken_off_ = word.ends_with(',');
+    if (broken_off_) next_ = words_.size();
+    while (next_ < words_.size() && hint(words_[next_]) == said) ++next_;
+  }
+
   void read_length(Word word, Word rest) {
     const int before = lengths_++;
     const auto x = number(rest);
+    if (const auto said = hint(word); !x && !said.empty()) return add_hint(word, said);
     if (!x) return mistakes_.add(word, "a length like x 40");
     if (!in_range(word, *x, kLargest_mm, "mm", mistakes_)) return;
     if (before == 1 && e().shape == Shape::thread && !pitch_given_)
@@ -192,7 +241,7 @@ class ElementWords {
   void sized_twice(Word word) { mistakes_.add(word, "one fit, or limits instead of it"); }
 
   void finish() {
-    if (lengths_ == 0)
+    if (lengths_ == 0 && !broken_off_)
       mistakes_.add(words_.back(), "a length like x 40 for this element");
     if (e().shape == Shape::arc && !radius_given_)
       mistakes_.add(words_.back(), "a radius like R60 for this arc");
@@ -203,13 +252,13 @@ class ElementWords {
   ReadElement out_;
   std::size_t next_ = 0;
   int lengths_ = 0;
-  bool pitch_given_ = false, radius_given_ = false;
+  bool pitch_given_ = false, radius_given_ = false, broken_off_ = false;
 };
 
 }  // namespace
 
 bool begins_element(Word word) {
-  if (same(word, "bore") || shape_word(word)) return true;
+  if (same(word, "bore") || shape_word(word) || part::inch_thread(word)) return true;
   return (take_d(word) || take(word, {"m"})) && begins_with_number(word);
 }
 

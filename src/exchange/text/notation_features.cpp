@@ -42,6 +42,11 @@ class Rest {
     mistakes_.add(here(), expected, done() ? "nothing more after it" : "");
     return false;
   }
+  /// Likewise, of a word already taken.
+  bool mistake(const std::string& expected, Word at) {
+    mistakes_.add(at, expected);
+    return false;
+  }
   bool end() { return done() || mistake("nothing more here"); }
 
  private:
@@ -85,11 +90,24 @@ void read_face(Rest rest, Features& out, Mistakes& mistakes) {
   out.faces.push_back(std::move(face));
 }
 
+// "d2" or "left", or "d2-d6" for the common axis of two elements.
+bool take_datum(Rest& rest, Features& out, part::Tolerance& t) {
+  const auto dash = rest.done() ? Word::npos : rest.here().find('-');
+  if (dash == Word::npos)
+    return take_id(rest, out, t.datum, {.word = {}, .face_too = true});
+  const Word word = rest.take(), a = word.substr(0, dash), b = word.substr(dash + 1);
+  if (a == b) return rest.mistake("two different elements on either side of '-'", word);
+  t.datum = std::string(a);
+  t.common_datum = std::string(b);
+  out.named.push_back({a, false});
+  out.named.push_back({b, false});
+  return true;
+}
+
 // "d3 to d2 0.04": what it is of, its datum, its width.
 bool read_zone(Rest& rest, Features& out, part::Tolerance& t, Mistakes& mistakes) {
   if (!take_id(rest, out, t.of, {.word = {}, .face_too = true})) return false;
-  if (rest.take("to") && !take_id(rest, out, t.datum, {.word = {}, .face_too = true}))
-    return false;
+  if (rest.take("to") && !take_datum(rest, out, t)) return false;
   const Word width = rest.here();
   constexpr double kWidest_mm = 10;
   return take_value(rest, "the width of the tolerance zone like 0.02", t.value_mm) &&

@@ -7,6 +7,7 @@
 
 #include "running_ids.hpp"
 #include "turnwright/exchange/notation.hpp"
+#include "turnwright/part/inch_thread.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -54,6 +55,7 @@ std::string shape_text(const Element& e) {
     case Shape::thread:
       break;
   }
+  if (auto inch = part::inch_designation(e.left_mm, e.pitch_mm)) return *inch;
   return fmt::format("M{}{}", digits(e.left_mm),
                      e.pitch_mm > 0 ? fmt::format("x{}", digits(e.pitch_mm)) : "");
 }
@@ -93,7 +95,7 @@ std::string tolerance_text(const part::Tolerance& t) {
   out +=
       ' ' + (t.kind == part::ToleranceKind::length ? t.between[0] + " to " + t.between[1]
                                                    : t.of);
-  if (!t.datum.empty()) out += " to " + t.datum;
+  if (!t.datum.empty()) out += " to " + part::datum_words(t);
   return out + ' ' + (t.limits ? limits_text(*t.limits) : digits(t.value_mm)) + '\n';
 }
 

@@ -42,6 +42,7 @@ Outline with_running_ids(Outline o) {
   for (auto& t : o.tolerances) {
     refer(t.of, names);
     refer(t.datum, names);
+    refer(t.common_datum, names);
     for (auto& face : t.between) refer(face, names);
   }
   for (auto& m : o.milled) refer(m.on, names);

@@ -293,6 +293,20 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   return h;
 }
 
+// Whether the spindle drives a drill at its conditions, whatever holds the part.
+bool drives(const PlanRequest& p, const FixedTool& t, double D_mm) {
+  const auto* at = t.conditions_in(p.material.group);
+  if (!at) return false;
+  const auto ranges = cutting::speed_ranges(p.machine);
+  const auto load = cutting::drill(cutting::kienzle_at(p.material, t.gamma_deg), D_mm,
+                                   at->f_mm_rev * D_mm, t.point_deg);
+  const double n = std::clamp(units::spindle_rpm(at->vc_m_min, D_mm),
+                              ranges.front().n_min_rpm, ranges.back().n_max_rpm);
+  const double P_kW = units::shaft_power_kW(load.M_Nm, n);
+  return P_kW <= cutting::available_kW(ranges, n, false) &&
+         P_kW <= cutting::available_kW(ranges, n, true);
+}
+
 Asked drilling(const Hole& h, const OperationRequest* given) {
   return {FixedUse::drilling,
           "drill",
@@ -316,11 +330,23 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   return nullptr;
 }
 
+// The largest drill that the spindle drives; if it drives none, or the drilling is given,
+// the largest of all, whose limits then tell why it cannot be.
+Fitted fitted_drill(const PlanRequest& p, const Asked& a) {
+  if (a.given) return fitted(p, a);
+  auto driven = a;
+  driven.fits = [&](const FixedTool& t, double size) {
+    return a.fits(t, size) && drives(p, t, size);
+  };
+  const auto f = fitted(p, driven);
+  return f.tool ? f : fitted(p, a);
+}
+
 void add_drilling(Site& s, part::End end) {
   const auto h = hole_from(s.p.drawing, end);
   if (h.first.empty()) return;
   const auto a = drilling(h, given_drilling(s.p, end));
-  const auto f = fitted(s.p, a);
+  const auto f = fitted_drill(s.p, a);
   if (f.tool)
     s.out.before.push_back(drilled(s, a, f, h.depth_mm));
   else
@@ -716,7 +742,7 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
 double drilled_mm(const PlanRequest& p, part::End end) {
   const auto h = hole_from(p.drawing, end);
   if (h.first.empty()) return 0;
-  return fitted(p, drilling(h, given_drilling(p, end))).size_mm;
+  return fitted_drill(p, drilling(h, given_drilling(p, end))).size_mm;
 }
 
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,

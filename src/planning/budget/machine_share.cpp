@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common_datum.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "turnwright/base/interval.hpp"
@@ -203,13 +204,17 @@ double zone_mm(const PreparedPart& p, ToleranceKind kind, const Surface& s,
   return perpendicularity_mm(s, d.axis) + tipped;  // of faces
 }
 
-/// Share of a tolerance that one chain of errors takes; the surface is cut at `own`, its
-/// datum or other face at `other` if a setup cuts it.
+/// Where what a tolerance refers to is cut: its datum or the other face of a length, and
+/// the second element of a common datum; none where no setup cuts it.
+struct Others {
+  std::optional<Place> first, second;
+};
+
+/// Share of a tolerance that one chain of errors takes; the surface is cut at `own`.
 class Take {
  public:
-  Take(const PreparedPart& p, const Tolerance& t, const Place& own,
-       const std::optional<Place>& other)
-      : p_(p), t_(t), own_(own), other_(other) {}
+  Take(const PreparedPart& p, const Tolerance& t, const Place& own, const Others& others)
+      : p_(p), t_(t), own_(own), other_(others.first), second_(others.second) {}
 
   double width_mm(const Bench& bench) const {
     if (t_.kind == ToleranceKind::length) return of_size(p_, length(bench));
@@ -221,6 +226,7 @@ class Take {
   bool together() const { return other_ && other_->setup == own_.setup; }
 
   Datum datum(const Bench& bench) const {
+    if (!t_.common_datum.empty()) return common_datum(bench);
     if (t_.datum.empty() || !other_) return {};
     const Surface surface = bench.surface(t_.datum, *other_);
     const DatumAxis axis = is_face(surface) ? normal_of(surface) : axis_of(surface);
@@ -228,6 +234,42 @@ class Take {
     return {.axis = {},
             .shift_mm = shift_mm(axis, bench.surface(t_.of, *other_)),
             .tilt_rad = tilt_rad(axis)};
+  }
+
+  // Where the axis of a datum's element passes its middle, seen from the spindle of the
+  // setup that cuts it.
+  Across passes(const Bench& bench, const std::string& id,
+                const std::optional<Place>& at) const {
+    if (!at) return {};
+    const DatumAxis axis = axis_of(bench.surface(id, *at));
+    const double z = machine_z_mm(p_, *at, middle_z_mm(p_.drawing, id));
+    return {axis.x0_mm + axis.ax * z, axis.y0_mm + axis.ay * z};
+  }
+
+  // Eqs. (1), (2) of common_datum.hpp.  What each other setup cut of it lies at an unknown
+  // angle to the rest.
+  Datum common_datum(const Bench& bench) const {
+    const auto& d = p_.drawing;
+    const double z_a = machine_z_mm(p_, own_, middle_z_mm(d, t_.datum)),
+                 z_b = machine_z_mm(p_, own_, middle_z_mm(d, t_.common_datum));
+    const Across a = passes(bench, t_.datum, other_),
+                 b = passes(bench, t_.common_datum, second_);
+    const auto cut_in = [&](std::size_t setup) {
+      const auto in = [&](const std::optional<Place>& at) {
+        return at && at->setup == setup;
+      };
+      return axis_through(z_a, in(other_) ? a : Across{}, z_b,
+                          in(second_) ? b : Across{});
+    };
+    const Surface of = bench.surface(t_.of, own_);
+    Datum datum{.axis = cut_in(own_.setup)};
+    for (std::size_t setup = 0; setup < p_.setups.size(); ++setup) {
+      if (setup == own_.setup) continue;
+      const DatumAxis axis = cut_in(setup);
+      datum.shift_mm += shift_mm(axis, of);
+      datum.tilt_rad += tilt_rad(axis);
+    }
+    return datum;
   }
 
   // Excess distance of a face, cut at one place, from the plane `from` on which the part
@@ -274,7 +316,7 @@ class Take {
   const PreparedPart& p_;
   const Tolerance& t_;
   const Place& own_;
-  const std::optional<Place>& other_;
+  const std::optional<Place>&other_, &second_;
 };
 
 std::vector<double*> parameters(Axis& axis) {
@@ -351,9 +393,20 @@ std::vector<std::optional<Place>> others(const PreparedPart& p,
   return all;
 }
 
+// Every two of them that can be: a setup has one clamping.
+std::vector<Others> pairs(const std::vector<std::optional<Place>>& first,
+                          const std::vector<std::optional<Place>>& second) {
+  std::vector<Others> all;
+  for (const auto& a : first)
+    for (const auto& b : second)
+      if (!a || !b || a->setup != b->setup || a->clamping == b->clamping)
+        all.push_back({a, b});
+  return all;
+}
+
 MachineTake take(const PreparedPart& p, const std::vector<Bench>& benches,
                  const Tolerance& t, const Place& own,
-                 const std::vector<std::optional<Place>>& others) {
+                 const std::vector<Others>& others) {
   MachineTake worst;
   for (const auto& other : others) {
     const Take one(p, t, own, other);
@@ -382,10 +435,11 @@ std::map<MachinePlace, MachineTake> machine_takes(const PreparedPart& p) {
     const bool length = t.kind == ToleranceKind::length;
     const auto a = setup_of(p, length ? t.between[0] : t.of);
     const auto b = setup_of(p, length ? t.between[1] : t.datum);
+    const auto c = setup_of(p, t.common_datum);
     const auto add = [&](std::size_t setup, std::optional<std::size_t> other) {
       for (const Place& own : places(p, setup))
         all[key(t, setup, own.clamping)] =
-            take(p, benches, t, own, others(p, other, own));
+            take(p, benches, t, own, pairs(others(p, other, own), others(p, c, own)));
     };
     if (a) add(*a, b);
     if (length && b && a != b) add(*b, a);

@@ -39,7 +39,9 @@ namespace turnwright::planning {
 ///
 /// with the sign of A's position.  A datum that was cut in another setup has an offset
 /// and a tilt against the spindle, at an unknown angle to the toleranced surface: twice
-/// the largest offset, or the tilt across the face, is added.
+/// the largest offset, or the tilt across the face, is added.  The axis of a common datum
+/// goes through the middles of its two elements (common_datum.hpp); what each of the other
+/// setups cut of it is added likewise.
 ///
 /// The narrowest zone, 2 max |d| and every range above are seminorms, so the share of the
 /// cut and the machine together is at most the sum of both.  The same holds for each

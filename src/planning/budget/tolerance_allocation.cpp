@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "common_datum.hpp"
 #include "jaw_squeeze.hpp"
 #include "machine_share.hpp"
 #include "planning/clamping/jaws.hpp"
@@ -93,14 +95,18 @@ double rechucking_um(const PreparedPart& p, std::size_t setup, Clamping clamping
   return by.hard_jaws_um;
 }
 
+// Diameter of a toleranced face, length of a toleranced axis.
+double across_mm(const part::Drawing& d, const std::string& of) {
+  const auto at = part::extent(d, of);
+  return at ? at->z1_mm - at->z0_mm : face_diameter_mm(d, of);
+}
+
 // Factor from an eccentricity of the part in its jaws to a tolerance: e is 2 e of
 // run-out.  Jaws or centres that err by e at each of two positions l apart tilt the part
 // by sqrt(2) e/l; a face of diameter D, or an axis of that length, is off by D times
 // that.
 double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t held,
                        Clamping clamping) {
-  const auto at = part::extent(p.drawing, t.of);
-  const double across = at ? at->z1_mm - at->z0_mm : face_diameter_mm(p.drawing, t.of);
   const double apart = clamping == Clamping::between_centres ? part::length_mm(p.drawing)
                                                              : p.grips_mm[held];
   switch (part::facts(t.kind).rechucked) {
@@ -111,31 +117,91 @@ double sees_rechucking(const PreparedPart& p, const Tolerance& t, std::size_t he
     case part::Rechucked::displaced:
       return sensitivity(p, t);
     case part::Rechucked::tilted:
-      return std::sqrt(2.0) * across / apart;
+      return std::sqrt(2.0) * across_mm(p.drawing, t.of) / apart;
   }
   return 0;
 }
 
-// Adds the share of re-chucking if the datum is cut in another setup.  The part is held
-// anew in the later of the two setups; if that is not this one, its worst clamping
-// counts.
-void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& making,
-                    ToleranceAllocation& a) {
-  if (t.datum.empty()) return;
-  const auto datum = setup_of(p, t.datum);
-  if (!datum || *datum == making.setup) return;
-  const std::size_t later = std::max(*datum, making.setup);
-  tolerance::Source worst{"rechucking", Distribution::rayleigh, 0, 0};
+tolerance::Source rechucking(double um, double sensitivity) {
+  return {"rechucking", Distribution::rayleigh, um, sensitivity};
+}
+
+// An eccentricity of the part as a setup holds it anew, with what `sees` makes of it in a
+// clamping.  If the setup is not the one of the making, its worst clamping counts.
+template <class Sees>
+tolerance::Source held_anew(const PreparedPart& p, std::size_t setup,
+                            const Making& making, const Sees& sees) {
+  auto worst = rechucking(0, 0);
   const auto held = [&](Clamping c) {
-    const double um = rechucking_um(p, later, c), s = sees_rechucking(p, t, later, c);
-    if (um * s > worst.value_um * worst.sensitivity)
-      worst.value_um = um, worst.sensitivity = s;
+    const auto one = rechucking(rechucking_um(p, setup, c), sees(c));
+    if (one.value_um * one.sensitivity > worst.value_um * worst.sensitivity) worst = one;
   };
-  if (later == making.setup)
+  if (setup == making.setup)
     held(making.clamping);
   else
-    std::ranges::for_each(p.setups[later].clampings, held);
-  if (worst.value_um > 0) a.spread.push_back(std::move(worst));
+    std::ranges::for_each(p.setups[setup].clampings, held);
+  return worst;
+}
+
+// The setups that cut the datum's elements; what none cuts counts as cut with the
+// toleranced surface.
+struct DatumSetups {
+  std::size_t a = 0, b = 0;
+};
+
+// The part is held anew in the later of two setups.  Both elements of a common datum that
+// one setup cut are off together and lean as that setup does; of two setups the one leans
+// against the other, (2) of common_datum.hpp.
+tolerance::Source rechucked_slope(const PreparedPart& p, const Tolerance& t,
+                                  const Making& making, const DatumSetups& datum) {
+  if (datum.a == datum.b) {
+    const auto later = std::max(datum.a, making.setup);
+    if (datum.a == making.setup) return rechucking(0, 0);
+    return held_anew(p, later, making,
+                     [&](Clamping c) { return sees_rechucking(p, t, later, c); });
+  }
+  const double apart =
+      std::abs(middle_z_mm(p.drawing, t.common_datum) - middle_z_mm(p.drawing, t.datum));
+  return held_anew(p, std::max(datum.a, datum.b), making,
+                   [&](Clamping) { return across_mm(p.drawing, t.of) / apart; });
+}
+
+// Eq. (1) of common_datum.hpp at the worse end of the surface.  What one setup holds anew
+// shifts both elements alike; two setups err independently of each other, and the sum of
+// two such vectors is again one.
+tolerance::Source rechucked_place(const PreparedPart& p, const Tolerance& t,
+                                  const Making& making, const DatumSetups& datum) {
+  const double sees = sees_rechucking(p, t, making.setup, making.clamping);
+  const auto um = [&](std::size_t setup) {
+    return held_anew(p, setup, making, [](Clamping) { return 1.0; }).value_um;
+  };
+  const auto at = *part::extent(p.drawing, t.of);  // a place is an element's
+  double worst_um = 0;
+  for (const double z : {at.z0_mm, at.z1_mm}) {
+    const auto w = datum_weights(p.drawing, t, z);
+    std::map<std::size_t, double> weights;  // by the setup that holds anew
+    if (datum.a != making.setup) weights[std::max(datum.a, making.setup)] += w.a;
+    if (datum.b != making.setup) weights[std::max(datum.b, making.setup)] += w.b;
+    double length_um = 0;
+    for (const auto& [setup, weight] : weights)
+      length_um = std::hypot(length_um, weight * um(setup));
+    worst_um = std::max(worst_um, length_um);
+  }
+  return rechucking(worst_um, sees);
+}
+
+// Adds the share of re-chucking if the datum is cut in another setup.
+void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& making,
+                    ToleranceAllocation& a) {
+  const auto seen = part::facts(t.kind).rechucked;
+  if (t.datum.empty() || seen == part::Rechucked::unseen) return;
+  DatumSetups datum;
+  datum.a = setup_of(p, t.datum).value_or(making.setup);
+  datum.b = t.common_datum.empty() ? datum.a
+                                   : setup_of(p, t.common_datum).value_or(making.setup);
+  auto source = seen == part::Rechucked::tilted ? rechucked_slope(p, t, making, datum)
+                                                : rechucked_place(p, t, making, datum);
+  if (source.value_um > 0) a.spread.push_back(std::move(source));
 }
 
 // The largest E in [0, most] that meets a condition which fails from some E on.

@@ -40,7 +40,10 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, to a datum that another setup cuts: twice for run-out,
 ///                   coaxiality and position, once for a profile; sqrt(2) D/grip times
-///                   for tolerances of tilt, D the face's diameter or the axis' length
+///                   for tolerances of tilt, D the face's diameter or the axis' length;
+///                   of a common datum by (1) and (2) of common_datum.hpp: of its two
+///                   elements those count that another setup cuts, at the worse end of the
+///                   surface; a tilt between elements of two setups is D/|z_B - z_A| times
 ///     forces        normal, force_spread() times the error itself; in `shares` of a
 ///                   robust plan, not among the sources here
 ///     life          likewise life_spread() of the error by worn edges: the land is larger

@@ -27,7 +27,7 @@ constexpr int kMicrometre = 3;  // decimals of mm
 std::optional<std::size_t> measured_after(const PreparedPart& p,
                                           const part::Tolerance& t) {
   std::optional<std::size_t> last;
-  for (const auto& surface : {t.of, t.datum, t.between[0], t.between[1]})
+  for (const auto& surface : {t.of, t.datum, t.common_datum, t.between[0], t.between[1]})
     if (!surface.empty()) last = std::max(last, planning::setup_of(p, surface));
   return last;
 }
@@ -122,7 +122,8 @@ Check check(const PreparedPart& p, const planning::SetupPlan& setup,
     c.limits = fmt::format("{:.{}f} .. {:.{}f}", nominal + t.limits->lower_mm,
                            kMicrometre, nominal + t.limits->upper_mm, kMicrometre);
   } else {
-    c.what = kind_words(part::name(t.kind)) + (t.datum.empty() ? "" : " to " + t.datum);
+    c.what = kind_words(part::name(t.kind)) +
+             (t.datum.empty() ? "" : " to " + part::datum_words(t));
     c.limits = fmt::format("{:.{}f}", t.value_mm, kMicrometre);
   }
   c.predicted = micrometres(result.predicted_mm, size);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "../slips.hpp"
@@ -9,6 +11,8 @@
 #include "document/json/file.hpp"
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/exchange/notation.hpp"
+#include "turnwright/planning/plan.hpp"
+#include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::document::import_test {
 namespace {
@@ -70,6 +74,41 @@ TEST(Import, ReferencePartsComeBackFromTheirNotation) {
     }
     EXPECT_EQ(again.tolerances.size(), outline.tolerances.size());
     EXPECT_NO_THROW(prepared_part(part, shop(), "part"));
+  }
+}
+
+// What the drawing does not say stands in the document: how the part is held, the shop.
+json with_the_shop_of(const json& document, json part) {
+  static const std::set<std::string> kDrawn{"name",       "material", "outer",
+                                            "inner",      "edges",    "faces",
+                                            "tolerances", "general",  "milling"};
+  part.erase("choose");
+  for (const auto& [key, value] : document.items())
+    if (!kDrawn.contains(key)) part[key] = value;
+  return part;
+}
+
+double cost(const json& document) {
+  const auto plan = planning::plan(prepared_part(document, shop(), "part").part);
+  EXPECT_EQ(plan.status, planning::PlanStatus::ok);
+  return plan.cost_per_part;
+}
+
+// AP242 with PMI: the file says all that the document says of the part.
+TEST(Import, Ap242FilesArePlannedAtTheCostOfTheirDocuments) {
+  for (const std::string name :
+       {"gearbox-input-shaft", "motor-shaft", "threaded-spindle"}) {
+    SCOPED_TRACE(name);
+    const json document = parse_file(source_path("parts/" + name + ".json"));
+    std::ifstream file(source_path("tests/data/step/pmi/" + name + ".stp"));
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const json result = answered({{"text", text}});
+    EXPECT_TRUE(result["ignored"].empty()) << result["ignored"];
+    const json& part = result["part"];
+    EXPECT_EQ(part["material"], document["material"]);
+    EXPECT_EQ(part["tolerances"].size(), document["tolerances"].size());
+    const double expected = cost(document);
+    EXPECT_NEAR(cost(with_the_shop_of(document, part)), expected, 1e-9 * expected);
   }
 }
 

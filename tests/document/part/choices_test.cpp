@@ -65,6 +65,59 @@ TEST(Choices, AutomaticSetupsAreBothOrdersAndEachEndAlone) {
                                       "held left", "held right"}));
 }
 
+// 100 mm of part in a bar of 110, 4 mm of it to the left.
+TEST(Choices, AutomaticSetupsMayPartTheFinishedPartOffALongerBar) {
+  json request{{"stock",
+                {{"kind", "bar"},
+                 {"diameter_mm", 50},
+                 {"length_mm", 110},
+                 {"left_allowance_mm", 4}}},
+               {"outer", {{{"length_mm", 60}}, {{"length_mm", 40}}}},
+               {"choose", {{"setups", "auto"}}}};
+  Problems problems{.document = "t"};
+  const auto all = variants(request, problems);
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(all[4].name, "held left, parted off a bar");
+  EXPECT_EQ(all[4].document["setups"], json::parse(R"([{"hold": "left"}])"));
+  EXPECT_EQ(all[4].document["stock"],
+            json::parse(R"({"kind": "bar", "diameter_mm": 50, "length_mm": 156.0,
+                            "left_allowance_mm": 50.0, "part_off_allowance_mm": 0})"));
+  EXPECT_EQ(all[5].name, "held right, parted off a bar");
+  EXPECT_EQ(all[5].document["stock"]["length_mm"], 154);
+  EXPECT_EQ(all[5].document["stock"]["left_allowance_mm"], 4);
+  EXPECT_EQ(all[0].document["stock"], request["stock"]);
+
+  // The blade leaves the end as it is.
+  const auto asked = [&](const char* list, const json& member) {
+    json with = request;
+    with[list] = json::array({member});
+    return names(with);
+  };
+  for (const auto& [list, member] :
+       {std::pair{"faces", json{{"id", "left"}, {"Ra_um", 1.6}}},
+        {"edges", json{{"at", "left"}, {"chamfer_mm", 1}}},
+        {"tolerances", json{{"of", "left"}}},
+        {"tolerances", json{{"of", "d1"}, {"datum", "left"}}},
+        {"tolerances", json{{"between", {"left", "d1|d2"}}}}})
+    EXPECT_EQ(asked(list, member).back(), "held right, parted off a bar") << list;
+  EXPECT_EQ(asked("faces", {{"id", "left"}}).size(), 5u);
+  EXPECT_EQ(asked("faces", {{"id", "d1|d2"}}).size(), 6u);
+
+  request["stock"]["part_off_allowance_mm"] = 0.6;  // says itself how it is parted
+  EXPECT_EQ(names(request).size(), 4u);
+  request["stock"] = {{"kind", "tube"}, {"outer_mm", 50}, {"inner_mm", 20}};
+  EXPECT_EQ(names(request).size(), 4u);
+}
+
+TEST(Choices, StocksOfOneSizeAreCounted) {
+  json cheap{{"kind", "bar"}, {"diameter_mm", 50}, {"length_mm", 120}, {"price", 3}};
+  json dear = cheap, other = cheap;
+  dear["price"] = 9, other["diameter_mm"] = 55;
+  EXPECT_EQ(names({{"choose", {{"stock", {cheap, other, dear}}}}}),
+            (std::vector<std::string>{"bar 50 x 120 mm, no. 1", "bar 55 x 120 mm",
+                                      "bar 50 x 120 mm, no. 3"}));
+}
+
 TEST(Choices, WrongListsAreToldWithTheirPlaces) {
   EXPECT_EQ(refusal({{"choose", 3}}), "t: /choose: got 3, expected an object");
   EXPECT_EQ(refusal({{"choose", {{"machine", json::array()}}}}),

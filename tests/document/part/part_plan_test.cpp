@@ -170,7 +170,7 @@ TEST(PartPlan, SizesBecomeTolerancesOnce) {
   const auto loaded = load(full());
   const auto& d = loaded.plan.drawing;
   // Listed, one a diameter, overall length, form by ISO 2768-K.
-  EXPECT_EQ(d.tolerances.size(), 5U + 4U + 1U + 2U);
+  EXPECT_EQ(d.tolerances.size(), 6U + 4U + 1U + 2U);
   // ISO 286: 30 k6 = +2 .. +15 um.
   const auto* fit = find(d, "d1:diameter");
   ASSERT_NE(fit, nullptr);
@@ -642,6 +642,39 @@ TEST(PartPlan, EveryToleranceKindTakesItsFeatureAndDatum) {
     else
       EXPECT_EQ(text, "accepted") << row.kind;
   }
+}
+
+TEST(PartPlan, ACommonDatumIsTwoElementsApart) {
+  const auto with = [](const char* kind, const char* of, const json& datum) {
+    auto document = full();
+    document["tolerances"] = {
+        {{"id", "t"}, {"kind", kind}, {"of", of}, {"datum", datum}, {"value_mm", 0.01}}};
+    return document;
+  };
+  for (const auto& [kind, of] : {std::pair("coaxiality", "d2"),
+                                 {"coaxiality", "d1"},
+                                 {"profile", "c1"},
+                                 {"perpendicularity", "right"},
+                                 {"total-axial-runout", "d2|d3"}})
+    EXPECT_EQ(refusal(with(kind, of, {"d1", "d3"})), "accepted") << kind;
+  const auto read =
+      prepared_part(with("coaxiality", "d2", {"d1", "d3"}), test_catalogue(), "t");
+  EXPECT_EQ(find(read.part.drawing, "t")->datum, "d1");
+  EXPECT_EQ(find(read.part.drawing, "t")->common_datum, "d3");
+  EXPECT_EQ(part::datum_words(*find(read.part.drawing, "t")), "d1-d3");
+
+  const auto starts = [](const json& document, const std::string& said) {
+    const auto text = refusal(document);
+    EXPECT_EQ(text.rfind("t: /tolerances/0/" + said, 0), 0U) << text;
+  };
+  starts(with("coaxiality", "d2", {"d1", "left"}),
+         "datum/1: got \"left\", expected a cylinder or cone, for only elements");
+  starts(with("coaxiality", "d2", {"d1", "d9"}), "datum/1: got \"d9\"");
+  starts(with("coaxiality", "d2", {"d1"}), "datum: got");
+  starts(with("coaxiality", "d2", {"d1", "d1"}), "datum: got");
+  starts(with("perpendicularity", "d1", {"left", "right"}), "datum: got");
+  starts(with("parallelism", "left", {"d1", "d3"}), "datum: got");
+  starts(with("flatness", "left", {"d1", "d3"}), "datum: got");
 }
 
 // ---- what_if --------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include "planning/clamping/setup_body.hpp"
 #include "planning/preparation/assignment.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/cutting/fixed.hpp"
 #include "turnwright/planning/plan.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
@@ -257,6 +258,36 @@ TEST(Drilling, LeavesHalfAMillimetreToTheBoringBar) {
       if (x.on == std::vector<std::string>{"b1"} && x.kind != OperationKind::fixed)
         for (const auto& pass : x.passes) bored += pass.ap_mm;
   EXPECT_NEAR(bored, 1.5, 1e-9);
+}
+
+// Through a bore of 50 mm 49 would go, for which 15 kW are not enough.
+TEST(Drilling, IsNoLargerThanTheSpindleDrives) {
+  const auto p = part(nlohmann::json(
+      {{"format", "turnwright-part/1"},
+       {"material", "C45"},
+       {"stock", {{"kind", "bar"}, {"diameter_mm", 80}, {"length_mm", 64}}},
+       {"outer",
+        {{{"id", "d1"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", 76}}}},
+       {"inner",
+        {{{"id", "b1"},
+          {"kind", "cylinder"},
+          {"from", "right"},
+          {"length_mm", 60},
+          {"diameter_mm", 50}}}},
+       {"machine", "lathe-medium"}}));
+  const double D = p.drilled_mm.at(0);
+  const auto& drill = tool(p, "DRILL-INDEX-4D");
+  const auto& at = *drill.conditions_in(p.material.group);
+  const auto shaft_kW = [&](double d) {  // kc f d vc/4, with kc of the chip's thickness
+    const auto kc = cutting::kienzle_at(p.material, drill.gamma_deg);
+    const double f = at.f_mm_rev * d,
+                 h = f / 2 * std::sin(units::rad_from_deg(drill.point_deg / 2));
+    return kc.k11_MPa * std::pow(h, -kc.m) * f * d * at.vc_m_min / 240e3;
+  };
+  const double available_kW = 15 * 0.85;
+  EXPECT_LT(D, 49);
+  EXPECT_LE(shaft_kW(D), available_kW);
+  EXPECT_GT(shaft_kW(D + 1), available_kW);
 }
 
 TEST(Drilling, OperationsStandInTheOrderOfTheShop) {
