@@ -90,9 +90,10 @@ TEST(Reader, ARangeEndsWhereItsSignSays) {
 
 // Lengths that no shape has, and what overflows once it is divided by.
 TEST(Reader, WhatIsTooSmallToComputeWithIsZero) {
-  const auto document = parse(R"({"a_mm": 1e-10, "b_mm": 1e-8, "c_mm": 1e-10, "d_mm": -1e-10,
+  const auto document =
+      parse(R"({"a_mm": 1e-10, "b_mm": 1e-8, "c_mm": 1e-10, "d_mm": -1e-10,
                               "e": 5e-324, "f": 1e-99, "g": 5e-324})",
-                          "test");
+            "test");
   Problems problems;
   Reader r(document, problems);
   r.number("a_mm", above(0, "mm"));
@@ -110,7 +111,8 @@ TEST(Reader, WhatIsTooSmallToComputeWithIsZero) {
 TEST(Reader, AnIntegerNeverWraps) {
   const auto document = parse("[18446744073709551615, 5.0, 1e3, -1]", "test");
   Problems problems;
-  for (const auto& item : Reader(document, problems).as_items(4, 4)) item.as_integer(0, 10);
+  for (const auto& item : Reader(document, problems).as_items(4, 4))
+    item.as_integer(0, 10);
   EXPECT_EQ(told(problems),
             "/0: got 18446744073709551615, expected a whole number from 0 to 10 [range]\n"
             "/1: got 5.0, expected a whole number from 0 to 10 [type]\n"
