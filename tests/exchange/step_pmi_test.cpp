@@ -138,7 +138,7 @@ TEST(StepPmi, ANoteMakesAThreadOfADiameter) {
                        .notes = {note},
                        .of = on(face)}};
     pmi.tolerances = {tolerance(Symbol::roundness, face)};
-    auto o = shaft();
+    auto o = toleranced_shaft();
     add_pmi(pmi, o);
     return o;
   };
