@@ -144,12 +144,11 @@ std::string sheet_html(const SetupSheet& sheet, const Figures& figures) {
   Entries facts = sheet.clamping;
   facts.insert(facts.end(), sheet.times.begin(), sheet.times.end());
   out += entries(facts, "facts");
-  out += tools(sheet) + followed_offsets(sheet) + stops(sheet) + checks(sheet) +
-         signatures() + "</section>\n";
+  out += tools(sheet) + stops(sheet) + checks(sheet) + signatures() + "</section>\n";
   const auto path = figure_named(figures, fmt::format("path-{}.svg", sheet.setup),
                                  setup + ": tool path and material taken off");
-  if (!path.empty())
-    out += "<section class=\"cut\">\n" + tag("h2", setup + ": the cut") + path +
+  if (const auto offsets = followed_offsets(sheet); !path.empty() || !offsets.empty())
+    out += "<section class=\"cut\">\n" + tag("h2", setup + ": the cut") + path + offsets +
            "</section>\n";
   return out;
 }
