@@ -62,7 +62,7 @@ set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
 
 foreach(step IN ITEMS build check unit round builder odd)
   set(when)
-  if(step STREQUAL "odd")
+  if(step MATCHES "^(builder|odd)$")
     set(when CONFIGURATIONS slow)
   endif()
   add_test(NAME page.${step} ${when} COMMAND ${CMAKE_COMMAND} -D STEP=${step}
@@ -72,7 +72,7 @@ foreach(step IN ITEMS build check unit round builder odd)
     SKIP_REGULAR_EXPRESSION "SKIPPED" RESOURCE_LOCK page)
 endforeach()
 set_tests_properties(page.round PROPERTIES COST 100)  # seconds: begun first
-set_tests_properties(page.odd PROPERTIES LABELS "page;slow")
+set_tests_properties(page.builder page.odd PROPERTIES LABELS "page;slow")
 
 add_test(NAME service.mcp COMMAND ${CMAKE_COMMAND}
   -D SOURCE=${PROJECT_SOURCE_DIR}/tests/service/mcp -D WORK_DIR=${PROJECT_BINARY_DIR}/mcp-test

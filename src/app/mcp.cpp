@@ -11,7 +11,7 @@
 
 #include "options.hpp"
 #include "service/batch/input.hpp"
-#include "service/mcp/server.hpp"
+#include "service/mcp/mcp_server.hpp"
 #include "service/output.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/catalogue.hpp"

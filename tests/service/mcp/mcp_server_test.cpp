@@ -1,11 +1,11 @@
-#include "service/mcp/server.hpp"
+#include "service/mcp/mcp_server.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-namespace turnwright::service::mcp::server_test {
+namespace turnwright::service::mcp::mcp_server_test {
 namespace {
 
 using nlohmann::json;
@@ -137,4 +137,4 @@ TEST(Mcp, CallsBeyondThoseThatMayWaitAreRefused) {
 }
 
 }  // namespace
-}  // namespace turnwright::service::mcp::server_test
+}  // namespace turnwright::service::mcp::mcp_server_test

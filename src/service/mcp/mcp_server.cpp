@@ -1,4 +1,4 @@
-#include "server.hpp"
+#include "mcp_server.hpp"
 
 #include <algorithm>
 #include <atomic>
