@@ -51,12 +51,6 @@ std::string name_of(const std::string& file) {
   return file == "-" ? "standard input" : file;
 }
 
-const service::Request& row() {
-  const auto rows = service::requests();
-  return *std::find_if(rows.begin(), rows.end(),
-                       [](const auto& r) { return r.name == "import"; });
-}
-
 // A drawing's problems under its own name, those of options under theirs.
 [[noreturn]] void rethrow(const InputError& e, const std::string& file) {
   auto problems = e.problems();
@@ -89,7 +83,7 @@ nlohmann::ordered_json imported(const ImportArguments& arguments, const fs::path
   const auto request = request_of(arguments);
   const auto catalogue = document::load_catalogue(data);
   try {
-    return service::answer(row(), request, {catalogue});
+    return service::answer(*service::find_request("import"), request, {catalogue});
   } catch (const InputError& e) {
     rethrow(e, arguments.file);
   }

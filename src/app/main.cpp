@@ -19,6 +19,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "exit.hpp"
 #include "import.hpp"
 #include "mcp.hpp"
 #include "nc_options.hpp"
@@ -35,15 +36,6 @@ namespace turnwright::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum Exit {
-  kOk = 0,
-  kInfeasible = 1,
-  kInput = 2,
-  kRange = 3,
-  kInternal = 70,
-  kOutput = 74
-};
 
 /// The options and arguments of the command line.
 struct Arguments {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "exit.hpp"
 #include "options.hpp"
 #include "service/batch/input.hpp"
 #include "service/mcp/mcp_server.hpp"
@@ -19,15 +20,13 @@
 namespace turnwright::app {
 namespace {
 
-constexpr int kNotWritten = 74;
-
 // A client that no longer reads cannot be told anything.
 void send_line(const nlohmann::ordered_json& message) {
   try {
     service::print(message.dump() + '\n');
   } catch (const service::OutputError& e) {
     std::cerr << visible(e.what()) << '\n';
-    std::_Exit(kNotWritten);
+    std::_Exit(kOutput);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "digest.hpp"
@@ -8,6 +9,12 @@
 namespace turnwright::service {
 
 std::string_view version() { return TURNWRIGHT_VERSION; }
+
+const Request* find_request(std::string_view name) {
+  const auto rows = requests();
+  const auto found = std::ranges::find(rows, name, &Request::name);
+  return found == rows.end() ? nullptr : &*found;
+}
 
 // These take the same document; plan and predict also give the same.
 std::string request_schema(const Request& row) {

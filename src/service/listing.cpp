@@ -70,18 +70,22 @@ std::vector<Entry> list_schemas(const std::filesystem::path& folder) {
   return list_folder(folder / "schemas", "title");
 }
 
+std::string schema_text(const std::filesystem::path& folder, const std::string& id) {
+  std::ifstream in(folder / "schemas" / (id + ".json"), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 std::string schema(const std::filesystem::path& folder, const std::string& name) {
-  std::string id = name;
-  for (const auto& row : requests())
-    if (row.name == name) id = std::filesystem::path(request_schema(row)).stem().string();
+  const auto* row = find_request(name);
+  const auto id =
+      row ? std::filesystem::path(request_schema(*row)).stem().string() : name;
   std::vector<std::string> ids;
   for (const auto& entry : list_schemas(folder)) ids.push_back(entry.id);
   if (std::find(ids.begin(), ids.end(), id) == ids.end())
     throw InputError("command line",
                      {{"NAME", '"' + name + '"',
                        document::expected_reference(name, ids, "a schema"), "choice"}});
-  std::ifstream in(folder / "schemas" / (id + ".json"), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return schema_text(folder, id);
 }
 
 }  // namespace turnwright::service

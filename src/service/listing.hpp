@@ -23,6 +23,9 @@ std::vector<Entry> list_parts(const std::filesystem::path& folder);
 /// The schemas in `folder`/schemas; the id is the file's name without ".json".
 std::vector<Entry> list_schemas(const std::filesystem::path& folder);
 
+/// The text of the schema of this id in the list.
+std::string schema_text(const std::filesystem::path& folder, const std::string& id);
+
 /// The text of a schema: that of its id ("part", "plan.result"), or of the request of a
 /// capability ("plan").
 /// @throws InputError if there is none, with the most similar name.

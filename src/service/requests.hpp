@@ -52,6 +52,9 @@ struct Request {
 
 std::span<const Request> requests();
 
+/// The row of this name; null if there is none.
+const Request* find_request(std::string_view name);
+
 /// File names under schemas/ of the row's request and result.
 std::string request_schema(const Request& row);
 std::string result_schema(const Request& row);

@@ -323,8 +323,9 @@ double left_mm(const PreparedPart& p, std::size_t tolerance, const ToleranceAllo
 }
 
 double damping_share_mm(const PreparedPart& p, std::size_t tolerance,
-                        const ToleranceAllocation& a, Cut cut) {
+                        const Making& making, Cut cut) {
   if (!p.robust || !(p.damping_uncertainty_pct > 0)) return 0;
+  const auto a = tolerance_allocation(p, tolerance, making);
   return robust_left_mm(p, tolerance, a, cut, 1 - p.conformance) -
          left_mm(p, tolerance, a, cut);
 }

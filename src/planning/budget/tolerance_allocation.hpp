@@ -138,7 +138,7 @@ double left_mm(const PreparedPart& plan, std::size_t tolerance,
 
 /// Share of the width [mm] that uncertain limits of chatter take of a robust plan.
 double damping_share_mm(const PreparedPart& plan, std::size_t tolerance,
-                        const ToleranceAllocation& allocation, Cut cut);
+                        const Making& making, Cut cut);
 
 /// Share of the width that each source takes alone, for sources that spread their reach;
 /// both faces of a length together.

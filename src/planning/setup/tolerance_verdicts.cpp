@@ -261,10 +261,8 @@ void add_robust_shares(const PreparedPart& p, const tolerance::Case& c, const Fo
   add_share({"forces", force_spread(p) * scaled}, r.shares);
   if (p.shop.edge_wear_mm > 0) add_share({kLife, life_spread(p) * scaled}, r.shares);
   const auto& made = at.feature ? at : other;
-  const auto tolerance = made.cut_tolerance->tolerance;
-  const double damping = damping_share_mm(
-      p, tolerance, tolerance_allocation(p, tolerance, made.feature->task.making),
-      part_of_cut(made));
+  const double damping = damping_share_mm(p, made.cut_tolerance->tolerance,
+                                          made.feature->task.making, part_of_cut(made));
   add_share({"damping", units::um_from_mm(damping)}, r.shares);
 }
 

@@ -1,6 +1,5 @@
 #include "mcp_server.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -36,23 +35,8 @@ class Deadline {
 
 bool is_id(const json& id) { return id.is_string() || id.is_number_integer(); }
 
-const Request* row_called(const json& name) {
-  const auto rows = requests();
-  const auto found =
-      std::ranges::find_if(rows, [&](const auto& r) { return r.name == name; });
-  return found == rows.end() ? nullptr : &*found;
-}
-
-/// A member of an object that is itself an object, or an empty one.
-json object_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() ? json::object() : *found;
-}
-
-json value_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() ? json() : *found;
-}
+/// A member of an object; null where it is absent.
+json member(const json& object, const char* key) { return object.value(key, json()); }
 
 }  // namespace
 
@@ -78,6 +62,13 @@ void Server::send(const ordered_json& message) {
   send_(message);
 }
 
+void Server::refuse(const json& id) {
+  send(
+      error(id, Fault::invalid_request,
+            "expected one object with \"jsonrpc\": \"2.0\", a method, params that are an "
+            "object, and an id (text or an integer) or none"));
+}
+
 void Server::receive(std::string_view line) {
   json message;
   try {
@@ -85,18 +76,15 @@ void Server::receive(std::string_view line) {
   } catch (const InputError& e) {
     return send(error(nullptr, Fault::parse, e.what()));
   }
-  const json id = message.is_object() ? value_at(message, "id") : json();
-  if (message.is_object() && is_id(id) && !message.contains("method") &&
+  if (!message.is_object()) return refuse(nullptr);
+  const json id = member(message, "id"), method = member(message, "method"),
+             parameters = message.value("params", json::object());
+  if (is_id(id) && !message.contains("method") &&
       (message.contains("result") || message.contains("error")))
     return;  // an answer, though nothing was asked
-  const auto method = message.is_object() ? value_at(message, "method") : json();
-  const auto parameters =
-      message.is_object() ? object_at(message, "params") : json::object();
-  if (!method.is_string() || value_at(message, "jsonrpc") != "2.0" ||
+  if (!method.is_string() || member(message, "jsonrpc") != "2.0" ||
       (message.contains("id") && !is_id(id)) || !parameters.is_object())
-    return send(error(is_id(id) ? id : json(), Fault::invalid_request,
-                      "expected one object with \"jsonrpc\": \"2.0\", a method, params "
-                      "that are an object, and an id (text or an integer) or none"));
+    return refuse(is_id(id) ? id : json());
   if (message.contains("id"))
     answer_request(id, method, parameters);
   else if (method == "notifications/cancelled")
@@ -113,7 +101,7 @@ void Server::answer_request(const json& id, const std::string& method,
   if (method == "resources/templates/list")
     return send(response(id, {{"resourceTemplates", ordered_json::array()}}));
   if (method == "resources/read") {
-    const auto uri = value_at(parameters, "uri");
+    const auto uri = member(parameters, "uri");
     if (!uri.is_string())
       return send(error(id, Fault::invalid_parameters, "uri: expected text"));
     const auto found = resources_.read(uri);
@@ -126,16 +114,16 @@ void Server::answer_request(const json& id, const std::string& method,
 }
 
 void Server::take_call(const json& id, const json& parameters) {
-  const auto name = value_at(parameters, "name");
-  const auto* row = row_called(name);
+  const auto name = member(parameters, "name");
+  const auto* row = name.is_string() ? find_request(name.get<std::string>()) : nullptr;
   if (!row)
     return send(error(id, Fault::invalid_parameters,
                       "name: got " + name.dump() + ", expected a tool of tools/list"));
-  const auto about = value_at(parameters, "_meta");
+  const auto about = member(parameters, "_meta");
   Call call{row,
             id,
-            object_at(parameters, "arguments"),
-            about.is_object() ? value_at(about, "progressToken") : json(),
+            parameters.value("arguments", json::object()),
+            about.is_object() ? member(about, "progressToken") : json(),
             {}};
   const std::unique_lock lock(calling_);
   if (calls_.size() > limits_.waiting)
@@ -148,7 +136,7 @@ void Server::take_call(const json& id, const json& parameters) {
 void Server::cancel(const json& parameters) {
   const std::lock_guard lock(calling_);
   for (auto& call : calls_)
-    if (call.id == value_at(parameters, "requestId")) call.stop.request_stop();
+    if (call.id == member(parameters, "requestId")) call.stop.request_stop();
 }
 
 void Server::work() {

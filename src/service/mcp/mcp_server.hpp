@@ -46,6 +46,7 @@ class Server {
   };
 
   void send(const nlohmann::ordered_json& message);
+  void refuse(const nlohmann::json& id);
   void answer_request(const nlohmann::json& id, const std::string& method,
                       const nlohmann::json& parameters);
   void take_call(const nlohmann::json& id, const nlohmann::json& parameters);

@@ -87,34 +87,37 @@ ordered_json tool_failure(const std::string& message) {
   return {{"content", text_content(message)}, {"isError", true}};
 }
 
-Resources::Resources(const std::filesystem::path& folder)
-    : kinds_(read_documents(folder)) {
-  auto& schemas = kinds_["schemas"];
+Resources::Resources(const std::filesystem::path& folder) {
+  for (const auto& [kind, documents] : read_documents(folder)) add(kind, documents);
+  Documents schemas;
   for (const auto& [id, name] : list_schemas(folder)) {
     schemas.names[id] = name;
-    schemas.texts[id] = schema(folder, id);
+    schemas.texts[id] = schema_text(folder, id);
   }
+  add("schemas", schemas);
+}
+
+void Resources::add(const std::string& kind, const Documents& documents) {
+  for (const auto& [id, title] : documents.names)
+    by_uri_[uri_of(kind, id)] = {id, title, documents.texts.at(id)};
 }
 
 ordered_json Resources::list() const {
   auto all = ordered_json::array();
-  for (const auto& [kind, documents] : kinds_)
-    for (const auto& [id, name] : documents.names)
-      all.push_back({{"uri", uri_of(kind, id)},
-                     {"name", id},
-                     {"title", name},
-                     {"mimeType", "application/json"}});
+  for (const auto& [uri, resource] : by_uri_)
+    all.push_back({{"uri", uri},
+                   {"name", resource.id},
+                   {"title", resource.title},
+                   {"mimeType", "application/json"}});
   return {{"resources", std::move(all)}};
 }
 
 std::optional<ordered_json> Resources::read(const std::string& uri) const {
-  for (const auto& [kind, documents] : kinds_)
-    for (const auto& [id, text] : documents.texts)
-      if (uri_of(kind, id) == uri)
-        return {{{"contents", ordered_json::array({{{"uri", uri},
-                                                    {"mimeType", "application/json"},
-                                                    {"text", text}}})}}};
-  return std::nullopt;
+  const auto found = by_uri_.find(uri);
+  if (found == by_uri_.end()) return std::nullopt;
+  return {{{"contents", ordered_json::array({{{"uri", uri},
+                                              {"mimeType", "application/json"},
+                                              {"text", found->second.text}}})}}};
 }
 
 }  // namespace turnwright::service::mcp

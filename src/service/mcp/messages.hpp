@@ -50,7 +50,12 @@ class Resources {
   std::optional<nlohmann::ordered_json> read(const std::string& uri) const;
 
  private:
-  std::map<std::string, Documents> kinds_;
+  struct Resource {
+    std::string id, title, text;
+  };
+  void add(const std::string& kind, const Documents& documents);
+
+  std::map<std::string, Resource> by_uri_;
 };
 
 }  // namespace turnwright::service::mcp
