@@ -49,14 +49,14 @@ tbody tr:nth-last-child(-n+4):not(:first-child) { break-before: avoid }
 .setup-sheet { break-before: page } .cut { break-inside: avoid }
 .setup-sheet h1 { font-size: 16pt; display: flex; justify-content: space-between; border-bottom: 0.5mm solid #1a1d21 }
 .setup-sheet table, .sign { break-inside: avoid } .setup-sheet td.nowrap { white-space: nowrap }
-.setup-sheet table { line-height: 1.15; margin: 0.3mm 0 } .setup-sheet p { margin: 0.3mm 0 } .setup-sheet td { padding-top: 0.3mm; padding-bottom: 0.3mm } .setup-sheet th small { display: inline; margin-left: 1mm } .setup-sheet h2 { margin-top: 0.8mm }
+.setup-sheet table { line-height: 1.15; margin: 0.3mm 0 } .setup-sheet p { margin: 0.3mm 0 } .setup-sheet td { padding-top: 0.3mm; padding-bottom: 0.3mm } .setup-sheet th small { display: inline; margin-left: 1mm } .setup-sheet h2 { margin-top: 1.6mm }
 .setup-sheet figure { width: 90%; margin: 0 auto }
 .title { display: flex; flex-wrap: wrap; gap: 0.5mm 7mm; margin: 1mm 0 }
 .title dd { font-size: 9pt; font-weight: 600; overflow-wrap: anywhere }
 .facts { display: block; columns: 2; column-gap: 8mm; margin: 0 } .facts div { display: flex; gap: 2mm; break-inside: avoid }
 .facts dt { flex: 0 0 19mm } .facts dd { font-size: 8.5pt }
 td.blank { border: 0.1mm solid #8b929b; min-width: 18mm }
-.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 6mm; margin-top: 5mm }
+.sign { display: grid; grid-template-columns: repeat(3, 1fr); gap: 6mm; margin-top: 8mm }
 .sign p { border-top: 0.2mm solid #1a1d21 }
 .assumed td:first-child { white-space: nowrap } .assumed { font-size: 7.5pt }
 @media print { body { margin: 0; padding: 0; max-width: none } }
