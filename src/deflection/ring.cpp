@@ -36,6 +36,30 @@ Ring with_shear(const Ring& ring, double wall_mm) {
   return {ring.R_mm, ring.EI_Nmm2 / (1 + 2.3 * thickness * thickness)};
 }
 
+WallStress bent_wall(double inner_mm, double outer_mm, double width_mm, double M_Nmm) {
+  const double ri = inner_mm / 2, ro = outer_mm / 2, t = ro - ri;
+  if (!(ri > 0 && t > 0 && width_mm > 0 && std::isfinite(M_Nmm)))
+    throw std::domain_error("bent_wall: inner, wall and width must be > 0");
+  const double rn = t / std::log(ro / ri), e = (ro + ri) / 2 - rn;
+  const double unit = M_Nmm / (width_mm * t * e);  // Eq. (4)
+  return {unit * (rn - ri) / ri, unit * (rn - ro) / ro};
+}
+
+WallStress squeezed_wall(double inner_mm, double outer_mm, double width_mm, int jaws,
+                         double jaw_force_N) {
+  if (!(jaws >= 2)) throw std::domain_error("squeezed_wall: at least two jaws");
+  const double alpha = units::kPi / jaws, R = (inner_mm + outer_mm) / 4;
+  const auto at = [&](double couple, double thrust) {  // of F R/2 and F/2; Eq. (5)
+    auto s = bent_wall(inner_mm, outer_mm, width_mm, jaw_force_N * R / 2 * couple);
+    const double pressed =
+        jaw_force_N / 2 * thrust / (width_mm * (outer_mm - inner_mm) / 2);
+    return WallStress{s.inner_MPa - pressed, s.outer_MPa - pressed};
+  };
+  const auto jaw = at(1 / alpha - 1 / std::tan(alpha), 1 / std::tan(alpha));
+  const auto middle = at(1 / alpha - 1 / std::sin(alpha), 1 / std::sin(alpha));
+  return jaw.largest_MPa() >= middle.largest_MPa() ? jaw : middle;
+}
+
 double lobe_decay_1_mm(double R_mm, double wall_mm, int jaws) {
   if (!(R_mm > 0 && wall_mm > 0 && jaws >= 2))
     throw std::domain_error("lobe_decay: R and wall must be > 0, at least two jaws");

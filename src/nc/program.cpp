@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "centre_clearance.hpp"
 #include "contour.hpp"
 #include "fixed.hpp"
+#include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/supports.hpp"
 #include "planning/values/tool_label.hpp"
 #include "turning.hpp"
@@ -295,7 +297,10 @@ SetupProgram program(Site& site, Numbers& numbers) {
     step.f_mm_rev = o.passes[0].f_mm_rev;
     step.in_cut = in_cut(site, o);
     site.moves.clear();
+    const auto from = site.at;
     way(site, i);
+    if (planning::has_live_centre(site.clamping) && !in_chuck_alone(site, o))
+      keep_clear_of_centre(site, o, from);
     const bool tool_stays = i + 1 < operations.size() && changes[i + 1].empty() &&
                             operations[i + 1].kind != OperationKind::mill &&
                             numbers.tool(site, operations[i + 1]).number == tool.number;

@@ -127,6 +127,11 @@ void add_alternatives(const std::vector<Candidate>& candidates,
 
 }  // namespace
 
+std::vector<ProcessPlan> judged_plans(const std::vector<Candidate>& candidates,
+                                      const Judge& judge) {
+  return compare(candidates, judge).judged;
+}
+
 ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge) {
   if (candidates.empty()) throw std::domain_error("choose: no candidate");
   const auto complete = [&](std::size_t i, ProcessPlan certified) {

@@ -28,6 +28,7 @@
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
+#include "turnwright/document/quote.hpp"
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
@@ -163,12 +164,17 @@ struct Planned {
   planning::ProcessPlan plan;
 };
 
-// The best of what the request leaves open.
-Planned planned(document::Candidates&& all,
-                const planning::Judge& judge = nc::refuse_unprogrammed) {
+std::vector<planning::Candidate> to_plan(const document::Candidates& all) {
   std::vector<planning::Candidate> candidates;
   for (const auto& [name, document] : all.usable)
     candidates.push_back({name, document.part, document.what_if});
+  return candidates;
+}
+
+// The best of what the request leaves open.
+Planned planned(document::Candidates&& all,
+                const planning::Judge& judge = nc::refuse_unprogrammed) {
+  const auto candidates = to_plan(all);
   auto choice = planning::choose(candidates, judge);
   for (const auto& [name, why] : all.refused)
     choice.plan.alternatives.push_back(
@@ -186,6 +192,24 @@ ordered_json predict(const json& request, const Context& context) {
   const auto part = document::prepared_part(request, context.catalogue, "predict",
                                             document::Purpose::predict);
   return document::plan_result(planning::predict(part.part), part);
+}
+
+ordered_json quote(const json& request, const Context& context) {
+  const auto quoted = document::load_quote(request, context.catalogue);
+  std::vector<std::vector<planning::ProcessPlan>> plans;
+  for (const auto& part : quoted.parts) {
+    plans.push_back(planning::judged_plans(to_plan(part), nc::refuse_unprogrammed));
+    if (context.tell) context.tell(plans.size(), quoted.parts.size());
+  }
+  return document::quote_result(quoted, plans);
+}
+
+std::string quote_example() {
+  return "{\"parts\": [" + std::string(kPlanExample) +
+         R"(], "batches": [1, 10, 100, 1000], "currency": "EUR",
+  "stock": {"price_per_bar": 24, "bar_length_mm": 3000, "kerf_mm": 3, "remnant_mm": 100},
+  "charges": {"setter_per_min": 0.8, "overhead_pct": 15, "margin_pct": 10},
+  "energy": {"idle_kW": 1.2, "kg_CO2_per_kWh": 0.38}})";
 }
 
 std::string nc_example() { return "{\"part\": " + std::string(kPlanExample) + "}"; }
@@ -323,6 +347,8 @@ std::span<const Request> requests() {
        kPredictExample, predict, report::text, drawn_predict, plan_report},
       {"nc", "part plan -> turning program per setup (ISO 6983)", nc_example(),
        nc_programs, nc_text},
+      {"quote", "part plans, batches, stock and charges -> unit prices with a bound",
+       quote_example(), quote, report::quote_text},
       {"import", "STEP, DXF or a line of text -> part document for plan", kImportExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::import(request, context.catalogue);

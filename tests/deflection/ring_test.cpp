@@ -83,5 +83,52 @@ TEST(Ring, RefusesWhatIsNoRing) {
   EXPECT_THROW(wall_EI_Nmm2(210000, 0, 6), std::domain_error);
 }
 
+// sigma = m M/a^2 for unit width: the hyperbolic column of the table of
+// [Timoshenko and Goodier 1970, art. 29], and how near it is to their exact one.
+TEST(Ring, BentWallsHaveTheStressesOfTheTable) {
+  struct Row {
+    double ratio, inner, outer, exact_inner, exact_outer;
+  };
+  for (const auto& r :
+       {Row{1.3, 72.98, -61.27, 73.05, -61.35}, Row{2, 7.725, -4.863, 7.755, -4.917},
+        Row{3, 2.285, -1.095, 2.292, -1.130}}) {
+    const auto s = bent_wall(2, 2 * r.ratio, 1, 1);
+    EXPECT_NEAR(s.inner_MPa, r.inner, 6e-4 * r.inner);
+    EXPECT_NEAR(s.outer_MPa, r.outer, -6e-4 * r.outer);
+    EXPECT_NEAR(s.inner_MPa, r.exact_inner, 0.005 * r.exact_inner);
+    EXPECT_NEAR(s.outer_MPa, r.exact_outer, -0.032 * r.exact_outer);
+  }
+}
+
+// The couple from the curvature (w'' + w)/R^2 of the ring's own deflection.
+TEST(Ring, SqueezedWallsBendAsTheirDeflectionSays) {
+  const double R = 40, t = 0.4, b = 7, F = 30, E = 2e5;
+  const Ring thin{R, wall_EI_Nmm2(E, b, t)};
+  for (const int jaws : {2, 3, 4}) {
+    const double h = 1e-3, alpha = pi / jaws;
+    const auto w = [&](double a) { return squeeze_mm(thin, jaws, F, a); };
+    const auto couple = [&](double a) {
+      return thin.EI_Nmm2 / (R * R) * ((w(a + h) - 2 * w(a) + w(a - h)) / (h * h) + w(a));
+    };
+    // Beside the jaw, where the curvature has a corner, from the inside.
+    const double jaw = 2 * couple(2 * h) - couple(4 * h);
+    const double N = F / 2 / std::tan(alpha), W = b * t * t / 6;
+    const auto s = squeezed_wall(2 * R - t, 2 * R + t, b, jaws, F);
+    EXPECT_NEAR(s.inner_MPa, -jaw / W - N / (b * t), 0.01 * std::abs(jaw / W)) << jaws;
+    EXPECT_GT(-jaw, std::abs(couple(alpha)));
+  }
+  // Three jaws: 0.1888 F R, a known number.
+  EXPECT_NEAR(squeezed_wall(2 * R - t, 2 * R + t, b, 3, F).inner_MPa,
+              0.1888 * F * R / (b * t * t / 6), 0.01 * 0.1888 * F * R / (b * t * t / 6));
+}
+
+TEST(Ring, RefusesWallsThatAreNone) {
+  EXPECT_THROW(bent_wall(0, 2, 1, 1), std::domain_error);
+  EXPECT_THROW(bent_wall(2, 2, 1, 1), std::domain_error);
+  EXPECT_THROW(bent_wall(1, 2, 0, 1), std::domain_error);
+  EXPECT_THROW(bent_wall(1, 2, 1, NAN), std::domain_error);
+  EXPECT_THROW(squeezed_wall(1, 2, 1, 1, 1), std::domain_error);
+}
+
 }  // namespace
 }  // namespace turnwright::deflection

@@ -18,9 +18,6 @@ constexpr double kMade_mm = 1e-3;  // a surface is finished within this
 // which touches both sides, may touch that much more.
 constexpr double kInside_mm = 0.1;
 constexpr double kBeside_mm = 0.02;  // next to a wall's plane, in the material
-// Of a live centre: diameters of its 60 deg point and of its body; estimates for a centre
-// of Morse taper 4.
-constexpr double kPoint_mm = 25, kCentreBody_mm = 60;
 
 Polygon placed(const Polygon& tool, double side, double sign) {
   Polygon all;
@@ -141,18 +138,23 @@ void CutSimulation::add_obstacles() {
 
 // The tailstock's centre sits in the countersink of the free end.
 void CutSimulation::add_centre() {
-  double r = kPoint_mm / 8;
+  const auto& c = p_.part.machine.live_centre;
+  double r = c.point_mm / 8;
   for (const auto& o : p_.plan.setups[setup_].operations)
     if (const auto hole = drilled(p_, setup_, o)) r = hole->D_mm / 2;
-  const double full = (kPoint_mm / 2 - r) / std::tan(M_PI / 6);
+  const double full = (c.point_mm / 2 - r) / std::tan(M_PI / 6);
+  const double body = c.point_length_mm - r / std::tan(M_PI / 6);
   const auto at = [&](double x, double z) { return place(x, z + 1e-4); };
+  const auto add = [&](double radius, double from, double to) {
+    obstacles_.push_back(
+        {Fault::centre, hull({at(0, from), at(radius, from), at(radius, to), at(0, to)}),
+         false});
+  };
   obstacles_.push_back({Fault::centre,
-                        hull({at(0, 0), at(r, 0), at(kPoint_mm / 2, full), at(0, full)}),
+                        hull({at(0, 0), at(r, 0), at(c.point_mm / 2, full), at(0, full)}),
                         false});
-  obstacles_.push_back({Fault::centre,
-                        hull({at(0, full), at(kCentreBody_mm / 2, full),
-                              at(kCentreBody_mm / 2, kFar_mm), at(0, kFar_mm)}),
-                        false});
+  add(c.point_mm / 2, full, body);
+  add(c.body_mm / 2, body, kFar_mm);
 }
 
 void CutSimulation::follow(const Way& w) {
@@ -333,7 +335,7 @@ std::string listed(const std::vector<Finding>& findings) {
 }
 
 bool is_told(const Finding& f, const Programs& all) {
-  if (f.fault != Fault::again) return f.fault == Fault::centre;
+  if (f.fault != Fault::again) return false;
   const auto of_it = [&](const Step& s) {
     return !s.comments.empty() && s.comments[0].starts_with("operation " + f.where + ":");
   };

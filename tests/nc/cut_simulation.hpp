@@ -100,8 +100,7 @@ std::string listed(const std::vector<Finding>& findings);
 /// The findings of programs, from their own moves.
 std::vector<Finding> simulated(const Planned& p, const Programs& all);
 
-/// Whether a finding is told: a contour entered again for a reason that the program says,
-/// or the body of the tailstock's live centre, which no plan knows (docs/nc.md).
+/// Whether a finding is told: a contour entered again for a reason that the program says.
 bool is_told(const Finding& finding, const Programs& all);
 
 }  // namespace turnwright::nc::test

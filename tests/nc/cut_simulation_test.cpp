@@ -82,6 +82,25 @@ TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
   EXPECT_GT(made, 0.4 * parts / kSideBySide);
 }
 
+// No tool meets the live centre either.
+TEST_P(CutSimulationOfRandomParts, OnALiveCentreLeavesTheDrawing) {
+  const int parts = parts_to_try(50);
+  int made = 0, solid = 0;
+  for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
+    auto document = RandomPart(static_cast<std::uint32_t>(seed)).document();
+    if (document.contains("inner") || document["stock"]["kind"] == "tube") continue;
+    for (auto& s : document["setups"])
+      s["clampings"] = {"chuck-tailstock", "between-centres"};
+    SCOPED_TRACE(document);
+    ++solid;
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(found_beside(p, true), "");
+    ++made;
+  }
+  EXPECT_GT(made, 0.3 * solid);
+}
+
 INSTANTIATE_TEST_SUITE_P(Some, CutSimulationOfRandomParts,
                          testing::Range(0, kSideBySide));
 

@@ -178,10 +178,10 @@ Paper drilled_bore(bool bored_first = false, double deeper_mm = 0) {
   return paper;
 }
 
-/// Turned between chuck and tailstock from behind its end, which is finished before: the
-/// holder, 32 mm from the tip to its far side, stays 0.09 mm clear of the centre's body,
-/// which begins (25 - 8.5)/2/tan(30 deg) = 14.29 mm before the face.
-Paper supported(double from_z = -17.8) {
+/// Turned between chuck and tailstock with the end finished before: the holder, 32 mm from
+/// the tip to its far side, stays 0.09 mm clear of the centre's body, which begins
+/// 55 - 8.5/2/tan(30 deg) = 47.64 mm before the face.
+Paper supported(double from_z = 15.55) {
   Paper paper(nlohmann::json::parse(R"({
     "format": "turnwright-part/1", "name": "paper journal", "material": "C45",
     "stock": {"kind": "bar", "diameter_mm": 32, "length_mm": 101,
@@ -261,7 +261,7 @@ TEST(PlantedErrors, AreFound) {
       {"a bar that lifts too far", Fault::holder, bore(10, 9)},
       {"bored before it is drilled", Fault::holder, drilled_bore(true)},
       {"a drill 0.01 mm too deep", Fault::gouge, drilled_bore(false, 0.01)},
-      {"a tool in the tailstock's centre", Fault::centre, supported(-10)},
+      {"a tool in the tailstock's centre", Fault::centre, supported(17)},
       {"a groove too deep", Fault::gouge, screw({.groove_x = 12.99})},
       {"a groove too narrow", Fault::left, screw({.groove_z = -23.9})},
       {"a thread not cut deep enough", Fault::thread, screw({.thread_x = 14.1})},

@@ -51,6 +51,25 @@ TEST(Wall, OfACutCountsItsCore) {
   EXPECT_NEAR(thinnest_wall(d).share, 1 - 24.0 / 30, 1e-12);
 }
 
+// The widest radius is 30 mm: up to 6 mm long it is borne.
+TEST(Wall, AShortGrooveIsBorneByTheWallBesideItUnlessItCutsTooDeep) {
+  Drawing d = sleeve();
+  d.inner.push_back(d.inner[0]);
+  d.inner[0].length_mm = 20;
+  auto& groove = d.inner[1];
+  groove.length_mm = 6;
+  groove.cut = Cut{.kind = CutKind::groove, .core = {34, 34}};
+  EXPECT_NEAR(thinnest_wall(d).share, 1 - 24.0 / 40, 1e-12);
+  groove.length_mm = 6.1;
+  EXPECT_NEAR(thinnest_wall(d).share, 1 - 34.0 / 40, 1e-12);
+  groove.length_mm = 6;
+  groove.cut->core = {36.1, 36.1};
+  EXPECT_NEAR(thinnest_wall(d).share, 1 - 36.1 / 40, 1e-12);
+  groove.cut->kind = CutKind::thread;
+  groove.cut->core = {34, 34};
+  EXPECT_NEAR(thinnest_wall(d).share, 1 - 34.0 / 40, 1e-12);
+}
+
 TEST(Wall, WhereTheBoreIsWiderThanThePartThereIsNone) {
   Drawing d = sleeve();
   d.inner[0].left_mm = d.inner[0].right_mm = 45;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "turnwright/catalogue/geometric_errors.hpp"
+#include "turnwright/catalogue/live_centre.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
@@ -80,8 +81,9 @@ struct Lathe {
   Chuck chuck;
   CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;
   double tail_thrust_N = 0;  ///< thrust of the tailstock on the part
-  double tool_rr_mm_N = 0;   ///< toolpost: radial deflection per radial force
-  double tool_rt_mm_N = 0;   ///< and per tangential force (usually towards the work)
+  LiveCentre live_centre = {};
+  double tool_rr_mm_N = 0;  ///< toolpost: radial deflection per radial force
+  double tool_rt_mm_N = 0;  ///< and per tangential force (usually towards the work)
   double stiffness_uncertainty_pct = 0;
   ShopBudget budget = {};
   std::optional<GeometricErrors> errors = {};

@@ -33,6 +33,7 @@ struct Material {
   std::string id, name, standard, condition;
   IsoGroup group = IsoGroup::P;
   double hardness_HB = 0;
+  std::optional<double> yield_MPa = {};  ///< yield or 0.2 % proof strength
   double E_MPa = 0, nu = 0, rho_kg_m3 = 0, expansion_1_K = 0;
   Kienzle kc;                     ///< cutting force: kc1.1, mc
   double gamma0_deg = 0;          ///< rake for which kc1.1 holds

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 
 namespace turnwright::deflection {
 
@@ -49,6 +51,35 @@ double lobing_mm(const Ring& ring, int jaws, double jaw_force_N);
 
 /// The ring with the shear of a wall that is not thin: E I/(1 + 2.3 (t/R)^2).
 Ring with_shear(const Ring& ring, double wall_mm);
+
+/// Stress [MPa] around a wall at its inner and outer surface, tension positive.
+struct WallStress {
+  double inner_MPa = 0, outer_MPa = 0;
+  double largest_MPa() const {
+    return std::max(std::abs(inner_MPa), std::abs(outer_MPa));
+  }
+};
+
+/// Of a curved wall of a given width, by a couple M that opens it (tension inside):
+///
+///     sigma(r) = M (r_n - r)/(b t e r),  r_n = t/ln(r_o/r_i),  e = R - r_n           (4)
+///
+/// Source: Winkler and Bach; within 0.5 % inside and 3.2 % outside of the exact solution
+/// for r_o/r_i <= 3 [Timoshenko and Goodier 1970, art. 29].
+/// @throws std::domain_error unless 0 < inner < outer and the width is positive.
+WallStress bent_wall(double inner_mm, double outer_mm, double width_mm, double M_Nmm);
+
+/// The largest stress in a ring squeezed by n jaws.  Under a jaw and in the middle between
+/// two of them the wall has, from (2), the couples and the compressive forces
+///
+///     M = F R/2 (1/alpha - cot(alpha)), N = F/2 cot(alpha);
+///     M = F R/2 (1/alpha - 1/sin(alpha)), N = F/2/sin(alpha)                         (5)
+///
+/// Source: derived here from the curvature of (2); [Young and Budynas 2002, table 9.2,
+/// case 7].  The pressure of the jaw itself is not in it.
+/// @throws std::domain_error as above, and unless jaws >= 2.
+WallStress squeezed_wall(double inner_mm, double outer_mm, double width_mm, int jaws,
+                         double jaw_force_N);
 
 /// Decay rate lambda of Eq. (3) [1/mm].  @throws std::domain_error unless R, t > 0,
 /// jaws >= 2.

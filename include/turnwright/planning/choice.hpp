@@ -23,11 +23,17 @@ struct ChosenPlan {
 /// by several threads at once.
 using Judge = std::function<void(const PreparedPart&, ProcessPlan&)>;
 
+/// The plan of each candidate without explanations, as the judge leaves it.  Candidates are
+/// planned side by side on as many threads as the calling task arena has; no plan depends
+/// on their number.
+std::vector<ProcessPlan> judged_plans(const std::vector<Candidate>& candidates,
+                                      const Judge& judge);
+
 /// The plan of the candidate with the best objective; the first of equals.  Each candidate's
 /// plan has its own certificate, so no candidate can be made for less than the least of their
 /// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
-/// the first candidate and explains why.  Candidates are planned side by side on as many
-/// threads as the calling task arena has; the plan does not depend on their number.
+/// the first candidate and explains why.  Candidates are planned side by side, as by
+/// judged_plans.
 /// @throws std::domain_error without a candidate, or if profit is the objective and no price
 ///   is given.
 ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge);

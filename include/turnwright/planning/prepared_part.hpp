@@ -38,8 +38,9 @@ struct Assignment {
 /// Forces of all jaws of a setup at rest [N].
 struct JawForces {
   double roughing_N = 0;
-  double finishing_N = 0;  ///< from the first finishing pass on
-  bool eased = false;      ///< finishing_N is the planner's own choice, below roughing_N
+  double finishing_N = 0;    ///< from the first finishing pass on
+  bool spares_tube = false;  ///< roughing_N is below the chuck's for a hollow part's sake
+  bool eased = false;  ///< finishing_N is the planner's own choice, below roughing_N
 };
 
 /// The setup and support in which the surface of a tolerance is cut.

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
@@ -126,6 +127,21 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
   m.stiffness_uncertainty_pct = finish_group(group);
 }
 
+void read_live_centre(Reader group, catalogue::LiveCentre& c) {
+  const auto length = above_up_to(0, 1000, "mm");
+  c.point_mm = group.number("point_mm", length);
+  c.point_length_mm = group.number("point_length_mm", length);
+  c.body_mm = group.number("body_mm", length);
+  if (c.point_mm > 0 && c.point_length_mm < c.point_mm / 2 * std::numbers::sqrt3)
+    group.problem_at("point_length_mm",
+                     "at least the length of the cone of 60 deg, " +
+                         number_text(c.point_mm / 2 * std::numbers::sqrt3) + " mm",
+                     "conflict");
+  if (c.body_mm < c.point_mm)
+    group.problem_at("body_mm", "at least point_mm", "conflict");
+  finish_group(group);
+}
+
 void read_shop_budget(Reader group, catalogue::ShopBudget& b) {
   const auto error = within(0, 1000, "um");
   b.rechucking = read_rechucking_by_jaws(group.at("rechucking_um", "an object"));
@@ -193,6 +209,8 @@ catalogue::Lathe read_lathe(Reader r) {
   read_stiffness(r.object("stiffness"), m);
   if (auto driven = r.optional_object("driven_tools"))
     m.driven_tools = read_driven_tools(*driven);
+  if (auto centre = r.optional_object("live_centre"))
+    read_live_centre(*centre, m.live_centre);
   if (auto budget = r.optional_object("budget")) read_shop_budget(*budget, m.budget);
   if (auto errors = r.optional_object("errors")) read_geometry(*errors, m);
   r.finish();

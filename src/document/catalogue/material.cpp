@@ -73,6 +73,10 @@ catalogue::Material read_material(Reader r) {
   Reader hardness = r.object("hardness");
   m.hardness_HB = hardness.number("hardness_HB", above_up_to(0, 800, "HB"));
   finish_group(hardness);
+  if (auto strength = r.optional_object("strength")) {
+    m.yield_MPa = strength->number("yield_MPa", above_up_to(0, 5000, "MPa"));
+    finish_group(*strength);
+  }
   read_elastic(r.object("elastic"), m);
   read_kienzle(r.object("kienzle"), m);
   if (const auto group = r.optional_object("thrust")) read_thrust(*group, m);

@@ -49,7 +49,7 @@ void check_bores(Draft& draft) {
   }
   const part::Wall wall = part::thinnest_wall(d);
   const bool told = d.inner.empty() && wall.share <= 0;  // of the stock
-  if (wall.share >= kThin || told) return;
+  if (wall.share >= kThin - 1e-9 || told) return;
   const Reader at = d.inner.empty() ? draft.root.at("stock") : *list;
   at.problem("a wall of " + number_text(std::round(1e4 * wall.share) / 1e4) +
                  " of the radius at z = " + number_text(wall.z_mm) + " mm",

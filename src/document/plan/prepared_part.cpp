@@ -86,8 +86,15 @@ void add_milled_places(const LoadedPart& loaded, const planning::PreparedPart& p
   problems.throw_if_any();
 }
 
-void add_eased_jaws(const planning::PreparedPart& p, Assumed& assumed) {
-  for (std::size_t s = 0; s < p.jaws.size(); ++s)
+void add_jaws(const planning::PreparedPart& p, Assumed& assumed) {
+  for (std::size_t s = 0; s < p.jaws.size(); ++s) {
+    if (p.jaws[s].spares_tube)
+      assumed.push_back(
+          {"/setups/" + std::to_string(s) + "/grip_force_N", p.jaws[s].roughing_N,
+           "the jaws close with less than the chuck's " +
+               number_text(p.machine.chuck.grip_force_N) +
+               " N so that they strain the hollow part to two thirds of its "
+               "yield strength"});
     if (p.jaws[s].eased)
       assumed.push_back(
           {"/setups/" + std::to_string(s) + "/finishing_grip_force_N",
@@ -95,6 +102,7 @@ void add_eased_jaws(const planning::PreparedPart& p, Assumed& assumed) {
            "the jaws are eased from " + number_text(p.jaws[s].roughing_N) +
                " N so that their lobes in the tube use at most a quarter "
                "of each tolerance, but not below a twentieth of that force"});
+  }
 }
 
 planning::PreparedPart with_limit(const ChangedRequest& change,
@@ -147,7 +155,7 @@ PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
   add_grips(out.part, out.assumed);
   add_drilled_holes(out.part, out.assumed);
   add_milled_places(loaded, out.part, out.assumed);
-  add_eased_jaws(out.part, out.assumed);
+  add_jaws(out.part, out.assumed);
   out.what_if = what_if(loaded, out.part, catalogue);
   return out;
 }

@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "milled_operations.hpp"
+#include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/clamping_speed.hpp"
 #include "planning/clamping/positions.hpp"
-#include "planning/clamping/supports.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/surface/operation_result.hpp"
 #include "planning/values/readable.hpp"
@@ -25,7 +25,6 @@ using catalogue::FixedTool;
 using catalogue::FixedUse;
 using cutting::Load;
 
-constexpr double kCentreShare = 0.35;     // of the end's diameter
 constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
 constexpr int kLeastInfeeds = 4;          // of a thread
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
@@ -133,6 +132,21 @@ void tighten(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
     *it = c;
 }
 
+// Force that the jaws need at rest for a load, and have.
+struct GripForces {
+  double needed_N = 0, closed_N = 0;
+};
+GripForces grip_forces(const PreparedPart& p, std::size_t setup, Clamping clamping,
+                       Stage stage, const Duty& d) {
+  const auto& m = p.machine;
+  const double force = jaw_force_N(p, setup, clamping, stage);
+  const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+                           grip_diameter_mm(p, setup, clamping)};
+  const double needed = cutting::grip_needed_N(grip, 2000 * d.load.M_Nm / d.D_mm,
+                                               d.radial ? 0.0 : d.load.Ff_N, d.D_mm);
+  return {needed + cutting::grip_loss_N(grip, d.n_rpm), force};
+}
+
 std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
                                     const std::vector<Duty>& duties) {
   const auto& m = s.p.machine;
@@ -151,13 +165,8 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
     tighten(all, constraint(Check::spindle_min, d.n_rpm, m.n_min_rpm));
     if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
     if (s.clamping == Clamping::between_centres) continue;
-    const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
-    const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
-                             grip_diameter_mm(s.p, s.setup, s.clamping)};
-    const double needed =
-        cutting::grip_needed_N(grip, 2000 * M / d.D_mm, d.radial ? 0.0 : Ff, d.D_mm);
-    tighten(all,
-            constraint(Check::grip, needed + cutting::grip_loss_N(grip, d.n_rpm), force));
+    const auto grip = grip_forces(s.p, s.setup, s.clamping, s.stage, d);
+    tighten(all, constraint(Check::grip, grip.needed_N, grip.closed_N));
   }
   return all;
 }
@@ -293,8 +302,8 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   return h;
 }
 
-// Whether the spindle drives a drill at its conditions, whatever holds the part.
-bool drives(const PlanRequest& p, const FixedTool& t, double D_mm) {
+// Whether the spindle drives a drill at its conditions and the jaws hold the part.
+bool drives(const PreparedPart& p, std::size_t setup, const FixedTool& t, double D_mm) {
   const auto* at = t.conditions_in(p.material.group);
   if (!at) return false;
   const auto ranges = cutting::speed_ranges(p.machine);
@@ -303,8 +312,10 @@ bool drives(const PlanRequest& p, const FixedTool& t, double D_mm) {
   const double n = std::clamp(units::spindle_rpm(at->vc_m_min, D_mm),
                               ranges.front().n_min_rpm, ranges.back().n_max_rpm);
   const double P_kW = units::shaft_power_kW(load.M_Nm, n);
+  const auto grip =
+      grip_forces(p, setup, Clamping::chuck, Stage::roughing, {load, n, D_mm});
   return P_kW <= cutting::available_kW(ranges, n, false) &&
-         P_kW <= cutting::available_kW(ranges, n, true);
+         P_kW <= cutting::available_kW(ranges, n, true) && grip.needed_N <= grip.closed_N;
 }
 
 Asked drilling(const Hole& h, const OperationRequest* given) {
@@ -330,13 +341,13 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   return nullptr;
 }
 
-// The largest drill that the spindle drives; if it drives none, or the drilling is given,
+// The largest drill that the spindle drives and the jaws hold; if there is none, or the drilling is given,
 // the largest of all, whose limits then tell why it cannot be.
-Fitted fitted_drill(const PlanRequest& p, const Asked& a) {
+Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
   if (a.given) return fitted(p, a);
   auto driven = a;
   driven.fits = [&](const FixedTool& t, double size) {
-    return a.fits(t, size) && drives(p, t, size);
+    return a.fits(t, size) && drives(p, setup, t, size);
   };
   const auto f = fitted(p, driven);
   return f.tool ? f : fitted(p, a);
@@ -346,7 +357,7 @@ void add_drilling(Site& s, part::End end) {
   const auto h = hole_from(s.p.drawing, end);
   if (h.first.empty()) return;
   const auto a = drilling(h, given_drilling(s.p, end));
-  const auto f = fitted_drill(s.p, a);
+  const auto f = fitted_drill(s.p, s.setup, a);
   if (f.tool)
     s.out.before.push_back(drilled(s, a, f, h.depth_mm));
   else
@@ -709,10 +720,6 @@ bool solid(const PreparedPart& p, std::size_t setup) {
                       [&](const auto& e) { return e.from == end; });
 }
 
-bool stands_on_a_centre(Clamping c) {
-  return has_tailstock(c) || c == Clamping::between_centres;
-}
-
 }  // namespace
 
 AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
@@ -723,7 +730,7 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   const auto hold = p.setups[setup].hold;
   const bool left = hold == part::End::left;
   const auto* face = free_face(p, setup);
-  if ((stands_on_a_centre(clamping) && solid(p, setup)) || given_on(s, face))
+  if ((has_live_centre(clamping) && solid(p, setup)) || given_on(s, face))
     add_centre(s, face, left ? d.outer.back().right_mm : d.outer.front().left_mm);
   if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
   s.stage = Stage::finishing;
@@ -739,10 +746,18 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   return out;
 }
 
-double drilled_mm(const PlanRequest& p, part::End end) {
+double drilled_mm(const PreparedPart& p, part::End end) {
   const auto h = hole_from(p.drawing, end);
   if (h.first.empty()) return 0;
-  return fitted_drill(p, drilling(h, given_drilling(p, end))).size_mm;
+  const auto a = drilling(h, given_drilling(p, end));
+  const auto from_end = [&](const SetupWork& work) {
+    return std::ranges::any_of(
+        work.bores, [&](std::size_t i) { return p.drawing.inner[i].from == end; });
+  };
+  const auto in = std::ranges::find_if(p.work.setups, from_end);
+  if (in == p.work.setups.end()) return fitted(p, a).size_mm;
+  const auto setup = static_cast<std::size_t>(in - p.work.setups.begin());
+  return fitted_drill(p, setup, a).size_mm;
 }
 
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,

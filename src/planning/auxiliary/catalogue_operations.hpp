@@ -25,8 +25,8 @@ namespace turnwright::planning {
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
-/// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest and that
-/// the spindle drives; boring takes the rest.
+/// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
+/// the spindle drives and that the jaws hold; boring takes the rest.
 /// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
 /// the tool.
@@ -41,7 +41,8 @@ std::vector<Conflict> auxiliary_conflicts(const PreparedPart& plan, std::size_t 
 /// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
 /// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches
 /// their end, whose point cuts neither a narrower bore nor a wall behind, and for which
-/// power and torque of the spindle suffice; 0 if nothing is drilled.
-double drilled_mm(const PlanRequest& request, part::End end);
+/// power and torque of the spindle and the grip of the jaws suffice; 0 if nothing is
+/// drilled.  Needs `work`, `grips_mm` and `jaws` of the part.
+double drilled_mm(const PreparedPart& part, part::End end);
 
 }  // namespace turnwright::planning

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "planning/clamping/held_tube.hpp"
 #include "planning/clamping/jaws.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
@@ -12,7 +14,12 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr int kJaws = 3;
+// The first of a setup's clampings that has jaws.
+std::optional<Clamping> with_jaws(const PreparedPart& p, std::size_t setup) {
+  for (const auto c : p.setups[setup].clampings)
+    if (c != Clamping::between_centres) return c;
+  return std::nullopt;
+}
 
 // Distance from the jaws to the beginning of an element; 0 if it reaches between them.
 double beyond_jaws_mm(const PreparedPart& p, const std::string& surface,
@@ -26,11 +33,8 @@ double beyond_jaws_mm(const PreparedPart& p, const std::string& surface,
 
 double gentle_grip_N(const PreparedPart& p, std::size_t setup, double most) {
   constexpr double kOfZone = 0.25, kLeast = 0.05;
-  const auto& clampings = p.setups[setup].clampings;
-  const auto jaws = std::find_if(clampings.begin(), clampings.end(), [](Clamping c) {
-    return c != Clamping::between_centres;
-  });
-  if (jaws == clampings.end() || !(gripped_bore_mm(p, setup) > 0)) return most;
+  const auto jaws = with_jaws(p, setup);
+  if (!jaws || !(gripped_bore_mm(p, setup) > 0)) return most;
   double share = 1;
   for (const auto& t : p.drawing.tolerances) {
     if (setup_of(p, t.of) != setup) continue;
@@ -43,17 +47,15 @@ double gentle_grip_N(const PreparedPart& p, std::size_t setup, double most) {
 
 }  // namespace
 
-// A narrow grip is borne by the tube beside it, 1/2 lambda wide at its end.
 double squeeze_um(const PreparedPart& p, const part::Tolerance& t, std::size_t setup,
                   Clamping clamping, double force_N) {
-  const double outer = grip_diameter_mm(p, setup, clamping);
-  const double inner = gripped_bore_mm(p, setup);
-  if (!(outer > 0 && inner > 0) || !part::facts(t.kind).sees_lobes) return 0;
-  const double R = (outer + inner) / 4, wall = (outer - inner) / 2;
-  const double decay = deflection::lobe_decay_1_mm(R, wall, kJaws);
-  const double width = std::max(p.grips_mm[setup], 1 / (2 * decay));
+  const auto tube = held_tube(p, setup, clamping);
+  if (!tube.hollow() || !part::facts(t.kind).sees_lobes) return 0;
+  const double R = tube.R_mm(), wall = tube.wall_mm(), decay = tube.decay_1_mm();
   const auto ring = deflection::with_shear(
-      {R, deflection::wall_EI_Nmm2(p.material.E_MPa, width, wall)}, wall);
+      {R, deflection::wall_EI_Nmm2(p.material.E_MPa, tube.width_mm(p.grips_mm[setup]),
+                                   wall)},
+      wall);
   const double F = force_N / kJaws;
   const double lobes = part::has_two_ends(t.kind)
                            ? 2 * deflection::squeeze_mm(ring, kJaws, F, 0)
@@ -66,7 +68,11 @@ std::vector<JawForces> jaw_forces(const PreparedPart& p) {
   std::vector<JawForces> all;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     const auto& setup = p.setups[s];
-    JawForces jaws{setup.grip_force_N.value_or(p.machine.chuck.grip_force_N)};
+    const double chuck_N = p.machine.chuck.grip_force_N;
+    const auto held = with_jaws(p, s);
+    const double elastic_N = held ? elastic_grip_N(p, s, *held) : chuck_N;
+    JawForces jaws{setup.grip_force_N.value_or(std::min(chuck_N, elastic_N))};
+    jaws.spares_tube = !setup.grip_force_N && jaws.roughing_N < chuck_N;
     jaws.finishing_N = setup.finishing_grip_force_N
                            ? *setup.finishing_grip_force_N
                            : gentle_grip_N(p, s, jaws.roughing_N);

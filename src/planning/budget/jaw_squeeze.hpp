@@ -11,10 +11,12 @@ namespace turnwright::planning {
 double squeeze_um(const PreparedPart& part, const part::Tolerance& tolerance,
                   std::size_t setup, Clamping clamping, double force_N);
 
-/// The jaws' forces of every setup.  Where the request gives none for finishing it is the
+/// The jaws' forces of every setup.  Where the request gives none it is the chuck's, or
+/// less, so that no hollow section is strained beyond kOfYield of the yield strength, if
+/// the material's document has it.  Where the request gives none for finishing it is the
 /// largest, not above roughing's, whose three-jaw lobing of a tube uses at most a quarter
 /// of each affected tolerance, and at least a twentieth of roughing's.  Needs `work`
-/// and `drilled_mm` of the part.
+/// and `grips_mm` of the part.
 std::vector<JawForces> jaw_forces(const PreparedPart& part);
 
 }  // namespace turnwright::planning

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "held_tube.hpp"
 #include "jaws.hpp"
 #include "positions.hpp"
 #include "setup_body.hpp"
@@ -54,6 +56,19 @@ std::string buckles(const PreparedPart& p, std::size_t setup, Clamping c,
       p.machine.tail_thrust_N, P_cr);
 }
 
+// A force that the request gives, against what a hollow part bears.
+std::string strains(const PreparedPart& p, std::size_t setup, Clamping c) {
+  const auto& s = p.setups[setup];
+  const auto force_N = std::max(s.grip_force_N, s.finishing_grip_force_N);
+  const double most_N = elastic_grip_N(p, setup, c);
+  if (!force_N || *force_N <= most_N) return {};
+  return fmt::format(
+      "the jaws' {:.4g} kN would strain the hollow part to {:.0f} MPa, more than two "
+      "thirds of its yield strength, {:g} MPa: at most {:.4g} kN",
+      *force_N / 1000, squeeze_MPa(p, setup, c, *force_N), *p.material.yield_MPa,
+      std::floor(most_N) / 1000);
+}
+
 }  // namespace
 
 bool rest_stands_free(const PreparedPart& p, std::size_t setup) {
@@ -72,6 +87,7 @@ std::string unusable(const PreparedPart& p, std::size_t setup, Clamping c,
     if (grip < m.chuck.diameter_mm.lower || grip > m.chuck.diameter_mm.upper)
       return fmt::format("the chuck holds {:g} to {:g} mm, not {:g} mm",
                          m.chuck.diameter_mm.lower, m.chuck.diameter_mm.upper, grip);
+    if (auto why = strains(p, setup, c); !why.empty()) return why;
   }
   if (c != Clamping::chuck && d.length_mm > m.between_centres_mm)
     return fmt::format("the machine takes {:g} mm between centres, not {:g} mm",

@@ -252,8 +252,9 @@ LimitRow largest_spindle_speed() {
 }
 
 LimitRow grip() {
-  const auto rough_N = [](const PreparedPart& p, std::size_t s) {
-    return std::optional(p.jaws[s].roughing_N);
+  const auto rough_N = [](const PreparedPart& p, std::size_t s) -> std::optional<double> {
+    if (p.jaws[s].spares_tube) return {};
+    return p.jaws[s].roughing_N;
   };
   const auto finish_N = [](const PreparedPart& p,
                            std::size_t s) -> std::optional<double> {

@@ -12,11 +12,11 @@ namespace turnwright::planning {
 namespace {
 
 // The hole of the largest drill that fits, for each bore (catalogue_operations.hpp).
-std::vector<double> drilled(const PlanRequest& r) {
-  const double left = drilled_mm(r, part::End::left);
-  const double right = drilled_mm(r, part::End::right);
+std::vector<double> drilled(const PreparedPart& p) {
+  const double left = drilled_mm(p, part::End::left);
+  const double right = drilled_mm(p, part::End::right);
   std::vector<double> all;
-  for (const auto& e : r.drawing.inner)
+  for (const auto& e : p.drawing.inner)
     all.push_back(e.from == part::End::left ? left : right);
   return all;
 }
@@ -34,8 +34,8 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 PreparedPart assigned(PlanRequest request) {
   PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
-  p.drilled_mm = drilled(p);
   p.jaws = jaw_forces(p);
+  p.drilled_mm = drilled(p);
   p.milled_places = placed(p);
   return p;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,14 @@ catalogue::ToolUse use_of(const MachinedSurface& f) {
                                                  : catalogue::ToolUse::finishing;
 }
 
+// Whether a tool that could rough or finish a surface meets the tailstock's centre.
+bool meets_centre(const PreparedPart& plan, const MachinedSurface& f) {
+  for (const auto use : {catalogue::ToolUse::roughing, catalogue::ToolUse::finishing})
+    for (const auto* tool : tools_for(plan, use))
+      if (!f.clears_centre(*tool)) return true;
+  return false;
+}
+
 std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   const auto& fixed = f.fixed();
   if (!plan.operations && tools_for(plan, use_of(f)).empty())
@@ -45,6 +54,12 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   if (f.kind() == MachinedSurface::Kind::bore)
     return ": no boring bar is thin and long enough, or none can cut the depth that is "
            "left";
+  if (const auto& c = plan.machine.live_centre; meets_centre(plan, f))
+    return fmt::format(
+        ": no tools that clear the live centre, with a point of {:g} mm and a body of "
+        "{:g} "
+        "mm {:g} mm behind its tip, give a depth they can cut",
+        c.point_mm, c.body_mm, c.point_length_mm);
   return ": no tool and pass count give a depth its tool can cut";
 }
 

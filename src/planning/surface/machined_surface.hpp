@@ -81,6 +81,9 @@ class MachinedSurface {
   bool makes_edges(const catalogue::Tool& tool) const;
   /// What these ask of a tool, for a sentence; empty if nothing.
   std::string edges_asked() const;
+  /// Whether a tool clears the tailstock's centre, if there is one, with its tip in front of
+  /// an outer element, where the lowest pass over it begins.
+  bool clears_centre(const catalogue::Tool& tool) const;
 
   /// An operation on it, for the order of the setup.
   InOrder in_order(const catalogue::Tool& tool, bool rough) const;

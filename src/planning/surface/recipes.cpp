@@ -40,6 +40,8 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
   if (w.given && ((w.rough && !rough) || (w.finish && !finish))) return all;
   if (const auto* last = finish ? finish : rough; last && !f.makes_edges(*last))
     return all;
+  for (const auto* tool : {rough, finish})
+    if (tool && !f.clears_centre(*tool)) return all;
   const auto ranges = cutting::speed_ranges(p.machine).size();
   const auto pieces = [](const Tool* t) {
     return t ? std::max<std::size_t>(t->chip.size(), 1) : 1;

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "machined_surface.hpp"
+#include "planning/clamping/centre_clearance.hpp"
+#include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -34,6 +38,16 @@ std::string MachinedSurface::edges_asked() const {
     add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
                     s.wall_chamfer.axial_mm));
   return all;
+}
+
+bool MachinedSurface::clears_centre(const catalogue::Tool& tool) const {
+  if (kind_ != Kind::element || !has_live_centre(clamping_)) return true;
+  const double far = kBefore_mm + tool.re_mm;
+  const auto& c = around_.front_chamfer;
+  const double along = std::hypot(c.axial_mm, c.radial_mm);
+  const double fall = along > 0 ? far * c.radial_mm / along : 0;
+  const double lowest = around_.h0 - c.radial_mm - fall;
+  return lowest >= clear_of_centre_mm(*plan_, setup_, tool, around_.z0 + far);
 }
 
 }  // namespace turnwright::planning

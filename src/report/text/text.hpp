@@ -31,6 +31,10 @@ std::string thermal_text(const nlohmann::ordered_json& thermal_result);
 /// of passes; or the limits in conflict with their relaxations.
 std::string multipass_text(const nlohmann::ordered_json& multipass_result);
 
+/// The result document of `quote` (schemas/quote.result.json): what one part costs in each
+/// batch and of what, by which way it is made, what cannot be made and why.
+std::string quote_text(const nlohmann::ordered_json& quote_result);
+
 /// The result document of `calibrate-material` (schemas/calibrate-material.result.json):
 /// constants with their intervals, omitted cuts, warnings.
 std::string material_text(const nlohmann::ordered_json& calibration_result);

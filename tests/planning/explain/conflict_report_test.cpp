@@ -246,6 +246,11 @@ json random_part(unsigned seed) {
                   {"clampings", {"chuck"}}}};
   d = inlined(d);
   d["machine"]["chuck"]["diameter_mm"] = {3, 400};  // jaws that hold every part
+  d["machine"]["live_centre"] = {{"point_mm", 1},
+                                 {"point_length_mm", 900},
+                                 {"body_mm", 1},
+                                 {"uncertainty_pct", 0},
+                                 {"source", "a centre that no tool meets"}};
   return d;
 }
 

@@ -124,7 +124,8 @@ Numbers numbers(const PlanRequest& p) {
   all["largest speed of the chuck"] = {m.chuck.n_max_rpm};
   const auto jaws = prepare(p).jaws;
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
-    all[fmt::format("grip force in setup {}", s + 1)] = {jaws[s].roughing_N};
+    if (!jaws[s].spares_tube)
+      all[fmt::format("grip force in setup {}", s + 1)] = {jaws[s].roughing_N};
     if (jaws[s].finishing_N != jaws[s].roughing_N)
       all[fmt::format("finishing grip force in setup {}", s + 1)] = {jaws[s].finishing_N};
   }

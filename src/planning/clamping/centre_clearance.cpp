@@ -1,0 +1,38 @@
+#include "centre_clearance.hpp"
+
+#include <algorithm>
+
+#include "supports.hpp"
+#include "turnwright/catalogue/live_centre.hpp"
+
+namespace turnwright::planning {
+
+bool has_live_centre(Clamping c) {
+  return has_tailstock(c) || c == Clamping::between_centres;
+}
+
+double countersink_mm(const PreparedPart& p, std::size_t setup) {
+  const auto& d = p.drawing;
+  const bool left = p.setups[setup].hold == part::End::right;  // the left end is free
+  double bore = d.stock.inner_mm;
+  for (const auto& e : d.inner)
+    if ((e.from == part::End::left) == left)
+      bore = std::max(bore, left ? e.left_mm : e.right_mm);
+  if (bore > 0) return bore;
+  const double most =
+      kCentreShare * (left ? d.outer.front().left_mm : d.outer.back().right_mm);
+  double drilled = 0;
+  for (const auto& t : p.fixed_tools)
+    if (t.use == catalogue::FixedUse::centring)
+      for (const double size : t.sizes_mm)
+        if (size <= most) drilled = std::max(drilled, size);
+  return drilled > 0 ? drilled : most;
+}
+
+double clear_of_centre_mm(const PreparedPart& p, std::size_t setup,
+                          const catalogue::Tool& tool, double z_mm) {
+  return catalogue::clear_radius_mm(tool, p.machine.live_centre, countersink_mm(p, setup),
+                                    z_mm);
+}
+
+}  // namespace turnwright::planning
