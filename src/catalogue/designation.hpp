@@ -1,13 +1,9 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 
 /// What the designations of inserts and holders have in common.
 namespace turnwright::catalogue {
-
-/// Clearance [deg] of an insert by its letter in ISO 1832 and ISO 5608.
-std::optional<double> clearance_deg(char letter);
 
 /// The symbols of a designation one after the other; spaces may stand between them.
 class Designation {
