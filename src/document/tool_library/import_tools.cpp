@@ -195,7 +195,8 @@ ordered_json import_tools(const json& request) {
   for (const auto& tool : read.library.tools) {
     auto draft = tool_draft(tool, groups);
     if (draft.refused.empty()) {
-      draft.document["id"] = ids.of(tool.id.empty() ? tool.name : tool.id);
+      draft.document["id"] =
+          ids.of(tool.id.empty() ? draft.document["name"].get<std::string>() : tool.id);
       draft.refused = objection(draft.document);
     }
     for (const auto& sentence : draft.contradictions)

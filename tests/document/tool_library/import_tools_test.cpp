@@ -215,8 +215,8 @@ TEST(ImportTools, IdsAreNamesOfFilesAndEachOnce) {
   std::vector<std::string> ids;
   const json r = imported(library.dump());
   for (const json& tool : r["tools"]) ids.push_back(tool["id"]);
-  EXPECT_EQ(ids, (std::vector<std::string>{"a-b", "a-b-2", "tool", "tool-2", "a-b-2-2",
-                                           "Gr-e-5"}));
+  EXPECT_EQ(ids, (std::vector<std::string>{"a-b", "a-b-2", "CNMG-120408", "tool",
+                                           "a-b-2-2", "Gr-e-5"}));
 }
 
 TEST(ImportTools, ALibraryInAnArchiveIsTheSame) {
