@@ -90,7 +90,7 @@ TEST_F(ImportTools, NamesTheFileOrTheOptionThatIsWrong) {
   EXPECT_EQ(shell("turnwright import-tools none.tools").code, 2);
   EXPECT_EQ(
       shell("turnwright import-tools /dev/zero").err,
-      "/dev/zero: document: got more than 50000000 bytes, expected a tool library of "
+      "/dev/zero: document: got more than 20000000 bytes, expected a tool library of "
       "at most so many\n");
 }
 

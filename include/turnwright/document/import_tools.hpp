@@ -5,7 +5,7 @@
 namespace turnwright::document {
 
 /// The largest tool library that is read, and what an archive may unpack to [bytes].
-inline constexpr std::size_t kLargestLibrary = 50'000'000;
+inline constexpr std::size_t kLargestLibrary = 20'000'000;
 
 /// The result of `import-tools` (schemas/import-tools.result.json): documents of turning
 /// tools (schemas/tool.json) made from a tool library of another program, what they assume,

@@ -161,7 +161,15 @@ ToolLibrary read_fusion_library(const Reader& library) {
     library.problem("a tool library of Fusion, {\"data\": [..]}", "format");
     return out;
   }
+  const auto at_most = [&](std::size_t count, std::size_t most, const char* what) {
+    if (count > most)
+      library.problem(fmt::format("more than {} {}", most, what), "fewer of them",
+                      "limit");
+    return count <= most;
+  };
+  if (!at_most(list.size(), kMostEntries, "entries")) return out;
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!at_most(out.tools.size(), kMostTools, "turning tools")) return out;
     const auto at = fmt::format("/{}/{}", key, i);
     const auto type = text_at(list[i], "type");
     if (type != "turning general" && type != "turning boring") {

@@ -108,7 +108,9 @@ bool ends_with_any(std::string_view name, std::initializer_list<const char*> end
 }
 
 Read read_zip(const std::string& bytes) {
-  const auto entries = zip_entries(bytes, kLargestLibrary, [](std::string_view name) {
+  // So that few bytes do not become many: libraries shrink to a thirtieth at most.
+  const auto most_bytes = std::min(kLargestLibrary, 1'000'000 + 50 * bytes.size());
+  const auto entries = zip_entries(bytes, most_bytes, [](std::string_view name) {
     return ends_with_any(name, {".json", ".fctb", ".p21", "package_meta_data.xml"});
   });
   std::list<json> values;

@@ -7,8 +7,8 @@
 /// What tool libraries say, whatever their format, in mm and degrees.
 namespace turnwright::document {
 
-/// The most tools that one library may hold.
-inline constexpr std::size_t kMostTools = 10'000;
+/// The most turning tools that one library may hold, and the most entries of all kinds.
+inline constexpr std::size_t kMostTools = 10'000, kMostEntries = 100'000;
 
 /// Cutting conditions that a library stores with a tool.
 struct LibraryPreset {

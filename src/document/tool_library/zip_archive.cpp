@@ -9,7 +9,7 @@
 namespace turnwright::document {
 namespace {
 
-constexpr zip_int64_t kMostEntries = 10'000;
+constexpr zip_int64_t kMostFiles = 10'000;
 
 struct Discard {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -65,9 +65,9 @@ std::vector<ZipEntry> zip_entries(std::string_view archive, std::size_t most_byt
                                   const std::function<bool(std::string_view)>& wanted) {
   const auto zip = opened(archive);
   const auto count = zip_get_num_entries(zip.get(), 0);
-  if (count > kMostEntries)
+  if (count > kMostFiles)
     refuse_zip("", std::to_string(count) + " entries",
-               "at most " + std::to_string(kMostEntries), "limit");
+               "at most " + std::to_string(kMostFiles), "limit");
   std::vector<ZipEntry> entries;
   for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
     const char* const name = zip_get_name(zip.get(), i, 0);

@@ -383,12 +383,34 @@ TEST(ImportTools, BombsEndInErrors) {
   std::string many = "insert\n";
   for (int i = 0; i < 1'000'000; ++i) many += "x\n";
   EXPECT_NE(refused(many).find("1 to 10000 rows"), std::string::npos);
+  const auto tools = [](int count, const std::string& type) {
+    std::string all = R"({"data": [{})";
+    for (int i = 0; i < count; ++i) all += R"(,{"type":")" + type + "\"}";
+    return all + "]}";
+  };
+  EXPECT_NE(refused(tools(100'000, "drill")).find("more than 100000 entries"),
+            std::string::npos);
+  EXPECT_NE(refused(tools(10'002, R"(turning boring","unit":"mm)"))
+                .find("more than 10000 turning tools"),
+            std::string::npos);
   std::string assets = "<a>";
   for (int i = 0; i <= 10'000; ++i) assets += "<CuttingTool/>";
   EXPECT_NE(refused(assets + "</a>").find("at most 10000"), std::string::npos);
 }
 
 // ------------------------------------------------------------------------------ invariants
+
+TEST(ImportTools, EverySlipInARequestIsRefusedAsTheSchemaDoes) {
+  static const SchemaCheck kSchema("import-tools.request.json");
+  const json good{{"format", "turnwright-import-tools/1"},
+                  {"text", "insert\nCNMG 120408\n"},
+                  {"unit", "inch"},
+                  {"groups", {"P", "N"}}};
+  const auto refused_request = [](const json& r) {
+    return input_refusal([](const json& request) { import_tools(request); }, r);
+  };
+  EXPECT_GT(SlipsOf(kSchema, refused_request, good).try_all(), 15);
+}
 
 // Whatever a library says, its tool is a document that the reader accepts, or refused with
 // a reason of ours, never by the reader.
