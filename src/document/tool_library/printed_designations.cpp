@@ -69,10 +69,7 @@ void find_insert(std::string_view rest, const std::string& form,
   const bool sized =
       form.size() >= kSymbols && form.substr(4, 2) == "00" && form.substr(8, 2) == "00";
   const auto insert = sized ? decoded(catalogue::decode_iso1832, text) : std::nullopt;
-  if (insert && !found.insert) {
-    found.insert = insert;
-    found.insert_text = text;
-  }
+  if (!found.insert) found.insert = insert;
   if (!insert && found.insert_letters.empty()) found.insert_letters = rest.substr(0, 4);
   if (!insert && sized && found.unreadable.empty()) found.unreadable = text;
 }

@@ -12,7 +12,7 @@ struct PrintedDesignations {
   std::optional<catalogue::Insert1832> insert;  ///< "CNMG 120408" in any of them
   std::optional<catalogue::Holder5608> holder;  ///< "DCLNR 2020K 12"
   std::optional<catalogue::Bar5609> bar;        ///< "A16M-SCLCR 09"
-  std::string insert_text, holder_text;         ///< as they stand there; a bar's, too
+  std::string holder_text;                      ///< as holder or bar stands there
   /// Letters 1 to 4 of an insert, if they stand alone or before a size that is none.
   std::string insert_letters;
   std::string unreadable;  ///< what looks like an insert's designation and is none

@@ -1,6 +1,7 @@
 #include "tool_draft.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,8 +108,8 @@ class Drafting {
       return out;
     };
     if (auto said = in(tool_.groups); !said.empty()) return said;
-    remarks_.assume("/groups",
-                    "The groups of materials are not said: those of the request.");
+    remarks_.assume("/groups", fmt::format("The groups of materials are not said: {}.",
+                                           fmt::join(in(otherwise), ", ")));
     return in(otherwise);
   }
 

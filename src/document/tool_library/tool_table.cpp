@@ -4,6 +4,7 @@
 
 #include "document/json/csv.hpp"
 #include "library_readers.hpp"
+#include "printed_designations.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -57,6 +58,8 @@ void read_words(Row& row, LibraryTool& t) {
   t.insert = row.word("insert").empty() ? row.word("MIID") : row.word("insert");
   t.holder = row.word("holder");
   t.groups = row.word("TMC1ISO");
+  if (t.groups.find_first_not_of("PMKNSH0123456789 ,/-") != std::string::npos)
+    row.wrong("TMC1ISO", t.groups, "letters of ISO 513, P M K N S H");
   for (const auto& text : {t.name, t.id})
     if (!text.empty()) t.texts.push_back(text);
   const auto letter = [&](const char* column, std::optional<char>& member) {
@@ -83,6 +86,8 @@ LibraryTool read_row(Row& row, double unit) {
     unit = mm.value_or(1);
   }
   for (const auto& symbol : symbols()) row.number(symbol, unit, t);
+  if (row.word("type").empty())
+    t.boring = t.DMIN_mm || t.DCON_mm || printed_designations({t.holder}).bar;
   return t;
 }
 

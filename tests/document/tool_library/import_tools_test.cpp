@@ -257,6 +257,20 @@ TEST(ImportTools, ATableWithoutAUnitHasThatOfTheRequest) {
   EXPECT_EQ(t["groups"], json({"P", "H"}));
 }
 
+TEST(ImportTools, ARowWithABarBores) {
+  const auto uses = [](const std::string& row) {
+    const json r = imported("insert;holder;DCON;TMC1ISO\n" + row + "\n");
+    return r["tools"].empty() ? r["ignored"][0]["text"] : r["tools"][0]["uses"];
+  };
+  EXPECT_EQ(uses("CCMT 09T304;A16M-SCLCR 09;;"), json({"boring"}));
+  EXPECT_EQ(uses("CCMT 09T304;;16;P25"), json({"boring"}));
+  EXPECT_EQ(uses("CCMT 09T304;;;").size(), 3u);
+  EXPECT_EQ(
+      uses("CCMT 09T304;;;Steel"),
+      "It cannot be read: TMC1ISO: got \"Steel\", expected letters of ISO 513, P M K "
+      "N S H.");
+}
+
 TEST(ImportTools, BytesOfLatin1AreRead) {
   EXPECT_EQ(imported("name,insert\nGr\xF6\xDF"
                      "e,CNMG 120408\n")["tools"][0]["name"],

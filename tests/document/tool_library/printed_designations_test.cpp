@@ -15,7 +15,7 @@ TEST(PrintedDesignations, StandAnywhereInAText) {
   EXPECT_EQ(found("A16M SCLCR-09 - Basic").bar->diameter_mm, 16);
   EXPECT_EQ(found("OD CNMG_120408-PM").insert->re_mm, 0.8);
   EXPECT_EQ(found("CCMT09T304").insert->thickness_mm, 3.97);
-  EXPECT_EQ(found("CNMG 120408 in PCLNL 2525M 12").insert_text, "CNMG 120408");
+  EXPECT_EQ(found("CNMG 120408 in PCLNL 2525M 12").insert->shape, 'C');
 }
 
 TEST(PrintedDesignations, ProseIsNone) {
@@ -37,7 +37,7 @@ TEST(PrintedDesignations, LettersOfAnInsertStandAlone) {
 
 TEST(PrintedDesignations, TheFirstOfAKindCounts) {
   const auto p = printed_designations({"CNMG 120408", "DNMG 150604 DDJNL 2525M 15"});
-  EXPECT_EQ(p.insert_text, "CNMG 120408");
+  EXPECT_EQ(p.insert->shape, 'C');
   EXPECT_EQ(p.holder_text, "DDJNL 2525M 15");
 }
 
