@@ -124,15 +124,14 @@ nlohmann::ordered_json drafted_bar(const DraftSource& from, const DraftedInsert&
 }
 
 nlohmann::ordered_json drafted_holder(const DraftSource& from,
-                                      const DraftedInsert& insert, double kapr_deg) {
+                                      const DraftedInsert& insert) {
   constexpr double kSaid_pct = 10;
   const auto& t = from.tool;
   const bool named = from.printed.holder && holds(from.printed, insert);
   const auto h = named ? printed_shank(from) : shank_by_sizes(t, insert.insert);
   if (!h || !t.LH_mm || !t.WF_mm) return nullptr;
   const auto designation = named ? from.printed.holder_text : named_by_letters(t, *h);
-  if (designation.empty() || catalogue::decode_iso5608(designation).kapr_deg != kapr_deg)
-    return nullptr;
+  if (designation.empty()) return nullptr;
   return estimated({{"designation", designation},
                     {"h_mm", h->h_mm},
                     {"b_mm", h->b_mm},

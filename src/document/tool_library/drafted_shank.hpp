@@ -12,9 +12,9 @@ namespace turnwright::document {
 nlohmann::ordered_json drafted_bar(const DraftSource& from, const DraftedInsert& insert);
 
 /// "holder" of an external tool: the printed one if the library's sizes agree with it, else
-/// one that is named by its letters and sizes; null if there is none of both with all sizes
-/// and this edge angle.
+/// one that is named by its letters and sizes; null if there is none of both with all
+/// sizes.
 nlohmann::ordered_json drafted_holder(const DraftSource& from,
-                                      const DraftedInsert& insert, double kapr_deg);
+                                      const DraftedInsert& insert);
 
 }  // namespace turnwright::document

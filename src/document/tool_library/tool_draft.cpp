@@ -231,8 +231,7 @@ class Drafting {
     auto& d = out_.document;
     if (tool_.boring) {
       d["bar"] = drafted_bar(from_, insert_);
-    } else if (auto holder = drafted_holder(from_, insert_, kapr_deg_);
-               !holder.is_null()) {
+    } else if (auto holder = drafted_holder(from_, insert_); !holder.is_null()) {
       d["holder"] = std::move(holder);
     } else {
       remarks_.assume(

@@ -162,6 +162,19 @@ TEST(ImportTools, WhatIsNoTurningToolIsToldOnceWithItsPlaces) {
 }
 
 // 9.525 mm is the circle of an edge of 9.525/sin 80 deg = 9.672 mm.
+TEST(ImportTools, FeedsOfPresetsStayWithinTheCorner) {
+  const auto with_feed = [](const std::string& f_n) {
+    return of_fusion(fusion_tool(
+        R"({"SC": "C", "RE": 0.8, "INSD": 12.7, "S": 4.76})",
+        R"(, "start-values": {"presets": [{"f_n": )" + f_n + R"(, "v_c": 100}]})"));
+  };
+  EXPECT_EQ(with_feed("0.5")["tools"][0]["window"]["f_mm_rev"], json({0.3, 0.64}));
+  const json r = with_feed("2");
+  EXPECT_EQ(r["tools"][0]["window"]["f_mm_rev"], json({0.12, 0.48}));
+  EXPECT_NE(at(r["contradictions"], "/data/0").find("more than the corner"),
+            std::string::npos);
+}
+
 TEST(ImportTools, ASizeIsTheCircleOrTheEdge) {
   for (const char* size : {R"("INSD": 9.525)", R"("INSD": 9.671938)",
                            R"("INSD": 9.67, "SIZE_SPECIFICATION_MODE": "CE")"}) {
@@ -255,6 +268,33 @@ TEST(ImportTools, ATableWithoutAUnitHasThatOfTheRequest) {
   const json t = answered(request)["tools"][0];
   EXPECT_EQ(t["insert"], "CNMG 120408");
   EXPECT_EQ(t["groups"], json({"P", "H"}));
+}
+
+TEST(ImportTools, ANamedInsertKeepsTheInchSizeOfItsCorner) {
+  const json r = imported("insert;RE;unit\nCNMG 120408;0,03125;inch\n");
+  EXPECT_EQ(r["tools"][0]["geometry"]["re_mm"], 25.4 / 32);
+  EXPECT_TRUE(r["contradictions"].empty()) << r;
+}
+
+TEST(ImportTools, AHolderOfOtherInsertsIsNotUsed) {
+  const json r = imported("insert;holder\nDNMG 150604;PCLNL 2525M 12\n");
+  EXPECT_EQ(r["tools"][0]["geometry"]["kapr_deg"], 93);
+  EXPECT_NE(at(r["contradictions"], "line 2").find("does not hold DNMG 150604"),
+            std::string::npos);
+  EXPECT_NE(at(r["assumed"], "DNMG-150604/geometry/kapr_deg"), "");
+}
+
+TEST(ImportTools, ABarsCornerIsBeyondItsShankAndInItsBore) {
+  const auto bar = [](const std::string& row) {
+    return imported("insert;holder;WF;DMIN\nCCMT 09T304;A16M-SCLCR 09;" + row + "\n");
+  };
+  const json within = bar("5;");
+  EXPECT_EQ(within["tools"][0]["bar"]["tip_offset_mm"], 0.7 * 16);
+  EXPECT_NE(at(within["assumed"], "CCMT-09T304/bar/tip_offset_mm"), "");
+  const json tight = bar("11;18");
+  EXPECT_EQ(tight["tools"][0]["bar"]["min_bore_mm"], 8 + 11 + 1);
+  EXPECT_NE(at(tight["contradictions"], "line 2").find("DMIN is 18 mm"),
+            std::string::npos);
 }
 
 TEST(ImportTools, ARowWithABarBores) {
