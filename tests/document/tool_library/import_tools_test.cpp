@@ -276,6 +276,17 @@ TEST(ImportTools, ANamedInsertKeepsTheInchSizeOfItsCorner) {
   EXPECT_TRUE(r["contradictions"].empty()) << r;
 }
 
+TEST(ImportTools, WhatTheReaderRefusesIsIgnoredWithItsPlace) {
+  const json r = imported("insert;KAPR;APMX\nCNMG 120408;-5;\nCNMG 120408;95;60\n");
+  EXPECT_TRUE(r["tools"].empty());
+  EXPECT_NE(at(r["ignored"], "line 2").find("refused: /geometry/kapr_deg: got -5"),
+            std::string::npos)
+      << r;
+  EXPECT_NE(at(r["ignored"], "line 3").find("refused: /window/ap_mm/1: got 60"),
+            std::string::npos)
+      << r;
+}
+
 TEST(ImportTools, AHolderOfOtherInsertsIsNotUsed) {
   const json r = imported("insert;holder\nDNMG 150604;PCLNL 2525M 12\n");
   EXPECT_EQ(r["tools"][0]["geometry"]["kapr_deg"], 93);
