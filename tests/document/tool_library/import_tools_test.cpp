@@ -429,7 +429,9 @@ TEST(ImportTools, OtherFilesAreRefusedWithWhatCanBeRead) {
   }
   EXPECT_NE(refused("PK\x03\x04 and no archive"), "");
   EXPECT_NE(refused("{\"data\": [1, }").find("/text: got"), std::string::npos);
-  EXPECT_NE(refused(zipped({{"tools.json", "{"}})), "");
+  EXPECT_NE(refused(zipped({{"a/tools.json", "{"}})).find("/base64: got a/tools.json: "),
+            std::string::npos)
+      << refused(zipped({{"a/tools.json", "{"}}));
   EXPECT_NE(input_refusal([](const json& r) { import_tools(r); }, json::object())
                 .find("no library"),
             std::string::npos);
