@@ -56,6 +56,10 @@ bool Designation::digit_follows() const {
   return at_ < text_.size() && is_digit(text_[at_]);
 }
 
+bool Designation::point_follows() const {
+  return at_ < text_.size() && text_[at_] == '.';
+}
+
 void Designation::fail(const std::string& rule) const {
   throw std::domain_error(std::string(function_) + ": \"" + text_ + "\": symbol " +
                           std::to_string(number_) + " (\"" + std::string(last_) + "\") " +

@@ -16,6 +16,7 @@ class Designation {
   char take_one_of(std::string_view letters);
   int take_two_digits();
   bool digit_follows() const;
+  bool point_follows() const;
   /// @throws std::domain_error naming the symbol taken last.
   [[noreturn]] void fail(const std::string& rule) const;
 

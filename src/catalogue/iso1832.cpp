@@ -111,23 +111,42 @@ std::string corner_symbol(double mm) {
   return two_digits(std::lround(tenths));
 }
 
-}  // namespace
-
-Insert1832 decode_iso1832(const std::string& designation) {
-  Designation reader("decode_iso1832", designation);
+// Symbols 1 to 4.
+Insert1832 take_letters(Designation& reader) {
   Insert1832 insert;
-
   insert.shape = reader.take(1).front();
   const auto shape = shape_of(insert.shape);
   if (!shape) reader.fail("must be one of CDEHMOPRSTVW");
   insert.included_angle_deg = shape->included_angle_deg;
-
   const auto clearance = clearance_of_letter_deg(reader.take(1).front());
   if (!clearance) reader.fail("must be one of ABCDEFGNP");
   insert.clearance_deg = *clearance;
-
   insert.tolerance_class = reader.take_one_of("ACEFGHJKLMNU");
   insert.type = reader.take_one_of("ABCFGHJMNQRTUWX");
+  return insert;
+}
+
+// A digit, and decimals of quarters: 1.2 is 1 1/4.
+double take_quarters(Designation& reader) {
+  const double whole = reader.take_one_of("0123456789") - '0';
+  if (!reader.point_follows()) return whole;
+  reader.take(1);
+  switch (reader.take_one_of("258")) {
+    case '2':
+      return whole + 0.25;
+    case '5':
+      return whole + 0.5;
+    default:
+      return whole + 0.75;
+  }
+}
+
+}  // namespace
+
+Insert1832 decode_iso1832(const std::string& designation) {
+  Designation reader("decode_iso1832", designation);
+  Insert1832 insert = take_letters(reader);
+  const auto shape = shape_of(insert.shape);
 
   const int edge_code = reader.take_two_digits();
   const Designation at_edge = reader;
@@ -159,6 +178,22 @@ std::string encode_iso1832(const Insert1832& insert) {
   return std::string{insert.shape, *clearance, insert.tolerance_class, insert.type, ' '} +
          edge_symbol(*shape, insert.edge_length_mm) +
          thickness_symbol(insert.thickness_mm) + corner_symbol(insert.re_mm);
+}
+
+Insert1832 decode_inch_insert(const std::string& designation) {
+  constexpr double kInch_mm = 25.4;
+  Designation reader("decode_inch_insert", designation);
+  Insert1832 insert = take_letters(reader);
+  const double circle_mm = take_quarters(reader) * kInch_mm / 8;
+  insert.edge_length_mm = edge_length_mm(insert.shape, circle_mm);
+  insert.thickness_mm = take_quarters(reader) * kInch_mm / 16;
+  insert.re_mm = (reader.take_one_of("0123468") - '0') * kInch_mm / 64;
+  if (reader.digit_follows() || reader.point_follows())
+    reader.fail("is followed by one digit too many");
+  const double corner_mm = insert.re_mm;
+  insert = decode_iso1832(encode_iso1832(insert));
+  insert.re_mm = corner_mm;
+  return insert;
 }
 
 double edge_length_mm(char shape, double circle_mm) {

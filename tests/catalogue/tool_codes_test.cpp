@@ -57,6 +57,28 @@ TEST(ToolCodes, SizesWithoutACodeAreNamed) {
   EXPECT_NE(refused([](auto& i) { i.shape = 'R'; }), "");
 }
 
+// Both designations of one insert, as makers print them side by side.
+TEST(ToolCodes, InchDesignationsAreThoseOfTheMetricInserts) {
+  const std::pair<const char*, const char*> kSame[] = {
+      {"CNMG 432", "CNMG 120408"},    {"CNMG 431", "CNMG 120404"},
+      {"CNMG 433-MP", "CNMG 120412"}, {"CCMT 32.51", "CCMT 09T304"},
+      {"CCMT21.51", "CCMT 060204"},   {"DCMT 32.52", "DCMT 11T308"},
+      {"DNMG 442", "DNMG 150608"},    {"TNMG332", "TNMG 160408"},
+      {"VBMT 331", "VBMT 160404"},    {"WNMG 432", "WNMG 080408"},
+      {"SNMG 643", "SNMG 190612"},    {"TPGH 1.81.51", "TPGH 090204"}};
+  for (const auto& [inch, metric] : kSame) {
+    const auto insert = decode_inch_insert(inch);
+    EXPECT_EQ(encode_iso1832(insert), metric) << inch;
+    EXPECT_EQ(insert.edge_length_mm, decode_iso1832(metric).edge_length_mm) << inch;
+    EXPECT_TRUE(is_corner_of(decode_iso1832(metric), insert.re_mm)) << inch;
+  }
+  EXPECT_EQ(decode_inch_insert("CNMG 432").re_mm, 25.4 / 32);
+  for (const char* wrong :
+       {"", "CNMG", "CNMG 43", "CNMG 4321", "CNMG 432.5", "CNMG 732", "CNMG 435",
+        "CNMG 4.332", "RNMG 43", "CNMG 120408", "SEAT 101"})
+    EXPECT_NE(refusal_of([&] { decode_inch_insert(wrong); }), "") << wrong;
+}
+
 // [sumitomo]: 04 is 1/64 in = 0.397 mm, 08 0.794 mm, 12 1.191 mm, 16 1.588 mm.
 TEST(ToolCodes, ACornerIsThatOfItsCodeInMillimetresOrInches) {
   const auto corner = [](const char* designation, double re_mm) {

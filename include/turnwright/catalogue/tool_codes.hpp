@@ -14,6 +14,15 @@ namespace turnwright::catalogue {
 /// @throws std::domain_error naming the size that no code has, and for round inserts.
 std::string encode_iso1832(const Insert1832& insert);
 
+/// Decodes the inch designation of an insert, e.g. "CNMG 432" or "CCMT 32.51": letters as
+/// in ISO 1832, then eighths of an inch of the inscribed circle, sixteenths of the
+/// thickness, sixty-fourths of the corner, each a digit or, for the first two, a decimal: .2
+/// and .8 stand for a quarter and three.  Edge and thickness are those of ISO 1832, the
+/// corner is its inch size.
+/// Source: [ansi-inserts].
+/// @throws std::domain_error naming what cannot be read.
+Insert1832 decode_inch_insert(const std::string& designation);
+
 /// Length [mm] of the cutting edge of an insert about an inscribed circle [mm]; 0 for a
 /// letter that is no shape of decode_iso1832().
 double edge_length_mm(char shape, double circle_mm);

@@ -128,11 +128,12 @@ DraftedInsert by_designation(const LibraryTool& t, const Insert1832& named,
     throw std::domain_error(
         "A round insert: its edge angle changes with the depth of cut, which no model "
         "here follows.");
-  DraftedInsert out{named, catalogue::encode_iso1832(named), named.re_mm};
-  if (const auto wrong = disagreement(t, named); !wrong.empty())
+  const auto designation = catalogue::encode_iso1832(named);
+  DraftedInsert out{catalogue::decode_iso1832(designation), designation, named.re_mm};
+  if (const auto wrong = disagreement(t, out.insert); !wrong.empty())
     remarks.contradict(fmt::format("The insert is named {}, but {}: the name is taken.",
-                                   out.designation, wrong));
-  if (t.RE_mm && catalogue::is_corner_of(named, *t.RE_mm)) out.re_mm = *t.RE_mm;
+                                   designation, wrong));
+  if (t.RE_mm && catalogue::is_corner_of(out.insert, *t.RE_mm)) out.re_mm = *t.RE_mm;
   return out;
 }
 

@@ -8,11 +8,19 @@
 namespace turnwright::document {
 namespace {
 
-// One case, and blanks where designations are divided.
+bool is_digit_at(const std::string& text, std::size_t at) {
+  return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+}
+
+// One case, and blanks where designations are divided; decimal points stay.
 std::string plain(const std::string& text) {
   std::string out;
-  for (const unsigned char c : text)
-    out += std::isalnum(c) != 0 ? static_cast<char>(std::toupper(c)) : ' ';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool point =
+        c == '.' && i > 0 && is_digit_at(text, i - 1) && is_digit_at(text, i + 1);
+    out += std::isalnum(c) != 0 || point ? static_cast<char>(std::toupper(c)) : ' ';
+  }
   return out;
 }
 
@@ -60,7 +68,7 @@ bool has_letters_of_an_insert(std::string_view text) {
 
 void find_insert(std::string_view rest, const std::string& form,
                  PrintedDesignations& found) {
-  constexpr std::size_t kSymbols = 10;  // CNMG120408
+  constexpr std::size_t kSymbols = 10, kInch = 12;  // CNMG120408, CNMG1.81.51
   const bool four_letters = form.starts_with("AAAA") &&
                             rest.substr(0, 4).find(' ') == rest.npos &&
                             (rest.size() == 4 || !is_letter(rest[4]));
@@ -68,7 +76,9 @@ void find_insert(std::string_view rest, const std::string& form,
   const auto text = standing(rest, kSymbols);
   const bool sized =
       form.size() >= kSymbols && form.substr(4, 2) == "00" && form.substr(8, 2) == "00";
-  const auto insert = sized ? decoded(catalogue::decode_iso1832, text) : std::nullopt;
+  const auto insert = sized
+                          ? decoded(catalogue::decode_iso1832, text)
+                          : decoded(catalogue::decode_inch_insert, standing(rest, kInch));
   if (!found.insert) found.insert = insert;
   if (!insert && found.insert_letters.empty()) found.insert_letters = rest.substr(0, 4);
   if (!insert && sized && found.unreadable.empty()) found.unreadable = text;

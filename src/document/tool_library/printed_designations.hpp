@@ -9,7 +9,7 @@ namespace turnwright::document {
 
 /// Designations found in names and remarks of a tool, the first of each kind.
 struct PrintedDesignations {
-  std::optional<catalogue::Insert1832> insert;  ///< "CNMG 120408" in any of them
+  std::optional<catalogue::Insert1832> insert;  ///< "CNMG 120408" or "CNMG 432"
   std::optional<catalogue::Holder5608> holder;  ///< "DCLNR 2020K 12"
   std::optional<catalogue::Bar5609> bar;        ///< "A16M-SCLCR 09"
   std::string holder_text;                      ///< as holder or bar stands there

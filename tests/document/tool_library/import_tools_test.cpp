@@ -271,8 +271,13 @@ TEST(ImportTools, ATableWithoutAUnitHasThatOfTheRequest) {
 }
 
 TEST(ImportTools, ANamedInsertKeepsTheInchSizeOfItsCorner) {
-  const json r = imported("insert;RE;unit\nCNMG 120408;0,03125;inch\n");
+  const json r =
+      imported("insert;RE;unit\nCNMG 120408;0,03125;inch\nCNMG 432;;\nCNMG 432;0.8;\n");
+  ASSERT_EQ(r["tools"].size(), 3u) << r;
+  for (const json& tool : r["tools"]) EXPECT_EQ(tool["insert"], "CNMG 120408");
   EXPECT_EQ(r["tools"][0]["geometry"]["re_mm"], 25.4 / 32);
+  EXPECT_EQ(r["tools"][1]["geometry"]["re_mm"], 25.4 / 32);
+  EXPECT_EQ(r["tools"][2]["geometry"]["re_mm"], 0.8);
   EXPECT_TRUE(r["contradictions"].empty()) << r;
 }
 

@@ -14,14 +14,16 @@ TEST(PrintedDesignations, StandAnywhereInAText) {
   EXPECT_EQ(found("my dclnr2020k12").holder->h_mm, 20);
   EXPECT_EQ(found("A16M SCLCR-09 - Basic").bar->diameter_mm, 16);
   EXPECT_EQ(found("OD CNMG_120408-PM").insert->re_mm, 0.8);
+  EXPECT_EQ(found("OD CNMG-432 MP").insert->re_mm, 25.4 / 32);
+  EXPECT_EQ(found("ccmt 32.51.stp").insert->thickness_mm, 3.97);
   EXPECT_EQ(found("CCMT09T304").insert->thickness_mm, 3.97);
   EXPECT_EQ(found("CNMG 120408 in PCLNL 2525M 12").insert->shape, 'C');
 }
 
 TEST(PrintedDesignations, ProseIsNone) {
-  for (const char* text :
-       {"", "-", "OD rougher 80 deg", "TURNING GENERAL", "XCNMG120408", "CNMGX 120408",
-        "25252525", "DCLNR", "P20", "roughing tool with 12 04 08"}) {
+  for (const char* text : {"", "-", "OD rougher 80 deg", "TURNING GENERAL", "XCNMG120408",
+                           "CNMGX 120408", "25252525", "DCLNR", "P20", "CNMG 43",
+                           "CNMG 4325", "roughing tool with 12 04 08"}) {
     const auto p = found(text);
     EXPECT_FALSE(p.insert || p.holder || p.bar) << text;
     EXPECT_EQ(p.holder_text, "") << text;
