@@ -1,8 +1,11 @@
 #include "import_tools.hpp"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "document/json/parse.hpp"
 #include "foreign_file.hpp"
@@ -29,15 +32,26 @@ struct ImportToolsArguments {
 constexpr ForeignFile kLibrary{"tool library", ".tools, .json, .csv, .xml or .fctb file",
                                document::kLargestLibrary};
 
-// A library, or a request of the capability as other commands take one.
+// A request of the capability, as other commands take one, begins with one of its members;
+// a library in JSON with others.
+bool is_request(const std::string& bytes) {
+  const auto brace = bytes.find_first_not_of(" \t\r\n");
+  if (brace == bytes.npos || bytes[brace] != '{') return false;
+  const auto quote = bytes.find('"', brace);
+  if (quote == bytes.npos) return false;
+  const auto key = std::string_view(bytes).substr(quote + 1);
+  constexpr std::array kMembers{"text\"", "base64\"", "format\"",
+                                "unit\"", "groups\"", "$schema\""};
+  return std::ranges::any_of(kMembers,
+                             [&](const char* member) { return key.starts_with(member); });
+}
+
 nlohmann::json library_request(const ImportToolsArguments& arguments) {
   auto bytes = read_foreign_file(arguments.file, kLibrary);
-  auto request = document::import_request(std::move(bytes));
-  const auto text = request.value("text", std::string());
-  if (const auto given = nlohmann::json::parse(text, nullptr, false);
-      given.is_object() && (given.contains("text") || given.contains("base64")))
-    request = document::parse(text, name_of_foreign_file(arguments.file),
-                              document::kLocalLimits);
+  auto request = is_request(bytes)
+                     ? document::parse(bytes, name_of_foreign_file(arguments.file),
+                                       document::kLocalLimits)
+                     : document::import_request(std::move(bytes));
   request.update(arguments.members);
   return request;
 }
@@ -52,7 +66,7 @@ ordered_json imported_tools(const ImportToolsArguments& arguments) {
   }
 }
 
-// "2 places, CNMG-12/life and so on: sentence".
+// "assumed: CNMG-12/life and 3 more: The life is not said".
 void tell_remarks(const char* what, const ordered_json& remarks) {
   for (const auto& r : remarks) {
     const auto& at = r["at"];
