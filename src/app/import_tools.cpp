@@ -24,7 +24,7 @@ using nlohmann::ordered_json;
 struct ImportToolsArguments {
   std::string file;
   std::optional<fs::path> output, folder;
-  bool force = false;
+  bool force = false, json = false;
   nlohmann::json members =
       nlohmann::json::object();  ///< of the request, beside the library
 };
@@ -86,7 +86,9 @@ void require_new(const fs::path& folder, const std::vector<service::NamedText>& 
   if (!problems.empty()) throw InputError("command line", std::move(problems));
 }
 
-void write_tools(const ImportToolsArguments& arguments, const ordered_json& result) {
+// Returns the paths, a line each.
+std::string write_tools(const ImportToolsArguments& arguments,
+                        const ordered_json& result) {
   const auto folder = *arguments.folder / "tools";
   std::vector<service::NamedText> files;
   for (const auto& tool : result["tools"])
@@ -96,19 +98,22 @@ void write_tools(const ImportToolsArguments& arguments, const ordered_json& resu
   service::replace_files(folder, files, [](std::string_view) { return false; });
   std::string list;
   for (const auto& file : files) list += (folder / file.name).string() + '\n';
-  service::print(list);
-  tell_remarks("assumed", result["assumed"]);
-  tell_remarks("contradiction", result["contradictions"]);
-  tell_remarks("ignored", result["ignored"]);
+  return list;
 }
 
 void run_import_tools(const ImportToolsArguments& arguments) {
   const auto result = imported_tools(arguments);
+  const auto text = result.dump(2) + '\n';
   const bool to_file = arguments.output && *arguments.output != "-";
-  if (to_file) service::write_file(*arguments.output, result.dump(2) + '\n');
-  if (arguments.folder) write_tools(arguments, result);
-  if (!to_file && (arguments.output || !arguments.folder))
-    service::print(result.dump(2) + '\n');
+  if (to_file) service::write_file(*arguments.output, text);
+  const auto list = arguments.folder ? write_tools(arguments, result) : std::string();
+  if (arguments.json || (arguments.output && !to_file) || (!arguments.folder && !to_file))
+    return service::print(text);
+  if (!arguments.folder) return;
+  service::print(list);
+  tell_remarks("assumed", result["assumed"]);
+  tell_remarks("contradiction", result["contradictions"]);
+  tell_remarks("ignored", result["ignored"]);
 }
 
 }  // namespace
@@ -129,6 +134,8 @@ void add_import_tools(CLI::App& app,
   add_path(*command, "-o,--output", arguments->output,
            "write the result (JSON) here; - is standard output",
            Dash::is_standard_output);
+  command->add_flag("--json", arguments->json,
+                    "print the result as JSON, with --out too");
   command
       ->add_option_function<std::string>(
           "--groups",
@@ -148,7 +155,8 @@ void add_import_tools(CLI::App& app,
   command->footer(
       "Examples:\n"
       "  printf 'insert;RE;KAPR\\nCNMG 120408;0,8;95\\n' | turnwright import-tools -\n"
-      "  turnwright import-tools crib.tools --out shop");
+      "  printf 'id;insert;holder\\nR1;CNMG 432;DCLNL 2525M 12\\n' | turnwright "
+      "import-tools - --groups P,K");
   command->callback(
       [arguments, chosen] { chosen([arguments] { run_import_tools(*arguments); }); });
 }

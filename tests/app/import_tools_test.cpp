@@ -38,6 +38,11 @@ TEST_F(ImportTools, PrintsTheDocumentsAndWhatWasAssumed) {
   EXPECT_EQ(shell("turnwright import-tools - --groups PK < crib.csv -o -").out, run.out);
   EXPECT_EQ(shell("turnwright import-tools crib.csv --groups PK -o r.json").out, "");
   EXPECT_EQ(json_of(folder_ / "r.json"), result);
+  const auto both =
+      shell("turnwright import-tools crib.csv --groups PK --out shop --json");
+  EXPECT_EQ(both.out, run.out);
+  EXPECT_EQ(both.err, "");
+  EXPECT_TRUE(fs::exists(folder_ / "shop/tools/R1.json"));
 }
 
 TEST_F(ImportTools, AToolWrittenToADataFolderIsInItsCatalogue) {
