@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <zip.h>
 
-#include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "../slips.hpp"
@@ -419,6 +420,26 @@ TEST(ImportTools, BitsComeInAnArchive) {
   EXPECT_NE(at(r["ignored"], "Bit/angle.fctb").find("81.5"), std::string::npos);
   EXPECT_NE(refused(R"({"tools": [{"nr": 1, "path": "c.fctb"}]})").find(".fctl"),
             std::string::npos);
+}
+
+// ------------------------------------------------------------------------- real libraries
+
+// Libraries of makers and shops, which may not be copied here.
+TEST(ImportTools, LibrariesOfAFolderAreRead) {
+  const char* folder = std::getenv("TURNWRIGHT_TOOL_LIBRARIES");
+  if (!folder) {
+    std::cout << "NOT CHECKED: TURNWRIGHT_TOOL_LIBRARIES names no folder of libraries\n";
+    GTEST_SKIP() << "TURNWRIGHT_TOOL_LIBRARIES is not set";
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(refused(bytes), "") << entry.path();
+    const json result = imported(bytes);
+    std::cout << entry.path().filename() << ": " << result["tools"].size() << " tools, "
+              << result["contradictions"].size() << " contradictions, "
+              << result["ignored"].size() << " remarks on what is ignored\n";
+  }
 }
 
 // ------------------------------------------------------------------------- what is wrong
