@@ -13,6 +13,15 @@ namespace {
 
 using catalogue::Holder5608;
 
+// The shank's sizes as a designation codes them.
+constexpr double kCodeOff_mm = 0.05;
+bool is_coded(const std::optional<double>& said, double coded_mm) {
+  return said && std::abs(*said - coded_mm) <= kCodeOff_mm;
+}
+bool is_whole(const std::optional<double>& said) {
+  return is_coded(said, std::round(said.value_or(0)));
+}
+
 double shank_mm(const DraftSource& from, const DraftedInsert& insert) {
   const auto& said = from.tool.DCON_mm;
   const bool named = from.printed.bar && holds(from.printed, insert);
@@ -20,21 +29,23 @@ double shank_mm(const DraftSource& from, const DraftedInsert& insert) {
     throw std::domain_error("Its shank is not said: DCON, or a bar's designation.");
   if (!named) return *said;
   const double d = from.printed.bar->diameter_mm;
-  if (said && *said != d)
+  if (said && !is_coded(said, d))
     from.remarks.contradict(
         fmt::format("{} has a shank of {}, the library says {}: the name is taken.",
                     from.printed.holder_text, mm_text(d), mm_text(rounded(*said))));
   return d;
 }
 
+// WF of another shank than the named one is another bar's.
 double tip_offset_mm(const DraftSource& from, double d_mm) {
   constexpr double kUsual = 0.7;
   const auto& said = from.tool.WF_mm;
-  if (said && *said > d_mm / 2) return *said;
-  from.remarks.assume(
-      "/bar/tip_offset_mm",
-      "The distance of the corner from the bar's axis (WF) is not said, or "
-      "lies within the shank: 0.7 of its diameter.");
+  const bool same_shank = is_coded(from.tool.DCON_mm.value_or(d_mm), d_mm);
+  if (said && same_shank && *said > d_mm / 2) return *said;
+  from.remarks.assume("/bar/tip_offset_mm",
+                      "The distance of the corner from the bar's axis (WF) is not said, "
+                      "lies within the shank or is another bar's: 0.7 of the shank's "
+                      "diameter.");
   return kUsual * d_mm;
 }
 
@@ -51,15 +62,6 @@ double least_bore_mm(const DraftSource& from, double d_mm, double offset_mm) {
     from.remarks.assume("/bar/min_bore_mm",
                         "The smallest bore is not said: shank, corner and 1 mm.");
   return tight_mm + kRoom_mm;
-}
-
-// The shank's sizes as a designation codes them.
-constexpr double kCodeOff_mm = 0.05;
-bool is_coded(const std::optional<double>& said, double coded_mm) {
-  return said && std::abs(*said - coded_mm) <= kCodeOff_mm;
-}
-bool is_whole(const std::optional<double>& said) {
-  return is_coded(said, std::round(said.value_or(0)));
 }
 
 // The printed holder, if the library's sizes are its own.

@@ -142,8 +142,9 @@ TEST(ImportTools, BarsOfFusionBore) {
   EXPECT_EQ(bar["uses"], json({"boring"}));
   EXPECT_EQ(bar["insert"], "CCMT 09T304");  // clearance of the bar SCLCR
   EXPECT_EQ(bar["bar"]["segments"][0]["diameter_mm"], 16);
-  EXPECT_EQ(bar["bar"]["tip_offset_mm"], 11);
-  EXPECT_EQ(bar["bar"]["min_bore_mm"], 16 / 2 + 11 + 1);
+  EXPECT_EQ(bar["bar"]["tip_offset_mm"], 11.2);  // CW is that of a shank of 20 mm
+  EXPECT_EQ(bar["bar"]["min_bore_mm"], 20.2);    // 16/2 + 0.7 x 16 + 1
+  EXPECT_EQ(tool_called(r, "Bore-20-finishing")["bar"]["tip_offset_mm"], 13);
   EXPECT_EQ(tool_called(r, "Bore-20-finishing")["geometry"]["kapr_deg"], 93);  // style u
 }
 
@@ -308,6 +309,10 @@ TEST(ImportTools, ABarsCornerIsBeyondItsShankAndInItsBore) {
   const json within = bar("5;");
   EXPECT_EQ(within["tools"][0]["bar"]["tip_offset_mm"], 0.7 * 16);
   EXPECT_NE(at(within["assumed"], "CCMT-09T304/bar/tip_offset_mm"), "");
+  const json inch = imported(
+      "insert;holder;DCON;WF;unit\nCCMT 09T304;A16M-SCLCR 09;0,629921;0,433071;inch\n");
+  EXPECT_TRUE(inch["contradictions"].empty()) << inch;
+  EXPECT_NEAR(inch["tools"][0]["bar"]["tip_offset_mm"].get<double>(), 11, 1e-4);
   const json tight = bar("11;18");
   EXPECT_EQ(tight["tools"][0]["bar"]["min_bore_mm"], 8 + 11 + 1);
   EXPECT_NE(at(tight["contradictions"], "line 2").find("DMIN is 18 mm"),
