@@ -2,7 +2,7 @@
 tw_domain(base PRIVATE_LIBS Eigen3::Eigen)
 
 tw_domain(optimise DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen)
-tw_domain(catalogue DEPENDS base)
+tw_domain(catalogue DEPENDS base PRIVATE_LIBS fmt::fmt)
 tw_domain(part DEPENDS base)
 
 tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen)
@@ -52,7 +52,8 @@ set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES CO
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
     exchange volumetric tolerance planning nc
-  PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt OpenSSL::Crypto)
+  PUBLIC_LIBS nlohmann_json::nlohmann_json
+  PRIVATE_LIBS fmt::fmt libzip::zip OpenSSL::Crypto pugixml::pugixml)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)
 endif()

@@ -1,13 +1,11 @@
 #include "import.hpp"
 
-#include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "document/json/parse.hpp"
+#include "foreign_file.hpp"
 #include "options.hpp"
 #include "service/output.hpp"
 #include "service/requests.hpp"
@@ -26,55 +24,17 @@ struct ImportArguments {
       nlohmann::json::object();  ///< of the request, beside the drawing
 };
 
-std::string read_all(std::istream& in, const std::string& name) {
-  std::string bytes, block(1 << 20, '\0');
-  while (in.read(block.data(), std::ssize(block)) || in.gcount() > 0) {
-    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > document::kLargestDrawing)
-      throw InputError(
-          name, {{"", "more than " + std::to_string(document::kLargestDrawing) + " bytes",
-                  "a drawing of at most so many", "limit"}});
-  }
-  return bytes;
-}
-
-std::string read_drawing(const std::string& file) {
-  if (file == "-") return read_all(std::cin, "standard input");
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file))
-    throw InputError(file,
-                     {{"", "nothing readable", "a STEP, DXF or text file", "file"}});
-  return read_all(in, file);
-}
-
-std::string name_of(const std::string& file) {
-  return file == "-" ? "standard input" : file;
-}
-
-// A drawing's problems under its own name, those of options under theirs.
-[[noreturn]] void rethrow(const InputError& e, const std::string& file) {
-  auto problems = e.problems();
-  const auto of_drawing = [](const Problem& p) {
-    return p.pointer == "/text" || p.pointer == "/base64" || p.pointer.empty();
-  };
-  const bool drawing = std::all_of(problems.begin(), problems.end(), of_drawing);
-  for (auto& p : problems) {
-    if (of_drawing(p))
-      p.pointer.clear();
-    else
-      p.pointer.replace(0, 1, "--");
-  }
-  throw InputError(drawing ? name_of(file) : "command line", std::move(problems));
-}
+constexpr ForeignFile kDrawing{"drawing", "STEP, DXF or text file",
+                               document::kLargestDrawing};
 
 // A drawing, or a request of the capability as other commands take one.
 nlohmann::json request_of(const ImportArguments& arguments) {
-  auto bytes = read_drawing(arguments.file);
+  auto bytes = read_foreign_file(arguments.file, kDrawing);
   const auto first = bytes.find_first_not_of(" \t\r\n");
   const bool drawing = first == std::string::npos || bytes[first] != '{';
-  auto request =
-      drawing ? document::import_request(std::move(bytes))
-              : document::parse(bytes, name_of(arguments.file), document::kLocalLimits);
+  auto request = drawing ? document::import_request(std::move(bytes))
+                         : document::parse(bytes, name_of_foreign_file(arguments.file),
+                                           document::kLocalLimits);
   request.update(arguments.members);
   return request;
 }
@@ -85,7 +45,7 @@ nlohmann::ordered_json imported(const ImportArguments& arguments, const fs::path
   try {
     return service::answer(*service::find_request("import"), request, {catalogue});
   } catch (const InputError& e) {
-    rethrow(e, arguments.file);
+    rethrow_of_foreign_file(e, arguments.file);
   }
 }
 

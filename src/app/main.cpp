@@ -21,6 +21,7 @@
 #include "document/json/reader.hpp"
 #include "exit.hpp"
 #include "import.hpp"
+#include "import_tools.hpp"
 #include "mcp.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
@@ -282,11 +283,11 @@ Exit run_list(const Arguments& arguments) {
   return kOk;
 }
 
-/// Adds a subcommand per row of the request table, but for `import`, whose request is a
-/// drawing.
+/// Adds a subcommand per row of the request table, but for `import` and `import-tools`,
+/// which take files of other programs.
 void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   for (const auto& row : service::requests()) {
-    if (row.name == "import") continue;
+    if (row.name == "import" || row.name == "import-tools") continue;
     auto* command = app.add_subcommand(row.name, row.summary);
     command
         ->add_option("REQUEST", arguments.file,
@@ -390,6 +391,7 @@ int run(int argc, char** argv) {
     };
   };
   add_import(app, arguments.data, choose);
+  add_import_tools(app, choose);
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
   add_mcp(app, arguments.data, choose);

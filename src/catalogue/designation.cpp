@@ -1,21 +1,32 @@
 #include "designation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
+
+#include "turnwright/catalogue/tool_codes.hpp"
 
 namespace turnwright::catalogue {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+constexpr std::string_view kClearanceLetters = "ABCDEFGNP";
+constexpr std::array kClearances_deg{3.0, 5.0, 7.0, 15.0, 20.0, 25.0, 30.0, 0.0, 11.0};
+
 }  // namespace
 
-std::optional<double> clearance_deg(char letter) {
-  constexpr std::string_view kLetters = "ABCDEFGNP";
-  constexpr std::array kAngles_deg{3.0, 5.0, 7.0, 15.0, 20.0, 25.0, 30.0, 0.0, 11.0};
-  const auto at = kLetters.find(letter);
+std::optional<double> clearance_of_letter_deg(char letter) {
+  const auto at = kClearanceLetters.find(letter);
   if (at == std::string_view::npos) return std::nullopt;
-  return kAngles_deg[at];
+  return kClearances_deg[at];
+}
+
+std::optional<char> clearance_letter(double clearance_deg) {
+  const auto at =
+      std::find(kClearances_deg.begin(), kClearances_deg.end(), clearance_deg);
+  if (at == kClearances_deg.end()) return std::nullopt;
+  return kClearanceLetters[static_cast<std::size_t>(at - kClearances_deg.begin())];
 }
 
 std::string_view Designation::take(std::size_t count) {
@@ -43,6 +54,10 @@ int Designation::take_two_digits() {
 
 bool Designation::digit_follows() const {
   return at_ < text_.size() && is_digit(text_[at_]);
+}
+
+bool Designation::point_follows() const {
+  return at_ < text_.size() && text_[at_] == '.';
 }
 
 void Designation::fail(const std::string& rule) const {

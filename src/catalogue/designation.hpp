@@ -1,13 +1,9 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 
 /// What the designations of inserts and holders have in common.
 namespace turnwright::catalogue {
-
-/// Clearance [deg] of an insert by its letter in ISO 1832 and ISO 5608.
-std::optional<double> clearance_deg(char letter);
 
 /// The symbols of a designation one after the other; spaces may stand between them.
 class Designation {
@@ -20,6 +16,7 @@ class Designation {
   char take_one_of(std::string_view letters);
   int take_two_digits();
   bool digit_follows() const;
+  bool point_follows() const;
   /// @throws std::domain_error naming the symbol taken last.
   [[noreturn]] void fail(const std::string& rule) const;
 

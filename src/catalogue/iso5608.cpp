@@ -1,9 +1,14 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "designation.hpp"
-#include "turnwright/catalogue/tool.hpp"
+#include "turnwright/catalogue/tool_codes.hpp"
 
 namespace turnwright::catalogue {
 namespace {
@@ -20,25 +25,82 @@ constexpr std::array kLengths_mm{32.0,  40.0,  50.0,  60.0,  70.0,  80.0,  90.0,
                                  250.0, 300.0, 350.0, 400.0, 450.0, 500.0};
 static_assert(kLengths.size() == kLengths_mm.size());
 
+constexpr std::string_view kClampings = "CDMPSW", kShapes = "CDEHMOPRSTVW",
+                           kHands = "RLN";
+
+double take_kapr_deg(Designation& reader) {
+  return kStyleKapr_deg[kStyles.find(reader.take_one_of(kStyles))];
+}
+
+double take_clearance_deg(Designation& reader) {
+  const auto clearance = clearance_of_letter_deg(reader.take(1).front());
+  if (!clearance) reader.fail("must be one of ABCDEFGNP");
+  return *clearance;
+}
+
+std::optional<double> take_length_mm(Designation& reader, const std::string& uncoded) {
+  const auto at = kLengths.find(reader.take_one_of(std::string(kLengths) + uncoded));
+  return at == std::string_view::npos ? std::nullopt : std::optional(kLengths_mm[at]);
+}
+
+char length_letter(const std::optional<double>& length_mm) {
+  const auto at = length_mm
+                      ? std::find(kLengths_mm.begin(), kLengths_mm.end(), *length_mm)
+                      : kLengths_mm.end();
+  if (at == kLengths_mm.end()) return 'X';
+  return kLengths[static_cast<std::size_t>(at - kLengths_mm.begin())];
+}
+
 }  // namespace
 
 Holder5608 decode_iso5608(const std::string& designation) {
   Designation reader("decode_iso5608", designation);
   Holder5608 holder;
-  reader.take_one_of("CDMPSW");
-  holder.insert_shape = reader.take_one_of("CDEHMOPRSTVW");
-  holder.kapr_deg = kStyleKapr_deg[kStyles.find(reader.take_one_of(kStyles))];
-  const auto clearance = clearance_deg(reader.take(1).front());
-  if (!clearance) reader.fail("must be one of ABCDEFGNP");
-  holder.clearance_deg = *clearance;
-  holder.hand = reader.take_one_of("RLN");
+  reader.take_one_of(kClampings);
+  holder.insert_shape = reader.take_one_of(kShapes);
+  holder.kapr_deg = take_kapr_deg(reader);
+  holder.clearance_deg = take_clearance_deg(reader);
+  holder.hand = reader.take_one_of(kHands);
   holder.h_mm = reader.take_two_digits();
   holder.b_mm = reader.take_two_digits();
-  const char length = reader.take_one_of(std::string(kLengths) + "X-");
-  if (const auto at = kLengths.find(length); at != std::string_view::npos)
-    holder.lf_mm = kLengths_mm[at];
+  holder.lf_mm = take_length_mm(reader, "X-");
   holder.edge_code = reader.take_two_digits();
   return holder;
+}
+
+std::optional<double> style_kapr_deg(char style) {
+  const auto at = kStyles.find(style);
+  return at == std::string_view::npos ? std::nullopt : std::optional(kStyleKapr_deg[at]);
+}
+
+std::string encode_iso5608(char clamping, char style, const Holder5608& holder) {
+  const auto clearance = clearance_letter(holder.clearance_deg);
+  const auto text =
+      fmt::format("{}{}{}{}{} {:02}{:02}{} {:02}", clamping, holder.insert_shape, style,
+                  clearance.value_or('?'), holder.hand, holder.h_mm, holder.b_mm,
+                  length_letter(holder.lf_mm), holder.edge_code);
+  const auto again = decode_iso5608(text);
+  if (again.h_mm != holder.h_mm || again.b_mm != holder.b_mm ||
+      again.edge_code != holder.edge_code)
+    throw std::domain_error("encode_iso5608: \"" + text +
+                            "\": shank and edge must have two digits");
+  return text;
+}
+
+Bar5609 decode_iso5609(const std::string& designation) {
+  Designation reader("decode_iso5609", designation);
+  Bar5609 bar;
+  bar.shank = reader.take_one_of("ASE");
+  bar.diameter_mm = reader.take_two_digits();
+  if (!(bar.diameter_mm > 0)) reader.fail("must be a diameter above 0 mm");
+  bar.length_mm = take_length_mm(reader, "X");
+  reader.take_one_of(kClampings);
+  bar.insert_shape = reader.take_one_of(kShapes);
+  bar.kapr_deg = take_kapr_deg(reader);
+  bar.clearance_deg = take_clearance_deg(reader);
+  bar.hand = reader.take_one_of(kHands);
+  bar.edge_code = reader.take_two_digits();
+  return bar;
 }
 
 }  // namespace turnwright::catalogue

@@ -24,6 +24,7 @@
 #include "turnwright/document/drawing.hpp"
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/import.hpp"
+#include "turnwright/document/import_tools.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -148,6 +149,10 @@ constexpr const char* kImportExample = R"({
   "name": "Pin", "material": "C45", "machine": "lathe-small", "general": "ISO 2768-mK",
   "stock": {"kind": "bar", "diameter_mm": 52, "length_mm": 76, "left_allowance_mm": 2},
   "text": "d50 h7 x 40 Ra1.6; 1x45; d30 k6 x 32 Ra0.8"})";
+
+constexpr const char* kImportToolsExample = R"({
+  "groups": ["P", "K"],
+  "text": "insert;holder;RE;KAPR\nCNMG 120408;DCLNL 2525M 12;0,8;95\nDNMG 150604;;0,4;93"})";
 
 constexpr const char* kCalibrateExample = R"({
   "material": "C45", "id": "C45-lot-17", "name": "C45, lot 17",
@@ -352,6 +357,12 @@ std::span<const Request> requests() {
       {"import", "STEP, DXF or a line of text -> part document for plan", kImportExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::import(request, context.catalogue);
+       }},
+      {"import-tools",
+       "tool library of Fusion, MTConnect, FreeCAD or CSV -> documents of tools",
+       kImportToolsExample,
+       [](const json& request, const Context&) -> ordered_json {
+         return document::import_tools(request);
        }},
       {"drawing", "part plan -> the part as it is read: surfaces, tolerances, setups",
        kPlanExample, drawing},

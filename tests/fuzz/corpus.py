@@ -5,9 +5,11 @@ as the characters of their numbers), a folder per target for libFuzzer.
 Usage: corpus.py unpack FOLDER   the kept inputs, the schemas' examples and parts/; prints
                                  the targets
        corpus.py pack FOLDER     keeps what is there, the short ones first, 40 kB per target"""
+import io
 import json
 import pathlib
 import sys
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 KEPT = pathlib.Path(__file__).resolve().parent / "corpus"
@@ -41,10 +43,21 @@ def seeds():
     for kind, pattern in ("step", "step/cases/*.step"), ("dxf", "dxf/*.dxf"):
         for drawing in sorted((ROOT / "tests" / "data").glob(pattern)):
             yield f"drawing-{kind}", drawing.read_text()
+    for library in sorted((ROOT / "tests" / "data" / "tools").glob("*.[cjxf]*")):
+        yield "library", library.read_bytes().decode("latin-1")
+        yield "library", zipped(library).decode("latin-1")
     yield "drawing-notation", "d50 h7 x 40 Ra1.6; 1x45; d30 k6 x 32; bore d20 H7 x 60"
     yield "http", http("GET", "/v1/parts/pump-shaft")
     yield "http", ("POST /v1/plan HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n"
                    "\r\n2\r\n{}\r\n0\r\n\r\n")
+
+
+def zipped(file):
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as zip_file:
+        entry = zipfile.ZipInfo("tools.json" if file.suffix == ".json" else file.name)
+        zip_file.writestr(entry, file.read_bytes())
+    return archive.getvalue()
 
 
 def tables(value):

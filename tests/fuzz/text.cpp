@@ -4,6 +4,7 @@
 #include "document/json/file.hpp"
 #include "service/batch/line.hpp"
 #include "targets.hpp"
+#include "turnwright/document/import.hpp"
 
 namespace turnwright::fuzz {
 namespace {
@@ -88,6 +89,10 @@ Target text_target(const std::string& name) {
   if (name.starts_with("drawing-"))
     return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
                                  json::json_pointer("/text")});
+  if (name == "library")
+    return [&row = door_named("import-tools")](std::string_view bytes) {
+      answered(row, document::import_request(std::string(bytes)));
+    };
   if (!name.starts_with("csv-")) return {};
   return in_request(name.substr(4), table_of(door_named(name.substr(4))));
 }

@@ -55,6 +55,25 @@ async function dropped() {
   await page.context().close();
 }
 
+/** A tool library on an open part becomes the part's own tools. */
+async function libraries() {
+  const page = await open(wide);
+  const table = 'id;insert;holder;RE\nR1;CNMG 120408;PCLNL 2525M 12;0,8\nX;;;';
+  await drop(page, 'crib.csv', table);
+  await page.getByText('crib.csv is a tool library: open or start a part first').waitFor();
+  await choose(page, 'pump-shaft');
+  await drop(page, 'crib.csv', 'insert;RE\nCNMG 120408');
+  await page.getByText('line 2: 1 cells').waitFor();
+  await drop(page, 'crib.csv', table);
+  await page.getByText('The life is not said').waitFor();
+  await page.getByText('Its insert is not said').waitFor();
+  assert.deepEqual((await documentOf(page)).tools.map((t) => t.id), ['R1']);
+  await look(page, 'tool-library');
+  await press(page, 'Undo');
+  assert.equal((await documentOf(page)).tools, undefined);
+  await page.context().close();
+}
+
 async function broken() {
   const page = await open(wide);
   const many = { material: 'C45', outer: Array.from({ length: 5000 }, (_, i) => ({ id: `e${i}`, kind: 'cylinder', length_mm: 1, diameter_mm: 20 })) };
@@ -126,5 +145,5 @@ async function means() {
   await page.context().close();
 }
 
-await Promise.all([inTurn(dropped, tabs), inTurn(broken, means)]);
+await Promise.all([inTurn(dropped, libraries, tabs), inTurn(broken, means)]);
 await close();

@@ -5,6 +5,7 @@
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
 #include "turnwright/catalogue/chip_window.hpp"
+#include "turnwright/catalogue/tool_codes.hpp"
 #include "turnwright/catalogue/tool_outline.hpp"
 
 namespace turnwright::document {
@@ -157,15 +158,17 @@ catalogue::Holder read_holder(Reader group, const catalogue::Tool& t) {
   return h;
 }
 
-// The designation must be one of ISO 1832 and agree with the corner radius given.
+// The designation must be one of ISO 1832 and agree with the corner radius given, which may
+// be an inch size.
 void check_insert(Reader& r, const catalogue::Tool& t) {
   if (t.insert.empty()) return;
   try {
-    const double re_mm = catalogue::decode_iso1832(t.insert).re_mm;
-    if (std::abs(re_mm - t.re_mm) > 1e-9)
+    const auto insert = catalogue::decode_iso1832(t.insert);
+    if (std::isfinite(t.re_mm) && !catalogue::is_corner_of(insert, t.re_mm))
       r.problem_at("insert",
                    "a designation whose corner is geometry/re_mm, " +
-                       number_text(t.re_mm) + " mm, not " + number_text(re_mm) + " mm",
+                       number_text(t.re_mm) + " mm, not " + number_text(insert.re_mm) +
+                       " mm",
                    "conflict");
   } catch (const std::domain_error& error) {
     r.problem_at("insert", std::string("an ISO 1832 designation (") + error.what() + ")",

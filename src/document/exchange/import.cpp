@@ -9,6 +9,7 @@
 
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
+#include "given_file.hpp"
 #include "outline.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/exchange/dxf.hpp"
@@ -44,43 +45,6 @@ double bar_mm(double largest_mm) {
   return kStep_mm * std::ceil((largest_mm + kLeast_mm) / kStep_mm);
 }
 
-// The drawing's bytes and the place in the request where they stand.
-struct Given {
-  std::string bytes, pointer;
-};
-
-std::string decoded(const Reader& r) {
-  auto text = r.json().get<std::string>();
-  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
-  const auto pads = static_cast<std::size_t>(std::count(
-      text.end() - std::min<std::ptrdiff_t>(2, std::ssize(text)), text.end(), '='));
-  std::string out(text.size() / 4 * 3, '\0');
-  const int written = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(out.data()),
-                                      reinterpret_cast<const unsigned char*>(text.data()),
-                                      static_cast<int>(text.size()));
-  if (written < 0 || text.empty()) {
-    r.problem("base64 (RFC 4648) of the drawing's bytes", "format");
-    return {};
-  }
-  out.resize(static_cast<std::size_t>(written) - pads);
-  return out;
-}
-
-Given read_bytes(Reader& r) {
-  const bool text = r.has("text"), base64 = r.has("base64");
-  if (text == base64) {
-    r.problem(text ? "text and base64" : "no drawing",
-              "\"text\" with the drawing, or \"base64\" with its bytes", "conflict");
-    r.find("text");
-    r.find("base64");
-    return {};
-  }
-  const Reader at = text ? r.at("text") : r.at("base64");
-  const std::string as_given = at.as_text(kLargestDrawing);
-  if (as_given.empty()) return {};
-  return {text ? as_given : decoded(at), at.pointer()};
-}
-
 // A STEP file and a DXF file say at their beginning what they are.
 Source recognised(const std::string& bytes) {
   const auto begin = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -93,7 +57,7 @@ Source recognised(const std::string& bytes) {
   return code || rest.starts_with("AutoCAD Binary DXF") ? Source::dxf : Source::notation;
 }
 
-Outline read_drawing(const Given& given, Source source,
+Outline read_drawing(const GivenFile& given, Source source,
                      const std::optional<std::string>& body) {
   switch (source) {
     case Source::step:
@@ -279,25 +243,13 @@ void check_part(const ordered_json& part, const json& request, const Catalogue& 
   }
 }
 
-// The place in the drawing goes before what was found there; the pointer is the request's.
-[[noreturn]] void rethrow(const InputError& error, const std::string& pointer) {
-  Problems problems{.document = "import"};
-  for (auto p : error.problems()) {
-    if (!p.pointer.empty()) p.got = p.pointer + ": " + p.got;
-    p.pointer = pointer;
-    problems.add(std::move(p));
-  }
-  problems.throw_if_any();
-  throw error;
-}
-
 }  // namespace
 
 ordered_json import(const json& request, const Catalogue& catalogue) {
   Problems problems{.document = "import"};
   Reader r = Reader(request, problems).as_object();
   read_format(r, "turnwright-import/1");
-  const Given given = read_bytes(r);
+  const auto given = read_given_file(r, "drawing", kLargestDrawing);
   const auto as = r.optional_choice("source", kSources);
   const auto body = r.optional_text("body");
   const Choice choice = read_choice(r);
@@ -309,7 +261,7 @@ ordered_json import(const json& request, const Catalogue& catalogue) {
   try {
     outline = read_drawing(given, source, body);
   } catch (const InputError& error) {
-    rethrow(error, given.pointer);
+    rethrow_at(error, "import", given.pointer);
   }
   Remarks assumed, ignored;
   assumed.add(outline.assumed);

@@ -2,6 +2,7 @@
 // points at the slip.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "document/json/parse.hpp"
@@ -85,8 +86,12 @@ class Slips {
     return {bad.dump(), at.to_string()};
   }
   Slip impossible_number() {
+    const auto is_number = [](const json& v) { return v.is_number(); };
+    if (std::ranges::none_of(pointers_,
+                             [&](const auto& p) { return is_number(good_[p]); }))
+      return other_type();
     auto bad = good_;
-    const auto at = any([](const json& v) { return v.is_number(); });
+    const auto at = any(is_number);
     bad[at] = below(2) == 0 ? json("1") : json(nullptr);
     return {bad.dump(), at.to_string()};
   }

@@ -136,6 +136,12 @@ export class Desk {
     }
   }
 
+  /** What an import into the open part assumed and ignored stays beside it. */
+  remark(remarks: NonNullable<Draft['remarks']>) {
+    if (this.draft) this.draft = { ...this.draft, remarks };
+    this.keep();
+  }
+
   /** The remarks of an import were read. */
   understood() {
     if (this.draft) this.draft = { ...this.draft, remarks: undefined };

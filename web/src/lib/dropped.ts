@@ -1,4 +1,4 @@
-// A file that is dropped or opened: a part document, or a drawing for /v1/import.
+// A file that is dropped or opened: a part document, a drawing for /v1/import, or a tool library for /v1/import-tools.
 import type { Part } from './types';
 
 export const largest_bytes = 100e6;
@@ -6,6 +6,7 @@ export const largest_bytes = 100e6;
 export type Dropped =
   | { kind: 'part'; part: Part }
   | { kind: 'drawing'; request: Part }
+  | { kind: 'library'; request: Part }
   | { kind: 'refused'; why: string };
 
 /** Bytes in base64, in pieces that a call's argument list can take. */
@@ -15,8 +16,8 @@ function base64(bytes: Uint8Array): string {
   return btoa(text);
 }
 
-/** The drawing's text where it is UTF-8, else its bytes. */
-function drawing(bytes: Uint8Array): Part {
+/** The file's text where it is UTF-8, else its bytes. */
+function content(bytes: Uint8Array): Part {
   try {
     return { text: new TextDecoder('utf-8', { fatal: true }).decode(bytes) };
   } catch {
@@ -33,7 +34,8 @@ function document(name: string, text: string): Dropped {
   }
   if (value === null || typeof value !== 'object' || Array.isArray(value))
     return { kind: 'refused', why: `${name} is no part document: expected an object, {..}` };
-  const { format } = value as Part;
+  const { format, data, parameter } = value as Part;
+  if (Array.isArray(data) || parameter !== undefined) return { kind: 'library', request: { text } };
   if (format !== undefined && format !== 'turnwright-part/1')
     return { kind: 'refused', why: `${name} is no part document: its format is ${JSON.stringify(format)}` };
   return { kind: 'part', part: value as Part };
@@ -44,7 +46,8 @@ export function readDropped(name: string, bytes: Uint8Array): Dropped {
   if (bytes.length === 0) return { kind: 'refused', why: `${name} is empty` };
   if (bytes.length > largest_bytes)
     return { kind: 'refused', why: `${name} has ${Math.round(bytes.length / 1e6)} MB, more than ${largest_bytes / 1e6} MB` };
-  const given = drawing(bytes);
+  const given = content(bytes);
+  if (/\.(tools|csv|xml|fctb)$/i.test(name)) return { kind: 'library', request: given };
   const text: string = (given.text ?? '').replace(/^\uFEFF/, '');
   if (/\.json$/i.test(name) || text.trimStart().startsWith('{')) return document(name, text);
   return { kind: 'drawing', request: given };

@@ -24,6 +24,12 @@ export function withMachines(part: Part, machines: Means[]): Part {
 /** The tools to choose from, where the part does not leave the whole catalogue. */
 export const toolsOf = (part: Part): Means[] | undefined => (Array.isArray(part.tools) ? part.tools : undefined);
 
+/** The part with documents of tools in its list, in place of those of the same ids. */
+export function withDocuments(part: Part, documents: Part[]): Part {
+  const ids = new Set(documents.map(idOf));
+  return { ...part, tools: [...(toolsOf(part) ?? []).filter((m) => !ids.has(idOf(m))), ...documents] };
+}
+
 /** The whole catalogue needs no list. */
 export function withTools(part: Part, tools: Means[], catalogue: string[]): Part {
   const { tools: _, ...rest } = part;

@@ -201,6 +201,18 @@ export interface Remark {
   text: string;
 }
 
+/** Tools of a library; a remark may hold for many places. */
+export interface ImportedTools {
+  tools: Part[];
+  assumed: PlacedRemark[];
+  contradictions: PlacedRemark[];
+  ignored: PlacedRemark[];
+}
+export interface PlacedRemark {
+  at: string[];
+  text: string;
+}
+
 export interface Imported {
   part: Part;
   assumed: Remark[];

@@ -5,7 +5,8 @@ import { load } from './load.mjs';
 const { demandOf, demandText } = await load('demand');
 const { fitting, stockFollows } = await load('stock');
 const { begun, redone, stepped, undone } = await load('history');
-const { machinesOf, ticked, toolsOf, withMachines, withTools } = await load('means');
+const { readDropped } = await load('dropped');
+const { machinesOf, ticked, toolsOf, withDocuments, withMachines, withTools } = await load('means');
 const { withMilled } = await load('milled');
 const { handy, withSetup, written } = await load('setups');
 const { at, put } = await load('pointer');
@@ -115,4 +116,20 @@ test('a tolerance of another kind has that kind’s members', () => {
   assert.deepEqual(reformed(runout, 'circularity'), { id: 't', own: 1, kind: 'circularity', of: 'd3', value_mm: 0.04 });
   assert.deepEqual(reformed(runout, 'length'), { id: 't', own: 1, kind: 'length', between: ['left', 'right'], limits_mm: [-0.02, 0.02] });
   assert.deepEqual(reformed(reformed(runout, 'diameter'), 'circularity').value_mm, 0.04);
+});
+
+test('tools of a library take the place of those of their ids', () => {
+  const part = withDocuments({ tools: ['A', 'B', { id: 'C', n: 1 }] }, [{ id: 'C', n: 2 }, { id: 'A' }]);
+  assert.deepEqual(part.tools, ['B', { id: 'C', n: 2 }, { id: 'A' }]);
+  assert.deepEqual(withDocuments({ name: 'x' }, [{ id: 'T' }]), { name: 'x', tools: [{ id: 'T' }] });
+});
+
+test('tool libraries are told from parts and drawings', () => {
+  const kind = (name, text) => readDropped(name, typeof text === 'string' ? new TextEncoder().encode(text) : text).kind;
+  assert.equal(kind('crib.json', '{"data": [], "version": 1}'), 'library');
+  assert.equal(kind('bit.json', '{"parameter": {}}'), 'library');
+  assert.equal(kind('crib.csv', 'insert;RE'), 'library');
+  assert.deepEqual(readDropped('crib.tools', new Uint8Array([0x50, 0x4b, 3, 4, 0xff])), { kind: 'library', request: { base64: 'UEsDBP8=' } });
+  assert.equal(kind('part.json', '{"name": "x"}'), 'part');
+  assert.equal(kind('line.txt', 'd50 x 40'), 'drawing');
 });

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "library_readers.hpp"
+#include "turnwright/catalogue/tool_codes.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using nlohmann::json;
+
+// Parameters of a bit, "6.35 mm" or "45.00 °"; those that cannot be read are collected.
+class Parameters {
+ public:
+  explicit Parameters(const json& bit)
+      : values_(bit.value("parameter", json::object())) {}
+  bool has(const char* key) const { return values_.contains(key); }
+  double length_mm(const char* key) { return read(key, "mm"); }
+  double angle_deg(const char* key) { return read(key, "deg"); }
+  const std::string& wrong() const { return wrong_; }
+
+ private:
+  static std::optional<double> factor(std::string_view unit, std::string_view wanted) {
+    if (unit.empty()) return 1;
+    if (wanted == "mm") return unit_mm(unit);
+    return unit == "°" || unit == "deg" ? std::optional(1.0) : std::nullopt;
+  }
+  double read(const char* key, const char* wanted) {
+    const json value = values_.value(key, json());
+    std::optional<double> number;
+    if (value.is_number()) number = value.get<double>();
+    if (value.is_string()) {
+      const auto& text = value.get_ref<const std::string&>();
+      const auto given = quantity(text);
+      const auto times = given ? factor(given->unit, wanted) : std::nullopt;
+      if (times) number = given->value * *times;
+    }
+    if (number && *number > 0) return *number;
+    wrong_ += fmt::format("{}parameter/{}: got {}, expected a number > 0 {}",
+                          wrong_.empty() ? "" : "; ", key, shown(value), wanted);
+    return 0;
+  }
+  json values_;
+  std::string wrong_;
+};
+
+std::optional<char> shape_by_angle(double tip_deg) {
+  constexpr double kTyped_deg = 0.5;
+  for (const char shape : {'C', 'D', 'V', 'T', 'S', 'E', 'M', 'P', 'H', 'O'})
+    if (std::abs(*catalogue::included_angle_deg(shape) - tip_deg) < kTyped_deg)
+      return shape;
+  return std::nullopt;
+}
+
+std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
+  Parameters parameters(bit);
+  if (!parameters.has("TipAngle") || !parameters.has("EdgeLength")) {
+    why = "It is no turning bit, which has TipAngle, EdgeLength, TipRadius and Rotation.";
+    return std::nullopt;
+  }
+  LibraryTool t;
+  const auto name = bit.value("name", json());
+  if (name.is_string()) t.name = name.get<std::string>();
+  t.texts = {t.name};
+  const double tip_deg = parameters.angle_deg("TipAngle");
+  t.IC_mm = parameters.length_mm("EdgeLength");
+  t.RE_mm = parameters.length_mm("TipRadius");
+  t.KAPR_deg = 180 - parameters.angle_deg("Rotation") - tip_deg / 2;  // Eq. (1)
+  t.SC = shape_by_angle(tip_deg);
+  // A trigon has the corner of a rhombus of 80 deg.
+  if (t.SC == 'C' && t.name.starts_with('W')) t.SC = 'W';
+  if (!parameters.wrong().empty())
+    why = "It cannot be read: " + parameters.wrong() + ".";
+  else if (!t.SC)
+    why = fmt::format("No insert of ISO 1832 has a corner of {:g} deg.", tip_deg);
+  return why.empty() ? std::optional(t) : std::nullopt;
+}
+
+}  // namespace
+
+ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits) {
+  ToolLibrary out;
+  for (const auto& [name, value] : bits) {
+    std::string why;
+    auto tool = value->is_object() && value->value("parameter", json()).is_object()
+                    ? read_bit(*value, why)
+                    : std::nullopt;
+    if (tool) {
+      tool->at = name;
+      out.tools.push_back(std::move(*tool));
+    } else {
+      out.ignored.push_back(
+          {name, why.empty() ? "It is no bit of FreeCAD, {\"parameter\": {..}}." : why});
+    }
+  }
+  return out;
+}
+
+}  // namespace turnwright::document
