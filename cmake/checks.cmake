@@ -55,7 +55,7 @@ set_tests_properties(format.clang-format PROPERTIES
 
 add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/install-test
-  -D CONSUMER=${PROJECT_SOURCE_DIR}/tests/install -D GENERATOR=${CMAKE_GENERATOR}
+  -D EXAMPLES=${PROJECT_SOURCE_DIR}/examples -D GENERATOR=${CMAKE_GENERATOR}
   -D SANITIZE=$<JOIN:${TURNWRIGHT_SANITIZE},$<COMMA>>
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
