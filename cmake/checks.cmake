@@ -90,6 +90,29 @@ if(NOT TURNWRIGHT_SANITIZE)  # which takes terabytes of address space
   set_tests_properties(service.attacks PROPERTIES TIMEOUT 600)
 endif()
 
+# The Python package, made into a wheel and installed in a fresh environment.  A library with
+# sanitizers cannot be loaded into a Python without them.
+if(NOT TURNWRIGHT_SANITIZE)
+  set(python ${PROJECT_SOURCE_DIR}/tests/python)
+  set(python_work ${PROJECT_BINARY_DIR}/python-test)
+  add_test(NAME python.wheel COMMAND bash ${python}/wheel.bash ${PROJECT_SOURCE_DIR}/python
+    ${PROJECT_BINARY_DIR} ${python_work})
+  set_tests_properties(python.wheel PROPERTIES FIXTURES_SETUP python)
+  file(GLOB notebooks CONFIGURE_DEPENDS examples/notebooks/*.ipynb)
+  add_test(NAME python.capabilities COMMAND bash ${python}/inside.bash ${python_work}
+    ${python}/capabilities_test.py)
+  add_test(NAME python.notebooks COMMAND bash ${python}/inside.bash ${python_work}
+    ${python}/notebook_test.py ${notebooks})
+  add_test(NAME python.load CONFIGURATIONS slow COMMAND bash ${python}/inside.bash
+    ${python_work} ${python}/load_test.py)
+  set(inside python.capabilities python.notebooks python.load)
+  set_tests_properties(${inside} PROPERTIES FIXTURES_REQUIRED python
+    ENVIRONMENT TURNWRIGHT_PROGRAM=$<TARGET_FILE:turnwright>)
+  set_tests_properties(python.wheel ${inside} PROPERTIES LABELS python TIMEOUT 600
+    SKIP_REGULAR_EXPRESSION "SKIPPED")
+  set_tests_properties(python.load PROPERTIES LABELS "python;slow")
+endif()
+
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>

@@ -12,7 +12,7 @@ if(NOT version MATCHES "version 14\\.")
 endif()
 
 set(files "")
-foreach(folder IN ITEMS include src tests bench)
+foreach(folder IN ITEMS include src tests bench examples)
   file(GLOB_RECURSE found ${ROOT}/${folder}/*.[ch]pp)
   list(APPEND files ${found})
 endforeach()
