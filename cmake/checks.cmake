@@ -126,6 +126,13 @@ add_test(NAME package.completion COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/completion.bash $<TARGET_FILE_DIR:turnwright>
   ${PROJECT_SOURCE_DIR}/packaging/turnwright.bash-completion)
 set_tests_properties(package.deb PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
+add_test(NAME package.version COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR}
+  -D VERSION=${PROJECT_VERSION} -P ${PROJECT_SOURCE_DIR}/tests/package/version.cmake)
+add_test(NAME package.reproducible CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/reproducible.bash ${PROJECT_BINARY_DIR}
+  ${PROJECT_BINARY_DIR}/reproducible-test)
+set_tests_properties(package.reproducible PROPERTIES LABELS slow TIMEOUT 600
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
 # A whole Debian is fetched: only `ctest -C slow` does that.
 add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/clean_root.bash ${PROJECT_BINARY_DIR}
