@@ -110,9 +110,15 @@ if(NOT TURNWRIGHT_SANITIZE)
     ENVIRONMENT TURNWRIGHT_PROGRAM=$<TARGET_FILE:turnwright>)
   set_tests_properties(python.wheel ${inside} PROPERTIES LABELS python TIMEOUT 600
     SKIP_REGULAR_EXPRESSION "SKIPPED")
-  set_tests_properties(python.load PROPERTIES LABELS "python;slow")
+  set_tests_properties(python.load PROPERTIES LABELS "python;slow" TIMEOUT 1800)
 endif()
 
+# The documentation as a folder: no broken link, and search works without a server.
+add_test(NAME docs.site CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/site.bash ${PROJECT_SOURCE_DIR}/scripts/site
+  ${PROJECT_BINARY_DIR}/site-test)
+set_tests_properties(docs.site PROPERTIES LABELS slow TIMEOUT 600
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
@@ -136,7 +142,8 @@ set_tests_properties(package.reproducible PROPERTIES LABELS slow TIMEOUT 600
 # A whole Debian is fetched: only `ctest -C slow` does that.
 add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/clean_root.bash ${PROJECT_BINARY_DIR}
-  ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)
+  ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json
+  ${PROJECT_SOURCE_DIR}/examples)
 set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
   SKIP_REGULAR_EXPRESSION "SKIPPED")
 

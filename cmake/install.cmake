@@ -29,6 +29,10 @@ install(FILES packaging/turnwright.bash-completion RENAME turnwright
 configure_file(packaging/turnwright.service turnwright.service @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/turnwright.service DESTINATION lib/systemd/system
         COMPONENT program)
+# The documentation as HTML, where `cmake --build build/release --target site` has made it.
+add_custom_target(site COMMAND ${PROJECT_SOURCE_DIR}/scripts/site ${PROJECT_BINARY_DIR}/site)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/site/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html
+        COMPONENT program OPTIONAL)
 install(FILES packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 install(DIRECTORY include/turnwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -1,10 +1,10 @@
 # Installs the .deb with apt into a fresh Debian 12; plans and serves there as a user
-# without rights, from a folder of his own; removes it, and compares the root with what it
-# was before.
-# Usage: clean_root.bash BUILD_FOLDER WORK_FOLDER PART.json
+# without rights, from a folder of his own; installs the libraries' packages and builds the
+# examples with them; removes all, and compares the root with what it was before.
+# Usage: clean_root.bash BUILD_FOLDER WORK_FOLDER PART.json EXAMPLES
 set -euo pipefail
 PATH=$PATH:/usr/sbin:/sbin
-build=$1 work=$2 part=$3
+build=$1 work=$2 part=$3 examples=$4
 mirror=http://deb.debian.org/debian
 
 skip() { echo "SKIPPED: NOT CHECKED in a clean root: $1"; exit 0; }
@@ -19,7 +19,7 @@ root=$work/root
 cpack --config "$build/CPackConfig.cmake" -B "$work/deb" > "$work/log" 2>&1
 debootstrap --variant=minbase bookworm "$root" "$mirror" >> "$work/log" 2>&1 ||
   skip "no Debian from $mirror: $(tail -n 1 "$work/log")"
-cp "$work"/deb/turnwright_*.deb "$part" "$root/root/"
+cp -r "$work"/deb/*.deb "$part" "$examples" "$root/root/"
 cp /etc/resolv.conf "$root/etc/"
 
 inside() { # in a mount namespace of its own with /proc
@@ -56,7 +56,12 @@ wait $!
 USE
 inside setpriv --reuid=nobody --regid=nogroup --clear-groups bash /tmp/use
 inside test -f /lib/systemd/system/turnwright.service
-inside sh -c 'apt-get purge -y --autoremove turnwright'
+inside sh -c 'apt-get install -y --no-install-recommends /root/libturnwright*.deb g++ cmake make pkg-config'
+inside sh -c 'cmake -S /root/examples -B /tmp/examples && cmake --build /tmp/examples &&
+  /tmp/examples/planning /root/*.json | grep per.part'
+inside sh -c 'cd /tmp && cc /root/examples/answer.c $(pkg-config --cflags --libs turnwright) -o answer &&
+  ldd ./answer && echo "{}" | ./answer plan | grep pointer'
+inside sh -c 'apt-get purge -y --autoremove turnwright libturnwright0 libturnwright-dev g++ cmake make pkg-config'
 files > "$work/after"
 diff "$work/before" "$work/after" || { echo "left behind or lost"; exit 1; }
 rm -rf "$root"
