@@ -109,6 +109,10 @@ if(BUILD_TESTING)
   set_target_properties(library_test PROPERTIES UNITY_BUILD OFF)
   target_link_libraries(library_test PRIVATE turnwright::library tw_dev Threads::Threads)
   add_test(NAME library.from_c COMMAND library_test ${PROJECT_SOURCE_DIR} ${PROJECT_VERSION})
+  add_test(NAME library.symbols COMMAND ${CMAKE_NM} --dynamic --defined-only
+    $<TARGET_FILE:turnwright_library>)
+  set_tests_properties(library.symbols PROPERTIES PASS_REGULAR_EXPRESSION "T turnwright_answer"
+    FAIL_REGULAR_EXPRESSION " [A-Z] [^tT]| T [^t]| T t[^u]")
 
   file(GLOB app_tests CONFIGURE_DEPENDS tests/app/*_test.cpp)
   add_executable(app_test ${app_tests})

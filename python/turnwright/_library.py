@@ -129,13 +129,19 @@ def _interruptible(call, stop):
     """The call's result.  The main thread waits for it, so that it hears Ctrl-C."""
     if threading.current_thread() is not threading.main_thread():
         return call()
-    result = []
-    worker = threading.Thread(target=lambda: result.append(call()))
-    worker.start()
+    result, returned = [], threading.Event()
+
+    def work():
+        result.append(call())
+        returned.set()
+
+    worker = threading.Thread(target=work)
     try:
-        worker.join()
+        worker.start()
+        returned.wait()  # not join(), which takes a thread for ended once it was interrupted
     except BaseException:
         stop.request()
-        worker.join()
+        if worker.ident is not None:  # it was started
+            returned.wait()
         raise
     return result[0]

@@ -1,3 +1,4 @@
+#include <cxxabi.h>
 #include <turnwright/turnwright.h>
 
 #include <cstdlib>
@@ -68,13 +69,15 @@ char* given(const ordered_json& document) {
 
 /// Fills `place` with what `work` comes to, and lets no exception pass.
 template <class Work>
-int hand_out(char** place, const Work& work) noexcept {
+int hand_out(char** place, const Work& work) {
   *place = nullptr;
   try {
     const auto outcome = told(work);
     if (!outcome.document.is_null() && !(*place = given(outcome.document)))
       return TURNWRIGHT_INTERNAL;
     return outcome.status;
+  } catch (const abi::__forced_unwind&) {
+    throw;  // no exception: the thread is being cancelled, by pthread_exit() in `progress`
   } catch (...) {
     return TURNWRIGHT_INTERNAL;
   }

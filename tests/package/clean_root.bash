@@ -44,7 +44,7 @@ set -e
 cd '/tmp/a folder'
 turnwright --version
 turnwright plan part.json -o plan.json --report plan.html --drawings d --nc nc
-grep -q '"status": "ok"' plan.json && grep -q '<h1>' plan.html && ls nc/setup-1.ngc d/setup-0.svg
+grep -q '"status": "ok"' plan.json && grep -q '<h1>' plan.html && ls nc/setup-1.ngc d/setup-1.svg
 turnwright list machines | grep lathe-medium
 HOME=$PWD turnwright serve --port 0 > said 2> log &
 while ! grep http said; do kill -0 $!; sleep 0.1; done
