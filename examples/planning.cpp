@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   using namespace turnwright;
   if (argc != 2) return 2;
   std::ifstream file(argv[1]);
-  const auto catalogue = document::load_catalogue(document::data_folder());
+  const auto catalogue = document::load_catalogue(CATALOGUE);
   const auto part =
       document::prepared_part(nlohmann::json::parse(file), catalogue, argv[1]);
   const auto plan = planning::plan(part.part);
