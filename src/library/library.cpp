@@ -7,8 +7,11 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "data_beside.hpp"
 #include "document/json/parse.hpp"
