@@ -1,6 +1,6 @@
 # Installs the .deb with apt into a fresh Debian 12; plans and serves there as a user
-# without rights, from a folder of his own; installs the libraries' packages and builds the
-# examples with them; removes all, and compares the root with what it was before.
+# without rights, from a folder of his own; removes it, and compares the root with what it
+# was before.  Then installs it with the libraries' packages and builds the examples.
 # Usage: clean_root.bash BUILD_FOLDER WORK_FOLDER PART.json EXAMPLES
 set -euo pipefail
 PATH=$PATH:/usr/sbin:/sbin
@@ -56,13 +56,14 @@ wait $!
 USE
 inside setpriv --reuid=nobody --regid=nogroup --clear-groups bash /tmp/use
 inside test -f /lib/systemd/system/turnwright.service
-inside sh -c 'apt-get install -y --no-install-recommends /root/libturnwright*.deb g++ cmake make pkg-config'
+inside sh -c 'apt-get purge -y --autoremove turnwright'
+files > "$work/after"
+diff "$work/before" "$work/after" || { echo "left behind or lost"; exit 1; }
+
+inside sh -c 'apt-get install -y --no-install-recommends /root/*.deb g++ cmake make pkg-config'
 inside sh -c 'cmake -S /root/examples -B /tmp/examples && cmake --build /tmp/examples &&
   /tmp/examples/planning /root/*.json | grep per.part'
 inside sh -c 'cd /tmp && cc /root/examples/answer.c $(pkg-config --cflags --libs turnwright) -o answer &&
   ldd ./answer && echo "{}" | ./answer plan | grep pointer'
-inside sh -c 'apt-get purge -y --autoremove turnwright libturnwright0 libturnwright-dev g++ cmake make pkg-config'
-files > "$work/after"
-diff "$work/before" "$work/after" || { echo "left behind or lost"; exit 1; }
 rm -rf "$root"
-echo "clean root: installed, used and removed without a trace"
+echo "clean root: installed, used, removed without a trace; examples built with the libraries"
