@@ -55,7 +55,7 @@ set_tests_properties(format.clang-format PROPERTIES
 
 add_test(NAME install.find_package COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/install-test
-  -D CONSUMER=${PROJECT_SOURCE_DIR}/tests/install -D GENERATOR=${CMAKE_GENERATOR}
+  -D EXAMPLES=${PROJECT_SOURCE_DIR}/examples -D GENERATOR=${CMAKE_GENERATOR}
   -D SANITIZE=$<JOIN:${TURNWRIGHT_SANITIZE},$<COMMA>>
   -P ${PROJECT_SOURCE_DIR}/tests/install/run.cmake)
 set_tests_properties(install.find_package PROPERTIES TIMEOUT 600)
@@ -90,6 +90,35 @@ if(NOT TURNWRIGHT_SANITIZE)  # which takes terabytes of address space
   set_tests_properties(service.attacks PROPERTIES TIMEOUT 600)
 endif()
 
+# The Python package, made into a wheel and installed in a fresh environment.  A library with
+# sanitizers cannot be loaded into a Python without them.
+if(NOT TURNWRIGHT_SANITIZE)
+  set(python ${PROJECT_SOURCE_DIR}/tests/python)
+  set(python_work ${PROJECT_BINARY_DIR}/python-test)
+  add_test(NAME python.wheel COMMAND bash ${python}/wheel.bash ${PROJECT_SOURCE_DIR}/python
+    ${PROJECT_BINARY_DIR} ${python_work})
+  set_tests_properties(python.wheel PROPERTIES FIXTURES_SETUP python)
+  file(GLOB notebooks CONFIGURE_DEPENDS examples/notebooks/*.ipynb)
+  add_test(NAME python.capabilities COMMAND bash ${python}/inside.bash ${python_work}
+    ${python}/capabilities_test.py)
+  add_test(NAME python.notebooks COMMAND bash ${python}/inside.bash ${python_work}
+    ${python}/notebook_test.py ${notebooks})
+  add_test(NAME python.load CONFIGURATIONS slow COMMAND bash ${python}/inside.bash
+    ${python_work} ${python}/load_test.py)
+  set(inside python.capabilities python.notebooks python.load)
+  set_tests_properties(${inside} PROPERTIES FIXTURES_REQUIRED python
+    ENVIRONMENT TURNWRIGHT_PROGRAM=$<TARGET_FILE:turnwright>)
+  set_tests_properties(python.wheel ${inside} PROPERTIES LABELS python TIMEOUT 600
+    SKIP_REGULAR_EXPRESSION "SKIPPED")
+  set_tests_properties(python.load PROPERTIES LABELS "python;slow" TIMEOUT 1800)
+endif()
+
+# The documentation as a folder: no broken link, and search works without a server.
+add_test(NAME docs.site CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/site.bash ${PROJECT_SOURCE_DIR}/scripts/site
+  ${PROJECT_BINARY_DIR}/site-test)
+set_tests_properties(docs.site PROPERTIES LABELS slow TIMEOUT 600
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
@@ -103,10 +132,18 @@ add_test(NAME package.completion COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/completion.bash $<TARGET_FILE_DIR:turnwright>
   ${PROJECT_SOURCE_DIR}/packaging/turnwright.bash-completion)
 set_tests_properties(package.deb PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
+add_test(NAME package.version COMMAND ${CMAKE_COMMAND} -D ROOT=${PROJECT_SOURCE_DIR}
+  -D VERSION=${PROJECT_VERSION} -P ${PROJECT_SOURCE_DIR}/tests/package/version.cmake)
+add_test(NAME package.reproducible CONFIGURATIONS slow COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/package/reproducible.bash ${PROJECT_BINARY_DIR}
+  ${PROJECT_BINARY_DIR}/reproducible-test)
+set_tests_properties(package.reproducible PROPERTIES LABELS slow TIMEOUT 600
+  SKIP_REGULAR_EXPRESSION "SKIPPED")
 # A whole Debian is fetched: only `ctest -C slow` does that.
 add_test(NAME package.clean-root CONFIGURATIONS slow COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/package/clean_root.bash ${PROJECT_BINARY_DIR}
-  ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json)
+  ${PROJECT_BINARY_DIR}/clean-root-test ${PROJECT_SOURCE_DIR}/parts/pump-shaft.json
+  ${PROJECT_SOURCE_DIR}/examples)
 set_tests_properties(package.clean-root PROPERTIES LABELS slow TIMEOUT 1800
   SKIP_REGULAR_EXPRESSION "SKIPPED")
 

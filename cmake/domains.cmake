@@ -85,7 +85,36 @@ file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
 add_executable(turnwright ${app_sources})
 target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
 
+# libturnwright, the request table as C functions.
+file(RELATIVE_PATH data_from_lib
+  /prefix/${CMAKE_INSTALL_LIBDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
+set_source_files_properties(src/library/data_beside.cpp PROPERTIES COMPILE_DEFINITIONS
+  "TURNWRIGHT_DATA_FROM_LIB=\"${data_from_lib}\"")
+file(GLOB library_sources CONFIGURE_DEPENDS src/library/*.cpp)
+set(exports ${PROJECT_SOURCE_DIR}/src/library/exports.map)
+add_library(turnwright_library SHARED ${library_sources})
+add_library(turnwright::library ALIAS turnwright_library)
+set_target_properties(turnwright_library PROPERTIES OUTPUT_NAME turnwright EXPORT_NAME library
+  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINK_DEPENDS ${exports}
+  UNITY_BUILD OFF)
+tw_for_shared_library(turnwright_library)
+target_include_directories(turnwright_library PUBLIC
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+target_link_libraries(turnwright_library PRIVATE turnwright::service tw_dev ${CMAKE_DL_LIBS})
+target_link_options(turnwright_library PRIVATE LINKER:--as-needed
+  LINKER:--version-script=${exports})
+tw_reuse_headers(turnwright_library tw_headers)
+
 if(BUILD_TESTING)
+  add_executable(library_test tests/library/library_test.c)
+  set_target_properties(library_test PROPERTIES UNITY_BUILD OFF)
+  target_link_libraries(library_test PRIVATE turnwright::library tw_dev Threads::Threads)
+  add_test(NAME library.from_c COMMAND library_test ${PROJECT_SOURCE_DIR} ${PROJECT_VERSION})
+  add_test(NAME library.symbols COMMAND ${CMAKE_NM} --dynamic --defined-only
+    $<TARGET_FILE:turnwright_library>)
+  set_tests_properties(library.symbols PROPERTIES PASS_REGULAR_EXPRESSION "T turnwright_answer"
+    FAIL_REGULAR_EXPRESSION " [A-Z] [^tT]| T [^t]| T t[^u]")
+
   file(GLOB app_tests CONFIGURE_DEPENDS tests/app/*_test.cpp)
   add_executable(app_test ${app_tests})
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)

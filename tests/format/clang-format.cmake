@@ -1,4 +1,4 @@
-# Every C++ file is as clang-format 14 (Debian 12) leaves it; other versions differ.
+# Every file in C and C++ is as clang-format 14 (Debian 12) leaves it; other versions differ.
 #   cmake -D ROOT=<source folder> -P clang-format.cmake
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 if(NOT CLANG_FORMAT)
@@ -12,8 +12,8 @@ if(NOT version MATCHES "version 14\\.")
 endif()
 
 set(files "")
-foreach(folder IN ITEMS include src tests bench)
-  file(GLOB_RECURSE found ${ROOT}/${folder}/*.[ch]pp)
+foreach(folder IN ITEMS include src tests bench examples)
+  file(GLOB_RECURSE found ${ROOT}/${folder}/*.[ch] ${ROOT}/${folder}/*.[ch]pp)
   list(APPEND files ${found})
 endforeach()
 execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${files}

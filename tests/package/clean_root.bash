@@ -1,10 +1,10 @@
 # Installs the .deb with apt into a fresh Debian 12; plans and serves there as a user
 # without rights, from a folder of his own; removes it, and compares the root with what it
-# was before.
-# Usage: clean_root.bash BUILD_FOLDER WORK_FOLDER PART.json
+# was before.  Then installs it with the libraries' packages and builds the examples.
+# Usage: clean_root.bash BUILD_FOLDER WORK_FOLDER PART.json EXAMPLES
 set -euo pipefail
 PATH=$PATH:/usr/sbin:/sbin
-build=$1 work=$2 part=$3
+build=$1 work=$2 part=$3 examples=$4
 mirror=http://deb.debian.org/debian
 
 skip() { echo "SKIPPED: NOT CHECKED in a clean root: $1"; exit 0; }
@@ -19,7 +19,7 @@ root=$work/root
 cpack --config "$build/CPackConfig.cmake" -B "$work/deb" > "$work/log" 2>&1
 debootstrap --variant=minbase bookworm "$root" "$mirror" >> "$work/log" 2>&1 ||
   skip "no Debian from $mirror: $(tail -n 1 "$work/log")"
-cp "$work"/deb/turnwright_*.deb "$part" "$root/root/"
+cp -r "$work"/deb/*.deb "$part" "$examples" "$root/root/"
 cp /etc/resolv.conf "$root/etc/"
 
 inside() { # in a mount namespace of its own with /proc
@@ -44,7 +44,7 @@ set -e
 cd '/tmp/a folder'
 turnwright --version
 turnwright plan part.json -o plan.json --report plan.html --drawings d --nc nc
-grep -q '"status": "ok"' plan.json && grep -q '<h1>' plan.html && ls nc/setup-1.ngc d/setup-0.svg
+grep -q '"status": "ok"' plan.json && grep -q '<h1>' plan.html && ls nc/setup-1.ngc d/setup-1.svg
 turnwright list machines | grep lathe-medium
 HOME=$PWD turnwright serve --port 0 > said 2> log &
 while ! grep http said; do kill -0 $!; sleep 0.1; done
@@ -59,5 +59,11 @@ inside test -f /lib/systemd/system/turnwright.service
 inside sh -c 'apt-get purge -y --autoremove turnwright'
 files > "$work/after"
 diff "$work/before" "$work/after" || { echo "left behind or lost"; exit 1; }
+
+inside sh -c 'apt-get install -y --no-install-recommends /root/*.deb g++ cmake make pkg-config'
+inside sh -c 'cmake -S /root/examples -B /tmp/examples && cmake --build /tmp/examples &&
+  /tmp/examples/planning /root/*.json | grep per.part'
+inside sh -c 'cd /tmp && cc /root/examples/answer.c $(pkg-config --cflags --libs turnwright) -o answer &&
+  ldd ./answer && echo "{}" | ./answer plan | grep pointer'
 rm -rf "$root"
-echo "clean root: installed, used and removed without a trace"
+echo "clean root: installed, used, removed without a trace; examples built with the libraries"

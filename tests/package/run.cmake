@@ -27,7 +27,11 @@ function(expect text pattern)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
-run(cpack --config ${BUILD_DIR}/CPackConfig.cmake -B ${WORK_DIR})
+run(cpack --config ${BUILD_DIR}/CPackConfig.cmake -B ${WORK_DIR}
+    -D "CPACK_COMPONENTS_ALL=program\;library")
+file(GLOB of_library ${WORK_DIR}/libturnwright0_*.deb)
+run(dpkg-deb --contents ${of_library})
+expect("${output}" "libturnwright\\.so\\.0 ->")
 file(GLOB deb ${WORK_DIR}/turnwright_*.deb)
 run(dpkg-deb --field ${deb} Depends)
 expect("${output}" "libc6.*libstdc\\+\\+6")

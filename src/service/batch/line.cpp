@@ -5,6 +5,7 @@
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
 #include "service/digest.hpp"
+#include "service/problem_list.hpp"
 #include "turnwright/base/cancelled.hpp"
 
 namespace turnwright::service {
@@ -16,16 +17,6 @@ std::vector<std::string> row_names() {
   std::vector<std::string> names;
   for (const auto& row : requests()) names.push_back(row.name);
   return names;
-}
-
-ordered_json problem_list(const InputError& error) {
-  auto list = ordered_json::array();
-  for (const auto& problem : error.problems())
-    list.push_back({{"pointer", problem.pointer},
-                    {"got", problem.got},
-                    {"expected", problem.expected},
-                    {"code", problem.code}});
-  return list;
 }
 
 // What came may hold bytes that are no UTF-8; they are shown as U+FFFD.
@@ -76,7 +67,7 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context) {
     return {one_line({{"name", name},
                       {"status", "error"},
                       {"title", "wrong input"},
-                      {"errors", problem_list(error)}}),
+                      {"errors", problem_list(error.problems())}}),
             BatchStatus::error};
   } catch (const ModelRangeError& error) {
     return failed(name, "outside a model's range", error.what());
@@ -92,7 +83,7 @@ BatchRecord batch_record(const BatchRequest& request, const Context& context) {
 BatchRecord batch_record(const InputError& error) {
   return {one_line({{"status", "error"},
                     {"title", "wrong line"},
-                    {"errors", problem_list(error)}}),
+                    {"errors", problem_list(error.problems())}}),
           BatchStatus::error};
 }
 

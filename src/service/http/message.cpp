@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "service/problem_list.hpp"
+
 namespace turnwright::service {
 namespace {
 
@@ -144,11 +146,7 @@ Reply problem(int status, const std::string& kind, const std::string& detail,
                                   {"status", status},
                                   {"detail", detail},
                                   {"instance", "urn:turnwright:call:" + call.request_id}};
-  for (const auto& error : errors)
-    document["errors"].push_back({{"pointer", error.pointer},
-                                  {"got", error.got},
-                                  {"expected", error.expected},
-                                  {"code", error.code}});
+  if (!errors.empty()) document["errors"] = problem_list(errors);
   // What came may hold bytes that are no UTF-8; they are shown as U+FFFD.
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   return {status,
