@@ -75,7 +75,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libturnwright${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})" libboost1.74-dev libeigen3-dev
   libfmt-dev libnlopt-dev libnlopt-cxx-dev libspdlog-dev libsqlite3-dev libsqlitecpp-dev libssl-dev
-  libtbb-dev libvalijson-dev nlohmann-json3-dev prometheus-cpp-dev zlib1g-dev)
+  libpugixml-dev libtbb-dev libvalijson-dev libzip-dev nlohmann-json3-dev prometheus-cpp-dev
+  zipcmp zipmerge ziptool zlib1g-dev)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
