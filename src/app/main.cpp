@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -272,7 +273,17 @@ std::vector<service::Entry> entries(const Arguments& arguments) {
   return service::list_materials(catalogue);
 }
 
+constexpr std::array kLists{"materials", "tools", "machines", "parts", "schemas"};
+
+// Without a list to print: which lists there are.
+Exit run_lists() {
+  for (const char* list : kLists)
+    service::print(std::string("turnwright list ") + list + '\n');
+  return kOk;
+}
+
 Exit run_list(const Arguments& arguments) {
+  if (arguments.listed.empty()) return run_lists();
   const auto list = entries(arguments);
   std::size_t width = 0;
   for (const auto& entry : list) width = std::max(width, entry.id.size());
@@ -326,9 +337,8 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
 void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
   list->add_option("WHAT", arguments.listed,
-                   "materials, tools, machines, parts or schemas")
-      ->required()
-      ->check(CLI::IsMember({"materials", "tools", "machines", "parts", "schemas"}));
+                   "materials, tools, machines, parts or schemas; without it, these")
+      ->check(CLI::IsMember(std::vector<std::string>(kLists.begin(), kLists.end())));
   list->footer("Example:\n  turnwright list materials");
   list->callback(
       [&arguments, &chosen] { chosen = [&arguments] { return run_list(arguments); }; });
@@ -343,6 +353,32 @@ void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chose
       return kOk;
     };
   });
+}
+
+// A first part document, which an editor completes by its schema.
+Exit run_new(const Arguments& arguments) {
+  const auto schema = document::data_folder(arguments.data) / "schemas" / "part.json";
+  nlohmann::ordered_json part{{"$schema", schema.string()}};
+  part.update(nlohmann::ordered_json::parse(service::find_request("plan")->example));
+  const auto text = part.dump(2) + '\n';
+  if (!arguments.result_file || *arguments.result_file == "-") {
+    service::print(text);
+    return kOk;
+  }
+  if (fs::exists(*arguments.result_file))
+    throw wrong_option("--output", arguments.result_file->string(),
+                       "a file that is not there yet", "exists");
+  service::write_file(*arguments.result_file, text);
+  return kOk;
+}
+
+void add_new(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
+  auto* command = app.add_subcommand("new", "a first part document to change and plan");
+  add_path(*command, "-o,--output", arguments.result_file,
+           "write it here; - is standard output", Dash::is_standard_output);
+  command->footer("Example:\n  turnwright new | turnwright plan -");
+  command->callback(
+      [&arguments, &chosen] { chosen = [&arguments] { return run_new(arguments); }; });
 }
 
 /// Reports an unknown command.
@@ -371,7 +407,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   add_path(app, "--data", arguments.data, "folder with materials/, tools/ and machines/");
   std::string examples =
-      "Examples:\n  turnwright list parts\n  turnwright schema part\n"
+      "Examples:\n  turnwright new\n  turnwright list parts\n"
+      "  turnwright schema part\n"
       "  turnwright batch --help\n  turnwright serve --help\n"
       "  turnwright mcp --help\n";
   for (const auto& row : service::requests())
@@ -384,6 +421,7 @@ int run(int argc, char** argv) {
   std::function<Exit()> chosen;
   add_commands(app, arguments, chosen);
   add_lists(app, arguments, chosen);
+  add_new(app, arguments, chosen);
   const auto choose = [&chosen](std::function<void()> work) {
     chosen = [work = std::move(work)] {
       work();
@@ -395,6 +433,10 @@ int run(int argc, char** argv) {
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
   add_mcp(app, arguments.data, choose);
+  if (argc == 1) {
+    service::print(app.help());
+    return kOk;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

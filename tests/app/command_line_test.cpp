@@ -64,7 +64,8 @@ TEST_F(CommandLine, TellsItsVersion) {
 }
 
 TEST_F(CommandLine, EveryHelpShowsExamplesThatRun) {
-  std::vector<std::string> helps{"turnwright --help", "turnwright list --help"};
+  std::vector<std::string> helps{"turnwright --help", "turnwright list --help",
+                                 "turnwright new --help"};
   for (const auto& row : service::requests())
     helps.push_back("turnwright " + row.name + " --help");
   for (const auto& help : helps) {
@@ -84,8 +85,8 @@ TEST_F(CommandLine, EveryHelpShowsExamplesThatRun) {
 
 TEST_F(CommandLine, RefusesWhatItDoesNotKnowOnStandardError) {
   for (const std::string wrong :
-       {"turnwright", "turnwright plane part.json", "turnwright list nuts",
-        "turnwright acceptance", "turnwright acceptance - --fast < /dev/null"}) {
+       {"turnwright plane part.json", "turnwright list nuts", "turnwright acceptance",
+        "turnwright acceptance - --fast < /dev/null"}) {
     SCOPED_TRACE(wrong);
     const auto outcome = shell(wrong);
     EXPECT_EQ(outcome.code, 2);
@@ -112,6 +113,27 @@ TEST_F(CommandLine, ListsWhatRequestsMayReferTo) {
   EXPECT_NE(shell("turnwright list parts").out.find("gearbox-input-shaft "),
             std::string::npos);
   EXPECT_NE(shell("turnwright list tools").out.find("CNMG120408"), std::string::npos);
+}
+
+TEST_F(CommandLine, AloneShowsItsHelpAndItsLists) {
+  const auto alone = shell("turnwright");
+  EXPECT_EQ(alone.code, 0);
+  EXPECT_EQ(alone.out, shell("turnwright --help").out);
+  const auto lists = shell("turnwright list");
+  EXPECT_EQ(lists.code, 0);
+  EXPECT_EQ(lists.out.substr(0, lists.out.find('\n')), "turnwright list materials");
+}
+
+TEST_F(CommandLine, AFirstPartIsPlannedAndNotWrittenOverAnother) {
+  const auto file = (folder_ / "first.json").string();
+  EXPECT_EQ(shell("turnwright new -o '" + file + "'").code, 0);
+  const auto part = nlohmann::json::parse(contents(file));
+  EXPECT_TRUE(fs::exists(part["$schema"].get<std::string>())) << part["$schema"];
+  EXPECT_EQ(shell("turnwright plan '" + file + "'").code, 0);
+  const auto again = shell("turnwright new -o '" + file + "'");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("a file that is not there yet"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(shell("turnwright new").out), part);
 }
 
 TEST_F(CommandLine, SaysWhichDataFolderIsNone) {

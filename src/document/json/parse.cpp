@@ -8,6 +8,7 @@
 
 #include "pointer.hpp"
 #include "reader.hpp"
+#include "slip.hpp"
 #include "turnwright/base/errors.hpp"
 
 namespace turnwright::document {
@@ -136,6 +137,10 @@ class Builder : public nlohmann::json_sax<json> {
       return report(pointer(), "broken JSON at " + place(text_, position) + ": " + word,
                     "a number; JSON knows no " + word, "syntax");
     const std::string why = reason(error.what());
+    if (const auto slip = usual_slip(text_, position, why))
+      return report(
+          "", "broken JSON at " + place(text_, position) + ": " + printable(slip->got),
+          printable(slip->wanted), "syntax");
     const auto split = why.rfind("; expected ");
     return report(
         "", "broken JSON at " + place(text_, position) + ": " + why.substr(0, split),

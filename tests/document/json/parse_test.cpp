@@ -120,5 +120,32 @@ TEST(Parse, AnswersInPrintableAscii) {
   }
 }
 
+TEST(Parse, SaysWhatIsMeantWhereASlipIsAUsualOne) {
+  const auto told = [](const char* text, const char* slip) {
+    const auto message = refusal(text);
+    EXPECT_NE(message.find(slip), std::string::npos) << text << '\n' << message;
+  };
+  told(R"({"Ra_um": 1,6, "fit": "h7"})", ": 1,6, expected 1.6, with a decimal point");
+  told(R"({"limits_mm": -0,025})", ": -0,025, expected -0.025, with a decimal point");
+  told(R"({"a": 1, })", ": a comma before }, expected no comma behind the last one");
+  told("[1, 2,\n]", "line 2, column 1: a comma before ], expected no comma behind");
+  told("{\"a\": 1 // of the shaft\n}", ": //, expected no comment: JSON has none");
+  told("{/* of the shaft */}", ": /*, expected no comment");
+  told("{\"a\": 1}\n# more", ": #, expected no comment");
+  told("{'a': 1}", ": ', expected double quotes");
+  told("{a_mm: 1}", R"(: a_mm, expected "a_mm", in double quotes)");
+  told(R"({"a": .5})", ": .5, expected 0.5");
+  told(R"({"a": +5})", ": +5, expected 5");
+  told("{\"a\": 1\n\"b\": 2}", ": two members or values side by side, expected a comma");
+  told(R"([{"a": 1} {"a": 2}])", "expected a comma between them");
+}
+
+// A number behind a comma is no decimal comma if the list may go on with it.
+TEST(Parse, NumbersOfListsAreNoDecimals) {
+  EXPECT_EQ(parse("[1,6]", "t"), (nlohmann::json{1, 6}));
+  EXPECT_EQ(refusal("[1,6,,7]").find("decimal"), std::string::npos);
+  EXPECT_EQ(refusal(R"({"a": 1,6,7})").find("1.6.7"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace turnwright::document::parse_test

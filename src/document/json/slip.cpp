@@ -1,0 +1,83 @@
+#include "slip.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+namespace turnwright::document {
+namespace {
+
+bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+constexpr std::size_t kShown = 40;  // of a word
+
+// The characters around a place for which a test holds.
+template <class Test>
+std::string_view around(std::string_view text, std::size_t at, const Test& test) {
+  std::size_t from = at, to = at;
+  while (from > 0 && test(text[from - 1])) --from;
+  while (to < text.size() && test(text[to])) ++to;
+  return text.substr(from, to - from).substr(0, kShown);
+}
+
+// The last character before a place that is no blank; 0 if there is none.
+char before(std::string_view text, std::size_t at) {
+  while (at > 0 && blank(text[at - 1])) --at;
+  return at > 0 ? text[at - 1] : '\0';
+}
+
+// "1,6" where a member's value goes on behind a comma.
+std::optional<Slip> decimal_comma(std::string_view text, std::size_t last) {
+  const auto word = around(
+      text, last, [](char c) { return digit(c) || c == ',' || c == '.' || c == '-'; });
+  const auto comma = word.find(',');
+  if (comma == word.npos || comma == 0 || comma + 1 >= word.size() ||
+      word.find(',', comma + 1) < word.size() - 1 || !digit(word[comma - 1]) ||
+      !digit(word[comma + 1]))
+    return std::nullopt;
+  const auto number = word.substr(0, word.find(',', comma + 1));
+  std::string point(number);
+  point[comma] = '.';
+  return Slip{std::string(number), fmt::format("{}, with a decimal point", point)};
+}
+
+}  // namespace
+
+std::optional<Slip> usual_slip(std::string_view text, std::size_t bytes_read,
+                               std::string_view reason) {
+  if (bytes_read == 0 || bytes_read > text.size()) return std::nullopt;
+  const std::size_t last = bytes_read - 1;
+  const char c = text[last];
+  const char next = bytes_read < text.size() ? text[bytes_read] : '\0';
+  const auto says = [&](std::string_view words) {
+    return reason.find(words) != reason.npos;
+  };
+  if (says("in object key") && digit(c))
+    if (auto slip = decimal_comma(text, last)) return slip;
+  if ((c == '}' || c == ']') && before(text, last) == ',')
+    return Slip{fmt::format("a comma before {}", c), "no comma behind the last one"};
+  if (c == '/' && (next == '/' || next == '*'))
+    return Slip{fmt::format("/{}", next), "no comment: JSON has none"};
+  if (c == '#') return Slip{"#", "no comment: JSON has none"};
+  if (c == '\'') return Slip{"'", "double quotes"};
+  if ((c == '+' || c == '.') && digit(next)) {
+    const auto word =
+        around(text, last, [](char x) { return digit(x) || x == '+' || x == '.'; });
+    return Slip{std::string(word),
+                c == '.' ? fmt::format("0{}", word) : std::string(word.substr(1))};
+  }
+  if (says("in object key") && letter(c)) {
+    const auto word = around(text, last, [](char x) { return letter(x) || digit(x); });
+    return Slip{std::string(word), fmt::format("\"{}\", in double quotes", word)};
+  }
+  const bool another = says("unexpected string literal") ||
+                       says("unexpected number literal") || says("unexpected '{'") ||
+                       says("unexpected '['");
+  if (another && (says("expected '}'") || says("expected ']'")))
+    return Slip{"two members or values side by side", "a comma between them"};
+  return std::nullopt;
+}
+
+}  // namespace turnwright::document
