@@ -11,6 +11,7 @@ tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
 tw_domain(toolpath DEPENDS base catalogue)
 tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen)
+tw_domain(learning DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
