@@ -52,7 +52,7 @@ set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES CO
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
-    exchange volumetric tolerance planning nc
+    exchange learning volumetric tolerance planning nc
   PUBLIC_LIBS nlohmann_json::nlohmann_json PRIVATE_LIBS fmt::fmt OpenSSL::Crypto)
 if(BUILD_TESTING)
   target_compile_definitions(document_test PRIVATE VALIJSON_USE_EXCEPTIONS=1)

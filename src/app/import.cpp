@@ -1,13 +1,12 @@
 #include "import.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "document/json/parse.hpp"
+#include "input_file.hpp"
 #include "options.hpp"
 #include "service/output.hpp"
 #include "service/requests.hpp"
@@ -25,31 +24,6 @@ struct ImportArguments {
   nlohmann::json members =
       nlohmann::json::object();  ///< of the request, beside the drawing
 };
-
-std::string read_all(std::istream& in, const std::string& name) {
-  std::string bytes, block(1 << 20, '\0');
-  while (in.read(block.data(), std::ssize(block)) || in.gcount() > 0) {
-    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > document::kLargestDrawing)
-      throw InputError(
-          name, {{"", "more than " + std::to_string(document::kLargestDrawing) + " bytes",
-                  "a drawing of at most so many", "limit"}});
-  }
-  return bytes;
-}
-
-std::string read_drawing(const std::string& file) {
-  if (file == "-") return read_all(std::cin, "standard input");
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file))
-    throw InputError(file,
-                     {{"", "nothing readable", "a STEP, DXF or text file", "file"}});
-  return read_all(in, file);
-}
-
-std::string name_of(const std::string& file) {
-  return file == "-" ? "standard input" : file;
-}
 
 // A drawing's problems under its own name, those of options under theirs.
 [[noreturn]] void rethrow(const InputError& e, const std::string& file) {
@@ -69,7 +43,8 @@ std::string name_of(const std::string& file) {
 
 // A drawing, or a request of the capability as other commands take one.
 nlohmann::json request_of(const ImportArguments& arguments) {
-  auto bytes = read_drawing(arguments.file);
+  auto bytes =
+      bytes_of(arguments.file, document::kLargestDrawing, "a STEP, DXF or text file");
   const auto first = bytes.find_first_not_of(" \t\r\n");
   const bool drawing = first == std::string::npos || bytes[first] != '{';
   auto request =

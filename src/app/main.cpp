@@ -21,6 +21,7 @@
 #include "document/json/reader.hpp"
 #include "exit.hpp"
 #include "import.hpp"
+#include "input_file.hpp"
 #include "mcp.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
@@ -47,6 +48,7 @@ struct Arguments {
   nlohmann::json nc = nlohmann::json::object();  ///< settings of NC programs
   std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
+  std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
   bool json = false;
   std::string listed;
 };
@@ -82,11 +84,12 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
     return {service::answer(row, request, context), {}, {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
-    const bool piped = arguments.file == "-";
     auto problems = e.problems();
     for (auto& problem : problems)
       if (problem.pointer.starts_with(root)) problem.pointer.erase(0, root.size());
-    throw InputError(piped ? "standard input" : arguments.file, std::move(problems));
+    throw InputError(
+        arguments.file.empty() ? arguments.table->string() : name_of(arguments.file),
+        std::move(problems));
   }
 }
 
@@ -230,10 +233,29 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
   if (result["cannot"].empty()) std::cerr << "no NC program: there is no feasible plan\n";
 }
 
+/// Whether the request is one of `learn`, whose table and part may be files of their own.
+bool is_of_measured_parts(const service::Request& row) {
+  return service::request_schema(row) == "learn.request.json";
+}
+
+nlohmann::json asked(const Arguments& arguments) {
+  if (arguments.file.empty() && !arguments.table)
+    throw wrong_option("REQUEST", "nothing", "a request document, or --csv with a table",
+                       "missing");
+  auto request =
+      arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
+  if (!request.is_object()) return request;
+  if (arguments.table)
+    request["csv"] = bytes_of(arguments.table->string(), document::kLocalLimits.bytes,
+                              "a table of measured parts");
+  if (arguments.part) request["part"] = document::parse_file(*arguments.part);
+  return request;
+}
+
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   require_places(arguments);
   const auto settings = nc_settings(arguments.nc);
-  auto request = read_request(arguments.file);
+  auto request = asked(arguments);
   const bool part_alone = is_for_programs(row) && is_part(request);
   if (part_alone) request = {{"part", std::move(request)}};
   if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
@@ -288,10 +310,16 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
   for (const auto& row : service::requests()) {
     if (row.name == "import") continue;
     auto* command = app.add_subcommand(row.name, row.summary);
-    command
-        ->add_option("REQUEST", arguments.file,
-                     "request document; - reads standard input")
-        ->required();
+    auto* file = command->add_option("REQUEST", arguments.file,
+                                     "request document; - reads standard input");
+    if (is_of_measured_parts(row)) {
+      add_path(*command, "--csv", arguments.table,
+               "table of measured parts, in place of the request's rows");
+      add_path(*command, "--part", arguments.part,
+               "part document, whose tolerances are the characteristics");
+    } else {
+      file->required();
+    }
     add_path(*command, "-o,--output", arguments.result_file,
              "write the result (JSON) here; - is standard output",
              Dash::is_standard_output);
@@ -313,8 +341,13 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                "write the report (HTML, printable) here");
+    const std::string of_files =
+        is_of_measured_parts(row)
+            ? "\n  turnwright learn --csv docs/examples/learn/pin.csv --part "
+              "docs/examples/guide/pin.json"
+            : "";
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
-                    " -");
+                    " -" + of_files);
     command->callback([&row, &arguments, &chosen] {
       chosen = [&row, &arguments] { return run_request(row, arguments); };
     });

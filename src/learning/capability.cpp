@@ -46,7 +46,8 @@ Scatter overall(const Series& series, const Trend& t) {
   }
   const double s2 = sqr(t.s_mm);
   steady = std::max(0.0, steady - s2 * (n - 1 - t.degrees));
-  return {std::sqrt(all / (n - 1)), sqr(all) / (sqr(s2) * (n - 1) + 2 * s2 * steady)};
+  return {std::sqrt(all / (n - 1)),
+          std::max(1.0, sqr(all) / (sqr(s2) * (n - 1) + 2 * s2 * steady))};
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ using Eigen::VectorXd;
 // nothing else tells drift and wear apart.
 constexpr double kBetween = 4, kBetweenAlike = 2;
 
+// Of the largest value: what is left of values that do not scatter.
+constexpr double kRounding = 1e-12;
 // Where edges do not differ this floor makes intervals hold as often as they say.
 constexpr double kLeastBetween = 0.6;
 
@@ -173,6 +175,7 @@ std::optional<Trend> fit_trend(const Series& series, double confidence) {
   trend.n = series.size();
   trend.degrees = trend.coefficient_degrees = w.degrees;
   trend.s_mm = std::sqrt(w.rss / w.degrees);
+  if (trend.s_mm <= kRounding * t.y.cwiseAbs().maxCoeff()) trend.s_mm = 0;
   const auto [free, alike] = independent(chosen(t.x, {kAt, kAge}));
   Columns all{kConstant};
   all.insert(all.end(), free.begin(), free.end());
