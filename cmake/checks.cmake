@@ -96,7 +96,7 @@ add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR} guide 6 11)
 add_test(NAME learn.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
-  ${PROJECT_SOURCE_DIR} learn 3 15)
+  ${PROJECT_SOURCE_DIR} learn 4 20)
 
 add_test(NAME package.deb COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/package-test

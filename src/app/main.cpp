@@ -49,6 +49,7 @@ struct Arguments {
   std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
+  bool update = false;                  ///< the factors of the models by them
   bool json = false;
   std::string listed;
 };
@@ -249,6 +250,7 @@ nlohmann::json asked(const Arguments& arguments) {
     request["csv"] = bytes_of(arguments.table->string(), document::kLocalLimits.bytes,
                               "a table of measured parts");
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
+  if (arguments.update) request["update"] = true;
   return request;
 }
 
@@ -317,6 +319,8 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                "table of measured parts, in place of the request's rows");
       add_path(*command, "--part", arguments.part,
                "part document, whose tolerances are the characteristics");
+      command->add_flag("--update", arguments.update,
+                        "also update the factors of the models, and write documents");
     } else {
       file->required();
     }

@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "document/json/reader.hpp"
-#include "learn_request.hpp"
+#include "learn_factors.hpp"
 #include "turnwright/learning/advice.hpp"
 #include "turnwright/learning/capability.hpp"
 #include "turnwright/learning/mixups.hpp"
 #include "turnwright/learning/normality.hpp"
-#include "turnwright/learning/outliers.hpp"
 
 namespace turnwright::document {
 namespace measured_parts {
@@ -46,32 +45,8 @@ const Meaning& meaning(MixUp kind) {
   return *std::ranges::find(kMeanings, kind, &Meaning::kind);
 }
 
-/// One characteristic on its way through the capability.
-struct Learned {
-  MadeSeries made;
-  std::vector<std::size_t> left_out;  ///< of the series
-  learning::Series kept;
-  std::optional<MixUp> all;  ///< the whole series is one
-  std::optional<learning::Trend> trend;
-};
-
 ordered_json described(const Estimate& e) {
   return {{"value", e.value}, {"u", e.u}, {"lower", e.lower}, {"upper", e.upper}};
-}
-
-Learned learned(const Request& q, std::size_t c) {
-  Learned out;
-  out.made = series_of(q, c);
-  const auto& of = q.characteristics[c];
-  out.all = learning::mix_up_of_all(out.made.series, of.limits, of.nominal_mm);
-  if (out.all) {
-    for (std::size_t i = 0; i < out.made.series.size(); ++i) out.left_out.push_back(i);
-    return out;
-  }
-  out.left_out = learning::outliers(out.made.series, q.outlier_p);
-  out.kept = learning::without(out.made.series, out.left_out);
-  out.trend = learning::fit_trend(out.kept, q.confidence);
-  return out;
 }
 
 // What is expected of a characteristic, by the moments of the values kept.
@@ -257,7 +232,7 @@ void warn(const Characteristic& of, const Learned& l, ordered_json& warnings) {
                     of.id, n->p));
 }
 
-ordered_json answered(const Request& q) {
+ordered_json answered(const Request& q, const Catalogue& catalogue) {
   std::vector<Learned> all;
   for (std::size_t c = 0; c < q.characteristics.size(); ++c) all.push_back(learned(q, c));
   ordered_json characteristics = ordered_json::array(), warnings = ordered_json::array();
@@ -267,17 +242,24 @@ ordered_json answered(const Request& q) {
     characteristics.push_back(described(q, of, all[c]));
     warn(of, all[c], warnings);
   }
-  return {{"confidence", q.confidence},
-          {"characteristics", std::move(characteristics)},
-          {"left_out", left_out(q, all)},
-          {"warnings", std::move(warnings)}};
+  ordered_json out{{"confidence", q.confidence},
+                   {"characteristics", std::move(characteristics)},
+                   {"left_out", left_out(q, all)}};
+  if (q.update) {
+    auto factors = updated(q, all, catalogue);
+    out["factors"] = std::move(factors.factors);
+    out["documents"] = std::move(factors.documents);
+    for (auto& w : factors.warnings) warnings.push_back(std::move(w));
+  }
+  out["warnings"] = std::move(warnings);
+  return out;
 }
 
 }  // namespace
 }  // namespace measured_parts
 
 nlohmann::ordered_json learn(const nlohmann::json& request, const Catalogue& catalogue) {
-  return measured_parts::answered(measured_parts::read(request, catalogue));
+  return measured_parts::answered(measured_parts::read(request, catalogue), catalogue);
 }
 
 }  // namespace turnwright::document

@@ -78,6 +78,7 @@ void read_part(Reader& r, const Catalogue& catalogue, Request& q) {
   if (!part || part->broken()) return;
   try {
     q.part = prepared_part(part->json(), catalogue, "learn");
+    q.part_document = part->json();
     add_characteristics(q.part->part.drawing, q.characteristics);
   } catch (const InputError& e) {
     for (auto problem : e.problems()) {
@@ -296,6 +297,9 @@ Request read(const json& document, const Catalogue& catalogue) {
   read_format(r, "turnwright-learn/1");
   q.confidence = r.number_or("confidence", within(0.5, 0.999), q.confidence);
   q.outlier_p = r.number_or("outlier_p", within(0, 0.5), q.outlier_p);
+  q.update = r.boolean_or("update", false);
+  if (q.update && !r.has("part"))
+    r.problem_at("update", "a part, whose plan the parts were made by", "conflict");
   read_characteristics(r, q);
   const auto before = problems.list.size();
   read_part(r, catalogue, q);

@@ -31,6 +31,8 @@ struct Request {
   std::vector<Row> rows;
   double confidence = 0.95, outlier_p = 0.01;
   std::optional<PreparedDocument> part;
+  nlohmann::json part_document;  ///< as written
+  bool update = false;           ///< of the factors of the models
 };
 
 /// @throws InputError with every problem.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -88,12 +89,47 @@ std::string not_counted(const ordered_json& result) {
   return text;
 }
 
+Row factor_row(const ordered_json& f) {
+  const auto &prior = object(f, "prior"), &post = object(f, "posterior");
+  std::string name = word(f, "name");
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (!word(f, "by").empty()) name += " by " + word(f, "by");
+  return {
+      {name, significant(number(prior, "value"), 3), significant(number(prior, "u"), 2),
+       significant(number(post, "value"), 3), significant(number(post, "lower"), 3),
+       significant(number(post, "upper"), 3), word(f, "unit")},
+      word(f, "not_identified")};
+}
+
+std::string factors(const ordered_json& result) {
+  std::vector<Row> rows;
+  for (const auto& f : list(result, "factors")) rows.push_back(factor_row(f));
+  if (rows.empty()) return "";
+  std::vector<std::string> written;
+  for (const auto& [name, document] : object(result, "documents").items())
+    written.push_back(name);
+  std::string text =
+      "\nFACTORS OF THE MODELS  by the documents, and with the measured parts\n" +
+      table({{"", Align::left},
+             {"before"},
+             {"+-"},
+             {"now"},
+             {"from"},
+             {"to"},
+             {"unit", Align::left}},
+            rows);
+  if (!written.empty())
+    text += paragraph(
+        "  ", "documents of the result (-o) for the next plan: " + joined(written));
+  return text;
+}
+
 }  // namespace
 
 std::string learn_text(const ordered_json& result) {
   std::string text = "MEASURED PARTS\n" + made_by(result);
   for (const auto& c : list(result, "characteristics")) text += characteristic(c);
-  return text + not_counted(result) + warnings(result);
+  return text + not_counted(result) + factors(result) + warnings(result);
 }
 
 }  // namespace turnwright::report

@@ -226,6 +226,14 @@ TEST(Learn, AProblemOfThePartStandsBelowIt) {
             std::string::npos);
 }
 
+TEST(Learn, AnUpdateTakesAPart) {
+  auto request = worn();
+  request["update"] = true;
+  EXPECT_NE(refused(request).find("/update: got true, expected a part"),
+            std::string::npos)
+      << refused(request);
+}
+
 TEST(Learn, FewValuesHaveAWarning) {
   auto request = worn();
   request["rows"].erase(request["rows"].begin() + 3, request["rows"].end());

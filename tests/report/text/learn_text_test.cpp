@@ -65,6 +65,24 @@ TEST(LearnText, SaysWhenACorrectionIsNotWorthwhileOrHelpsNothing) {
   EXPECT_TRUE(has(text, "three standard"));
 }
 
+TEST(LearnText, FactorsStandBeforeAndAfter) {
+  auto result = answered();
+  result["factors"] = ordered_json::parse(R"([
+    {"name": "passive_force", "unit": "-", "prior": {"value": 1, "u": 0.25},
+     "identified": false, "not_identified": "stays at its prior; it takes two diameters"},
+    {"name": "rechucking", "by": "soft_jaws", "unit": "um", "prior": {"value": 2, "u": 1},
+     "identified": true,
+     "posterior": {"value": 4.567, "u": 0.4, "lower": 3.9, "upper": 5.4}}])");
+  result["documents"] = {{"machine", {{"id", "l1"}}}};
+  const auto text = flat(learn_text(result));
+  EXPECT_TRUE(has(text,
+                  "\n passive force 1 0.25 - - - -\n stays at its prior; it takes two "
+                  "diameters\n"))
+      << text;
+  EXPECT_TRUE(has(text, "\n rechucking by soft_jaws 2 1 4.57 3.9 5.4 um\n"));
+  EXPECT_TRUE(has(text, "documents of the result (-o) for the next plan: machine\n"));
+}
+
 // The frame is 24 .. 184 mm wide and has one place more than values: the edge changes
 // between places 3 and 4 of 5, at 24 + 160 3.5/5 = 136.
 TEST(RunDrawing, ShowsEveryValueTheChangeOfTheEdgeAndTheAdvice) {
