@@ -122,7 +122,10 @@ set_tests_properties(docs.site PROPERTIES LABELS slow TIMEOUT 600
 add_test(NAME docs.quotes COMMAND ${PROJECT_SOURCE_DIR}/scripts/quote --check)
 add_test(NAME guide.commands COMMAND bash
   ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
-  ${PROJECT_SOURCE_DIR})
+  ${PROJECT_SOURCE_DIR} guide 6 11)
+add_test(NAME learn.commands COMMAND bash
+  ${PROJECT_SOURCE_DIR}/tests/app/guide.bash $<TARGET_FILE:turnwright>
+  ${PROJECT_SOURCE_DIR} learn 4 20)
 
 add_test(NAME package.deb COMMAND ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D WORK_DIR=${PROJECT_BINARY_DIR}/package-test

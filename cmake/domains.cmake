@@ -11,6 +11,7 @@ tw_domain(thermal DEPENDS base optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(gcode DEPENDS base catalogue PRIVATE_LIBS fmt::fmt)
 tw_domain(toolpath DEPENDS base catalogue)
 tw_domain(exchange DEPENDS base part PRIVATE_LIBS fmt::fmt Eigen3::Eigen)
+tw_domain(learning DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 tw_domain(chatter DEPENDS base PRIVATE_LIBS Boost::headers Eigen3::Eigen)
 # Products of complex numbers without the search for infinities that C99's Annex G wants;
 # sums keep their order.
@@ -51,7 +52,7 @@ set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES CO
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
-    exchange volumetric tolerance planning nc
+    exchange learning volumetric tolerance planning nc
   PUBLIC_LIBS nlohmann_json::nlohmann_json
   PRIVATE_LIBS fmt::fmt libzip::zip OpenSSL::Crypto pugixml::pugixml)
 if(BUILD_TESTING)

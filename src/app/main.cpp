@@ -21,6 +21,7 @@
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
 #include "exit.hpp"
+#include "foreign_file.hpp"
 #include "import.hpp"
 #include "import_tools.hpp"
 #include "mcp.hpp"
@@ -49,6 +50,8 @@ struct Arguments {
   nlohmann::json nc = nlohmann::json::object();  ///< settings of NC programs
   std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
+  std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
+  bool update = false;                  ///< the factors of the models by them
   bool json = false;
   std::string listed;
 };
@@ -84,11 +87,12 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
     return {service::answer(row, request, context), {}, {}};
   } catch (const InputError& e) {
     if (e.document() != row.name) throw;
-    const bool piped = arguments.file == "-";
     auto problems = e.problems();
     for (auto& problem : problems)
       if (problem.pointer.starts_with(root)) problem.pointer.erase(0, root.size());
-    throw InputError(piped ? "standard input" : arguments.file, std::move(problems));
+    throw InputError(arguments.file.empty() ? arguments.table->string()
+                                            : name_of_foreign_file(arguments.file),
+                     std::move(problems));
   }
 }
 
@@ -232,10 +236,32 @@ void put_program(const nlohmann::ordered_json& result, const Arguments& argument
   if (result["cannot"].empty()) std::cerr << "no NC program: there is no feasible plan\n";
 }
 
+/// Whether the request is one of `learn`, whose table and part may be files of their own.
+bool is_of_measured_parts(const service::Request& row) {
+  return service::request_schema(row) == "learn.request.json";
+}
+
+constexpr ForeignFile kMeasured{"table", "table of measured parts",
+                                document::kLocalLimits.bytes};
+
+nlohmann::json asked(const Arguments& arguments) {
+  if (arguments.file.empty() && !arguments.table)
+    throw wrong_option("REQUEST", "nothing", "a request document, or --csv with a table",
+                       "missing");
+  auto request =
+      arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
+  if (!request.is_object()) return request;
+  if (arguments.table)
+    request["csv"] = read_foreign_file(arguments.table->string(), kMeasured);
+  if (arguments.part) request["part"] = document::parse_file(*arguments.part);
+  if (arguments.update) request["update"] = true;
+  return request;
+}
+
 Exit run_request(const service::Request& row, const Arguments& arguments) {
   require_places(arguments);
   const auto settings = nc_settings(arguments.nc);
-  auto request = read_request(arguments.file);
+  auto request = asked(arguments);
   const bool part_alone = is_for_programs(row) && is_part(request);
   if (part_alone) request = {{"part", std::move(request)}};
   if (is_for_programs(row) && request.is_object()) request.update(arguments.nc);
@@ -300,10 +326,18 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
   for (const auto& row : service::requests()) {
     if (row.name == "import" || row.name == "import-tools") continue;
     auto* command = app.add_subcommand(row.name, row.summary);
-    command
-        ->add_option("REQUEST", arguments.file,
-                     "request document; - reads standard input")
-        ->required();
+    auto* file = command->add_option("REQUEST", arguments.file,
+                                     "request document; - reads standard input");
+    if (is_of_measured_parts(row)) {
+      add_path(*command, "--csv", arguments.table,
+               "table of measured parts, in place of the request's rows");
+      add_path(*command, "--part", arguments.part,
+               "part document, whose tolerances are the characteristics");
+      command->add_flag("--update", arguments.update,
+                        "also update the factors of the models, and write documents");
+    } else {
+      file->required();
+    }
     add_path(*command, "-o,--output", arguments.result_file,
              "write the result (JSON) here; - is standard output",
              Dash::is_standard_output);
@@ -325,8 +359,13 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                "write the report (HTML, printable) here");
+    const std::string of_files =
+        is_of_measured_parts(row)
+            ? "\n  turnwright learn --csv docs/examples/learn/pin.csv --part "
+              "docs/examples/guide/pin.json"
+            : "";
     command->footer("Example:\n  echo '" + row.example + "' | turnwright " + row.name +
-                    " -");
+                    " -" + of_files);
     command->callback([&row, &arguments, &chosen] {
       chosen = [&row, &arguments] { return run_request(row, arguments); };
     });

@@ -10,6 +10,7 @@
 #include "report/picture/drawing.hpp"
 #include "report/picture/milled_drawing.hpp"
 #include "report/picture/path_drawing.hpp"
+#include "report/picture/run_drawing.hpp"
 #include "report/picture/stability_chart.hpp"
 #include "report/picture/volumetric_drawing.hpp"
 #include "report/picture/window_drawing.hpp"
@@ -25,6 +26,7 @@
 #include "turnwright/document/geometry.hpp"
 #include "turnwright/document/import.hpp"
 #include "turnwright/document/import_tools.hpp"
+#include "turnwright/document/learn.hpp"
 #include "turnwright/document/multipass.hpp"
 #include "turnwright/document/nc.hpp"
 #include "turnwright/document/part_plan.hpp"
@@ -163,6 +165,15 @@ constexpr const char* kCalibrateExample = R"({
     {"vc_m_min": 260, "f_mm_rev": 0.15, "ap_mm": 2, "Fc_N": 752, "T_min": 29},
     {"vc_m_min": 260, "f_mm_rev": 0.3, "ap_mm": 2, "Fc_N": 1263, "T_min": 11.5},
     {"vc_m_min": 320, "f_mm_rev": 0.2, "ap_mm": 2, "Fc_N": 941, "T_min": 8.6}]})";
+
+constexpr const char* kLearnExample = R"({
+  "characteristics": [
+    {"id": "seat", "nominal_mm": 30, "upper_mm": 30.015, "lower_mm": 30.002}],
+  "csv": ["part,time_s,edge,seat",
+    "1,240,1,30.0072", "2,480,1,30.0069", "3,720,1,30.0081", "4,960,1,30.0088",
+    "5,1200,1,30.0085", "6,2340,1,30.0094", "7,2580,1,30.0101", "8,2820,1,1.1815",
+    "9,3060,2,30.0090", "10,3300,2,30.0083", "11,3540,2,30.0098", "12,3780,2,30.0101",
+    "13,4020,2,30.0099", "14,4260,2,30.0110"]})";
 
 struct Planned {
   document::PreparedDocument part;
@@ -321,6 +332,12 @@ Drawn drawn_compensate(const json& request, const Context&) {
   return {result, {{"residual.svg", report::compensation_drawing(compensated)}}};
 }
 
+Drawn drawn_learn(const json& request, const Context& context) {
+  Drawn all{document::learn(request, context.catalogue), {}};
+  all.drawings = report::run_drawings(all.result);
+  return all;
+}
+
 constexpr const char* kPredictExample = R"({
   "format": "turnwright-part/1", "name": "Pin", "material": "C45",
   "stock": {"kind": "bar", "diameter_mm": 35, "length_mm": 84, "left_allowance_mm": 2},
@@ -433,6 +450,12 @@ std::span<const Request> requests() {
          return document::calibrate_material(request, context.catalogue);
        },
        report::material_text},
+      {"learn", "measured parts -> capability, drift, wear, advice for the next part",
+       kLearnExample,
+       [](const json& request, const Context& context) -> ordered_json {
+         return document::learn(request, context.catalogue);
+       },
+       report::learn_text, drawn_learn},
   };
   return kTable;
 }

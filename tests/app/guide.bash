@@ -1,8 +1,9 @@
-# Runs every command of docs/guide.md in its order, and compares answers and pictures with
-# what the guide shows of them.
-# Usage: guide.bash TURNWRIGHT SOURCE_FOLDER [--update]    (puts the pictures there instead)
+# Runs every command of docs/PAGE.md in its order, and compares answers and pictures with
+# what the page shows of them.
+# Usage: guide.bash TURNWRIGHT SOURCE_FOLDER PAGE LEAST_COMMANDS LEAST_LINES [--update]
+# PAGE is guide or learn; --update puts the pictures there instead.
 set -euo pipefail
-turnwright=$1 source=$2 update=${3:-}
+turnwright=$1 source=$2 page=$3 least_commands=$4 least_lines=$5 update=${6:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -32,21 +33,23 @@ while IFS= read -r line; do
     lines=$((lines + 1))
     grep -qxF -- "$line" answer || { echo "not in the answer: $line"; failed=1; }
   fi
-done < "$source/docs/guide.md"
+done < "$source/docs/$page.md"
 
-pictures=$source/docs/pictures/guide
+pictures=$source/docs/pictures/$page
 while read -r shown made; do
   if [[ $update ]]; then
     cp "$made" "$pictures/$shown"
   else
     cmp "$made" "$pictures/$shown" || failed=1
   fi
-done << END
-setup-1.svg pictures/setup-1.svg
-budget.svg pictures/budget.svg
-window.svg pictures/window-s1-finish-pin.svg
-trace.svg $(echo trace/*.svg)
-stability.svg keyed/stability-s1-mill-k1.svg
+done < <(grep "^$page " << END | cut -d' ' -f2-
+guide setup-1.svg pictures/setup-1.svg
+guide budget.svg pictures/budget.svg
+guide window.svg pictures/window-s1-finish-pin.svg
+guide trace.svg $(echo trace/*.svg)
+guide stability.svg keyed/stability-s1-mill-k1.svg
+learn run.svg run/run-2.svg
 END
-((commands > 5 && lines > 10)) || { echo "the guide shows nothing"; failed=1; }
+)
+((commands >= least_commands && lines >= least_lines)) || { echo "$page.md shows too little"; failed=1; }
 exit $failed

@@ -20,6 +20,8 @@ struct Thrust {
   double edge_N_mm = 0;         ///< ke
   double uncertainty_pct = 20;  ///< of F_D, one standard deviation
   double land_MPa = 0;          ///< pressure on the wear land of an edge
+  /// Of F_D with the uncertainty of kc in it, where F_D itself was found from parts.
+  std::optional<double> total_uncertainty_pct = {};
 };
 
 /// T = (C / (vc f^a ap^b))^(1/n): vc [m/min], f [mm/rev], ap [mm], T [min].  Both laws of

@@ -24,7 +24,8 @@ struct Catalogue {
   std::vector<catalogue::FixedTool> fixed_tools;
   std::vector<catalogue::MillingCutter> cutters;
   std::vector<catalogue::Lathe> machines;
-  std::map<std::string, nlohmann::json> material_documents;  ///< as written, by id
+  /// As written, by id.
+  std::map<std::string, nlohmann::json> material_documents, machine_documents;
 };
 
 /// The *.json files in materials/, tools/, tools/fixed/, tools/milling/ and machines/ of

@@ -60,7 +60,11 @@ Catalogue load_catalogue(const fs::path& folder) {
   all.tools = load_folder(folder / "tools", problems, read_tool);
   all.fixed_tools = load_folder(folder / "tools" / "fixed", problems, read_fixed_tool);
   all.cutters = load_folder(folder / "tools" / "milling", problems, read_milling_cutter);
-  all.machines = load_folder(folder / "machines", problems, read_lathe);
+  all.machines = load_folder(folder / "machines", problems, [&](const Reader& r) {
+    auto machine = read_lathe(r);
+    all.machine_documents[machine.id] = r.json();
+    return machine;
+  });
   problems.throw_if_any();
   return all;
 }

@@ -39,6 +39,8 @@ void read_thrust(Reader group, catalogue::Material& m) {
   t.ratio = group.number("ratio", within(0, 3));
   t.edge_N_mm = group.number("edge_N_mm", within(0, 1000, "N/mm"));
   t.land_MPa = group.number_or("land_MPa", above_up_to(0, 10000, "MPa"), 0);
+  t.total_uncertainty_pct =
+      group.optional_number("total_uncertainty_pct", within(0, 100, "%"));
   if (t.ratio == 0 && t.edge_N_mm == 0)
     group.problem_at("ratio", "ratio or edge_N_mm above 0", "0");
   t.uncertainty_pct = finish_group(group);

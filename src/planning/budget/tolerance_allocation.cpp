@@ -288,14 +288,19 @@ double recession_mm(const PreparedPart& p, const catalogue::Tool& tool,
   return deflection::wear_error_mm(land, edge, life_used);
 }
 
-double force_spread(const PreparedPart& p) {
+double passive_spread(const PreparedPart& p) {
   const auto& m = p.material;
   constexpr double kLand_pct = 20;  // the pressure on the wear land is an estimate
-  double passive =
-      m.kp ? m.feed_passive_uncertainty_pct
-           : std::hypot(m.kc_uncertainty_pct, catalogue::thrust_of(m).uncertainty_pct);
+  const auto thrust = catalogue::thrust_of(m);
+  double passive = m.kp ? m.feed_passive_uncertainty_pct
+                        : thrust.total_uncertainty_pct.value_or(
+                              std::hypot(m.kc_uncertainty_pct, thrust.uncertainty_pct));
   if (p.shop.edge_wear_mm > 0) passive = std::max(passive, kLand_pct);
-  return std::hypot(passive, p.machine.stiffness_uncertainty_pct) / 100;
+  return passive / 100;
+}
+
+double force_spread(const PreparedPart& p) {
+  return std::hypot(passive_spread(p), p.machine.stiffness_uncertainty_pct / 100);
 }
 
 double life_spread(const PreparedPart& p) {

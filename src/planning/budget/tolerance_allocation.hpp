@@ -83,6 +83,9 @@ double fixed_in_parts_um(const ToleranceAllocation& allocation);
 double recession_mm(const PreparedPart& plan, const catalogue::Tool& tool,
                     double life_used);
 
+/// Relative standard deviation of the passive force.
+double passive_spread(const PreparedPart& plan);
+
 /// Relative standard deviation of the deflection, from those of forces and stiffness alone.
 double force_spread(const PreparedPart& plan);
 

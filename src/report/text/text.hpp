@@ -39,4 +39,8 @@ std::string quote_text(const nlohmann::ordered_json& quote_result);
 /// constants with their intervals, omitted cuts, warnings.
 std::string material_text(const nlohmann::ordered_json& calibration_result);
 
+/// The result document of `learn` (schemas/learn.result.json): each characteristic with its
+/// intervals and advice, what was left out and why.
+std::string learn_text(const nlohmann::ordered_json& learn_result);
+
 }  // namespace turnwright::report
