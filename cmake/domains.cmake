@@ -42,9 +42,16 @@ if(BUILD_TESTING)
   target_link_libraries(planning_test PRIVATE TBB::tbb)
 endif()
 
+# The plans of the reference parts, and of parts drawn at random, are made once.
+string(JOIN ":" of_reference_parts "NcPrograms.OfEveryReferencePart*"
+  "PlanAndProgram.OfReferenceParts*" "CutSimulation.OfReferenceParts*"
+  "NcDialects.OfEveryReferencePart*" "NcGolden.*" "NcThroughLinuxCnc.OfReferenceParts*")
+string(JOIN ":" of_drawn_parts "NcPrograms.OfRandomParts*" "PlanAndProgram.OfRandomParts*"
+  "*CutSimulationOfRandomParts*" "NcPrograms.OfAwkwardParts*" "CutSimulation.OfAwkwardParts*")
 tw_domain(nc DEPENDS base part catalogue cutting gcode toolpath planning
   PRIVATE_LIBS fmt::fmt
-  TEST_DEPENDS document)
+  TEST_DEPENDS document
+  TESTS_TOGETHER reference-parts ${of_reference_parts} drawn-parts ${of_drawn_parts})
 
 file(RELATIVE_PATH data_from_bin
   /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,20 @@ struct Planned {
   planning::ProcessPlan plan;
 };
 
-inline Planned planned(const nlohmann::json& document) {
-  auto part = document::prepared_part(document, catalogue(), "part").part;
-  auto plan = planning::plan(part);
-  return {std::move(part), std::move(plan)};
+/// A document's plan, which is made once in a process.
+inline const Planned& planned(const nlohmann::json& document) {
+  static std::map<std::string, Planned> all;
+  const auto key = document.dump();
+  auto found = all.find(key);
+  if (found == all.end()) {
+    auto part = document::prepared_part(document, catalogue(), "part").part;
+    auto plan = planning::plan(part);
+    found = all.emplace(key, Planned{std::move(part), std::move(plan)}).first;
+  }
+  return found->second;
 }
 
-inline Planned planned_reference(const std::string& name) {
+inline const Planned& planned_reference(const std::string& name) {
   auto document = document::parse_file(source("parts/" + name + ".json"));
   document.erase("what_if");
   return planned(document);

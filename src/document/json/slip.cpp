@@ -11,7 +11,7 @@ bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-constexpr std::size_t kShown = 40;  // of a word
+constexpr std::size_t kShownWord = 40;  // of a word
 
 // The characters around a place for which a test holds.
 template <class Test>
@@ -19,7 +19,7 @@ std::string_view around(std::string_view text, std::size_t at, const Test& test)
   std::size_t from = at, to = at;
   while (from > 0 && test(text[from - 1])) --from;
   while (to < text.size() && test(text[to])) ++to;
-  return text.substr(from, to - from).substr(0, kShown);
+  return text.substr(from, to - from).substr(0, kShownWord);
 }
 
 // The last character before a place that is no blank; 0 if there is none.
