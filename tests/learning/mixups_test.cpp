@@ -5,8 +5,11 @@
 namespace turnwright::learning {
 namespace {
 
-const std::vector<Expected> kExpected{
-    {25, 25.004, 0.003}, {40, 39.99, 0.003}, {0, 0.012, 0.002}, {0.5, 0.5, 0.02}};
+const std::vector<Expected> kExpected{{25, 25.004, 0.003},
+                                      {40, 39.99, 0.003},
+                                      {0, 0.012, 0.002},
+                                      {0.5, 0.5, 0.02},
+                                      {25, 25.1, 0.3}};
 
 MixUp kind(std::size_t characteristic, double y) {
   const std::vector<Suspect> one{{characteristic, 7, y}};
@@ -33,6 +36,11 @@ TEST(MixUps, OfFormOnlyUnitsAreTold) {
 
 TEST(MixUps, WhereScatterIsWideNothingIsToldApart) {
   EXPECT_EQ(kind(3, 1.0), MixUp::outlier);
+}
+
+TEST(MixUps, TheNearestOfSeveralExplanationsCounts) {
+  EXPECT_EQ(kind(4, 0.2), MixUp::deviation) << "25.2 is nearer to 25.1 than 24.8";
+  EXPECT_EQ(kind(4, -0.2), MixUp::deviation_sign);
 }
 
 TEST(MixUps, TwoValuesOfAPartMayBeSwapped) {

@@ -29,6 +29,7 @@ TEST(Trend, ABalancedTableIsItsAnalysisOfVariance) {
   const auto t = *fit_trend(balanced(), k95);
   EXPECT_DOUBLE_EQ(t.degrees, 8);
   EXPECT_DOUBLE_EQ(t.s_mm, 1);
+  EXPECT_NEAR(t.standardised[0], -1 / std::sqrt(2 / 3.0), 1e-12) << "leverage 1/3";
   EXPECT_FALSE(t.edges) << "three degrees of freedom compare too little";
   Series longer = balanced();
   for (auto o : balanced()) {
@@ -72,6 +73,21 @@ TEST(Trend, DriftOfBalancedEdgesIsTheLineThroughTheirMeans) {
   EXPECT_NEAR(t.drift->value, sxy / sxx, 1e-9);
   EXPECT_NEAR(t.drift->u, std::sqrt(rss / 4 / sxx), 1e-9);
   EXPECT_NEAR(t.drift->upper - t.drift->value, t95(4) * t.drift->u, 1e-9);
+}
+
+// Ages alike on every edge: how edges stand says nothing of wear, whose interval has the
+// degrees of freedom within edges.
+TEST(Trend, WearOfBalancedEdgesIsThatWithinThem) {
+  Draw draw(13);
+  Series s;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const double level = draw.normal();
+    for (int age = 0; age < 3; ++age)
+      s.push_back({level + 0.1 * draw.normal(), 0, 0, e, static_cast<double>(age)});
+  }
+  const auto t = *fit_trend(s, k95);
+  EXPECT_NEAR(t.wear->u, t.s_mm / std::sqrt(12.0), 1e-12);
+  EXPECT_NEAR(t.wear->upper - t.wear->value, t95(11) * t.wear->u, 1e-9);
 }
 
 TEST(Trend, AnExactSeriesGivesItsConstantsBack) {

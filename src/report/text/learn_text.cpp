@@ -42,8 +42,12 @@ std::string estimates(const ordered_json& c) {
   add(c, "drift_mm_h", "drift", kUm, "um/h", 2);
   add(c, "drift_mm_part", "drift", kUm, "um per part", 3);
   add(c, "wear_mm_part", "wear", kUm, "um per part", 3);
-  for (const auto& j : list(object(c, "edges"), "jumps"))
-    rows.push_back(estimate_row("jump to edge " + word(j, "to"), j, kUm, "um", 2));
+  const auto& jumps = list(object(c, "edges"), "jumps");
+  constexpr std::size_t kMost = 8;  // of many edges the last
+  for (std::size_t i = jumps.size() - std::min(kMost, jumps.size()); i < jumps.size();
+       ++i)
+    rows.push_back(
+        estimate_row("jump to edge " + word(jumps[i], "to"), jumps[i], kUm, "um", 2));
   return table({{"", Align::left}, {"value"}, {"from"}, {"to"}, {"", Align::left}}, rows);
 }
 

@@ -65,6 +65,19 @@ TEST(LearnText, SaysWhenACorrectionIsNotWorthwhileOrHelpsNothing) {
   EXPECT_TRUE(has(text, "three standard"));
 }
 
+TEST(LearnText, OfManyEdgesTheLastAreShown) {
+  auto result = answered();
+  auto& jumps = result["characteristics"][0]["edges"]["jumps"];
+  for (int i = 0; i < 20; ++i) {
+    jumps.push_back(jumps[0]);
+    jumps.back()["to"] = std::to_string(i);
+  }
+  const auto text = flat(learn_text(result));
+  EXPECT_FALSE(has(text, "\n jump to edge 11 "));
+  EXPECT_TRUE(has(text, "\n jump to edge 12 "));
+  EXPECT_TRUE(has(text, "\n jump to edge 19 "));
+}
+
 TEST(LearnText, FactorsStandBeforeAndAfter) {
   auto result = answered();
   result["factors"] = ordered_json::parse(R"([
