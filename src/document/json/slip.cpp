@@ -72,6 +72,11 @@ std::optional<Slip> usual_slip(std::string_view text, std::size_t bytes_read,
     const auto word = around(text, last, [](char x) { return letter(x) || digit(x); });
     return Slip{std::string(word), fmt::format("\"{}\", in double quotes", word)};
   }
+  if (says("unexpected number literal")) {
+    const auto word = around(text, last, [](char x) { return digit(x) || x == '.'; });
+    if (word.size() > 1 && word[0] == '0' && digit(word[1]))
+      return Slip{std::string(word), "no zero before the other digits"};
+  }
   const bool another = says("unexpected string literal") ||
                        says("unexpected number literal") || says("unexpected '{'") ||
                        says("unexpected '['");
