@@ -1,5 +1,7 @@
 #include "requests.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -212,10 +214,16 @@ ordered_json predict(const json& request, const Context& context) {
 
 ordered_json quote(const json& request, const Context& context) {
   const auto quoted = document::load_quote(request, context.catalogue);
+  std::vector<planning::Candidate> all;
+  for (const auto& part : quoted.parts)
+    std::ranges::move(to_plan(part), std::back_inserter(all));
+  auto made = planning::judged_plans(all, nc::refuse_unprogrammed);
   std::vector<std::vector<planning::ProcessPlan>> plans;
+  auto next = std::make_move_iterator(made.begin());
   for (const auto& part : quoted.parts) {
-    plans.push_back(planning::judged_plans(to_plan(part), nc::refuse_unprogrammed));
-    if (context.tell) context.tell(plans.size(), quoted.parts.size());
+    const auto end = next + std::ssize(part.usable);
+    plans.emplace_back(next, end);
+    next = end;
   }
   return document::quote_result(quoted, plans);
 }
