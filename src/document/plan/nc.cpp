@@ -5,6 +5,7 @@
 #include <set>
 
 #include "document/json/fields.hpp"
+#include "document/json/read_below.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -162,14 +163,8 @@ NcRequest load_nc_request(const json& request, const Catalogue& catalogue) {
   const auto part = r.object("part");
   NcRequest out{.settings = read_settings(r)};
   r.finish();
-  try {
-    if (!part.broken()) out.part = prepared_candidates(part.json(), catalogue, "nc");
-  } catch (const InputError& e) {
-    for (auto problem : e.problems()) {
-      problem.pointer = part.pointer() + problem.pointer;
-      problems.add(std::move(problem));
-    }
-  }
+  read_below(part, problems,
+             [&] { out.part = prepared_candidates(part.json(), catalogue, "nc"); });
   problems.throw_if_any();
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
+#include "document/json/read_below.hpp"
 #include "document/json/reference.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 
@@ -75,17 +76,12 @@ void add_characteristics(const part::Drawing& d, std::vector<Characteristic>& al
 
 void read_part(Reader& r, const Catalogue& catalogue, Request& q) {
   const auto part = r.optional_object("part");
-  if (!part || part->broken()) return;
-  try {
+  if (!part) return;
+  read_below(*part, r.problems(), [&] {
     q.part = prepared_part(part->json(), catalogue, "learn");
     q.part_document = part->json();
     add_characteristics(q.part->part.drawing, q.characteristics);
-  } catch (const InputError& e) {
-    for (auto problem : e.problems()) {
-      problem.pointer = part->pointer() + problem.pointer;
-      r.problems().add(std::move(problem));
-    }
-  }
+  });
 }
 
 void read_characteristics(Reader& r, Request& q) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
 #include "document/json/fields.hpp"
+#include "document/json/read_below.hpp"
 #include "routing.hpp"
 
 namespace turnwright::document {
@@ -63,15 +63,10 @@ void read_energy(Reader group, QuoteRequest& q) {
 
 void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
                QuoteRequest& q, Problems& problems) {
-  try {
-    q.parts.push_back(prepared_candidates(item.json(), catalogue, "quote"));
-  } catch (const InputError& e) {
-    for (auto problem : e.problems()) {
-      problem.pointer = item.pointer() + problem.pointer;
-      problems.add(std::move(problem));
-    }
+  if (!read_below(item, problems, [&] {
+        q.parts.push_back(prepared_candidates(item.json(), catalogue, "quote"));
+      }))
     return;
-  }
   for (const auto& c : q.parts.back().usable)
     if (priced && c.document.part.stock_price > 0) {
       item.problem_at("stock", "no price of its own beside the quote's stock",
