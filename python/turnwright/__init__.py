@@ -32,7 +32,10 @@ def ids(kind):
 
 def example(name):
     """A request that the capability `name` answers as it stands."""
-    return next(row["example"] for row in capabilities() if row["name"] == name)
+    examples = {row["name"]: row["example"] for row in capabilities()}
+    if name not in examples:
+        raise KeyError(f"no capability {name!r}: there are {', '.join(examples)}")
+    return examples[name]
 
 
 def _function(row):

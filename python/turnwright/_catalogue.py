@@ -7,6 +7,9 @@ from ._library import Handle
 from ._result import Result
 
 
+KINDS = ("materials", "tools", "machines", "parts", "schemas")
+
+
 class Catalogue:
     """The documents of a folder with materials/, tools/ and machines/.
 
@@ -27,11 +30,16 @@ class Catalogue:
 
     def ids(self, kind):
         """The ids of "materials", "tools", "machines", "parts" or "schemas"."""
-        return sorted(file.stem for file in (self.folder / kind).rglob("*.json"))
+        return sorted(file.stem for file in self._files(kind))
+
+    def _files(self, kind):
+        if kind not in KINDS:
+            raise KeyError(f"no kind {kind!r} of documents: there are {', '.join(KINDS)}")
+        return (self.folder / kind).rglob("*.json")
 
     def document(self, kind, id):
         """One of them, as a dict: document("parts", "pump-shaft")."""
-        for file in (self.folder / kind).rglob("*.json"):
+        for file in self._files(kind):
             if file.stem == id:
                 return json.loads(file.read_text())
         raise KeyError(f"no {id} in {kind}: there are {', '.join(self.ids(kind))}")

@@ -25,9 +25,10 @@ struct Profile {
 };
 
 Profile profile(const LiveCentre& c, double hole_mm) {
-  const double hole = std::min(hole_mm, c.point_mm) / 2, point = c.point_mm / 2;
-  return {hole, point, c.body_mm / 2, (point - hole) * std::numbers::sqrt3,
-          c.point_length_mm - hole * std::numbers::sqrt3};
+  const double hole = hole_mm / 2, point = std::max(c.point_mm, hole_mm) / 2;
+  return {hole, point, std::max(c.body_mm, hole_mm) / 2,
+          (point - hole) * std::numbers::sqrt3,
+          c.point_length_mm - std::min(hole_mm, c.point_mm) / 2 * std::numbers::sqrt3};
 }
 
 // Height of the lowest point of a convex outline at a place on its axis.

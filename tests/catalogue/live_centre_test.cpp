@@ -67,6 +67,16 @@ TEST(LiveCentre, TheBodyIsMetFirstByTheFarSideOfTheHolder) {
   EXPECT_GT(clear_radius_mm(finisher(), c, hole, body_z - 32 + 1e-6), 9);
 }
 
+// A bull-nose centre as wide as the bore, behind which the body begins.
+TEST(LiveCentre, ABoreWiderThanThePointHasACentreAsWide) {
+  auto alone = finisher();
+  alone.holder.reset();
+  const LiveCentre c{16, 55, 60};
+  EXPECT_NEAR(clear_radius_mm(alone, c, 50, 2.4), 25 + 0.35, 0.01);  // its sharp corner
+  EXPECT_GT(clear_radius_mm(finisher(), c, 50, 2.4),
+            clear_radius_mm(finisher(), c, 20, 2.4));
+}
+
 TEST(LiveCentre, MoreOfItIsNeverLessInTheWay) {
   double before = 0;
   for (const double z : {-40.0, -20.0, -10.0, 0.0, 2.0, 5.0, 20.0}) {

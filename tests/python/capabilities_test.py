@@ -63,6 +63,15 @@ class Capabilities(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "pump-shaft"):
             turnwright.document("parts", "pump-shafd")
 
+    def test_names_that_are_none(self):
+        with self.assertRaisesRegex(KeyError, "plan"):
+            turnwright.example("plane")
+        for kind in ("../..", "nuts"):
+            with self.assertRaisesRegex(KeyError, "materials"):
+                turnwright.ids(kind)
+            with self.assertRaisesRegex(KeyError, "materials"):
+                turnwright.document(kind, "C45")
+
     def test_own_catalogue(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(["cp", "-r", *turnwright.Catalogue().folder.iterdir(), folder],

@@ -20,7 +20,8 @@ struct LiveCentre {
 ///     R(z) = hole/2 + z tan 30 deg, at most point/2, and from
 ///     z = point_length - hole/2/tan 30 deg on body/2,                             (1)
 ///
-/// and the tip must be at max over z of R(z + z_tip) - h(z), with the lowest points h(z) of
+/// In a bore wider than the point a bull-nose centre is taken to sit that is as wide as the
+/// bore, on the same body.  The tip must be at max over z of R(z + z_tip) - h(z), with the lowest points h(z) of
 /// the outline (tool_outline.hpp).  Both are piecewise linear: the maximum is at a corner of
 /// one of them.  The insert has sharp corners, on the
 /// safe side; a tool whose document has no holder is its insert alone.

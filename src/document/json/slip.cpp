@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace turnwright::document {
 namespace {
@@ -62,11 +64,19 @@ std::optional<Slip> usual_slip(std::string_view text, std::size_t bytes_read,
     return Slip{fmt::format("/{}", next), "no comment: JSON has none"};
   if (c == '#') return Slip{"#", "no comment: JSON has none"};
   if (c == '\'') return Slip{"'", "double quotes"};
+  if (c == ';' || c == '=')
+    return Slip{std::string(1, c), c == ';' ? "a comma between members" : "a colon"};
+  for (const auto& [word, meant] :
+       {std::pair{"True", "true"}, {"False", "false"}, {"None", "null"}})
+    if (around(text, last, letter) == word) return Slip{word, meant};
   if ((c == '+' || c == '.') && digit(next)) {
-    const auto word =
-        around(text, last, [](char x) { return digit(x) || x == '+' || x == '.'; });
+    const auto word = around(
+        text, last, [](char x) { return digit(x) || x == '+' || x == '-' || x == '.'; });
+    const auto digits =
+        word.substr(std::min(word.find_first_of(".0123456789"), word.size()));
     return Slip{std::string(word),
-                c == '.' ? fmt::format("0{}", word) : std::string(word.substr(1))};
+                fmt::format("{}{}{}", word[0] == '-' ? "-" : "",
+                            digits.starts_with('.') ? "0" : "", digits)};
   }
   if (says("in object key") && letter(c)) {
     const auto word = around(text, last, [](char x) { return letter(x) || digit(x); });

@@ -48,7 +48,11 @@ void check_bores(Draft& draft) {
     return;
   }
   const part::Wall wall = part::thinnest_wall(d);
-  const bool told = d.inner.empty() && wall.share <= 0;  // of the stock
+  const auto in_the_hole = [&](const auto& e) {
+    return std::min(e.left_mm, e.right_mm) <= d.stock.inner_mm;
+  };
+  // Of the stock, whose own check tells it.
+  const bool told = d.inner.empty() && std::ranges::any_of(d.outer, in_the_hole);
   if (wall.share >= kThin - 1e-9 || told) return;
   const Reader at = d.inner.empty() ? draft.root.at("stock") : *list;
   at.problem("a wall of " + number_text(std::round(1e4 * wall.share) / 1e4) +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "document/json/fields.hpp"
@@ -19,14 +20,15 @@ using planning::PlanStatus;
 using planning::ProcessPlan;
 
 constexpr std::size_t kQuotedParts = 50, kBatches = 20;
-constexpr double kLargestBatch = 1e6, kMostMoney = 1e9;
+constexpr long kLargestBatch = 1'000'000;
+constexpr double kMostMoney = 1e9;
 
 std::vector<double> read_batches(Reader& r) {
   if (!r.has("batches")) return {1, 10, 100, 1000};
   std::vector<double> all;
   std::set<double> once;
   for (const auto& item : r.items("batches", 1, kBatches)) {
-    const double batch = item.as_number(within(1, kLargestBatch));
+    const auto batch = static_cast<double>(item.as_integer(1, kLargestBatch));
     if (!once.insert(batch).second) item.problem("each batch once", "duplicate");
     all.push_back(batch);
   }
@@ -68,6 +70,12 @@ void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
       }))
     return;
   for (const auto& c : q.parts.back().usable)
+    if (c.document.part.objective != planning::Objective::cost) {
+      item.problem_at("objective", "\"cost\": a quote is of the cheapest plan",
+                      "conflict");
+      return;
+    }
+  for (const auto& c : q.parts.back().usable)
     if (priced && c.document.part.stock_price > 0) {
       item.problem_at("stock", "no price of its own beside the quote's stock",
                       "conflict");
@@ -93,16 +101,20 @@ Considered considered(const QuoteRequest& q, const Candidates::Usable& c,
   if (q.charges.scrap && !(planning::all_conform(plan) > 0))
     return {c.name, {}, "no share of the parts is sure to conform"};
   if (q.stock.per_bar && planning::pieces_of_bar(part, q.stock) < 1)
-    return {c.name,
-            {},
-            fmt::format("a bar of {:g} mm is too short for a piece of {:g} mm",
-                        q.stock.bar_length_mm, part.drawing.stock.length_mm)};
+    return {
+        c.name,
+        {},
+        fmt::format(
+            "a bar of {:g} mm less its remnant of {:g} mm is too short for a piece of "
+            "{:g} mm and its kerf of {:g} mm",
+            q.stock.bar_length_mm, q.stock.remnant_mm, part.drawing.stock.length_mm,
+            q.stock.kerf_mm)};
   return {c.name, Offer{&part, &plan, planning::piece_price(part, q.stock)}};
 }
 
 ordered_json price_json(const planning::UnitPrice& u, const std::string& made_by) {
   const double cost = u.stock + u.run + u.setting_up;
-  ordered_json out{{"batch", u.batch}, {"price", u.price}};
+  ordered_json out{{"batch", std::lround(u.batch)}, {"price", u.price}};
   if (!made_by.empty()) out["made_by"] = made_by;
   out.update({{"stock", u.stock},
               {"run", u.run},

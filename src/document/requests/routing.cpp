@@ -18,7 +18,7 @@ std::string csv_cell(const ordered_json& value) {
   auto text = value.get<std::string>();
   if (!text.empty() && std::string_view("=+-@\t\r").find(text[0]) != text.npos)
     text.insert(0, 1, '\'');
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  if (text.find_first_of(",;\"\t\r\n") == text.npos) return text;
   for (auto at = text.find('"'); at != text.npos; at = text.find('"', at + 2))
     text.insert(at, 1, '"');
   return fmt::format("\"{}\"", text);

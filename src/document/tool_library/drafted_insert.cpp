@@ -58,7 +58,9 @@ std::string disagreement(const LibraryTool& t, const Insert1832& named) {
     tell(differs(*edge, named.edge_length_mm), "the edge",
          fmt::format("{:.3f} mm", *edge));
   if (t.S_mm) tell(differs(*t.S_mm, named.thickness_mm), "S", mm_text(*t.S_mm));
-  if (t.RE_mm) tell(!catalogue::is_corner_of(named, *t.RE_mm), "RE", mm_text(*t.RE_mm));
+  if (t.RE_mm)
+    tell(!catalogue::is_corner_of(named, *t.RE_mm), "RE",
+         fmt::format("{:.4g} mm", *t.RE_mm));
   return all;
 }
 
@@ -122,8 +124,19 @@ Insert1832 insert_by_sizes(const DraftSource& from) {
   return insert;
 }
 
-DraftedInsert by_designation(const LibraryTool& t, const Insert1832& named,
+// The corner's inch size where a library has it rounded to thousandths of an inch.
+std::optional<double> unrounded_mm(std::optional<double> re_mm, const Insert1832& named) {
+  constexpr double kInchPerMetric = (25.4 / 64) / 0.4, kHalfOfThousandth_mm = 0.0127;
+  const double inch_mm = kInchPerMetric * named.re_mm;
+  return re_mm && std::abs(*re_mm - inch_mm) <= kHalfOfThousandth_mm &&
+                 !catalogue::is_corner_of(named, *re_mm)
+             ? inch_mm
+             : re_mm;
+}
+
+DraftedInsert by_designation(LibraryTool t, const Insert1832& named,
                              const DraftRemarks& remarks) {
+  t.RE_mm = unrounded_mm(t.RE_mm, named);
   if (named.shape == 'R')
     throw std::domain_error(
         "A round insert: its edge angle changes with the depth of cut, which no model "

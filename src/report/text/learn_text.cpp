@@ -66,7 +66,9 @@ std::string advised(const ordered_json& c) {
   if (const auto due = number(a, "due_in_parts"))
     text += *due > 0 ? fmt::format("; the next correction is due after {} parts more",
                                    shown(due, 0))
-                     : "; three standard deviations alone reach a limit";
+            : number(a, "room_mm").value_or(0) > 0
+                ? "; the next correction is due at the next part"
+                : "; three standard deviations alone reach a limit";
   if (const auto edge = number(a, "edge_due_in_parts"))
     text += fmt::format("; the edge is changed in {} parts", shown(edge, 0));
   return paragraph("  ADVICE  ", text);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ std::string way_line(const ordered_json& way) {
                   by.empty() ? "" : by + ": ", significant(number(way, "stock_kg"), 3),
                   significant(number(energy, "kWh"), 2),
                   significant(number(energy, "kg_CO2"), 2),
-                  shown(100 * number(way, "conforming").value_or(0), 2),
+                  shown(std::floor(1e4 * number(way, "conforming").value_or(0)) / 100, 2),
                   flag(way, "proved") ? "" : "; not proved to be the cheapest"));
 }
 

@@ -136,6 +136,11 @@ TEST(Parse, SaysWhatIsMeantWhereASlipIsAUsualOne) {
   told("{a_mm: 1}", R"(: a_mm, expected "a_mm", in double quotes)");
   told(R"({"a": .5})", ": .5, expected 0.5");
   told(R"({"a": +5})", ": +5, expected 5");
+  told(R"({"a": -.5})", ": -.5, expected -0.5");
+  told(R"({"a": True})", ": True, expected true");
+  told(R"([None])", ": None, expected null");
+  told(R"({"a": 1; "b": 2})", ": ;, expected a comma between members");
+  told(R"({"a" = 1})", ": =, expected a colon");
   told(R"({"a": 020})", ": 020, expected no zero before the other digits");
   told("{\"a\": 1\n\"b\": 2}", ": two members or values side by side, expected a comma");
   told(R"([{"a": 1} {"a": 2}])", "expected a comma between them");

@@ -556,6 +556,18 @@ TEST(PartPlan, DocumentsMayStandInsteadOfIds) {
             "t: /tools/1/life/T_min: got [5], expected a list of 2 entries");
 }
 
+TEST(PartPlan, AGrooveThatReachesTheHoleLeavesNoWall) {
+  auto document = smallest();
+  document["stock"] = {
+      {"kind", "tube"}, {"outer_mm", 70}, {"inner_mm", 40}, {"length_mm", 84}};
+  document["outer"] = {
+      {{"id", "a"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 66}},
+      {{"id", "g"}, {"kind", "groove"}, {"length_mm", 4}, {"diameter_mm", 40}},
+      {{"id", "b"}, {"kind", "cylinder"}, {"length_mm", 36}, {"diameter_mm", 66}}};
+  EXPECT_NE(refusal(document).find("a wall of 0 of the radius"), std::string::npos)
+      << refusal(document);
+}
+
 TEST(PartPlan, ATubeHasAWall) {
   auto document = full();
   document["stock"] = {{"kind", "tube"},

@@ -47,15 +47,18 @@ TEST(QuoteRequest, TellsAllProblemsAtTheirPlaces) {
   wrong["stock"]["price"] = 3;
   auto priced = pin();
   priced["stock"]["price"] = 3;
-  const json request{{"parts", {pin(), wrong, priced}},
-                     {"batches", {1, 0.5, 1}},
+  auto quick = pin();
+  quick["objective"] = "time";
+  const json request{{"parts", {pin(), wrong, priced, quick}},
+                     {"batches", {1, 1.5, 1}},
                      {"stock", {{"price_per_kg", 1}, {"price_per_bar", 2}}},
                      {"charges", {{"margin_pct", 96}, {"overheads", 1}}},
                      {"energy", {{"idle_kW", -1}}}};
   const auto all = pointers(request);
-  for (const char* at : {"/batches/1", "/batches/2", "/stock", "/stock/bar_length_mm",
-                         "/charges/margin_pct", "/charges/overheads", "/energy/idle_kW",
-                         "/parts/1/outer/0/diameter_mm", "/parts/2/stock"})
+  for (const char* at :
+       {"/batches/1", "/batches/2", "/stock", "/stock/bar_length_mm",
+        "/charges/margin_pct", "/charges/overheads", "/energy/idle_kW",
+        "/parts/1/outer/0/diameter_mm", "/parts/2/stock", "/parts/3/objective"})
     EXPECT_NE(std::find(all.begin(), all.end(), at), all.end()) << at;
   EXPECT_EQ(pointers(json::object()), std::vector<std::string>{"/parts"});
 }

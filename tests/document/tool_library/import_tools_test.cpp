@@ -108,6 +108,18 @@ TEST(ImportTools, FusionsTurningToolsAreDocuments) {
   EXPECT_EQ(t["life"]["source"].get<std::string>().rfind("not in the library", 0), 0u);
 }
 
+// Makers print 1/32 inch as 0.031 or 0.0312.
+TEST(ImportTools, ARoundedInchCornerIsTheInchSize) {
+  for (const char* corner : {"0.0312", "0.031", "0.03125"}) {
+    const json r =
+        imported(std::string("insert,RE,unit\nCNMG 432,") + corner + ",inch\n");
+    EXPECT_EQ(r["contradictions"], json::array()) << corner;
+    EXPECT_NEAR(r["tools"][0]["geometry"]["re_mm"], 25.4 / 32, 1e-9) << corner;
+  }
+  EXPECT_NE(imported("insert,RE,unit\nCNMG 432,0.029,inch\n")["contradictions"],
+            json::array());
+}
+
 TEST(ImportTools, EveryToolHasItsUnitAndSoHasItsHolder) {
   const json r = imported(bytes_of("crib.json"));
   const json inch = tool_called(r, "OD-finisher-25-mm");
