@@ -65,7 +65,9 @@ typedef void (*turnwright_progress)(size_t done, size_t all, void* user);
 
 /** What a call may be given beside its request.  Set all to zero, then `size`. */
 typedef struct turnwright_options {
-  size_t size;                  /**< sizeof(turnwright_options) */
+  /** sizeof(turnwright_options).  A later library may know more members; those beyond this
+      size count as zero. */
+  size_t size;
   turnwright_stop* stop;        /**< outlives the call; NULL: the call runs to its end */
   turnwright_progress progress; /**< NULL: nobody wants to know */
   void* user;                   /**< handed to `progress` */

@@ -103,17 +103,24 @@ const service::Request& row_of(const char* name) {
                                   "one of " + names, "choice"}});
 }
 
+// Options of a program that was compiled with this header or an earlier one, which knew
+// fewer of them.
+turnwright_options whole(const turnwright_options* options) {
+  turnwright_options all{};
+  if (!options) return all;
+  if (options->size < sizeof options->size || options->size > sizeof all)
+    throw InputError("arguments", {{"options/size", std::to_string(options->size),
+                                    "at most " + std::to_string(sizeof all), "range"}});
+  std::memcpy(&all, options, options->size);
+  return all;
+}
+
 service::Context context_of(const turnwright_catalogue& catalogue,
-                            const turnwright_options* options) {
+                            const turnwright_options& options) {
   service::Context context{catalogue.documents};
-  if (!options) return context;
-  if (options->size != sizeof(turnwright_options))
-    throw InputError("arguments",
-                     {{"options/size", std::to_string(options->size),
-                       std::to_string(sizeof(turnwright_options)), "range"}});
-  if (options->stop) context.stop = options->stop->source.get_token();
-  if (options->progress)
-    context.tell = [call = options->progress, user = options->user](
+  if (options.stop) context.stop = options.stop->source.get_token();
+  if (options.progress)
+    context.tell = [call = options.progress, user = options.user](
                        std::size_t done, std::size_t all) { call(done, all, user); };
   return context;
 }
@@ -132,14 +139,15 @@ ordered_json with_drawings(const service::Request& row, const nlohmann::json& re
 }
 
 ordered_json answered(const turnwright_catalogue* catalogue, const char* name,
-                      const char* request, const turnwright_options* options) {
+                      const char* request, const turnwright_options* given) {
   require({{"catalogue", catalogue}, {"name", name}, {"request", request}});
   const auto& row = row_of(name);
+  const auto options = whole(given);
   const auto context = context_of(*catalogue, options);
   leave_if(context.stop);
   const auto document = document::parse(request, row.name);
-  return options && options->drawings ? with_drawings(row, document, context)
-                                      : service::answer(row, document, context);
+  return options.drawings ? with_drawings(row, document, context)
+                          : service::answer(row, document, context);
 }
 
 ordered_json capabilities() {

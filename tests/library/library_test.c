@@ -1,5 +1,6 @@
 /* Calls the C library as a program in C does.  Usage: library_test FOLDER VERSION */
 #include <pthread.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,6 +147,16 @@ static void draws(const turnwright_catalogue* catalogue) {
   turnwright_free(answer);
   turnwright_answer(catalogue, "deflection", kCantilever, &options, &answer);
   check_text(answer, "\"drawings\":[]", "a capability without pictures has none");
+  turnwright_free(answer);
+  options.size = offsetof(turnwright_options, drawings);
+  turnwright_answer(catalogue, "deflection", kCantilever, &options, &answer);
+  check(strstr(answer, "\"drawings\"") == NULL, "a shorter struct has fewer options",
+        answer);
+  turnwright_free(answer);
+  options.size = sizeof options + 1;
+  check(turnwright_answer(catalogue, "deflection", kCantilever, &options, &answer) ==
+            TURNWRIGHT_WRONG_INPUT,
+        "a longer struct is refused", answer);
   turnwright_free(answer);
 }
 

@@ -136,13 +136,13 @@ std::optional<double> unrounded_mm(std::optional<double> re_mm, const Insert1832
 
 DraftedInsert by_designation(LibraryTool t, const Insert1832& named,
                              const DraftRemarks& remarks) {
-  t.RE_mm = unrounded_mm(t.RE_mm, named);
   if (named.shape == 'R')
     throw std::domain_error(
         "A round insert: its edge angle changes with the depth of cut, which no model "
         "here follows.");
   const auto designation = catalogue::encode_iso1832(named);
   DraftedInsert out{catalogue::decode_iso1832(designation), designation, named.re_mm};
+  t.RE_mm = unrounded_mm(t.RE_mm, out.insert);
   if (const auto wrong = disagreement(t, out.insert); !wrong.empty())
     remarks.contradict(fmt::format("The insert is named {}, but {}: the name is taken.",
                                    designation, wrong));

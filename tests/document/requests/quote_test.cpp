@@ -73,10 +73,10 @@ TEST(Routing, IsCsvThatASpreadsheetTakesForText) {
   };
   EXPECT_EQ(routing_csv({row("Pin"), row("=1+1"), row("A \"pin\", long")}),
             "part,made_by,operation,machine,description,setup_min,run_min\r\n"
-            "Pin,lathe-small; bar 35 x 84 mm,10,lathe-small,turn,15.5,2.25\r\n"
-            "'=1+1,lathe-small; bar 35 x 84 mm,10,lathe-small,turn,15.5,2.25\r\n"
-            "\"A \"\"pin\"\", long\",lathe-small; bar 35 x 84 "
-            "mm,10,lathe-small,turn,15.5,2.25\r\n");
+            "Pin,\"lathe-small; bar 35 x 84 mm\",10,lathe-small,turn,15.5,2.25\r\n"
+            "'=1+1,\"lathe-small; bar 35 x 84 mm\",10,lathe-small,turn,15.5,2.25\r\n"
+            "\"A \"\"pin\"\", long\",\"lathe-small; bar 35 x 84 "
+            "mm\",10,lathe-small,turn,15.5,2.25\r\n");
 }
 
 }  // namespace

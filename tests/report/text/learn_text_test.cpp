@@ -60,6 +60,9 @@ TEST(LearnText, SaysWhenACorrectionIsNotWorthwhileOrHelpsNothing) {
   auto& advice = result["characteristics"][0]["advice"];
   advice["worthwhile"] = false;
   advice["due_in_parts"] = 0;
+  advice["room_mm"] = 0.002;
+  EXPECT_TRUE(has(flat(learn_text(result)), "due at the next part"));
+  advice["room_mm"] = -0.002;
   const auto text = flat(learn_text(result));
   EXPECT_TRUE(has(text, "better wait"));
   EXPECT_TRUE(has(text, "three standard"));
