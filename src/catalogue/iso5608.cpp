@@ -51,16 +51,23 @@ char length_letter(const std::optional<double>& length_mm) {
   return kLengths[static_cast<std::size_t>(at - kLengths_mm.begin())];
 }
 
+// How the insert is clamped, its shape, the style, the clearance and the hand: alike of
+// holders and of bars.
+template <class Shank>
+void take_head(Designation& reader, Shank& shank) {
+  reader.take_one_of(kClampings);
+  shank.insert_shape = reader.take_one_of(kShapes);
+  shank.kapr_deg = take_kapr_deg(reader);
+  shank.clearance_deg = take_clearance_deg(reader);
+  shank.hand = reader.take_one_of(kHands);
+}
+
 }  // namespace
 
 Holder5608 decode_iso5608(const std::string& designation) {
   Designation reader("decode_iso5608", designation);
   Holder5608 holder;
-  reader.take_one_of(kClampings);
-  holder.insert_shape = reader.take_one_of(kShapes);
-  holder.kapr_deg = take_kapr_deg(reader);
-  holder.clearance_deg = take_clearance_deg(reader);
-  holder.hand = reader.take_one_of(kHands);
+  take_head(reader, holder);
   holder.h_mm = reader.take_two_digits();
   holder.b_mm = reader.take_two_digits();
   holder.lf_mm = take_length_mm(reader, "X-");
@@ -94,11 +101,7 @@ Bar5609 decode_iso5609(const std::string& designation) {
   bar.diameter_mm = reader.take_two_digits();
   if (!(bar.diameter_mm > 0)) reader.fail("must be a diameter above 0 mm");
   bar.length_mm = take_length_mm(reader, "X");
-  reader.take_one_of(kClampings);
-  bar.insert_shape = reader.take_one_of(kShapes);
-  bar.kapr_deg = take_kapr_deg(reader);
-  bar.clearance_deg = take_clearance_deg(reader);
-  bar.hand = reader.take_one_of(kHands);
+  take_head(reader, bar);
   bar.edge_code = reader.take_two_digits();
   return bar;
 }

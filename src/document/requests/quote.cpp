@@ -69,18 +69,13 @@ void read_part(const Reader& item, const Catalogue& catalogue, bool priced,
         q.parts.push_back(prepared_candidates(item.json(), catalogue, "quote"));
       }))
     return;
-  for (const auto& c : q.parts.back().usable)
-    if (c.document.part.objective != planning::Objective::cost) {
-      item.problem_at("objective", "\"cost\": a quote is of the cheapest plan",
-                      "conflict");
-      return;
-    }
-  for (const auto& c : q.parts.back().usable)
-    if (priced && c.document.part.stock_price > 0) {
-      item.problem_at("stock", "no price of its own beside the quote's stock",
-                      "conflict");
-      return;
-    }
+  const auto& usable = q.parts.back().usable;
+  if (usable.front().document.part.objective != planning::Objective::cost)
+    item.problem_at("objective", "\"cost\": a quote is of the cheapest plan", "conflict");
+  else if (priced && std::ranges::any_of(usable, [](const auto& c) {
+             return c.document.part.stock_price > 0;
+           }))
+    item.problem_at("stock", "no price of its own beside the quote's stock", "conflict");
 }
 
 // A candidate that can be offered, with its place among the plans; or why it cannot.

@@ -341,8 +341,8 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   return nullptr;
 }
 
-// The largest drill that the spindle drives and the jaws hold; if there is none, or the drilling is given,
-// the largest of all, whose limits then tell why it cannot be.
+// The largest drill that the spindle drives and the jaws hold; if there is none, or the
+// drilling is given, the largest of all, whose limits then tell why it cannot be.
 Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
   if (a.given) return fitted(p, a);
   auto driven = a;
@@ -712,14 +712,6 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
   }
 }
 
-// Whether the free end of this setup is solid: that of a bar, with no bore from there.
-bool solid(const PreparedPart& p, std::size_t setup) {
-  const auto end = free_end(p, setup);
-  if (p.drawing.stock.kind == part::StockKind::tube) return false;
-  return std::none_of(p.drawing.inner.begin(), p.drawing.inner.end(),
-                      [&](const auto& e) { return e.from == end; });
-}
-
 }  // namespace
 
 AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
@@ -730,7 +722,7 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   const auto hold = p.setups[setup].hold;
   const bool left = hold == part::End::left;
   const auto* face = free_face(p, setup);
-  if ((has_live_centre(clamping) && solid(p, setup)) || given_on(s, face))
+  if ((has_live_centre(clamping) && !(free_bore_mm(p, setup) > 0)) || given_on(s, face))
     add_centre(s, face, left ? d.outer.back().right_mm : d.outer.front().left_mm);
   if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
   s.stage = Stage::finishing;
@@ -750,14 +742,8 @@ double drilled_mm(const PreparedPart& p, part::End end) {
   const auto h = hole_from(p.drawing, end);
   if (h.first.empty()) return 0;
   const auto a = drilling(h, given_drilling(p, end));
-  const auto from_end = [&](const SetupWork& work) {
-    return std::ranges::any_of(
-        work.bores, [&](std::size_t i) { return p.drawing.inner[i].from == end; });
-  };
-  const auto in = std::ranges::find_if(p.work.setups, from_end);
-  if (in == p.work.setups.end()) return fitted(p, a).size_mm;
-  const auto setup = static_cast<std::size_t>(in - p.work.setups.begin());
-  return fitted_drill(p, setup, a).size_mm;
+  const auto setup = setup_of(p, h.first);
+  return (setup ? fitted_drill(p, *setup, a) : fitted(p, a)).size_mm;
 }
 
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,

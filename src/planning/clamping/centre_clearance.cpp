@@ -7,20 +7,33 @@
 
 namespace turnwright::planning {
 
+namespace {
+
+bool left_is_free(const PreparedPart& p, std::size_t setup) {
+  return p.setups[setup].hold == part::End::right;
+}
+
+}  // namespace
+
 bool has_live_centre(Clamping c) {
   return has_tailstock(c) || c == Clamping::between_centres;
 }
 
-double countersink_mm(const PreparedPart& p, std::size_t setup) {
+double free_bore_mm(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
-  const bool left = p.setups[setup].hold == part::End::right;  // the left end is free
+  const bool left = left_is_free(p, setup);
   double bore = d.stock.inner_mm;
   for (const auto& e : d.inner)
     if ((e.from == part::End::left) == left)
       bore = std::max(bore, left ? e.left_mm : e.right_mm);
-  if (bore > 0) return bore;
-  const double most =
-      kCentreShare * (left ? d.outer.front().left_mm : d.outer.back().right_mm);
+  return bore;
+}
+
+double countersink_mm(const PreparedPart& p, std::size_t setup) {
+  const auto& d = p.drawing;
+  if (const double bore = free_bore_mm(p, setup); bore > 0) return bore;
+  const double most = kCentreShare * (left_is_free(p, setup) ? d.outer.front().left_mm
+                                                             : d.outer.back().right_mm);
   double drilled = 0;
   for (const auto& t : p.fixed_tools)
     if (t.use == catalogue::FixedUse::centring)

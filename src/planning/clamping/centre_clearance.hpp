@@ -10,6 +10,9 @@ inline constexpr double kCentreShare = 0.35;
 /// Whether a live centre stands at the free end.
 bool has_live_centre(Clamping clamping);
 
+/// Diameter [mm] of the bore at the free face, 0 of a solid end.
+double free_bore_mm(const PreparedPart& plan, std::size_t setup);
+
 /// The largest diameter [mm] at the free face that the point of the centre may have: of a
 /// solid end the largest countersink that the plan's centre drills may give it, of a hollow
 /// one its bore.

@@ -57,8 +57,7 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   if (const auto& c = plan.machine.live_centre; meets_centre(plan, f))
     return fmt::format(
         ": no tools that clear the live centre, with a point of {:g} mm and a body of "
-        "{:g} "
-        "mm {:g} mm behind its tip, give a depth they can cut",
+        "{:g} mm {:g} mm behind its tip, give a depth they can cut",
         c.point_mm, c.body_mm, c.point_length_mm);
   return ": no tool and pass count give a depth its tool can cut";
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planning/budget/uncertain_limits.hpp"
+#include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/clamping_speed.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/supports.hpp"
@@ -149,10 +150,7 @@ MachinedSurface MachinedSurface::end_face(const PreparedPart& plan, std::size_t 
   f.D_large_ = plan.drawing.stock.outer_mm;
   // The face of the finished part ends at its outermost element.
   const auto& outer = plan.drawing.outer;
-  f.low_ = f.D_small_ / 2;
-  for (const auto& e : plan.drawing.inner)
-    if ((e.from == part::End::left) == left)
-      f.low_ = std::max(f.low_, (left ? e.left_mm : e.right_mm) / 2);
+  f.low_ = free_bore_mm(plan, setup) / 2;
   f.high_ = (left ? outer.front().left_mm : outer.back().right_mm) / 2;
   return f;
 }
