@@ -3,7 +3,7 @@ tw_domain(base PRIVATE_LIBS Eigen3::Eigen)
 
 tw_domain(optimise DEPENDS base PRIVATE_LIBS NLopt::nlopt_cxx Eigen3::Eigen)
 tw_domain(catalogue DEPENDS base PRIVATE_LIBS fmt::fmt)
-tw_domain(part DEPENDS base)
+tw_domain(part DEPENDS base PRIVATE_LIBS fmt::fmt)
 
 tw_domain(cutting DEPENDS base catalogue optimise PRIVATE_LIBS Eigen3::Eigen)
 tw_domain(deflection DEPENDS base part PRIVATE_LIBS Eigen3::Eigen fmt::fmt)

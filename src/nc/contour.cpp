@@ -39,8 +39,7 @@ std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
 // A line that ends with an undercut.
 std::vector<Point> with_undercut(std::vector<Point> line, const Surface& s) {
   if (!s.undercut) return line;
-  const auto [radius, depth, width] = *s.undercut;
-  const double z = s.z1 + width;
+  const double depth = s.undercut->depth_mm, z = s.z1 + s.undercut->width_mm;
   Point behind = line.back();
   for (; line.size() > 1 && line.back().z_mm <= z; line.pop_back()) behind = line.back();
   const auto& a = line.back();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "contour.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
@@ -41,7 +42,12 @@ void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   site.rapid(0, site.front + kBefore_mm);
   site.to(Kind::feed, site.outer, {0, -(depth + point)});
   site.rapid(0, site.front + kBefore_mm);
-  if (!centre) site.inner.stock_h = -D / 2;
+  if (centre) return;
+  site.inner.stock_h = -D / 2;
+  for (auto& s : site.inner.items) {
+    const auto& bore = site.part.drawing.inner[s.index];
+    if (part::is_hole(bore) && bore.from == end) s.stock = false;
+  }
 }
 
 struct Place {
@@ -73,6 +79,17 @@ bool rises_behind(const Site& site, const Place& p, double h) {
   return p.side.top0(p.side.items[p.k + 1]) > h + kSame_mm;
 }
 
+// Along the chamfer at a rim of a groove, from its outer end, of the height h, into the
+// groove.
+void rim(Site& site, Side& side, const part::Chamfer& c, double h, double from_z,
+         double to_z) {
+  const double above = h + site.above(side);
+  site.approach(side, {above, from_z});
+  site.to(Kind::feed, side, {h, from_z});
+  site.to(Kind::feed, side, {h - c.radial_mm, to_z});
+  site.rapid(side.sign * above, to_z);
+}
+
 void groove(Site& site, const OperationPlan& o, const Place& p) {
   auto& s = p.surface();
   const double w = o.passes[0].ap_mm, above = s.h0 + site.above(p.side);
@@ -87,6 +104,17 @@ void groove(Site& site, const OperationPlan& o, const Place& p) {
     site.to(Kind::feed, p.side, {floor, z});
     site.rapid(p.side.sign * above, z);
   }
+  const auto rims =
+      planning::rims_of(site.part, site.setup, planning::Element{s.inner, s.index});
+  const auto line = [&](std::size_t k) {
+    return corrected(site, p.side, p.side.items[k]);
+  };
+  if (rims.back)
+    rim(site, p.side, *rims.back, line(p.k + 1).front().h_mm, s.z1 - rims.back->axial_mm,
+        s.z1);
+  if (rims.front)
+    rim(site, p.side, *rims.front, line(p.k - 1).back().h_mm,
+        s.z0 + rims.front->axial_mm - w, s.z0 - w);
   s.h0 = s.h1 = floor;
 }
 

@@ -20,6 +20,11 @@ double to_middle_mm(const part::Drawing& d, const std::string& element) {
   return 0;
 }
 
+// A chamfer that turning cuts.
+std::optional<part::Chamfer> turned(const std::optional<part::Chamfer>& c) {
+  return c && c->by_blade ? std::nullopt : c;
+}
+
 }  // namespace
 
 double moved_mm(const Site& site, const std::string& surface) {
@@ -65,10 +70,10 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
       const auto& e = elements[i];
       const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
       const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
-      side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0,
-                                           e.left_chamfer, e.right_chamfer}
-                                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0,
-                                           e.right_chamfer, e.left_chamfer});
+      const auto left = turned(e.left_chamfer), right = turned(e.right_chamfer);
+      side.items.push_back(
+          a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0, left, right}
+                : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0, right, left});
       if constexpr (requires { e.left_undercut; })
         side.items.back().undercut = sign > 0 ? e.left_undercut : e.right_undercut;
       if (auto& s = side.items.back();

@@ -295,7 +295,7 @@ std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>&
 
 bool cut_later(const Site& site, const Surface& s) {
   const auto& cut = cut_of(site, s);
-  return cut && cut->kind != part::CutKind::thread;
+  return cut && part::replaces_blank(cut->kind);
 }
 
 // Whether the next element is as high, so that no fillet can stand behind an edge.
@@ -396,19 +396,31 @@ Way way_of(const Pass& p) {
   return {way, entered};
 }
 
-// Follows a path at feed to one of its points; where an undercut ends at a wall, its
-// radius is larger than the corner's and an arc leads from one to the other.
+// From the floor of an undercut, of the height h, up its radius, which may be larger than
+// the corner's, and where it goes into the shoulder at z, back to that.
+void up_undercut(const Pass& p, const part::Undercut& u, double h, double z) {
+  const double lean = u.recess_mm > 0 ? part::kUndercutLeans_rad : 0, r = p.re_mm;
+  const Normal up{-std::sin(lean), std::cos(lean)};
+  const double radius = u.radius_mm - r;
+  const Point centre{h + radius, z + part::centre_mm(u) - r};  // of the tip's arc
+  p.site.to(Kind::feed, p.side, {h, centre.z_mm});
+  if (radius > kSame_mm) {
+    p.site.at = {centre.h_mm - radius * up.h, centre.z_mm - radius * up.z};
+    p.site.moves.push_back({Kind::arc, p.site.at.h_mm, p.site.at.z_mm, centre, true});
+  }
+  if (lean > 0)
+    p.site.to(Kind::feed, p.side, tip({h + part::height_mm(u), z}, up, kWall, r));
+}
+
+// Follows a path at feed to one of its points, which may be where an undercut ends at a
+// wall.
 void follow(const Pass& p, const std::vector<Point>& way, std::size_t i) {
   const auto& undercut = p.surface().undercut;
-  const double radius = p.last && undercut ? undercut->radius_mm - p.re_mm : 0;
-  const bool corner = radius > kSame_mm && i + 1 < way.size() &&
-                      std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
-                      std::abs(way[i + 1].z_mm - way[i].z_mm) < kSame_mm;
-  if (!corner) return p.site.to(Kind::feed, p.side, way[i]);
-  const auto [h, z] = way[i];
-  p.site.to(Kind::feed, p.side, {h, z + radius});
-  p.site.moves.push_back({Kind::arc, h + radius, z, {h + radius, z + radius}, true});
-  p.site.at = {h + radius, z};
+  const bool foot = p.last && undercut && i + 1 < way.size() &&
+                    std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
+                    std::abs(way[i + 1].z_mm - way[i].z_mm) < kSame_mm;
+  foot ? up_undercut(p, *undercut, way[i].h_mm, way[i].z_mm)
+       : p.site.to(Kind::feed, p.side, way[i]);
 }
 
 void pass(const Pass& p) {

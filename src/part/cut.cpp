@@ -21,6 +21,11 @@ Shaped groove(double blank_mm, double floor_mm) {
            .depth_mm = std::abs(blank_mm - floor_mm) / 2}};
 }
 
+Shaped hole(double diameter_mm) {
+  const Ends ends{diameter_mm, diameter_mm};
+  return {ends, {.kind = CutKind::hole, .drawn = ends, .core = ends}};
+}
+
 Shaped thread(double d_mm, double pitch_mm, Where where) {
   const double H = std::numbers::sqrt3 / 2 * pitch_mm;
   const bool outside = where == Where::outside;

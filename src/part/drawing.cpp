@@ -1,5 +1,7 @@
 #include "turnwright/part/drawing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -7,23 +9,41 @@
 namespace turnwright::part {
 namespace {
 
-// Radius, depth and width.
-constexpr std::array kUndercutsE{
-    Undercut{0.2, 0.1, 1},   Undercut{0.4, 0.2, 2},   Undercut{0.6, 0.2, 2},
-    Undercut{0.6, 0.3, 2.5}, Undercut{0.8, 0.3, 2.5}, Undercut{1, 0.2, 2.5},
-    Undercut{1, 0.4, 4},     Undercut{1.2, 0.2, 2.5}, Undercut{1.2, 0.4, 4},
-    Undercut{1.6, 0.3, 4},   Undercut{2.5, 0.4, 5},   Undercut{4, 0.5, 7}};
+// Radius, depth, width, and depth in the shoulder.
+constexpr std::array kUndercutsF{
+    Undercut{0.2, 0.1, 1, 0.1},   Undercut{0.4, 0.2, 2, 0.1},
+    Undercut{0.6, 0.2, 2, 0.1},   Undercut{0.6, 0.3, 2.5, 0.2},
+    Undercut{0.8, 0.3, 2.5, 0.2}, Undercut{1, 0.2, 2.5, 0.1},
+    Undercut{1, 0.4, 4, 0.3},     Undercut{1.2, 0.2, 2.5, 0.1},
+    Undercut{1.2, 0.4, 4, 0.3},   Undercut{1.6, 0.3, 4, 0.2},
+    Undercut{2.5, 0.4, 5, 0.3},   Undercut{4, 0.5, 7, 0.3}};
 
 }  // namespace
 
-std::optional<Undercut> undercut_e(double radius_mm, double depth_mm) {
+std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm) {
   constexpr double kSame_mm = 1e-9;
-  for (const auto& u : kUndercutsE)
+  if (form != 'E' && form != 'F') return std::nullopt;
+  for (auto u : kUndercutsF) {
+    if (form == 'E') u.recess_mm = 0;
     if (std::abs(u.radius_mm - radius_mm) < kSame_mm &&
         std::abs(u.depth_mm - depth_mm) < kSame_mm)
       return u;
+  }
   return std::nullopt;
 }
+
+std::string designation(const Undercut& u) {
+  return fmt::format("{}{:g}x{:g}", u.recess_mm > 0 ? 'F' : 'E', u.radius_mm, u.depth_mm);
+}
+
+double height_mm(const Undercut& u) {
+  if (!(u.recess_mm > 0)) return u.radius_mm;
+  const double lean = kUndercutLeans_rad;
+  return u.radius_mm * (1 + std::sin(lean)) +
+         (u.recess_mm - u.radius_mm * (1 - std::cos(lean))) / std::tan(lean);
+}
+
+double centre_mm(const Undercut& u) { return u.radius_mm - u.recess_mm; }
 
 double undercut_mm(const OuterElement& e, double from_left_mm) {
   const auto at = [](const std::optional<Undercut>& u, double from_end_mm) {

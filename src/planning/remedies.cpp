@@ -100,29 +100,6 @@ void add_grip(const PreparedPart& p, std::size_t s, double grip_mm,
                              readable(p.grips_mm[s]), setup_label(s))});
 }
 
-// Adds jaws that reach as far as the nearest element that the setup cuts, less the largest corner that has
-// to roll over its end, or as far as the rest.
-void add_longer_grip(const PreparedPart& p, std::size_t s, std::vector<Variant>& all) {
-  constexpr double kTenth_mm = 0.1, kWorth_mm = 1;
-  const auto& work = p.work.setups[s];
-  const double root = root_z_mm(p, s, Clamping::chuck), free = free_z_mm(p, s);
-  double room = std::abs(free - root);
-  for (const std::size_t i : work.elements) {
-    const double z0 = part::left_z_mm(p.drawing, i);
-    const double z1 = z0 + p.drawing.outer[i].length_mm;
-    room = std::min(room, free > root ? z0 - root : root - z1);
-  }
-  double corner = 0;
-  for (const auto& t : p.tools) corner = std::max(corner, t.re_mm);
-  room -= corner;
-  const auto& clampings = p.setups[s].clampings;
-  if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
-    room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
-  const double grip = std::floor((p.grips_mm[s] + room) / kTenth_mm) * kTenth_mm;
-  if (!work.elements.empty() && grip >= p.grips_mm[s] + kWorth_mm)
-    add_grip(p, s, grip, all);
-}
-
 void add_tools(const PreparedPart& p, std::vector<Variant>& all) {
   for (const auto& tool : p.spare_tools)
     if (std::find(tool.groups.begin(), tool.groups.end(), p.material.group) !=
@@ -146,7 +123,7 @@ std::vector<Variant> variants(const PreparedPart& p, const Attempt* attempt) {
     const auto* setup = attempt ? &attempt->setups[s] : nullptr;
     if (setup && setup->solved && setup->chosen.feasible()) continue;
     add_clampings(p, s, all);
-    add_longer_grip(p, s, all);
+    if (const auto grip = longer_grip_mm(p, s)) add_grip(p, s, *grip, all);
     if (!p.work.unreachable.empty())
       for (const double grip : shorter_grips_mm(p, s)) add_grip(p, s, grip, all);
   }

@@ -57,7 +57,7 @@ inline void corner(std::vector<Side>& sides, double x, double y0, double y1,
   } else if (foot && foot->undercut) {
     const double r = std::stod(foot->undercut->substr(1)),
                  t = std::stod(foot->undercut->substr(foot->undercut->find('x') + 1));
-    const double f = part::undercut_e(r, t)->width_mm;
+    const double f = part::undercut('E', r, t)->width_mm;
     const double run = t / std::tan(part::kUndercutFalls_rad);
     rising.push_back({.from = {x - up * f, low}, .to = {x - up * (f - run), low - t}});
     rising.push_back({.from = rising.back().to, .to = {x - up * r, low - t}});

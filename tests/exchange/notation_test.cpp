@@ -411,9 +411,9 @@ class Chance {
     return kTexts[count(0, kTexts.size() - 1)];
   }
   Element element(const std::string& id) {
-    static constexpr Shape kAll[] = {Shape::cylinder, Shape::cone, Shape::arc,
-                                     Shape::groove, Shape::thread};
-    Element e{.id = id, .shape = kAll[count(0, 4)], .length_mm = size()};
+    static constexpr Shape kAll[] = {Shape::cylinder, Shape::cone,   Shape::arc,
+                                     Shape::groove,   Shape::thread, Shape::hole};
+    Element e{.id = id, .shape = kAll[count(0, 5)], .length_mm = size()};
     e.left_mm = e.right_mm = size();
     const bool sloped = e.shape == Shape::cone || e.shape == Shape::arc;
     if (sloped) e.right_mm = size();

@@ -215,7 +215,7 @@ std::string profile_refused(const Profile& p) {
 }
 
 // A recess into the cylinder at 15 deg and into the face at 8 deg: form F 0.8 x 0.3.
-TEST(Profile, AnUndercutOfFormFIsToldByItsName) {
+TEST(Profile, AnUndercutOfFormFIsKnownByItsSlopes) {
   const double turn = std::acos(-1) / 22.5, run = 0.3 / std::tan(std::acos(-1) / 12);
   const Point centre{39.4, 15.5};
   const Point end{centre.z_mm + 0.8 * std::cos(turn), centre.r_mm + 0.8 * std::sin(turn)};
@@ -232,10 +232,10 @@ TEST(Profile, AnUndercutOfFormFIsToldByItsName) {
   ASSERT_EQ(o.outer.size(), 2u);
   EXPECT_NEAR(o.outer[0].length_mm, 40, 1e-9);
   EXPECT_NEAR(o.outer[0].left_mm, 30, 1e-9);
-  ASSERT_EQ(o.ignored.size(), 1u);
-  EXPECT_EQ(o.ignored[0].text,
-            "The undercut F0.8x0.3 at d1|d2 is left out: of DIN 509 a part document has "
-            "form E alone, the corner stays sharp.");
+  EXPECT_TRUE(o.ignored.empty());
+  ASSERT_EQ(o.edges.size(), 1u);
+  EXPECT_EQ(o.edges[0].at, "d1|d2");
+  EXPECT_EQ(o.edges[0].undercut, "F0.8x0.3");
 }
 
 TEST(Profile, WhatIsNoHalfProfileIsRefused) {

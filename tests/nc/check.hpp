@@ -265,15 +265,31 @@ class Check : private Sizes {
     }
   }
 
+  // How far undercuts of form F of the elements beside element k go into it, at its left and
+  // its right end: there a height above the axis says nothing.
+  template <class Element>
+  static std::pair<double, double> recesses(const std::vector<Element>& all,
+                                            std::size_t k) {
+    std::pair<double, double> both{0, 0};
+    if constexpr (requires { all[k].left_undercut; }) {
+      if (k > 0 && all[k - 1].right_undercut)
+        both.first = all[k - 1].right_undercut->recess_mm + kGrid_mm;
+      if (k + 1 < all.size() && all[k + 1].left_undercut)
+        both.second = all[k + 1].left_undercut->recess_mm + kGrid_mm;
+    }
+    return both;
+  }
+
   template <class Element>
   void element(const Material& m, double sign, const std::vector<Element>& all,
                std::size_t k, const std::vector<double>& left) {
     const auto& e = all[k];
+    const auto [from, to] = recesses(all, k);
     const double L = e.length_mm, left_z = begin(e, k), step = 1e-6;
     double low = 0, high = 0;
     for (std::size_t i = 0; i < m.size(); ++i) {
       const double z = m.z(i) - left_z;
-      if (!(z > 1e-6 && z < L - 1e-6)) continue;
+      if (!(z > 1e-6 && z < L - 1e-6) || z < from || z > L - to) continue;
       const double u0 = std::max(0.0, z / L - step), u1 = std::min(1.0, z / L + step);
       const auto at = [&](double u) { return height(sign, e, u, m.z(i)); };
       const double slope = (at(u1) - at(u0)) / (u1 - u0) / L;

@@ -158,6 +158,12 @@ std::map<std::string, double> finishing_corners_mm(const Planned& p) {
         if (bar != id.npos) add(id.substr(bar + 1), re);
       }
     }
+  // The walls at a drilled hole are made with the bores beside it.
+  const auto& bores = p.part.drawing.inner;
+  for (const auto& hole : bores)
+    for (const auto& e : bores)
+      if (part::is_hole(hole) && !part::is_hole(e) && all.contains(e.id))
+        add(hole.id, all[e.id]);
   return all;
 }
 

@@ -82,6 +82,24 @@ void DrawnPart::append(Run& run, const std::string& id, const Polygon& line) {
   }
 }
 
+// What an undercut of form F takes of the shoulder, from where its circle meets the
+// shoulder's plane: round to 8 deg off the shoulder and straight back to it; `out` is the
+// direction into the shoulder.  Nothing of form E.
+Polygon recess(const part::Undercut& u, const Spot& from, double out) {
+  Polygon all;
+  if (!(u.recess_mm > 0)) return all;
+  const double r = u.radius_mm, c = Sizes::centre(u), lean = M_PI * 8 / 180;
+  const double begins = std::asin(c / r);  // angle from below the centre
+  const double centre_x = from.x + r * std::cos(begins);
+  for (int i = 1; i <= 200; ++i) {
+    const double a = begins + (M_PI / 2 + lean - begins) * i / 200;
+    all.push_back({centre_x - r * std::cos(a), from.z + out * (r * std::sin(a) - c)});
+  }
+  const double left = out * (all.back().z - from.z);
+  all.push_back({all.back().x + left / std::tan(lean), from.z});
+  return all;
+}
+
 // The line of an element; beside a step the wall belongs to both, and is named so by
 // add_walls.
 template <class Element>
@@ -108,9 +126,9 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
         std::vector<double> x{u->width_mm,
                               u->width_mm - u->depth_mm / std::tan(M_PI / 12)};
         for (int i = 0; i <= 200; ++i)
-          x.push_back(u->radius_mm * (1 - std::cos(M_PI / 400 * i)));
+          x.push_back(Sizes::centre(*u) - u->radius_mm * std::cos(M_PI / 400 * i));
         for (const double from : x)
-          at.push_back(left ? from / e.length_mm : 1 - from / e.length_mm);
+          if (from >= 0) at.push_back(left ? from / e.length_mm : 1 - from / e.length_mm);
       }
   std::sort(at.begin(), at.end());
   const double low_z = z0 + (e.left_chamfer ? e.left_chamfer->axial_mm : 0);
@@ -147,6 +165,16 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
         sizes_.correction(e.id, std::clamp(z, z0 + straight_from, z0 + straight_to));
     const double h = sign * size - chamfered(z) - Sizes::undercut(e, z - z0);
     line.push_back({sign * std::min(h, most), z});
+  }
+  if constexpr (requires { e.left_undercut; }) {
+    if (e.left_undercut) {
+      auto behind = recess(*e.left_undercut, line.front(), -1);
+      line.insert(line.begin(), behind.rbegin(), behind.rend());
+    }
+    if (e.right_undercut) {
+      const auto behind = recess(*e.right_undercut, line.back(), 1);
+      line.insert(line.end(), behind.begin(), behind.end());
+    }
   }
   append(run, e.id, line);
 }
@@ -262,7 +290,7 @@ void DrawnPart::add_walls(const Run& run) {
   };
   for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
     const auto &a = run.points[i], &b = run.points[i + 1];
-    if (b.z - a.z > 1e-9) continue;
+    if (std::abs(b.z - a.z) > 1e-9) continue;
     const auto [low, high] = std::minmax(a.x, b.x);
     const auto &before = surfaces_[run.before[i]], &after = surfaces_[run.before[i + 1]];
     add({before + "|" + after, a.z, low, high, (b.x > a.x) == run.outer, 0, 0},

@@ -91,8 +91,11 @@ class Material {
       std::swap(h_a, h_b);
     }
     if (o.blade_mm > 0) {
-      if (z < z_a || z > z_b + o.blade_mm) return INFINITY;
-      return std::min(h_a, h_b);
+      const double first = std::max(z_a, z - o.blade_mm), last = std::min(z_b, z);
+      if (first > last) return INFINITY;
+      if (!(z_b - z_a > 1e-12)) return std::min(h_a, h_b);
+      const double slope = (h_b - h_a) / (z_b - z_a);
+      return h_a + std::min(slope * (first - z_a), slope * (last - z_a));
     }
     const double r = o.re_mm;
     const double from = std::max(z_a, z - r - o.behind_mm), to = std::min(z_b, z);

@@ -74,8 +74,12 @@ class Sizes {
     return {from, to};
   }
 
+  // Distance of the centre of an undercut's radius from the shoulder: form F's comes back
+  // to the shoulder at 8 deg from a circle whose deepest point lies t2 behind it.
+  static double centre(const part::Undercut& u) { return u.radius_mm - u.recess_mm; }
+
   // Depth of an undercut at a distance from the left end: from its width on down at 15 deg,
-  // level, and up a quarter of a circle.
+  // level, and up a circle.
   template <class Element>
   static double undercut(const Element& e, double from_left) {
     if constexpr (requires { e.left_undercut; }) {
@@ -84,8 +88,8 @@ class Sizes {
       const double x = left ? from_left : e.length_mm - from_left;
       if (!u || x >= u->width_mm) return 0;
       const double line = std::min(u->depth_mm, (u->width_mm - x) * std::tan(M_PI / 12));
-      const double r = u->radius_mm;
-      return line - (x < r ? r - std::sqrt(std::max(0.0, r * r - (r - x) * (r - x))) : 0);
+      const double r = u->radius_mm, c = centre(*u);
+      return line - (x < c ? r - std::sqrt(std::max(0.0, r * r - (c - x) * (c - x))) : 0);
     }
     return 0;
   }

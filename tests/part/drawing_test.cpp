@@ -56,12 +56,31 @@ TEST(Drawing, ChamfersAndUndercutsGoIntoTheRadius) {
   EXPECT_EQ(chamfered_mm(e, 2), 0);
   EXPECT_EQ(chamfered_mm(e, 19), 0);
   EXPECT_EQ(chamfered_mm(e, 20), 3);
-  e.left_undercut = undercut_e(0.8, 0.3);
+  e.left_undercut = undercut('E', 0.8, 0.3);
   ASSERT_TRUE(e.left_undercut);
   EXPECT_EQ(undercut_mm(e, 0), 0.3);
   EXPECT_NEAR(undercut_mm(e, 2), 0.5 * std::tan(std::acos(-1) / 12), 1e-12);
   EXPECT_EQ(undercut_mm(e, 2.5), 0);
-  EXPECT_FALSE(undercut_e(0.8, 0.4));
+  EXPECT_FALSE(undercut('E', 0.8, 0.4));
+  EXPECT_FALSE(undercut('G', 0.8, 0.3));
+}
+
+// g of DIN 509's table, to the 0.1 mm that it is printed in.
+TEST(Drawing, FormFComesBackToTheShoulderWhereTheStandardSays) {
+  const double table[][3]{{0.2, 0.1, 0.9}, {0.4, 0.2, 1.1}, {0.6, 0.2, 1.4},
+                          {0.6, 0.3, 2.1}, {0.8, 0.3, 2.3}, {1, 0.2, 1.8},
+                          {1, 0.4, 3.2},   {1.2, 0.2, 2},   {1.2, 0.4, 3.4},
+                          {1.6, 0.3, 3.1}, {2.5, 0.4, 4.8}, {4, 0.5, 6.4}};
+  for (const auto& [r, t, g] : table) {
+    const auto f = undercut('F', r, t), e = undercut('E', r, t);
+    ASSERT_TRUE(f && e) << r << " x " << t;
+    EXPECT_NEAR(height_mm(*f), g, 0.05) << r << " x " << t;
+    EXPECT_EQ(height_mm(*e), r);
+    EXPECT_EQ(centre_mm(*e), r);
+    EXPECT_EQ(f->width_mm, e->width_mm);
+  }
+  EXPECT_EQ(designation(*undercut('F', 0.8, 0.3)), "F0.8x0.3");
+  EXPECT_EQ(designation(*undercut('E', 1, 0.4)), "E1x0.4");
 }
 
 }  // namespace

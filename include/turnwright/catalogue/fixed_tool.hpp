@@ -19,6 +19,12 @@ struct FixedConditions {
   double T_min = 0;     ///< tool life at these conditions
 };
 
+/// What a drill leaves: the ISO 286 grade above its diameter, and the roughness.
+struct DrilledHole {
+  int grade = 0;
+  double Ra_um = 0;
+};
+
 /// A tool that is used at fixed conditions, which are not optimised.
 struct FixedTool {
   std::string id, name;
@@ -28,13 +34,14 @@ struct FixedTool {
   /// Diameters of drills (for centre drills of the countersink) or widths of blades, in
   /// rising order; empty for threading and profiling.
   std::vector<double> sizes_mm;
-  Range pitch_mm;            ///< pitches of threads that it cuts
-  double reach = 0;          ///< deepest cut: of drills in diameters, of blades in mm
-  double point_deg = 0;      ///< point angle of a drill
-  double ap_mm = 0;          ///< largest depth of a profiling pass
-  double re_mm = 0;          ///< corner radius of profiling tools
-  double passes_per_mm = 0;  ///< infeeds of a thread per mm of pitch
-  double gamma_deg = 0;      ///< rake
+  Range pitch_mm;        ///< pitches of threads that it cuts
+  double reach = 0;      ///< deepest cut: of drills in diameters, of blades in mm
+  double point_deg = 0;  ///< point angle of a drill
+  std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
+  double ap_mm = 0;                      ///< largest depth of a profiling pass
+  double re_mm = 0;                      ///< corner radius of profiling tools
+  double passes_per_mm = 0;              ///< infeeds of a thread per mm of pitch
+  double gamma_deg = 0;                  ///< rake
   std::vector<FixedConditions> conditions;
   std::optional<double> Fc_max_N = {};
   double change_min = 0, edge_cost = 0;

@@ -30,12 +30,18 @@ struct RootCompliance {
 struct BoringBar {
   double E_MPa = 0, nu = 0;
   std::vector<BarSegment> segments;
+  /// Longest stick-out at which the maker lets it bore; the part then decides how far it
+  /// sticks out.  Absent: as far as its segments say.
+  std::optional<double> longest_mm;
   double tip_offset_mm = 0;        ///< distance of the corner from the bar's axis
   double min_bore_mm = 0;          ///< smallest hole it enters
   RootCompliance holder;           ///< the same in both planes
   std::optional<double> tip_mm_N;  ///< measured at the tip; replaces shank and holder
   std::optional<double> damping_ratio;  ///< absent: PlanRequest::machine_damping_ratio
 };
+
+/// How far a bar sticks out of its block [mm].
+double stick_out_mm(const BoringBar& bar);
 
 /// An external holder with a rectangular shank.
 struct Holder {
@@ -86,6 +92,10 @@ struct Tool {
   std::optional<BoringBar> bar;  ///< for boring tools
   std::optional<Holder> holder;  ///< of an external tool, if its document has it
 };
+
+/// Whether the major edge goes behind a shoulder as far as undercuts of form F ask, 8 deg: a
+/// KAPR of at least 98 deg.
+bool goes_behind_shoulders(const Tool& tool);
 
 /// Least depth of cut [mm] of a tool: of its chip breaker's window, and two thirds of the
 /// corner radius, below which the corner pushes more than it cuts.

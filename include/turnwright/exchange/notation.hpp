@@ -14,10 +14,10 @@
 ///
 ///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N}
 ///     shape     = d D | [cone] d D-d D | arc d D-d D R RADIUS [convex | concave]
-///               | groove d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
+///               | groove d D | hole d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05
 ///     corner    = feature {feature}
-///     feature   = AxANGLE | chamfer AxANGLE | R RADIUS | E RxT      1x45  R0.8  E0.8x0.3
+///     feature   = AxANGLE | chamfer AxANGLE | R RADIUS | E RxT | F RxT    1x45  E0.8x0.3
 ///     edge      = EDGE: corner                               left: 1x45   right|b1: 1x30
 ///     face      = face FACE (Ra N | Rz N) ..                 face d1|d2 Ra1.6
 ///     tolerance = KIND OF [to DATUM] N                       cylindricity d2 0.008

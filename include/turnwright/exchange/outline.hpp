@@ -12,7 +12,7 @@
 namespace turnwright::exchange {
 
 /// Shapes of an element of the contour, as the part document names them.
-enum class Shape { cylinder, cone, arc, groove, thread };
+enum class Shape { cylinder, cone, arc, groove, thread, hole };
 
 /// What the drawing asks of one surface: an element, the shoulder between two, an end.
 struct Demands {
@@ -44,7 +44,7 @@ struct Edge {
   std::optional<double> chamfer_mm = {};  ///< along the axis
   double angle_deg = 45;                  ///< of the chamfer, from the axis
   std::optional<double> fillet_mm = {};
-  std::optional<std::string> undercut = {};  ///< form E of DIN 509: "E0.8x0.3"
+  std::optional<std::string> undercut = {};  ///< of DIN 509: "E0.8x0.3"
   std::vector<std::string> sources = {};
 };
 

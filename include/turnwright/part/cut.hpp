@@ -2,10 +2,15 @@
 #include <numbers>
 
 /// Grooves, threads and arcs: shapes that are cut into an element at fixed conditions
-/// after it has been turned or bored.  The element itself is then their blank.
+/// after it has been turned or bored.  The element itself is then their blank.  A hole is a
+/// bore that the drill makes to its size; no blank is bored.
 namespace turnwright::part {
 
-enum class CutKind { groove, thread, arc };
+enum class CutKind { groove, thread, arc, hole };
+/// Whether neighbours meet another shape than the blank.
+constexpr bool replaces_blank(CutKind kind) {
+  return kind == CutKind::groove || kind == CutKind::arc;
+}
 
 /// Diameters at the left and the right end [mm].
 struct Ends {
@@ -14,10 +19,11 @@ struct Ends {
 
 struct Cut {
   CutKind kind = CutKind::groove;
-  Ends drawn = {};  ///< floor of a groove, nominal diameter of a thread, an arc's ends
-  Ends core = {};   ///< diameters of the load-bearing core: as a beam never too stiff
-  double depth_mm = 0;   ///< largest depth, on the radius
-  double pitch_mm = 0;   ///< of a thread
+  /// Floor of a groove, nominal diameter of a thread, ends of an arc, a hole's diameter.
+  Ends drawn = {};
+  Ends core = {};       ///< diameters of the load-bearing core: as a beam never too stiff
+  double depth_mm = 0;  ///< largest depth, on the radius
+  double pitch_mm = 0;  ///< of a thread
   double radius_mm = 0;  ///< of an arc
   bool convex = true;    ///< an arc bulges outwards
   double path_mm = 0;    ///< length of an arc
@@ -39,6 +45,9 @@ enum class Where { outside, inside };
 
 /// A groove with the given diameter of its floor, in a cylindrical blank.
 Shaped groove(double blank_mm, double floor_mm);
+
+/// A hole that is drilled to its size.
+Shaped hole(double diameter_mm);
 
 /// ISO metric thread of nominal diameter d and pitch P, H = (sqrt 3/2) P:
 ///

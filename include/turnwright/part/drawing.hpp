@@ -23,19 +23,42 @@ struct Limits {
 /// larger one inside.
 struct Chamfer {
   double axial_mm = 0, radial_mm = 0;  ///< taken from the length and from the radius
+  /// At the rim of a groove whose blank is as high as the element: the grooving blade cuts
+  /// it after the groove.
+  bool by_blade = false;
+  /// Asked for by the title block of all edges alike: where no tool passes it is left to the
+  /// hand.
+  bool general = false;
 };
 
-/// An undercut of form E of DIN 509 at the end of an element before a shoulder: at a
+/// An undercut of form E or F of DIN 509 at the end of an element before a shoulder: at a
 /// distance from the shoulder the surface falls at 15 deg to a depth, and an inner radius
-/// leads from there to the shoulder.
+/// leads from there to the shoulder.  Form F goes into the shoulder too: from the radius
+/// its surface comes back to the shoulder at 8 deg.
 struct Undercut {
   double radius_mm = 0, depth_mm = 0, width_mm = 0;
+  double recess_mm = 0;  ///< deepest place in the shoulder, of form F; 0: form E
 };
 inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
+inline constexpr double kUndercutLeans_rad = std::numbers::pi / 22.5;
 
-/// The undercut of form E with a radius and a depth.
-/// Source: DIN 509, table 1: radius x depth, width f.  Nothing if the table has none.
-std::optional<Undercut> undercut_e(double radius_mm, double depth_mm);
+/// The undercut of form 'E' or 'F' with a radius and a depth.
+/// Source: DIN 509, table 1: radius x depth, width f, depth t2 of form F in the shoulder.
+/// Nothing if the table has none.
+std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm);
+
+/// "E0.8x0.3".
+std::string designation(const Undercut& undercut);
+
+/// Height above its floor at which an undercut ends on the shoulder:
+///
+///     form E: g = r                                                                  (1)
+///     form F: g = r (1 + sin 8 deg) + (t2 - r (1 - cos 8 deg))/tan 8 deg             (2)
+///
+/// Source: derived here from DIN 509's picture; its table rounds g to 0.1 mm.
+double height_mm(const Undercut& undercut);
+/// Distance of the centre of its radius from the shoulder, r - t2.
+double centre_mm(const Undercut& undercut);
 
 /// One outer element.  A cylinder has left_mm == right_mm (diameters).  With a groove,
 /// thread or arc cut into it the diameters are those of the blank.
@@ -148,8 +171,17 @@ double chamfered_mm(const Element& e, double from_left_mm) {
   return into(e.left_chamfer, from_left_mm) +
          into(e.right_chamfer, e.length_mm - from_left_mm);
 }
-/// Whether a groove, thread or arc is cut into the element of this id.
+/// Whether a groove, thread or arc is cut into the element of this id, or the drill makes it.
 bool has_cut(const Drawing& drawing, const std::string& id);
+/// Whether a groove is cut into an element.
+template <class Element>
+bool is_groove(const Element& e) {
+  return e.cut && e.cut->kind == CutKind::groove;
+}
+/// Whether the drill makes a bore to its size.
+inline bool is_hole(const InnerElement& e) {
+  return e.cut && e.cut->kind == CutKind::hole;
+}
 /// Position of an element along the axis, and the diameters at its ends.
 struct Extent {
   double z0_mm = 0, z1_mm = 0;

@@ -66,6 +66,9 @@ struct ShopErrors {
   bool first_part_gauged = true;
 };
 
+/// What a drill leaves on the radius for boring [mm].
+inline constexpr double kLeftToBore_mm = 0.5;
+
 enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed, mill };
 const char* name(OperationKind kind);
 

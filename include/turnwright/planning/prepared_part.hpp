@@ -26,6 +26,7 @@ struct SetupWork {
   /// Chamfers at the free end of elements that earlier setups have made, which no tool cuts
   /// on its way: indices into drawing.outer and drawing.inner.
   std::vector<std::size_t> outer_chamfers, inner_chamfers;
+  bool operator==(const SetupWork&) const = default;
 };
 
 /// Which setup makes which surface.
@@ -33,6 +34,7 @@ struct Assignment {
   std::vector<SetupWork> setups;
   std::vector<std::string>
       unreachable;  ///< one sentence per element or face that no setup can cut
+  bool operator==(const Assignment&) const = default;
 };
 
 /// Forces of all jaws of a setup at rest [N].

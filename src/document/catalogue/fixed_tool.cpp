@@ -26,6 +26,14 @@ void read_sizes(Reader& r, FixedTool& t) {
     r.problem_at("sizes_mm", "sizes in rising order", "order");
 }
 
+void read_hole(Reader& r, FixedTool& t) {
+  auto hole = r.optional_object("hole");
+  if (!hole) return;
+  t.hole = {static_cast<int>(hole->integer("grade", 5, 16)),
+            hole->number("Ra_um", above_up_to(0, 100, "um"))};
+  hole->finish();
+}
+
 void read_kind(Reader& r, FixedTool& t) {
   switch (t.use) {
     case FixedUse::centring:
@@ -33,6 +41,7 @@ void read_kind(Reader& r, FixedTool& t) {
       read_sizes(r, t);
       t.reach = r.number("reach_diameters", above_up_to(0, 100));
       t.point_deg = r.number("point_deg", within(60, 180, "deg"));
+      if (t.use == FixedUse::drilling) read_hole(r, t);
       break;
     case FixedUse::grooving:
     case FixedUse::parting:

@@ -99,12 +99,20 @@ catalogue::BoringBar read_bar(Reader group) {
   bar.nu = group.number("nu", at_least_below(0, 0.5));
   for (const auto& segment : group.items("segments", 1, 20))
     bar.segments.push_back(read_bar_segment(segment));
+  bar.longest_mm = group.optional_number("longest_mm", above_up_to(0, 2000, "mm"));
   bar.tip_offset_mm = group.number("tip_offset_mm", within(0, 1000, "mm"));
   bar.min_bore_mm = group.number("min_bore_mm", above_up_to(0, 20000, "mm"));
   bar.holder = read_compliance(group.object("holder"));
   bar.tip_mm_N = group.optional_number("tip_mm_N", above_up_to(0, 0.1, "mm/N"));
   bar.damping_ratio = group.optional_number("damping_ratio", kDamping);
   finish_group(group);
+  if (bar.longest_mm && *bar.longest_mm < catalogue::stick_out_mm(bar))
+    group.problem_at("longest_mm", "at least the length of the segments", "conflict");
+  if (bar.longest_mm && bar.tip_mm_N)
+    group.problem_at(
+        "longest_mm",
+        "no longest stick-out: tip_mm_N was measured at that of the segments",
+        "conflict");
   for (const auto& s : bar.segments)
     if (s.diameter_mm / 2 > bar.min_bore_mm - bar.tip_offset_mm)
       group.problem_at("min_bore_mm",

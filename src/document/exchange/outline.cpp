@@ -107,6 +107,8 @@ const char* shape_name(Shape shape) {
       return "arc";
     case Shape::groove:
       return "groove";
+    case Shape::hole:
+      return "hole";
     case Shape::thread:
       break;
   }

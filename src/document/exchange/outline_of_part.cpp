@@ -45,7 +45,8 @@ Demands demands_of(const json& object) {
 }
 
 Shape shape_of(const std::string& kind) {
-  for (const Shape s : {Shape::cylinder, Shape::cone, Shape::arc, Shape::groove})
+  for (const Shape s :
+       {Shape::cylinder, Shape::cone, Shape::arc, Shape::groove, Shape::hole})
     if (kind == shape_name(s)) return s;
   return Shape::thread;
 }

@@ -49,7 +49,8 @@ void add_fixed_tools_of_the_catalogue(Draft& draft) {
 void read_tools(Draft& draft) {
   auto& plan = draft.plan();
   if (!draft.root.has("tools")) {
-    plan.tools = draft.catalogue.tools;
+    for (const auto& t : draft.catalogue.tools)
+      if (!catalogue::goes_behind_shoulders(t)) plan.tools.push_back(t);
     plan.fixed_tools = draft.catalogue.fixed_tools;
     draft.cutters = draft.catalogue.cutters;
     draft.assume("/tools", ids(plan.tools), "the whole catalogue");
@@ -71,6 +72,22 @@ void read_tools(Draft& draft) {
 }
 
 }  // namespace
+
+void add_tools_for_undercuts(Draft& draft) {
+  const auto goes_in = [](const std::optional<part::Undercut>& u) {
+    return u && u->recess_mm > 0;
+  };
+  if (draft.root.has("tools") ||
+      std::ranges::none_of(draft.drawing().outer, [&](const part::OuterElement& e) {
+        return goes_in(e.left_undercut) || goes_in(e.right_undercut);
+      }))
+    return;
+  auto& tools = draft.plan().tools;
+  for (const auto& t : draft.catalogue.tools)
+    if (catalogue::goes_behind_shoulders(t)) tools.push_back(t);
+  for (auto& a : draft.loaded.assumed)
+    if (a.pointer == "/tools") a.value = ids(tools);
+}
 
 void read_catalogue_choices(Draft& draft) {
   constexpr const char* kDefaultMachine = "lathe-medium";

@@ -25,8 +25,9 @@ struct Step {
   End end = End::left;               // of the standing element
   std::optional<std::size_t> lower;  // the neighbour; none at a face of the part
   double most_mm = 0;                // that a chamfer may take of the radius
-  // A cylinder or a thread stands there, and no groove or arc is beside it.
+  // A cylinder or a thread stands there, and no arc is beside it.
   bool plain = true;
+  bool by_blade = false;  // the rim of a groove in a blank as high
 };
 
 std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
@@ -34,13 +35,14 @@ std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
 }
 
 template <class Element>
-bool can_be_beside(const Element& e) {
-  return !e.cut || e.cut->kind == part::CutKind::thread;
+bool can_have_edge(const Element& e) {
+  return e.kind == part::ElementKind::cylinder &&
+         (!e.cut || e.cut->kind == part::CutKind::thread);
 }
 
 template <class Element>
-bool can_have_edge(const Element& e) {
-  return e.kind == part::ElementKind::cylinder && can_be_beside(e);
+bool can_be_beside(const Element& e) {
+  return !e.cut || !part::replaces_blank(e.cut->kind) || part::is_groove(e);
 }
 
 // From the drawn radius to the middle of its limits, where it is cut.
@@ -54,7 +56,17 @@ template <class Element>
 void add_between(const std::vector<Element>& all, std::size_t left, std::size_t right,
                  bool inner, std::vector<Step>& steps) {
   const double rises_mm = (all[right].left_mm - all[left].right_mm) / 2;
-  if (!(std::abs(rises_mm) > kDiffers_mm)) return;
+  const bool rim = part::is_groove(all[left]) != part::is_groove(all[right]);
+  if (!(std::abs(rises_mm) > kDiffers_mm)) {
+    if (!rim) return;
+    const bool on_left = part::is_groove(all[right]);
+    const std::size_t standing = on_left ? left : right, groove = on_left ? right : left;
+    steps.push_back({both_ways(all[left].id, all[right].id), inner, standing,
+                     on_left ? End::right : End::left, groove,
+                     all[groove].cut->depth_mm - kLeastWall_mm,
+                     can_have_edge(all[standing]), true});
+    return;
+  }
   const bool right_stands = (rises_mm > 0) != inner;
   const double cut_mm = rises_mm + to_middle_mm(all[right]) - to_middle_mm(all[left]);
   const double least_mm =
@@ -134,11 +146,11 @@ double edge_length_mm(const Element& e, End end) {
   return chamfer ? chamfer->axial_mm : 0;
 }
 
-// Height that the other edge of a step takes of it: the radius of an undercut at its foot.
+// Height that the other edge of a step takes of it: an undercut at its foot.
 double foot_mm(const part::Drawing& d, const Step& step) {
   if (step.inner || !step.lower) return 0;
   const auto& u = undercut_at(d.outer[*step.lower], opposite(step.end));
-  return u ? std::max(0.0, u->radius_mm - u->depth_mm) : 0;
+  return u ? std::max(0.0, part::height_mm(*u) - u->depth_mm) : 0;
 }
 
 constexpr double kDigits = 1e4;  // of millimetres in messages
@@ -165,8 +177,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
   const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
-    r.problem_at("at",
-                 "an edge of a cylinder or a thread that has no groove or arc beside it",
+    r.problem_at("at", "an edge of a cylinder or a thread that has no arc beside it",
                  "conflict");
   else if (!(axial < free))
     r.problem_at("chamfer_mm",
@@ -179,7 +190,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
                      " mm of the radius there (this one takes " + rounded(radial) + ")",
                  "conflict");
   else
-    mine = part::Chamfer{axial, radial};
+    mine = part::Chamfer{axial, radial, step.by_blade};
 }
 
 template <class Element>
@@ -189,7 +200,7 @@ void read_fillet(Reader& r, const Step& step, Element& e) {
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
 
-// "E0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
+// "E0.8x0.3" or "F0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
 std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
   static const std::regex kForm(
@@ -200,12 +211,12 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
     return std::stod(digits);
   };
   std::optional<part::Undercut> found;
-  if (std::regex_match(text, m, kForm) && m[1] == "E")
-    found = part::undercut_e(number(m[2]), number(m[3]));
+  if (std::regex_match(text, m, kForm))
+    found = part::undercut(m[1].str()[0], number(m[2]), number(m[3]));
   if (!found && !text.empty())
     r.problem(
-        "an undercut of DIN 509's form E with a radius and a depth of its table, like "
-        "\"E0.8x0.3\" (the forms F, G and H are not turned)",
+        "an undercut of DIN 509's form E or F with a radius and a depth of its table, "
+        "like \"E0.8x0.3\" (the forms G and H are not turned)",
         "choice");
   return found;
 }
@@ -225,11 +236,11 @@ void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterEleme
                  "an undercut that is less wide than the " + rounded(free) +
                      " mm that are left of " + e.id,
                  "conflict");
-  else if (found->radius_mm - found->depth_mm > most_mm)
-    r.problem_at("undercut",
-                 "an undercut whose radius takes at most " + at_most(most_mm) +
-                     " mm of the shoulder",
-                 "conflict");
+  else if (part::height_mm(*found) - found->depth_mm > most_mm)
+    r.problem_at(
+        "undercut",
+        "an undercut that takes at most " + at_most(most_mm) + " mm of the shoulder",
+        "conflict");
   else
     mine = found;
 }
@@ -281,7 +292,33 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
   r.finish();
 }
 
+// A chamfer of the given size on an edge that has none and takes it.
+template <class Element>
+void break_edge(const Step& step, double size_mm, double most_mm, Element& e) {
+  auto& mine = chamfer_at(e, step.end);
+  const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
+  if (!mine && size_mm < free && size_mm <= most_mm)
+    mine = part::Chamfer{size_mm, size_mm, step.by_blade, true};
+}
+
 }  // namespace
+
+void read_general_edges(Draft& draft) {
+  const auto given = draft.root.find("general_edges_mm");
+  if (!given) return;
+  const auto sizes = given->as_numbers(above_up_to(0, 5, "mm"), 2, 2);
+  if (sizes.size() != 2) return;
+  if (sizes[0] > sizes[1]) given->problem("the smaller size first", "order");
+  auto& d = draft.drawing();
+  if (!sizes_were_read(d) || features(d).empty()) return;
+  const double size = (sizes[0] + sizes[1]) / 2;
+  for (const auto& step : steps(d)) {
+    if (!step.plain) continue;
+    const double most = step.most_mm - foot_mm(d, step);
+    step.inner ? break_edge(step, size, most, d.inner[step.standing])
+               : break_edge(step, size, most, d.outer[step.standing]);
+  }
+}
 
 void read_edges(Draft& draft) {
   const auto items = draft.root.optional_items("edges", 0, 400);

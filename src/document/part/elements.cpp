@@ -24,7 +24,8 @@ const Choices<std::optional<Shape>> kShapes{{"cylinder", Shape{}},
                                             {"cone", Shape{ElementKind::cone}},
                                             {"arc", Shape{{}, CutKind::arc}},
                                             {"groove", Shape{{}, CutKind::groove}},
-                                            {"thread", Shape{{}, CutKind::thread}}};
+                                            {"thread", Shape{{}, CutKind::thread}},
+                                            {"hole", Shape{{}, CutKind::hole}}};
 
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 

@@ -32,15 +32,6 @@ std::optional<double> coarse_pitch_mm(double d_mm) {
   return std::nullopt;
 }
 
-// Sizes and roughness of a surface that is made at catalogue conditions are listed under
-// `assumed` and not judged.
-void leave_to_the_tool(Draft& draft, Reader& r) {
-  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
-    if (const auto value = r.find(key); value && !value->broken())
-      draft.assume(r.pointer_of(key), value->json(),
-                   "left to the tool at its catalogue conditions: not predicted");
-}
-
 void read_demands(Draft& draft, Reader& r, double least_mm) {
   r.optional_number("Ra_um", above_up_to(0, 100, "um"));
   r.optional_number("Rz_um", above_up_to(0, 400, "um"));
@@ -136,7 +127,8 @@ part::Shaped read_thread(Draft& draft, Reader& r, Where where) {
   return part::thread(s.d_mm, s.P_mm, where);
 }
 
-part::Shaped read_groove(Draft& draft, Reader& r) {
+// Diameter of a groove's floor or of a hole.
+double read_diameter(Draft& draft, Reader& r) {
   const double floor = r.number("diameter_mm", kSize);
   if (const auto fit = r.optional_text("fit", 8);
       fit && !fit->empty() && std::isfinite(floor)) {
@@ -149,7 +141,7 @@ part::Shaped read_groove(Draft& draft, Reader& r) {
     }
   }
   read_demands(draft, r, floor);
-  return part::groove(floor, floor);
+  return floor;
 }
 
 part::Shaped read_arc(Draft& draft, Reader& r, double length_mm) {
@@ -172,7 +164,11 @@ void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
   e.length_mm = r.number("length_mm", kSize);
   part::Shaped s;
   if (kind == CutKind::thread) s = read_thread(draft, r, where);
-  if (kind == CutKind::groove) s = read_groove(draft, r);
+  if (kind == CutKind::groove) {
+    const double floor = read_diameter(draft, r);
+    s = part::groove(floor, floor);
+  }
+  if (kind == CutKind::hole) s = part::hole(read_diameter(draft, r));
   if (kind == CutKind::arc) s = read_arc(draft, r, e.length_mm);
   s.cut.kind = kind;
   r.finish();
@@ -184,10 +180,7 @@ void read(Draft& draft, Reader& r, Element& e, CutKind kind, Where where) {
   e.cut = s.cut;
 }
 
-template <class Element>
-bool is_groove(const Element& e) {
-  return e.cut && e.cut->kind == CutKind::groove;
-}
+using part::is_groove;
 
 bool same_bore(const part::OuterElement&, const part::OuterElement&) { return true; }
 bool same_bore(const part::InnerElement& a, const part::InnerElement& b) {
@@ -249,9 +242,57 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
   }
 }
 
+// Whether something larger stands on both sides of outer element i.
+bool in_a_neck(const std::vector<part::OuterElement>& outer, std::size_t i) {
+  const double own = std::max(outer[i].left_mm, outer[i].right_mm);
+  const auto larger = [&](std::size_t from, std::size_t to) {
+    return std::any_of(outer.begin() + static_cast<long>(from),
+                       outer.begin() + static_cast<long>(to), [&](const auto& e) {
+                         return !is_groove(e) && std::max(e.left_mm, e.right_mm) > own;
+                       });
+  };
+  return larger(0, i) && larger(i + 1, outer.size());
+}
+
+bool is_plain_cylinder(const part::OuterElement& e) {
+  return !e.cut && e.kind == part::ElementKind::cylinder;
+}
+
+// The cylinders of a neck, between larger diameters on both sides, become grooves; a neck
+// that holds anything else is left as it is.
+void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
+  auto& outer = draft.drawing().outer;
+  for (std::size_t first = 0; first < outer.size(); ++first) {
+    std::size_t end = first;
+    while (end < outer.size() && in_a_neck(outer, end)) ++end;
+    const bool plain = std::all_of(
+        outer.begin() + static_cast<long>(first), outer.begin() + static_cast<long>(end),
+        [](const auto& e) { return is_plain_cylinder(e) || is_groove(e); });
+    for (; first < end; ++first) {
+      auto& e = outer[first];
+      if (!plain || is_groove(e)) continue;
+      draft.assume(items[first].pointer_of("kind"), "groove",
+                   "a neck between larger diameters is plunged by a grooving blade");
+      Reader r = items[first];
+      leave_to_the_tool(draft, r);
+      e.fit.reset(), e.limits.reset(), e.Ra_um.reset(), e.Rz_um.reset();
+      e.cut = part::groove(e.left_mm, e.left_mm).cut;
+    }
+  }
+}
+
 }  // namespace
 
+void leave_to_the_tool(Draft& draft, Reader& r) {
+  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
+    if (const auto value = r.find(key); value && !value->broken())
+      draft.assume(r.pointer_of(key), value->json(),
+                   "left to the tool at its catalogue conditions: not predicted");
+}
+
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, CutKind kind) {
+  if (kind == CutKind::hole)
+    r.problem_at("kind", "a kind that an outer element can have: not \"hole\"", "kind");
   read(draft, r, e, kind, Where::outside);
 }
 
@@ -273,6 +314,7 @@ std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
 
 void give_grooves_their_blanks(Draft& draft, const std::vector<Reader>& outer,
                                const std::vector<Reader>& inner) {
+  plunge_necks(draft, outer);
   give_blanks(draft.drawing().outer, outer, Where::outside);
   give_blanks(draft.drawing().inner, inner, Where::inside);
 }

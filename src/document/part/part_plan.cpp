@@ -202,6 +202,9 @@ LoadedPart load(const nlohmann::json& request, const Catalogue& catalogue,
     read_stock(draft);
     check_bores(draft);
     read_edges(draft);
+    add_tools_for_undercuts(draft);
+    read_drilled_holes(draft);
+    read_general_edges(draft);
     read_tolerances(draft);
     read_setups(draft);
     read_operations(draft);

@@ -28,6 +28,9 @@ struct Draft {
 
 void read_catalogue_choices(Draft& draft);  // material, machine, tools
 void read_elements(Draft& draft);           // outer, inner, faces
+/// Lists sizes and roughness of a surface that is made at catalogue conditions under
+/// `assumed`: they are not judged.
+void leave_to_the_tool(Draft& draft, Reader& element);
 /// A groove, thread or arc; a groove's blank waits for the elements beside it.
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, part::CutKind kind);
 void read_cut(Draft& draft, Reader& r, part::InnerElement& e, part::CutKind kind);
@@ -41,9 +44,16 @@ std::optional<std::size_t> beside(const std::vector<part::InnerElement>& list,
 void read_stock(Draft& draft);  // after the elements
 /// Whether the stock and all elements have lengths and diameters.
 bool sizes_were_read(const part::Drawing& drawing);
-void check_bores(Draft& draft);      // after the stock
-void read_edges(Draft& draft);       // after the stock
-void read_tolerances(Draft& draft);  // sizes, general, tolerances
+void check_bores(Draft& draft);  // after the stock
+void read_edges(Draft& draft);   // after the stock
+/// The innermost bore of each end of a bar, where a drill leaves it as it is drawn, becomes a
+/// hole; nothing else is asked of it, and the operations are the planner's.
+void read_drilled_holes(Draft& draft);  // after the edges
+void read_general_edges(Draft& draft);  // after all other edges and the holes
+/// Tools whose edge goes behind shoulders serve, where the request lists none, only drawings
+/// with undercuts that ask for it: the force law is not compared with cuts at such angles.
+void add_tools_for_undercuts(Draft& draft);  // after the edges
+void read_tolerances(Draft& draft);          // sizes, general, tolerances
 void read_setups(Draft& draft);
 void read_operations(Draft& draft);  // after the setups
 void read_milling(Draft& draft);     // after the setups

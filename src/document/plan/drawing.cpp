@@ -36,6 +36,8 @@ const char* kind(part::CutKind cut) {
       return "groove";
     case part::CutKind::thread:
       return "thread";
+    case part::CutKind::hole:
+      return "hole";
     case part::CutKind::arc:
       break;
   }
@@ -53,7 +55,7 @@ void add_edges(ordered_json& out, const Element& e) {
   if (e.right_fillet_mm) out["right_fillet_mm"] = *e.right_fillet_mm;
   if constexpr (requires { e.left_undercut; }) {
     const auto undercut = [&](const char* key, const std::optional<part::Undercut>& u) {
-      if (u) out[key] = fmt::format("E{:g}x{:g}", u->radius_mm, u->depth_mm);
+      if (u) out[key] = part::designation(*u);
     };
     undercut("left_undercut", e.left_undercut);
     undercut("right_undercut", e.right_undercut);

@@ -139,19 +139,19 @@ bool take_undercut(Items& items, std::size_t first, std::size_t last, double joi
   if (std::abs(angle - part::kUndercutFalls_rad) > kTangent_rad) return false;
   const auto tenths = [](double mm) { return std::round(10 * mm) / 10; };
   const double r = tenths(radius_mm(arc.side)), t = tenths(std::abs(dy(slope)));
-  if (!part::undercut_e(r, t)) return false;
+  const auto found = part::undercut('E', r, t);
+  if (!found) return false;
   sharpen(items, first, last,
           {.kind = Corner::Kind::undercut,
            .radius_mm = r,
-           .undercut = fmt::format("E{:g}x{:g}", r, t)});
+           .undercut = part::designation(*found)});
   return true;
 }
 
-// Form F of DIN 509 by radius and depth, "F0.8x0.3": form E's slope and floor, and an arc
-// from which a slope 8 deg off the wall leads back to it.  "" of other recesses.
-std::string form_f(const Items& items, std::size_t first, std::size_t last,
-                   double join_mm) {
-  constexpr double kBack_rad = 8 * std::numbers::pi / 180;
+// Form F of DIN 509: form E's slope and floor, and an arc from which a slope 8 deg off the
+// wall leads back to it.  Nothing of other recesses.
+std::optional<part::Undercut> form_f(const Items& items, std::size_t first,
+                                     std::size_t last, double join_mm) {
   double radius = 0, depth = 0;
   bool slope = false, back = false, floor = false;
   for (std::size_t i = first; i < last; ++i) {
@@ -162,14 +162,15 @@ std::string form_f(const Items& items, std::size_t first, std::size_t last,
     if (level(item, join_mm)) {
       floor = true;
     } else if (dx(item) < 0) {
-      back = std::abs(std::atan2(l, w) - kBack_rad) <= kTangent_rad;
+      back = std::abs(std::atan2(l, w) - part::kUndercutLeans_rad) <= kTangent_rad;
     } else {
       slope = std::abs(std::atan2(w, l) - part::kUndercutFalls_rad) <= kTangent_rad;
       depth = w;
     }
   }
-  if (!(slope && floor && back && radius > 0)) return "";
-  return fmt::format("F{:.2g}x{:.2g}", radius, depth);
+  if (!(slope && floor && back)) return std::nullopt;
+  const auto tenths = [](double mm) { return std::round(10 * mm) / 10; };
+  return part::undercut('F', tenths(radius), tenths(depth));
 }
 
 // A recess that reaches behind a wall, as forms F to H of DIN 509 do.
@@ -189,9 +190,13 @@ bool take_recess(Items& items, std::size_t back, double join_mm) {
     last += 2;
   if (first == 0 || last >= items.size() || !wall_and_band(items[first - 1], items[last]))
     return false;
-  sharpen(
-      items, first, last,
-      {.kind = Corner::Kind::recess, .undercut = form_f(items, first, last, join_mm)});
+  if (const auto f = form_f(items, first, last, join_mm))
+    sharpen(items, first, last,
+            {.kind = Corner::Kind::undercut,
+             .radius_mm = f->radius_mm,
+             .undercut = part::designation(*f)});
+  else
+    sharpen(items, first, last, {.kind = Corner::Kind::recess});
   return true;
 }
 

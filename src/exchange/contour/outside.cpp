@@ -15,8 +15,6 @@ void leave_sharp(Outline& out, const std::string& at, const Corner& c, const cha
                      : c.kind == Corner::Kind::undercut ? "undercut"
                      : c.kind == Corner::Kind::rounded  ? "rounded edge"
                                                         : "recess in the corner";
-  if (c.kind == Corner::Kind::recess && !c.undercut.empty())
-    what = "undercut " + c.undercut;
   const double size = c.kind == Corner::Kind::chamfer ? c.axial_mm : c.radius_mm;
   const std::string of =
       size > 0 ? fmt::format(" of {:.6g} mm", tidy_mm(size)) : std::string();
@@ -25,10 +23,11 @@ void leave_sharp(Outline& out, const std::string& at, const Corner& c, const cha
        fmt::format("The {}{} at {} is left out: {}.", what, of, at, why)});
 }
 
-// Whether a document can have an edge in a corner between these two.
-bool plain(const Element* a, const Element* b) {
-  const auto has_edges = [](const Element* e) {
-    return !e || (e->shape != Shape::groove && e->shape != Shape::arc);
+// Whether a document can have such an edge between these two: at grooves only chamfers.
+bool plain(const Element* a, const Element* b, const Corner& c) {
+  const auto has_edges = [&](const Element* e) {
+    return !e || (e->shape != Shape::arc &&
+                  (e->shape != Shape::groove || c.kind == Corner::Kind::chamfer));
   };
   return has_edges(a) && has_edges(b);
 }
@@ -73,9 +72,10 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
   if (c.kind == Corner::Kind::rounded)
     leave_sharp(out, at, c, "a part document has no rounded edges, the edge stays sharp");
   else if (c.kind == Corner::Kind::recess)
-    leave_sharp(out, at, c,
-                "of DIN 509 a part document has form E alone, the corner stays sharp");
-  else if (!plain(a, b))
+    leave_sharp(
+        out, at, c,
+        "of DIN 509 a part document has forms E and F alone, the corner stays sharp");
+  else if (!plain(a, b, c))
     leave_sharp(out, at, c, "edges beside grooves and arcs are left to their tools");
   else if (face && c.kind != Corner::Kind::chamfer)
     leave_sharp(out, at, c, "the corner lies at the bottom of a bore");

@@ -36,14 +36,16 @@ bool take_chamfer(Word at, Word word, Edge& edge, Mistakes& mistakes) {
 
 bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
   Word rest = word;
-  take(rest, {"e"});
+  const bool into_shoulder = take(rest, {"f"});
+  if (!into_shoulder) take(rest, {"e"});
   const auto sizes = product(rest);
   if (!sizes || sizes->size() != 2) {
-    mistakes.add(word,
-                 "an undercut of form E of DIN 509 by radius and depth, like E0.8x0.3");
+    mistakes.add(
+        word, "an undercut of form E or F of DIN 509 by radius and depth, like E0.8x0.3");
     return false;
   }
-  edge.undercut = fmt::format("E{}x{}", (*sizes)[0], (*sizes)[1]);
+  edge.undercut =
+      fmt::format("{}{}x{}", into_shoulder ? 'F' : 'E', (*sizes)[0], (*sizes)[1]);
   return true;
 }
 
@@ -106,7 +108,7 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
 
 bool begins_corner(Word word) {
   if (same(word, "chamfer") || begins_with_digit(word)) return true;
-  return take(word, {"r", "e"}) && begins_with_digit(word);
+  return take(word, {"r", "e", "f"}) && begins_with_digit(word);
 }
 
 std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
@@ -120,7 +122,7 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
       read = take_chamfer(words[i], words[i], edge, mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
-    } else if (take(first, {"e"}) && begins_with_digit(first)) {
+    } else if (take(first, {"e", "f"}) && begins_with_digit(first)) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {
       read = take_fillet(words[i], edge, mistakes);

@@ -7,11 +7,12 @@
 namespace turnwright::exchange::notated {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Shape>, 4> kShapes{
+constexpr std::array<std::pair<std::string_view, Shape>, 5> kShapes{
     {{"cone", Shape::cone},
      {"arc", Shape::arc},
      {"groove", Shape::groove},
-     {"thread", Shape::thread}}};
+     {"thread", Shape::thread},
+     {"hole", Shape::hole}}};
 
 std::optional<Shape> shape_word(Word word) {
   for (const auto& [name, shape] : kShapes)
@@ -98,6 +99,7 @@ class ElementWords {
     if (e().shape == Shape::thread) wanted = "a thread like M24x1.5 or 1/2-13 UNC";
     if (e().shape == Shape::groove)
       wanted = "the diameter of the groove's floor like d26";
+    if (e().shape == Shape::hole) wanted = "the diameter of the hole like d8";
     if (e().shape == Shape::cone || e().shape == Shape::arc)
       wanted = "the diameters at both ends like d30-d40";
     mistakes_.add(word, wanted);

@@ -52,6 +52,8 @@ std::string shape_text(const Element& e) {
       return fmt::format("arc {}-d{}", d, digits(e.right_mm));
     case Shape::groove:
       return fmt::format("groove {}", d);
+    case Shape::hole:
+      return fmt::format("hole {}", d);
     case Shape::thread:
       break;
   }

@@ -25,7 +25,6 @@ using catalogue::FixedTool;
 using catalogue::FixedUse;
 using cutting::Load;
 
-constexpr double kLeftToBore_mm = 0.5;    // on the radius, by the drill
 constexpr int kLeastInfeeds = 4;          // of a thread
 constexpr double kBeyondRounding = 1e-9;  // a limit counts as over
 
@@ -272,7 +271,8 @@ void add_centre(Site& s, const char* face, double end_mm) {
 // The bores of a bar that open to an end: how deep, and the narrowest diameter.
 struct Hole {
   double depth_mm = 0, least_mm = INFINITY;
-  std::string first;  // the outermost bore
+  std::string first;     // the outermost bore
+  bool to_size = false;  // the narrowest is a hole: the drill has its diameter
   /// Material left between it and the bores of the other end, or that end; the narrowest
   /// of those bores.
   double rest_mm = 0, behind_mm = INFINITY;
@@ -298,6 +298,7 @@ Hole hole_from(const part::Drawing& d, part::End end) {
     if (h.first.empty()) h.first = e.id;
     h.depth_mm += e.length_mm;
     h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
+    h.to_size = part::is_hole(e);
   }
   return h;
 }
@@ -325,7 +326,8 @@ Asked drilling(const Hole& h, const OperationRequest* given) {
           false,
           given,
           [h](const FixedTool& t, double size) {
-            return size <= h.least_mm - 2 * kLeftToBore_mm &&
+            return (h.to_size ? size == h.least_mm
+                              : size <= h.least_mm - 2 * kLeftToBore_mm) &&
                    h.depth_mm <= t.reach * size && h.spares_behind(t, size);
           }};
 }
@@ -363,9 +365,10 @@ void add_drilling(Site& s, part::End end) {
   else
     refuse(s, a,
            fmt::format(
-               "none of the drills is for {}, at most {:g} mm in diameter and long "
-               "enough for {:g} mm{}",
-               s.p.material.name, h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+               "none of the drills is for {}, {}{:g} mm in diameter and long enough for "
+               "{:g} mm{}",
+               s.p.material.name, h.to_size ? "" : "at most ",
+               h.least_mm - (h.to_size ? 0 : 2 * kLeftToBore_mm), h.depth_mm,
                h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
                    ? ""
                    : ", with a point that stays clear of what lies behind the hole"));
@@ -379,16 +382,24 @@ double sweep_min(double path_mm, double D_small, double D_large,
   return cutting::duty(sweep, at.vc_m_min, at.f_mm_rev, at.T_min, n_cap, 1.0).time_min;
 }
 
+// Loads of a blade's plunge at its largest and its smallest diameter.
+std::vector<Duty> plunging(const Site& s, const Fitted& f, double D_small,
+                           double D_large) {
+  std::vector<Duty> duties;
+  for (const double D : {D_large, D_small})
+    if (D > 0)
+      duties.push_back({load_of(f, s.p, f.size_mm, D),
+                        std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s)), D,
+                        true});
+  return duties;
+}
+
 // The operation of a blade that plunges `plunges` times from one diameter to another,
 // Eq. (3).  `way.fed_min` holds the length [mm] that each plunge feeds in the air.
 AuxiliaryOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
                            double D_large, int plunges, Way way) {
   const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
-  std::vector<Duty> duties;
-  for (const double D : {D_large, D_small})
-    if (D > 0)
-      duties.push_back({load_of(f, s.p, f.size_mm, D),
-                        std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap), D, true});
+  const auto duties = plunging(s, f, D_small, D_large);
   const double t = sweep_min(depth, D_small, D_large, f.at, n_cap);
   const std::vector<Pass> passes(static_cast<std::size_t>(plunges),
                                  pass_of(duties[0], f.size_mm, t));
@@ -457,12 +468,32 @@ std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
   return std::nullopt;
 }
 
+// Whether machine, jaws and tool bear a blade at the ends of its plunge.
+bool bears(const Site& s, const FixedTool& t, double width_mm, const CutElement& e) {
+  const Fitted f{&t, width_mm, *t.conditions_in(s.p.material.group)};
+  return std::ranges::all_of(
+      limits(s, t, plunging(s, f, e.small_mm, e.large_mm)),
+      [](const ConstraintValue& c) { return c.margin >= -kBeyondRounding; });
+}
+
+// The widest blade that can be borne; if there is none, or the operation is given, the
+// widest of all, whose limits then tell why it cannot be.
+Fitted fitted_blade(const Site& s, const Asked& a, const CutElement& e) {
+  if (a.given) return fitted(s.p, a);
+  auto borne = a;
+  borne.fits = [&](const FixedTool& t, double size) {
+    return a.fits(t, size) && bears(s, t, size, e);
+  };
+  const auto f = fitted(s.p, borne);
+  return f.tool ? f : fitted(s.p, a);
+}
+
 void add_groove(Site& s, const CutElement& e) {
   auto a =
       asked(s, e, FixedUse::grooving, "groove", [&](const FixedTool& t, double size) {
         return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
       });
-  auto f = fitted(s.p, a);
+  auto f = fitted_blade(s, a, e);
   if (!f.tool)
     return refuse(s, a,
                   fmt::format("no blade of the tools is for {}, at most {:g} mm wide and "
@@ -484,6 +515,12 @@ void add_groove(Site& s, const CutElement& e) {
   Way way{above_mm(e) + (stands ? kBehind_mm / n : 0),
           n * (down_and_back_mm(e) + back) + (e.inner ? 0 : (n - 1) * step), e.inner,
           e.around.z1, e.around.z1 + (n - 1) * step};
+  const auto rims = rims_of(s.p, s.setup, {e.inner, e.index});
+  for (const auto& c : {rims.front, rims.back}) {
+    if (!c) continue;
+    way.fed_min += (above_mm(e) + std::hypot(c->axial_mm, c->radial_mm)) / n;
+    way.rapid_mm += down_and_back_mm(e) + above_mm(e) + c->radial_mm;
+  }
   if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
   s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges, way));
 }
@@ -709,6 +746,8 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
       return add_thread(s, c);
     case part::CutKind::arc:
       return add_arc(s, c);
+    case part::CutKind::hole:
+      break;  // drilled
   }
 }
 

@@ -27,7 +27,8 @@ namespace turnwright::planning {
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
 /// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
 /// the spindle drives and that the jaws hold; boring takes the rest.
-/// Grooves take the widest blade that fits, parting off the narrowest.  Forces:
+/// Grooves take the widest blade that fits and that machine, jaws and tool bear, parting off
+/// the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
 /// the tool.
 AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,

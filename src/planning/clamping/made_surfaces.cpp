@@ -25,6 +25,19 @@ std::string shoulder_id(const part::Drawing& d, std::size_t k) {
   return d.outer[k - 1].id + "|" + d.outer[k].id;
 }
 
+bool made_with_undercut(const part::Drawing& d, std::size_t k) {
+  const auto id = shoulder_id(d, k);
+  const auto& before = d.outer[k - 1];
+  const auto& after = d.outer[k];
+  const bool undercut = before.right_mm < after.left_mm
+                            ? before.right_undercut.has_value()
+                            : after.left_undercut.has_value();
+  return undercut && std::ranges::none_of(d.tolerances, [&](const part::Tolerance& t) {
+           return t.of == id || t.datum == id || t.common_datum == id ||
+                  t.between[0] == id || t.between[1] == id;
+         });
+}
+
 double face_stock_after_mm(const PreparedPart& p, std::size_t setup, part::End end) {
   const auto faced = setup_of(p, end == part::End::left ? "left" : "right");
   return faced && *faced <= setup ? 0 : face_stock_mm(p, end);

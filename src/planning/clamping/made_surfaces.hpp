@@ -24,6 +24,10 @@ struct Element {
 
 /// "d1|d2": the face between outer elements k-1 and k.
 std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
+/// Whether the wall of the shoulder between outer elements k-1 and k is made in one pass
+/// with the undercut at its foot: nothing is asked of it but roughness, so it is not faced
+/// by itself.
+bool made_with_undercut(const part::Drawing& drawing, std::size_t k);
 /// The setup that makes an element or face; none if it stays as it is in the stock.
 std::optional<std::size_t> setup_of(const PreparedPart& part, const std::string& surface);
 /// z [mm] of the face "left", "right" or of a shoulder.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planning/clamping/positions.hpp"
+
 namespace turnwright::planning {
 
 using part::End;
@@ -32,9 +34,32 @@ bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& c) {
 std::optional<part::Chamfer> front_chamfer(const PreparedPart& p, std::size_t setup,
                                            const Element& e) {
   const auto of = [&](const auto& element) {
-    return free_end(p, setup) == End::left ? element.left_chamfer : element.right_chamfer;
+    const auto& c =
+        free_end(p, setup) == End::left ? element.left_chamfer : element.right_chamfer;
+    return c && c->by_blade ? std::nullopt : c;
   };
   return e.inner ? of(p.drawing.inner[e.index]) : of(p.drawing.outer[e.index]);
+}
+
+Rims rims_of(const PreparedPart& p, std::size_t setup, const Element& groove) {
+  const auto& d = p.drawing;
+  Rims rims;
+  const auto look = [&](const auto& list, const auto& left_z_mm) {
+    const double z0 = left_z_mm(groove.index), z1 = z0 + list[groove.index].length_mm;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const double a = left_z_mm(i), b = a + list[i].length_mm;
+      const auto take = [&](End side, const std::optional<part::Chamfer>& c) {
+        if (c && c->by_blade) (side == free_end(p, setup) ? rims.front : rims.back) = c;
+      };
+      if (std::abs(b - z0) < kNoWall_mm) take(End::left, list[i].right_chamfer);
+      if (std::abs(a - z1) < kNoWall_mm) take(End::right, list[i].left_chamfer);
+    }
+  };
+  if (groove.inner)
+    look(d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); });
+  else
+    look(d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); });
+  return rims;
 }
 
 std::optional<double> fillet_behind_mm(const PreparedPart& p, std::size_t setup,

@@ -10,9 +10,16 @@ namespace turnwright::planning {
 /// The end of the part that a setup leaves free.
 part::End free_end(const PreparedPart& plan, std::size_t setup);
 
-/// The chamfer of an element at its end towards the free end of a setup.
+/// The chamfer of an element at its end towards the free end of a setup that turning cuts.
 std::optional<part::Chamfer> front_chamfer(const PreparedPart& plan, std::size_t setup,
                                            const Element& element);
+
+/// The chamfers at the rims of a groove that its blade cuts: towards the free end of a
+/// setup, and away from it.
+struct Rims {
+  std::optional<part::Chamfer> front, back;
+};
+Rims rims_of(const PreparedPart& plan, std::size_t setup, const Element& groove);
 
 /// Largest radius [mm] that may stay in the inner corner behind an element, as its setup's
 /// tool goes; nothing if any may.

@@ -53,7 +53,7 @@ std::vector<Item> items_of(const PreparedPart& p, std::size_t setup, bool inner)
     const double by = to_middle_mm(p, e.id);
     const double ha = out * (e.left_mm / 2 + by), hb = out * (e.right_mm / 2 + by);
     Item item = a > b ? Item{i, a, ha, b, hb} : Item{i, b, hb, a, ha};
-    item.cut_later = e.cut && e.cut->kind != part::CutKind::thread;
+    item.cut_later = e.cut && part::replaces_blank(e.cut->kind);
     item.moved = out * by;
     item.mirrored = !left;
     all.push_back(item);
@@ -189,8 +189,11 @@ std::optional<Passage> passage(const PreparedPart& p, std::size_t setup,
   const bool kept_off =
       (to_arc && b.h0 > a.h1 + kSame_mm) || (from_arc && b.h0 < a.h1 - kSame_mm) ||
       ((from_arc || to_arc) && (rises > kSame_mm || b.rad() > a.rad() + kSame_mm));
-  if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off ||
-      !makes(work, {inner, a.index}) || !makes(work, {inner, b.index}) ||
+  const auto drilled = [&](const Item& e) {
+    return inner && part::is_hole(p.drawing.inner[e.index]);
+  };
+  if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off || drilled(a) ||
+      drilled(b) || !makes(work, {inner, a.index}) || !makes(work, {inner, b.index}) ||
       (!inner && left_before_shoulder_mm(p, work, a, b) > 0))
     return std::nullopt;
   Passage g;
@@ -430,8 +433,9 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
-    double length =
-        fed(last, left, a, b) + wall + (comes ? enters(last) * longer(left, a) : 0);
+    const double recess = last && s.undercut ? 2 * s.undercut->recess_mm : 0;
+    double length = fed(last, left, a, b) + recess + wall +
+                    (comes ? enters(last) * longer(left, a) : 0);
     if (chamfers)
       length += edge_mm(s, beyond) *
                 std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));

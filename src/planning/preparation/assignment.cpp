@@ -147,6 +147,7 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     const auto id = shoulder_id(d, k);
     const auto &before = d.outer[k - 1], &after = d.outer[k];
     if (!face_named(d, id) || before.right_mm == after.left_mm) continue;
+    if (!p.operations && made_with_undercut(d, k)) continue;
     const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
     const auto s = place(
         p, id,
@@ -158,6 +159,33 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
         },
         a);
     if (s) a.setups[*s].shoulders.push_back(k);
+  }
+}
+
+// Grooves go to the setup that makes the elements at their rims where the blade cuts the
+// chamfers there.
+void follow_rims(const PreparedPart& p, Assignment& a) {
+  const auto& outer = p.drawing.outer;
+  const auto made_in = [&](std::size_t i) {
+    std::size_t s = 0;
+    while (s < a.setups.size() &&
+           std::ranges::find(a.setups[s].elements, i) == a.setups[s].elements.end())
+      ++s;
+    return s;
+  };
+  const auto by_blade = [](const auto& chamfer) { return chamfer && chamfer->by_blade; };
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    if (!part::is_groove(outer[i])) continue;
+    const std::size_t own = made_in(i);
+    std::size_t last = own;
+    if (i > 0 && by_blade(outer[i - 1].right_chamfer))
+      last = std::max(last, made_in(i - 1));
+    if (i + 1 < outer.size() && by_blade(outer[i + 1].left_chamfer))
+      last = std::max(last, made_in(i + 1));
+    if (last == own || last == a.setups.size() || !reachable(p, last, i)) continue;
+    std::erase(a.setups[own].elements, i);
+    auto& later = a.setups[last].elements;
+    later.insert(std::ranges::lower_bound(later, i), i);
   }
 }
 
@@ -174,6 +202,7 @@ Assignment assign(const PreparedPart& p) {
     if (const auto s = place(p, outer[i].id, why_not(p, i), can, a))
       a.setups[*s].elements.push_back(i);
   }
+  if (!p.operations) follow_rims(p, a);
   const auto& inner = p.drawing.inner;
   for (std::size_t i = 0; i < inner.size(); ++i)
     if (const auto s = place(

@@ -59,8 +59,19 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
       [&](const catalogue::Tool* t) { return t->re_mm + kNoWall_mm <= wall_mm; });
 }
 
+// Whether a setup plunges the groove beside an element that is made by then, so that the
+// blade cuts the chamfer at its rim.
+bool cut_by_blade(const PreparedPart& p, const std::vector<SetupWork>& setups,
+                  std::size_t s, const Element& e, End end) {
+  const auto groove = beside(p.drawing, e, end);
+  bool made = false;
+  for (std::size_t k = 0; k <= s; ++k) made = made || makes(setups[k], e);
+  return made && groove && makes(setups[s], *groove);
+}
+
 bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
-            const Element& e, End end) {
+            const Element& e, End end, const part::Chamfer& chamfer) {
+  if (chamfer.by_blade) return cut_by_blade(p, setups, s, e, end);
   if (free_end(p, s) != end) return false;
   if (makes(setups[s], e)) return true;
   const auto front = beside(p.drawing, e, end);
@@ -86,11 +97,12 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
   for (std::size_t i = 0; i < elements.size(); ++i)
     for (const End end : {End::left, End::right}) {
       const auto& e = elements[i];
-      if (!(end == End::left ? e.left_chamfer : e.right_chamfer)) continue;
+      const auto& chamfer = end == End::left ? e.left_chamfer : e.right_chamfer;
+      if (!chamfer) continue;
       bool cut = false;
       for (std::size_t s = 0; s < setups.size(); ++s)
-        cut = cut || cut_in(p, setups, s, {inner, i}, end);
-      if (cut) continue;
+        cut = cut || cut_in(p, setups, s, {inner, i}, end, *chamfer);
+      if (cut || chamfer->general) continue;
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
@@ -103,6 +115,23 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
 }
 
 }  // namespace
+
+void leave_to_the_hand(PreparedPart& p) {
+  const auto of = [&](auto& elements, bool inner) {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      for (const End end : {End::left, End::right}) {
+        auto& chamfer =
+            end == End::left ? elements[i].left_chamfer : elements[i].right_chamfer;
+        if (!chamfer || !chamfer->general) continue;
+        bool cut = false;
+        for (std::size_t s = 0; s < p.setups.size(); ++s)
+          cut = cut || cut_in(p, p.work.setups, s, {inner, i}, end, *chamfer);
+        if (!cut) chamfer.reset();
+      }
+  };
+  of(p.drawing.outer, false);
+  of(p.drawing.inner, true);
+}
 
 std::vector<std::string> assign_chamfers(const PreparedPart& p,
                                          std::vector<SetupWork>& setups) {

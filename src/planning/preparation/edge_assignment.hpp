@@ -18,6 +18,10 @@ namespace turnwright::planning {
 std::vector<std::string> assign_chamfers(const PreparedPart& plan,
                                          std::vector<SetupWork>& setups);
 
+/// Takes the chamfers out of the drawing that the title block asks for of all edges alike and
+/// that no setup cuts on its way.
+void leave_to_the_hand(PreparedPart& part);
+
 /// A sentence for each undercut that no setup cuts: the one that makes its element comes
 /// from the shoulder's side, or faces that shoulder by itself.
 std::vector<std::string> undercuts_not_cut(const PreparedPart& plan,

@@ -9,7 +9,8 @@
 namespace turnwright::planning {
 namespace {
 
-constexpr double kUsual_mm = 15, kLeast_mm = 5;
+constexpr double kUsual_mm = 15, kLeast_mm = 5, kWorth_mm = 1;
+constexpr double kOverhang_diameters = 3;
 constexpr double kRunOut_mm = 2;  // what the jaws end before, for the tool to run out
 constexpr double kDigit_mm = 0.1;
 
@@ -23,6 +24,41 @@ double usual_mm(const PlanRequest& r, std::size_t s) {
   const double held = held_mm(r.drawing, s, r.setups[s].hold);
   const double length = s == 0 ? r.drawing.stock.length_mm : part::length_mm(r.drawing);
   return std::min(std::max(kUsual_mm, held / 2), length / 2);
+}
+
+// z of the end of what the jaws can hold without a step, a groove or a milled place.
+double level_to_mm(const PreparedPart& p, std::size_t s) {
+  const auto& e = p.drawing.outer;
+  const bool left = holds_left(p, s);
+  const double free = free_z_mm(p, s);
+  if (s == 0) return free;
+  const auto element = [&](std::size_t k) { return left ? k : e.size() - 1 - k; };
+  double to = part::length_mm(p.drawing) - free;
+  for (std::size_t k = 0; k < e.size(); ++k) {
+    const auto& x = e[element(k)];
+    if (x.cut || x.left_mm != x.right_mm || x.left_mm != e[element(0)].left_mm) break;
+    to += left ? x.length_mm : -x.length_mm;
+  }
+  for (const auto& m : p.milled)
+    to = left ? std::min(to, m.z_mm) : std::max(to, m.z_mm + m.length_mm);
+  return to;
+}
+
+// A grip that leaves an overhang of three diameters, where the setup cuts no more of it.
+void lengthen(PreparedPart& p, std::size_t s) {
+  const double overhang = std::abs(free_z_mm(p, s) - root_z_mm(p, s, Clamping::chuck));
+  const double beyond =
+      overhang - kOverhang_diameters * held_mm(p.drawing, s, p.setups[s].hold);
+  const auto longest = longer_grip_mm(p, s);
+  if (!longest || beyond < kWorth_mm) return;
+  const double before = p.grips_mm[s];
+  p.grips_mm[s] =
+      std::min(*longest, std::ceil((before + beyond) / kDigit_mm - 1e-6) * kDigit_mm);
+  auto work = assign(p);
+  if (work == p.work)
+    p.work = std::move(work);
+  else
+    p.grips_mm[s] = before;
 }
 
 // One grip shorter, in the first setup that leaves it open and where that helps; false if
@@ -62,12 +98,34 @@ std::vector<double> shorter_grips_mm(const PreparedPart& p, std::size_t s) {
   return all;
 }
 
+std::optional<double> longer_grip_mm(const PreparedPart& p, std::size_t s) {
+  const auto& work = p.work.setups[s];
+  if (work.elements.empty()) return {};
+  const double root = root_z_mm(p, s, Clamping::chuck), free = free_z_mm(p, s);
+  double room = (level_to_mm(p, s) - root) * (free > root ? 1 : -1);
+  double corner = 0;
+  for (const auto& t : p.tools) corner = std::max(corner, t.re_mm);
+  for (const std::size_t i : work.elements) {
+    const double z0 = part::left_z_mm(p.drawing, i);
+    const double z1 = z0 + p.drawing.outer[i].length_mm;
+    room = std::min(room, (free > root ? z0 - root : root - z1) - corner);
+  }
+  const auto& clampings = p.setups[s].clampings;
+  if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
+    room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);
+  const double grip = std::floor((p.grips_mm[s] + room) / kDigit_mm) * kDigit_mm;
+  if (grip < p.grips_mm[s] + kWorth_mm) return {};
+  return grip;
+}
+
 void choose_grips(PreparedPart& p) {
   for (std::size_t s = 0; s < p.setups.size(); ++s)
     p.grips_mm.push_back(p.setups[s].grip_mm.value_or(usual_mm(p, s)));
   p.work = assign(p);
   while (!p.work.unreachable.empty() && shortened(p)) {
   }
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    if (!p.setups[s].grip_mm) lengthen(p, s);
 }
 
 }  // namespace turnwright::planning

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "edge_assignment.hpp"
 #include "grips.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/auxiliary/milled_ways.hpp"
 #include "planning/budget/jaw_squeeze.hpp"
 #include "planning/budget/machine_share.hpp"
+#include "stick_out.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -34,8 +36,10 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 PreparedPart assigned(PlanRequest request) {
   PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
+  leave_to_the_hand(p);
   p.jaws = jaw_forces(p);
   p.drilled_mm = drilled(p);
+  set_stick_outs(p);
   p.milled_places = placed(p);
   return p;
 }

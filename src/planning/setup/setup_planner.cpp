@@ -73,9 +73,10 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       return MachinedSurface::shoulder(p, setup, clamping, work, before, k, fixed);
     });
   for (const std::size_t i : work.bores)
-    add(d.inner[i].id, [&](const GivenConditions& fixed) {
-      return MachinedSurface::bore(p, setup, clamping, work, before, i, fixed);
-    });
+    if (!part::is_hole(d.inner[i]))
+      add(d.inner[i].id, [&](const GivenConditions& fixed) {
+        return MachinedSurface::bore(p, setup, clamping, work, before, i, fixed);
+      });
   memory_.resize(jobs_.size());
 }
 

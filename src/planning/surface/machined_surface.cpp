@@ -106,6 +106,7 @@ MachinedSurface MachinedSurface::element(const PreparedPart& plan, std::size_t s
   MachinedSurface f(plan, setup, clamping, Kind::element, e.id, fixed);
   f.take(e, index, part::left_z_mm(plan.drawing, index));
   f.around_ = surroundings(plan, setup, clamping, work, {false, index});
+  f.take_wall(work);
   const auto level = f.around_.level_behind;
   f.goes_on_ = e.cut || (level && !before.outer[*level]);
   f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
@@ -202,6 +203,19 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
   D_large_ = std::max(e.left_mm, e.right_mm);
   Ra_um_ = e.Ra_um.value_or(0);
   Rz_um_ = e.Rz_um.value_or(0);
+}
+
+// A wall that is made in one pass with an undercut is as smooth as the drawing asks.
+void MachinedSurface::take_wall(const SetupWork& work) {
+  if (!around_.undercut) return;
+  const std::size_t k = around_.mirrored ? index_ + 1 : index_;
+  const auto* wall = find_face(*plan_, shoulder_id(plan_->drawing, k));
+  if (!wall || std::ranges::find(work.shoulders, k) != work.shoulders.end()) return;
+  const auto smoother = [](double& own, const std::optional<double>& asked) {
+    if (asked && !(own > 0 && own < *asked)) own = *asked;
+  };
+  smoother(Ra_um_, wall->Ra_um);
+  smoother(Rz_um_, wall->Rz_um);
 }
 
 Holding MachinedSurface::holding() const {
@@ -345,9 +359,7 @@ bool MachinedSurface::ends_before_jaws(const catalogue::Tool& tool) const {
 bool MachinedSurface::enters(const catalogue::Tool& tool) const {
   if (kind_ != Kind::bore) return true;
   if (!tool.bar || tool.bar->min_bore_mm > hole_mm_) return false;
-  double overhang = 0;
-  for (const auto& s : tool.bar->segments) overhang += s.length_mm;
-  return overhang >= depth_mm_ + kBefore_mm;
+  return catalogue::stick_out_mm(*tool.bar) >= depth_mm_ + kBefore_mm;
 }
 
 // A flexibility between the supports, with the tailstock's thrust and a follow rest.

@@ -152,6 +152,7 @@ class MachinedSurface {
                   Kind kind, std::string surface, const GivenConditions& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
+  void take_wall(const SetupWork& work);
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
   // In surface_paths.cpp.

@@ -17,6 +17,7 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   if (into_stock && !takes_ring(tool, s.wall_chamfer)) return false;
   return !s.undercut ||
          (tool.re_mm <= s.undercut->radius_mm &&
+          (!(s.undercut->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
           units::rad_from_deg(tool.minor_kapr_deg) >= part::kUndercutFalls_rad &&
           tool.ap_mm.upper > s.undercut->depth_mm);
 }
@@ -31,9 +32,14 @@ std::string MachinedSurface::edges_asked() const {
     add(fmt::format("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
   if (s.undercut)
     add(fmt::format(
-        "a corner of at most {:g} mm and a minor edge of at least {:g} deg for "
+        "a corner of at most {:g} mm{} and a minor edge of at least {:g} deg for "
         "the undercut",
-        s.undercut->radius_mm, units::deg_from_rad(part::kUndercutFalls_rad)));
+        s.undercut->radius_mm,
+        s.undercut->recess_mm > 0
+            ? fmt::format(", a KAPR of at least {:g} deg",
+                          90 + units::deg_from_rad(part::kUndercutLeans_rad))
+            : std::string(),
+        units::deg_from_rad(part::kUndercutFalls_rad)));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
     add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
                     s.wall_chamfer.axial_mm));

@@ -23,11 +23,7 @@ ToolRow row_of(const planning::PreparedPart& part, const toolpath::TableTool& to
   if (!turning) return row;
   row.insert = turning->insert;
   if (turning->holder) row.holder = turning->holder->designation;
-  if (turning->bar) {
-    double length = 0;
-    for (const auto& segment : turning->bar->segments) length += segment.length_mm;
-    row.stick_out_mm = length;
-  }
+  if (turning->bar) row.stick_out_mm = catalogue::stick_out_mm(*turning->bar);
   return row;
 }
 

@@ -89,17 +89,54 @@ TEST(Edges, FilletsAndUndercutsBelongToTheElementBelow) {
   EXPECT_EQ(d.inner[0].left_fillet_mm, 0.4);
 }
 
+// The title block breaks every edge that is not named and has room: not the drilled end's
+// mouth of a part whose bores are named, nothing twice.
+TEST(Edges, OfTheTitleBlockAreBrokenInTheMiddleOfItsSizes) {
+  auto document = stepped({edge("d2|d3", {{"chamfer_mm", 2}})});
+  document["general_edges_mm"] = {0.2, 0.4};
+  const auto d = load_part_plan(document, test_catalogue(), "t").plan.drawing;
+  const auto is_broken = [](const std::optional<part::Chamfer>& c) {
+    return c && c->general && std::abs(c->axial_mm - 0.3) < 1e-12 &&
+           c->radial_mm == c->axial_mm;
+  };
+  EXPECT_TRUE(is_broken(d.outer[0].left_chamfer));
+  EXPECT_TRUE(is_broken(d.outer[1].left_chamfer));
+  EXPECT_EQ(d.outer[1].right_chamfer->axial_mm, 2);
+  EXPECT_FALSE(d.outer[1].right_chamfer->general);
+  EXPECT_TRUE(is_broken(d.outer[2].right_chamfer));
+  EXPECT_FALSE(d.outer[2].left_chamfer) << "the foot of a step";
+  EXPECT_TRUE(is_broken(d.outer[4].left_chamfer) && d.outer[4].left_chamfer->by_blade);
+  EXPECT_TRUE(is_broken(d.outer[4].right_chamfer));
+  EXPECT_TRUE(is_broken(d.inner[0].right_chamfer));
+  for (const json& wrong :
+       {json({0.4, 0.2}), json({0.2}), json(0.3), json({-0.2, 0.4})}) {
+    document["general_edges_mm"] = wrong;
+    EXPECT_THROW(load_part_plan(document, test_catalogue(), "t"), InputError) << wrong;
+  }
+}
+
+// d3 stands out of the groove's blank, which is as high as d5: there its blade cuts the rim.
+TEST(Edges, AtAGrooveAreChamfers) {
+  const auto d = read({edge("d3|d4", {{"chamfer_mm", 1}}),
+                       edge("d5|d4", {{"chamfer_mm", 0.4}, {"angle_deg", 30}})});
+  ASSERT_TRUE(d.outer[2].right_chamfer && d.outer[4].left_chamfer);
+  EXPECT_FALSE(d.outer[2].right_chamfer->by_blade);
+  EXPECT_TRUE(d.outer[4].left_chamfer->by_blade);
+  EXPECT_EQ(d.outer[4].left_chamfer->axial_mm, 0.4);
+  EXPECT_EQ(
+      refusal({edge("d4|d5", {{"chamfer_mm", 1}})}),
+      "t: /edges/0/chamfer_mm: got 1, expected a chamfer that takes at most 0.95 mm "
+      "of the radius there (this one takes 1)");
+}
+
 TEST(Edges, ThatThePartHasNotAreRefusedByName) {
   EXPECT_EQ(refusal({edge("d1|d3", {{"chamfer_mm", 1}})}),
             "t: /edges/0/at: got \"d1|d3\", expected an edge of the part (did you mean "
             "\"d1|d2\"?)");
   EXPECT_EQ(refusal({edge("left|b1", {{"chamfer_mm", 1}})}),
             "t: /edges/0/at: got \"left|b1\", expected an edge of the part: \"left\", "
-            "\"right\", \"d1|d2\", \"d2|d3\", \"d3|d4\", \"right|b1\", \"b2|b1\"");
-  EXPECT_EQ(
-      refusal({edge("d3|d4", {{"chamfer_mm", 1}})}),
-      "t: /edges/0/at: got \"d3|d4\", expected an edge of a cylinder or a thread that "
-      "has no groove or arc beside it");
+            "\"right\", \"d1|d2\", \"d2|d3\", \"d3|d4\", \"d4|d5\", \"right|b1\", "
+            "\"b2|b1\"");
   EXPECT_EQ(
       refusal({edge("left", {{"chamfer_mm", 1}}), edge("d1|left", {{"chamfer_mm", 1}})}),
       "t: /edges/1/at: got \"d1|left\", expected each edge once");
@@ -145,7 +182,7 @@ TEST(Edges, AtBothEndsOfAnElementAndOfAStepDoNotMeet) {
             "t: /edges/1/chamfer_mm: got 9.6, expected a chamfer that takes at most 9.45 "
             "mm of the radius there (this one takes 9.6)");
   EXPECT_EQ(refusal({high, round}),
-            "t: /edges/1/undercut: got \"E0.8x0.3\", expected an undercut whose radius "
+            "t: /edges/1/undercut: got \"E0.8x0.3\", expected an undercut that "
             "takes at most 0.35 mm of the shoulder");
 }
 
@@ -166,13 +203,13 @@ TEST(Edges, FitTheStepThatIsCut) {
 TEST(Edges, UndercutsAreThoseOfTheStandard) {
   const auto refused = [](const char* what) {
     return "t: /edges/0/undercut: got \"" + std::string(what) +
-           "\", expected an undercut of DIN 509's form E with a radius and a depth of "
-           "its "
-           "table, like \"E0.8x0.3\" (the forms F, G and H are not turned)";
+           "\", expected an undercut of DIN 509's form E or F with a radius and a depth "
+           "of its table, like \"E0.8x0.3\" (the forms G and H are not turned)";
   };
-  for (const char* what : {"F0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
+  for (const char* what : {"G0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
     EXPECT_EQ(refusal({edge("d1|d2", {{"undercut", what}})}), refused(what));
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E4x0.5"}})}), "accepted");
+  EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "DIN 509-F0,8x0,3"}})}), "accepted");
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E0.8\u00d70.3"}})}), "accepted");
   EXPECT_EQ(
       refusal({edge("b1|b2", {{"undercut", "E0.4x0.2"}})}),

@@ -365,7 +365,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                          {{{"hold", "left"}, {"clampings", all}},
                           {{"hold", "right"}, {"clampings", all}, {"jaws", "soft"}}}},
                         {"/setups/0/grip_mm", 25.0},
-                        {"/setups/1/grip_mm", 23.0},
+                        {"/setups/1/grip_mm", 24.0},
                         {"/operations", "auto"},
                         {"/objective", "cost"},
                         {"/batch", nullptr},
@@ -377,7 +377,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
                         {"/damping_ratio", 0.012},
                         {"/conformance", 0.9973}}));
   EXPECT_EQ(loaded.part.drawing.stock.left_allowance_mm, 1.5);
-  EXPECT_EQ(loaded.part.grips_mm[1], 23);
+  EXPECT_EQ(loaded.part.grips_mm[1], 24);  // three diameters stand out
   EXPECT_EQ(loaded.part.setups[1].clampings.size(), 3U);
   EXPECT_EQ(loaded.part.machine_per_min, 1);
   EXPECT_FALSE(loaded.part.batch.has_value());
@@ -396,7 +396,7 @@ TEST(PartPlan, WhatWasAssumedMayBeWrittenDown) {
 
 TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
   auto document = smallest();
-  document["stock"]["diameter_mm"] = 24;
+  document["stock"] = {{"kind", "bar"}, {"diameter_mm", 24}, {"length_mm", 82}};
   document["outer"] = {
       {{"id", "d"}, {"kind", "cylinder"}, {"length_mm", 80}, {"diameter_mm", 20}}};
   const auto loaded = prepared(document);

@@ -97,6 +97,23 @@ TEST(Chamfers, OfAFarMouthTakeAPassOfTheirOwn) {
       "a bore of 24 mm");
 }
 
+// What the title block asks for of all edges is cut where a tool passes: with the left end
+// held all the time, nothing is done to the edges that face it, and that is no conflict.
+TEST(Chamfers, OfTheTitleBlockAreLeftToTheHandWhereNoToolPasses) {
+  json d = collar(json::array());
+  d["general_edges_mm"] = {0.2, 0.4};
+  d["setups"].erase(1);
+  d["outer"] = {cylinder("d1", 20, 50), cylinder("d2", 70, 50), cylinder("d3", 30, 40)};
+  d["stock"]["left_allowance_mm"] = 0;
+  d["stock"]["length_mm"] = 122;
+  const auto p = part(d);
+  EXPECT_FALSE(p.drawing.outer[0].left_chamfer);
+  EXPECT_TRUE(p.drawing.outer[1].right_chamfer);
+  EXPECT_TRUE(p.drawing.outer[2].right_chamfer);
+  for (const auto& why : p.work.unreachable)
+    EXPECT_EQ(why.find("chamfer"), why.npos) << why;
+}
+
 // One setup: nothing comes from the left.
 TEST(Chamfers, ThatNoSetupReachesAreConflicts) {
   json d = collar({{{"at", "d1|d2"}, {"chamfer_mm", 1}}});
@@ -145,10 +162,50 @@ TEST(Undercuts, NeedAToolThatGoesIn) {
       "minor edge of at least 15 deg for the undercut");
 }
 
-// A shoulder with a roughness of its own is faced by another tool.
+// Form F leans 8 deg into the shoulder: an edge of 93 deg does not go behind it, one of 107.5
+// deg does.
+TEST(Undercuts, OfFormFNeedAnEdgeThatGoesBehindTheShoulder) {
+  const auto with = [](const char* tool) {
+    auto d = collar({{{"at", "d1|d2"}, {"undercut", "F0.8x0.3"}}});
+    d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", tool};
+    return plan(part(d));
+  };
+  EXPECT_EQ(with("SVHBL-VBMT160404-PF").status, PlanStatus::ok);
+  const auto none = with("SVJBL-VBMT160404-PF");
+  ASSERT_EQ(none.status, PlanStatus::infeasible);
+  EXPECT_EQ(
+      none.conflicts.front().sentence,
+      "d1: no tool that could finish it fits and has a corner of at most 0.8 mm, a KAPR "
+      "of at least 98 deg and a minor edge of at least 15 deg for the undercut");
+}
+
+// Of a wall that is asked for its roughness alone, the pass of the undercut is as smooth.
+TEST(Undercuts, MakeTheirShoulderAsSmoothAsItIsDrawn) {
+  auto d = collar({{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}});
+  const auto feed = [](const json& document) {
+    const auto r = plan(part(document));
+    for (const auto& o : r.setups.at(1).operations)
+      if (o.id == "s2-finish-d1") return o.passes.front().f_mm_rev;
+    return 0.0;
+  };
+  const double open = feed(d);
+  d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 0.8}}};
+  const double smooth = feed(d);
+  EXPECT_GT(smooth, 0);
+  EXPECT_LT(smooth, open);
+  d["outer"][0]["Ra_um"] = 0.8;
+  d.erase("faces");
+  EXPECT_EQ(feed(d), smooth);
+}
+
+// A shoulder with a tolerance of its own is faced by another tool.
 TEST(Undercuts, StandBeforeNoShoulderThatIsFacedByItself) {
   auto d = collar({{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}});
-  d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 1.6}}};
+  d["tolerances"] = {{{"id", "t"},
+                      {"kind", "perpendicularity"},
+                      {"of", "d1|d2"},
+                      {"datum", "d1"},
+                      {"value_mm", 0.05}}};
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::infeasible);
   EXPECT_TRUE(r.conflicts.front().sentence.starts_with(

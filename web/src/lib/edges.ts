@@ -2,12 +2,17 @@
 import { alongBores, ends, entries, mouths, type Element } from './elements';
 import type { Part } from './types';
 
-/** Form E of DIN 509 by radius and depth, as the planner knows it: src/part/drawing.cpp. */
-export const undercuts: Record<string, { radius: number; depth: number; width: number }> = Object.fromEntries(
-  [
-    [0.2, 0.1, 1], [0.4, 0.2, 2], [0.6, 0.2, 2], [0.6, 0.3, 2.5], [0.8, 0.3, 2.5], [1, 0.2, 2.5],
-    [1, 0.4, 4], [1.2, 0.2, 2.5], [1.2, 0.4, 4], [1.6, 0.3, 4], [2.5, 0.4, 5], [4, 0.5, 7],
-  ].map(([radius, depth, width]) => [`E${radius}x${depth}`, { radius, depth, width }]),
+/** An undercut of DIN 509; recess: how deep form F goes into the shoulder, 0 of form E. */
+export interface Undercut { radius: number; depth: number; width: number; recess: number }
+/** Forms E and F by radius and depth, as the planner knows them: src/part/drawing.cpp. */
+export const undercuts: Record<string, Undercut> = Object.fromEntries(
+  ['E', 'F'].flatMap((form) =>
+    [
+      [0.2, 0.1, 1, 0.1], [0.4, 0.2, 2, 0.1], [0.6, 0.2, 2, 0.1], [0.6, 0.3, 2.5, 0.2], [0.8, 0.3, 2.5, 0.2], [1, 0.2, 2.5, 0.1],
+      [1, 0.4, 4, 0.3], [1.2, 0.2, 2.5, 0.1], [1.2, 0.4, 4, 0.3], [1.6, 0.3, 4, 0.2], [2.5, 0.4, 5, 0.3], [4, 0.5, 7, 0.3],
+    ].map(([radius, depth, width, recess]) =>
+      [`${form}${radius}x${depth}`, { radius, depth, width, recess: form === 'F' ? recess : 0 }]),
+  ),
 );
 export const usualUndercut = 'E0.8x0.3';
 
@@ -21,14 +26,15 @@ export interface Place {
 }
 
 const turned = (e: Element | undefined) => ['cylinder', 'thread'].includes(String(e?.kind));
-const cut = (e: Element | undefined) => ['groove', 'arc'].includes(String(e?.kind));
+const is = (kind: string, ...all: Element[]) => all.some((e) => e.kind === kind);
 
 function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undefined {
   const [left, right] = [ends(a)[1], ends(b)[0]];
-  if (cut(a) || cut(b) || left === right) return undefined;
-  const stands = left > right === (side === 'outer') ? a : b;
+  if (is('arc', a, b) || left === right) return undefined;
+  const stands = left > right === (side === 'outer') ? a : b, groove = is('groove', a, b);
   return {
-    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), fillet: true, undercut: side === 'outer',
+    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), fillet: !groove,
+    undercut: side === 'outer' && !groove,
   };
 }
 

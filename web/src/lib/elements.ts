@@ -3,7 +3,7 @@
 import type { Part } from './types';
 
 export type Side = 'outer' | 'inner';
-export type Kind = 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread';
+export type Kind = 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole';
 
 /** An entry of `outer` or `inner`; what the planner has written may be anything. */
 // eslint-disable-next-line @typescript-eslint/no-explicit-any
@@ -17,7 +17,7 @@ export interface Edit {
 
 export const kinds: Record<Side, Kind[]> = {
   outer: ['cylinder', 'cone', 'arc', 'groove', 'thread'],
-  inner: ['cylinder', 'cone', 'groove', 'thread'],
+  inner: ['cylinder', 'cone', 'groove', 'thread', 'hole'],
 };
 
 /** The entries of a list of the document; none where it is something else. */
@@ -134,6 +134,7 @@ function shape(kind: Kind, side: Side, [left, right]: [number, number], length: 
   const mean = Number(((left + right) / 2).toFixed(3));
   switch (kind) {
     case 'cylinder': return { diameter_mm: left };
+    case 'hole': return { diameter_mm: Math.round(mean) };
     case 'cone': return { left_mm: left, right_mm: left === right ? left + (side === 'outer' ? 4 : -2) : right };
     case 'arc': return { left_mm: left, right_mm: right, radius_mm: Math.max(length, Math.abs(left - right)) };
     case 'groove': return { diameter_mm: Math.max(1, left + (side === 'outer' ? -2 : 2) * grooveDeep_mm) };

@@ -14,7 +14,7 @@ export type Pair = [number, number];
 export interface Surface {
   id: string;
   side: 'outer' | 'inner';
-  kind: 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread';
+  kind: 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole';
   z_mm: Pair;
   diameters_mm: Pair;
   /** Of a chamfer: along the axis and on the radius. */

@@ -22,16 +22,23 @@ test('every edge of the shipped parts is at a place where it may be', () => {
 });
 
 test('undercuts are those of the planner', () => {
-  const table = [...projectFile('src/part/drawing.cpp').matchAll(/Undercut\{([\d.]+), ([\d.]+), ([\d.]+)\}/g)];
-  assert.equal(table.length, Object.keys(undercuts).length);
-  for (const [, radius, depth, width] of table)
-    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius: Number(radius), depth: Number(depth), width: Number(width) });
+  const number = '([\\d.]+)';
+  const row = new RegExp(`Undercut\\{${[number, number, number, number].join(',\\s*')}\\}`, 'g');
+  const table = [...projectFile('src/part/drawing.cpp').matchAll(row)].map(([, ...row]) => row.map(Number));
+  assert.equal(2 * table.length, Object.keys(undercuts).length);
+  for (const [radius, depth, width, recess] of table) {
+    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius, depth, width, recess: 0 });
+    assert.deepEqual(undercuts[`F${radius}x${depth}`], { radius, depth, width, recess });
+  }
 });
 
-test('no edge stands where there is no step, at grooves and at arcs', () => {
+test('no edge stands where there is no step, nor at arcs; at grooves only chamfers do', () => {
   const e = (id, kind, d) => ({ id, kind, length_mm: 5, diameter_mm: d });
   const names = edgePlaces({ outer: [e('a', 'cylinder', 20), e('b', 'cylinder', 20), e('g', 'groove', 15), e('c', 'cylinder', 20)] }).map((p) => p.at);
-  assert.deepEqual(names, ['left', 'right']);
+  assert.deepEqual(names, ['left', 'b|g', 'g|c', 'right']);
+  const all = edgePlaces({ outer: [e('b', 'cylinder', 20), e('g', 'groove', 15), { ...e('a', 'arc'), left_mm: 20, right_mm: 10 }] });
+  assert.deepEqual(all.map((p) => p.at), ['left', 'b|g']);
+  assert.deepEqual([all[1].chamfer, all[1].fillet, all[1].undercut], [true, false, false]);
 });
 
 test('the chamfer is on what stands: out of the larger shaft, into the smaller bore', () => {

@@ -1,0 +1,239 @@
+// What a part leaves open and planning settles before it begins: how long the jaws hold,
+// how far a boring bar sticks out, how a neck and its blade are chosen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../parts.hpp"
+#include "turnwright/planning/plan.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using nlohmann::json;
+
+json cylinder(const char* id, double length, double d) {
+  return {{"id", id}, {"kind", "cylinder"}, {"length_mm", length}, {"diameter_mm", d}};
+}
+
+json turned(json outer, double stock_mm) {
+  double length = 4;
+  for (const auto& e : outer) length += e["length_mm"].get<double>();
+  return {{"material", "C45"},
+          {"machine", "lathe-medium"},
+          {"damping_ratio", 0.4},
+          {"stock",
+           {{"kind", "bar"},
+            {"diameter_mm", stock_mm},
+            {"length_mm", length},
+            {"left_allowance_mm", 2}}},
+          {"outer", std::move(outer)},
+          {"setups",
+           {{{"hold", "right"}, {"clampings", {"chuck"}}},
+            {{"hold", "left"}, {"clampings", {"chuck"}}}}}};
+}
+
+// A finished pin of 16 x 80 mm, on which 20 mm are left to cut: three diameters, 48 mm,
+// stand out of the jaws instead of 85.
+TEST(Grips, LetThreeDiametersStandOut) {
+  const auto pin = turned({cylinder("d1", 80, 16), cylinder("d2", 20, 10)}, 20);
+  EXPECT_EQ(part(pin).grips_mm[1], 52);
+  auto given = pin;
+  given["setups"][1]["grip_mm"] = 15;
+  EXPECT_EQ(part(given).grips_mm[1], 15);
+}
+
+// They end before a step, a groove, a milled place and the surface that is cut.
+TEST(Grips, EndBeforeWhatTheyCannotHold) {
+  const auto grip = [](const json& outer, const json& milling = {}) {
+    auto d = turned(outer, 24);
+    if (!milling.is_null()) {
+      d["milling"] = milling;
+      d["machine"] = "turn-mill";
+    }
+    return part(d).grips_mm[1];
+  };
+  const auto end = cylinder("e", 20, 10);
+  EXPECT_EQ(grip({cylinder("d1", 30, 16), cylinder("d2", 50, 18), end}), 30);
+  EXPECT_EQ(
+      grip({cylinder("d1", 30, 16),
+            {{"id", "g"}, {"kind", "groove"}, {"length_mm", 3}, {"diameter_mm", 14}},
+            cylinder("d2", 50, 16),
+            end}),
+      30);
+  EXPECT_EQ(grip({cylinder("d1", 80, 16), end}, {{{"id", "k"},
+                                                  {"kind", "keyway"},
+                                                  {"on", "d1"},
+                                                  {"z_mm", 40},
+                                                  {"length_mm", 20},
+                                                  {"width_mm", 5},
+                                                  {"depth_mm", 3}}}),
+            40);
+  // The largest corner, of 1.2 mm, has to roll over the end of what is cut.
+  EXPECT_NEAR(grip({cylinder("d1", 30, 16), cylinder("e", 60, 10)}), 28.8, 1e-9);
+}
+
+double stick_out(const PreparedPart& p, const char* tool) {
+  const auto t = std::ranges::find(p.tools, tool, &catalogue::Tool::id);
+  return catalogue::stick_out_mm(t->bar.value());
+}
+
+json bored(double depth_mm) {
+  auto d = turned({cylinder("d1", 120, 60)}, 64);
+  d["inner"] = {cylinder("b1", depth_mm, 30)};
+  d["inner"][0]["from"] = "right";
+  d["setups"] = {{{"hold", "left"}, {"grip_mm", 15}, {"clampings", {"chuck"}}}};
+  return d;
+}
+
+// 2 mm beyond the bore, up to whole 5 mm; not beyond 6 diameters of carbide or 4 of steel.
+TEST(StickOut, IsWhatTheDeepestBoreNeeds) {
+  EXPECT_EQ(stick_out(part(bored(40)), "E16R-SCLCR-CCMT09T304-PF"), 45);
+  EXPECT_EQ(stick_out(part(bored(84)), "E16R-SCLCR-CCMT09T304-PF"), 90);
+  EXPECT_EQ(stick_out(part(bored(84)), "E20S-SCLCR-CCMT09T304-PF"), 90);
+  EXPECT_EQ(stick_out(part(bored(95)), "E16R-SCLCR-CCMT09T304-PF"), 72)
+      << "as drawn: it does not reach";
+  EXPECT_EQ(stick_out(part(bored(40)), "S16R-SCLCR-CCMT09T304-PF"), 45);
+  EXPECT_EQ(stick_out(part(bored(63)), "S16R-SCLCR-CCMT09T304-PF"), 56);
+  EXPECT_EQ(stick_out(part(bored(5)), "S16R-SCLCR-CCMT09T304-PF"), 28)
+      << "its head of 12 mm and a diameter";
+}
+
+// A tool without a longest stick-out keeps its own.
+TEST(StickOut, OfAMeasuredBarStays) {
+  PlanRequest request = part(bored(40));
+  for (auto& t : request.tools)
+    if (t.bar) t.bar->longest_mm.reset();
+  const double before = stick_out(part(bored(95)), "E16R-SCLCR-CCMT09T304-PF");
+  EXPECT_EQ(stick_out(prepare(request), "E16R-SCLCR-CCMT09T304-PF"), 45)
+      << "what was set before";
+  EXPECT_EQ(before, 72);
+}
+
+// Between 40 and 50 mm: plunged from 40 mm down, its sizes are not judged.
+TEST(Necks, ArePlungedByABlade) {
+  auto d = turned({cylinder("d1", 30, 40), cylinder("neck", 20, 30),
+                   cylinder("d3", 20, 50), cylinder("d4", 40, 35)},
+                  54);
+  d["outer"][1]["fit"] = "h9";
+  const auto p = part(d);
+  const auto& neck = p.drawing.outer[1];
+  ASSERT_TRUE(neck.cut);
+  EXPECT_EQ(neck.cut->kind, part::CutKind::groove);
+  EXPECT_EQ(neck.left_mm, 40);
+  EXPECT_EQ(neck.cut->drawn.left_mm, 30);
+  EXPECT_FALSE(neck.limits);
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  const auto& all = r.setups[0].operations;
+  EXPECT_TRUE(std::ranges::any_of(all, [](const auto& o) {
+    return o.id == "s1-groove-neck" && o.passes.size() == 4;  // blades of 6 mm
+  }));
+}
+
+// A cone in a neck is more than a blade makes: the neck stays a cylinder and is told.
+TEST(Necks, WithConesAreNotPlunged) {
+  const json cone{{"id", "c"},
+                  {"kind", "cone"},
+                  {"length_mm", 10},
+                  {"left_mm", 30},
+                  {"right_mm", 36}};
+  const auto d = turned({cylinder("d1", 30, 40), cylinder("neck", 20, 30), cone,
+                         cylinder("d3", 20, 50), cylinder("d4", 40, 35)},
+                        54);
+  const auto p = part(d);
+  EXPECT_FALSE(p.drawing.outer[1].cut);
+  EXPECT_FALSE(p.work.unreachable.empty());
+}
+
+json drilled(double d_mm, const json& more = json::object()) {
+  auto d = turned({cylinder("d1", 40, 30)}, 34);
+  d["setups"] = {{{"hold", "left"}, {"grip_mm", 15}, {"clampings", {"chuck"}}}};
+  d["outer"] = {cylinder("d1", 40, 30)};
+  d["stock"] = {
+      {"kind", "bar"}, {"diameter_mm", 34}, {"length_mm", 70}, {"left_allowance_mm", 28}};
+  d["outer"][0]["length_mm"] = 40;
+  d["inner"] = {cylinder("b1", 20, d_mm)};
+  d["inner"][0]["from"] = "right";
+  d["inner"][0].update(more);
+  return d;
+}
+
+bool by_the_drill(const json& d) { return part::is_hole(part(d).drawing.inner.at(0)); }
+
+// The carbide drills hold IT10, 58 um above 8 mm, and Ra 3.2.
+TEST(Holes, AreDrilledWhereADrillKeepsThem) {
+  EXPECT_TRUE(by_the_drill(drilled(8)));
+  EXPECT_TRUE(by_the_drill(drilled(8, {{"fit", "H11"}})));
+  EXPECT_TRUE(by_the_drill(drilled(8, {{"limits_mm", {0, 0.058}}})));
+  EXPECT_FALSE(by_the_drill(drilled(8, {{"limits_mm", {0, 0.057}}})));
+  EXPECT_FALSE(by_the_drill(drilled(8, {{"limits_mm", {0.01, 0.2}}})));
+  EXPECT_TRUE(by_the_drill(drilled(8, {{"Ra_um", 3.2}})));
+  EXPECT_FALSE(by_the_drill(drilled(8, {{"Ra_um", 1.6}})));
+  EXPECT_FALSE(by_the_drill(drilled(8.2))) << "no drill of that size";
+  auto named = drilled(8);
+  named["tolerances"] = {{{"id", "t"},
+                          {"kind", "coaxiality"},
+                          {"of", "b1"},
+                          {"datum", "d1"},
+                          {"value_mm", 0.1}}};
+  EXPECT_FALSE(by_the_drill(named));
+}
+
+// One drill of 8 mm, no boring, and the bore weakens the part like any other.
+TEST(Holes, TakeNoBoring) {
+  const auto p = part(drilled(8));
+  EXPECT_EQ(p.drilled_mm, std::vector<double>{8});
+  const auto r = plan(p);
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  int drills = 0;
+  for (const auto& o : r.setups[0].operations) {
+    EXPECT_NE(o.kind, OperationKind::bore_rough);
+    EXPECT_NE(o.kind, OperationKind::bore_finish);
+    if (o.id != "s1-drill-b1") continue;
+    ++drills;
+    EXPECT_EQ(o.passes.front().ap_mm, 4);
+  }
+  EXPECT_EQ(drills, 1);
+}
+
+// Behind a bored seat the drill has the hole's size and boring starts from that.
+TEST(Holes, BehindABoreAreWhereBoringStarts) {
+  auto d = drilled(20);
+  d["inner"] = {cylinder("b1", 20, 26), cylinder("b2", 15, 20)};
+  for (auto& b : d["inner"]) b["from"] = "right";
+  d["inner"][0]["fit"] = "H7";
+  d["outer"][0]["diameter_mm"] = 50;
+  d["stock"]["diameter_mm"] = 54;
+  const auto p = part(d);
+  EXPECT_TRUE(part::is_hole(p.drawing.inner[1]));
+  EXPECT_FALSE(part::is_hole(p.drawing.inner[0]));
+  EXPECT_EQ(p.drilled_mm, (std::vector<double>{20, 20}));
+  EXPECT_EQ(plan(p).status, PlanStatus::ok);
+}
+
+// A thin bush is held with little force: a narrower blade is borne where the widest is not.
+TEST(Grooves, TakeTheWidestBladeThatTheJawsBear) {
+  const auto blade = [](double force_N) {
+    auto d = turned({cylinder("d1", 30, 40), cylinder("d2", 30, 36)}, 44);
+    d["outer"].push_back(
+        {{"id", "g"}, {"kind", "groove"}, {"length_mm", 6}, {"diameter_mm", 30}});
+    d["outer"].push_back(cylinder("d3", 10, 36));
+    d["stock"]["length_mm"] = 103;
+    d["stock"]["left_allowance_mm"] = 25;
+    d["setups"] = {{{"hold", "left"},
+                    {"grip_mm", 20},
+                    {"grip_force_N", force_N},
+                    {"clampings", {"chuck"}}}};
+    const auto r = plan(part(d));
+    for (const auto& o : r.setups.at(0).operations)
+      if (o.id == "s1-groove-g") return o.passes.front().ap_mm;
+    return 0.0;
+  };
+  EXPECT_EQ(blade(60000), 6);
+  EXPECT_LT(blade(12000), 6);
+  EXPECT_GT(blade(12000), 0);
+}
+
+}  // namespace
+}  // namespace turnwright::planning
