@@ -334,6 +334,7 @@ std::string listed(const std::vector<Finding>& findings) {
   return all;
 }
 
+// Whether the operation that enters the contour, from which others may run on, says why.
 bool is_told(const Finding& f, const Programs& all) {
   if (f.fault != Fault::again) return false;
   const auto of_it = [&](const Step& s) {
@@ -342,11 +343,16 @@ bool is_told(const Finding& f, const Programs& all) {
   const auto tells = [](const std::string& c) {
     return c.starts_with("enters the contour again: ");
   };
-  return std::ranges::any_of(all.setups, [&](const SetupProgram& p) {
-    return std::ranges::any_of(p.steps, [&](const Step& s) {
-      return of_it(s) && std::ranges::any_of(s.comments, tells);
-    });
-  });
+  const auto runs_on = [](const Step& s) {
+    return !s.moves.empty() && s.moves.front().kind != Move::Kind::rapid;
+  };
+  for (const auto& p : all.setups) {
+    auto step = std::ranges::find_if(p.steps, of_it);
+    if (step == p.steps.end()) continue;
+    while (step != p.steps.begin() && runs_on(*step)) --step;
+    return std::ranges::any_of(step->comments, tells);
+  }
+  return false;
 }
 
 std::vector<Finding> simulated(const Planned& p, const Programs& all) {

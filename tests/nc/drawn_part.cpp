@@ -210,7 +210,10 @@ DrawnPart::Body DrawnPart::body(Threads threads) {
   Body b;
   for (std::size_t i = 0; i < outside.points.size(); ++i) {
     b.polygon.push_back(outside.points[i]);
-    b.of.push_back(outside.before[std::min(i + 1, outside.points.size() - 1)]);
+    // A wall belongs to the element at its foot, whose tool makes it.
+    const std::size_t next = std::min(i + 1, outside.points.size() - 1);
+    const bool rises = outside.points[next].x > outside.points[i].x;
+    b.of.push_back(outside.before[rises ? i : next]);
   }
   b.of.back() = surface("right");
   for (std::size_t i = inside.points.size(); i-- > 0;) {

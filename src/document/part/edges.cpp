@@ -58,13 +58,16 @@ void add_between(const std::vector<Element>& all, std::size_t left, std::size_t 
   const double rises_mm = (all[right].left_mm - all[left].right_mm) / 2;
   const bool rim = part::is_groove(all[left]) != part::is_groove(all[right]);
   if (!(std::abs(rises_mm) > kDiffers_mm)) {
-    if (!rim) return;
+    // Between two floors of a neck no edge is cut.
+    if (!rim && (!part::is_groove(all[left]) ||
+                 all[left].cut->core.right_mm == all[right].cut->core.left_mm))
+      return;
     const bool on_left = part::is_groove(all[right]);
     const std::size_t standing = on_left ? left : right, groove = on_left ? right : left;
     steps.push_back({both_ways(all[left].id, all[right].id), inner, standing,
                      on_left ? End::right : End::left, groove,
                      all[groove].cut->depth_mm - kLeastWall_mm,
-                     can_have_edge(all[standing]), true});
+                     rim && can_have_edge(all[standing]), true});
     return;
   }
   const bool right_stands = (rises_mm > 0) != inner;
@@ -177,8 +180,10 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
   const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
-    r.problem_at("at", "an edge of a cylinder or a thread that has no arc beside it",
-                 "conflict");
+    r.problem_at(
+        "at",
+        "an edge of a cylinder or a thread that has no arc beside it and is in no neck",
+        "conflict");
   else if (!(axial < free))
     r.problem_at("chamfer_mm",
                  "less than the " + rounded(free) + " mm that " + e.id + " is long" +

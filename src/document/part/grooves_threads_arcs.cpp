@@ -258,6 +258,16 @@ bool is_plain_cylinder(const part::OuterElement& e) {
   return !e.cut && e.kind == part::ElementKind::cylinder;
 }
 
+// Whether walls enclose the elements first to end - 1, which are cylinders or grooves.
+bool is_walled(const std::vector<part::OuterElement>& outer, std::size_t first,
+               std::size_t end) {
+  return outer[first - 1].right_mm > outer[first].left_mm &&
+         outer[end].left_mm > outer[end - 1].right_mm &&
+         std::all_of(outer.begin() + static_cast<long>(first),
+                     outer.begin() + static_cast<long>(end),
+                     [](const auto& e) { return is_plain_cylinder(e) || is_groove(e); });
+}
+
 // The cylinders of a neck, between larger diameters on both sides, become grooves; a neck
 // that holds anything else is left as it is.
 void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
@@ -265,9 +275,7 @@ void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
   for (std::size_t first = 0; first < outer.size(); ++first) {
     std::size_t end = first;
     while (end < outer.size() && in_a_neck(outer, end)) ++end;
-    const bool plain = std::all_of(
-        outer.begin() + static_cast<long>(first), outer.begin() + static_cast<long>(end),
-        [](const auto& e) { return is_plain_cylinder(e) || is_groove(e); });
+    const bool plain = first < end && is_walled(outer, first, end);
     for (; first < end; ++first) {
       auto& e = outer[first];
       if (!plain || is_groove(e)) continue;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/approach.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "planning/values/surface_request.hpp"
@@ -69,13 +70,31 @@ bool cut_by_blade(const PreparedPart& p, const std::vector<SetupWork>& setups,
   return made && groove && makes(setups[s], *groove);
 }
 
+// Whether the jaws leave room for a corner that comes over the chamfer of an element which
+// they hold.
+bool before_jaws(const PreparedPart& p, std::size_t s, const Element& e, End end,
+                 const part::Chamfer& chamfer) {
+  const auto& clampings = p.setups[s].clampings;
+  if (e.inner || std::ranges::all_of(clampings, [](Clamping c) {
+        return c == Clamping::between_centres;
+      }))
+    return true;
+  double corner = 0;
+  for (const auto* t : tools_for(p, catalogue::ToolUse::finishing))
+    corner = std::max(corner, t->re_mm);
+  const double room = std::abs(end_z_mm(p.drawing, e, end) - jaws_z_mm(p, s));
+  return room >= chamfer.axial_mm + corner +
+                     std::max(kBehind_mm, beyond_surface_mm(chamfer, corner));
+}
+
 bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
             const Element& e, End end, const part::Chamfer& chamfer) {
   if (chamfer.by_blade) return cut_by_blade(p, setups, s, e, end);
   if (free_end(p, s) != end) return false;
   if (makes(setups[s], e)) return true;
   const auto front = beside(p.drawing, e, end);
-  return front && makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end);
+  return front && makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end) &&
+         before_jaws(p, s, e, end, chamfer);
 }
 
 // The setup, if any, in which a pass of its own cuts a chamfer at a face of the part.
@@ -109,8 +128,8 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
         not_cut.push_back(
             "the chamfer at the " + std::string(end == End::left ? "left" : "right") +
             " end of " + e.id + " cannot be cut in any setup: none makes " + e.id +
-            " or the surface before that end, with the end free and enough wall for the "
-            "tool");
+            " or the surface before that end, with the end free, enough wall for the tool "
+            "and room before the jaws");
     }
 }
 
