@@ -2,6 +2,7 @@
 
 #include "catalogue_readers.hpp"
 #include "document/json/reference.hpp"
+#include "material_names.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -28,6 +29,15 @@ T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
 }  // namespace
 
 catalogue::Material material_of(const Catalogue& catalogue, const Reader& value) {
+  if (value.is_text()) {
+    const auto found =
+        materials_called(value.json().get<std::string>(), catalogue.materials);
+    if (found.size() == 1) return found.front();
+    if (found.size() > 1) {
+      value.problem(expected_state(found), "ambiguous");
+      return {};
+    }
+  }
   return resolve(value, catalogue.materials, read_material, "material");
 }
 

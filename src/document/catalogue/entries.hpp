@@ -9,6 +9,7 @@
 /// are added to the problems of `value`.
 namespace turnwright::document {
 
+/// A material may also be named by its name or a synonym (material_names.hpp).
 catalogue::Material material_of(const Catalogue& catalogue, const Reader& value);
 catalogue::Lathe machine_of(const Catalogue& catalogue, const Reader& value);
 /// An unknown id is reported with the ids of tools for fixed operations, too.

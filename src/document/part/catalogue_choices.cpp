@@ -76,8 +76,13 @@ void read_catalogue_choices(Draft& draft) {
   constexpr const char* kDefaultMachine = "lathe-medium";
   auto& plan = draft.plan();
   const auto& catalogue = draft.catalogue;
-  plan.material = material_of(
-      catalogue, draft.root.at("material", "the id of a material or its document"));
+  const auto material = draft.root.at("material", "the id of a material or its document");
+  plan.material = material_of(catalogue, material);
+  if (material.is_text() && !plan.material.id.empty() &&
+      material.json() != plan.material.id)
+    draft.assume("/material", plan.material.id,
+                 "the catalogue has " + material.json().get<std::string>() + " as " +
+                     plan.material.name);
   if (const auto machine = draft.root.find("machine")) {
     plan.machine = machine_of(catalogue, *machine);
   } else {
