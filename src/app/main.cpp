@@ -296,10 +296,12 @@ std::vector<service::Entry> entries(const Arguments& arguments) {
   const auto catalogue = document::load_catalogue(folder);
   if (arguments.listed == "tools") return service::list_tools(catalogue);
   if (arguments.listed == "machines") return service::list_machines(catalogue);
+  if (arguments.listed == "shops") return service::list_shops(catalogue);
   return service::list_materials(catalogue);
 }
 
-constexpr std::array kLists{"materials", "tools", "machines", "parts", "schemas"};
+constexpr std::array kLists{"materials", "tools", "machines",
+                            "shops",     "parts", "schemas"};
 
 // Without a list to print: which lists there are.
 Exit run_lists() {
@@ -375,8 +377,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
 /// Adds `list` and `schema`.
 void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
-  list->add_option("WHAT", arguments.listed,
-                   "materials, tools, machines, parts or schemas; without it, these")
+  list->add_option(
+          "WHAT", arguments.listed,
+          "materials, tools, machines, shops, parts or schemas; without it, these")
       ->check(CLI::IsMember(std::vector<std::string>(kLists.begin(), kLists.end())));
   list->footer("Example:\n  turnwright list materials");
   list->callback(

@@ -7,8 +7,8 @@
 namespace turnwright::document {
 namespace {
 
-template <class T>
-T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
+template <class T, class Read>
+T resolve(const Reader& value, const std::vector<T>& entries, const Read& read,
           const std::string& what, const std::vector<std::string>& others = {}) {
   if (value.is_object()) return read(value);
   if (value.broken()) return {};
@@ -55,6 +55,11 @@ catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& val
 
 catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value) {
   return resolve(value, catalogue.cutters, read_milling_cutter, "milling cutter");
+}
+
+catalogue::Shop shop_of(const Catalogue& catalogue, const Reader& value) {
+  const auto read = [&](const Reader& r) { return read_shop(r, targets_of(catalogue)); };
+  return resolve(value, catalogue.shops, read, "shop");
 }
 
 }  // namespace turnwright::document

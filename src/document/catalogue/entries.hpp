@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "document/json/reader.hpp"
+#include "shop.hpp"
 #include "turnwright/document/catalogue.hpp"
 
 /// Entries of the catalogue, which a request names by id or gives as documents.  Errors
@@ -16,6 +17,8 @@ catalogue::Lathe machine_of(const Catalogue& catalogue, const Reader& value);
 catalogue::Tool tool_of(const Catalogue& catalogue, const Reader& value);
 catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& value);
 catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value);
+
+catalogue::Shop shop_of(const Catalogue& catalogue, const Reader& value);
 
 template <class T>
 std::vector<std::string> ids(const std::vector<T>& entries) {

@@ -7,6 +7,7 @@
 #include "planning/auxiliary/milled_ways.hpp"
 #include "planning/budget/jaw_squeeze.hpp"
 #include "planning/budget/machine_share.hpp"
+#include "turnwright/planning/rules.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -32,7 +33,7 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 
 // Everything except the parts that take long to compute.
 PreparedPart assigned(PlanRequest request) {
-  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
+  PreparedPart p{ruled(std::move(request)), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
   p.jaws = jaw_forces(p);
   p.drilled_mm = drilled(p);
