@@ -27,6 +27,7 @@
 #include "mcp.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
+#include "process_card.hpp"
 #include "progress_line.hpp"
 #include "serve.hpp"
 #include "service/listing.hpp"
@@ -50,6 +51,7 @@ struct Arguments {
   nlohmann::json nc = nlohmann::json::object();  ///< settings of NC programs
   std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
+  std::optional<fs::path> card;         ///< process card of a quote
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
@@ -159,6 +161,7 @@ std::vector<Output> outputs(const Arguments& arguments) {
   };
   add("--output", arguments.result_file, nullptr);
   add("--report", arguments.report_file, nullptr);
+  add("--xlsx", arguments.card, nullptr);
   add("--drawings", arguments.drawings,
       [](const std::string& name) { return name.ends_with(".svg"); });
   add("--nc", arguments.programs,
@@ -281,6 +284,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   if (arguments.report_file)
     service::write_file(*arguments.report_file,
                         service::html_report(row, request, drawn));
+  if (arguments.card) service::write_file(*arguments.card, process_card(result));
   const bool json_asked = arguments.json || (arguments.result_file && !to_file);
   if (row.text && !json_asked)
     service::print(row.text(result));
@@ -358,6 +362,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                               Range<std::size_t>{1, 100},
                               "print, or write to --output, the program of this setup");
     }
+    if (service::request_schema(row) == "quote.request.json")
+      add_path(*command, "--xlsx", arguments.card,
+               "write a process card (Excel: prices, routing, ways) here");
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                "write the report (HTML, printable) here");
