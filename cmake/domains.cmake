@@ -91,7 +91,8 @@ include(cmake/page.cmake)
 
 file(GLOB app_sources CONFIGURE_DEPENDS src/app/*.cpp)
 add_executable(turnwright ${app_sources})
-target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11)
+target_link_libraries(turnwright PRIVATE turnwright::service tw_dev CLI11::CLI11
+  turnwright_xlsxwriter)
 
 # libturnwright, the request table as C functions.
 file(RELATIVE_PATH data_from_lib
@@ -125,7 +126,8 @@ if(BUILD_TESTING)
 
   file(GLOB app_tests CONFIGURE_DEPENDS tests/app/*_test.cpp)
   add_executable(app_test ${app_tests})
-  target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main)
+  target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main
+    libzip::zip pugixml::pugixml)
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>" TURNWRIGHT_FAULTS="$<TARGET_FILE:faults>"
     TURNWRIGHT_SANITIZE="${TURNWRIGHT_SANITIZE}")

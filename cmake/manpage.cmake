@@ -26,7 +26,7 @@ endforeach()
 string(APPEND page ".SH ENVIRONMENT
 .TP
 TURNWRIGHT_DATA
-folder with materials/, tools/, machines/, parts/ and schemas/, in place of the one that was
+folder with materials/, tools/, machines/, shops/, parts/ and schemas/, in place of the one that was
 installed.
 .TP
 XDG_STATE_HOME

@@ -26,7 +26,7 @@ def document(kind, id):
 
 
 def ids(kind):
-    """The ids of "materials", "tools", "machines", "parts" or "schemas"."""
+    """The ids of "materials", "tools", "machines", "shops", "parts" or "schemas"."""
     return default().ids(kind)
 
 

@@ -7,7 +7,7 @@ from ._library import Handle
 from ._result import Result
 
 
-KINDS = ("materials", "tools", "machines", "parts", "schemas")
+KINDS = ("materials", "tools", "machines", "shops", "parts", "schemas")
 
 
 class Catalogue:
@@ -29,7 +29,7 @@ class Catalogue:
         return self._handle.folder
 
     def ids(self, kind):
-        """The ids of "materials", "tools", "machines", "parts" or "schemas"."""
+        """The ids of "materials", "tools", "machines", "shops", "parts" or "schemas"."""
         return sorted(file.stem for file in self._files(kind))
 
     def _files(self, kind):

@@ -27,6 +27,7 @@
 #include "mcp.hpp"
 #include "nc_options.hpp"
 #include "options.hpp"
+#include "process_card.hpp"
 #include "progress_line.hpp"
 #include "serve.hpp"
 #include "service/listing.hpp"
@@ -50,6 +51,7 @@ struct Arguments {
   nlohmann::json nc = nlohmann::json::object();  ///< settings of NC programs
   std::optional<std::size_t> setup;              ///< whose program alone is wanted
   std::optional<fs::path> report_file;
+  std::optional<fs::path> card;         ///< process card of a quote
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
@@ -159,6 +161,7 @@ std::vector<Output> outputs(const Arguments& arguments) {
   };
   add("--output", arguments.result_file, nullptr);
   add("--report", arguments.report_file, nullptr);
+  add("--xlsx", arguments.card, nullptr);
   add("--drawings", arguments.drawings,
       [](const std::string& name) { return name.ends_with(".svg"); });
   add("--nc", arguments.programs,
@@ -281,6 +284,7 @@ Exit run_request(const service::Request& row, const Arguments& arguments) {
   if (arguments.report_file)
     service::write_file(*arguments.report_file,
                         service::html_report(row, request, drawn));
+  if (arguments.card) service::write_file(*arguments.card, process_card(result));
   const bool json_asked = arguments.json || (arguments.result_file && !to_file);
   if (row.text && !json_asked)
     service::print(row.text(result));
@@ -296,10 +300,12 @@ std::vector<service::Entry> entries(const Arguments& arguments) {
   const auto catalogue = document::load_catalogue(folder);
   if (arguments.listed == "tools") return service::list_tools(catalogue);
   if (arguments.listed == "machines") return service::list_machines(catalogue);
+  if (arguments.listed == "shops") return service::list_shops(catalogue);
   return service::list_materials(catalogue);
 }
 
-constexpr std::array kLists{"materials", "tools", "machines", "parts", "schemas"};
+constexpr std::array kLists{"materials", "tools", "machines",
+                            "shops",     "parts", "schemas"};
 
 // Without a list to print: which lists there are.
 Exit run_lists() {
@@ -356,6 +362,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
                               Range<std::size_t>{1, 100},
                               "print, or write to --output, the program of this setup");
     }
+    if (service::request_schema(row) == "quote.request.json")
+      add_path(*command, "--xlsx", arguments.card,
+               "write a process card (Excel: prices, routing, ways) here");
     if (row.html)
       add_path(*command, "--report", arguments.report_file,
                "write the report (HTML, printable) here");
@@ -375,8 +384,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
 /// Adds `list` and `schema`.
 void add_lists(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   auto* list = app.add_subcommand("list", "ids and names of what a request may refer to");
-  list->add_option("WHAT", arguments.listed,
-                   "materials, tools, machines, parts or schemas; without it, these")
+  list->add_option(
+          "WHAT", arguments.listed,
+          "materials, tools, machines, shops, parts or schemas; without it, these")
       ->check(CLI::IsMember(std::vector<std::string>(kLists.begin(), kLists.end())));
   list->footer("Example:\n  turnwright list materials");
   list->callback(

@@ -4,15 +4,18 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <stop_token>
+#include <string>
 
 #include "certified_plan.hpp"
 #include "completed_plan.hpp"
 #include "planning/values/readable.hpp"
 #include "turnwright/base/cancelled.hpp"
+#include "what_if.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -74,16 +77,43 @@ std::string sentence(const Alternative& a, const ProcessPlan& best) {
                      seconds < 0 ? "shorter" : "longer");
 }
 
-// Plans without explanations, and what becomes of them in the judge's eyes.
+// Plans without explanations, and what becomes of them in the judge's eyes and by the
+// preference of proven conditions.
 struct Compared {
   std::vector<ProcessPlan> certified, judged;
+  std::vector<std::string> set_aside;  // why, else empty
 };
+
+// Of each two plans, one at proven conditions and one at any, one is set aside.
+void prefer_proven(const std::vector<Candidate>& candidates, Compared& all) {
+  constexpr double kPercent = 100;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const auto& within = candidates[i].unless_within;
+    const auto &proven = all.judged[i - 1], &any = all.judged[i];
+    if (!within || proven.status != PlanStatus::ok || any.status != PlanStatus::ok)
+      continue;
+    const double least = objective(candidates[i].part, any);
+    const double more =
+        (objective(candidates[i - 1].part, proven) - least) / std::abs(least);
+    const bool kept = more <= *within;
+    const auto aside = kept ? i : i - 1;
+    all.set_aside[aside] = fmt::format(
+        "set aside, proven conditions cost {} % more than others, {} than {} %",
+        readable(kPercent * std::max(0.0, more)), kept ? "not more" : "more",
+        readable(kPercent * *within));
+    all.judged[aside].status = PlanStatus::infeasible;
+    auto& conflict = all.judged[aside].conflicts.emplace_back();
+    conflict.limit = "rules";
+    conflict.sentence = all.set_aside[aside];
+  }
+}
 
 // Side by side: no plan depends on another, so the answer is the same for any number of
 // threads.
 Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
   Compared all{std::vector<ProcessPlan>(candidates.size()),
-               std::vector<ProcessPlan>(candidates.size())};
+               std::vector<ProcessPlan>(candidates.size()),
+               std::vector<std::string>(candidates.size())};
   const auto* const heard = Listening::heard();
   const std::stop_token stop = heard ? *heard : std::stop_token();
   const auto plan_one = [&](std::size_t i) {
@@ -98,6 +128,7 @@ Compared compare(const std::vector<Candidate>& candidates, const Judge& judge) {
     tbb::parallel_for(std::size_t{0}, candidates.size(), plan_one,
                       tbb::simple_partitioner());
   });
+  prefer_proven(candidates, all);
   return all;
 }
 
@@ -110,17 +141,22 @@ std::size_t best_of(const std::vector<Candidate>& candidates,
   std::size_t best = 0;
   for (std::size_t i = 1; i < plans.size(); ++i)
     if (feasible(i) && (!feasible(best) || value(i) < value(best))) best = i;
-  return best;
+  // Without any plan, why there is none at any conditions is told.
+  const bool proven = best + 1 < plans.size() && candidates[best + 1].unless_within;
+  return !feasible(best) && proven ? best + 1 : best;
 }
 
-void add_alternatives(const std::vector<Candidate>& candidates,
-                      const std::vector<ProcessPlan>& plans, ChosenPlan& choice) {
+void add_alternatives(const std::vector<Candidate>& candidates, const Compared& all,
+                      ChosenPlan& choice) {
   auto& plan = choice.plan;
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    auto a = alternative(candidates[i].name, plans[i]);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto& aside = all.set_aside[i];
+    auto a =
+        alternative(candidates[i].name, aside.empty() ? all.judged[i] : all.certified[i]);
     a.chosen = i == choice.chosen && a.feasible;
-    if (a.feasible && !a.chosen) add(plans[i].certificate, plan.certificate);
-    a.sentence = sentence(a, plan);
+    if (a.feasible && !a.chosen && aside.empty())
+      add(all.judged[i].certificate, plan.certificate);
+    a.sentence = aside.empty() ? sentence(a, plan) : sentence(a, plan) + ": " + aside;
     plan.alternatives.push_back(std::move(a));
   }
 }
@@ -137,6 +173,7 @@ ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge) 
   const auto complete = [&](std::size_t i, ProcessPlan certified) {
     const auto& c = candidates[i];
     ChosenPlan choice{i, completed_plan(c.part, c.what_if, std::move(certified))};
+    answer(c.part, c.without, choice.plan);
     judge(c.part, choice.plan);
     return choice;
   };
@@ -145,10 +182,10 @@ ChosenPlan choose(const std::vector<Candidate>& candidates, const Judge& judge) 
       throw std::domain_error("choose: the most profitable plan needs a price");
   if (candidates.size() == 1)
     return complete(0, certified_plan(candidates[0].part, candidates[0].what_if));
-  auto all = compare(candidates, judge);
+  const auto all = compare(candidates, judge);
   const auto best = best_of(candidates, all.judged);
-  auto choice = complete(best, std::move(all.certified[best]));
-  add_alternatives(candidates, all.judged, choice);
+  auto choice = complete(best, all.certified[best]);
+  add_alternatives(candidates, all, choice);
   return choice;
 }
 

@@ -7,6 +7,7 @@
 #include "certified_plan.hpp"
 #include "explanation.hpp"
 #include "planning/values/readable.hpp"
+#include "turnwright/planning/prepare.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -42,24 +43,36 @@ std::string sentence(const PreparedPart& p, const ProcessPlan& own, const WhatIf
       saves(seconds, " s"));
 }
 
+// Plans the changed request and completes the answer to it.
+void answer_one(const PreparedPart& p, const PreparedPart& part, const ProcessPlan& own,
+                WhatIfAnswer& a) {
+  auto changed = certified_plan(part);
+  add_explanation(part, changed);
+  a.feasible = changed.status == PlanStatus::ok;
+  a.cost_per_part = changed.cost_per_part;
+  a.time_per_part_min = changed.time_per_part_min;
+  if (a.feasible && own.status == PlanStatus::ok) {
+    a.saves_per_part = own.cost_per_part - changed.cost_per_part;
+    if (p.batch) a.saves_per_batch = *a.saves_per_part * *p.batch;
+    a.saves_min_per_part = own.time_per_part_min - changed.time_per_part_min;
+  }
+  a.sentence = sentence(p, own, a, changed);
+}
+
 }  // namespace
 
 void answer(const PreparedPart& p, const std::vector<WhatIf>& what_if,
             ProcessPlan& result) {
-  const bool both = result.status == PlanStatus::ok;
-  for (std::size_t k = 0; k < what_if.size(); ++k) {
-    auto& a = result.what_if[k];
-    auto changed = certified_plan(what_if[k].part);
-    add_explanation(what_if[k].part, changed);
-    a.feasible = changed.status == PlanStatus::ok;
-    a.cost_per_part = changed.cost_per_part;
-    a.time_per_part_min = changed.time_per_part_min;
-    if (a.feasible && both) {
-      a.saves_per_part = result.cost_per_part - changed.cost_per_part;
-      if (p.batch) a.saves_per_batch = *a.saves_per_part * *p.batch;
-      a.saves_min_per_part = result.time_per_part_min - changed.time_per_part_min;
-    }
-    a.sentence = sentence(p, result, a, changed);
+  for (std::size_t k = 0; k < what_if.size(); ++k)
+    answer_one(p, what_if[k].part, result, result.what_if[k]);
+}
+
+void answer(const PreparedPart& p, const std::vector<WithoutRule>& without,
+            ProcessPlan& result) {
+  for (const auto& w : without) {
+    auto& a = result.rules.emplace_back();
+    a.name = w.name;
+    answer_one(p, prepare(w.request), result, a);
   }
 }
 

@@ -6,8 +6,9 @@ namespace turnwright::service {
 
 std::map<std::string, Documents> read_documents(const std::filesystem::path& folder) {
   std::map<std::string, Documents> all;
-  for (const char* kind : {"materials", "machines", "tools", "parts"}) {
+  for (const char* kind : {"materials", "machines", "tools", "shops", "parts"}) {
     auto& of_kind = all[kind];
+    if (!std::filesystem::is_directory(folder / kind)) continue;
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(folder / kind)) {
       if (entry.path().extension() != ".json") continue;

@@ -11,7 +11,7 @@ struct Documents {
   std::map<std::string, std::string> texts;  ///< JSON, as HTTP and MCP show it
 };
 
-/// Those of "materials", "machines", "tools" and "parts" in `folder`.  The id is the
+/// Those of "materials", "machines", "tools", "shops" and "parts" in `folder`.  The id is the
 /// document's own, else the name of its file without ".json".
 /// @throws InputError if one cannot be read.
 std::map<std::string, Documents> read_documents(const std::filesystem::path& folder);

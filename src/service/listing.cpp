@@ -40,6 +40,10 @@ std::vector<Entry> list_machines(const document::Catalogue& catalogue) {
   return entries(catalogue.machines);
 }
 
+std::vector<Entry> list_shops(const document::Catalogue& catalogue) {
+  return entries(catalogue.shops);
+}
+
 namespace {
 
 // Every *.json file in a folder, called by its member `name_key`.

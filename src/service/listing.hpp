@@ -15,6 +15,7 @@ struct Entry {
 std::vector<Entry> list_materials(const document::Catalogue& catalogue);
 std::vector<Entry> list_tools(const document::Catalogue& catalogue);
 std::vector<Entry> list_machines(const document::Catalogue& catalogue);
+std::vector<Entry> list_shops(const document::Catalogue& catalogue);
 
 /// The reference parts in `folder`/parts, in the order of their file names; the id is the
 /// file's name without ".json".  @throws InputError if one is no JSON object with a name.

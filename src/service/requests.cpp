@@ -184,8 +184,8 @@ struct Planned {
 
 std::vector<planning::Candidate> to_plan(const document::Candidates& all) {
   std::vector<planning::Candidate> candidates;
-  for (const auto& [name, document] : all.usable)
-    candidates.push_back({name, document.part, document.what_if});
+  for (const auto& [name, document, without, unless_within] : all.usable)
+    candidates.push_back({name, document.part, document.what_if, without, unless_within});
   return candidates;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "document/catalogue/catalogue_readers.hpp"
+#include "document/catalogue/entries.hpp"
 #include "document/json/file.hpp"
 #include "slips.hpp"
 #include "test_catalogue.hpp"
@@ -36,6 +37,7 @@ TEST(Schema, FitsEveryFileOfTheCatalogue) {
     every_file_fits(root / "tools" / "milling", "milling-cutter.json");
     every_file_fits(root / "machines", "lathe.json");
   }
+  every_file_fits(source_path("shops"), "shop.json");
 }
 
 TEST(Schema, FitsEveryReferencePartAndTheReaderTakesIt) {
@@ -105,6 +107,23 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInWhatIsCutAtFixedConditions) {
   part["tolerances"] = part["faces"] = json::array();
   part["operations"] = "auto";
   try_all(SchemaCheck("part.json"), refused_part, part);
+}
+
+std::string refused_shop(const json& document) {
+  Problems problems{.document = "t"};
+  read_shop(Reader(document, problems), targets_of(test_catalogue()));
+  return problems.list.empty() ? "" : problems.list[0].pointer;
+}
+
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAShop) {
+  const auto part = parse_file(source_path("tests/data/every_key_of_a_part.json"));
+  try_all(SchemaCheck("shop.json"), refused_shop,
+          {{"format", "turnwright-shop/1"},
+           {"id", "own"},
+           {"name", "Own"},
+           {"tools", {"test-rougher"}},
+           {"rules", part["rules"]}},
+          50);
 }
 
 TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {

@@ -21,8 +21,8 @@ using nlohmann::json;
 ChosenPlan chosen(const json& document) {
   const auto all = document::prepared_candidates(document, shop(), "part");
   std::vector<Candidate> candidates;
-  for (const auto& [name, d] : all.usable)
-    candidates.push_back({name, d.part, d.what_if});
+  for (const auto& u : all.usable)
+    candidates.push_back({u.name, u.document.part, u.document.what_if});
   return choose(candidates, [](const PreparedPart&, ProcessPlan&) {});
 }
 

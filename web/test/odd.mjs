@@ -141,6 +141,8 @@ async function means() {
   assert.equal(await page.locator('[data-pointer$="/geometry/re_mm"] input').last().getAttribute('aria-invalid'), 'true');
   await look(page, 'own-tool');
   await press(page, 'All');
+  assert.equal((await documentOf(page)).tools, 'all');
+  await press(page, 'The shop’s');
   assert.equal((await documentOf(page)).tools, undefined);
   await page.context().close();
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace turnwright::catalogue {
 
@@ -33,6 +34,7 @@ struct Taylor {
 
 struct Material {
   std::string id, name, standard, condition;
+  std::vector<std::string> synonyms = {};  ///< numbers and names in other standards
   IsoGroup group = IsoGroup::P;
   double hardness_HB = 0;
   std::optional<double> yield_MPa = {};  ///< yield or 0.2 % proof strength

@@ -10,11 +10,12 @@
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
+#include "turnwright/catalogue/shop.hpp"
 #include "turnwright/catalogue/tool.hpp"
 
 /// Materials, tools and machines as documents, whose keys are defined by
 /// schemas/material.json, schemas/tool.json, schemas/fixed-tool.json,
-/// schemas/milling-cutter.json and schemas/lathe.json.
+/// schemas/milling-cutter.json, schemas/lathe.json and schemas/shop.json.
 namespace turnwright::document {
 
 /// Everything that a request may refer to by id; each list is in the order of ids.
@@ -24,12 +25,13 @@ struct Catalogue {
   std::vector<catalogue::FixedTool> fixed_tools;
   std::vector<catalogue::MillingCutter> cutters;
   std::vector<catalogue::Lathe> machines;
+  std::vector<catalogue::Shop> shops;
   /// As written, by id.
   std::map<std::string, nlohmann::json> material_documents, machine_documents;
 };
 
-/// The *.json files in materials/, tools/, tools/fixed/, tools/milling/ and machines/ of
-/// `folder`.
+/// The *.json files in materials/, tools/, tools/fixed/, tools/milling/, machines/ and
+/// shops/ of `folder`.
 /// @throws InputError with all problems over all files; their pointers start with the
 ///   file, "materials/C45.json#/kienzle/mc".
 Catalogue load_catalogue(const std::filesystem::path& folder);

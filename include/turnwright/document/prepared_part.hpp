@@ -2,6 +2,7 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/planning/rules.hpp"
 
 /// A part document, read and prepared for planning.
 namespace turnwright::document {
@@ -30,6 +31,8 @@ struct Candidates {
   struct Usable {
     std::string name;  ///< "lathe-small; bar 50 x 188 mm", empty without a choice
     PreparedDocument document;
+    std::vector<planning::WithoutRule> without = {};
+    std::optional<double> unless_within = {};  ///< as of a planning::Candidate
   };
   struct Refused {
     std::string name, why;  ///< a bar that is too thin for the part, say

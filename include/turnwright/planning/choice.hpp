@@ -1,9 +1,12 @@
 #pragma once
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "turnwright/planning/changed_request.hpp"
 #include "turnwright/planning/process_plan.hpp"
+#include "turnwright/planning/rules.hpp"
 
 namespace turnwright::planning {
 
@@ -12,6 +15,10 @@ struct Candidate {
   std::string name;
   PreparedPart part;
   std::vector<WhatIf> what_if = {};
+  std::vector<WithoutRule> without = {};  ///< whose savings are told
+  /// The candidate before this one has proven conditions, which this one has not, and is
+  /// preferred if it costs at most so much more, as a share of this one's objective.
+  std::optional<double> unless_within = {};
 };
 
 struct ChosenPlan {
@@ -29,7 +36,8 @@ using Judge = std::function<void(const PreparedPart&, ProcessPlan&)>;
 std::vector<ProcessPlan> judged_plans(const std::vector<Candidate>& candidates,
                                       const Judge& judge);
 
-/// The plan of the candidate with the best objective; the first of equals.  Each candidate's
+/// The plan of the candidate with the best objective; the first of equals.  Of two
+/// candidates, one at proven conditions and one at any, one is set aside first.  Each candidate's
 /// plan has its own certificate, so no candidate can be made for less than the least of their
 /// lower bounds: the plan's certificate says so.  If none is feasible, the plan is that of
 /// the first candidate and explains why.  Candidates are planned side by side, as by

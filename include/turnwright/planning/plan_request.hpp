@@ -7,6 +7,7 @@
 #include "turnwright/catalogue/machine.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/catalogue/milling_cutter.hpp"
+#include "turnwright/catalogue/shop.hpp"
 #include "turnwright/catalogue/tool.hpp"
 #include "turnwright/part/drawing.hpp"
 
@@ -152,6 +153,7 @@ struct PlanRequest {
   /// requests with relaxed limits by which an infeasible part is explained.
   double chatter_times = 1;
   ShopErrors shop;
+  catalogue::ShopRules rules = {};  ///< kept by every plan (rules.hpp)
   double conformance = 0.9973;
   /// Probability with which roughness is kept, where the material's hmin is uncertain.
   /// Absent: hmin itself decides.

@@ -342,6 +342,7 @@ struct ProcessPlan {
   std::vector<Compensation> compensation;
   std::vector<Price> prices;              ///< largest saving first
   std::vector<WhatIfAnswer> what_if;      ///< in the order of the request
+  std::vector<WhatIfAnswer> rules;        ///< the part without each rule of the shop
   std::vector<Alternative> alternatives;  ///< if the request left a choice
   std::vector<ParetoPoint> pareto;        ///< cheapest first, if requested
   std::vector<Conflict> conflicts;

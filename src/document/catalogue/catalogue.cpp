@@ -6,6 +6,7 @@
 
 #include "catalogue_readers.hpp"
 #include "document/json/file.hpp"
+#include "shop.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -65,6 +66,9 @@ Catalogue load_catalogue(const fs::path& folder) {
     all.machine_documents[machine.id] = r.json();
     return machine;
   });
+  const auto known = targets_of(all);
+  all.shops = load_folder(folder / "shops", problems,
+                          [&](const Reader& r) { return read_shop(r, known); });
   problems.throw_if_any();
   return all;
 }

@@ -2,12 +2,13 @@
 
 #include "catalogue_readers.hpp"
 #include "document/json/reference.hpp"
+#include "material_names.hpp"
 
 namespace turnwright::document {
 namespace {
 
-template <class T>
-T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
+template <class T, class Read>
+T resolve(const Reader& value, const std::vector<T>& entries, const Read& read,
           const std::string& what, const std::vector<std::string>& others = {}) {
   if (value.is_object()) return read(value);
   if (value.broken()) return {};
@@ -28,6 +29,15 @@ T resolve(const Reader& value, const std::vector<T>& entries, T (*read)(Reader),
 }  // namespace
 
 catalogue::Material material_of(const Catalogue& catalogue, const Reader& value) {
+  if (value.is_text()) {
+    const auto found =
+        materials_called(value.json().get<std::string>(), catalogue.materials);
+    if (found.size() == 1) return found.front();
+    if (found.size() > 1) {
+      value.problem(expected_state(found), "ambiguous");
+      return {};
+    }
+  }
   return resolve(value, catalogue.materials, read_material, "material");
 }
 
@@ -45,6 +55,11 @@ catalogue::FixedTool fixed_tool_of(const Catalogue& catalogue, const Reader& val
 
 catalogue::MillingCutter cutter_of(const Catalogue& catalogue, const Reader& value) {
   return resolve(value, catalogue.cutters, read_milling_cutter, "milling cutter");
+}
+
+catalogue::Shop shop_of(const Catalogue& catalogue, const Reader& value) {
+  const auto read = [&](const Reader& r) { return read_shop(r, targets_of(catalogue)); };
+  return resolve(value, catalogue.shops, read, "shop");
 }
 
 }  // namespace turnwright::document

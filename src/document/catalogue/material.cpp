@@ -69,6 +69,8 @@ catalogue::Material read_material(Reader r) {
   read_required_format(r, "turnwright-material/1");
   m.id = read_id(r);
   m.name = r.text("name");
+  for (const auto& synonym : r.optional_items("synonyms", 0, 30))
+    m.synonyms.push_back(synonym.as_text());
   m.standard = r.text("standard");
   m.condition = r.text("condition");
   m.group = r.choice("group", iso_groups());

@@ -3,10 +3,11 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
+#include "document/catalogue/entries.hpp"
+#include "document/catalogue/material_names.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "given_file.hpp"
@@ -68,25 +69,6 @@ Outline read_drawing(const GivenFile& given, Source source,
       break;
   }
   return exchange::read_notation(given.bytes);
-}
-
-// Letters and digits in lower case: "42CrMo4 +A" and "42CrMo4-A" are one name.
-std::string key(const std::string& name) {
-  std::string out;
-  for (const unsigned char c : name)
-    if (std::isalnum(c) != 0) out += static_cast<char>(std::tolower(c));
-  return out;
-}
-
-// The id of the one material that is called so, or whose name begins so.
-std::optional<std::string> material_called(const std::string& name,
-                                           const Catalogue& catalogue) {
-  std::vector<std::string> found;
-  for (const auto& m : catalogue.materials)
-    if (key(m.id) == key(name) || key(m.name) == key(name)) return m.id;
-  for (const auto& m : catalogue.materials)
-    if (!key(name).empty() && key(m.id).starts_with(key(name))) found.push_back(m.id);
-  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 struct Choice {
@@ -173,32 +155,42 @@ ordered_json next_bar(const Outline& o, Remarks& assumed) {
           {"left_allowance_mm", kFacing_mm}};
 }
 
+// A drawing may name none, one, several or an unknown one.
+std::string expected_material(const std::string& drawings,
+                              const std::vector<catalogue::Material>& called,
+                              const Catalogue& catalogue) {
+  if (called.size() > 1)
+    return "for the drawing's \"" + drawings + "\" " + expected_state(called);
+  const auto known = expected_reference(drawings, ids(catalogue.materials),
+                                        "a material of the catalogue");
+  return drawings.empty() ? "a material, which the drawing does not name: " + known
+                          : "a material of the catalogue for the drawing's \"" +
+                                drawings + "\": " + known;
+}
+
 ordered_json material_of_part(const Outline& o, const Choice& choice,
                               const Catalogue& catalogue, Reader& r, Remarks& assumed) {
+  const auto called = materials_called(o.material, catalogue.materials);
   if (!choice.material.is_null()) {
-    if (!o.material.empty() &&
-        !(choice.material.is_string() &&
-          material_called(o.material, catalogue) == choice.material.get<std::string>()))
+    const auto wanted =
+        choice.material.is_string()
+            ? materials_called(choice.material.get<std::string>(), catalogue.materials)
+            : std::vector<catalogue::Material>{};
+    const bool same =
+        wanted.size() == 1 && std::ranges::any_of(called, [&](const auto& m) {
+          return m.id == wanted.front().id;
+        });
+    if (!o.material.empty() && !same)
       assumed.add("/material", "The request's material is taken, not the drawing's " +
                                    o.material + ".");
     return choice.material;
   }
-  const auto known = material_called(o.material, catalogue);
-  if (known) {
-    assumed.add("/material",
-                "The drawing says " + o.material + ": " + *known + " of the catalogue.");
-    return *known;
+  if (called.size() == 1) {
+    assumed.add("/material", "The drawing says " + o.material + ": " + called[0].id +
+                                 " of the catalogue.");
+    return called[0].id;
   }
-  std::vector<std::string> ids;
-  for (const auto& m : catalogue.materials) ids.push_back(m.id);
-  r.problem_at(
-      "material",
-      o.material.empty()
-          ? "a material, which the drawing does not name: " +
-                expected_reference("", ids, "a material of the catalogue")
-          : "a material of the catalogue for the drawing's \"" + o.material + "\": " +
-                expected_reference(o.material, ids, "a material of the catalogue"),
-      "missing");
+  r.problem_at("material", expected_material(o.material, called, catalogue), "missing");
   return nullptr;
 }
 

@@ -35,27 +35,42 @@ bool is_cutter(const Draft& draft, const Reader& item) {
                      [&](const auto& c) { return item.json() == c.id; });
 }
 
-// For fixed operations for which the request lists no tool those of the catalogue are
-// used.
-void add_fixed_tools_of_the_catalogue(Draft& draft) {
-  auto& tools = draft.plan().fixed_tools;
+bool is_at_hand(const std::vector<std::string>& shops, const std::string& id) {
+  return shops.empty() || std::find(shops.begin(), shops.end(), id) != shops.end();
+}
+
+// Those of the catalogue that the shop has; a shop that lists none has all.
+template <class T>
+std::vector<T> at_hand(const std::vector<T>& catalogue, const catalogue::Shop& shop) {
+  std::vector<T> out;
+  for (const auto& tool : catalogue)
+    if (is_at_hand(shop.tools, tool.id)) out.push_back(tool);
+  return out;
+}
+
+// For fixed operations for which no tool is listed those of `more` are used.
+void complete(std::vector<catalogue::FixedTool>& tools,
+              const std::vector<catalogue::FixedTool>& more) {
   const auto listed = tools;
-  for (const auto& t : draft.catalogue.fixed_tools)
+  for (const auto& t : more)
     if (std::none_of(listed.begin(), listed.end(),
                      [&](const auto& l) { return l.use == t.use && l.inner == t.inner; }))
       tools.push_back(t);
 }
 
-void read_tools(Draft& draft) {
+// What is missing among the request's tools is taken from the shop's, then from the
+// catalogue's.
+void complete(Draft& draft, const catalogue::Shop& shop) {
   auto& plan = draft.plan();
-  if (!draft.root.has("tools")) {
-    for (const auto& t : draft.catalogue.tools)
-      if (!catalogue::goes_behind_shoulders(t)) plan.tools.push_back(t);
-    plan.fixed_tools = draft.catalogue.fixed_tools;
-    draft.cutters = draft.catalogue.cutters;
-    draft.assume("/tools", ids(plan.tools), "the whole catalogue");
-    return;
-  }
+  const auto& all = draft.catalogue;
+  complete(plan.fixed_tools, at_hand(all.fixed_tools, shop));
+  complete(plan.fixed_tools, all.fixed_tools);
+  if (draft.cutters.empty()) draft.cutters = at_hand(all.cutters, shop);
+  if (draft.cutters.empty()) draft.cutters = all.cutters;
+}
+
+void read_listed_tools(Draft& draft, const catalogue::Shop& shop) {
+  auto& plan = draft.plan();
   for (const auto& item : draft.root.items("tools", 1, 200))
     if (is_fixed_tool(draft, item))
       add_once(item, plan.fixed_tools, fixed_tool_of(draft.catalogue, item));
@@ -63,12 +78,68 @@ void read_tools(Draft& draft) {
       add_once(item, draft.cutters, cutter_of(draft.catalogue, item));
     else
       add_once(item, plan.tools, tool_of(draft.catalogue, item));
-  add_fixed_tools_of_the_catalogue(draft);
-  if (draft.cutters.empty()) draft.cutters = draft.catalogue.cutters;
-  for (const auto& spare : draft.catalogue.tools)
+  for (const auto& spare : at_hand(draft.catalogue.tools, shop))
     if (std::none_of(plan.tools.begin(), plan.tools.end(),
                      [&](const auto& tool) { return tool.id == spare.id; }))
       plan.spare_tools.push_back(spare);
+}
+
+void read_tools(Draft& draft, const catalogue::Shop& shop) {
+  auto& plan = draft.plan();
+  const auto given = draft.root.find("tools");
+  if (given && given->is_text()) {
+    given->as_choice({"all"});
+    plan.tools = draft.catalogue.tools;
+    plan.fixed_tools = draft.catalogue.fixed_tools;
+    draft.cutters = draft.catalogue.cutters;
+  } else if (given) {
+    read_listed_tools(draft, shop);
+  } else {
+    plan.tools = at_hand(draft.catalogue.tools, shop);
+    const auto behind = std::ranges::stable_partition(
+        plan.tools,
+        [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
+    draft.undercut_tools.assign(behind.begin(), behind.end());
+    plan.tools.erase(behind.begin(), behind.end());
+    draft.assume("/tools", ids(plan.tools),
+                 shop.tools.empty() ? "the whole catalogue" : "the tools of " + shop.id);
+  }
+  complete(draft, shop);
+}
+
+// The shop that the request names, or the usual one, if the catalogue has it.
+catalogue::Shop read_the_shop(Draft& draft) {
+  constexpr const char* kDefaultShop = "workshop";
+  if (const auto given = draft.root.find("shop")) return shop_of(draft.catalogue, *given);
+  for (const auto& shop : draft.catalogue.shops)
+    if (shop.id == kDefaultShop) return shop;
+  return {};
+}
+
+// The rules of the request are added to those of the shop; where both say how much proven
+// conditions may cost, the request's number counts.
+void read_shop_rules(Draft& draft, const catalogue::Shop& shop) {
+  auto known = targets_of(draft.catalogue);
+  auto& plan = draft.plan();
+  for (const auto& more : {ids(plan.tools), ids(plan.fixed_tools)})
+    known.tools.insert(known.tools.end(), more.begin(), more.end());
+  std::erase_if(known.materials, [&](const auto& m) { return m.id == plan.material.id; });
+  known.materials.push_back(plan.material);
+  known.meant = plan.material.id;
+  const auto add = [](auto& to, const auto& more) {
+    to.insert(to.end(), more.begin(), more.end());
+  };
+  plan.rules = shop.rules;
+  const auto own = read_rules(draft.root, known);
+  add(plan.rules.forbidden_tools, own.forbidden_tools);
+  add(plan.rules.speeds, own.speeds);
+  if (own.n_max_rpm)
+    plan.rules.n_max_rpm =
+        std::min(*own.n_max_rpm, plan.rules.n_max_rpm.value_or(*own.n_max_rpm));
+  if (!own.proven.empty()) plan.rules.proven_within_pct = own.proven_within_pct;
+  // The first entry of a tool and a material counts.
+  plan.rules.proven.insert(plan.rules.proven.begin(), own.proven.begin(),
+                           own.proven.end());
 }
 
 }  // namespace
@@ -77,14 +148,12 @@ void add_tools_for_undercuts(Draft& draft) {
   const auto goes_in = [](const std::optional<part::Undercut>& u) {
     return u && u->recess_mm > 0;
   };
-  if (draft.root.has("tools") ||
-      std::ranges::none_of(draft.drawing().outer, [&](const part::OuterElement& e) {
+  if (std::ranges::none_of(draft.drawing().outer, [&](const part::OuterElement& e) {
         return goes_in(e.left_undercut) || goes_in(e.right_undercut);
       }))
     return;
   auto& tools = draft.plan().tools;
-  for (const auto& t : draft.catalogue.tools)
-    if (catalogue::goes_behind_shoulders(t)) tools.push_back(t);
+  tools.insert(tools.end(), draft.undercut_tools.begin(), draft.undercut_tools.end());
   for (auto& a : draft.loaded.assumed)
     if (a.pointer == "/tools") a.value = ids(tools);
 }
@@ -93,8 +162,13 @@ void read_catalogue_choices(Draft& draft) {
   constexpr const char* kDefaultMachine = "lathe-medium";
   auto& plan = draft.plan();
   const auto& catalogue = draft.catalogue;
-  plan.material = material_of(
-      catalogue, draft.root.at("material", "the id of a material or its document"));
+  const auto material = draft.root.at("material", "the id of a material or its document");
+  plan.material = material_of(catalogue, material);
+  if (material.is_text() && !plan.material.id.empty() &&
+      material.json() != plan.material.id)
+    draft.assume("/material", plan.material.id,
+                 "the catalogue has " + material.json().get<std::string>() + " as " +
+                     plan.material.name);
   if (const auto machine = draft.root.find("machine")) {
     plan.machine = machine_of(catalogue, *machine);
   } else {
@@ -102,7 +176,9 @@ void read_catalogue_choices(Draft& draft) {
     const nlohmann::json id = kDefaultMachine;
     plan.machine = machine_of(catalogue, Reader(id, draft.root.problems(), "/machine"));
   }
-  read_tools(draft);
+  const auto shop = read_the_shop(draft);
+  read_tools(draft, shop);
+  read_shop_rules(draft, shop);
 }
 
 }  // namespace turnwright::document

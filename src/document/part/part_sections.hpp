@@ -18,6 +18,7 @@ struct Draft {
   Purpose purpose = Purpose::plan;
   LoadedPart loaded = {};
   std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, or all
+  std::vector<catalogue::Tool> undercut_tools = {};    ///< see add_tools_for_undercuts
 
   planning::PlanRequest& plan() { return loaded.plan; }
   part::Drawing& drawing() { return loaded.plan.drawing; }

@@ -11,6 +11,7 @@
 #include "planning/auxiliary/milled_ways.hpp"
 #include "turnwright/planning/limit.hpp"
 #include "turnwright/planning/prepare.hpp"
+#include "turnwright/planning/rules.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -105,6 +106,23 @@ void add_jaws(const planning::PreparedPart& p, Assumed& assumed) {
   }
 }
 
+// Tools of given operations, of which the shop's rules may leave none.
+void check_given_tools(const LoadedPart& loaded) {
+  if (!loaded.plan.operations) return;
+  const auto ruled = planning::ruled(loaded.plan);
+  const auto left = [](const auto& tools, const std::string& id) {
+    return std::ranges::any_of(tools, [&](const auto& tool) { return tool.id == id; });
+  };
+  Problems problems{.document = loaded.document};
+  for (std::size_t i = 0; i < loaded.plan.operations->size(); ++i) {
+    const auto& tool = (*loaded.plan.operations)[i].tool;
+    if (tool && !left(ruled.tools, *tool) && !left(ruled.fixed_tools, *tool))
+      problems.add({"/operations/" + std::to_string(i) + "/tool", shown(*tool),
+                    "a tool that the rules of the shop leave", "conflict"});
+  }
+  problems.throw_if_any();
+}
+
 planning::PreparedPart with_limit(const ChangedRequest& change,
                                   const planning::PreparedPart& part,
                                   Problems& problems) {
@@ -148,9 +166,34 @@ std::vector<planning::WhatIf> what_if(const LoadedPart& loaded,
   return all;
 }
 
+using Usable = std::vector<Candidates::Usable>;
+
+void add_usable_once(std::string name, LoadedPart loaded, const Catalogue& catalogue,
+                     Usable& all) {
+  auto without = planning::without_each_rule(loaded.plan);
+  all.push_back({std::move(name), prepared(std::move(loaded), catalogue),
+                 std::move(without), std::nullopt});
+}
+
+// With proven conditions twice, the second time without them.
+void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& catalogue,
+                Usable& all) {
+  constexpr double kPercent = 100;
+  if (!planning::prefers_proven(loaded.plan))
+    return add_usable_once(name, std::move(loaded), catalogue, all);
+  const std::string prefix = name.empty() ? "" : name + "; ";
+  auto any = loaded;
+  any.plan.rules.proven.clear();
+  add_usable_once(prefix + "at proven conditions", std::move(loaded), catalogue, all);
+  add_usable_once(prefix + "at any conditions", std::move(any), catalogue, all);
+  all.back().unless_within =
+      all[all.size() - 2].document.part.rules.proven_within_pct / kPercent;
+}
+
 }  // namespace
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
+  check_given_tools(loaded);
   PreparedDocument out{planning::prepare(loaded.plan), std::move(loaded.assumed), {}};
   add_grips(out.part, out.assumed);
   add_drilled_holes(out.part, out.assumed);
@@ -175,7 +218,7 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
   for (const auto& variant : all) try {
       auto loaded = load_variant(variant, catalogue, document);
       loaded.plan.window_curves = window_curves;
-      out.usable.push_back({variant.name, prepared(std::move(loaded), catalogue)});
+      add_usable(variant.name, std::move(loaded), catalogue, out.usable);
     } catch (const InputError& error) {
       if (!first) first = error;
       const auto& p = error.problems().front();

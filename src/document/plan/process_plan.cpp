@@ -357,6 +357,12 @@ ordered_json to_json(const ProcessPlan& plan, const std::vector<Assumption>& ass
   out["prices"] = list(plan.prices, [](const Price& p) { return json_of(p); });
   if (!plan.what_if.empty())
     out["what_if"] = list(plan.what_if, [](const WhatIfAnswer& a) { return json_of(a); });
+  if (!plan.rules.empty())
+    out["rules"] = list(plan.rules, [](const WhatIfAnswer& a) {
+      auto json = json_of(a);
+      json.erase("first_order_saves_per_part");
+      return json;
+    });
   if (!plan.alternatives.empty())
     out["alternatives"] =
         list(plan.alternatives, [](const Alternative& a) { return json_of(a); });

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "document/catalogue/catalogue_readers.hpp"
+#include "document/catalogue/entries.hpp"
 #include "document/json/csv.hpp"
 #include "document/json/fields.hpp"
-#include "document/json/reference.hpp"
 #include "turnwright/cutting/wear_curve.hpp"
 
 namespace turnwright::document::material_calibration {
@@ -162,10 +162,8 @@ void read_base(Reader& r, const Catalogue& catalogue, Request& q) {
   if (value->is_object()) {
     q.material = value->json();
   } else {
-    std::vector<std::string> ids;
-    for (const auto& entry : catalogue.material_documents) ids.push_back(entry.first);
-    const auto id = checked_reference(*value, ids, "a material of the catalogue");
-    const auto found = catalogue.material_documents.find(id);
+    const auto named = material_of(catalogue, *value);
+    const auto found = catalogue.material_documents.find(named.id);
     if (found == catalogue.material_documents.end()) return;
     q.material = found->second;
   }

@@ -9,6 +9,7 @@
 #include "planning/budget/jaw_squeeze.hpp"
 #include "planning/budget/machine_share.hpp"
 #include "stick_out.hpp"
+#include "turnwright/planning/rules.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -34,7 +35,7 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
 
 // Everything except the parts that take long to compute.
 PreparedPart assigned(PlanRequest request) {
-  PreparedPart p{std::move(request), {}, {}, {}, {}, {}, {}};
+  PreparedPart p{ruled(std::move(request)), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
   leave_to_the_hand(p);
   p.jaws = jaw_forces(p);

@@ -274,7 +274,9 @@ std::string html(std::string_view name, const ordered_json& result,
          setups(result) + tolerances(result, figures) + prices(result) +
          section("What if: planned anew with a change",
                  sentences_of(list(result, "what_if"))) +
-         section("Alternatives: each combination of choose, planned",
+         section("Rules of the shop: the part planned without each",
+                 sentences_of(list(result, "rules"))) +
+         section("Alternatives: each combination, planned",
                  sentences_of(list(result, "alternatives"))) +
          offsets(result) + compensation(result) + stability(result, figures) +
          windows(result, figures) + assumptions(result);

@@ -228,11 +228,17 @@ std::string what_if(const ordered_json& result) {
   return "\nWHAT IF  planned anew with a change\n" + numbered(sentences_of(all));
 }
 
+std::string rules(const ordered_json& result) {
+  const auto& all = list(result, "rules");
+  if (all.empty()) return "";
+  return "\nRULES  of the shop, the part planned without each\n" +
+         numbered(sentences_of(all));
+}
+
 std::string alternatives(const ordered_json& result) {
   const auto& all = list(result, "alternatives");
   if (all.empty()) return "";
-  return "\nALTERNATIVES  each combination of choose, planned\n" +
-         numbered(sentences_of(all));
+  return "\nALTERNATIVES  each combination, planned\n" + numbered(sentences_of(all));
 }
 
 // One line each: a long value gives way to the reason.
@@ -257,7 +263,7 @@ std::string text(const ordered_json& plan_result) {
          relaxations(plan_result) + remedies(plan_result) + setups(plan_result) +
          tolerances(plan_result) + budget(plan_result) + offsets(plan_result) +
          compensation(plan_result) + prices(plan_result) + what_if(plan_result) +
-         alternatives(plan_result) + assumptions(plan_result);
+         rules(plan_result) + alternatives(plan_result) + assumptions(plan_result);
 }
 
 }  // namespace turnwright::report

@@ -165,7 +165,7 @@ std::string BatchManifest::text() const {
 
 std::string data_sha256(const fs::path& data_folder) {
   std::vector<fs::path> files;
-  for (const char* folder : {"materials", "tools", "machines"})
+  for (const char* folder : {"materials", "tools", "machines", "shops"})
     if (fs::is_directory(data_folder / folder))
       for (const auto& entry : fs::recursive_directory_iterator(data_folder / folder))
         if (entry.path().extension() == ".json")

@@ -240,7 +240,7 @@ const std::vector<HttpApi::Route>& HttpApi::routes() {
       add(row, "/v1/" + row.name, answer_with_result);
       if (row.html) add(row, "/v1/" + row.name + "/report", answer_with_report);
     }
-    for (const char* what : {"materials", "tools", "machines", "parts"}) {
+    for (const char* what : {"materials", "tools", "machines", "shops", "parts"}) {
       const std::string path = std::string("/v1/") + what;
       all.push_back(
           {path, "GET",

@@ -16,7 +16,7 @@ namespace turnwright::service {
 ///
 ///     POST   /v1/{name}                     every row of the request table
 ///     POST   /v1/{name}/report              as HTML, for rows that have a report
-///     GET    /v1/materials|tools|machines|parts[/{id}]
+///     GET    /v1/materials|tools|machines|shops|parts[/{id}]
 ///     POST   /v1/batches                    JSON lines {"name", "document"} -> 202, job
 ///     GET    /v1/batches[/{id}[/results?from=n]]
 ///     POST   /v1/batches/{id}/cancel

@@ -265,6 +265,7 @@ ordered_json openapi(const std::filesystem::path& folder) {
       {"materials", {"material"}},
       {"tools", {"tool", "fixed-tool", "milling-cutter"}},
       {"machines", {"lathe"}},
+      {"shops", {"shop"}},
       {"parts", {"part"}}};
   for (const auto& [what, documents] : listings) {
     add_listing(paths, what, documents);

@@ -46,7 +46,7 @@ TEST(Provenance, EveryNumberOfTheCatalogueHasASourceAndAnUncertainty) {
       for (const auto& pointer : unaccounted(parse_file(entry.path().string())))
         ADD_FAILURE() << entry.path() << ' ' << pointer;
     }
-  EXPECT_GE(documents, 60u);
+  EXPECT_GE(documents, 160u);
 }
 
 TEST(Provenance, ANumberWithoutIsFound) {

@@ -141,6 +141,13 @@ TEST(Import, BytesThatAreNoTextGoInBase64) {
 TEST(Import, ADrawingNamesItsMaterial) {
   const json result = answered({{"text", "d50 x 40; material: 42 CrMo 4 A"}});
   EXPECT_EQ(result["part"]["material"], "42CrMo4-A");
+  const json numbered = answered({{"text", "d50 x 40; material: 1.0503"}});
+  EXPECT_EQ(numbered["part"]["material"], "C45");
+  const auto several = refused({{"text", "d50 x 40; material: 1.7225"}});
+  EXPECT_NE(several.find("/material: got nothing, expected for the drawing's \"1.7225\" "
+                         "one of the materials that are called so: \"42CrMo4-A\""),
+            std::string::npos)
+      << several;
   const auto none = refused({{"text", "d50 x 40"}});
   EXPECT_EQ(none.rfind("import: /material: got nothing, expected a material, which the "
                        "drawing does not name",

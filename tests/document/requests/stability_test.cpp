@@ -532,14 +532,14 @@ TEST(Stability, RefusesWhatCatalogueIdsTell) {
   q["diameter_mm"] = 8;
   q["Kt_MPa"] = 600;
   q["cutter"] = "ENDMILL-HM-11";
-  q["material"] = "C45E";
+  q["material"] = "C46";
   q.erase("feed_mm");
   EXPECT_EQ(refused(q),
             R"(stability: /teeth: got 2, expected no such key beside cutter
 stability: /diameter_mm: got 8, expected no such key beside cutter
 stability: /cutter: got "ENDMILL-HM-11", expected a milling cutter of the catalogue (did you mean "ENDMILL-HM-10"?)
 stability: /Kt_MPa: got 600, expected no such key beside material
-stability: /material: got "C45E", expected a material of the catalogue (did you mean "C45"?)
+stability: /material: got "C46", expected a material of the catalogue (did you mean "C45"?)
 stability: /feed_mm: got nothing, expected a number > 0 and <= 10 mm)");
   q = without(example(10), {"cutter"});
   q["teeth"] = 4;

@@ -520,25 +520,26 @@ TEST(Refused, OperationsWithoutAToolSayWhatItWouldHaveToBe) {
                  "reaches 25 mm deep and fits between jaws and part, "),
             "");
   EXPECT_EQ(says(told_without(spindle, grooving),
-                 "groove g1: no blade of the tools is for C45 heat-treatable steel, at "
+                 "groove g1: no blade of the tools is for C45 heat-treatable steel, "
+                 "normalised, 190 HB, at "
                  "most 4 mm wide and "),
             "");
   EXPECT_EQ(says(told_without(spindle, threading),
                  "thread th1: no threading tool of the tools is for C45 heat-treatable "
-                 "steel and "
+                 "steel, normalised, 190 HB and "
                  "a pitch of 1.5 mm\n"),
             "");
-  EXPECT_EQ(
-      says(told_without(spindle, profiling),
-           "arc a1: no profiling tool of the tools is for C45 heat-treatable steel\n"),
-      "");
+  EXPECT_EQ(says(told_without(spindle, profiling),
+                 "arc a1: no profiling tool of the tools is for C45 heat-treatable "
+                 "steel, normalised, 190 HB\n"),
+            "");
   auto centred = pin();
   centred["setups"][0]["clampings"] = {"chuck-tailstock"};
-  EXPECT_EQ(
-      says(told_without(centred, centring),
-           "no centre drill of the tools is for C45 heat-treatable steel and an end of "
-           "32 mm"),
-      "");
+  EXPECT_EQ(says(told_without(centred, centring),
+                 "no centre drill of the tools is for C45 heat-treatable steel, "
+                 "normalised, 190 HB and an end of "
+                 "32 mm"),
+            "");
 }
 
 TEST(Given, ConditionsThatCannotBeAreTold) {

@@ -91,10 +91,10 @@ TEST(Chamfers, OfAFarMouthTakeAPassOfTheirOwn) {
   std::erase_if(bare.fixed_tools, [](const auto& t) { return t.id == "PROFILE-INT-55"; });
   const auto without = plan(prepare(std::move(bare)));
   EXPECT_EQ(without.status, PlanStatus::infeasible);
-  EXPECT_EQ(
-      without.conflicts.front().sentence,
-      "chamfer b1: no profiling tool of the tools is for C45 heat-treatable steel in "
-      "a bore of 24 mm");
+  EXPECT_EQ(without.conflicts.front().sentence,
+            "chamfer b1: no profiling tool of the tools is for C45 heat-treatable steel, "
+            "normalised, 190 HB in "
+            "a bore of 24 mm");
 }
 
 // What the title block asks for of all edges is cut where a tool passes: with the left end

@@ -335,6 +335,16 @@ TEST(Text, TheEightLargestPricesAreRanked) {
   EXPECT_TRUE(has_line(out, "  3 smaller ones are in the result document."));
 }
 
+TEST(Text, WhatEachRuleOfTheShopCostsIsTold) {
+  auto result = feasible();
+  EXPECT_FALSE(has(text(result), "RULES"));
+  result["rules"] = {{{"sentence", "without the rule that T is forbidden: saves 1"}}};
+  EXPECT_TRUE(
+      has_line(text(result), "RULES  of the shop, the part planned without each"));
+  EXPECT_TRUE(
+      has_line(text(result), "  1. without the rule that T is forbidden: saves 1"));
+}
+
 TEST(Text, EveryAssumptionTakesOneLine) {
   auto result = feasible();
   result["assumed"].push_back(

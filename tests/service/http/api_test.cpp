@@ -46,7 +46,7 @@ TEST(HttpApi, EveryRowAnswersItsExampleAsTheCommandLineDoes) {
 }
 
 TEST(HttpApi, EveryDocumentOfTheCatalogueIsThere) {
-  for (const char* what : {"materials", "tools", "machines", "parts"}) {
+  for (const char* what : {"materials", "tools", "machines", "shops", "parts"}) {
     const auto list = json::parse(reply(call("GET", std::string("/v1/") + what)).body);
     ASSERT_FALSE(list.empty()) << what;
     for (const auto& entry : list) {

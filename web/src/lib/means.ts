@@ -21,20 +21,32 @@ export function withMachines(part: Part, machines: Means[]): Part {
   return next;
 }
 
-/** The tools to choose from, where the part does not leave the whole catalogue. */
-export const toolsOf = (part: Part): Means[] | undefined => (Array.isArray(part.tools) ? part.tools : undefined);
+/** The tools that a part lists; `usual` are those of its shop, which it has without a list. */
+export function toolsOf(part: Part, usual: string[], catalogue: string[]): Means[] {
+  if (part.tools === 'all') return catalogue;
+  return Array.isArray(part.tools) ? part.tools : usual;
+}
+
+/** Ids of the tools that the part's shop has; one without a list has the whole catalogue. */
+export function shopsTools(part: Part, shops: Part[], catalogue: string[]): string[] {
+  const named = part.shop ?? 'workshop';
+  const shop = typeof named === 'string' ? shops.find((s) => s.id === named) : named;
+  return Array.isArray(shop?.tools) && shop.tools.length ? catalogue.filter((id) => shop.tools.includes(id)) : catalogue;
+}
 
 /** The part with documents of tools in its list, in place of those of the same ids. */
 export function withDocuments(part: Part, documents: Part[]): Part {
   const ids = new Set(documents.map(idOf));
-  return { ...part, tools: [...(toolsOf(part) ?? []).filter((m) => !ids.has(idOf(m))), ...documents] };
+  const listed: Means[] = Array.isArray(part.tools) ? part.tools : [];
+  return { ...part, tools: [...listed.filter((m) => !ids.has(idOf(m))), ...documents] };
 }
 
-/** The whole catalogue needs no list. */
-export function withTools(part: Part, tools: Means[], catalogue: string[]): Part {
+/** The shop's tools need no list, the whole catalogue is a word. */
+export function withTools(part: Part, tools: Means[], usual: string[], catalogue: string[]): Part {
   const { tools: _, ...rest } = part;
-  const whole = catalogue.every((id) => tools.includes(id)) && tools.length === catalogue.length;
-  return whole ? rest : { ...part, tools };
+  const are = (ids: string[]) => tools.length === ids.length && ids.every((id) => tools.includes(id));
+  if (are(usual)) return rest;
+  return { ...part, tools: are(catalogue) ? 'all' : tools };
 }
 
 /** A list with an entry of that id put in (at its end), or taken out. */

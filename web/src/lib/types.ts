@@ -187,6 +187,8 @@ export interface Plan {
   pareto?: Corner[];
   prices: Price[];
   what_if?: WhatIfAnswer[];
+  /** The part without each rule of the shop. */
+  rules?: Sentence[];
   conflicts: InSet[];
   relax: InSet[];
   remedies?: Sentence[];

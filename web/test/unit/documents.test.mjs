@@ -6,7 +6,7 @@ const { demandOf, demandText } = await load('demand');
 const { fitting, stockFollows } = await load('stock');
 const { begun, redone, stepped, undone } = await load('history');
 const { readDropped } = await load('dropped');
-const { machinesOf, ticked, toolsOf, withDocuments, withMachines, withTools } = await load('means');
+const { machinesOf, shopsTools, ticked, toolsOf, withDocuments, withMachines, withTools } = await load('means');
 const { withMilled } = await load('milled');
 const { handy, withSetup, written } = await load('setups');
 const { at, put } = await load('pointer');
@@ -83,10 +83,18 @@ test('one machine is the part’s, several are left to choose, none is the defau
   assert.deepEqual(withMachines({ machine: 'a' }, []), {});
 });
 
-test('the whole catalogue is no list; documents of the part’s own stay', () => {
+test('the shop’s tools are no list, the whole catalogue is a word; documents of the part’s own stay', () => {
   const own = { format: 'turnwright-tool/1', id: 'x' };
-  assert.deepEqual(withTools({ tools: ['a'] }, ['b', 'a'], ['a', 'b']), {});
-  assert.deepEqual(toolsOf(withTools({}, [own, 'b'], ['a', 'b', 'x'])), [own, 'b']);
+  const shop = ['a', 'b'], all = ['a', 'b', 'x'];
+  assert.deepEqual(withTools({ tools: ['a'] }, ['b', 'a'], shop, all), {});
+  assert.deepEqual(withTools({}, ['x', 'b', 'a'], shop, all), { tools: 'all' });
+  assert.deepEqual(toolsOf({}, shop, all), shop);
+  assert.deepEqual(toolsOf({ tools: 'all' }, shop, all), all);
+  assert.deepEqual(toolsOf(withTools({}, [own, 'b'], shop, all), shop, all), [own, 'b']);
+  const shops = [{ id: 'workshop', tools: ['x', 'b'] }, { id: 'bare' }];
+  assert.deepEqual(shopsTools({}, shops, all), ['b', 'x']);
+  assert.deepEqual(shopsTools({ shop: { id: 'own', tools: ['a'] } }, shops, all), ['a']);
+  for (const shop of ['bare', 'unknown']) assert.deepEqual(shopsTools({ shop }, shops, all), all);
   assert.deepEqual(ticked([own, 'b'], 'x', false), ['b']);
 });
 

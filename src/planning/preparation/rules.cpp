@@ -1,0 +1,156 @@
+#include "turnwright/planning/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "planning/values/readable.hpp"
+
+namespace turnwright::planning {
+namespace {
+
+using catalogue::HouseSpeed;
+using catalogue::ProvenConditions;
+using catalogue::Range;
+using catalogue::Tool;
+
+bool holds(const std::vector<std::string>& ids, const std::string& id) {
+  return std::ranges::find(ids, id) != ids.end();
+}
+
+Range common(const Range& a, const Range& b) {
+  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
+bool empty(const Range& r) { return !(r.lower <= r.upper); }
+
+void forbid(const std::vector<std::string>& ids, PlanRequest& r) {
+  const auto forbidden = [&](const auto& tool) { return holds(ids, tool.id); };
+  std::erase_if(r.tools, forbidden);
+  std::erase_if(r.fixed_tools, forbidden);
+  std::erase_if(r.spare_tools, forbidden);
+}
+
+bool concerns(const HouseSpeed& s, const std::string& tool, const PlanRequest& r) {
+  return s.tool.value_or(tool) == tool &&
+         s.material.value_or(r.material.id) == r.material.id &&
+         s.group.value_or(r.material.group) == r.material.group;
+}
+
+void keep(const HouseSpeed& s, PlanRequest& r) {
+  for (auto* tools : {&r.tools, &r.spare_tools})
+    for (auto& t : *tools)
+      if (concerns(s, t.id, r)) t.vc_m_min = common(t.vc_m_min, s.vc_m_min);
+  for (auto& t : r.fixed_tools) {
+    if (!concerns(s, t.id, r)) continue;
+    for (auto& c : t.conditions) c.vc_m_min = std::min(c.vc_m_min, s.vc_m_min.upper);
+  }
+}
+
+void keep_spindle(double n_max_rpm, PlanRequest& r) {
+  r.machine.n_max_rpm = std::min(r.machine.n_max_rpm, n_max_rpm);
+  if (auto& driven = r.machine.driven_tools)
+    driven->n_max_rpm = std::min(driven->n_max_rpm, n_max_rpm);
+}
+
+const ProvenConditions* proven_for(const Tool& t, const PlanRequest& r) {
+  for (const auto& p : r.rules.proven)
+    if (p.tool == t.id && p.material == r.material.id) return &p;
+  return nullptr;
+}
+
+// The uses for which some tool has proven conditions, served by these tools alone.
+void prefer_proven(PlanRequest& r) {
+  if (!prefers_proven(r)) return;
+  std::vector<catalogue::ToolUse> served;
+  for (auto& t : r.tools) {
+    const auto* p = proven_for(t, r);
+    if (!p) continue;
+    served.insert(served.end(), t.uses.begin(), t.uses.end());
+    if (p->vc_m_min) t.vc_m_min = common(t.vc_m_min, *p->vc_m_min);
+    if (p->f_mm_rev) t.f_mm_rev = common(t.f_mm_rev, *p->f_mm_rev);
+    if (p->ap_mm) t.ap_mm = common(t.ap_mm, *p->ap_mm);
+  }
+  for (auto& t : r.tools)
+    if (!proven_for(t, r))
+      std::erase_if(t.uses, [&](auto use) {
+        return std::ranges::find(served, use) != served.end();
+      });
+}
+
+std::string range_words(const Range& r) {
+  return fmt::format("{} to {} m/min", readable(r.lower), readable(r.upper));
+}
+
+std::string words(const HouseSpeed& s) {
+  auto text = fmt::format("speeds are {}", range_words(s.vc_m_min));
+  if (s.tool) text += fmt::format(" with {}", *s.tool);
+  if (s.material) text += fmt::format(" in {}", *s.material);
+  if (s.group)
+    text += fmt::format(" in group {}", "PMKNSH"[static_cast<std::size_t>(*s.group)]);
+  return text;
+}
+
+bool changes(const HouseSpeed& s, const PlanRequest& r) {
+  const auto cut = [&](const Tool& t) {
+    return concerns(s, t.id, r) &&
+           (t.vc_m_min.lower < s.vc_m_min.lower || t.vc_m_min.upper > s.vc_m_min.upper);
+  };
+  const auto slowed = [&](const catalogue::FixedTool& t) {
+    const auto* c = t.conditions_in(r.material.group);
+    return c && concerns(s, t.id, r) && c->vc_m_min > s.vc_m_min.upper;
+  };
+  return std::ranges::any_of(r.tools, cut) || std::ranges::any_of(r.fixed_tools, slowed);
+}
+
+bool changes_spindle(const PlanRequest& r) {
+  const auto slower = [&](double n_max_rpm) { return n_max_rpm > *r.rules.n_max_rpm; };
+  const auto& driven = r.machine.driven_tools;
+  return r.rules.n_max_rpm &&
+         (slower(r.machine.n_max_rpm) || (driven && slower(driven->n_max_rpm)));
+}
+
+}  // namespace
+
+bool prefers_proven(const PlanRequest& r) {
+  return !r.operations &&
+         std::ranges::any_of(r.tools, [&](const Tool& t) { return proven_for(t, r); });
+}
+
+PlanRequest ruled(PlanRequest r) {
+  forbid(r.rules.forbidden_tools, r);
+  for (const auto& s : r.rules.speeds) keep(s, r);
+  if (r.rules.n_max_rpm) keep_spindle(*r.rules.n_max_rpm, r);
+  prefer_proven(r);
+  std::erase_if(r.tools, [](const Tool& t) {
+    return t.uses.empty() || empty(t.vc_m_min) || empty(t.f_mm_rev) || empty(t.ap_mm);
+  });
+  return r;
+}
+
+std::vector<WithoutRule> without_each_rule(const PlanRequest& request) {
+  std::vector<WithoutRule> all;
+  const auto drop = [&](const std::string& rule) -> catalogue::ShopRules& {
+    all.push_back({"without the rule that " + rule, request});
+    return all.back().request.rules;
+  };
+  const auto& rules = request.rules;
+  for (const auto& id : rules.forbidden_tools) {
+    const auto is = [&](const auto& tool) { return tool.id == id; };
+    if (std::ranges::any_of(request.tools, is) ||
+        std::ranges::any_of(request.fixed_tools, is))
+      std::erase(drop(id + " is forbidden").forbidden_tools, id);
+  }
+  for (std::size_t i = 0; i < rules.speeds.size(); ++i)
+    if (changes(rules.speeds[i], request)) {
+      auto& speeds = drop(words(rules.speeds[i])).speeds;
+      speeds.erase(speeds.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  if (changes_spindle(request))
+    drop(fmt::format("no spindle runs faster than {} rpm", readable(*rules.n_max_rpm)))
+        .n_max_rpm.reset();
+  if (prefers_proven(request)) drop("proven conditions are preferred").proven.clear();
+  return all;
+}
+
+}  // namespace turnwright::planning
