@@ -55,7 +55,8 @@ struct ReadOptions {
 /// (G7, G8, DIAMON, DIAMOF), G96, G97 and the spindle's limit, feed per revolution and per
 /// minute, tools, M0 and M1, and these cycles:
 ///
-///     fanuc, haas     G90, G94 (straight), G92, G76 (Fanuc's two blocks, Haas' one)
+///     fanuc, haas     G90, G94 (straight), G92, G76 (Fanuc's two blocks, Haas' one), G71
+///                     of contours that go one way in X and in Z, G70
 ///     fanuc-b         G76
 ///     linuxcnc        G76
 ///     okuma           G33 comes back to where it began

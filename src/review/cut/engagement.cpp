@@ -22,7 +22,11 @@ constexpr double kInStock_mm = 2e-3;     // of a rapid
 constexpr double kBesideFace_mm = 0.75;  // a cut across so near to a face belongs to it
 constexpr double kBesideShare = 0.1;     // of a pass's section, on other surfaces
 constexpr double kArcChord_mm = 1e-3;
-constexpr int kMostChords = 2000;
+constexpr int kMostChords = 500;
+constexpr std::size_t kMostPieces =
+    60'000;  // straight ways of a program that are followed
+constexpr std::size_t kMostSamples =
+    1'000'000;  // of a pass; more are told as another one
 
 // What a move takes off on one line.
 struct Sample {
@@ -191,7 +195,8 @@ class Follower {
   void straight(const Spot& from, const Spot& to, std::size_t line) {
     const double dx = std::abs(to.x - from.x), dz = std::abs(to.z - from.z);
     const double way = std::hypot(dx, dz);
-    if (!(way > 0)) return;
+    if (!(way > 0) || !goes_on(line)) return;
+    if (samples_ > kMostSamples) end_pass();
     const bool across = dx > dz;
     const double part = std::max(dx, dz) / way;
     const auto& lines = across ? w_.section.rows : w_.section.columns;
@@ -208,11 +213,20 @@ class Follower {
     w_.section.cut(swept(edge_.edge, from, to), across ? Family::rows : Family::columns,
                    taken);
     // A short move takes off more lines than it passes: those along the edge.
+    samples_ += samples.size();
     const double all = static_cast<double>(samples.size()) * w_.pitch_mm / part;
     for (auto& [on, sample] : samples) {
       sample.way_mm *= std::min(1.0, way / all);
       pass_[on].push_back(sample);
     }
+  }
+
+  // Whether one more way is followed; tells the first that is not.
+  bool goes_on(std::size_t line) {
+    if (++pieces_ == kMostPieces)
+      out_.unknown.push_back({line, "the cuts from here on",
+                              "The program has more ways than are followed."});
+    return pieces_ < kMostPieces;
   }
 
   std::string surface(bool across, double z) const {
@@ -279,6 +293,7 @@ class Follower {
     }
     add(largest->first, main);
     pass_.clear();
+    samples_ = 0;
     w_.section.drop_loose(part::length_mm(part_.drawing) / 2);
   }
 
@@ -320,6 +335,7 @@ class Follower {
   MountedEdge edge_;
   const toolpath::Step* at_ = nullptr;
   std::map<std::string, Samples> pass_;
+  std::size_t pieces_ = 0, samples_ = 0;  // of the program, of the pass
   std::map<std::string, double> threads_;
   std::set<int> missing_;
 };

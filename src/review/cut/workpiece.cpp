@@ -9,10 +9,10 @@ namespace turnwright::review {
 namespace {
 
 constexpr double kBeside_mm = 1;  // of lines beside the stock
-constexpr double kLines = 8000;   // along the stock
+constexpr double kLines = 8000;   // along the larger side of the stock, at most
 
 double pitch_of(const part::Stock& stock) {
-  return std::clamp(stock.length_mm / kLines, 0.005, 0.1);
+  return std::max(std::max(stock.length_mm, stock.outer_mm / 2) / kLines, 0.005);
 }
 
 }  // namespace

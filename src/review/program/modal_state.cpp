@@ -13,6 +13,7 @@ using toolpath::Step;
 
 constexpr std::size_t kUnknowns = 200;  // listed; more are counted by their reader
 constexpr double kFarthest_mm = 1e5;
+constexpr double kLeastFeed = 1e-6, kLeastSpeed = 1e-3;  // less is none
 
 bool same_conditions(const Step& a, const Step& b) {
   return a.stop == b.stop && a.tool == b.tool && a.S == b.S &&
@@ -80,8 +81,9 @@ void ModalState::to(Move move) {
     if (feeds) unknown("a cut", suspended);
   } else if (feeds && !turning) {
     unknown("a cut with the spindle at rest", "No M3 or M4 is in force.");
-  } else if (feeds && !(F > 0 && S > 0)) {
-    unknown("a cut", F > 0 ? "No spindle speed is given." : "No feed is given.");
+  } else if (feeds && !(F >= kLeastFeed && S >= kLeastSpeed)) {
+    unknown("a cut",
+            F >= kLeastFeed ? "No spindle speed is given." : "No feed is given.");
   } else {
     append(move, 0);
   }
@@ -105,7 +107,7 @@ void ModalState::thread(double x, double z, double lead_mm) {
   if (++moves_ > moves_max_) return;
   if (!suspended.empty())
     unknown("a thread", suspended);
-  else if (!(lead_mm > 0 && S > 0) || !turning)
+  else if (!(lead_mm >= kLeastFeed && S >= kLeastSpeed) || !turning)
     unknown("a thread", "Its lead or the spindle speed is not given.");
   else
     append({Move::Kind::thread, x, z}, lead_mm);

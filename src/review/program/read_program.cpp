@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contour_cycle.hpp"
 #include "cycles.hpp"
 #include "modal_state.hpp"
 #include "turnwright/base/cancelled.hpp"
@@ -51,8 +52,11 @@ std::optional<Point> centre_of(const Point& a, const Point& b, double R, bool cl
 
 class ProgramReader {
  public:
-  explicit ProgramReader(const ReadOptions& options)
-      : control_(options.control), words_(gcode::dialect(options.control)), s_(options) {
+  ProgramReader(const std::vector<std::string_view>& lines, const ReadOptions& options)
+      : lines_(lines),
+        control_(options.control),
+        words_(gcode::dialect(options.control)),
+        s_(options) {
     s_.diameter = control_ != Control::linuxcnc && control_ != Control::siemens;
     s_.per_revolution = control_ != Control::linuxcnc;
   }
@@ -124,6 +128,7 @@ class ProgramReader {
     if (motion_ < 4) box_end_.reset();
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
+    if (special_ == Special::contour) return contour_cycle(block);
     move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value));
@@ -138,7 +143,10 @@ class ProgramReader {
       motion_ = g;
     else if (g == 76)
       special_ = Special::thread_cycle;
-    else if (g == 96 || g == 97)
+    else if ((g == 70 || g == 71) && system_a(control_)) {
+      special_ = Special::contour;
+      contour_code_ = g;
+    } else if (g == 96 || g == 97)
       s_.surface_speed = g == 96;
     else if (!units(g) && !feeds_and_boxes(g) && !zeros(g, block) &&
              std::ranges::find(kIdle, g) == kIdle.end())
@@ -245,7 +253,7 @@ class ProgramReader {
   }
 
   void limit(double n_rpm) {
-    if (n_rpm > 0) s_.limit_rpm = n_rpm;
+    if (n_rpm >= 1) s_.limit_rpm = n_rpm;
   }
 
   void tool(const Word& w) {
@@ -371,8 +379,49 @@ class ProgramReader {
     s_.to({Move::Kind::arc, to.h_mm, to.z_mm, *centre, clockwise});
   }
 
-  enum class Special { none, done, limit, thread_cycle };
+  // G71 and G70 of system A.  The first block of Fanuc's G71 has the depth alone.
+  void contour_cycle(const Block& block) {
+    const auto P = block.value("P"), Q = block.value("Q");
+    if (!P || !Q) {
+      roughing_.depth_mm = s_.mm(block.value("U").value_or(0));
+      roughing_.retract_mm = s_.mm(block.value("R").value_or(0));
+      return;
+    }
+    if (const auto depth = block.value("D")) roughing_.depth_mm = s_.mm(*depth);
+    const auto contour = contour_between(*P, *Q);
+    if (!contour)
+      return s_.unknown(fmt::format("P{:g} Q{:g}", *P, *Q),
+                        "There are no such blocks behind the cycle.");
+    if (contour_code_ == 70) return finish(s_, *contour);
+    contour_end_ = *Q;
+    roughing_.left_x_mm = s_.mm(block.value("U").value_or(0)) / 2;
+    roughing_.left_z_mm = s_.mm(block.value("W").value_or(0));
+    rough(s_, *contour, roughing_);
+  }
 
+  // The moves of the blocks from N = P to N = Q, as if they followed.
+  std::optional<Contour> contour_between(double P, double Q) {
+    if (in_contour_) return std::nullopt;
+    ProgramReader inner(*this);
+    inner.in_contour_ = true;
+    inner.s_.program = {};
+    inner.s_.turning = true;
+    bool inside = false;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const auto block = block_of(lines_[i], false);
+      inside = inside || block.value("N") == P;
+      if (!inside) continue;
+      inner.line(i + 1, lines_[i]);
+      if (block.value("N") != Q) continue;
+      for (auto& u : inner.s_.program.unknown) s_.unknown(u.what, u.why);
+      return Contour{std::move(inner.s_.program.runs)};
+    }
+    return std::nullopt;
+  }
+
+  enum class Special { none, done, limit, thread_cycle, contour };
+
+  const std::vector<std::string_view>& lines_;
   Control control_;
   const gcode::Dialect& words_;
   ModalState s_;
@@ -384,18 +433,24 @@ class ProgramReader {
   std::optional<Point> box_end_;  // of the cycle before
   bool in_subprogram_ = false, ended_ = false;
   std::optional<double> contour_end_;
+  bool in_contour_ = false;
+  int contour_code_ = 0;
+  RoughingCycle roughing_;
 };
 
 }  // namespace
 
 TurningProgram read_program(std::string_view text, const ReadOptions& options) {
-  ProgramReader reader(options);
-  std::size_t number = 0;
-  while (!text.empty() && !reader.full()) {
-    leave_if_asked();
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
     const auto end = std::min(text.find('\n'), text.size());
-    reader.line(++number, text.substr(0, end));
+    lines.push_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  ProgramReader reader(lines, options);
+  for (std::size_t i = 0; i < lines.size() && !reader.full(); ++i) {
+    leave_if_asked();
+    reader.line(i + 1, lines[i]);
   }
   return reader.result();
 }

@@ -153,6 +153,39 @@ TEST(ReadProgram, NamesToolsOfComments) {
   EXPECT_EQ(p.named_tools.at(12), "DRILL-HM-5D 19 MM");
 }
 
+// A cone from 20 to 30 mm over 10 mm and a cylinder of 30 mm, roughed from 40 mm by 2 mm on
+// the radius, 0.5 mm left on the radius and 0.1 mm along the axis.
+TEST(ReadProgram, RoughsAndFinishesContours) {
+  const auto p = read(Control::fanuc,
+                      "G99 G97 S500 M3\nG0 X40. Z2.\nG71 U2. R0.5\n"
+                      "G71 P10 Q20 U1. W0.1 F0.3\nN10 G0 X20.\nG1 Z0. F0.1\nX30. Z-10.\n"
+                      "N20 Z-30.\nG70 P10 Q20\nG0 X60. Z5.");
+  for (const auto& u : p.unknown) ADD_FAILURE() << u.line << u.what << u.why;
+  const auto m = moves(p);
+  // To the start, four passes, along the contour, twice back; finishing, twice back; away.
+  ASSERT_EQ(m.size(), 1u + 4u * 4u + 1u + 4u + 2u + 4u + 2u + 1u);
+  // At 18 mm the cylinder of 15.5 mm is passed inside, to the end.
+  expect_at(m[2], 18, -29.9);
+  expect_at(m[3], 18.5, -29.4);
+  EXPECT_EQ(m[4].kind, Kind::rapid);
+  expect_at(m[4], 18.5, 2);
+  expect_at(m[6], 16, -29.9);
+  // The cone begins at 10.5 mm and 0.1 mm: 14 mm are 7 mm behind.
+  expect_at(m[10], 14, -6.9);
+  expect_at(m[14], 12, -2.9);
+  expect_at(m[19], 10.5, 0.1);
+  expect_at(m[21], 15.5, -29.9);
+  // Finishing with the feed of the blocks.
+  expect_at(m[25], 10, 0);
+  expect_at(m[27], 15, -30);
+  expect_at(m[29], 20, 2);
+  for (const auto& run : p.runs)
+    for (const auto& move : run.moves)
+      if (move.to.kind == Kind::feed && move.to.z_mm == -30.0) {
+        EXPECT_EQ(run.step.f_mm_rev, 0.1);
+      }
+}
+
 struct Strange {
   Control control;
   const char* text;
@@ -168,7 +201,7 @@ TEST(ReadProgram, ListsWhatItDoesNotKnow) {
       {Control::linuxcnc, "#1=5\n", 3, "#1=5"},
       {Control::linuxcnc, "G1 X[3+2]\n", 3, "X[3+2]"},
       {Control::linuxcnc, "o100 call\n", 3, "call"},
-      {Control::fanuc, "G71 U2. R1.\n", 3, "G71"},
+      {Control::fanuc, "G73 U2. R1.\n", 3, "G73"},
       {Control::fanuc, "M98 P1000\n", 3, "M98"},
       {Control::fanuc, "G42 G0 X18.\n", 3, "G42"},
       {Control::fanuc, "G1 Y3.\n", 3, "Y3."},
@@ -210,8 +243,8 @@ TEST(ReadProgram, DoesNotFollowShiftedZerosSubprogramsAndContours) {
   EXPECT_TRUE(sub.unknown.empty());
   EXPECT_EQ(moves(sub).size(), 2u);
   const auto contour = read(Control::fanuc,
-                            "G99 G97 S500 M3\nG0 X20. Z2.\nG71 U2. R1.\n"
-                            "G71 P10 Q20 U0.5 W0.1 F0.2\nN10 G1 X10.\nN20 X30. Z-20.\n"
+                            "G99 G97 S500 M3\nG0 X20. Z2.\nG73 U2. R1.\n"
+                            "G73 P10 Q20 U0.5 W0.1 F0.2\nN10 G1 X10.\nN20 X30. Z-20.\n"
                             "G0 X50. Z5.");
   EXPECT_EQ(moves(contour).size(), 2u);
 }
