@@ -55,7 +55,8 @@ tw_domain(nc DEPENDS base part catalogue cutting gcode toolpath planning
 
 tw_domain(review DEPENDS base part catalogue cutting gcode toolpath planning
   PRIVATE_LIBS fmt::fmt
-  TEST_DEPENDS document nc)
+  TEST_DEPENDS document nc
+  TESTS_TOGETHER own-programs "ReviewOfOwnPrograms.*")
 
 file(RELATIVE_PATH data_from_bin
   /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
