@@ -94,6 +94,38 @@ TEST(Review, MeasuresACylinder) {
   EXPECT_NEAR(r.sizes[0].diameter_mm, 44, 1e-4);
 }
 
+// What the edge wears, and the grip by VDI 3106, whose lever is the part before the cut.
+TEST(Review, CountsEdgesAndGrip) {
+  const auto r = reviewed(kStart + "G0 X44. Z4.\nG1 Z-40. F0.25\nG0 X60.");
+  const auto& s = r.setups[0];
+  const auto& c = s.cuts.at(0);
+  const auto& t = tool("PCLNL-CNMG120408-PM");
+  const double edges =
+      c.passes[0].time_min /
+      cutting::tool_life_min(cutting::cut_of(shaft().material, t), M_PI * 44, 0.25, 3.0);
+  EXPECT_NEAR(c.edges / edges, 1, 1e-3);
+  EXPECT_NEAR(s.edge_min / (edges * t.change_min), 1, 1e-3);
+  EXPECT_NEAR(s.edge_cost / (edges * t.edge_cost), 1, 1e-3);
+  const auto grip =
+      std::ranges::find(c.limits, "grip of the chuck", &planning::ConstraintValue::name);
+  ASSERT_NE(grip, c.limits.end());
+  const auto& chuck = shaft().machine.chuck;
+  const double wanted =
+      1.5 / chuck.friction * std::hypot(c.loads.Fc_N * 50 / 50, c.loads.Ff_N) +
+      chuck.jaw_mass_radius_kg_m * std::pow(M_PI * 1000 / 30, 2);
+  EXPECT_NEAR(grip->value / wanted, 1, 1e-3);
+}
+
+// A hollow of 12.5 mm between two places of 44 mm, 17 mm from the axis in its middle.
+TEST(Review, FollowsArcsTheirWay) {
+  for (const auto& [code, least_mm] : {std::pair{"G2", 17.0}, {"G3", 22.0}}) {
+    const auto r = reviewed(kStart + "G0 X54. Z-10.\nG1 X44. F0.1\n" + code +
+                            " X44. Z-30. R12.5\nG0 X60.");
+    const auto& passes = r.setups[0].cuts.at(0).passes;
+    EXPECT_NEAR(passes.at(0).x_from_mm, least_mm, 0.02) << code;
+  }
+}
+
 TEST(Review, MeasuresAFace) {
   const auto r = reviewed(kStart + "G0 X54. Z0.5\nG1 X-1.6 F0.2\nG0 Z3.");
   ASSERT_EQ(r.setups[0].cuts.size(), 1u);
