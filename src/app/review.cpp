@@ -119,7 +119,8 @@ void add_review(CLI::App& app, const std::optional<fs::path>& data,
            "write the result (JSON) here; - is standard output",
            Dash::is_standard_output);
   command->add_flag("--json", arguments->json, "print the result as JSON");
-  command->footer("Examples:\n  echo '" + row.example +
+  // Unlike echo, printf leaves the line ends of the program as they are written.
+  command->footer("Examples:\n  printf '%s' '" + row.example +
                   "' | turnwright review -\n  turnwright nc parts/pump-shaft.json "
                   "--setup 1 | turnwright review - --part parts/pump-shaft.json");
   command->callback([arguments, &data, chosen] {

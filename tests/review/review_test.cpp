@@ -124,6 +124,12 @@ TEST(Review, FollowsArcsTheirWay) {
     const auto& passes = r.setups[0].cuts.at(0).passes;
     EXPECT_NEAR(passes.at(0).x_from_mm, least_mm, 0.02) << code;
   }
+  // The short way past the left of its circle, up and down.
+  for (const char* way :
+       {"G1 X40. F0.1\nG2 X48. Z-30. R5.", "G1 X48. F0.1\nG3 X40. Z-30. R5."}) {
+    const auto r = reviewed(kStart + "G0 X54. Z-30.\n" + way + "\nG0 X60.");
+    EXPECT_NEAR(r.setups[0].cuts.at(0).passes.at(0).x_from_mm, 20, 0.02) << way;
+  }
 }
 
 TEST(Review, MeasuresAFace) {
