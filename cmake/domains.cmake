@@ -50,8 +50,13 @@ string(JOIN ":" of_drawn_parts "NcPrograms.OfRandomParts*" "PlanAndProgram.OfRan
   "*CutSimulationOfRandomParts*" "NcPrograms.OfAwkwardParts*" "CutSimulation.OfAwkwardParts*")
 tw_domain(nc DEPENDS base part catalogue cutting gcode toolpath planning
   PRIVATE_LIBS fmt::fmt
-  TEST_DEPENDS document
+  TEST_DEPENDS document review
   TESTS_TOGETHER reference-parts ${of_reference_parts} drawn-parts ${of_drawn_parts})
+
+tw_domain(review DEPENDS base part catalogue cutting gcode toolpath planning
+  PRIVATE_LIBS fmt::fmt
+  TEST_DEPENDS document nc
+  TESTS_TOGETHER own-programs "ReviewOfOwnPrograms.*")
 
 file(RELATIVE_PATH data_from_bin
   /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_DATADIR}/turnwright)
@@ -59,7 +64,7 @@ set_source_files_properties(src/document/catalogue/data_folder.cpp PROPERTIES CO
   "TURNWRIGHT_DATA_FROM_BIN=\"${data_from_bin}\";TURNWRIGHT_SOURCE_DATA=\"${PROJECT_SOURCE_DIR}\"")
 tw_domain(document
   DEPENDS base catalogue part cutting deflection multipass thermal chatter gcode toolpath
-    exchange learning volumetric tolerance planning nc
+    exchange learning volumetric tolerance planning nc review
   PUBLIC_LIBS nlohmann_json::nlohmann_json
   PRIVATE_LIBS fmt::fmt libzip::zip OpenSSL::Crypto pugixml::pugixml)
 if(BUILD_TESTING)
@@ -71,7 +76,7 @@ tw_domain(report DEPENDS base part catalogue toolpath volumetric planning nc
 
 set_source_files_properties(src/service/answer.cpp PROPERTIES COMPILE_DEFINITIONS
   "TURNWRIGHT_VERSION=\"${PROJECT_VERSION}\"")
-tw_domain(service DEPENDS base catalogue planning document report gcode nc
+tw_domain(service DEPENDS base catalogue planning document report gcode nc review
   PRIVATE_LIBS OpenSSL::Crypto fmt::fmt spdlog::spdlog ZLIB::ZLIB SQLiteCpp SQLite::SQLite3
     prometheus-cpp::core Boost::headers Threads::Threads TBB::tbb)
 # clang 14 has coroutines but does not say so, and cannot sanitize them.

@@ -29,6 +29,7 @@
 #include "options.hpp"
 #include "process_card.hpp"
 #include "progress_line.hpp"
+#include "review.hpp"
 #include "serve.hpp"
 #include "service/listing.hpp"
 #include "service/output.hpp"
@@ -326,11 +327,12 @@ Exit run_list(const Arguments& arguments) {
   return kOk;
 }
 
-/// Adds a subcommand per row of the request table, but for `import` and `import-tools`,
-/// which take files of other programs.
+/// Adds a subcommand per row of the request table, but for `import`, `import-tools` and
+/// `review`, which take files of other programs.
 void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& chosen) {
   for (const auto& row : service::requests()) {
-    if (row.name == "import" || row.name == "import-tools") continue;
+    if (row.name == "import" || row.name == "import-tools" || row.name == "review")
+      continue;
     auto* command = app.add_subcommand(row.name, row.summary);
     auto* file = command->add_option("REQUEST", arguments.file,
                                      "request document; - reads standard input");
@@ -479,6 +481,7 @@ int run(int argc, char** argv) {
   };
   add_import(app, arguments.data, choose);
   add_import_tools(app, choose);
+  add_review(app, arguments.data, choose);
   add_batch(app, arguments.data, choose);
   add_serve(app, arguments.data, choose);
   add_mcp(app, arguments.data, choose);

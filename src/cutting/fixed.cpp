@@ -31,19 +31,24 @@ Load plunge(const catalogue::Kienzle& k, const catalogue::Thrust& thrust, double
   return {Fc, thrust.ratio * Fc + thrust.edge_N_mm * b, units::torque_Nm(Fc, D)};
 }
 
+Load thread_infeed(const catalogue::Kienzle& k, const catalogue::Thrust& thrust,
+                   double before, double a, double D) {
+  const double half = units::rad_from_deg(30);
+  const double A = std::tan(half) * (a * a - before * before);
+  const double L = 2 * a / std::cos(half);
+  const double Fc = k.k11_MPa * std::pow(L, k.m) * std::pow(A, 1 - k.m);  // Eq. (5)
+  const double Ff = thrust.ratio * Fc + thrust.edge_N_mm * L * std::sin(half);
+  return {Fc, Ff, units::torque_Nm(Fc, D)};
+}
+
 std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& k,
                                    const catalogue::Thrust& thrust, double h, int n,
                                    double D) {
-  const double half = units::rad_from_deg(30);
-  const double A = std::tan(half) * h * h / n;  // Eq. (4)
   std::vector<Infeed> all;
   double before = 0;
   for (int i = 1; i <= n; ++i) {
-    const double a = h * std::sqrt(static_cast<double>(i) / n);
-    const double L = 2 * a / std::cos(half);
-    const double Fc = k.k11_MPa * std::pow(L, k.m) * std::pow(A, 1 - k.m);  // Eq. (5)
-    const double Ff = thrust.ratio * Fc + thrust.edge_N_mm * L * std::sin(half);
-    all.push_back({a - before, {Fc, Ff, units::torque_Nm(Fc, D)}});
+    const double a = h * std::sqrt(static_cast<double>(i) / n);  // Eq. (4)
+    all.push_back({a - before, thread_infeed(k, thrust, before, a, D)});
     before = a;
   }
   return all;

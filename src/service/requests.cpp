@@ -34,11 +34,13 @@
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/document/process_plan.hpp"
 #include "turnwright/document/quote.hpp"
+#include "turnwright/document/review.hpp"
 #include "turnwright/document/samba.hpp"
 #include "turnwright/document/stability.hpp"
 #include "turnwright/document/thermal.hpp"
 #include "turnwright/planning/choice.hpp"
 #include "turnwright/planning/plan.hpp"
+#include "turnwright/planning/prepare.hpp"
 #include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::service {
@@ -255,6 +257,52 @@ std::string nc_text(const ordered_json& result) {
   return all;
 }
 
+// A review uses the clampings of the plan it is compared with.
+planning::PreparedPart clamped_as(const planning::PreparedPart& part,
+                                  const planning::ProcessPlan& plan) {
+  planning::PlanRequest request = part;
+  for (std::size_t s = 0; s < plan.setups.size(); ++s)
+    request.setups[s].clampings = {plan.setups[s].clamping};
+  return planning::prepare(std::move(request), part);
+}
+
+// The operations of the programs, predicted as if a request had given them.
+document::ReviewedPlan predicted(const planning::PreparedPart& part,
+                                 const document::ReviewInput& input,
+                                 const review::Review& reviewed,
+                                 planning::ProcessPlan plan) {
+  document::ReviewedPlan out{std::move(plan)};
+  auto all = review::reconstructed(part, reviewed);
+  if (all.cannot.empty()) {
+    auto result = planning::predict(
+        review::with_operations(part, std::move(all.operations), input.tools));
+    if (!result.tolerances.empty()) {
+      out.predicted = std::move(result);
+      return out;
+    }
+    for (const auto& conflict : result.conflicts) all.cannot.push_back(conflict.sentence);
+  }
+  out.cannot = std::move(all.cannot);
+  return out;
+}
+
+ordered_json review_programs(const json& request, const Context& context) {
+  auto asked = document::load_review_request(request, context.catalogue);
+  auto [part, plan] = planned(std::move(asked.part));
+  const auto input = document::review_input(asked, part.part, context.catalogue);
+  const bool made = plan.status == planning::PlanStatus::ok;
+  const auto held = made ? clamped_as(part.part, plan) : part.part;
+  const auto reviewed = review::review(held, input.programs, input.tools);
+  return document::review_result(asked, part, input, reviewed,
+                                 predicted(held, input, reviewed, std::move(plan)));
+}
+
+std::string review_example() {
+  return "{\"part\": " + std::string(kPlanExample) + R"(, "control": "fanuc",
+  "tools": [{"number": 1, "id": "PCLNL-CNMG120408-PM"}],
+  "programs": [{"setup": 0, "text": "G21 G40 G99\nT0101\nG50 S2500\nG96 S200 M3\nG0 X38. Z0.\nG1 X-1.6 F0.2\nG0 X30. Z2.\nG1 Z-49.8 F0.3\nX36.\nG0 Z2.\nX25.\nG1 Z-49.8\nX36.\nG0 X100. Z50.\nM30"}]})";
+}
+
 ordered_json drawing(const json& request, const Context& context) {
   auto result =
       document::drawing(document::prepared_part(request, context.catalogue, "drawing"));
@@ -379,6 +427,9 @@ std::span<const Request> requests() {
        nc_programs, nc_text},
       {"quote", "part plans, batches, stock and charges -> unit prices with a bound",
        quote_example(), quote, report::quote_text},
+      {"review",
+       "part plan, NC programs and tools -> forces, limits and times of each pass",
+       review_example(), review_programs, report::review_text},
       {"import", "STEP, DXF or a line of text -> part document for plan", kImportExample,
        [](const json& request, const Context& context) -> ordered_json {
          return document::import(request, context.catalogue);

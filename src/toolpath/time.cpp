@@ -50,14 +50,17 @@ Part in_cut(const InCut& cut, const Move& a, const Move& b) {
   return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
 }
 
-void add_feed(const Step& s, const Move& a, const Move& b, Minutes& sum) {
+// Between two shares of the way of a move at feed.
+double feed_min(const Step& s, const Move& a, const Move& b, double u, double w) {
   const double length = b.kind == Move::Kind::arc
                             ? arc_mm(a, b)
                             : std::hypot(b.x_mm - a.x_mm, b.z_mm - a.z_mm);
-  const auto between = [&](double u, double w) {
-    return feed_min(s, length * (w - u), std::lerp(a.x_mm, b.x_mm, u),
-                    std::lerp(a.x_mm, b.x_mm, w));
-  };
+  return feed_min(s, length * (w - u), std::lerp(a.x_mm, b.x_mm, u),
+                  std::lerp(a.x_mm, b.x_mm, w));
+}
+
+void add_feed(const Step& s, const Move& a, const Move& b, Minutes& sum) {
+  const auto between = [&](double u, double w) { return feed_min(s, a, b, u, w); };
   const auto part = in_cut(s.in_cut, a, b);
   const double cut = between(part.from, part.to);
   sum.cutting += cut;
@@ -67,6 +70,13 @@ void add_feed(const Step& s, const Move& a, const Move& b, Minutes& sum) {
 }
 
 }  // namespace
+
+double move_min(const Step& step, const Move& from, const Move& to,
+                const catalogue::Lathe& machine) {
+  if (to.kind != Move::Kind::rapid) return feed_min(step, from, to, 0, 1);
+  return std::max(std::abs(to.x_mm - from.x_mm), std::abs(to.z_mm - from.z_mm)) /
+         machine.rapid_mm_min;
+}
 
 Minutes minutes(const SetupProgram& p, const catalogue::Lathe& machine) {
   Minutes sum;
@@ -81,8 +91,7 @@ Minutes minutes(const SetupProgram& p, const catalogue::Lathe& machine) {
     tool = s.tool;
     for (const auto& m : s.moves) {
       if (m.kind == Move::Kind::rapid)
-        sum.air += std::max(std::abs(m.x_mm - at.x_mm), std::abs(m.z_mm - at.z_mm)) /
-                   machine.rapid_mm_min;
+        sum.air += move_min(s, at, m, machine);
       else
         add_feed(s, at, m, sum);
       at = m;

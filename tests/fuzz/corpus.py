@@ -39,7 +39,13 @@ def seeds():
                 program = program if isinstance(program, str) else "\n".join(program)
                 yield "program", program
                 yield "program-lathe", program
+            if door == "review":
+                yield "review-fanuc", example["programs"][0]["text"]
             yield from (("csv-" + door, table) for table in tables(example))
+    for program in sorted((ROOT / "tests" / "data" / "nc").rglob("*.*")):
+        control = {".ngc": "linuxcnc", ".mpf": "siemens"}.get(program.suffix)
+        if control:
+            yield "review-" + control, program.read_text()
     for kind, pattern in ("step", "step/cases/*.step"), ("dxf", "dxf/*.dxf"):
         for drawing in sorted((ROOT / "tests" / "data").glob(pattern)):
             yield f"drawing-{kind}", drawing.read_text()

@@ -57,6 +57,13 @@ Text program(const std::string& chain) {
   return {request, json::json_pointer("/program")};
 }
 
+// The program of `review`'s example, in a control's words.
+Text reviewed(const std::string& control) {
+  auto request = document::parse(door_named("review").example, "example");
+  request["control"] = control;
+  return {request, json::json_pointer("/programs/0/text")};
+}
+
 Target in_request(const std::string& door, Text text) {
   return [&row = door_named(door), text](std::string_view input) {
     auto request = text.request;
@@ -86,6 +93,7 @@ Target text_target(const std::string& name) {
         [](std::string_view text) { (void)document::parse(text, "fuzz"); });
   if (name == "program") return in_request("compensate", program("wfXYZt"));
   if (name == "program-lathe") return in_request("compensate", program("wCfZXt"));
+  if (name.starts_with("review-")) return in_request("review", reviewed(name.substr(7)));
   if (name.starts_with("drawing-"))
     return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
                                  json::json_pointer("/text")});

@@ -6,7 +6,7 @@
 
 #include "cutters.hpp"
 #include "drawn_part.hpp"
-#include "section.hpp"
+#include "review/cut/section.hpp"
 #include "ways.hpp"
 
 /// Cuts the stock of a plan with the ways of its programs, setup after setup: whole

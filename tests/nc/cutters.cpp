@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "review/cut/edges.hpp"
 #include "turnwright/catalogue/tool_outline.hpp"
+#include "turnwright/cutting/fixed.hpp"
 
 namespace turnwright::nc::test {
 namespace {
@@ -12,47 +14,7 @@ using catalogue::FixedUse;
 using planning::OperationKind;
 using planning::OperationPlan;
 
-constexpr double kChord_mm = 1e-5;        // of corners that cut
-constexpr double kOthersChord_mm = 1e-3;  // and of the insert's other corners
-constexpr double kShank_mm = 100;         // of blades, above what they reach
-
-Polygon polygon(const catalogue::ConvexOutline& outline) {
-  Polygon all;
-  for (const auto& p : outline) all.push_back({p.h_mm, p.z_mm});
-  return hull(std::move(all));
-}
-
-Polygon rectangle(double x0, double x1, double z0, double z1) {
-  return hull({{x0, z0}, {x0, z1}, {x1, z1}, {x1, z0}});
-}
-
-Polygon insert_polygon(const catalogue::ToolOutline& outline) {
-  const double r = outline.re_mm;
-  const auto cuts = [&](const catalogue::OutlinePoint& p) {
-    return std::hypot(p.h_mm - r, p.z_mm - r) < r + 1e-9;
-  };
-  catalogue::ConvexOutline all;
-  for (const auto& p : catalogue::rounded_insert(outline, kChord_mm))
-    if (cuts(p)) all.push_back(p);
-  for (const auto& p : catalogue::rounded_insert(outline, kOthersChord_mm))
-    if (!cuts(p)) all.push_back(p);
-  return polygon(all);
-}
-
-// A corner between two edges of a length.
-Polygon wedge(double re, double kapr_rad, double minor_rad, double length) {
-  const double eps = M_PI - kapr_rad - minor_rad;
-  const catalogue::OutlinePoint major{std::sin(kapr_rad), -std::cos(kapr_rad)},
-      minor{std::sin(minor_rad), std::cos(minor_rad)};
-  const double back = re / std::sin(eps);
-  const catalogue::OutlinePoint corner{re - back * (major.h_mm + minor.h_mm),
-                                       re - back * (major.z_mm + minor.z_mm)};
-  const auto on = [&](const catalogue::OutlinePoint& edge) {
-    return catalogue::OutlinePoint{corner.h_mm + length * edge.h_mm,
-                                   corner.z_mm + length * edge.z_mm};
-  };
-  return insert_polygon({re, {corner, on(major), on(minor)}, {}});
-}
+constexpr double kShank_mm = 100;  // of blades, above what they reach
 
 const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o) {
   for (const auto& t : p.part.fixed_tools)
@@ -74,22 +36,12 @@ double pitch_mm(const Planned& p, const OperationPlan& o) {
   return std::max(pitch(p.part.drawing.outer), pitch(p.part.drawing.inner));
 }
 
-double point_mm(double D_mm, double point_deg) {
-  return D_mm / 2 / std::tan(point_deg * M_PI / 360);
-}
-
 Cutter drill(double D, double point_deg) {
-  const double r = D / 2, point = point_mm(D, point_deg), far = 1000;
   Cutter c;
   c.drills = true;
-  c.edge = hull({{0, 0}, {r, point}, {r, far}, {-r, far}, {-r, point}});
+  c.edge = drill_edge(D, point_deg);
   return c;
 }
-
-// The width of a profiling tool's 35 deg insert is in no document; here it is as wide as
-// its edges may be: the minor edge at the angle that it is taken to clear, the major edge
-// at 93 deg.
-constexpr double kProfilingKapr_rad = 93 * M_PI / 180;
 
 Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
                     const catalogue::FixedTool& t) {
@@ -106,15 +58,12 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
       c.edge = rectangle(0, t.reach, 0, ap);
       if (!is_inner(p, o)) c.holder = {rectangle(t.reach, t.reach + kShank_mm, 0, ap)};
       return c;
-    case FixedUse::threading: {
-      // Its tooth; the insert beside it is in no document.
-      const double h = 0.8 * pitch_mm(p, o), w = h * std::tan(M_PI / 6);
+    case FixedUse::threading:
       c.threads = true;
-      c.edge = hull({{0, 0}, {h, w}, {h, -w}});
+      c.edge = thread_edge(pitch_mm(p, o));
       return c;
-    }
     case FixedUse::profiling:
-      c.edge = wedge(t.re_mm, kProfilingKapr_rad, part::kProfilingClears_rad, 12);
+      c.edge = profiling_edge(t.re_mm);
       return c;
   }
   return c;
@@ -137,8 +86,8 @@ Cutter cutter(const Planned& p, const OperationPlan& o) {
     if (t.id != o.tool) continue;
     const auto outline = catalogue::outline(t);
     c.re_mm = t.re_mm;
-    c.edge = insert_polygon(outline);
-    for (const auto& piece : outline.holder) c.holder.push_back(polygon(piece));
+    c.edge = insert_edge(outline);
+    for (const auto& piece : outline.holder) c.holder.push_back(polygon_of(piece));
   }
   return c;
 }
@@ -181,7 +130,7 @@ std::optional<Drilled> drilled(const Planned& p, std::size_t setup,
     for (const auto& e : p.part.drawing.inner)
       if (e.from == free) depth += e.length_mm;
   }
-  return Drilled{D, point_mm(D, t->point_deg), depth};
+  return Drilled{D, cutting::drill_point_mm(D, t->point_deg), depth};
 }
 
 }  // namespace turnwright::nc::test

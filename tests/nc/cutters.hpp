@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "plans.hpp"
-#include "section.hpp"
+#include "review/cut/section.hpp"
 
 /// The bodies of tools while operations of a plan use them.
 namespace turnwright::nc::test {
+
+using namespace review;
 
 /// In the tool's coordinates: x out of the material into the air, z towards the free end,
 /// the origin in the programmed point.

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "section.hpp"
+#include "review/cut/section.hpp"
 #include "sizes.hpp"
 
 /// The half section that a plan's programs have to make of its stock: the drawing with
 /// the middle of its limits and the plan's corrections.
 namespace turnwright::nc::test {
+
+using namespace review;
 
 /// Straight pieces, to measure distances from.
 class Pieces {

@@ -49,10 +49,13 @@ struct Infeed {
 ///     a_k = h sqrt(k/n),  A = tan(30 deg) h^2/n                                      (4)
 ///     L_k = 2 a_k/cos(30 deg),  Fc_k = kc1.1 L_k^mc A^(1-mc)                         (5)
 ///
+/// One infeed, from a depth a_(k-1) to a_k, has A = tan(30 deg) (a_k^2 - a_(k-1)^2).
 /// L_k is the length of both flanks, A/L_k the equivalent chip thickness; the last pass
 /// has the largest load.  Ff is radial: lambda Fc by the chips, which both flow towards
 /// the middle of the vee, and what ke presses on the two flanks, ke L_k sin(30 deg).
 /// Source: derived here from the vee.
+Load thread_infeed(const catalogue::Kienzle& kc, const catalogue::Thrust& thrust,
+                   double before_mm, double depth_mm, double D_mm);
 std::vector<Infeed> thread_infeeds(const catalogue::Kienzle& kc,
                                    const catalogue::Thrust& thrust, double h_mm, int n,
                                    double D_mm);

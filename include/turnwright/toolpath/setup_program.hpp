@@ -78,4 +78,8 @@ struct SetupProgram {
 /// numerically.
 Minutes minutes(const SetupProgram& program, const catalogue::Lathe& machine);
 
+/// Minutes of one move by the same rules, at the conditions of its step.
+double move_min(const Step& step, const Move& from, const Move& to,
+                const catalogue::Lathe& machine);
+
 }  // namespace turnwright::toolpath

@@ -1,10 +1,10 @@
-#include "section.hpp"
+#include "review/cut/section.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace turnwright::nc::test {
+namespace turnwright::review {
 namespace {
 
 const Polygon kSquare = hull({{0, 0}, {0, 1}, {1, 1}, {1, 0}, {0.5, 0.5}});
@@ -89,4 +89,4 @@ TEST(Section, IntervalsLessOthers) {
 }
 
 }  // namespace
-}  // namespace turnwright::nc::test
+}  // namespace turnwright::review

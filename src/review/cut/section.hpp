@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// Half sections of turned bodies on two families of parallel lines, columns at fixed
@@ -8,7 +9,7 @@
 /// two lines nothing is known.  A corner of 0.2 mm that cuts 1e-4 mm too deep does so over
 /// 0.013 mm, more than the distance of lines.  (Differences of polygons by Boost.Geometry
 /// leave the same areas, but take nine times as long.)
-namespace turnwright::nc::test {
+namespace turnwright::review {
 
 /// A point of a half section: its radius and its place along the axis.
 struct Spot {
@@ -56,8 +57,10 @@ class Lines {
 
   /// Covers the inside of any closed polygon.
   void fill(const Polygon& polygon);
-  /// Takes off a convex polygon.
+  /// Takes off a convex polygon; `taken` hears of each line how much that was.
   void cut(const Polygon& convex);
+  using Taken = std::function<void(std::size_t line, double length)>;
+  void cut(const Polygon& convex, const Taken& taken);
   /// Largest length that a convex polygon has in common with the body on one line.
   double common(const Polygon& convex) const;
   void keep_only(std::size_t i, const Interval& kept);
@@ -96,6 +99,8 @@ class Section {
   void fill(const Polygon& polygon);
   /// Takes off what a convex polygon sweeps out around the axis: its mirror image too.
   void cut(const Polygon& convex);
+  /// The same, and how much that was of each line of a family.
+  void cut(const Polygon& convex, Family family, const Lines::Taken& taken);
   /// Roughly how deep a convex polygon, or its mirror image, is in the body; 0 if it does
   /// not meet it.
   double depth(const Polygon& convex) const;
@@ -105,4 +110,4 @@ class Section {
   Lines columns, rows;
 };
 
-}  // namespace turnwright::nc::test
+}  // namespace turnwright::review

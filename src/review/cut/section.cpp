@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace turnwright::nc::test {
+namespace turnwright::review {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -67,6 +67,10 @@ void take_off(Intervals& all, const Interval& cut) {
       ++i;
     }
   }
+}
+
+double common_mm(const Interval& a, const Interval& b) {
+  return std::min(a.to, b.to) - std::max(a.from, b.from);
 }
 
 bool crosses_axis(const Polygon& polygon) {
@@ -214,11 +218,20 @@ void Lines::cut(const Polygon& convex) {
   for_each(convex, [&](std::size_t i, const Interval& span) { take_off(on_[i], span); });
 }
 
+void Lines::cut(const Polygon& convex, const Taken& taken) {
+  for_each(convex, [&](std::size_t i, const Interval& span) {
+    double length = 0;
+    for (const auto& a : on_[i]) length += std::max(0.0, common_mm(a, span));
+    if (!(length > 0)) return;
+    take_off(on_[i], span);
+    taken(i, length);
+  });
+}
+
 double Lines::common(const Polygon& convex) const {
   double most = 0;
   for_each(convex, [&](std::size_t i, const Interval& span) {
-    for (const auto& a : on_[i])
-      most = std::max(most, std::min(span.to, a.to) - std::max(span.from, a.from));
+    for (const auto& a : on_[i]) most = std::max(most, common_mm(a, span));
   });
   return most;
 }
@@ -243,6 +256,14 @@ void Section::cut(const Polygon& convex) {
   if (!crosses_axis(convex)) return;
   columns.cut(mirrored(convex));
   rows.cut(mirrored(convex));
+}
+
+void Section::cut(const Polygon& convex, Family family, const Lines::Taken& taken) {
+  auto& measured = family == Family::columns ? columns : rows;
+  auto& other = family == Family::columns ? rows : columns;
+  measured.cut(convex, taken);
+  other.cut(convex);
+  if (crosses_axis(convex)) cut(mirrored(convex));
 }
 
 double Section::depth(const Polygon& convex) const {
@@ -272,4 +293,4 @@ void Section::drop_loose(double z) {
     rows.keep_only(i, {columns.at(from) - pitch, columns.at(to) + pitch});
 }
 
-}  // namespace turnwright::nc::test
+}  // namespace turnwright::review

@@ -1,0 +1,76 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "turnwright/gcode/dialect.hpp"
+#include "turnwright/toolpath/setup_program.hpp"
+
+/// Reading turning programs that others have written.
+namespace turnwright::review {
+
+/// Something in a program that is not understood, or not known.
+struct Unknown {
+  std::size_t line = 0;  ///< from 1; 0: of the whole program
+  std::string what;      ///< as it stands there
+  std::string why;       ///< one sentence
+};
+
+/// A move of the tip as a block, or a block of a cycle, commands it.
+struct ReadMove {
+  std::optional<toolpath::Point> from = {};  ///< none: from a place that is not known
+  toolpath::Move to;
+  std::size_t line = 0;
+};
+
+/// Moves at one tool, spindle speed and feed, or a stop.
+struct Run {
+  toolpath::Step step;  ///< conditions alone: neither comments nor moves
+  std::vector<ReadMove> moves = {};
+};
+
+struct TurningProgram {
+  std::vector<Run> runs;
+  /// Tools by the number that comments give them as programs of `nc` do:
+  /// "T1 PCLNL-CNMG120408-PM, corner 0.8 mm".
+  std::map<int, std::string> named_tools;
+  std::vector<Unknown> unknown;
+  std::vector<std::string> assumed;  ///< sentences
+};
+
+struct ReadOptions {
+  gcode::Control control = gcode::Control::linuxcnc;
+  double n_max_rpm = 0;  ///< the machine's, until the program limits the spindle
+  std::size_t moves_max = 50'000;  ///< reading stops at the line that exceeds it
+};
+
+/// Reads the moves of a program for the XZ plane.  Radii and places are the program's, of
+/// the imaginary tip; diameters are halved, inches converted.
+///
+/// It interprets G0 to G3 (centre by I and K from the start, or R), threads by G32 or G33,
+/// absolute and incremental coordinates (G90, G91; U and W in system A), units, diameters
+/// (G7, G8, DIAMON, DIAMOF), G96, G97 and the spindle's limit, feed per revolution and per
+/// minute, tools, M0 and M1, and these cycles:
+///
+///     fanuc, haas     G90, G94 (straight), G92, G76 (Fanuc's two blocks, Haas' one), G71
+///                     of contours that go one way in X and in Z, G70
+///     fanuc-b         G76
+///     linuxcnc        G76
+///     okuma           G33 comes back to where it began
+///
+/// Threads of a cycle become plain moves, the k-th cut of a depth
+///
+///     d_k = d_1 k^(1/R), R = 2 but for LinuxCNC's word R, until the whole depth.       (1)
+///
+/// Reference returns move the tool to a place that is not known.  Everything else is listed
+/// under `unknown` with its line, and reading goes on; after a line that may have moved the
+/// tool its place is not known until both coordinates are given.  With tool nose radius
+/// compensation (G41, G42) the drawn contour is taken for the path of the tip, which is
+/// right on cylinders and faces; that, too, is listed.
+/// Source: the controls' manuals in docs/bibliography.md; (1) is LinuxCNC's degression.
+TurningProgram read_program(std::string_view text, const ReadOptions& options);
+
+}  // namespace turnwright::review

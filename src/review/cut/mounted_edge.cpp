@@ -1,0 +1,69 @@
+#include "mounted_edge.hpp"
+
+#include <fmt/format.h>
+
+#include "edges.hpp"
+
+namespace turnwright::review {
+namespace {
+
+using catalogue::FixedUse;
+
+constexpr double kTouch_mm = 2e-3;  // by which rapids may come too near
+constexpr double kAnyPitch_mm = 3;  // of the tooth of a threading tool
+
+Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
+  switch (t.use) {
+    case FixedUse::centring:
+    case FixedUse::drilling:
+      return drill_edge(size, t.point_deg);
+    case FixedUse::grooving:
+    case FixedUse::parting:
+      return rectangle(0, t.reach, 0, size);
+    case FixedUse::threading:
+      return thread_edge(kAnyPitch_mm);
+    case FixedUse::profiling:
+      break;
+  }
+  return profiling_edge(t.re_mm);
+}
+
+Polygon placed(const Polygon& tool, double side, double sign) {
+  Polygon all;
+  for (const auto& p : tool) all.push_back({side * p.x, sign * p.z});
+  return hull(std::move(all));
+}
+
+}  // namespace
+
+MountedEdge mounted_edge(const MountedTool& tool, double sign) {
+  MountedEdge m;
+  Polygon edge;
+  if (tool.turning) {
+    m.inner = tool.turning->bar.has_value();
+    m.re_mm = tool.turning->re_mm;
+    edge = insert_edge(catalogue::outline(*tool.turning));
+  } else {
+    const auto& t = *tool.fixed;
+    m.drills = t.use == FixedUse::centring || t.use == FixedUse::drilling;
+    m.threads = t.use == FixedUse::threading;
+    m.plunges = t.use == FixedUse::grooving || t.use == FixedUse::parting;
+    m.inner = t.inner || m.drills;
+    m.re_mm = t.re_mm;
+    m.width_mm = m.plunges ? tool.size_mm : 0;
+    edge = fixed_edge(t, tool.size_mm);
+  }
+  m.edge = placed(edge, m.inner && !m.drills ? -1 : 1, sign);
+  m.small = eroded(m.edge, kTouch_mm);
+  return m;
+}
+
+const std::string& id(const MountedTool& tool) {
+  return tool.turning ? tool.turning->id : tool.fixed->id;
+}
+
+std::string label(const std::string& id, double size_mm) {
+  return size_mm > 0 ? fmt::format("{} {:g} mm", id, size_mm) : id;
+}
+
+}  // namespace turnwright::review

@@ -1,0 +1,91 @@
+#include "workpiece.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/clamping/made_surfaces.hpp"
+
+namespace turnwright::review {
+namespace {
+
+constexpr double kBeside_mm = 1;  // of lines beside the stock
+constexpr double kLines = 8000;   // along the larger side of the stock, at most
+
+double pitch_of(const part::Stock& stock) {
+  return std::max(std::max(stock.length_mm, stock.outer_mm / 2) / kLines, 0.005);
+}
+
+}  // namespace
+
+Workpiece::Workpiece(const planning::PreparedPart& part)
+    : section({0, -part.drawing.stock.left_allowance_mm - kBeside_mm},
+              {part.drawing.stock.outer_mm / 2 + kBeside_mm,
+               part.drawing.stock.length_mm - part.drawing.stock.left_allowance_mm +
+                   kBeside_mm},
+              pitch_of(part.drawing.stock)),
+      pitch_mm(pitch_of(part.drawing.stock)),
+      part_(part) {
+  const auto& stock = part.drawing.stock;
+  const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
+  const double in = stock.inner_mm / 2, out = stock.outer_mm / 2;
+  section.fill({{out, z0}, {out, z1}, {in, z1}, {in, z0}});
+}
+
+void Workpiece::make_as_drawn(std::size_t setup) {
+  const auto& d = part_.drawing;
+  const auto& work = part_.work.setups[setup];
+  const double far = d.stock.outer_mm;
+  const double L = part::length_mm(d);
+  for (const std::size_t i : work.elements) {
+    const auto& e = d.outer[i];
+    const double a = part::left_z_mm(d, i), b = a + e.length_mm;
+    section.cut(hull({{e.left_mm / 2, a}, {far, a}, {far, b}, {e.right_mm / 2, b}}));
+  }
+  for (const std::size_t i : work.bores) {
+    const auto& e = d.inner[i];
+    const double a = part::inner_left_z_mm(d, i), b = a + e.length_mm;
+    section.cut(hull({{0, a}, {e.left_mm / 2, a}, {e.right_mm / 2, b}, {0, b}}));
+  }
+  if (!work.end_face) return;
+  const bool right = part_.setups[setup].hold == part::End::left;
+  const double from = right ? L : -far, to = right ? L + far : 0;
+  section.cut(hull({{0, from}, {far, from}, {far, to}, {0, to}}));
+}
+
+std::string Workpiece::element_at(double z, bool inner) const {
+  const auto& d = part_.drawing;
+  if (inner) {
+    std::string nearest;
+    double least = INFINITY;
+    for (std::size_t i = 0; i < d.inner.size(); ++i) {
+      const double a = part::inner_left_z_mm(d, i), b = a + d.inner[i].length_mm;
+      const double away = std::max({a - z, z - b, 0.0});
+      if (away >= least) continue;
+      least = away;
+      nearest = d.inner[i].id;
+    }
+    return nearest;
+  }
+  std::size_t i = 0;
+  while (i + 1 < d.outer.size() && z > part::left_z_mm(d, i + 1)) ++i;
+  return d.outer[i].id;
+}
+
+std::string Workpiece::face_at(double z, double within, bool inner) const {
+  const auto& d = part_.drawing;
+  if (inner) return element_at(z, true);
+  const double L = part::length_mm(d);
+  if (z >= L - within) return "right";
+  if (z <= within) return "left";
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (std::abs(z - part::left_z_mm(d, k)) <= within) return planning::shoulder_id(d, k);
+  return element_at(z, false);
+}
+
+std::optional<double> Workpiece::surface_mm(std::size_t column, bool inner) const {
+  const auto& on = section.columns.on(column);
+  if (on.empty()) return std::nullopt;
+  return inner ? on.front().from : on.back().to;
+}
+
+}  // namespace turnwright::review

@@ -1,0 +1,118 @@
+#include "cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turnwright::review {
+namespace {
+
+using Kind = toolpath::Move::Kind;
+
+constexpr int kMostCuts = 200;
+constexpr double kRounding_mm = 1e-6;
+
+}  // namespace
+
+void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm) {
+  if (!s.x_mm || !s.z_mm)
+    return s.unknown("a cycle from a place that is not known",
+                     "X or Z was not given before it.");
+  const double x0 = *s.x_mm, z0 = *s.z_mm;
+  switch (box) {
+    case Box::turning:
+      s.straight(Kind::rapid, x, z0);
+      s.straight(Kind::feed, x, z);
+      s.straight(Kind::feed, x0, z);
+      break;
+    case Box::facing:
+      s.straight(Kind::rapid, x0, z);
+      s.straight(Kind::feed, x, z);
+      s.straight(Kind::feed, x, z0);
+      break;
+    case Box::threading:
+      s.straight(Kind::rapid, x, z0);
+      s.thread(x, z, lead_mm);
+      s.straight(Kind::rapid, x0, z);
+      break;
+  }
+  s.straight(Kind::rapid, x0, z0);
+}
+
+void thread_cycle(ModalState& s, const ThreadCycle& c) {
+  const double depth = std::abs(c.end_x_mm - c.outside_mm);
+  if (!(depth > 0 && c.first_mm > 0 && c.degression >= 1 && c.lead_mm > 0) || !s.x_mm)
+    return s.unknown("G76", "Depth, first infeed or lead is missing.");
+  const auto left = [depth](double cut_mm) { return cut_mm < depth - kRounding_mm; };
+  const double inwards = c.end_x_mm < c.outside_mm ? -1 : 1;
+  double cut = 0;
+  int springs = c.spring_cuts;
+  for (int k = 1; k <= kMostCuts && (left(cut) || springs-- > 0); ++k) {
+    const double wanted = c.first_mm * std::pow(k, 1 / c.degression);  // Eq. (1)
+    cut = std::min(depth, std::max(wanted, cut + c.least_mm));
+    box_cycle(s, Box::threading, c.outside_mm + inwards * cut, c.end_z_mm, c.lead_mm);
+  }
+  if (left(cut)) s.unknown("G76", "It has more than 200 cuts; only these are followed.");
+}
+
+void ThreadCycleReader::take(ModalState& s, gcode::Control control, const Block& block) {
+  if (!s.x_mm || !s.z_mm)
+    return s.unknown("G76 from a place that is not known",
+                     "X or Z was not given before it.");
+  if (control == gcode::Control::linuxcnc) return linuxcnc(s, block);
+  if (control == gcode::Control::haas) return haas(s, block);
+  fanuc(s, block);
+}
+
+void ThreadCycleReader::linuxcnc(ModalState& s, const Block& block) {
+  const double half = s.diameter ? 0.5 : 1;
+  const auto length = [&](const char* name) {
+    return s.mm(block.value(name).value_or(0));
+  };
+  ThreadCycle c;
+  c.outside_mm = *s.x_mm + half * length("I");
+  // An outer thread lies inside the drive line, I < 0, and is cut towards the axis.
+  c.end_x_mm = c.outside_mm + (length("I") > 0 ? 1 : -1) * half * length("K");
+  c.end_z_mm = s.incremental ? *s.z_mm + length("Z") : length("Z");
+  c.first_mm = half * length("J");
+  c.degression = block.value("R").value_or(1);
+  c.spring_cuts = static_cast<int>(std::clamp(block.value("H").value_or(0), 0.0, 99.0));
+  c.lead_mm = length("P");
+  if (block.value("E").value_or(0) > 0 && block.value("L").value_or(0) > 0)
+    s.assume("Tapered ends of threads (E and L of G76) are taken as straight.");
+  thread_cycle(s, c);
+}
+
+void ThreadCycleReader::fanuc(ModalState& s, const Block& block) {
+  const auto X = block.value("X"), Z = block.value("Z");
+  if (!X && !Z) {
+    least_mm_ = block.value("Q").value_or(0) / 1000;
+    return;
+  }
+  if (!X || !Z || block.value("R").value_or(0) != 0)
+    return s.unknown("G76", "Only straight threads with X and Z are followed.");
+  ThreadCycle c;
+  c.end_x_mm = s.mm(*X) / 2;
+  c.end_z_mm = s.mm(*Z);
+  const double depth = block.value("P").value_or(0) / 1000;
+  c.outside_mm = c.end_x_mm + (c.end_x_mm < *s.x_mm ? depth : -depth);
+  c.first_mm = block.value("Q").value_or(0) / 1000;
+  c.least_mm = least_mm_;
+  c.lead_mm = s.mm(block.value("F").value_or(0));
+  thread_cycle(s, c);
+}
+
+void ThreadCycleReader::haas(ModalState& s, const Block& block) {
+  const auto X = block.value("X"), Z = block.value("Z");
+  if (!X || !Z || block.value("I").value_or(0) != 0)
+    return s.unknown("G76", "Only straight threads with X and Z are followed.");
+  ThreadCycle c;
+  c.end_x_mm = s.mm(*X) / 2;
+  c.end_z_mm = s.mm(*Z);
+  const double depth = s.mm(block.value("K").value_or(0));
+  c.outside_mm = c.end_x_mm + (c.end_x_mm < *s.x_mm ? depth : -depth);
+  c.first_mm = s.mm(block.value("D").value_or(0));
+  c.lead_mm = s.mm(block.value("F").value_or(0));
+  thread_cycle(s, c);
+}
+
+}  // namespace turnwright::review

@@ -1,0 +1,124 @@
+#include "modal_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::review {
+namespace {
+
+using toolpath::Move;
+using toolpath::Step;
+
+constexpr std::size_t kUnknowns = 200;  // listed; more are counted by their reader
+constexpr double kFarthest_mm = 1e5;
+constexpr double kLeastFeed = 1e-6, kLeastSpeed = 1e-3;  // less is none
+
+bool same_conditions(const Step& a, const Step& b) {
+  return a.stop == b.stop && a.tool == b.tool && a.S == b.S &&
+         a.constant_surface_speed == b.constant_surface_speed &&
+         a.n_max_rpm == b.n_max_rpm && a.f_mm_rev == b.f_mm_rev;
+}
+
+}  // namespace
+
+ModalState::ModalState(const ReadOptions& options)
+    : limit_rpm(options.n_max_rpm), moves_max_(options.moves_max) {}
+
+void ModalState::unknown(std::string what, std::string why) {
+  auto& all = program.unknown;
+  if (all.size() < kUnknowns) all.push_back({line, std::move(what), std::move(why)});
+  if (all.size() == kUnknowns)
+    all.back() = {line, "more of this kind", "Only the first 200 are listed."};
+}
+
+void ModalState::assume(const std::string& sentence) {
+  auto& all = program.assumed;
+  if (std::ranges::find(all, sentence) == all.end()) all.push_back(sentence);
+}
+
+Step ModalState::conditions(const Move& move, double lead_mm) {
+  Step s;
+  s.tool = tool;
+  s.constant_surface_speed = surface_speed;
+  s.S = S;
+  s.n_max_rpm = surface_speed ? limit_rpm : 0;
+  s.f_mm_rev = lead_mm > 0 ? lead_mm : F;
+  if (per_revolution || lead_mm > 0) return s;
+  double n = S;
+  if (surface_speed) {
+    assume(
+        "A feed per minute at constant surface speed is taken at the spindle speed at "
+        "the end of its move.");
+    n = std::min(limit_rpm,
+                 units::spindle_rpm(S, std::max(2 * std::abs(move.x_mm), 1e-3)));
+  }
+  s.f_mm_rev = n > 0 ? F / n : 0;
+  return s;
+}
+
+void ModalState::append(const Move& move, double lead_mm) {
+  auto& runs = program.runs;
+  std::optional<toolpath::Point> from;
+  if (x_mm && z_mm) from = toolpath::Point{*x_mm, *z_mm};
+  auto step = conditions(move, lead_mm);
+  // A rapid belongs to the cuts that it leads to or from, whatever their feed.
+  if (move.kind == Move::Kind::rapid && !runs.empty() && !runs.back().step.stop)
+    step.f_mm_rev = runs.back().step.f_mm_rev;
+  if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
+  runs.back().moves.push_back({from, move, line});
+}
+
+void ModalState::to(Move move) {
+  const bool feeds = move.kind != Move::Kind::rapid;
+  if (++moves_ > moves_max_) return;
+  if (!(std::abs(move.x_mm) <= kFarthest_mm && std::abs(move.z_mm) <= kFarthest_mm)) {
+    unknown("coordinates beyond 100 m", "No machine goes there.");
+    return lose_place();
+  }
+  if (!suspended.empty()) {
+    if (feeds) unknown("a cut", suspended);
+  } else if (feeds && !turning) {
+    unknown("a cut with the spindle at rest", "No M3 or M4 is in force.");
+  } else if (feeds && !(F >= kLeastFeed && S >= kLeastSpeed)) {
+    unknown("a cut",
+            F >= kLeastFeed ? "No spindle speed is given." : "No feed is given.");
+  } else {
+    append(move, 0);
+  }
+  x_mm = move.x_mm;
+  z_mm = move.z_mm;
+}
+
+void ModalState::straight(Move::Kind kind, std::optional<double> x,
+                          std::optional<double> z) {
+  if (!x) x = x_mm;
+  if (!z) z = z_mm;
+  if (x && z) return to({kind, *x, *z});
+  if (kind != Move::Kind::rapid)
+    unknown("a cut from a place that is not known",
+            "It is not followed: X or Z was not given before it.");
+  x_mm = x;
+  z_mm = z;
+}
+
+void ModalState::thread(double x, double z, double lead_mm) {
+  if (++moves_ > moves_max_) return;
+  if (!suspended.empty())
+    unknown("a thread", suspended);
+  else if (!(lead_mm >= kLeastFeed && S >= kLeastSpeed) || !turning)
+    unknown("a thread", "Its lead or the spindle speed is not given.");
+  else
+    append({Move::Kind::thread, x, z}, lead_mm);
+  x_mm = x;
+  z_mm = z;
+}
+
+void ModalState::stop() {
+  Run run;
+  run.step.stop = true;
+  program.runs.push_back(std::move(run));
+}
+
+}  // namespace turnwright::review

@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "turnwright/review/program.hpp"
+
+/// A control between two blocks, and the moves that it has made.
+namespace turnwright::review {
+
+/// What a control holds until a block changes it.
+class ModalState {
+ public:
+  explicit ModalState(const ReadOptions& options);
+
+  // Conditions.
+  double F = 0, S = 0, limit_rpm = 0;
+  bool surface_speed = false, per_revolution = true, turning = false;
+  int tool = 0, chosen_tool = 0;
+  // Coordinates.
+  bool inch = false, diameter = true, incremental = false;
+  /// Why moves are not followed at present: a shifted zero, say.
+  std::string suspended = {};
+
+  double mm(double value) const { return inch ? 25.4 * value : value; }
+  std::optional<double> x_mm, z_mm;  ///< of the tip; none: not known
+  void lose_place() { x_mm.reset(), z_mm.reset(); }
+
+  /// Moves the tip and appends the move to the runs.
+  void to(toolpath::Move move);
+  /// A straight move, to coordinates or staying where they are not given.
+  void straight(toolpath::Move::Kind kind, std::optional<double> x,
+                std::optional<double> z);
+  /// A cut of a thread with a lead [mm].
+  void thread(double x, double z, double lead_mm);
+  void stop();
+
+  std::size_t line = 0;
+  void unknown(std::string what, std::string why);
+  void assume(const std::string& sentence);
+  bool full() const { return moves_ >= moves_max_; }
+
+  TurningProgram program;
+
+ private:
+  toolpath::Step conditions(const toolpath::Move& move, double lead_mm);
+  void append(const toolpath::Move& move, double lead_mm);
+
+  std::size_t moves_ = 0, moves_max_;
+};
+
+}  // namespace turnwright::review

@@ -1,0 +1,133 @@
+#include "words.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace turnwright::review {
+namespace {
+
+constexpr double kLargest = 1e7;
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+
+// Reads a line from its front.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view line) : line_(line) {}
+
+  bool done() const { return at_ >= line_.size(); }
+  char next() const { return done() ? '\0' : line_[at_]; }
+  void skip() { ++at_; }
+  void skip_blanks() {
+    while (!done() && is_blank(next())) ++at_;
+  }
+  std::size_t at() const { return at_; }
+  void back_to(std::size_t at) { at_ = at; }
+  std::string_view since(std::size_t from) const {
+    return line_.substr(from, at_ - from);
+  }
+  std::string_view rest() const { return line_.substr(std::min(at_, line_.size())); }
+
+  /// The text up to a closing bracket, or the end.
+  std::string comment(char closing) {
+    const auto end = std::min(line_.find(closing, at_), line_.size());
+    std::string inside(line_.substr(at_, end - at_));
+    at_ = end + 1;
+    return inside;
+  }
+  /// A number with an optional sign; where there is none the place stays.
+  std::optional<double> number() {
+    const auto start = at_;
+    skip_blanks();
+    if (next() == '+') skip();
+    double value = 0;
+    const auto [end, error] = std::from_chars(
+        line_.data() + at_, line_.data() + line_.size(), value, std::chars_format::fixed);
+    if (error != std::errc() || !(std::abs(value) <= kLargest)) {
+      at_ = start;
+      return std::nullopt;
+    }
+    at_ = static_cast<std::size_t>(end - line_.data());
+    return value;
+  }
+
+ private:
+  std::string_view line_;
+  std::size_t at_ = 0;
+};
+
+// The name of a word: a letter, or a name of letters and digits before "=" or alone.
+std::string name_of(Scanner& in, bool names) {
+  const auto start = in.at();
+  std::string name(1, capital(in.next()));
+  in.skip();
+  if (!names) return name;
+  while (is_letter(in.next()) || is_digit(in.next()) || in.next() == '_') {
+    name += capital(in.next());
+    in.skip();
+  }
+  const auto letters = std::ranges::count_if(name, is_letter);
+  if (letters > 1 || in.next() == '=') return name;
+  in.back_to(start + 1);
+  return name.substr(0, 1);
+}
+
+std::optional<Word> word_of(Scanner& in, bool names) {
+  const auto start = in.at();
+  Word w;
+  w.name = name_of(in, names);
+  if (w.name.size() == 1 || in.next() == '=') {
+    if (in.next() == '=') in.skip();
+    w.value = in.number();
+    if (!w.value) return std::nullopt;
+  }
+  if (in.next() == '(' && w.name.size() > 1) return std::nullopt;
+  w.text = in.since(start);
+  w.point = w.text.find('.') != std::string::npos;
+  return w;
+}
+
+}  // namespace
+
+const Word* Block::find(std::string_view name) const {
+  const auto found = std::ranges::find(words, name, &Word::name);
+  return found == words.end() ? nullptr : &*found;
+}
+
+std::optional<double> Block::value(std::string_view name) const {
+  const auto* word = find(name);
+  return word ? word->value : std::nullopt;
+}
+
+Block block_of(std::string_view line, bool names) {
+  Block block;
+  Scanner in(line);
+  in.skip_blanks();
+  if (in.next() == '/') {
+    block.deletable = true;
+    in.skip();
+  }
+  for (in.skip_blanks(); !in.done(); in.skip_blanks()) {
+    const char c = in.next();
+    const auto start = in.at();
+    if (c == ';' || (c == '(' && !names)) {
+      in.skip();
+      block.comments.push_back(in.comment(c == '(' ? ')' : '\n'));
+      continue;
+    }
+    const auto word = is_letter(c) ? word_of(in, names) : std::nullopt;
+    if (!word) {
+      in.back_to(start);
+      block.rest = in.rest();
+      break;
+    }
+    block.words.push_back(*word);
+  }
+  return block;
+}
+
+}  // namespace turnwright::review

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Blocks of a program as words and comments, whatever the control.
+namespace turnwright::review {
+
+/// "X12.5", "LIMS=2500", "X1=0", "DIAMON" (which has no value).
+struct Word {
+  std::string name;  ///< in capitals; of "X1=0" with its digit
+  std::optional<double> value = {};
+  bool point = false;     ///< whether the number has a point
+  std::string text = {};  ///< as it stands
+};
+
+struct Block {
+  std::vector<Word> words;
+  std::vector<std::string> comments;  ///< without their brackets
+  bool deletable = false;             ///< begins with "/"
+  std::string rest = {};              ///< what is not words: "#1=2", "CYCLE95(..)"
+
+  const Word* find(std::string_view name) const;
+  std::optional<double> value(std::string_view name) const;
+};
+
+/// Words of a line up to the first that is none.
+/// @param names  words of several letters, as Siemens writes them.
+Block block_of(std::string_view line, bool names);
+
+}  // namespace turnwright::review

@@ -1,0 +1,217 @@
+// Programs of `nc`, reviewed: their plans' forces, times and tolerances come back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "../nc/plans.hpp"
+#include "turnwright/cutting/cut.hpp"
+#include "turnwright/review/review.hpp"
+
+namespace turnwright::review {
+namespace {
+
+using nc::test::Planned;
+using planning::OperationPlan;
+
+/// The tool that an operation of a plan has in the program.
+MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
+  MountedTool m{.number = number};
+  for (const auto& t : p.part.tools)
+    if (t.id == o.tool) m.turning = t;
+  for (const auto& t : p.part.fixed_tools) {
+    if (t.id != o.tool) continue;
+    m.fixed = t;
+    const bool round =
+        t.use == catalogue::FixedUse::drilling || t.use == catalogue::FixedUse::centring;
+    m.size_mm = t.sizes_mm.empty() ? 0 : (round ? 2 : 1) * o.passes[0].ap_mm;
+  }
+  return m;
+}
+
+std::vector<MountedTool> turret(const Planned& p, const nc::Programs& programs) {
+  std::vector<MountedTool> all;
+  for (const auto& s : programs.setups)
+    for (const auto& t : s.tools)
+      for (const auto& setup : p.plan.setups)
+        for (const auto& o : setup.operations) {
+          const auto m = mounted(p, o, t.number);
+          if ((m.turning || m.fixed) && label(id(m), m.size_mm) == t.id &&
+              std::ranges::find(all, t.number, &MountedTool::number) == all.end())
+            all.push_back(m);
+        }
+  return all;
+}
+
+struct Reviewed {
+  nc::Programs programs;
+  std::vector<MountedTool> tools;
+  Review review;
+};
+
+Reviewed reviewed(const Planned& p, const nc::Settings& settings) {
+  Reviewed r{nc::programs(p.part, p.plan), {}, {}};
+  nc::number_tools(r.programs.setups, settings);
+  r.tools = turret(p, r.programs);
+  std::vector<ReviewedProgram> programs;
+  for (const auto& s : r.programs.setups)
+    programs.push_back({s.setup, read_program(nc::text(s, settings),
+                                              {.control = settings.control,
+                                               .n_max_rpm = p.part.machine.n_max_rpm})});
+  r.review = review(p.part, programs, r.tools);
+  return r;
+}
+
+/// The cut that an operation became: on its surface, with its tool, feed and speed.
+const Cut* cut_of(const ReviewedSetup& s, const OperationPlan& o) {
+  const Cut* found = nullptr;
+  for (const auto& c : s.cuts)
+    if (c.on == o.on[0] && c.tool_id == o.tool &&
+        std::abs(c.at.f_mm_rev - o.passes[0].f_mm_rev) < 2e-4 &&
+        (!c.at.constant_surface_speed || std::abs(c.at.S - o.passes[0].vc_m_min) < 1))
+      found = &c;
+  return found;
+}
+
+/// A plan reckons with nominal sizes, its program cuts to the middle of the limits with
+/// what the plan corrects: a finishing pass is deeper by what the program moves the surface.
+double moved_mm(const Reviewed& r, const Planned& p, const OperationPlan& o) {
+  const auto size = std::ranges::find(r.review.sizes, o.on[0], &MadeSize::on);
+  const bool finishes = o.kind == planning::OperationKind::finish ||
+                        o.kind == planning::OperationKind::bore_finish;
+  if (size == r.review.sizes.end() || !finishes) return 0;
+  const auto e = part::extent(p.part.drawing, o.on[0]);
+  return (size->nominal_mm - size->diameter_mm) / 2 * (e->inner ? -1 : 1);
+}
+
+double force_N(const Planned& p, const OperationPlan& o, double ap_mm) {
+  for (const auto& t : p.part.tools)
+    if (t.id == o.tool)
+      return cutting::forces_N(cutting::cut_of(p.part.material, t), ap_mm,
+                               o.passes[0].f_mm_rev)
+          .Fc_N;
+  return o.passes[0].Fc_N;
+}
+
+void expect_forces_of_plan(const std::string& name, const Planned& p, const Reviewed& r) {
+  for (const auto& s : r.review.setups)
+    for (const auto& o : p.plan.setups[s.setup].operations) {
+      const auto where = name + " " + o.id;
+      const auto e = part::extent(p.part.drawing, o.on[0]);
+      // On cones depths are normal to the way; what parts off finds the hole bored; arcs
+      // have a depth of their own everywhere.
+      const bool cone = e && e->left_mm != e->right_mm;
+      if (o.milled || cone || part::has_cut(p.part.drawing, o.on[0])) continue;
+      if (s.setup > 0 && p.part.drawing.stock.parted_mm) continue;
+      const auto* c = cut_of(s, o);
+      ASSERT_TRUE(c) << where;
+      const bool profiles = o.tool.starts_with("PROFILE");
+      if (profiles) continue;
+      const double moved = moved_mm(r, p, o);
+      const double n = static_cast<double>(o.passes.size());
+      // On shoulders roughing leaves a wedge of its lead angle.
+      const bool shoulder = o.on[0].find('|') != std::string::npos;
+      EXPECT_NEAR(c->loads.Fc_N / force_N(p, o, o.passes[0].ap_mm + moved / n), 1,
+                  shoulder ? 0.05 : 0.01)
+          << where;
+    }
+}
+
+// Per setup: how the time divides between cuts that follow each other is not the plan's.
+void expect_times_of_plan(const std::string& name, const Planned& p, const Reviewed& r) {
+  for (std::size_t i = 0; i < r.review.setups.size(); ++i) {
+    const auto& s = r.review.setups[i];
+    const auto& b = p.plan.setups[s.setup].breakdown;
+    const auto& m = r.programs.setups[i].minutes;
+    const auto& o = p.plan.setups[s.setup].operations;
+    if (std::ranges::any_of(o, [](const auto& x) { return x.milled.has_value(); }))
+      continue;
+    // The way to the first place is not known to a reader.
+    const auto& program = r.programs.setups[i];
+    const auto& first = program.steps.front().moves.front();
+    const double begin_min = std::max(std::abs(first.x_mm - program.change_x_mm),
+                                      std::abs(first.z_mm - program.change_z_mm)) /
+                             p.part.machine.rapid_mm_min;
+    const double read = s.minutes.total() + begin_min;
+    const double planned = b.cutting.time_min + b.air.time_min + b.tool_changes.time_min;
+    EXPECT_NEAR((read - m.entering) / planned, 1, 0.01) << name << s.setup;
+    EXPECT_NEAR(read / (m.total() - m.operator_stops), 1, 0.002) << name;
+  }
+}
+
+void expect_tolerances_of_plan(const std::string& name, const Planned& p,
+                               const Reviewed& r) {
+  const auto all = reconstructed(p.part, r.review);
+  for (const auto& why : all.cannot) ADD_FAILURE() << name << ": " << why;
+  if (!all.cannot.empty()) return;
+  auto q = with_operations(p.part, all.operations, r.tools);
+  for (std::size_t s = 0; s < q.setups.size(); ++s)
+    q.setups[s].clampings = {p.plan.setups[s].clamping};
+  const auto predicted = planning::predict(q);
+  ASSERT_EQ(predicted.tolerances.size(), p.plan.tolerances.size()) << name;
+  for (std::size_t i = 0; i < predicted.tolerances.size(); ++i) {
+    const auto &a = predicted.tolerances[i], &b = p.plan.tolerances[i];
+    EXPECT_EQ(a.verdict, b.verdict) << name << " " << a.id;
+    for (std::size_t k = 0; k < a.predicted_mm.size(); ++k)
+      EXPECT_NEAR(a.predicted_mm[k], b.predicted_mm[k], 0.01 * b.width_mm)
+          << name << " " << a.id;
+  }
+  EXPECT_NEAR(predicted.cost_per_part / p.plan.cost_per_part, 1, 0.01) << name;
+}
+
+void expect_review_of_plan(const std::string& name, const nc::Settings& settings) {
+  const auto& p = nc::test::planned_reference(name);
+  if (p.plan.status != planning::PlanStatus::ok) return;
+  const auto r = reviewed(p, settings);
+  for (const auto& s : r.review.setups) {
+    for (const auto& u : s.unknown)
+      ADD_FAILURE() << name << " line " << u.line << ": " << u.what << ": " << u.why;
+    EXPECT_TRUE(s.rapids.empty()) << name << " line " << s.rapids[0].line;
+  }
+  expect_forces_of_plan(name, p, r);
+  expect_times_of_plan(name, p, r);
+  expect_tolerances_of_plan(name, p, r);
+}
+
+TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInLinuxCnc) {
+  // The plans of some parts take most of the time: TURNWRIGHT_ALL_PARTS=1 has them too.
+  const std::set<std::string> slow{"gearbox-input-shaft", "infeasible-as-drawn",
+                                   "keyed-shaft"};
+  const bool all = std::getenv("TURNWRIGHT_ALL_PARTS") != nullptr;
+  for (const auto& name : nc::test::reference_parts())
+    if (all || !slow.contains(name))
+      expect_review_of_plan(name, {.control = gcode::Control::linuxcnc});
+}
+
+TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {
+  for (const char* name : {"drilled-bush", "pump-shaft", "threaded-spindle"})
+    expect_review_of_plan(name, {.control = gcode::Control::fanuc});
+}
+
+// A part with a drill, a groove and a thread in every control, threads by cycles too.
+TEST(ReviewOfOwnPrograms, IsTheSameInEveryControl) {
+  const auto& p = nc::test::planned_reference("threaded-spindle");
+  const auto one = reviewed(p, {.control = gcode::Control::linuxcnc});
+  for (const auto& d : gcode::dialects())
+    for (const bool cycles : {false, true}) {
+      if (cycles && d.thread_cycle.empty()) continue;
+      const auto r = reviewed(p, {.control = d.control, .cycles = cycles});
+      for (std::size_t i = 0; i < r.review.setups.size(); ++i) {
+        const auto &a = one.review.setups[i], &b = r.review.setups[i];
+        EXPECT_TRUE(b.unknown.empty()) << d.id << ": " << b.unknown[0].what;
+        ASSERT_EQ(a.cuts.size(), b.cuts.size()) << d.id;
+        for (std::size_t k = 0; k < a.cuts.size(); ++k) {
+          EXPECT_EQ(a.cuts[k].on, b.cuts[k].on) << d.id;
+          EXPECT_NEAR(b.cuts[k].loads.Fc_N / a.cuts[k].loads.Fc_N, 1, 0.02)
+              << d.id << " " << a.cuts[k].on;
+        }
+        EXPECT_NEAR(b.minutes.total() / a.minutes.total(), 1, cycles ? 0.02 : 0.005)
+            << d.id;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace turnwright::review
