@@ -97,8 +97,7 @@ void read_tools(Draft& draft, const catalogue::Shop& shop) {
   } else {
     plan.tools = at_hand(draft.catalogue.tools, shop);
     const auto behind = std::ranges::stable_partition(
-        plan.tools,
-        [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
+        plan.tools, [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
     draft.undercut_tools.assign(behind.begin(), behind.end());
     plan.tools.erase(behind.begin(), behind.end());
     draft.assume("/tools", ids(plan.tools),

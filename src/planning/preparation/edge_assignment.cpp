@@ -125,11 +125,12 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
-        not_cut.push_back(
-            "the chamfer at the " + std::string(end == End::left ? "left" : "right") +
-            " end of " + e.id + " cannot be cut in any setup: none makes " + e.id +
-            " or the surface before that end, with the end free, enough wall for the tool "
-            "and room before the jaws");
+        not_cut.push_back("the chamfer at the " +
+                          std::string(end == End::left ? "left" : "right") + " end of " +
+                          e.id + " cannot be cut in any setup: none makes " + e.id +
+                          " or the surface before that end, with the end free, enough "
+                          "wall for the tool "
+                          "and room before the jaws");
     }
 }
 
