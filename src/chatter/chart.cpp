@@ -14,6 +14,9 @@ namespace turnwright::chatter {
 namespace {
 
 constexpr int kDepths = 40;  // scanned by the reference methods
+/// After one speed that could not be searched to the end, slower ones get this part of its
+/// work each.
+constexpr double kPatience = 10;
 
 Dominant by_reference(const ChartRequest& q, double n_rpm, double ap_mm,
                       const std::stop_token& stop) {
@@ -25,9 +28,10 @@ Dominant by_reference(const ChartRequest& q, double n_rpm, double ap_mm,
   return simulation(q.system, n_rpm, ap_mm);
 }
 
-SpeedLimits limits_of(const ChartRequest& q, double n_rpm, const std::stop_token& stop) {
+SpeedLimits limits_of(const ChartRequest& q, double n_rpm, double work,
+                      const std::stop_token& stop) {
   leave_if(stop);
-  if (q.shaped()) return speed_limits(*q.cutter, n_rpm, *q.ap_max_mm, q.depths_mm);
+  if (q.shaped()) return speed_limits(*q.cutter, n_rpm, *q.ap_max_mm, q.depths_mm, work);
   if (q.method == Method::fundamental_matrix)
     return speed_limits(q.system, n_rpm, *q.ap_max_mm, q.depths_mm);
   return scanned_limits(q.system, n_rpm, *q.ap_max_mm, kDepths, [&](double ap_mm) {
@@ -51,9 +55,15 @@ ChartPoint judged(const ChartRequest& q, const OperatingPoint& p,
   return out;
 }
 
+constexpr const char* kUndecidedAbove =
+    "stable up to stable_to_mm; the search above takes too long";
+
 /// Searches at speeds or points, one after the other.
 class Attempts {
  public:
+  /// @param each  whether none is skipped because an earlier one would take too long.
+  explicit Attempts(bool each) : each_(each) {}
+
   /// The result at the i-th of them; none if it is outside the range of the method, or at
   /// least as difficult as an earlier one that would have taken too long.
   template <class F>
@@ -67,12 +77,17 @@ class Attempts {
     try {
       return compute();
     } catch (const TooManyVibrations& e) {
-      too_long_.push_back(asked);
+      if (!each_) too_long_.push_back(asked);
       undecided_[i] = {i, asked, e.what()};
     } catch (const ModelRangeError& e) {
       undecided_[i] = {i, asked, e.what()};
     }
     return std::nullopt;
+  }
+
+  /// Notes that the i-th is stable up to a depth and undecided above it.
+  void undecided_above(std::size_t i, const OperatingPoint& asked, double stable_to_mm) {
+    undecided_[i] = {i, asked, kUndecidedAbove, 0, stable_to_mm};
   }
 
   /// The undecided ones in the order of the request.
@@ -83,6 +98,7 @@ class Attempts {
   }
 
  private:
+  bool each_;
   std::vector<OperatingPoint> too_long_;
   std::map<std::size_t, Undecided> undecided_;
 };
@@ -143,11 +159,12 @@ StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& sto
     if (tell) tell(++done, q.speeds_rpm.size() + q.points.size());
   };
   const auto systems = q.bands ? drawn(q.system, *q.bands) : std::vector<System>{};
-  Attempts speeds, points;
+  Attempts speeds(q.shaped()), points(q.shaped());
+  double work = q.work;
   for (const std::size_t i : from_the_fastest(q.speeds_rpm)) {
     const double n_rpm = q.speeds_rpm[i];
     auto speed = speeds.at(i, {n_rpm, *q.ap_max_mm}, [&] {
-      ChartSpeed found{i, limits_of(q, n_rpm, stop), {}};
+      ChartSpeed found{i, limits_of(q, n_rpm, work, stop), {}};
       if (q.bands) {
         leave_if(stop);
         found.uncertain =
@@ -155,7 +172,11 @@ StabilityChart stability_chart(const ChartRequest& q, const std::stop_token& sto
       }
       return found;
     });
-    if (speed) out.speeds.push_back(std::move(*speed));
+    if (!speed || speed->limits.searched_mm) work = q.work / kPatience;
+    if (speed && speed->limits.searched_mm && !speed->limits.limit_mm())
+      speeds.undecided_above(i, {n_rpm, *q.ap_max_mm}, *speed->limits.searched_mm);
+    else if (speed)
+      out.speeds.push_back(std::move(*speed));
     one_done();
   }
   std::ranges::sort(out.speeds, {}, &ChartSpeed::index);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -33,35 +34,47 @@ struct OneInterpolant {
 double outwards(const Local& g) { return cross(g.g_theta, g.g_w) / std::norm(g.g_theta); }
 
 /// A step in depth towards |mu| = 1 for the multiplier that is nearest e^(i theta).
-double step_out(const MultipliersAt& multipliers, const OnCircle& at, double outwards) {
-  const Complex right = std::polar(1.0, at.theta);
-  const auto all = multipliers(at.w_mm);
-  const Complex nearest =
-      *std::ranges::min_element(all, {}, [&](Complex mu) { return modulus(mu - right); });
-  return -std::log(modulus(nearest)) / outwards;
+double step_out(const DelayMap& map, const OnCircle& at, double outwards) {
+  return -std::log(modulus(map.multiplier_near(std::polar(1.0, at.theta)))) / outwards;
 }
 
-/// Steps on one map after the other, each finer than the last, until a step is too small
-/// to matter as error.  `at` initially has the error by the noise of the interpolant.
-void refine(const std::vector<MultipliersAt>& finer, double outwards, OnCircle& at) {
+/// The map of a depth at a fineness; counted as work.
+using MapAt = std::function<DelayMap(double w_mm, const Fineness& fineness)>;
+
+/// Steps on one map after the other, each finer than the last, at least two and until the
+/// error is too small to matter.  An error by kinks falls at least with the square of the
+/// fineness, so that what is left is below 1.3 steps; 3 are told.  A step may be small by
+/// chance, so the error is at least 0.3 of the step before, and at least 1e-10.  `at` initially has the
+/// error by the noise of the interpolant.
+void refine(const MapAt& map_at, double outwards, OnCircle& at) {
   constexpr double kLarge = 5e-9;
-  double noise = at.relative_error;
-  for (const MultipliersAt& multipliers : finer) {
+  constexpr double kSteps = 3, kByChance = 0.3, kLeast = 1e-10;
+  constexpr double kRounding = 1e-13;  // of ln |mu|
+  const double rounding = kRounding / std::abs(outwards) / at.w_mm;
+  double before = at.relative_error;
+  Eigen::Index unknowns = 0;
+  bool again = false;
+  for (const Fineness& fineness : kFiner) {
     try {
-      const double step = step_out(multipliers, at, outwards);
-      at.relative_error = std::abs(step) / at.w_mm + std::exchange(noise, 0);
+      const DelayMap map = map_at(at.w_mm, fineness);
+      if (map.unknowns() <= unknowns) continue;  // the same nodes again
+      unknowns = map.unknowns();
+      const double step = step_out(map, at, outwards), size = std::abs(step) / at.w_mm;
       at.w_mm += step;
+      at.relative_error =
+          std::max({kSteps * size, kByChance * before, kLeast}) + rounding;
+      before = std::max(size, before * (again ? 0 : kByChance));
     } catch (const ModelRangeError&) {  // a finer map would be too large
-      if (noise > 0) throw;
+      if (!again) throw;
       return;
     }
-    if (at.relative_error <= kLarge) return;
+    if (std::exchange(again, true) && at.relative_error <= kLarge) return;
   }
 }
 
 /// Newton's method on the interpolant, then steps to the finer maps' multipliers.
-OnCircle polished(const CharacteristicInterpolant& interpolant,
-                  const std::vector<MultipliersAt>& finer, const Box& zero) {
+OnCircle polished(const CharacteristicInterpolant& interpolant, const MapAt& map_at,
+                  const Box& zero) {
   constexpr int kSteps = 30;
   OnCircle at{.w_mm = zero.w, .theta = zero.theta};
   const bool on_line = at.theta == 0 || at.theta == kPi;
@@ -80,59 +93,70 @@ OnCircle polished(const CharacteristicInterpolant& interpolant,
                                      : std::abs(g.g_theta / cross(g.g_w, g.g_theta)));
   at.change = (outwards(g) > 0 ? 1 : -1) * (on_line ? 1 : 2);
   at.relative_error = uncertain / at.w_mm;
-  refine(finer, outwards(g), at);
+  refine(map_at, outwards(g), at);
   return at;
 }
 
 /// Zeros on the circle from 0 up to a depth.
 class Ascent {
  public:
-  Ascent(const Cutter& cutter, double n_rpm, double ap_max)
-      : cutter_(cutter), n_rpm_(n_rpm), ap_max_(ap_max) {
-    finer_.push_back(at_depths({0, ap_max}, kFiner));
-    for (const Fineness& fineness : kFinest)
-      finer_.push_back(at_depths({0, ap_max}, fineness));
-    double from = 0;
+  Ascent(const Cutter& cutter, double n_rpm, double ap_max, double work)
+      : cutter_(cutter), n_rpm_(n_rpm), ap_max_(ap_max), left_(work) {
     std::vector<double> ends = kinks_mm(cutter, n_rpm, ap_max);
     ends.push_back(ap_max);
-    for (const double to : ends)
-      if (to > from) {
-        climb(from, to);
-        from = to;
-      }
+    try {
+      for (const double to : ends)
+        if (to > searched_) climb(searched_, to);
+    } catch (const ModelRangeError&) {
+      if (searched_ == 0) throw;
+    }
     std::ranges::sort(zeros_, {}, &OnCircle::w_mm);
   }
 
   const std::vector<OnCircle>& zeros() const { return zeros_; }
+  /// Depth up to which they are all found.
+  double searched_mm() const { return searched_; }
 
  private:
-  MultipliersAt at_depths(const DelayMap::Range& range, const Fineness& fineness) {
-    return [this, range, fineness](double w) {
-      const DelayMap map(cutter_, n_rpm_, w, range, fineness);
-      work_ += map.work();
-      if (work_ > kWork)
-        throw TooManyVibrations(
-            "milling: the search takes too long; ask for a smaller ap_max_mm or a higher "
-            "speed");
-      return map.multipliers();
-    };
+  void spend(double work) {
+    left_ -= work;
+    if (left_ < 0) throw TooManyVibrations(kTooLong);
   }
 
-  void climb(double from, double to) {
-    constexpr double kTail = 1e-9, kRough = 1e-5, kNarrow = 1e-2;
-    // At the ends of a range ends of engagement may coincide, so that pieces vanish;
-    // samples are therefore taken at this distance from them.
+  // At the ends of a range ends of engagement may coincide, so that pieces vanish;
+  // samples are therefore taken beside them.
+  std::optional<CharacteristicInterpolant> sampled(double from, double to, double tail) {
     constexpr double kBeside = 1e-10;  // rad
-    const bool narrow = to - from < kNarrow * ap_max_;
+    constexpr int kSamples = 17;
     const double lag = lag_rad_mm(cutter_),
                  least = lag > 0 ? std::min(kBeside / lag, 1e-6 * (to - from)) : 0;
-    const MultipliersAt within = at_depths({from, to}, kPlain);
+    const DelayMap::Range range{from, to};
+    const double most =
+        kSamples * DelayMap(cutter_, n_rpm_, to - least, range, kPlain).work();
+    if (most > left_ / 2) throw TooManyVibrations(kTooLong);
     const auto beside = [&](double w) {
-      return within(std::clamp(w, from + least, to - least));
+      const DelayMap map(cutter_, n_rpm_, std::clamp(w, from + least, to - least), range,
+                         kPlain);
+      spend(map.work());
+      return map.multipliers();
     };
-    const auto interpolant =
-        CharacteristicInterpolant::sampled(beside, from, to, narrow ? kRough : kTail);
-    if (interpolant && enter(*interpolant)) return;
+    return CharacteristicInterpolant::sampled(beside, from, to, tail);
+  }
+
+  /// Searches a range, or its halves if the whole is not precise enough, too large or
+  /// more than half of the work left: so low depths are told where deep ones cannot be.
+  void climb(double from, double to) {
+    constexpr double kTail = 1e-7, kRough = 1e-5, kNarrow = 1e-2;
+    const bool narrow = to - from < kNarrow * ap_max_;
+    try {
+      const auto interpolant = sampled(from, to, narrow ? kRough : kTail);
+      if (interpolant && enter(*interpolant)) {
+        searched_ = to;
+        return;
+      }
+    } catch (const TooManyVibrations&) {
+      if (narrow) throw;
+    }
     if (narrow)
       throw ModelRangeError(
           "milling: the stability of this cutter near a depth of " +
@@ -152,10 +176,15 @@ class Ascent {
     } catch (const ModelRangeError&) {
       return false;
     }
+    const auto map_at = [this](double w_mm, const Fineness& fineness) {
+      DelayMap map(cutter_, n_rpm_, w_mm, fineness);
+      spend(map.work_near());
+      return map;
+    };
     std::vector<OnCircle> found;
     int count = interpolant.unstable_at_from();
     for (const Box& zero : search.found()) {
-      const OnCircle at = polished(interpolant, finer_, zero);
+      const OnCircle at = polished(interpolant, map_at, zero);
       const auto again = [&](const OnCircle& other) {
         return std::abs(other.w_mm - at.w_mm) < 1e-8 * at.w_mm &&
                std::abs(other.theta - at.theta) < 1e-6;
@@ -171,26 +200,35 @@ class Ascent {
     return true;
   }
 
+  static constexpr const char* kTooLong =
+      "milling: the search takes too long; ask for a smaller ap_max_mm or a higher speed";
   const Cutter& cutter_;
-  static constexpr double kWork = 2e11;  // half a minute
-  double n_rpm_, ap_max_, work_ = 0;
-  std::vector<MultipliersAt> finer_;
+  double n_rpm_, ap_max_, left_, searched_ = 0;  // operations left
   std::vector<OnCircle> zeros_;
 };
 
 }  // namespace
 
 SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
-                         std::span<const double> depths_mm) {
-  const auto zeros = std::holds_alternative<ConstantForce>(cutter.system.force)
-                         ? turning_on_circle(cutter, n_rpm, ap_max_mm)
-                         : Ascent(cutter, n_rpm, ap_max_mm).zeros();
-  return charted(zeros, cutter.system, n_rpm, period_s(cutter, n_rpm), depths_mm);
+                         std::span<const double> depths_mm, double work) {
+  const auto told = [&](const std::vector<OnCircle>& zeros,
+                        std::span<const double> depths) {
+    return charted(zeros, cutter.system, n_rpm, period_s(cutter, n_rpm), depths);
+  };
+  if (std::holds_alternative<ConstantForce>(cutter.system.force))
+    return told(turning_on_circle(cutter, n_rpm, ap_max_mm), depths_mm);
+  const Ascent ascent(cutter, n_rpm, ap_max_mm, work);
+  const double searched = ascent.searched_mm();
+  if (searched == ap_max_mm) return told(ascent.zeros(), depths_mm);
+  const auto deeper = std::ranges::upper_bound(depths_mm, searched);
+  SpeedLimits out = told(ascent.zeros(), {depths_mm.begin(), deeper});
+  out.searched_mm = searched;
+  return out;
 }
 
 std::vector<Surface> surfaces(const Cutter& cutter, double n_rpm, double ap_mm) {
   constexpr int kHeights = 21;
-  const DelayMap map(cutter, n_rpm, ap_mm, kFiner);
+  const DelayMap map(cutter, n_rpm, ap_mm, kFiner.front());
   const DelayMap::Forced forced = map.forced();
   std::vector<Surface> out;
   for (const bool at_entry : {true, false}) {
@@ -217,7 +255,7 @@ Multipliers multipliers(const Cutter& cutter, double n_rpm, double ap_mm) {
     return static_cast<int>(
         std::ranges::count_if(all, [](Complex mu) { return modulus(mu) > 1; }));
   };
-  const auto fine = DelayMap(cutter, n_rpm, ap_mm, kFiner).multipliers(),
+  const auto fine = DelayMap(cutter, n_rpm, ap_mm, kFiner.front()).multipliers(),
              coarse = DelayMap(cutter, n_rpm, ap_mm, kPlain).multipliers();
   const double radius = modulus(fine.front());
   const double differ = std::abs(radius - modulus(coarse.front()));

@@ -102,6 +102,16 @@ Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
   return p;
 }
 
+/// The axis along which a facet is touched: that nearest to its normal, of equally near
+/// ones the first, so that rounding does not decide.
+Index probing_axis(const Vector3d& normal) {
+  constexpr double kAlike = 1e-9;
+  const Vector3d size = normal.cwiseAbs();
+  Index k = 0;
+  while (size[k] < size.maxCoeff() - kAlike) ++k;
+  return k;
+}
+
 /// Calls ball(R, pose, stylus, index) and touch(R, pose, stylus, signs of X, Y, Z) for
 /// each probing, in the order of the readings.
 template <class Ball, class Touch>
@@ -110,8 +120,7 @@ void each_probing(const SambaStrategy& s, Ball ball, Touch touch) {
   for (const Indexation& at : s.indexations) {
     const Matrix3d R = rotation(at);
     const Vector3d on_machine = R * n;
-    Index probing = 0;
-    on_machine.cwiseAbs().maxCoeff(&probing);
+    const Index probing = probing_axis(on_machine);
     for (const Vec3& stylus : s.styli_mm) {
       for (const std::size_t b : at.balls) ball(R, at, stylus, b);
       for (const auto& move : at.pre_moves) {

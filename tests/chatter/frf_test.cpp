@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -422,6 +423,83 @@ TEST(Frf, AResponseAcrossAxesIsRefusedInNoiseToo) {
     FrequencyResponse r = measured(cross, 300, 1500, 300);
     add_noise(r, 5e-5, seed);  // of a highest peak of 3e-3
     EXPECT_EQ(refused(r), NoFit::Why::negative);
+  }
+}
+
+/// The highest hidden mode of the octave in which a frequency lies.
+double hidden_share(const ModalFit& f, double from_Hz, double f_Hz) {
+  double out = 0;
+  for (const HiddenMode& m : f.hidden)
+    if (std::abs(std::log2(m.wn_rad_s / (2 * kPi * f_Hz))) < 1)
+      out = std::max(out, m.share);
+  return f_Hz < from_Hz ? 0 : out;
+}
+
+// Of 1 to 6 modes, lines 1 to 5 Hz apart, 1 % of noise, the weak ones may be lost; then
+// the fit tells that modes as high as they could be.
+TEST(Frf, WhatNoiseMayHideIsBounded) {
+  constexpr double kFrom = 50, kTo = 3000;
+  const int responses = std::getenv("TURNWRIGHT_LONG_TESTS") ? 40 : 12;
+  int lost = 0;
+  for (const int derivative : {0, 2})
+    for (int i = 0; i < responses; ++i) {
+      SCOPED_TRACE(testing::Message() << "response " << i << " of " << derivative);
+      std::mt19937 bits(500 + static_cast<unsigned>(i));
+      const auto within = [&](double a, double b) {
+        return std::uniform_real_distribution<>(a, b)(bits);
+      };
+      std::vector<True> modes;
+      for (int k = 0; k <= i % 6; ++k)
+        modes.push_back({within(150, 2500), within(0.01, 0.05),
+                         std::exp(within(std::log(3e3), std::log(6e4)))});
+      auto r = measured(modes, kFrom, kTo,
+                        1 + static_cast<int>((kTo - kFrom) / within(1, 5)), derivative);
+      double top = 0;
+      for (const Complex& y : r.value) top = std::max(top, std::abs(y));
+      add_noise(r, 0.01 * top / std::sqrt(2), static_cast<unsigned>(i));
+      const auto out = modal_fit(r);
+      const auto* found = std::get_if<ModalFit>(&out);
+      if (!found) continue;  // refused is told
+      double highest = 0;
+      for (const FittedMode& m : found->modes)
+        highest = std::max(highest, 1 / (2 * m.zeta.value * m.k_N_mm.value));
+      for (const True& t : modes) {
+        const bool is_found = std::ranges::any_of(found->modes, [&](const FittedMode& m) {
+          return std::abs(std::log(m.wn_rad_s.value / (2 * kPi * t.f_Hz))) < 3 * t.zeta;
+        });
+        if (is_found) continue;
+        ++lost;
+        EXPECT_LE(1 / (2 * t.zeta * t.k_N_mm) / highest,
+                  hidden_share(*found, kFrom, t.f_Hz))
+            << t.f_Hz << " Hz";
+      }
+    }
+  EXPECT_GE(lost, 3);
+}
+
+TEST(Frf, WithoutNoiseNothingIsHidden) {
+  const ModalFit f = fit(measured(kThree, 50, 3000, 900));
+  for (const HiddenMode& m : f.hidden) EXPECT_LT(m.share, 1e-6);
+}
+
+// Ten times the noise hides ten times the mode; a mode of accelerance four times the mode
+// an octave below.
+TEST(Frf, HiddenModesGrowWithTheNoise) {
+  const auto hidden = [](double noise, int derivative) {
+    auto r = measured(kOne, 50, 3000, 1200, derivative);
+    add_noise(r, noise, 7);
+    return fit(r, 1).hidden;
+  };
+  const auto once = hidden(1e-4, 0), ten = hidden(1e-3, 0);
+  ASSERT_EQ(once.size(), ten.size());
+  ASSERT_GE(once.size(), 5u);
+  for (std::size_t i = 0; i < once.size(); ++i)
+    EXPECT_NEAR(ten[i].share / once[i].share, 10, 0.5);
+  const auto accelerance = hidden(1e3, 2);
+  for (std::size_t i = 0; i + 1 < 3; ++i) {
+    const double fall = accelerance[i].share / accelerance[i + 1].share;
+    EXPECT_GT(fall, 4);  // and more lines in the wider peak
+    EXPECT_LT(fall, 8);
   }
 }
 

@@ -231,6 +231,54 @@ TEST(Samba, NoiseStaysWithinThePredictedUncertainty) {
   EXPECT_NEAR(s0, 1e-3, 2e-5);
 }
 
+// The fit is linear, so the bar's part of a value's scatter is its slope by the length.
+TEST(Samba, TheBarCountsAsOneReading) {
+  constexpr double kNoise = 1e-3;
+  constexpr int kTrials = 200;
+  const Truth t;
+  auto longer = t.s;
+  longer.scale_bar_mm += 1;
+  const SambaFit once = samba_fit(t.s, t.names, t.readings, kNoise),
+                 more = samba_fit(longer, t.names, t.readings, kNoise);
+  double least = 1;
+  for (const bool exact : {false, true}) {
+    std::mt19937 random(11);
+    std::normal_distribution<> noise(0, kNoise);
+    std::vector<double> squares(once.value.size());
+    for (int trial = 0; trial < kTrials; ++trial) {
+      auto readings = t.readings;
+      for (double& r : readings) r += noise(random);
+      auto s = t.s;
+      if (!exact) s.scale_bar_mm += noise(random);
+      const SambaFit fit = samba_fit(s, t.names, readings, kNoise);
+      for (std::size_t j = 0; j < squares.size(); ++j)
+        squares[j] += std::pow((fit.value[j] - once.value[j]) / fit.u[j], 2) / kTrials;
+    }
+    for (std::size_t j = 0; j < squares.size(); ++j) {
+      const double by_bar = kNoise * (more.value[j] - once.value[j]) / once.u[j];
+      const double share = exact ? std::sqrt(1 - by_bar * by_bar) : 1;
+      EXPECT_NEAR(std::sqrt(squares[j]), share, 0.2 * share) << once.of.unknowns[j];
+      least = std::min(least, share);
+    }
+  }
+  EXPECT_LT(least, 0.9);
+}
+
+// Between two axes equally near to the normal rounding does not choose.
+TEST(Samba, TheAxisOfATouchDoesNotDependOnRounding) {
+  const auto readings = [](const Vec3& normal) {
+    auto s = strategy();
+    s.facet_normal = normal;
+    return samba_readings(s, {{"EXXb", 1e-3}, {"EYYb", 2e-3}, {"EZZb", 4e-3}});
+  };
+  const auto right = readings({1, 1, 0});
+  for (const Vec3& beside : {Vec3{1 + 1e-12, 1, 0}, Vec3{1, 1 + 1e-12, 0}}) {
+    const auto found = readings(beside);
+    for (std::size_t i = 0; i < right.size(); ++i)
+      EXPECT_NEAR(found[i], right[i], 1e-12) << i;
+  }
+}
+
 TEST(Samba, RefusesValuesOfWhatItCannotKnow) {
   const Truth t;
   auto names = t.names;

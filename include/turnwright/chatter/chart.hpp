@@ -39,6 +39,7 @@ struct ChartRequest {
   std::optional<Bands> bands;
   std::optional<SpeedRange> machine;  ///< speeds of the machine; absent: all
   std::vector<OperatingPoint> points;
+  double work = kSearchWork;  ///< operations for a speed of a cutter beyond the plain one
 
   /// Whether depth and delay enter by more than one number kappa, see cutter.hpp.
   bool shaped() const;
@@ -66,6 +67,7 @@ struct Undecided {
   OperatingPoint at;      ///< for a speed with ap_max as depth
   std::string why;        ///< empty if it was not tried
   double harder_rpm = 0;  ///< if not tried: a faster speed that already takes too long
+  std::optional<double> stable_to_mm = {};  ///< depth up to which a speed is stable
 };
 
 struct StabilityChart {
@@ -85,7 +87,9 @@ using ChartProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Computes a chart.  Speeds are searched from the highest down, because slow ones take
 /// longest: once a search would take too long, slower ones at the same or greater depths
-/// are not tried.
+/// are not tried.  Cutters with helix, pitches, runout or damping are tried at every
+/// speed, with a tenth of the work after the first that could not be searched to the end.
+/// `speeds` has those that are searched to the end or lose stability below `searched_mm`.
 /// @throws Cancelled soon after a stop was requested.
 StabilityChart stability_chart(const ChartRequest& request,
                                const std::stop_token& stop = {},

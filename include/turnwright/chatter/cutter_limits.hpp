@@ -7,18 +7,26 @@
 
 namespace turnwright::chatter {
 
+/// Operations that the search at one speed may take: some ten seconds.
+inline constexpr double kSearchWork = 2e11;
+
 /// The limits as by the function of the same name in limits.hpp, for cutters with helix,
 /// unequal pitches, runout or process damping.  The multipliers are those of the delayed
 /// motion, collocated at several depths (delay_map.hpp).  Between these their
-/// characteristic function is interpolated until its tail is below 1e-9 of it, with a
-/// helix 1e-6; the tail counts as noise (characteristic_interpolant.hpp).  The search for
+/// characteristic function is interpolated until its tail is below 1e-7 of it, in short
+/// ranges 1e-5; the tail counts as noise (characteristic_interpolant.hpp).  The search for
 /// crossings is made on that function, so that islands are not missed.
 ///
 /// If the teeth differ a multiplier may be 1: `fold`.  Turning, with or without
 /// indentation, is computed in closed form, see turning.hpp.
-/// @throws ModelRangeError as that function, and if a period needs too many nodes.
+///
+/// Low depths are searched first.  Where deeper ones take more than `work` operations, a
+/// period of them needs too many nodes, or a multiplier stays too near the circle, the
+/// crossings found so far are returned with `searched_mm`.
+/// @throws ModelRangeError as that function, and if no depth at all can be decided.
 SpeedLimits speed_limits(const Cutter& cutter, double n_rpm, double ap_max_mm,
-                         std::span<const double> depths_mm = {});
+                         std::span<const double> depths_mm = {},
+                         double work = kSearchWork);
 
 /// `unstable` is the count by collocation, on which two finenesses of nodes must agree;
 /// `certified` is true if no multiplier is nearer to the circle than ten times the

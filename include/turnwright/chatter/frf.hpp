@@ -24,6 +24,13 @@ struct FittedMode {
   Measured wn_rad_s, zeta, k_N_mm;
 };
 
+/// A mode that noise may hide.
+struct HiddenMode {
+  double wn_rad_s = 0, zeta = 0;
+  double k_N_mm = 0;  ///< a mode at least as stiff would not be found
+  double share = 0;   ///< its peak 1/(2 zeta k) over the highest fitted one
+};
+
 struct ModalFit {
   std::vector<FittedMode> modes;  ///< rising in frequency
   Measured above_mm_N;            ///< c of (1): modes above the lines
@@ -36,6 +43,8 @@ struct ModalFit {
   /// Correlation of e/s at neighbouring lines, in [-1, 1]: near 0 if the residual is
   /// noise; otherwise the uncertainties are too small.
   double correlation = 0;
+  /// In each octave from the first line the highest mode that (2) would not add, by (4).
+  std::vector<HiddenMode> hidden;
 };
 
 /// The reason why there is no fit, with the frequency at which it appears, if any.
@@ -89,6 +98,17 @@ struct NoFit {
 ///
 /// make the residual likelier, that is, if 2 L ln(sum |e|^2 / s^2 / 2 L) + 4 sum ln s
 /// falls by more than 5 ln(2 L), all is fitted again with them, at most twice.
+///
+/// A mode of compliance a at one of the lines lowers the residual by a^2 S, S the sum of
+/// squares of its shape over s that the fitted modes cannot explain, up to noise of 2 t
+/// in the root.  So a mode is found, as a rule, if
+///
+///     a sqrt(S) > t (sqrt(5 ln(2 L)) + 2)                                            (4)
+///
+/// with t as above.  The highest mode below that, of a damping ratio of 0.01 (a mode that
+/// is damped more has a lower peak) and not within two widths of a fitted one, is
+/// `hidden`.  Alone it would chatter from 1/share of the least depth on at which the
+/// highest fitted mode does.
 ///
 /// A response of which less than 0.98 is explained, or nothing, is fitted as each of the
 /// other two derivatives as well, and refused if one of these leaves less than a tenth of

@@ -19,6 +19,9 @@ struct SpeedLimits {
   double n_rpm = 0;
   std::vector<Crossing> crossings;  ///< rising
   std::vector<int> unstable;        ///< unstable multipliers at the requested depths
+  /// Depth at which the search ended, if not at the largest: deeper ones are undecided,
+  /// and `unstable` ends there.
+  std::optional<double> searched_mm = {};
   /// The first loss; none if the cut is stable up to the largest depth.
   std::optional<double> limit_mm() const;
 };

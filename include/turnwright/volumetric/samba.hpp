@@ -18,7 +18,8 @@ struct Indexation {
   double B_rad = 0, C_rad = 0;
   std::vector<std::size_t> balls;  ///< indices in SambaStrategy::balls_mm
   /// Signs of the last motion of the two axes across the probing direction, in the order
-  /// X Y Z; the probing axis itself moves against the facet's normal.
+  /// X Y Z; the probing axis, that nearest to the facet's normal in this pose, of equally
+  /// near ones the first, itself moves against the normal.
   std::vector<std::array<double, 2>> pre_moves;
 };
 
@@ -94,7 +95,8 @@ struct SambaFit {
 };
 
 /// Least-squares solution of (1) to (3).  u is `noise_mm`, or s0 if that is not given,
-/// times the root of the diagonal of the cofactor matrix.
+/// times the root of the diagonal of the cofactor matrix.  The length of the scale bar (3)
+/// counts as one reading with the same noise.
 /// @param readings_mm  one after the other in the order of the strategy (indexations,
 ///   then styli, then balls and touches): three values for a ball, one for a touch.
 /// @throws std::domain_error if the number of readings is not that of (1) and (2).

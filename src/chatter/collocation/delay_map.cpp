@@ -249,23 +249,68 @@ void DelayMap::assemble() {
 // Elimination of all unknowns, and the eigenvalues of the few that are delayed.
 double DelayMap::work() const {
   const auto all = static_cast<double>(size_), few = static_cast<double>(delayed_.size());
-  return all * all * (2 * all / 3 + 2 * few) + 2 * all * few * few + 25 * few * few * few;
+  return all * all * few + 2 * all * few * few + 25 * few * few * few;
+}
+
+double DelayMap::work_near() const {
+  const auto all = static_cast<double>(size_), few = static_cast<double>(delayed_.size());
+  return all * all * few + 2 * all * few * few + 8 * few * few * few / 3;
+}
+
+DelayMap::Matrix DelayMap::inverse_columns() const {
+  const auto few = static_cast<Index>(delayed_.size());
+  Matrix out = Matrix::Zero(size_, few);
+  for (Index i = 0; i < few; ++i) out(delayed_[static_cast<std::size_t>(i)], i) = 1;
+  Index reached = states_;  // columns before it are not 0 so far
+  for (const Piece& piece : pieces_) {
+    if (!piece.rule) continue;
+    const Index first = piece.first, size = axes_ * static_cast<Index>(piece.rule->size);
+    const Index before = reached;
+    while (reached < few && delayed_[static_cast<std::size_t>(reached)] < first + size)
+      ++reached;
+    out.block(first, 0, size, before) -=
+        m0_.block(first, 0, size, first) * out.topLeftCorner(first, before);
+    out.block(first, 0, size, reached) = m0_.block(first, first, size, size)
+                                             .partialPivLu()
+                                             .solve(out.block(first, 0, size, reached))
+                                             .eval();
+  }
+  return out;
+}
+
+DelayMap::Matrix DelayMap::map() const {
+  leave_if_asked();
+  return -m1_(delayed_, Eigen::all) * inverse_columns();
 }
 
 std::vector<std::complex<double>> DelayMap::multipliers() const {
   constexpr double kNegligible = 1e-12;
-  leave_if_asked();
-  const auto few = static_cast<Index>(delayed_.size());
-  Matrix unit = Matrix::Zero(size_, few);
-  for (Index i = 0; i < few; ++i) unit(delayed_[static_cast<std::size_t>(i)], i) = 1;
-  const Matrix inverse = m0_.partialPivLu().solve(unit);
-  const Matrix map = -m1_(delayed_, Eigen::all) * inverse;  // Eq. (3)
-  const auto all = eigenvalues(map);
+  const auto all = eigenvalues(map());
   std::vector<std::complex<double>> out;
   for (const std::complex<double>& mu : all)
     if (std::abs(mu) > kNegligible) out.push_back(mu);
   std::ranges::sort(out, std::ranges::greater{}, [](auto mu) { return std::abs(mu); });
   return out;
+}
+
+std::complex<double> DelayMap::multiplier_near(std::complex<double> mu) const {
+  constexpr int kIterations = 60;
+  constexpr double kSettled = 1e-10;  // of the distance, which is far below 1
+  Eigen::MatrixXcd shifted = map();
+  shifted.diagonal().array() -= mu;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(shifted);
+  Eigen::VectorXcd x = Eigen::VectorXcd::Ones(shifted.rows()).normalized();
+  std::complex<double> before = 0;
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::VectorXcd next = inverse.solve(x);
+    const std::complex<double> largest = x.dot(next);
+    if (std::abs(largest - before) <= kSettled * std::abs(largest))
+      return mu + 1.0 / largest;
+    x = next.normalized();
+    before = largest;
+  }
+  const auto all = multipliers();  // several are equally near
+  return *std::ranges::min_element(all, {}, [&](auto m) { return std::abs(m - mu); });
 }
 
 DelayMap::Forced DelayMap::forced() const {

@@ -14,10 +14,11 @@ struct Fineness {
   double phase_rad = 0;
   double error = 0;
 };
-inline constexpr Fineness kPlain{14, 1e-10}, kFiner{12, 1e-13};
-/// For errors by kinks that do not lie at nodes, see cutter_limits.cpp.
-inline constexpr std::array kFinest{Fineness{9, 1e-14}, Fineness{6.5, 1e-15},
-                                    Fineness{4.5, 1e-16}, Fineness{3.2, 1e-16}};
+inline constexpr Fineness kPlain{14, 1e-10};
+/// Each finer than the last, for errors by kinks that do not lie at nodes.
+inline constexpr std::array kFiner{Fineness{12, 1e-13}, Fineness{9, 1e-14},
+                                   Fineness{6.5, 1e-15}, Fineness{4.5, 1e-16},
+                                   Fineness{3.2, 1e-16}};
 
 /// Collocation of the motion of one period, with several delays and damping.  The
 /// unknowns are the state u_0 at the beginning of the period and the forces f at Gauss
@@ -62,9 +63,16 @@ class DelayMap {
 
   /// Approximate number of operations needed for the multipliers.
   double work() const;
+  /// The same for multiplier_near.
+  double work_near() const;
 
   /// The multipliers by falling modulus, without those below 1e-12.
   std::vector<std::complex<double>> multipliers() const;
+
+  /// The multiplier nearest to a number, by inverse iteration on (3).
+  std::complex<double> multiplier_near(std::complex<double> mu) const;
+
+  Eigen::Index unknowns() const { return size_; }
 
   /// Displacement in the stable periodic motion forced by the feed.
   class Forced {
@@ -101,6 +109,10 @@ class DelayMap {
   void assemble();
   Rows rows_at(const Piece& piece, double offset_s) const;
   Rows rows_at(double time_s) const;
+  /// (M_0^-1)_W.  M_0 is block lower triangular by pieces, for no force depends on a
+  /// later one.
+  Matrix inverse_columns() const;
+  Matrix map() const;  // of (3)
   /// A block of `load` between the axes used.
   Matrix between_axes(const Directional& h) const;
 
@@ -117,6 +129,6 @@ class DelayMap {
   Eigen::VectorXd fed_;
 };
 
-inline constexpr Eigen::Index kMostUnknowns = 1200;  // seconds
+inline constexpr Eigen::Index kMostUnknowns = 1800;  // 100 MB
 
 }  // namespace turnwright::chatter

@@ -276,6 +276,43 @@ bool nothing_left(const Lines& lines, const Model& m) {
   return m.left <= kRounding * kRounding * lines.y().squaredNorm();
 }
 
+double highest(const Model& m) {
+  double out = 0;
+  for (const Peak& p : m.peaks) out = std::max(out, p.height());
+  return out;
+}
+
+/// Eq. (4), by octaves.
+std::vector<HiddenMode> hidden_modes(const Lines& lines, const Model& m) {
+  constexpr double kZeta = 0.01, kBeside = 2;
+  constexpr Eigen::Index kTried = 500;
+  const MatrixXd J = lines.jacobian(m);
+  const Normal normal(J);
+  const double sigma = std::sqrt(m.left / static_cast<double>(J.rows() - J.cols())),
+               seen = (std::sqrt(5 * std::log(lines.numbers())) + 2) * sigma;
+  std::vector<HiddenMode> out;
+  double octave = 0;  // its end
+  const Eigen::Index stride = 1 + lines.rows() / kTried;
+  for (Eigen::Index i = 0; i < lines.rows(); i += stride) {
+    const double wn = lines.w(i);
+    const bool beside = std::ranges::any_of(m.peaks, [&](const Peak& p) {
+      return std::abs(std::log(wn) - p.ln_wn) < kBeside * std::max(kZeta, p.zeta());
+    });
+    const VectorXd shape = lines.shape(wn, kZeta), along = J.transpose() * shape;
+    const double own = shape.squaredNorm() - along.dot(normal.step(along, 1e-12));
+    if (beside || !(own > 1e-9 * shape.squaredNorm()) || !(seen > 0)) continue;
+    const double a = seen / std::sqrt(own);
+    const HiddenMode here{wn, kZeta, 1 / a, a / (2 * kZeta) / highest(m)};
+    if (wn > octave) {
+      octave = 2 * wn;
+      out.push_back(here);
+    } else if (here.share > out.back().share) {
+      out.back() = here;
+    }
+  }
+  return out;
+}
+
 /// The reason against a fit: its first invalid peak.
 std::optional<NoFit> fault(const Lines& lines, const Model& m) {
   constexpr double kHeavy = 0.5, kVague = 0.5;
@@ -292,12 +329,6 @@ std::optional<NoFit> fault(const Lines& lines, const Model& m) {
     i += kColumns;
   }
   return std::nullopt;
-}
-
-double highest(const Model& m) {
-  double out = 0;
-  for (const Peak& p : m.peaks) out = std::max(out, p.height());
-  return out;
 }
 
 /// Whether a mode of negative stiffness is significant: its model leaves a far smaller
@@ -371,6 +402,7 @@ ModalFit described(const FrequencyResponse& r, const Lines& lines, Model m) {
   out.rms_measured = std::sqrt(all / L);
   out.rms_left = std::sqrt(left / L);
   out.correlation = correlation(lines.left(m));
+  out.hidden = hidden_modes(lines, m);
   return out;
 }
 

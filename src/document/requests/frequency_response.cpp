@@ -230,11 +230,34 @@ ordered_json described(const MeasuredAxis& measured) {
                    {"modes", std::move(modes)}};
   add(out, "above_mm_N", fit.above_mm_N.value, fit.above_mm_N.u);
   add(out, "below_1_kg", fit.below_mm_N_s2.value / 1000, fit.below_mm_N_s2.u / 1000);
+  out["hidden"] = ordered_json::array();
+  for (const chatter::HiddenMode& m : fit.hidden)
+    out["hidden"].push_back({{"frequency_Hz", hertz(m.wn_rad_s)},
+                             {"stiffness_N_mm", m.k_N_mm},
+                             {"share", m.share}});
   out["explained"] = fit.explained;
   out["relative_rest"] = fit.rms_left / fit.rms_measured;
   out["correlation"] = fit.correlation;
   out["error_floor"] = fit.error_floor ? ordered_json(*fit.error_floor) : ordered_json();
   return out;
+}
+
+/// What a mode below the noise could do, if that matters.
+std::optional<std::string> doubt_of_hidden(const MeasuredAxis& measured) {
+  constexpr double kMatters = 0.1;  // of the highest peak
+  const auto matters = [](const chatter::HiddenMode& m) { return m.share > kMatters; };
+  const auto& hidden = measured.fit.hidden;
+  const auto worst = std::ranges::max_element(hidden, {}, &chatter::HiddenMode::share);
+  if (worst == hidden.end() || !matters(*worst)) return std::nullopt;
+  const auto last = std::ranges::find_if(hidden.rbegin(), hidden.rend(), matters);
+  const std::string share = three_digits(worst->share);
+  return measured.pointer + ": up to the octave of " +
+         three_digits(hertz(last->wn_rad_s)) +
+         " Hz noise may hide a mode; its peak may be " + share +
+         " of the highest one's, and it would chatter from " +
+         three_digits(1 / worst->share) +
+         " of the least depth on at which that one does: more averages, or receptance "
+         "or mobility in place of accelerance, show more";
 }
 
 std::vector<std::string> doubts(const MeasuredAxis& measured) {
@@ -248,6 +271,7 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
         number_text(std::round(1000 * fit.explained) / 10) +
         " % of the response's squares, less than 90 %: its limits are not to be "
         "trusted; is the unit right, the band wide enough, the noise low?");
+  if (auto doubt = doubt_of_hidden(measured)) out.push_back(std::move(*doubt));
   const auto weakest = std::ranges::min_element(
       fit.modes, {}, [](const chatter::FittedMode& m) { return m.k_N_mm.value; });
   const double k = weakest->k_N_mm.value;

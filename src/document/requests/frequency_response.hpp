@@ -31,7 +31,8 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis);
 nlohmann::ordered_json described(const MeasuredAxis& measured);
 
 /// Warnings of a possibly wrong unit or table although there are modes: less than 0.9 of
-/// the squares explained, or the most compliant mode outside 100 to 1e6 N/mm.
+/// the squares explained, the most compliant mode outside 100 to 1e6 N/mm, or noise that
+/// may hide a mode of a tenth of the highest peak.
 std::vector<std::string> doubts(const MeasuredAxis& measured);
 
 }  // namespace turnwright::document

@@ -1,5 +1,6 @@
 #include "turnwright/document/stability.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -42,13 +43,15 @@ ordered_json described(const Request& q, const ChartPoint& point) {
 }
 
 ordered_json described(const Undecided& undecided, const std::string& pointer) {
-  const auto& [i, at, why, harder_rpm] = undecided;
-  return {{"pointer", pointer},
-          {"n_rpm", at.n_rpm},
-          {"ap_mm", at.ap_mm},
-          {"why", !why.empty() ? why
-                               : "not tried, as " + number_text(harder_rpm) +
-                                     " 1/min would take too long"}};
+  const auto& [i, at, why, harder_rpm, stable_to_mm] = undecided;
+  ordered_json out{{"pointer", pointer},
+                   {"n_rpm", at.n_rpm},
+                   {"ap_mm", at.ap_mm},
+                   {"why", !why.empty() ? why
+                                        : "not tried, as " + number_text(harder_rpm) +
+                                              " 1/min would take too long"}};
+  if (stable_to_mm) out["stable_to_mm"] = *stable_to_mm;
+  return out;
 }
 
 /// @throws ModelRangeError if nothing else is told.
@@ -59,7 +62,9 @@ void add_undecided(const Request& q, const StabilityChart& chart, ordered_json& 
   for (const Undecided& u : chart.undecided_points)
     all.push_back(described(u, "/points/" + std::to_string(u.index)));
   if (all.empty()) return;
-  if (chart.speeds.empty() && chart.points.empty()) {
+  const auto in_part = [](const ordered_json& u) { return u.contains("stable_to_mm"); };
+  if (chart.speeds.empty() && chart.points.empty() &&
+      std::ranges::none_of(all, in_part)) {
     const ordered_json& first = all.front();
     throw ModelRangeError("stability: " + first.at("pointer").get<std::string>() +
                           ": at " + number_text(first.at("n_rpm")) +
@@ -86,6 +91,7 @@ ordered_json described(const SpeedLimits& speed) {
                                                 : ordered_json(c.relative_error)}});
   ordered_json out{{"n_rpm", speed.n_rpm}};
   out["limit_mm"] = or_null(speed.limit_mm());
+  if (speed.searched_mm) out["searched_mm"] = *speed.searched_mm;
   out["crossings"] = std::move(crossings);
   if (!speed.unstable.empty()) out["unstable_multipliers"] = speed.unstable;
   return out;

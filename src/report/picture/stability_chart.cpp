@@ -57,6 +57,9 @@ class Chart {
         fill_counts(c);
       else
         fill_between_crossings(c);
+      if (c.speed && c.speed->contains("searched_mm"))
+        box("outside", place(c.from_rpm, deepest_),
+            place(c.to_rpm, c.speed->at("searched_mm").get<double>()));
     }
   }
 
@@ -153,7 +156,9 @@ class Chart {
     box("count" + std::to_string(kShades), {x + 4, y - 1.5}, {x + 8, y + 1.5});
     svg_.text({x + 9.5, y + 1}, Anchor::start, "unstable; more multipliers");
     svg_.text({kLeft, 9}, Anchor::start, "Stability of the cut", "title");
-    const bool undecided = std::ranges::count(columns_, nullptr, &Column::speed) > 0;
+    const bool undecided = std::ranges::any_of(columns_, [](const Column& c) {
+      return !c.speed || c.speed->contains("searched_mm");
+    });
     svg_.text(
         {kRight, kTop - 3}, Anchor::end,
         undecided ? "ticks: magic speeds; shaded: undecided" : "ticks: magic speeds");

@@ -432,9 +432,15 @@ TEST(Stability, DoubtfulResponsesComeWithAWarning) {
   q["frf"][0]["modes"] = 1;  // of two
   const json one = answered(q);
   EXPECT_LT(one["frf"][0]["explained"], 0.9);
-  ASSERT_EQ(one["warnings"].size(), 1u);
+  ASSERT_EQ(one["warnings"].size(), 2u);
   EXPECT_EQ(one["warnings"][0].get<std::string>().substr(0, 25),
             "/frf/0: the modes explain");
+  const auto worst =
+      std::ranges::max_element(one["frf"][0]["hidden"], {},
+                               [](const json& m) { return m["share"].get<double>(); });
+  EXPECT_GT((*worst)["share"], 0.1);  // the second one
+  EXPECT_EQ(one["warnings"][1].get<std::string>().substr(0, 24),
+            "/frf/0: up to the octave");
 }
 
 TEST(Stability, LinesThatDoNotCountAreTold) {
