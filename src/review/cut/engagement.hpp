@@ -1,6 +1,4 @@
 #pragma once
-#include <map>
-
 #include "turnwright/review/cuts.hpp"
 #include "workpiece.hpp"
 
