@@ -105,10 +105,10 @@ Position position(const Matrix3d& R, const Indexation& at, const Vec3& stylus,
 /// The axis along which a facet is touched: that nearest to its normal, of equally near
 /// ones the first, so that rounding does not decide.
 Index probing_axis(const Vector3d& normal) {
-  constexpr double kAlike = 1e-9;
+  constexpr double kEquallyNear = 1e-9;
   const Vector3d size = normal.cwiseAbs();
   Index k = 0;
-  while (size[k] < size.maxCoeff() - kAlike) ++k;
+  while (size[k] < size.maxCoeff() - kEquallyNear) ++k;
   return k;
 }
 
