@@ -61,7 +61,8 @@ class Reconstructing {
     for (const std::size_t i : work.elements)
       add_element(setup, part_.drawing.outer[i], false);
     for (const std::size_t i : work.bores)
-      add_element(setup, part_.drawing.inner[i], true);
+      if (!part::is_hole(part_.drawing.inner[i]))
+        add_element(setup, part_.drawing.inner[i], true);
     for (const std::size_t k : work.shoulders)
       add_face(setup, planning::shoulder_id(part_.drawing, k));
     add_fixed(setup);

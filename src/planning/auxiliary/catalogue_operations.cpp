@@ -336,8 +336,8 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   if (!p.operations) return nullptr;
   for (const auto& o : *p.operations)
     for (const auto& e : p.drawing.inner)
-      if (o.kind == OperationKind::fixed && e.from == end && !e.cut &&
-          p.setups[o.setup].hold != end &&
+      if (o.kind == OperationKind::fixed && e.from == end &&
+          (!e.cut || part::is_hole(e)) && p.setups[o.setup].hold != end &&
           std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
         return &o;
   return nullptr;

@@ -83,10 +83,22 @@ bool face_named(const part::Drawing& d, const std::string& id) {
          std::any_of(d.tolerances.begin(), d.tolerances.end(), names);
 }
 
+// Whether an operation of a setup drills the end that a hole is reached from.
+bool drilled_in(const PreparedPart& p, std::size_t s, const part::InnerElement& hole) {
+  return std::ranges::any_of(*p.operations, [&](const OperationRequest& o) {
+    return o.setup == s && o.kind == OperationKind::fixed &&
+           std::ranges::any_of(p.drawing.inner, [&](const part::InnerElement& e) {
+             return e.from == hole.from && std::ranges::find(o.on, e.id) != o.on.end();
+           });
+  });
+}
+
 // Whether a surface may be made in this setup: the request leaves that to the planner, or
 // has an operation for it there.
 bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface) {
   if (!p.operations) return true;
+  for (const auto& e : p.drawing.inner)
+    if (e.id == surface && part::is_hole(e)) return drilled_in(p, s, e);
   return std::any_of(p.operations->begin(), p.operations->end(), [&](const auto& o) {
     return o.setup == s && o.kind != OperationKind::fixed &&
            std::find(o.on.begin(), o.on.end(), surface) != o.on.end();

@@ -197,6 +197,22 @@ TEST(Holes, TakeNoBoring) {
   EXPECT_EQ(drills, 1);
 }
 
+// Where the request gives the operations, a hole is one that it drills.
+TEST(Holes, OfGivenOperationsAreDrilledByOne) {
+  auto d = drilled(8, {{"kind", "hole"}});
+  const auto operation = [](const char* id, const char* kind, const char* on) {
+    return json{{"id", id}, {"setup", 0}, {"kind", kind}, {"on", {on}}};
+  };
+  d["operations"] = {operation("o1", "face", "right"), operation("o2", "rough", "d1"),
+                     operation("o3", "finish", "d1"), operation("o4", "fixed", "b1")};
+  EXPECT_TRUE(part(d).work.unreachable.empty());
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+  d["operations"].erase(3);
+  EXPECT_EQ(
+      part(d).work.unreachable,
+      std::vector<std::string>{"b1 has no operation: it would stay as the stock is"});
+}
+
 // Behind a bored seat the drill has the hole's size and boring starts from that.
 TEST(Holes, BehindABoreAreWhereBoringStarts) {
   auto d = drilled(20);
