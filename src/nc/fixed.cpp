@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "contour.hpp"
+#include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"
@@ -25,18 +26,13 @@ const FixedTool& fixed_tool_of(const Site& site, const OperationPlan& o) {
                        [&](const FixedTool& t) { return t.id == o.tool; });
 }
 
-double bored_mm(const part::Drawing& d, part::End end) {
-  double depth = 0;
-  for (const auto& e : d.inner)
-    if (e.from == end) depth += e.length_mm;
-  return depth;
-}
-
 void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   const double D = 2 * o.passes[0].ap_mm;
   const bool centre = tool.use == FixedUse::centring;
   const auto end = site.sign > 0 ? part::End::right : part::End::left;
-  const double depth = centre ? tool.reach * D : bored_mm(site.part.drawing, end);
+  const double reaches = tool.reach * D;
+  const double depth =
+      centre ? reaches : planning::drilled_depth_mm(site.part, site.setup, end, reaches);
   const double point = cutting::drill_point_mm(D, tool.point_deg);
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);

@@ -41,6 +41,13 @@ bool keeps(const FixedTool& drill, const part::InnerElement& bore, double depth_
          bore.Ra_um.value_or(drill.hole->Ra_um) >= drill.hole->Ra_um && !bore.Rz_um;
 }
 
+// Whether a boring bar enters what a drill would leave of a bore.
+bool can_be_bored(const std::vector<catalogue::Tool>& tools, double diameter_mm) {
+  return std::ranges::any_of(tools, [&](const catalogue::Tool& t) {
+    return t.bar && t.bar->min_bore_mm <= diameter_mm - 2 * planning::kLeftToBore_mm;
+  });
+}
+
 // The drill that makes a bore to its size; none.
 const FixedTool* drill_of(Draft& draft, const part::InnerElement& bore, double depth_mm) {
   for (const auto& t : draft.plan().fixed_tools)
@@ -109,7 +116,8 @@ void read_drilled_holes(Draft& draft) {
     if (bores.all.empty()) continue;
     check_holes(draft, items, bores);
     auto& bore = d.inner[bores.all.back()];
-    if (given || !plain(bore) || d.stock.kind != part::StockKind::bar ||
+    if (given || !plain(bore) || can_be_bored(draft.plan().tools, bore.left_mm) ||
+        d.stock.kind != part::StockKind::bar ||
         (named && names(named->json(), bore.id)) || !leaves_the_others(d, bores))
       continue;
     const auto* drill = drill_of(draft, bore, bores.depth_mm);

@@ -47,8 +47,9 @@ void read_stock(Draft& draft);  // after the elements
 bool sizes_were_read(const part::Drawing& drawing);
 void check_bores(Draft& draft);  // after the stock
 void read_edges(Draft& draft);   // after the stock
-/// The innermost bore of each end of a bar, where a drill leaves it as it is drawn, becomes a
-/// hole; nothing else is asked of it, and the operations are the planner's.
+/// The innermost bore of each end of a bar, too narrow for the boring bars, where a drill
+/// leaves it as it is drawn, becomes a hole; nothing else is asked of it, and the operations
+/// are the planner's.
 void read_drilled_holes(Draft& draft);  // after the edges
 void read_general_edges(Draft& draft);  // after all other edges and the holes
 /// Tools whose edge goes behind shoulders serve, where the request lists none, only drawings

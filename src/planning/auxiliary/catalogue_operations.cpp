@@ -361,7 +361,8 @@ void add_drilling(Site& s, part::End end) {
   const auto a = drilling(h, given_drilling(s.p, end));
   const auto f = fitted_drill(s.p, s.setup, a);
   if (f.tool)
-    s.out.before.push_back(drilled(s, a, f, h.depth_mm));
+    s.out.before.push_back(
+        drilled(s, a, f, drilled_depth_mm(s.p, s.setup, end, f.tool->reach * f.size_mm)));
   else
     refuse(s, a,
            fmt::format(
@@ -775,6 +776,22 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   add_milled(p, setup, clamping, economy, out);
   if (setup == 0 && d.stock.parted_mm) add_parting(s);
   return out;
+}
+
+double drilled_depth_mm(const PreparedPart& p, std::size_t setup, part::End end,
+                        double longest_mm) {
+  const auto h = hole_from(p.drawing, end);
+  const bool meets = std::isfinite(h.behind_mm);
+  bool open = false;  // what lies behind
+  for (std::size_t s = 0; s < setup; ++s) {
+    const auto& work = p.work.setups[s];
+    open = open || (meets ? !work.bores.empty() : work.end_face);
+  }
+  if (h.to_size || open || !(h.rest_mm < kNoWall_mm)) return h.depth_mm;
+  double largest = 0;
+  for (const auto& t : p.tools) largest = std::max(largest, t.re_mm);
+  return std::clamp(h.depth_mm + 2 * largest + kBehind_mm, h.depth_mm,
+                    std::max(h.depth_mm, longest_mm));
 }
 
 double drilled_mm(const PreparedPart& p, part::End end) {

@@ -35,6 +35,13 @@ AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
                              Clamping clamping, const SetupWork& work,
                              const Economy& economy);
 
+/// How deep [mm] a drill goes in a setup whose free end is `end`, its point left out: as far
+/// as the bores of that end.  Where these meet what later setups open, a bore of the other
+/// end or the other face, boring overruns them into material that still stands: the drill
+/// goes before it by the two largest corners and 0.2 mm, as far as it reaches.
+double drilled_depth_mm(const PreparedPart& part, std::size_t setup, part::End end,
+                        double longest_mm);
+
 /// The conflicts of a setup at fixed conditions, limits that are not kept among them.
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& plan, std::size_t setup,
                                           Clamping clamping, const SetupWork& work);

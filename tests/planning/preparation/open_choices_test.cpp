@@ -171,6 +171,8 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
   EXPECT_TRUE(by_the_drill(drilled(8, {{"Ra_um", 3.2}})));
   EXPECT_FALSE(by_the_drill(drilled(8, {{"Ra_um", 1.6}})));
   EXPECT_FALSE(by_the_drill(drilled(8.2))) << "no drill of that size";
+  EXPECT_TRUE(by_the_drill(drilled(16)));
+  EXPECT_FALSE(by_the_drill(drilled(17))) << "a bar of 12 mm enters what a drill leaves";
   auto named = drilled(8);
   named["tolerances"] = {{{"id", "t"},
                           {"kind", "coaxiality"},
@@ -216,7 +218,7 @@ TEST(Holes, OfGivenOperationsAreDrilledByOne) {
 // Behind a bored seat the drill has the hole's size and boring starts from that.
 TEST(Holes, BehindABoreAreWhereBoringStarts) {
   auto d = drilled(20);
-  d["inner"] = {cylinder("b1", 20, 26), cylinder("b2", 15, 20)};
+  d["inner"] = {cylinder("b1", 20, 26), cylinder("b2", 15, 16)};
   for (auto& b : d["inner"]) b["from"] = "right";
   d["inner"][0]["fit"] = "H7";
   d["outer"][0]["diameter_mm"] = 50;
@@ -224,7 +226,7 @@ TEST(Holes, BehindABoreAreWhereBoringStarts) {
   const auto p = part(d);
   EXPECT_TRUE(part::is_hole(p.drawing.inner[1]));
   EXPECT_FALSE(part::is_hole(p.drawing.inner[0]));
-  EXPECT_EQ(p.drilled_mm, (std::vector<double>{20, 20}));
+  EXPECT_EQ(p.drilled_mm, (std::vector<double>{16, 16}));
   EXPECT_EQ(plan(p).status, PlanStatus::ok);
 }
 
