@@ -271,7 +271,7 @@ TEST_F(Batch, OtherDataAreRefused) {
   put(folder_ / "lines.jsonl", acceptance(1));
   EXPECT_EQ(batch("--shard 1/1").code, 0);
   fs::create_directory(folder_ / "data");
-  for (const char* data : {"materials", "tools", "machines"})
+  for (const char* data : {"materials", "tools", "machines", "shops"})
     fs::copy(fs::path(TURNWRIGHT_SOURCE_DIR) / data, folder_ / "data" / data,
              fs::copy_options::recursive);
   EXPECT_EQ(shell("turnwright --data data batch lines.jsonl -o results").code, 0);

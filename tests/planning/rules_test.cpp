@@ -130,13 +130,13 @@ TEST(Rules, AppliedTwiceTheyChangeNothingMore) {
 // What a rule costs is the difference of two plans, each of which is made without the
 // other's request being known.
 TEST(Rules, TheirPricesAreThoseOfSeparatePlans) {
-  const json rules{{"forbidden_tools", {kRougher, "DRILL-HM-8D"}},
+  const json rules{{"forbidden_tools", {kRougher, "DRILL-HM-3D"}},
                    {"speeds", {{{"vc_m_min", {50, 150}}}, {{"vc_m_min", {1, 5000}}}}}};
   const auto plan = planned(pin_with(rules));
   ASSERT_EQ(plan.status, PlanStatus::ok);
   ASSERT_EQ(plan.rules.size(), 2u);  // the other two change nothing
   auto allowed = rules, faster = rules;
-  allowed["forbidden_tools"] = {"DRILL-HM-8D"};
+  allowed["forbidden_tools"] = {"DRILL-HM-3D"};
   faster["speeds"] = json::array();
   const auto without = {planned(pin_with(allowed)), planned(pin_with(faster))};
   auto told = plan.rules.begin();

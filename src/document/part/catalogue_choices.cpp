@@ -132,6 +132,15 @@ void read_shop_rules(Draft& draft, const catalogue::Shop& shop) {
   const auto own = read_rules(draft.root, known);
   add(plan.rules.forbidden_tools, own.forbidden_tools);
   add(plan.rules.speeds, own.speeds);
+  double least = plan.machine.n_min_rpm;
+  if (plan.machine.driven_tools && draft.root.has("milling"))
+    least = std::max(least, plan.machine.driven_tools->n_min_rpm);
+  for (const auto& most : {plan.rules.n_max_rpm, own.n_max_rpm})
+    if (most && *most <= least)
+      draft.root.problems().add({"/rules/n_max_rpm", number_text(*most),
+                                 "more than the " + number_text(least) +
+                                     " 1/min at which " + plan.machine.id + " begins",
+                                 "conflict"});
   if (own.n_max_rpm)
     plan.rules.n_max_rpm =
         std::min(*own.n_max_rpm, plan.rules.n_max_rpm.value_or(*own.n_max_rpm));

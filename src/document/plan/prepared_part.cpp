@@ -32,11 +32,13 @@ void add_grips(const planning::PreparedPart& p, Assumed& assumed) {
 void add_drilled_holes(const planning::PreparedPart& p, Assumed& assumed) {
   for (std::size_t i = 0; i < p.drilled_mm.size(); ++i)
     if (p.drilled_mm[i] > 0)
-      assumed.push_back(
-          {"/inner/" + std::to_string(i),
-           {{"drilled_mm", p.drilled_mm[i]}},
-           "the largest drill that leaves 0.5 mm on the radius for boring and "
-           "spares what lies behind the hole"});
+      assumed.push_back({"/inner/" + std::to_string(i),
+                         {{"drilled_mm", p.drilled_mm[i]}},
+                         part::is_hole(p.drawing.inner[i])
+                             ? "the hole's own drill"
+                             : "the drill that leaves at least 0.5 mm on the radius for "
+                               "boring and spares "
+                               "what lies behind the hole"});
 }
 
 // The reason why the place cannot be milled in any clamping of the setup that the request

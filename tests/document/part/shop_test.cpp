@@ -73,7 +73,24 @@ TEST(Shop, TheWholeCatalogueIsThereForTheAsking) {
             std::string::npos);
   auto bare = shipped();
   bare.shops.clear();
-  EXPECT_EQ(load_part_plan(part(), bare, "t").plan.tools.size(), shipped().tools.size());
+  // All but those that go behind shoulders, of which this drawing has none to go behind.
+  const auto behind =
+      std::ranges::count_if(shipped().tools, catalogue::goes_behind_shoulders);
+  EXPECT_EQ(load_part_plan(part(), bare, "t").plan.tools.size() +
+                static_cast<std::size_t>(behind),
+            shipped().tools.size());
+  EXPECT_GT(behind, 0);
+}
+
+// A spindle that may not turn as fast as its slowest has no speed at all.
+TEST(Shop, ARuleLeavesTheSpindleSomeSpeed) {
+  auto d = with("rules", {{"n_max_rpm", 30}});
+  d["machine"] = "lathe-medium";
+  EXPECT_NE(refusal(d).find("/rules/n_max_rpm: got 30, expected more than the 40 1/min"),
+            std::string::npos)
+      << refusal(d);
+  d["rules"]["n_max_rpm"] = 41;
+  EXPECT_EQ(refusal(d), refusal(with("machine", "lathe-medium")));
 }
 
 TEST(Shop, AShopMayStandInThePart) {

@@ -341,7 +341,10 @@ TEST(Limits, ThrustBelowTheDriveIsFeasibleAndExact) {
 TEST(Limits, NoToolDeepEnoughIsNamed) {
   auto d = grooved();
   d["outer"][2]["diameter_mm"] = 5;  // 12.5 mm deep
-  const auto r = plan(part(d));
+  PlanRequest request = part(d);
+  std::erase_if(request.fixed_tools,
+                [](const auto& t) { return t.id == "GROOVE-EXT-DEEP"; });
+  const auto r = plan(prepare(std::move(request)));
   ASSERT_EQ(r.status, PlanStatus::infeasible);
   EXPECT_EQ(r.conflicts[0].limit, "groove g1");
   EXPECT_NE(r.conflicts[0].sentence.find("reaches 12.5 mm deep"), std::string::npos);
