@@ -226,6 +226,7 @@ async function cancelled() {
   await page.getByRole('button', { name: 'Plan', exact: true }).waitFor();
   await page.unroute('**/v1/plan');
   await page.route('**/v1/plan', (route) => route.abort());
+  await page.waitForLoadState('networkidle'); // what is under way has come
   await page.keyboard.press('Control+Enter');
   await page.getByText('The server does not answer').waitFor();
   await look(page, '10-no-answer');
