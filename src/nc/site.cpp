@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planning/paths/edges.hpp"
+
 namespace turnwright::nc {
 
 using planning::SetupWork;
@@ -18,11 +20,6 @@ double to_middle_mm(const part::Drawing& d, const std::string& element) {
     if (t.kind == part::ToleranceKind::diameter && t.of == element && t.limits)
       return (t.limits->lower_mm + t.limits->upper_mm) / 4;
   return 0;
-}
-
-// A chamfer that turning cuts.
-std::optional<part::Chamfer> turned(const std::optional<part::Chamfer>& c) {
-  return c && c->by_blade ? std::nullopt : c;
 }
 
 }  // namespace
@@ -70,14 +67,14 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
       const auto& e = elements[i];
       const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
       const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
-      const auto left = turned(e.left_chamfer), right = turned(e.right_chamfer);
+      const auto left = planning::turned(e.left_chamfer),
+                 right = planning::turned(e.right_chamfer);
       side.items.push_back(
           a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0, left, right}
                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0, right, left});
       if constexpr (requires { e.left_undercut; })
         side.items.back().undercut = sign > 0 ? e.left_undercut : e.right_undercut;
-      if (auto& s = side.items.back();
-          done[i] && e.cut && e.cut->kind == part::CutKind::groove)
+      if (auto& s = side.items.back(); done[i] && part::is_groove(e))
         s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
     }
     std::sort(side.items.begin(), side.items.end(),

@@ -23,7 +23,7 @@ Beside beside(const std::vector<Element>& elements, const LeftEnd& left_end, dou
     const auto at = [&](double left, double right) { return left + (right - left) * u; };
     const auto made = core(e);
     const double core_mm = at(made.left_mm, made.right_mm);
-    const bool borne = e.cut && e.cut->kind == CutKind::groove && e.length_mm <= short_mm;
+    const bool borne = is_groove(e) && e.length_mm <= short_mm;
     return {core_mm, borne ? at(e.left_mm, e.right_mm) : core_mm};
   }
   return {beyond, beyond};

@@ -108,8 +108,7 @@ class Reconstructing {
   template <class Element>
   void add_element(const ReviewedSetup& setup, const Element& e, bool inner) {
     const auto cuts = cuts_on(setup, e.id);
-    if (cuts.empty() && e.cut && e.cut->kind == part::CutKind::groove)
-      return add_blank(setup, e);
+    if (cuts.empty() && part::is_groove(e)) return add_blank(setup, e);
     if (cuts.empty()) return refuse(fmt::format("no program turns {}", e.id));
     const auto& last = *cuts.back();
     for (std::size_t k = 1; k + 1 < cuts.size(); ++k)

@@ -122,14 +122,12 @@ void read_drilled_holes(Draft& draft) {
       continue;
     const auto* drill = drill_of(draft, bore, bores.depth_mm);
     if (!drill) continue;
-    Reader r = items[bores.all.back()];
-    draft.assume(r.pointer_of("kind"), "hole",
+    const Reader& item = items[bores.all.back()];
+    draft.assume(item.pointer_of("kind"), "hole",
                  "drilled to its size by " + drill->id + ", to IT" +
                      std::to_string(drill->hole->grade) + " and Ra " +
                      number_text(drill->hole->Ra_um) + " um");
-    leave_to_the_tool(draft, r);
-    bore.fit.reset(), bore.limits.reset(), bore.Ra_um.reset(), bore.Rz_um.reset();
-    bore.cut = part::hole(bore.left_mm).cut;
+    make_at_catalogue_conditions(draft, item, bore, part::hole(bore.left_mm).cut);
   }
 }
 

@@ -281,10 +281,8 @@ void plunge_necks(Draft& draft, const std::vector<Reader>& items) {
       if (!plain || is_groove(e)) continue;
       draft.assume(items[first].pointer_of("kind"), "groove",
                    "a neck between larger diameters is plunged by a grooving blade");
-      Reader r = items[first];
-      leave_to_the_tool(draft, r);
-      e.fit.reset(), e.limits.reset(), e.Ra_um.reset(), e.Rz_um.reset();
-      e.cut = part::groove(e.left_mm, e.left_mm).cut;
+      make_at_catalogue_conditions(draft, items[first], e,
+                                   part::groove(e.left_mm, e.left_mm).cut);
     }
   }
 }

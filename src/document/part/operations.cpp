@@ -209,7 +209,7 @@ void turn_grooves(Draft& draft, const std::vector<Element>& list) {
   };
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto& id = list[i].id;
-    if (!list[i].cut || list[i].cut->kind != part::CutKind::groove) continue;
+    if (!part::is_groove(list[i])) continue;
     if (std::any_of(operations.begin(), operations.end(),
                     [&](const auto& o) { return turns(o, id); }))
       continue;

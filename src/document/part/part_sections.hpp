@@ -32,6 +32,17 @@ void read_elements(Draft& draft);           // outer, inner, faces
 /// Lists sizes and roughness of a surface that is made at catalogue conditions under
 /// `assumed`: they are not judged.
 void leave_to_the_tool(Draft& draft, Reader& element);
+/// An element that was read as a plain one is made at catalogue conditions instead.
+template <class Element>
+void make_at_catalogue_conditions(Draft& draft, Reader item, Element& e,
+                                  const part::Cut& cut) {
+  leave_to_the_tool(draft, item);
+  e.fit.reset();
+  e.limits.reset();
+  e.Ra_um.reset();
+  e.Rz_um.reset();
+  e.cut = cut;
+}
 /// A groove, thread or arc; a groove's blank waits for the elements beside it.
 void read_cut(Draft& draft, Reader& r, part::OuterElement& e, part::CutKind kind);
 void read_cut(Draft& draft, Reader& r, part::InnerElement& e, part::CutKind kind);

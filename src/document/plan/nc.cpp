@@ -6,6 +6,7 @@
 
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
+#include "document/plan/controls.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -16,14 +17,6 @@ using nlohmann::ordered_json;
 constexpr long kTools = 99;  // two digits in the words of most controls
 constexpr std::size_t kListedTools = 200;
 
-const Choices<gcode::Control>& controls() {
-  static const auto kControls = [] {
-    Choices<gcode::Control> all;
-    for (const auto& d : gcode::dialects()) all.push_back({d.id, d.control});
-    return all;
-  }();
-  return kControls;
-}
 const Choices<nc::BlockNumbers> kBlockNumbers{{"none", nc::BlockNumbers::none},
                                               {"tools", nc::BlockNumbers::tools},
                                               {"all", nc::BlockNumbers::all}};

@@ -5,6 +5,7 @@
 
 #include "document/json/fields.hpp"
 #include "document/json/read_below.hpp"
+#include "document/plan/controls.hpp"
 #include "turnwright/document/review.hpp"
 
 namespace turnwright::document {
@@ -16,15 +17,6 @@ using review::MountedTool;
 constexpr std::size_t kPrograms = 10, kTurret = 100;
 constexpr std::size_t kProgramBytes = 2'000'000;
 constexpr std::size_t kMovesOfProgram = 20'000;
-
-const Choices<gcode::Control>& reviewed_controls() {
-  static const auto kControls = [] {
-    Choices<gcode::Control> all;
-    for (const auto& d : gcode::dialects()) all.push_back({d.id, d.control});
-    return all;
-  }();
-  return kControls;
-}
 
 std::vector<ReviewRequest::Text> read_programs(Reader& r) {
   std::vector<ReviewRequest::Text> all;
@@ -143,7 +135,7 @@ ReviewRequest load_review_request(const json& request, const Catalogue& catalogu
   read_format(r, "turnwright-review/1");
   const auto part = r.object("part");
   ReviewRequest out;
-  out.control = r.choice_or("control", reviewed_controls(), out.control);
+  out.control = r.choice_or("control", controls(), out.control);
   out.programs = read_programs(r);
   out.tools = read_turret(r);
   r.finish();

@@ -122,6 +122,9 @@ bool take_radius(Items& items, std::size_t i) {
   return true;
 }
 
+// As the table of DIN 509 gives its sizes.
+double tenths(double mm) { return std::round(10 * mm) / 10; }
+
 // Form E of DIN 509: from the cylinder a slope of 15 deg down to a floor, and an arc from
 // there up the wall; `first` and `last` enclose them, the arc next to the wall.
 bool take_undercut(Items& items, std::size_t first, std::size_t last, double join_mm) {
@@ -137,7 +140,6 @@ bool take_undercut(Items& items, std::size_t first, std::size_t last, double joi
   if (last - first == 3 && !level(items[first + 1], join_mm)) return false;
   const double angle = std::atan2(std::abs(dy(slope)), dx(slope));
   if (std::abs(angle - part::kUndercutFalls_rad) > kTangent_rad) return false;
-  const auto tenths = [](double mm) { return std::round(10 * mm) / 10; };
   const double r = tenths(radius_mm(arc.side)), t = tenths(std::abs(dy(slope)));
   const auto found = part::undercut('E', r, t);
   if (!found) return false;
@@ -169,7 +171,6 @@ std::optional<part::Undercut> form_f(const Items& items, std::size_t first,
     }
   }
   if (!(slope && floor && back)) return std::nullopt;
-  const auto tenths = [](double mm) { return std::round(10 * mm) / 10; };
   return part::undercut('F', tenths(radius), tenths(depth));
 }
 

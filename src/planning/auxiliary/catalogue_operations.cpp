@@ -92,6 +92,19 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
   return best;
 }
 
+// The same among those that can be borne; if none can, or the operation is given, the one
+// of all, whose limits then tell why it cannot be.
+Fitted fitted_if(const PlanRequest& p, const Asked& a,
+                 const std::function<bool(const FixedTool&, double size)>& borne) {
+  if (a.given) return fitted(p, a);
+  auto asked = a;
+  asked.fits = [&](const FixedTool& t, double size) {
+    return a.fits(t, size) && borne(t, size);
+  };
+  const auto f = fitted(p, asked);
+  return f.tool ? f : fitted(p, a);
+}
+
 void refuse(const Site& s, const Asked& a, const std::string& why) {
   s.out.conflicts.push_back({fmt::format("{} {}", a.does, a.surface),
                              setup_label(s.setup), 0, 0, "",
@@ -343,16 +356,9 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   return nullptr;
 }
 
-// The largest drill that the spindle drives and the jaws hold; if there is none, or the
-// drilling is given, the largest of all, whose limits then tell why it cannot be.
 Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
-  if (a.given) return fitted(p, a);
-  auto driven = a;
-  driven.fits = [&](const FixedTool& t, double size) {
-    return a.fits(t, size) && drives(p, setup, t, size);
-  };
-  const auto f = fitted(p, driven);
-  return f.tool ? f : fitted(p, a);
+  return fitted_if(
+      p, a, [&](const FixedTool& t, double size) { return drives(p, setup, t, size); });
 }
 
 void add_drilling(Site& s, part::End end) {
@@ -477,24 +483,13 @@ bool bears(const Site& s, const FixedTool& t, double width_mm, const CutElement&
       [](const ConstraintValue& c) { return c.margin >= -kBeyondRounding; });
 }
 
-// The widest blade that can be borne; if there is none, or the operation is given, the
-// widest of all, whose limits then tell why it cannot be.
-Fitted fitted_blade(const Site& s, const Asked& a, const CutElement& e) {
-  if (a.given) return fitted(s.p, a);
-  auto borne = a;
-  borne.fits = [&](const FixedTool& t, double size) {
-    return a.fits(t, size) && bears(s, t, size, e);
-  };
-  const auto f = fitted(s.p, borne);
-  return f.tool ? f : fitted(s.p, a);
-}
-
 void add_groove(Site& s, const CutElement& e) {
   auto a =
       asked(s, e, FixedUse::grooving, "groove", [&](const FixedTool& t, double size) {
         return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
       });
-  auto f = fitted_blade(s, a, e);
+  auto f = fitted_if(
+      s.p, a, [&](const FixedTool& t, double size) { return bears(s, t, size, e); });
   if (!f.tool)
     return refuse(s, a,
                   fmt::format("no blade of the tools is for {}, at most {:g} mm wide and "

@@ -31,35 +31,50 @@ bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& c) {
          tool.ap_mm.upper;
 }
 
+double end_z_mm(const part::Drawing& d, const Element& e, End end) {
+  const double left =
+      e.inner ? part::inner_left_z_mm(d, e.index) : part::left_z_mm(d, e.index);
+  const double length = e.inner ? d.inner[e.index].length_mm : d.outer[e.index].length_mm;
+  return end == End::left ? left : left + length;
+}
+
+std::optional<Element> neighbour(const part::Drawing& d, const Element& e, End end) {
+  const std::size_t count = e.inner ? d.inner.size() : d.outer.size();
+  const double z = end_z_mm(d, e, end);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Element next{e.inner, i};
+    if (i != e.index && std::abs(end_z_mm(d, next, part::opposite(end)) - z) < kNoWall_mm)
+      return next;
+  }
+  return std::nullopt;
+}
+
+const std::optional<part::Chamfer>& chamfer_at(const part::Drawing& d, const Element& e,
+                                               End end) {
+  const auto of = [&](const auto& element) -> const std::optional<part::Chamfer>& {
+    return end == End::left ? element.left_chamfer : element.right_chamfer;
+  };
+  return e.inner ? of(d.inner[e.index]) : of(d.outer[e.index]);
+}
+
+std::optional<part::Chamfer> turned(const std::optional<part::Chamfer>& c) {
+  return c && c->by_blade ? std::nullopt : c;
+}
+
 std::optional<part::Chamfer> front_chamfer(const PreparedPart& p, std::size_t setup,
                                            const Element& e) {
-  const auto of = [&](const auto& element) {
-    const auto& c =
-        free_end(p, setup) == End::left ? element.left_chamfer : element.right_chamfer;
-    return c && c->by_blade ? std::nullopt : c;
-  };
-  return e.inner ? of(p.drawing.inner[e.index]) : of(p.drawing.outer[e.index]);
+  return turned(chamfer_at(p.drawing, e, free_end(p, setup)));
 }
 
 Rims rims_of(const PreparedPart& p, std::size_t setup, const Element& groove) {
-  const auto& d = p.drawing;
-  Rims rims;
-  const auto look = [&](const auto& list, const auto& left_z_mm) {
-    const double z0 = left_z_mm(groove.index), z1 = z0 + list[groove.index].length_mm;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const double a = left_z_mm(i), b = a + list[i].length_mm;
-      const auto take = [&](End side, const std::optional<part::Chamfer>& c) {
-        if (c && c->by_blade) (side == free_end(p, setup) ? rims.front : rims.back) = c;
-      };
-      if (std::abs(b - z0) < kNoWall_mm) take(End::left, list[i].right_chamfer);
-      if (std::abs(a - z1) < kNoWall_mm) take(End::right, list[i].left_chamfer);
-    }
+  const auto rim = [&](End end) -> std::optional<part::Chamfer> {
+    const auto next = neighbour(p.drawing, groove, end);
+    if (!next) return std::nullopt;
+    const auto& c = chamfer_at(p.drawing, *next, part::opposite(end));
+    return c && c->by_blade ? c : std::nullopt;
   };
-  if (groove.inner)
-    look(d.inner, [&](std::size_t i) { return part::inner_left_z_mm(d, i); });
-  else
-    look(d.outer, [&](std::size_t i) { return part::left_z_mm(d, i); });
-  return rims;
+  const End front = free_end(p, setup);
+  return {rim(front), rim(part::opposite(front))};
 }
 
 std::optional<double> fillet_behind_mm(const PreparedPart& p, std::size_t setup,

@@ -10,6 +10,20 @@ namespace turnwright::planning {
 /// The end of the part that a setup leaves free.
 part::End free_end(const PreparedPart& plan, std::size_t setup);
 
+/// z of an end of an element.
+double end_z_mm(const part::Drawing& drawing, const Element& element, part::End end);
+
+/// The element that meets an end of another; none at a face of the part.
+std::optional<Element> neighbour(const part::Drawing& drawing, const Element& element,
+                                 part::End end);
+
+/// The chamfer of an element at one of its ends.
+const std::optional<part::Chamfer>& chamfer_at(const part::Drawing& drawing,
+                                               const Element& element, part::End end);
+
+/// A chamfer if turning cuts it, not a grooving blade.
+std::optional<part::Chamfer> turned(const std::optional<part::Chamfer>& chamfer);
+
 /// The chamfer of an element at its end towards the free end of a setup that turning cuts.
 std::optional<part::Chamfer> front_chamfer(const PreparedPart& plan, std::size_t setup,
                                            const Element& element);

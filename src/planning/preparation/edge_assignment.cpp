@@ -15,26 +15,6 @@ namespace {
 
 using part::End;
 
-// z of an end of an element.
-double end_z_mm(const part::Drawing& d, const Element& e, End end) {
-  const double left =
-      e.inner ? part::inner_left_z_mm(d, e.index) : part::left_z_mm(d, e.index);
-  const double length = e.inner ? d.inner[e.index].length_mm : d.outer[e.index].length_mm;
-  return end == End::left ? left : left + length;
-}
-
-// The element that meets an end of another; none at a face of the part.
-std::optional<Element> beside(const part::Drawing& d, const Element& e, End end) {
-  const std::size_t count = e.inner ? d.inner.size() : d.outer.size();
-  const double z = end_z_mm(d, e, end);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Element next{e.inner, i};
-    if (i != e.index && std::abs(end_z_mm(d, next, part::opposite(end)) - z) < kNoWall_mm)
-      return next;
-  }
-  return std::nullopt;
-}
-
 double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
   const auto of = [&](const auto& x) {
     return (end == End::left ? x.left_mm : x.right_mm) / 2;
@@ -50,8 +30,7 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   if (e.inner || std::ranges::find(work.shoulders, shoulder) == work.shoulders.end())
     return true;
   const auto& d = p.drawing;
-  const auto& chamfer =
-      end == End::left ? d.outer[e.index].left_chamfer : d.outer[e.index].right_chamfer;
+  const auto& chamfer = chamfer_at(d, e, end);
   const double wall_mm = end_radius_mm(d, e, end) -
                          end_radius_mm(d, front, part::opposite(end)) -
                          chamfer->radial_mm;
@@ -64,7 +43,7 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
 // blade cuts the chamfer at its rim.
 bool cut_by_blade(const PreparedPart& p, const std::vector<SetupWork>& setups,
                   std::size_t s, const Element& e, End end) {
-  const auto groove = beside(p.drawing, e, end);
+  const auto groove = neighbour(p.drawing, e, end);
   bool made = false;
   for (std::size_t k = 0; k <= s; ++k) made = made || makes(setups[k], e);
   return made && groove && makes(setups[s], *groove);
@@ -92,16 +71,24 @@ bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::si
   if (chamfer.by_blade) return cut_by_blade(p, setups, s, e, end);
   if (free_end(p, s) != end) return false;
   if (makes(setups[s], e)) return true;
-  const auto front = beside(p.drawing, e, end);
+  const auto front = neighbour(p.drawing, e, end);
   return front && makes(setups[s], *front) && leaves_wall(p, setups[s], e, *front, end) &&
          before_jaws(p, s, e, end, chamfer);
+}
+
+// Whether some setup cuts the chamfer at an end.
+bool cut_on_the_way(const PreparedPart& p, const std::vector<SetupWork>& setups,
+                    const Element& e, End end) {
+  for (std::size_t s = 0; s < setups.size(); ++s)
+    if (cut_in(p, setups, s, e, end, *chamfer_at(p.drawing, e, end))) return true;
+  return false;
 }
 
 // The setup, if any, in which a pass of its own cuts a chamfer at a face of the part.
 std::optional<std::size_t> alone_in(const PreparedPart& p,
                                     const std::vector<SetupWork>& setups,
                                     const Element& e, End end) {
-  if (beside(p.drawing, e, end)) return std::nullopt;
+  if (neighbour(p.drawing, e, end)) return std::nullopt;
   bool made = false;
   for (std::size_t s = 0; s < setups.size(); ++s) {
     if (made && free_end(p, s) == end && !(front_mm(p, s, setups[s]) > 0)) return s;
@@ -116,12 +103,9 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
   for (std::size_t i = 0; i < elements.size(); ++i)
     for (const End end : {End::left, End::right}) {
       const auto& e = elements[i];
-      const auto& chamfer = end == End::left ? e.left_chamfer : e.right_chamfer;
-      if (!chamfer) continue;
-      bool cut = false;
-      for (std::size_t s = 0; s < setups.size(); ++s)
-        cut = cut || cut_in(p, setups, s, {inner, i}, end, *chamfer);
-      if (cut || chamfer->general) continue;
+      const auto& chamfer = chamfer_at(p.drawing, {inner, i}, end);
+      if (!chamfer || chamfer->general || cut_on_the_way(p, setups, {inner, i}, end))
+        continue;
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
@@ -143,10 +127,7 @@ void leave_to_the_hand(PreparedPart& p) {
         auto& chamfer =
             end == End::left ? elements[i].left_chamfer : elements[i].right_chamfer;
         if (!chamfer || !chamfer->general) continue;
-        bool cut = false;
-        for (std::size_t s = 0; s < p.setups.size(); ++s)
-          cut = cut || cut_in(p, p.work.setups, s, {inner, i}, end, *chamfer);
-        if (!cut) chamfer.reset();
+        if (!cut_on_the_way(p, p.work.setups, {inner, i}, end)) chamfer.reset();
       }
   };
   of(p.drawing.outer, false);

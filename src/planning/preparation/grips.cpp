@@ -54,11 +54,7 @@ void lengthen(PreparedPart& p, std::size_t s) {
   const double before = p.grips_mm[s];
   p.grips_mm[s] =
       std::min(*longest, std::ceil((before + beyond) / kDigit_mm - 1e-6) * kDigit_mm);
-  auto work = assign(p);
-  if (work == p.work)
-    p.work = std::move(work);
-  else
-    p.grips_mm[s] = before;
+  if (assign(p) != p.work) p.grips_mm[s] = before;
 }
 
 // One grip shorter, in the first setup that leaves it open and where that helps; false if

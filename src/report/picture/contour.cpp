@@ -73,7 +73,7 @@ template <class Element>
 Runs runs(const Element& e, double z, double out) {
   if (has_edges(e)) return with_edges(e, z, out);
   if (e.cut && e.cut->kind == part::CutKind::arc) return chords(*e.cut, z, e.length_mm);
-  const bool groove = e.cut && e.cut->kind == part::CutKind::groove;
+  const bool groove = part::is_groove(e);
   const auto ends = groove ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   return {{z, z + e.length_mm, ends.left_mm / 2, ends.right_mm / 2}};
 }
