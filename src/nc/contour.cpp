@@ -36,19 +36,9 @@ std::vector<Point> with_back(std::vector<Point> line, const Surface& s) {
   return {line.rbegin(), line.rend()};
 }
 
-// A line that ends with an undercut.
-std::vector<Point> with_undercut(std::vector<Point> line, const Surface& s) {
-  if (!s.undercut) return line;
-  const double depth = s.undercut->depth_mm, z = s.z1 + s.undercut->width_mm;
-  Point behind = line.back();
-  for (; line.size() > 1 && line.back().z_mm <= z; line.pop_back()) behind = line.back();
-  const auto& a = line.back();
-  const double h =
-      a.h_mm + (behind.h_mm - a.h_mm) * (z - a.z_mm) / (behind.z_mm - a.z_mm);
-  line.push_back({h, z});
-  line.push_back({h - depth, z - depth / std::tan(part::kUndercutFalls_rad)});
-  line.push_back({h - depth, s.z1});
-  return line;
+// A line with the undercut that turning cuts at its end.
+std::vector<Point> with_its_undercut(std::vector<Point> line, const Surface& s) {
+  return s.undercut ? with_undercut(std::move(line), *s.undercut, s.z1) : line;
 }
 
 // An element of the nominal contour.
@@ -58,7 +48,7 @@ std::vector<Piece> pieces(const Site& site, const Side& side, const Surface& s) 
     const auto arc = drawn_arc(site, s);
     return {{arc.from, arc.to, arc}};
   }
-  auto line = with_undercut(with_back(with_front(corrected(site, side, s), s), s), s);
+  auto line = with_its_undercut(with_back(with_front(corrected(site, side, s), s), s), s);
   if (cut && cut->kind == part::CutKind::groove) {
     const double floor = side.sign * cut->drawn.left_mm / 2;
     line = {{floor, s.z0}, {floor, s.z1}};
@@ -97,6 +87,20 @@ double blank_h(const Site& site, const Side& side, const Surface& s) {
 
 }  // namespace
 
+std::vector<Point> with_undercut(std::vector<Point> line, const part::Undercut& u,
+                                 double z_mm) {
+  const double depth = u.depth_mm, z = z_mm + u.width_mm;
+  Point behind = line.back();
+  for (; line.size() > 1 && line.back().z_mm <= z; line.pop_back()) behind = line.back();
+  const auto& a = line.back();
+  const double h =
+      a.h_mm + (behind.h_mm - a.h_mm) * (z - a.z_mm) / (behind.z_mm - a.z_mm);
+  line.push_back({h, z});
+  line.push_back({h - depth, z - depth / std::tan(part::kUndercutFalls_rad)});
+  line.push_back({h - depth, z_mm});
+  return line;
+}
+
 const planning::Compensation::Table& correction(const Site& site,
                                                 const std::string& surface) {
   static const planning::Compensation::Table none;
@@ -131,7 +135,7 @@ std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s
   if (left_mm > 0)
     line = {{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
   else
-    line = with_undercut(corrected(site, side, s), s);
+    line = with_its_undercut(corrected(site, side, s), s);
   return with_front(std::move(line), s);
 }
 

@@ -10,6 +10,9 @@ namespace turnwright::nc {
 /// The finished line of an element with the plan's correction; of a groove, thread or arc
 /// that is cut later the line of its blank.
 std::vector<Point> corrected(const Site& site, const Side& side, const Surface& s);
+/// A line that ends with an undercut before the shoulder at z.
+std::vector<Point> with_undercut(std::vector<Point> line, const part::Undercut& undercut,
+                                 double z_mm);
 /// The line of a pass over an element that leaves a thickness: it begins with the chamfer at
 /// its front; with nothing left it is the finished line, which ends with its undercut.
 std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,

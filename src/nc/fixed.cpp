@@ -203,9 +203,7 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;
     site.approach(p.side, *from, way->from, tool.re_mm);
     site.to(Kind::feed, p.side, way->from);
-    site.moves.push_back(
-        {Kind::arc, way->to.h_mm, way->to.z_mm, way->centre, !way->convex});
-    site.at = way->to;
+    site.arc(way->to, way->centre, !way->convex);
     site.lift(p.side);
   }
   p.surface().h0 = drawn.from.h_mm;

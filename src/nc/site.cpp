@@ -73,7 +73,10 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
           a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0, left, right}
                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0, right, left});
       if constexpr (requires { e.left_undercut; })
-        side.items.back().undercut = sign > 0 ? e.left_undercut : e.right_undercut;
+        (planning::faces_behind(part, setup, work[setup], {bore, i})
+             ? side.items.back().faced_undercut
+             : side.items.back().undercut) =
+            planning::undercut_behind(part, setup, {bore, i});
       if (auto& s = side.items.back(); done[i] && part::is_groove(e))
         s.h0 = s.h1 = side.sign * e.cut->drawn.left_mm / 2;
     }
@@ -103,6 +106,11 @@ void Site::refuse(const std::string& operation, const std::string& why) {
 void Site::to(Move::Kind kind, const Side& side, const Point& p) {
   moves.push_back({kind, side.sign * p.h_mm, p.z_mm, {}, false});
   at = {side.sign * p.h_mm, p.z_mm};
+}
+
+void Site::arc(const Point& end, const Point& centre, bool clockwise) {
+  moves.push_back({Move::Kind::arc, end.h_mm, end.z_mm, centre, clockwise});
+  at = end;
 }
 
 void Site::approach(const Side& side, const Point& p, double re_mm) {

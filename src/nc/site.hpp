@@ -36,7 +36,8 @@ struct Surface {
   bool stock = true;  ///< not cut yet
   double left = 0;    ///< thickness that the last pass has left on it
   std::optional<part::Chamfer> front = {}, back = {};  ///< chamfers, drawn at z0 and z1
-  std::optional<part::Undercut> undercut = {};         ///< before the shoulder at z1
+  /// Before the wall at z1: cut by the last pass, or by the facing of the wall.
+  std::optional<part::Undercut> undercut = {}, faced_undercut = {};
 };
 
 /// Outside or in the bores.
@@ -80,6 +81,7 @@ class Site {
   Point at;  ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
+  void arc(const Point& end, const Point& centre, bool clockwise);  // outside
   /// Moves from any position to above a point, clear of the material with the whole
   /// corner, then at feed onto it.
   void approach(const Side& side, const Point& p, double re_mm);

@@ -283,9 +283,9 @@ std::vector<Piece> ends(const Pass& p, std::size_t k, const std::optional<Wall>&
   if (!w) return all;
   const double stock = wall_stock_mm(p, *w);
   const auto& s = p.surface();
-  if (!p.last && s.undercut) {
-    const double r = s.undercut->radius_mm;
-    const double h = own_line(p.site, p.side, s, 0).back().h_mm;
+  if (const auto& u = p.last || !s.undercut ? s.faced_undercut : s.undercut) {
+    const double r = u->radius_mm;
+    const double h = corrected(p.site, p.side, s).back().h_mm - u->depth_mm;
     const Arc radius{{h, s.z1 + r}, {h + r, s.z1}, {h + r, s.z1 + r}, false};
     all.push_back({radius.from, radius.to, radius});
   }
@@ -399,17 +399,12 @@ Way way_of(const Pass& p) {
 // From the floor of an undercut, of the height h, up its radius, which may be larger than
 // the corner's, and where it goes into the shoulder at z, back to that.
 void up_undercut(const Pass& p, const part::Undercut& u, double h, double z) {
-  const double lean = u.recess_mm > 0 ? part::kUndercutLeans_rad : 0, r = p.re_mm;
-  const Normal up{-std::sin(lean), std::cos(lean)};
-  const double radius = u.radius_mm - r;
-  const Point centre{h + radius, z + part::centre_mm(u) - r};  // of the tip's arc
-  p.site.to(Kind::feed, p.side, {h, centre.z_mm});
-  if (radius > kSame_mm) {
-    p.site.at = {centre.h_mm - radius * up.h, centre.z_mm - radius * up.z};
-    p.site.moves.push_back({Kind::arc, p.site.at.h_mm, p.site.at.z_mm, centre, true});
-  }
-  if (lean > 0)
-    p.site.to(Kind::feed, p.side, tip({h + part::height_mm(u), z}, up, kWall, r));
+  const auto way = planning::undercut_way(u, p.re_mm);
+  p.site.to(Kind::feed, p.side, {h, z + way.centre_z});
+  if (way.radius_mm > kSame_mm)
+    p.site.arc({h + way.arc_h, z + way.arc_z}, {h + way.centre_h, z + way.centre_z},
+               true);
+  if (way.lean_rad > 0) p.site.to(Kind::feed, p.side, {h + way.foot_h, z});
 }
 
 // Follows a path at feed to one of its points, which may be where an undercut ends at a
@@ -503,12 +498,12 @@ double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
   return top;
 }
 
-// Moves along the element before a shoulder to where turning has ended, or to its
-// beginning, as far as the surfaces in front of it allow.
-void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
-  const auto& s = site.outer.items[k];
-  if (cut_later(site, s) || !(to_z > site.at.z_mm)) return;
-  auto way = tips(corrected(site, site.outer, s), re_mm);
+// Moves along the line of the element before a shoulder to where turning has ended, or to
+// its beginning, as far as the surfaces in front of it allow.
+void run_out(Site& site, std::size_t k, const std::vector<Point>& line, double re_mm,
+             double to_z) {
+  if (cut_later(site, site.outer.items[k]) || !(to_z > site.at.z_mm)) return;
+  auto way = tips(line, re_mm);
   std::reverse(way.begin(), way.end());
   while (way.size() > 2 && way[way.size() - 2].z_mm > to_z) way.pop_back();
   if (!(way.back().z_mm > site.at.z_mm)) return;
@@ -516,6 +511,38 @@ void run_out(Site& site, std::size_t k, double re_mm, double to_z) {
   way.front() = {site.at.h_mm, site.at.z_mm};
   clip(way, drawn_before(site, site.outer, k), {re_mm});
   for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
+}
+
+// Where facing ends at the foot of a shoulder, and the line on which it goes on from there.
+struct ShoulderFoot {
+  double turned_h = 0,
+         h = 0;             // of the corner's lower end: as turned, and with the undercut
+  std::vector<Point> line;  // of the element before the shoulder
+  std::optional<planning::UndercutWay> undercut = {};
+  double width_mm = 0;  // of the undercut
+};
+
+ShoulderFoot shoulder_foot(const Site& site, std::size_t k, double re_mm) {
+  const auto& s = site.outer.items[k];
+  ShoulderFoot f;
+  f.line = corrected(site, site.outer, s);
+  const auto n = normal(f.line[f.line.size() - 2], f.line.back());
+  f.turned_h = f.h = tip(f.line.back(), n, kWall, re_mm).h_mm + re_mm;
+  if (const auto u = planning::undercut_behind(site.part, site.setup, {false, s.index})) {
+    f.line = with_undercut(std::move(f.line), *u, s.z1);
+    f.undercut = planning::undercut_way(*u, re_mm);
+    f.h = f.line.back().h_mm + f.undercut->foot_h + re_mm;
+    f.width_mm = u->width_mm;
+  }
+  return f;
+}
+
+// From the shoulder down to the floor of an undercut, of the height h.
+void down_undercut(Site& site, const planning::UndercutWay& way, double h) {
+  const double z = site.at.z_mm;
+  if (way.lean_rad > 0) site.to(Kind::feed, site.outer, {h + way.arc_h, z + way.arc_z});
+  if (way.radius_mm > kSame_mm)
+    site.arc({h, z + way.centre_z}, {h + way.centre_h, z + way.centre_z}, false);
 }
 
 }  // namespace
@@ -640,24 +667,26 @@ void face_shoulder(Site& site, std::size_t operation) {
   while (items[k].id + "|" + items[k + 1].id != id &&
          items[k + 1].id + "|" + items[k].id != id)
     ++k;
-  const auto& small = items[k];
-  const double re = corner_mm(site, o), z = small.z1;
-  const auto line = corrected(site, site.outer, small);
-  const auto n = normal(line[line.size() - 2], line.back());
+  const double re = corner_mm(site, o), z = items[k].z1;
+  const auto foot = shoulder_foot(site, k, re);
   const double outside = shoulder_top(site, operation, k + 1) + kAbove_mm + re;
   const double stock = later_mm(site, operation, id) + depth_mm(o);
   const auto before = drawn_before(site, site.outer, k);
   double left = stock;
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
-    const bool last = left < kSame_mm;
-    auto contact =
-        face_contour(site, id, z + (last ? 0 : left),
-                     tip(line.back(), n, {0, 1}, re).h_mm + re + (last ? 0 : kBehind_mm),
-                     outside, last);
-    if (last) contact = with_edge(site, std::move(contact), k + 1, re);
-    face_pass(site, contact, re, before);
-    if (last) run_out(site, k, re, z + stock + site.r_most - re);
+    if (left >= kSame_mm) {
+      face_pass(
+          site,
+          face_contour(site, id, z + left, foot.turned_h + kBehind_mm, outside, false),
+          re, before);
+    } else {
+      const auto contact = face_contour(site, id, z, foot.h, outside, true);
+      face_pass(site, with_edge(site, contact, k + 1, re), re, before);
+      if (foot.undercut) down_undercut(site, *foot.undercut, foot.line.back().h_mm);
+      run_out(site, k, foot.line, re,
+              std::max(z + stock + site.r_most - re, z + foot.width_mm));
+    }
     site.lift(site.outer);
   }
 }

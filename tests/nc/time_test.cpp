@@ -158,6 +158,19 @@ TEST(PlanAndProgram, OfReferencePartsTakeTheSameTime) {
   }
 }
 
+// Their undercuts are cut by the operations that face the shoulders.
+TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
+  int made = 0;
+  for (const auto& one : document::parse_file(source("tests/data/awkward_parts.json"))) {
+    const auto name = one["part"]["name"].get<std::string>();
+    if (!name.ends_with("run true") && !name.ends_with("runs true")) continue;
+    ++made;
+    const auto p = planned(one["part"]);
+    EXPECT_LE(apart(name, p, programs(p.part, p.plan)), kAlike) << name;
+  }
+  EXPECT_EQ(made, 4);
+}
+
 TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
   const int parts = parts_to_try(200);
   int made = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planning/clamping/positions.hpp"
+#include "planning/values/surface_request.hpp"
 
 namespace turnwright::planning {
 
@@ -91,6 +92,32 @@ std::optional<part::Undercut> undercut_behind(const PreparedPart& p, std::size_t
   if (e.inner) return std::nullopt;
   const auto& element = p.drawing.outer[e.index];
   return free_end(p, setup) == End::left ? element.right_undercut : element.left_undercut;
+}
+
+bool faces_behind(const PreparedPart& p, std::size_t setup, const SetupWork& work,
+                  const Element& e) {
+  if (e.inner) return false;
+  const std::size_t shoulder = free_end(p, setup) == End::left ? e.index + 1 : e.index;
+  return std::ranges::find(work.shoulders, shoulder) != work.shoulders.end();
+}
+
+std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& p, std::size_t k) {
+  const auto& outer = p.drawing.outer;
+  const bool undercut = outer[k - 1].right_undercut || outer[k].left_undercut;
+  return tools_for(p,
+                   undercut ? catalogue::ToolUse::finishing : catalogue::ToolUse::facing);
+}
+
+UndercutWay undercut_way(const part::Undercut& u, double r) {
+  UndercutWay w;
+  w.lean_rad = u.recess_mm > 0 ? part::kUndercutLeans_rad : 0;
+  w.radius_mm = std::max(0.0, u.radius_mm - r);
+  w.centre_h = w.radius_mm;
+  w.centre_z = part::centre_mm(u) - r;
+  w.arc_h = w.radius_mm * (1 + std::sin(w.lean_rad));
+  w.arc_z = w.centre_z - w.radius_mm * std::cos(w.lean_rad);
+  w.foot_h = part::height_mm(u) - r * (1 + std::tan(w.lean_rad / 2));
+  return w;
 }
 
 }  // namespace turnwright::planning

@@ -40,9 +40,29 @@ Rims rims_of(const PreparedPart& plan, std::size_t setup, const Element& groove)
 std::optional<double> fillet_behind_mm(const PreparedPart& plan, std::size_t setup,
                                        const Element& element);
 
+/// Where the tip of a corner goes in an undercut, heights over its floor and distances from
+/// the shoulder: on the shoulder it passes the foot, of form F on a line into the shoulder,
+/// then it goes around the centre to the floor.  Without a larger radius than the corner's
+/// the arc is a point.
+struct UndercutWay {
+  double foot_h = 0, arc_h = 0, arc_z = 0, centre_h = 0, centre_z = 0, radius_mm = 0;
+  double lean_rad = 0;  ///< by which the arc turns further than a right angle
+};
+UndercutWay undercut_way(const part::Undercut& undercut, double corner_mm);
+
 /// The undercut behind an outer element, as its setup's tool goes.
 std::optional<part::Undercut> undercut_behind(const PreparedPart& plan, std::size_t setup,
                                               const Element& element);
+
+/// Whether a setup faces the shoulder behind an outer element by itself, and cuts the
+/// undercut there in that operation.
+bool faces_behind(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
+                  const Element& element);
+
+/// The tools that may face the shoulder between outer elements k-1 and k: those for
+/// finishing if an undercut stands before it.
+std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& plan,
+                                                   std::size_t shoulder);
 
 /// Whether a setup makes an element.
 bool makes(const SetupWork& work, const Element& element);

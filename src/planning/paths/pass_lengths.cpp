@@ -97,7 +97,7 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
 }
 
 // Stock [mm] that turning leaves for facing on the shoulder between an element and the next
-// one; 0 if this setup faces no shoulder there.  It is the largest of the facing tools'
+// one; 0 if this setup faces no shoulder there.  It is the largest of its tools'
 // least depths: the tool is not chosen yet, and one that also roughs, which spares a tool
 // change, has the largest.
 double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
@@ -106,7 +106,7 @@ double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
   if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
     return 0;
   double most = 0;
-  for (const auto* t : tools_for(p, catalogue::ToolUse::facing))
+  for (const auto* t : shoulder_tools(p, k))
     most = std::max(most, catalogue::least_depth_mm(*t));
   return most;
 }
@@ -222,9 +222,10 @@ double below_mm(double height, double r, double minor_rad) {
 // thickness `left`, meets the radius of an undercut: its centre is then R - r from that
 // radius' own.
 double before_radius_mm(const Surroundings& s, double r, double left) {
-  if (!s.undercut) return 0;
-  const double most = s.undercut->radius_mm - r;
-  const double below = most - s.undercut->depth_mm - left;
+  const auto& undercut = s.undercut ? s.undercut : s.faced_undercut;
+  if (!undercut) return 0;
+  const double most = undercut->radius_mm - r;
+  const double below = most - undercut->depth_mm - left;
   if (most <= 0 || below <= 0) return 0;
   return most - std::sqrt(most * most - sqr(std::min(below, most)));
 }
@@ -276,7 +277,8 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.h1 = e.h1;
   s.front_chamfer = front_chamfer(p, setup, element).value_or(part::Chamfer{});
   s.fillet_mm = fillet_behind_mm(p, setup, element);
-  s.undercut = undercut_behind(p, setup, element);
+  (faces_behind(p, setup, work, element) ? s.faced_undercut : s.undercut) =
+      undercut_behind(p, setup, element);
   s.first = k == 0;
   s.wall_z = s.touch_z = -kInfinity;
   add_walls(p, setup, work, all, k, s);
@@ -337,7 +339,7 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     if (last && on) return s.z1 + r * tip_z(rad, s.behind->rad);
     const bool level = last && s.level_behind;
     double z = s.z1 + r * (std::sin(rad) - 1) - (level ? 0 : s.r_most + r) - kBehind_mm;
-    if (!last)
+    if (!last || s.faced_undercut)
       z = std::max(z,
                    s.wall_z + std::max(wall_stock(last), before_radius_mm(s, r, left)));
     else if (std::isfinite(s.touch_z))

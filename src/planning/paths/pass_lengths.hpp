@@ -56,8 +56,9 @@ struct Surroundings {
   /// another setup makes the element there; with the height at which it begins.
   part::Chamfer wall_chamfer = {};
   double wall_edge_h = 0;
-  bool wall_in_stock = false;                   ///< that setup comes later
-  std::optional<part::Undercut> undercut = {};  ///< before that wall
+  bool wall_in_stock = false;  ///< that setup comes later
+  /// Before that wall: cut by the last pass, or by the operation that faces the wall.
+  std::optional<part::Undercut> undercut = {}, faced_undercut = {};
   std::optional<double> fillet_mm = {};  ///< largest that may stay at the wall's foot
   bool first = false;                    ///< begins at the free end
   double wall_z = 0;        ///< a rising surface, where roughing ends at the latest

@@ -1,5 +1,7 @@
 #include "edge_assignment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,9 +36,9 @@ bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
   const double wall_mm = end_radius_mm(d, e, end) -
                          end_radius_mm(d, front, part::opposite(end)) -
                          chamfer->radial_mm;
-  return std::ranges::all_of(
-      tools_for(p, catalogue::ToolUse::facing),
-      [&](const catalogue::Tool* t) { return t->re_mm + kNoWall_mm <= wall_mm; });
+  return std::ranges::all_of(shoulder_tools(p, shoulder), [&](const catalogue::Tool* t) {
+    return t->re_mm + kNoWall_mm <= wall_mm;
+  });
 }
 
 // Whether a setup plunges the groove beside an element that is made by then, so that the
@@ -149,19 +151,14 @@ std::vector<std::string> undercuts_not_cut(const PreparedPart& p,
     for (const End end : {End::left, End::right}) {
       const auto& e = p.drawing.outer[i];
       if (!(end == End::left ? e.left_undercut : e.right_undercut)) continue;
-      const std::size_t shoulder = end == End::left ? i : i + 1;
       bool cut = false;
       for (std::size_t s = 0; s < setups.size(); ++s)
-        cut = cut || (makes(setups[s], {false, i}) && free_end(p, s) != end &&
-                      std::ranges::find(setups[s].shoulders, shoulder) ==
-                          setups[s].shoulders.end());
+        cut = cut || (makes(setups[s], {false, i}) && free_end(p, s) != end);
       if (!cut)
-        all.push_back("the undercut of " + e.id + " before " +
-                      shoulder_id(p.drawing, shoulder) +
-                      " cannot be cut: no setup turns " + e.id +
-                      " towards that shoulder and its wall in the same pass; a shoulder "
-                      "with a roughness or a tolerance is faced by itself, with a tool "
-                      "whose minor edge does not go into the undercut");
+        all.push_back(fmt::format(
+            "the undercut of {} before {} cannot be cut: no setup turns {} "
+            "towards that shoulder",
+            e.id, shoulder_id(p.drawing, end == End::left ? i : i + 1), e.id));
     }
   return all;
 }

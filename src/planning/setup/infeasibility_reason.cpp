@@ -24,12 +24,6 @@ Worst worst_row(const RecipeModel& m, const Choice<double>& c) {
   return w;
 }
 
-catalogue::ToolUse use_of(const MachinedSurface& f) {
-  if (f.is_face()) return catalogue::ToolUse::facing;
-  return f.kind() == MachinedSurface::Kind::bore ? catalogue::ToolUse::boring
-                                                 : catalogue::ToolUse::finishing;
-}
-
 // Whether a tool that could rough or finish a surface meets the tailstock's centre.
 bool meets_centre(const PreparedPart& plan, const MachinedSurface& f) {
   for (const auto use : {catalogue::ToolUse::roughing, catalogue::ToolUse::finishing})
@@ -40,11 +34,12 @@ bool meets_centre(const PreparedPart& plan, const MachinedSurface& f) {
 
 std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   const auto& fixed = f.fixed();
-  if (!plan.operations && tools_for(plan, use_of(f)).empty())
+  const auto use = f.last_use();
+  if (!plan.operations && tools_for(plan, use).empty())
     return fmt::format(": none of the tools for {} has a grade for {}",
-                       f.is_face()                               ? "facing"
-                       : f.kind() == MachinedSurface::Kind::bore ? "boring"
-                                                                 : "finishing",
+                       use == catalogue::ToolUse::facing   ? "facing"
+                       : use == catalogue::ToolUse::boring ? "boring"
+                                                           : "finishing",
                        plan.material.id);
   if (const auto asked = f.edges_asked(); !asked.empty())
     return fmt::format(": no tool that could finish it fits and has {}", asked);

@@ -215,8 +215,8 @@ std::vector<Tools> SetupPlanner::choices() const {
   const bool given = p_.operations.has_value();
   const bool elements = any(MachinedSurface::Kind::element),
              bores = any(MachinedSurface::Kind::bore);
-  const bool faces =
-      any(MachinedSurface::Kind::end_face) || any(MachinedSurface::Kind::shoulder);
+  const bool faces = std::ranges::any_of(
+      jobs_, [](const Job& j) { return j.feature.last_use() == ToolUse::facing; });
   const auto face = list(faces, ToolUse::facing, false);
   const auto rough = list(elements, ToolUse::roughing, elements);
   const auto finish = list(elements, ToolUse::finishing, elements && given);
@@ -234,8 +234,9 @@ std::vector<Tools> SetupPlanner::choices() const {
 // The tools of a job: roughing and finishing (or facing).
 ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools) const {
   const auto& w = jobs_[j].wanted;
+  const bool facing = jobs_[j].feature.last_use() == ToolUse::facing;
   if (jobs_[j].feature.is_face())
-    return {nullptr, w.finish_tool ? w.finish_tool : tools.face};
+    return {nullptr, w.finish_tool ? w.finish_tool : facing ? tools.face : tools.finish};
   const bool bore = jobs_[j].feature.kind() == MachinedSurface::Kind::bore;
   const Tool* rough =
       w.rough_tool ? w.rough_tool : (bore ? tools.bore_rough : tools.rough);

@@ -106,7 +106,7 @@ MachinedSurface MachinedSurface::element(const PreparedPart& plan, std::size_t s
   MachinedSurface f(plan, setup, clamping, Kind::element, e.id, fixed);
   f.take(e, index, part::left_z_mm(plan.drawing, index));
   f.around_ = surroundings(plan, setup, clamping, work, {false, index});
-  f.take_wall(work);
+  f.take_wall();
   const auto level = f.around_.level_behind;
   f.goes_on_ = e.cut || (level && !before.outer[*level]);
   f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
@@ -184,6 +184,7 @@ MachinedSurface MachinedSurface::shoulder(const PreparedPart& plan, std::size_t 
   for (const auto& t : plan.tools) f.around_.r_most = std::max(f.around_.r_most, t.re_mm);
   const std::size_t smaller = index - 1 + index - behind;
   f.around_.fillet_mm = fillet_behind_mm(plan, setup, {false, smaller});
+  f.around_.undercut = undercut_behind(plan, setup, {false, smaller});
   f.around_.wall_chamfer =
       makes(work, {false, behind})
           ? part::Chamfer{}
@@ -206,11 +207,11 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
 }
 
 // A wall that is made in one pass with an undercut is as smooth as the drawing asks.
-void MachinedSurface::take_wall(const SetupWork& work) {
+void MachinedSurface::take_wall() {
   if (!around_.undercut) return;
   const std::size_t k = around_.mirrored ? index_ + 1 : index_;
   const auto* wall = find_face(*plan_, shoulder_id(plan_->drawing, k));
-  if (!wall || std::ranges::find(work.shoulders, k) != work.shoulders.end()) return;
+  if (!wall) return;
   const auto smoother = [](double& own, const std::optional<double>& asked) {
     if (asked && !(own > 0 && own < *asked)) own = *asked;
   };

@@ -61,6 +61,9 @@ class MachinedSurface {
   }
 
   Kind kind() const { return kind_; }
+  /// What its last tool is for: a shoulder behind an undercut is faced by a finishing tool,
+  /// which goes on into the undercut.
+  catalogue::ToolUse last_use() const;
   bool is_face() const { return kind_ == Kind::end_face || kind_ == Kind::shoulder; }
   const std::string& surface() const { return surface_; }
   const GivenConditions& fixed() const { return fixed_; }
@@ -152,7 +155,8 @@ class MachinedSurface {
                   Kind kind, std::string surface, const GivenConditions& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
-  void take_wall(const SetupWork& work);
+  void take_wall();
+  std::optional<part::Undercut> undercut_of_last() const;
   OperationModel operation(const Recipe& recipe, bool finishing,
                            const Economy& economy) const;
   // In surface_paths.cpp.

@@ -10,16 +10,23 @@
 
 namespace turnwright::planning {
 
+// Where no operations are given, the tool that finishes an element also faces the shoulder
+// behind its undercut.
+std::optional<part::Undercut> MachinedSurface::undercut_of_last() const {
+  return around_.undercut || plan_->operations ? around_.undercut
+                                               : around_.faced_undercut;
+}
+
 bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
   const bool into_stock = s.wall_in_stock && s.wall_chamfer.axial_mm > 0;
   if (into_stock && !takes_ring(tool, s.wall_chamfer)) return false;
-  return !s.undercut ||
-         (tool.re_mm <= s.undercut->radius_mm &&
-          (!(s.undercut->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
-          units::rad_from_deg(tool.minor_kapr_deg) >= part::kUndercutFalls_rad &&
-          tool.ap_mm.upper > s.undercut->depth_mm);
+  const auto u = undercut_of_last();
+  return !u || (tool.re_mm <= u->radius_mm &&
+                (!(u->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
+                units::rad_from_deg(tool.minor_kapr_deg) >= part::kUndercutFalls_rad &&
+                tool.ap_mm.upper > u->depth_mm);
 }
 
 std::string MachinedSurface::edges_asked() const {
@@ -30,20 +37,25 @@ std::string MachinedSurface::edges_asked() const {
   };
   if (s.fillet_mm)
     add(fmt::format("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
-  if (s.undercut)
+  if (const auto u = undercut_of_last())
     add(fmt::format(
         "a corner of at most {:g} mm{} and a minor edge of at least {:g} deg for "
         "the undercut",
-        s.undercut->radius_mm,
-        s.undercut->recess_mm > 0
-            ? fmt::format(", a KAPR of at least {:g} deg",
-                          90 + units::deg_from_rad(part::kUndercutLeans_rad))
-            : std::string(),
+        u->radius_mm,
+        u->recess_mm > 0 ? fmt::format(", a KAPR of at least {:g} deg",
+                                       90 + units::deg_from_rad(part::kUndercutLeans_rad))
+                         : std::string(),
         units::deg_from_rad(part::kUndercutFalls_rad)));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
     add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
                     s.wall_chamfer.axial_mm));
   return all;
+}
+
+catalogue::ToolUse MachinedSurface::last_use() const {
+  if (kind_ == Kind::bore) return catalogue::ToolUse::boring;
+  return is_face() && !around_.undercut ? catalogue::ToolUse::facing
+                                        : catalogue::ToolUse::finishing;
 }
 
 bool MachinedSurface::clears_centre(const catalogue::Tool& tool) const {

@@ -3,6 +3,7 @@
 
 #include "machined_surface.hpp"
 #include "planning/operation/speed_window.hpp"
+#include "planning/paths/edges.hpp"
 
 namespace turnwright::planning {
 namespace {
@@ -84,6 +85,21 @@ Beside MachinedSurface::ways(const OperationModel& o, const Strokes& strokes) co
   return is_face() ? facing(o, strokes) : beside(around_, strokes);
 }
 
+// What cutting an undercut from its shoulder adds to a facing pass.
+struct Undercutting {
+  double above_h = 0;   // the facing ends so far above the smaller element, or below it
+  double along_mm = 0;  // to out_mm before the shoulder
+  double out_mm = 0;    // at least its width
+};
+Undercutting undercutting(const part::Undercut& u, double corner_mm, double out_mm) {
+  const auto w = undercut_way(u, corner_mm);
+  const double out = std::max(out_mm, u.width_mm);
+  const double in = std::hypot(w.foot_h - w.arc_h, w.arc_z);
+  const double arc = w.radius_mm * (units::kPi / 2 + w.lean_rad);
+  const double rises = u.depth_mm * std::tan(part::kUndercutFalls_rad / 2);
+  return {w.foot_h - u.depth_mm, in + arc + (out - w.centre_z) + rises, out};
+}
+
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
 // the rest takes.
 Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) const {
@@ -102,9 +118,15 @@ Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) 
   b.from_mm = face_z_;
   b.to_mm = face_z_ + kAbove_mm;
   if (!end) {
-    const double out = o.ap.lower + around_.r_most - r;  // along the smaller element
+    double out = o.ap.lower + around_.r_most - r, along = out;  // the smaller element
     fed -= (n - 1) * swept_mm2(small, small + kBehind_mm, D_c);
-    fed += out * std::max(D_small_, D_c);
+    if (around_.undercut) {
+      const auto u = undercutting(*around_.undercut, r, out);
+      fed -= swept_mm2(small, small + u.above_h, D_c);
+      out = u.out_mm;
+      along = u.along_mm;
+    }
+    fed += along * std::max(D_small_, D_c);
     b.to_mm += out;
   }
   b.fed_mm = n * (large - small) * fed / (n * cut);

@@ -198,19 +198,68 @@ TEST(Undercuts, MakeTheirShoulderAsSmoothAsItIsDrawn) {
   EXPECT_EQ(feed(d), smooth);
 }
 
-// A shoulder with a tolerance of its own is faced by another tool.
-TEST(Undercuts, StandBeforeNoShoulderThatIsFacedByItself) {
-  auto d = collar({{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}});
+json with_runout(const char* undercut) {
+  auto d = collar({{{"at", "d1|d2"}, {"undercut", undercut}}});
   d["tolerances"] = {{{"id", "t"},
-                      {"kind", "perpendicularity"},
+                      {"kind", "circular-axial-runout"},
                       {"of", "d1|d2"},
                       {"datum", "d1"},
                       {"value_mm", 0.05}}};
+  return d;
+}
+
+// A shoulder with a tolerance of its own is faced by the finishing tool, which goes on into
+// the undercut; the facing tool, whose minor edge does not, faces the ends alone.
+TEST(Undercuts, AreCutFromAShoulderThatIsFacedByItself) {
+  auto d = with_runout("E0.8x0.3");
+  d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"};
+  const auto tool_of = [](const ProcessPlan& r, const std::string& id) {
+    for (const auto& o : r.setups.at(1).operations)
+      if (o.id == id) return o.tool;
+    return std::string("none");
+  };
   const auto r = plan(part(d));
-  ASSERT_EQ(r.status, PlanStatus::infeasible);
-  EXPECT_TRUE(r.conflicts.front().sentence.starts_with(
-      "the undercut of d1 before d1|d2 cannot be cut"))
-      << r.conflicts.front().sentence;
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(tool_of(r, "s2-face-d1-d2"), "PDJNL-DNMG150604-PF");
+  EXPECT_EQ(tool_of(r, "s2-finish-d1"), "PDJNL-DNMG150604-PF");
+  EXPECT_EQ(tool_of(r, "s2-face-left"), "PCLNL-CNMG120408-PM");
+  d.erase("edges");
+  EXPECT_EQ(tool_of(plan(part(d)), "s2-face-d1-d2"), "PCLNL-CNMG120408-PM");
+}
+
+TEST(Undercuts, OfAShoulderThatIsFacedNeedTheSameTools) {
+  auto d = with_runout("F0.8x0.3");
+  d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"};
+  const auto none = plan(part(d));
+  ASSERT_EQ(none.status, PlanStatus::infeasible);
+  EXPECT_EQ(
+      none.conflicts.front().sentence,
+      "d1: no tool that could finish it fits and has a corner of at most 0.8 mm, a KAPR "
+      "of at least 98 deg and a minor edge of at least 15 deg for the undercut");
+  d["tools"].push_back("SVHBL-VBMT160404-PF");
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+}
+
+// The arc around the undercut's own centre ends where the corner touches the floor, and
+// where it touches what rises to the shoulder.
+TEST(UndercutWay, TouchesFloorRadiusAndShoulder) {
+  for (const char form : {'E', 'F'})
+    for (const double r : {0.2, 0.4, 0.8}) {
+      const auto u = part::undercut(form, 0.8, 0.3).value();
+      const auto w = undercut_way(u, r);
+      const double lean = form == 'F' ? 8 * M_PI / 180 : 0;
+      const double z = part::centre_mm(u);  // of the undercut's radius, at its height
+      EXPECT_NEAR(w.centre_h + r, u.radius_mm, 1e-12);
+      EXPECT_NEAR(w.centre_z + r, z, 1e-12);
+      EXPECT_NEAR(std::hypot(w.arc_h - w.centre_h, w.arc_z - w.centre_z), w.radius_mm,
+                  1e-12);
+      // Distance of the corner's centre from the line that leans through the foot.
+      const auto from_line = [&](double h, double along_z) {
+        return along_z * std::cos(lean) - (h - part::height_mm(u)) * std::sin(lean);
+      };
+      EXPECT_NEAR(from_line(w.arc_h + r, w.arc_z + r), r, 1e-9) << form << r;
+      EXPECT_NEAR(from_line(w.foot_h + r, r), r, 1e-9) << form << r;
+    }
 }
 
 }  // namespace
