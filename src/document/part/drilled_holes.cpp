@@ -29,16 +29,29 @@ part::Limits limits_of(const part::InnerElement& bore) {
              : tolerance::general_limits_mm(bore.left_mm, tolerance::LinearClass::f);
 }
 
+bool has_size(const FixedTool& drill, double D) {
+  return std::ranges::find(drill.sizes_mm, D) != drill.sizes_mm.end();
+}
+
+bool keeps_size(const FixedTool& drill, double D, const part::Limits& limits) {
+  const auto grade =
+      tolerance::Grade(static_cast<int>(tolerance::Grade::IT0) + drill.hole->grade);
+  return limits.lower_mm <= 0 &&
+         units::um_from_mm(limits.upper_mm) >= tolerance::it_um(D, grade);
+}
+
 // Whether a drill leaves a bore as it is drawn.
 bool keeps(const FixedTool& drill, const part::InnerElement& bore, double depth_mm) {
   const double D = bore.left_mm;
-  const auto grade =
-      tolerance::Grade(static_cast<int>(tolerance::Grade::IT0) + drill.hole->grade);
-  const auto limits = limits_of(bore);
-  return std::ranges::find(drill.sizes_mm, D) != drill.sizes_mm.end() &&
-         depth_mm <= drill.reach * D && limits.lower_mm <= 0 &&
-         units::um_from_mm(limits.upper_mm) >= tolerance::it_um(D, grade) &&
+  return has_size(drill, D) && depth_mm <= drill.reach * D &&
+         keeps_size(drill, D, limits_of(bore)) &&
          bore.Ra_um.value_or(drill.hole->Ra_um) >= drill.hole->Ra_um && !bore.Rz_um;
+}
+
+// What a drill is known to leave.
+std::string promise(const FixedTool& drill) {
+  return "IT" + std::to_string(drill.hole->grade) + " and Ra " +
+         number_text(drill.hole->Ra_um) + " um";
 }
 
 // Whether a boring bar enters what a drill would leave of a bore.
@@ -48,12 +61,21 @@ bool can_be_bored(const std::vector<catalogue::Tool>& tools, double diameter_mm)
   });
 }
 
+// The drills of the material of which it is known what they leave.
+std::vector<const FixedTool*> known_drills(const Draft& draft) {
+  std::vector<const FixedTool*> all;
+  const auto& plan = draft.loaded.plan;
+  for (const auto& t : plan.fixed_tools)
+    if (t.use == FixedUse::drilling && t.hole && t.conditions_in(plan.material.group))
+      all.push_back(&t);
+  return all;
+}
+
 // The drill that makes a bore to its size; none.
-const FixedTool* drill_of(Draft& draft, const part::InnerElement& bore, double depth_mm) {
-  for (const auto& t : draft.plan().fixed_tools)
-    if (t.use == FixedUse::drilling && t.hole &&
-        t.conditions_in(draft.plan().material.group) && keeps(t, bore, depth_mm))
-      return &t;
+const FixedTool* drill_of(const Draft& draft, const part::InnerElement& bore,
+                          double depth_mm) {
+  for (const auto* t : known_drills(draft))
+    if (keeps(*t, bore, depth_mm)) return t;
   return nullptr;
 }
 
@@ -86,6 +108,47 @@ bool leaves_the_others(const part::Drawing& d, const Bores& bores) {
   });
 }
 
+// The limits that a hole of the document is given, if they can be read.
+std::optional<part::Limits> given_limits(Reader& hole, double D) {
+  if (const auto given = hole.find("limits_mm"))
+    return given->broken() ? std::nullopt : std::optional(read_limits(hole));
+  const auto fit = hole.optional_text("fit", 8);
+  if (!fit) return std::nullopt;
+  try {
+    return tolerance::fit_limits_mm(D, *fit);
+  } catch (const std::domain_error& error) {
+    hole.problem_at("fit",
+                    std::string("an ISO 286 tolerance class (") + error.what() + ")",
+                    "choice");
+    return std::nullopt;
+  }
+}
+
+// A hole is not asked for more than some drill of its diameter leaves.
+void check_demands(const Draft& draft, Reader hole, double D) {
+  auto drills = known_drills(draft);
+  std::erase_if(drills, [&](const auto* t) { return !has_size(*t, D); });
+  if (drills.empty()) return;
+  const auto refuse = [&](const char* key) {
+    std::string made;
+    for (const auto* t : drills)
+      made += (made.empty() ? "" : "; ") + t->id + " " + promise(*t);
+    hole.problem_at(key,
+                    "no more than a drill leaves (" + made +
+                        "), or \"cylinder\" as kind, which is bored",
+                    "conflict");
+  };
+  const auto none = [&](const auto& leaves) {
+    return std::ranges::none_of(drills, leaves);
+  };
+  if (const auto limits = given_limits(hole, D);
+      limits && none([&](const auto* t) { return keeps_size(*t, D, *limits); }))
+    refuse(hole.has("fit") ? "fit" : "limits_mm");
+  if (const auto Ra_um = hole.optional_number("Ra_um", above_up_to(0, 100, "um"));
+      Ra_um && none([&](const auto* t) { return t->hole->Ra_um <= *Ra_um; }))
+    refuse("Ra_um");
+}
+
 // The holes that the document asks for.
 void check_holes(const Draft& draft, const std::vector<Reader>& items,
                  const Bores& bores) {
@@ -99,6 +162,8 @@ void check_holes(const Draft& draft, const std::vector<Reader>& items,
                           "a hole that is the innermost bore of its end, at least 1 mm "
                           "narrower than the others",
                           "conflict");
+    else
+      check_demands(draft, items[i], d.inner[i].left_mm);
   }
 }
 
@@ -124,9 +189,7 @@ void read_drilled_holes(Draft& draft) {
     if (!drill) continue;
     const Reader& item = items[bores.all.back()];
     draft.assume(item.pointer_of("kind"), "hole",
-                 "drilled to its size by " + drill->id + ", to IT" +
-                     std::to_string(drill->hole->grade) + " and Ra " +
-                     number_text(drill->hole->Ra_um) + " um");
+                 "drilled to its size by " + drill->id + ", to " + promise(*drill));
     make_at_catalogue_conditions(draft, item, bore, part::hole(bore.left_mm).cut);
   }
 }

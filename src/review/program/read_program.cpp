@@ -125,6 +125,7 @@ class ProgramReader {
       if (w.name == "G" && w.value) code(*w.value, block);
     for (const auto& w : block.words)
       if (w.name != "G") word(w, block);
+    tell_repeated(block);
     if (motion_ < 4) box_end_.reset();
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
@@ -250,6 +251,18 @@ class ProgramReader {
     if (w.name.size() == 1 &&
         std::string_view("ABCVY").find(w.name) != std::string_view::npos)
       s_.unknown(w.text, "Only the axes X and Z are followed.");
+    if (w.name == "E" && special_ == Special::none && motion_ < 4)
+      s_.unknown(
+          w.text,
+          "The letter belongs to threads; a number before it ends there, it has no "
+          "exponent.");
+  }
+
+  // Codes alone may stand twice in a block.
+  void tell_repeated(const Block& block) {
+    for (const auto& w : block.words)
+      if (w.name != "G" && w.name != "M" && block.find(w.name) != &w)
+        s_.unknown(w.text, "The letter stands twice in the block, which controls refuse.");
   }
 
   void limit(double n_rpm) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../parts.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/planning/plan.hpp"
 
 namespace turnwright::planning {
@@ -213,6 +214,31 @@ TEST(Holes, OfGivenOperationsAreDrilledByOne) {
   EXPECT_EQ(
       part(d).work.unreachable,
       std::vector<std::string>{"b1 has no operation: it would stay as the stock is"});
+}
+
+// A drill of the catalogue promises IT10 and Ra 3.2 um: a hole is not asked for more.
+TEST(Holes, AreNotAskedForMoreThanADrillLeaves) {
+  const auto answer = [](const json& asked) -> std::string {
+    auto hole = asked;
+    hole["kind"] = "hole";
+    try {
+      part(drilled(8, hole));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string leaves =
+      ", expected no more than a drill leaves (DRILL-HM-5D IT10 and Ra 3.2 um; "
+      "DRILL-HM-8D IT10 and Ra 3.2 um), or \"cylinder\" as kind, which is bored";
+  EXPECT_EQ(answer({{"fit", "H7"}}), "part: /inner/0/fit: got \"H7\"" + leaves);
+  EXPECT_EQ(answer({{"Ra_um", 0.2}}), "part: /inner/0/Ra_um: got 0.2" + leaves);
+  EXPECT_EQ(answer({{"limits_mm", {0.0, 0.05}}}),
+            "part: /inner/0/limits_mm: got [0.0,0.05]" + leaves);
+  EXPECT_TRUE(answer({{"fit", "H7x"}}).starts_with("part: /inner/0/fit: got \"H7x\""));
+  for (const json& asked :
+       {json{{"fit", "H10"}}, json{{"Ra_um", 3.2}}, json{{"limits_mm", {0, 0.058}}}})
+    EXPECT_EQ(answer(asked), "accepted") << asked;
 }
 
 // Behind a bored seat the drill has the hole's size and boring starts from that.

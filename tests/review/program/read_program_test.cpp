@@ -206,6 +206,10 @@ TEST(ReadProgram, ListsWhatItDoesNotKnow) {
       {Control::fanuc, "G42 G0 X18.\n", 3, "G42"},
       {Control::fanuc, "G1 Y3.\n", 3, "Y3."},
       {Control::fanuc, "G123\n", 3, "G123"},
+      {Control::fanuc, "G1 X10. F0.2E5\n", 3, "E5"},
+      {Control::fanuc, "G1 X10.5.2\n", 3, ".2"},
+      {Control::fanuc, "G1 X10. X12.\n", 3, "X12."},
+      {Control::linuxcnc, "G1 X10 Z\n", 3, "Z"},
       {Control::siemens, "CYCLE95(\"CONTOUR\",2)\n", 3, "CYCLE95(\"CONTOUR\",2)"},
       {Control::siemens, "TRANS Z=5\n", 3, "TRANS"}};
   for (const auto& s : strange) {
