@@ -262,7 +262,8 @@ class ProgramReader {
   void tell_repeated(const Block& block) {
     for (const auto& w : block.words)
       if (w.name != "G" && w.name != "M" && block.find(w.name) != &w)
-        s_.unknown(w.text, "The letter stands twice in the block, which controls refuse.");
+        s_.unknown(w.text,
+                   "The letter stands twice in the block, which controls refuse.");
   }
 
   void limit(double n_rpm) {
