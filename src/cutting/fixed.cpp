@@ -25,6 +25,17 @@ double drill_point_mm(double D, double point_deg) {
   return D / 2 / std::tan(units::rad_from_deg(point_deg / 2));
 }
 
+std::vector<double> peck_depths_mm(const std::optional<catalogue::Pecking>& pecking,
+                                   double D, double depth) {
+  const double first = pecking ? pecking->first_diameters * D : depth;
+  if (!(first < depth)) return {depth};
+  const double steps = (depth - first) / (pecking->step_diameters * D);
+  const int pecks = static_cast<int>(std::ceil(steps - 1e-9));  // Eq. (6)
+  std::vector<double> all;
+  for (int i = 0; i <= pecks; ++i) all.push_back(first + (depth - first) * i / pecks);
+  return all;
+}
+
 Load plunge(const catalogue::Kienzle& k, const catalogue::Thrust& thrust, double b,
             double f, double D) {
   const double Fc = k.k11_MPa * b * std::pow(f, 1 - k.m);  // Eq. (3)

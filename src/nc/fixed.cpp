@@ -36,8 +36,14 @@ void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   const double point = cutting::drill_point_mm(D, tool.point_deg);
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);
-  site.to(Kind::feed, site.outer, {0, -(depth + point)});
-  site.rapid(0, site.front + kBefore_mm);
+  double reached = 0;
+  for (const double to :
+       cutting::peck_depths_mm(tool.pecking, D, site.front + depth + point)) {
+    if (reached > 0) site.rapid(0, site.front - reached + kPeck_mm);
+    site.to(Kind::feed, site.outer, {0, site.front - to});
+    site.rapid(0, site.front + kBefore_mm);
+    reached = to;
+  }
   if (centre) return;
   site.inner.stock_h = -D / 2;
   for (auto& s : site.inner.items) {

@@ -23,6 +23,7 @@ using planning::kBefore_mm;
 using planning::kBehind_mm;
 using planning::kChange_mm;
 using planning::kClear_mm;
+using planning::kPeck_mm;
 inline constexpr double kSame_mm = 1e-9;    ///< heights are the same
 inline constexpr double kStands_mm = 0.01;  ///< more than corrections differ
 

@@ -42,6 +42,14 @@ TEST(Drill, PowerIsSpecificForceTimesVolumePerTime) {
   EXPECT_NEAR(units::shaft_power_kW(l.M_Nm, n), kc * volume / 60e6, 1e-9);
 }
 
+TEST(Pecks, AreAsLongAsTheyMayBeAndReachTheDepth) {
+  const catalogue::Pecking pecking{3, 1};
+  EXPECT_EQ(peck_depths_mm(std::nullopt, 10, 70), (std::vector<double>{70}));
+  EXPECT_EQ(peck_depths_mm(pecking, 10, 30), (std::vector<double>{30}));
+  EXPECT_EQ(peck_depths_mm(pecking, 10, 40), (std::vector<double>{30, 40}));
+  EXPECT_EQ(peck_depths_mm(pecking, 10, 45), (std::vector<double>{30, 37.5, 45}));
+}
+
 TEST(Plunge, IsKienzleOfAStraightEdge) {
   const auto l = plunge(kSteel, {0.4, 60, 20}, 3, 1, 40);
   EXPECT_NEAR(l.Fc_N, 4800, 1e-9);

@@ -25,6 +25,12 @@ struct DrilledHole {
   double Ra_um = 0;
 };
 
+/// How a drill without coolant of its own brings out its chips: down to `first_diameters` in
+/// one feed, then out of the hole after every `step_diameters` at most.
+struct Pecking {
+  double first_diameters = 0, step_diameters = 0;
+};
+
 /// A tool that is used at fixed conditions, which are not optimised.
 struct FixedTool {
   std::string id, name;
@@ -38,6 +44,7 @@ struct FixedTool {
   double reach = 0;      ///< deepest cut: of drills in diameters, of blades in mm
   double point_deg = 0;  ///< point angle of a drill
   std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
+  std::optional<Pecking> pecking = {};   ///< absent: it drills every hole in one feed
   double ap_mm = 0;                      ///< largest depth of a profiling pass
   double re_mm = 0;                      ///< corner radius of profiling tools
   double passes_per_mm = 0;              ///< infeeds of a thread per mm of pitch

@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "turnwright/catalogue/fixed_tool.hpp"
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/cutting/spindle.hpp"
 
@@ -28,6 +30,13 @@ struct Load {
 Load drill(const catalogue::Kienzle& kc, double D_mm, double f_mm_rev, double point_deg);
 /// Length [mm] of a drill's point, (D/2)/tan(point/2).
 double drill_point_mm(double D_mm, double point_deg);
+
+/// Depths [mm] of a hole from which a drill is drawn out to clear its chips, the depth of
+/// the whole hole last.  Beyond the first feed all pecks are equally long:
+///
+///     pecks = ceil((depth - first D)/(step D))                                       (6)
+std::vector<double> peck_depths_mm(const std::optional<catalogue::Pecking>& pecking,
+                                   double D_mm, double depth_mm);
 
 /// Load on a straight edge of width b that is fed into the work at the diameter D:
 ///

@@ -34,6 +34,14 @@ void read_hole(Reader& r, FixedTool& t) {
   hole->finish();
 }
 
+void read_pecking(Reader& r, FixedTool& t) {
+  auto pecking = r.optional_object("pecking");
+  if (!pecking) return;
+  t.pecking = {pecking->number("first_diameters", within(0.1, 100)),
+               pecking->number("step_diameters", within(0.1, 100))};
+  pecking->finish();
+}
+
 void read_kind(Reader& r, FixedTool& t) {
   switch (t.use) {
     case FixedUse::centring:
@@ -41,7 +49,9 @@ void read_kind(Reader& r, FixedTool& t) {
       read_sizes(r, t);
       t.reach = r.number("reach_diameters", above_up_to(0, 100));
       t.point_deg = r.number("point_deg", within(60, 180, "deg"));
-      if (t.use == FixedUse::drilling) read_hole(r, t);
+      if (t.use != FixedUse::drilling) break;
+      read_hole(r, t);
+      read_pecking(r, t);
       break;
     case FixedUse::grooving:
     case FixedUse::parting:

@@ -257,8 +257,15 @@ AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
   const double front = front_mm(s.p, s.setup, s.work);
   const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
   const double vf = f.at.f_mm_rev * d.n_rpm;
-  return operation(s, a, f, {pass_of(d, D / 2, path / vf)},
-                   {kBefore_mm / vf, kBefore_mm + path, true, 0, 0}, {d});
+  double fed = path;
+  Way way{kBefore_mm / vf, kBefore_mm + path, true, 0, 0};
+  auto pecks = cutting::peck_depths_mm(f.tool->pecking, D, path);
+  pecks.pop_back();
+  for (const double depth : pecks) {
+    fed += kPeck_mm;
+    way.rapid_mm += 2 * (depth + kBefore_mm) - kPeck_mm;
+  }
+  return operation(s, a, f, {pass_of(d, D / 2, fed / vf)}, way, {d});
 }
 
 // Without any centre drill among the tools the stock is assumed to come centred.

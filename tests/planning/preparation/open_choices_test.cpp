@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "../parts.hpp"
+#include "planning/auxiliary/catalogue_operations.hpp"
 #include "turnwright/base/errors.hpp"
+#include "turnwright/base/units.hpp"
 #include "turnwright/planning/plan.hpp"
 
 namespace turnwright::planning {
@@ -198,6 +200,35 @@ TEST(Holes, TakeNoBoring) {
     EXPECT_EQ(o.passes.front().ap_mm, 4);
   }
   EXPECT_EQ(drills, 1);
+}
+
+// 34 mm deep with its point, 24 of them in one feed, the rest in two pecks of at most 8 mm:
+// out of 24 and 29 mm to 2 mm before the part and back, the last 0.5 mm of it fed.
+TEST(Holes, OfADrillWithoutCoolantArePecked) {
+  const auto drilled_by = [](const std::optional<catalogue::Pecking>& pecking) {
+    auto d = drilled(8, {{"kind", "hole"}});
+    d["inner"][0]["length_mm"] = 34 - 4 / std::tan(units::rad_from_deg(59));
+    d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", "DRILL-HSS-5D"};
+    PlanRequest request = part(d);
+    for (auto& t : request.fixed_tools)
+      if (t.use == catalogue::FixedUse::drilling) t.pecking = pecking;
+    return prepare(std::move(request));
+  };
+  const auto drilling = [](const PreparedPart& p) {
+    return auxiliary_work(p, 0, Clamping::chuck, p.work.setups[0], {p.machine_per_min, 1})
+        .all()
+        .at(0);
+  };
+  const auto whole = drilling(drilled_by({})),
+             pecked = drilling(drilled_by(catalogue::Pecking{3, 1}));
+  const auto& pass = pecked.plan.passes.at(0);
+  const double vf = pass.f_mm_rev * pass.n_rpm;
+  EXPECT_NEAR(whole.plan.time_min, 34 / vf, 1e-12);
+  EXPECT_NEAR(pecked.plan.time_min, (34 + 2 * 0.5) / vf, 1e-12);
+  EXPECT_NEAR(
+      pecked.air_min - whole.air_min,
+      (2 * (24 + 2) + 2 * (29 + 2) - 2 * 0.5) / drilled_by({}).machine.rapid_mm_min,
+      1e-12);
 }
 
 // Where the request gives the operations, a hole is one that it drills.
