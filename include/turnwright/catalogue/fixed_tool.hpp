@@ -11,13 +11,31 @@ namespace turnwright::catalogue {
 
 enum class FixedUse { centring, drilling, grooving, threading, profiling, parting };
 
+/// Speeds and feeds from which planning chooses, and how the life goes with them.
+struct ConditionsWindow {
+  Range vc_m_min;
+  Range f_mm_rev;        ///< as FixedConditions::f_mm_rev; of threads the pitch
+  double taylor_n = 0;   ///< Taylor's exponent
+  double life_feed = 0;  ///< exponent of the feed in the life
+};
+
 /// Cutting conditions that the catalogue gives for some groups of materials.
 struct FixedConditions {
   std::vector<IsoGroup> groups;
   double vc_m_min = 0;
   double f_mm_rev = 0;  ///< feed; for drills and centre drills per mm of diameter
   double T_min = 0;     ///< tool life at these conditions
+  std::optional<ConditionsWindow> window = {};  ///< absent: nothing is chosen
 };
+
+/// Other conditions, with the life that follows from the window's exponents (Taylor's
+/// equation, extended by the feed):
+///
+///     T = T0 (vc0/vc)^(1/n) (f0/f)^y                                                 (1)
+///
+/// Without a window the life stays.  Of threads, whose feed is no condition, f does not
+/// count.
+FixedConditions at(const FixedConditions& conditions, double vc_m_min, double f_mm_rev);
 
 /// What a drill leaves: the ISO 286 grade above its diameter, and the roughness.
 struct DrilledHole {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "catalogue_readers.hpp"
@@ -77,16 +79,47 @@ void read_kind(Reader& r, FixedTool& t) {
 }
 
 // The feed is the pitch of a thread, and a share of the diameter of a drill.
+struct Feed {
+  const char* key;
+  Bounds bounds;
+};
+std::optional<Feed> feed_of(FixedUse use) {
+  if (use == FixedUse::threading) return std::nullopt;
+  if (drills(use)) return Feed{"f_per_mm", above_up_to(0, 1)};
+  return Feed{"f_mm_rev", above_up_to(0, 5, "mm/rev")};
+}
+
+// A range around the conditions themselves.
+catalogue::Range read_around(Reader& r, const char* key, const Bounds& bounds,
+                             double value) {
+  const auto range = read_range(r, key, bounds);
+  if (range.lower < range.upper && !(range.lower <= value && value <= range.upper))
+    r.problem_at(key, fmt::format("a range around {:g}", value), "order");
+  return range;
+}
+
+void read_window(Reader& r, catalogue::FixedConditions& c, FixedUse use) {
+  auto w = r.optional_object("window");
+  if (!w) return;
+  c.window.emplace();
+  c.window->vc_m_min =
+      read_around(*w, "vc_m_min", above_up_to(0, 5000, "m/min"), c.vc_m_min);
+  c.window->taylor_n = w->number("taylor_n", within(0.05, 1));
+  if (const auto feed = feed_of(use)) {
+    c.window->f_mm_rev = read_around(*w, feed->key, feed->bounds, c.f_mm_rev);
+    c.window->life_feed = w->number("life_feed", within(0, 10));
+  }
+  w->finish();
+}
+
 catalogue::FixedConditions read_conditions(Reader r, FixedUse use) {
   r = r.as_object();
   catalogue::FixedConditions c;
   c.groups = read_set(r, "groups", iso_groups());
   c.vc_m_min = r.number("vc_m_min", above_up_to(0, 5000, "m/min"));
-  if (drills(use))
-    c.f_mm_rev = r.number("f_per_mm", above_up_to(0, 1));
-  else if (use != FixedUse::threading)
-    c.f_mm_rev = r.number("f_mm_rev", above_up_to(0, 5, "mm/rev"));
+  if (const auto feed = feed_of(use)) c.f_mm_rev = r.number(feed->key, feed->bounds);
   c.T_min = r.number("T_min", above_up_to(0, 1e5, "min"));
+  read_window(r, c, use);
   r.finish();
   return c;
 }

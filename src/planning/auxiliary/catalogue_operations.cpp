@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "chosen_conditions.hpp"
 #include "milled_operations.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/clamping_speed.hpp"
@@ -33,8 +34,10 @@ struct Site {
   std::size_t setup;
   Clamping clamping;
   const SetupWork& work;
+  const Economy& economy;
   Stage stage;  // of the jaws' force
   AuxiliaryWork& out;
+  std::vector<cutting::SpeedRange> ranges = cutting::speed_ranges(p.machine);
 };
 
 // Requirements on a tool.
@@ -56,6 +59,23 @@ struct Fitted {
 
 bool sized_by_diameter(FixedUse use) {
   return use == FixedUse::centring || use == FixedUse::drilling;
+}
+
+// The conditions of a tool in one of its sizes.
+catalogue::FixedConditions of_size(catalogue::FixedConditions at, FixedUse use,
+                                   double size_mm) {
+  if (!sized_by_diameter(use)) return at;
+  at.f_mm_rev *= size_mm;
+  if (at.window)
+    for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
+      *f *= size_mm;
+  return at;
+}
+
+// The lowest speed and feed of a tool's window.
+catalogue::FixedConditions gentlest(const catalogue::FixedConditions& at) {
+  if (!at.window) return at;
+  return catalogue::at(at, at.window->vc_m_min.lower, at.window->f_mm_rev.lower);
 }
 
 // A given depth names the tool's size: half a drill's diameter, the width of a blade
@@ -83,26 +103,34 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
         best = {&t, size, *at};
   }
   if (!best.tool) return best;
-  if (sized_by_diameter(a.use)) best.at.f_mm_rev *= best.size_mm;
+  best.at = of_size(best.at, a.use, best.size_mm);
   if (a.given) {
-    const auto& c = a.given->conditions;
-    best.at.vc_m_min = c.vc_m_min.value_or(best.at.vc_m_min);
-    best.at.f_mm_rev = c.f_mm_rev.value_or(best.at.f_mm_rev);
+    const auto& [vc, f] =
+        std::pair{a.given->conditions.vc_m_min, a.given->conditions.f_mm_rev};
+    if (best.at.window && vc) best.at.window->vc_m_min = {*vc, *vc};
+    if (best.at.window && f) best.at.window->f_mm_rev = {*f, *f};
+    best.at = catalogue::at(best.at, vc.value_or(best.at.vc_m_min),
+                            f.value_or(best.at.f_mm_rev));
   }
   return best;
 }
 
-// The same among those that can be borne; if none can, or the operation is given, the one
-// of all, whose limits then tell why it cannot be.
+// The same among those that can be borne at the catalogue's conditions, else at the
+// gentlest; if none can, or the operation is given, the one of all, whose limits then tell
+// why it cannot be.
 Fitted fitted_if(const PlanRequest& p, const Asked& a,
-                 const std::function<bool(const FixedTool&, double size)>& borne) {
+                 const std::function<bool(const Fitted&)>& borne) {
   if (a.given) return fitted(p, a);
-  auto asked = a;
-  asked.fits = [&](const FixedTool& t, double size) {
-    return a.fits(t, size) && borne(t, size);
-  };
-  const auto f = fitted(p, asked);
-  return f.tool ? f : fitted(p, a);
+  for (const bool gently : {false, true}) {
+    auto asked = a;
+    asked.fits = [&](const FixedTool& t, double size) {
+      if (!a.fits(t, size)) return false;
+      const auto at = of_size(*t.conditions_in(p.material.group), a.use, size);
+      return borne({&t, size, gently ? gentlest(at) : at});
+    };
+    if (const auto f = fitted(p, asked); f.tool) return f;
+  }
+  return fitted(p, a);
 }
 
 void refuse(const Site& s, const Asked& a, const std::string& why) {
@@ -123,8 +151,8 @@ const OperationRequest* given_on(const Site& s, const std::string& surface) {
 
 double n_cap_rpm(const Site& s) {
   const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
-  return std::min({cutting::speed_ranges(s.p.machine).back().n_max_rpm,
-                   clamping_rpm(s.p, s.clamping), grip_loss_rpm(s.p, s.clamping, force)});
+  return std::min({s.ranges.back().n_max_rpm, clamping_rpm(s.p, s.clamping),
+                   grip_loss_rpm(s.p, s.clamping, force)});
 }
 
 // Load of a pass on the spindle at one end of its diameters.
@@ -162,7 +190,7 @@ GripForces grip_forces(const PreparedPart& p, std::size_t setup, Clamping clampi
 std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
                                     const std::vector<Duty>& duties) {
   const auto& m = s.p.machine;
-  const auto ranges = cutting::speed_ranges(m);
+  const auto& ranges = s.ranges;
   std::vector<ConstraintValue> all;
   for (const auto& d : duties) {
     const double n =
@@ -226,7 +254,8 @@ AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
                       0,
                       0,
                       "fixed",
-                      "catalogue conditions, nothing is chosen"};
+                      f.at.window ? "the best of the tool's window"
+                                  : "catalogue conditions, nothing is chosen"};
   return o;
 }
 
@@ -242,6 +271,33 @@ Pass pass_of(const Duty& d, double ap_mm, double time_min) {
   return p;
 }
 
+// The operation at the best conditions that the tool's window and the request leave open;
+// the largest of its diameters comes first.
+AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D_mm,
+                           double n_cap,
+                           const std::function<AuxiliaryOperation(const Fitted&)>& make) {
+  if (!f.at.window) return make(f);
+  auto& [lowest, highest] = f.at.window->vc_m_min;
+  highest = std::min(highest, units::cutting_speed_m_min(n_cap, D_mm[0]));
+  lowest = std::clamp(units::cutting_speed_m_min(s.p.machine.n_min_rpm, D_mm[0]),
+                      std::min(lowest, highest), highest);
+  std::vector<double> breaks;
+  for (const auto& range : s.ranges)
+    for (const double D : D_mm)
+      breaks.push_back(units::cutting_speed_m_min(range.n_max_rpm, D));
+  const auto with = [&](const SpeedAndFeed& c) {
+    return Fitted{f.tool, f.size_mm, catalogue::at(f.at, c.vc_m_min, c.f_mm_rev)};
+  };
+  return make(with(best_conditions(*f.at.window, breaks, [&](const SpeedAndFeed& c) {
+    const auto o = make(with(c));
+    const auto kept = [](const ConstraintValue& each) { return each.margin >= 0; };
+    return ConditionsTrial{
+        s.economy.minute * (o.plan.time_min + o.air_min),
+        s.economy.minute * o.change_min + s.economy.edge * o.edges_cost,
+        std::ranges::all_of(o.plan.constraints, kept)};
+  })));
+}
+
 cutting::Load load_of(const Fitted& f, const PreparedPart& p, double b_mm, double D_mm) {
   return cutting::plunge(cutting::kienzle_at(p.material, f.tool->gamma_deg),
                          catalogue::thrust_of(p.material), b_mm, f.at.f_mm_rev, D_mm);
@@ -250,22 +306,24 @@ cutting::Load load_of(const Fitted& f, const PreparedPart& p, double b_mm, doubl
 // Eq. (2).
 AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
                            double depth_mm) {
-  const double D = f.size_mm;
+  const double D = f.size_mm, n_cap = n_cap_rpm(s);
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
-  const Duty d{cutting::drill(kc, D, f.at.f_mm_rev, f.tool->point_deg),
-               std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s)), D};
   const double front = front_mm(s.p, s.setup, s.work);
   const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
-  const double vf = f.at.f_mm_rev * d.n_rpm;
-  double fed = path;
-  Way way{kBefore_mm / vf, kBefore_mm + path, true, 0, 0};
+  double fed = path, rapid = kBefore_mm + path;
   auto pecks = cutting::peck_depths_mm(f.tool->pecking, D, path);
   pecks.pop_back();
   for (const double depth : pecks) {
     fed += kPeck_mm;
-    way.rapid_mm += 2 * (depth + kBefore_mm) - kPeck_mm;
+    rapid += 2 * (depth + kBefore_mm) - kPeck_mm;
   }
-  return operation(s, a, f, {pass_of(d, D / 2, fed / vf)}, way, {d});
+  return at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty d{cutting::drill(kc, D, at.at.f_mm_rev, at.tool->point_deg),
+                 std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    return operation(s, a, at, {pass_of(d, D / 2, fed / vf)},
+                     {kBefore_mm / vf, rapid, true, 0, 0}, {d});
+  });
 }
 
 // Without any centre drill among the tools the stock is assumed to come centred.
@@ -323,14 +381,13 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   return h;
 }
 
-// Whether the spindle drives a drill at its conditions and the jaws hold the part.
-bool drives(const PreparedPart& p, std::size_t setup, const FixedTool& t, double D_mm) {
-  const auto* at = t.conditions_in(p.material.group);
-  if (!at) return false;
+// Whether the spindle drives a drill and the jaws hold the part.
+bool drives(const PreparedPart& p, std::size_t setup, const Fitted& f) {
+  const double D_mm = f.size_mm;
   const auto ranges = cutting::speed_ranges(p.machine);
-  const auto load = cutting::drill(cutting::kienzle_at(p.material, t.gamma_deg), D_mm,
-                                   at->f_mm_rev * D_mm, t.point_deg);
-  const double n = std::clamp(units::spindle_rpm(at->vc_m_min, D_mm),
+  const auto load = cutting::drill(cutting::kienzle_at(p.material, f.tool->gamma_deg),
+                                   D_mm, f.at.f_mm_rev, f.tool->point_deg);
+  const double n = std::clamp(units::spindle_rpm(f.at.vc_m_min, D_mm),
                               ranges.front().n_min_rpm, ranges.back().n_max_rpm);
   const double P_kW = units::shaft_power_kW(load.M_Nm, n);
   const auto grip =
@@ -364,8 +421,7 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
 }
 
 Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
-  return fitted_if(
-      p, a, [&](const FixedTool& t, double size) { return drives(p, setup, t, size); });
+  return fitted_if(p, a, [&](const Fitted& f) { return drives(p, setup, f); });
 }
 
 void add_drilling(Site& s, part::End end) {
@@ -411,14 +467,19 @@ std::vector<Duty> plunging(const Site& s, const Fitted& f, double D_small,
 // The operation of a blade that plunges `plunges` times from one diameter to another,
 // Eq. (3).  `way.fed_min` holds the length [mm] that each plunge feeds in the air.
 AuxiliaryOperation plunged(const Site& s, const Asked& a, const Fitted& f, double D_small,
-                           double D_large, int plunges, Way way) {
+                           double D_large, int plunges, const Way& way) {
   const double n_cap = n_cap_rpm(s), depth = (D_large - D_small) / 2;
-  const auto duties = plunging(s, f, D_small, D_large);
-  const double t = sweep_min(depth, D_small, D_large, f.at, n_cap);
-  const std::vector<Pass> passes(static_cast<std::size_t>(plunges),
-                                 pass_of(duties[0], f.size_mm, t));
-  way.fed_min *= plunges / (f.at.f_mm_rev * duties[0].n_rpm);
-  return operation(s, a, f, passes, way, duties);
+  std::vector<double> diameters{D_large};
+  if (D_small > 0) diameters.push_back(D_small);
+  return at_best(s, f, diameters, n_cap, [&](const Fitted& at) {
+    const auto duties = plunging(s, at, D_small, D_large);
+    const double t = sweep_min(depth, D_small, D_large, at.at, n_cap);
+    const std::vector<Pass> passes(static_cast<std::size_t>(plunges),
+                                   pass_of(duties[0], at.size_mm, t));
+    auto fed = way;
+    fed.fed_min *= plunges / (at.at.f_mm_rev * duties[0].n_rpm);
+    return operation(s, a, at, passes, fed, duties);
+  });
 }
 
 // An element with a groove, thread or arc: its place and its requirements.
@@ -483,10 +544,9 @@ std::optional<int> passes_of(const Site& s, const Asked& a, int otherwise,
 }
 
 // Whether machine, jaws and tool bear a blade at the ends of its plunge.
-bool bears(const Site& s, const FixedTool& t, double width_mm, const CutElement& e) {
-  const Fitted f{&t, width_mm, *t.conditions_in(s.p.material.group)};
+bool bears(const Site& s, const Fitted& f, const CutElement& e) {
   return std::ranges::all_of(
-      limits(s, t, plunging(s, f, e.small_mm, e.large_mm)),
+      limits(s, *f.tool, plunging(s, f, e.small_mm, e.large_mm)),
       [](const ConstraintValue& c) { return c.margin >= -kBeyondRounding; });
 }
 
@@ -495,8 +555,7 @@ void add_groove(Site& s, const CutElement& e) {
       asked(s, e, FixedUse::grooving, "groove", [&](const FixedTool& t, double size) {
         return size <= e.length_mm * (1 + 1e-9) && e.cut.depth_mm <= t.reach;
       });
-  auto f = fitted_if(
-      s.p, a, [&](const FixedTool& t, double size) { return bears(s, t, size, e); });
+  const auto f = fitted_if(s.p, a, [&](const Fitted& each) { return bears(s, each, e); });
   if (!f.tool)
     return refuse(s, a,
                   fmt::format("no blade of the tools is for {}, at most {:g} mm wide and "
@@ -545,9 +604,8 @@ void add_thread(Site& s, const CutElement& e) {
   if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
     return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
   f.at.f_mm_rev = P;
+  if (f.at.window) f.at.window->f_mm_rev = {P, P};
   const double D = e.cut.drawn.left_mm;
-  const double n = std::min(
-      {units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s), s.p.machine.rapid_mm_min / P});
   const auto count =
       passes_of(s, a, std::max(kLeastInfeeds, times(f.tool->passes_per_mm * P, 1)),
                 [&](double ap) { return times(sqr(e.cut.depth_mm), sqr(ap)); });
@@ -570,20 +628,25 @@ void add_thread(Site& s, const CutElement& e) {
   if (unfaced(s, a, e, e.around.z0 + run_in)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double path = e.length_mm - (room.stands_behind ? P : 0);
-  std::vector<Pass> passes;
-  std::vector<Duty> duties;
-  Way way{*count * run_in / (P * n), down_and_back_mm(e), e.inner, e.around.z0 + run_in,
-          e.around.z0 + run_in};
-  if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
-  double deep = 0;
-  for (const auto& infeed : cutting::thread_infeeds(
-           kc, catalogue::thrust_of(s.p.material), e.cut.depth_mm, *count, D)) {
-    duties.push_back({infeed.load, n, D, true});
-    passes.push_back(pass_of(duties.back(), infeed.depth_mm, path / (P * n)));
-    deep += infeed.depth_mm;
-    way.rapid_mm += 2 * (above_mm(e) + deep) + run_in + path;
-  }
-  s.out.after.push_back(operation(s, a, f, std::move(passes), way, duties));
+  const auto infeeds = cutting::thread_infeeds(kc, catalogue::thrust_of(s.p.material),
+                                               e.cut.depth_mm, *count, D);
+  const double n_cap = std::min(n_cap_rpm(s), s.p.machine.rapid_mm_min / P);
+  s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const double n = std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap);
+    std::vector<Pass> passes;
+    std::vector<Duty> duties;
+    Way way{*count * run_in / (P * n), down_and_back_mm(e), e.inner, e.around.z0 + run_in,
+            e.around.z0 + run_in};
+    if (e.inner) way.from_mm = way.to_mm = -e.around.h0 - kAboveBore_mm;
+    double deep = 0;
+    for (const auto& infeed : infeeds) {
+      duties.push_back({infeed.load, n, D, true});
+      passes.push_back(pass_of(duties.back(), infeed.depth_mm, path / (P * n)));
+      deep += infeed.depth_mm;
+      way.rapid_mm += 2 * (above_mm(e) + deep) + run_in + path;
+    }
+    return operation(s, a, at, std::move(passes), way, duties);
+  }));
 }
 
 // Inclination of an arc at its end towards the chuck.
@@ -610,6 +673,28 @@ bool ends_before_jaws(const Site& s, const Asked& a, const CutElement& e, double
   return false;
 }
 
+// Equal passes of a profiling tool.
+struct Profile {
+  int passes = 1;
+  double ap_mm = 0, D_mm = 0, path_mm = 0;
+};
+
+// `way.fed_min` holds the length [mm] that is fed in the air.
+AuxiliaryOperation profiled(const Site& s, const Asked& a, const Fitted& f,
+                            const Profile& p, const Way& way) {
+  const double n_cap = n_cap_rpm(s);
+  return at_best(s, f, {p.D_mm}, n_cap, [&](const Fitted& at) {
+    const Duty d{load_of(at, s.p, p.ap_mm, p.D_mm),
+                 std::min(units::spindle_rpm(at.at.vc_m_min, p.D_mm), n_cap), p.D_mm};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    const std::vector<Pass> passes(static_cast<std::size_t>(p.passes),
+                                   pass_of(d, p.ap_mm, p.path_mm / vf));
+    auto fed = way;
+    fed.fed_min /= vf;
+    return operation(s, a, at, passes, fed, {d});
+  });
+}
+
 // Eq. (5).
 void add_arc(Site& s, const CutElement& e) {
   auto a = asked(s, e, FixedUse::profiling, "arc", [&](const FixedTool& t, double) {
@@ -627,23 +712,18 @@ void add_arc(Site& s, const CutElement& e) {
     return refuse(s, a,
                   fmt::format("{} passes of {:.4g} mm are deeper than the {:g} mm of {}",
                               *count, ap, f.tool->ap_mm, f.tool->id));
-  const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   if (!ends_before_jaws(s, a, e, f.tool->re_mm)) return;
-  const Duty d{load_of(f, s.p, ap, D), n, D};
   // Path of the tip, which runs round a centre beside that of the arc.
   const double path =
       e.cut.path_mm * (1 + (e.cut.convex ? 1 : -1) * f.tool->re_mm / e.cut.radius_mm);
-  const std::vector<Pass> passes(static_cast<std::size_t>(*count),
-                                 pass_of(d, ap, path / (f.at.f_mm_rev * n)));
   const double enters = std::sqrt(2) * kAbove_mm;  // down a slope
   const double from = e.around.z0 + kAbove_mm, to = e.around.z1 + kAbove_mm;
   s.out.after.push_back(
-      operation(s, a, f, passes,
-                {*count * enters / (f.at.f_mm_rev * n),
-                 *count * (down_and_back_mm(e) + kAbove_mm) + (*count - 1) * (from - to),
-                 false, from, to},
-                {d}));
+      profiled(s, a, f, {*count, ap, D, path},
+               {*count * enters,
+                *count * (down_and_back_mm(e) + kAbove_mm) + (*count - 1) * (from - to),
+                false, from, to}));
 }
 
 // A chamfer at the free end by a pass of its own, along its line in cuts as deep as the
@@ -674,17 +754,12 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
                                 [&](double ap) { return times(depth, ap); });
   if (!passes) return;
   const int count = *passes;
-  const double n = std::min(units::spindle_rpm(f.at.vc_m_min, D), n_cap_rpm(s));
-  const double vf = f.at.f_mm_rev * n, ap = depth / count;
-  const Duty duty{load_of(f, s.p, ap, D), n, D};
   const double outside = inner ? around.front + kClear_mm : around.stock_h - around.h0;
   const double from = inner ? bore / 2 : around.z0 + kBefore_mm;
-  s.out.after.push_back(operation(
-      s, a, f,
-      std::vector<Pass>(static_cast<std::size_t>(count), pass_of(duty, ap, length / vf)),
-      {count * (kBefore_mm + f.tool->re_mm + kBehind_mm) / vf,
-       2 * (outside + kClear_mm) + (count - 1) * 2 * length, inner, from, from},
-      {duty}));
+  s.out.after.push_back(profiled(
+      s, a, f, {count, depth / count, D, length},
+      {count * (kBefore_mm + f.tool->re_mm + kBehind_mm),
+       2 * (outside + kClear_mm) + (count - 1) * 2 * length, inner, from, from}));
 }
 
 void add_parting(Site& s) {
@@ -759,7 +834,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
 AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping clamping,
                              const SetupWork& work, const Economy& economy) {
   AuxiliaryWork out;
-  Site s{p, setup, clamping, work, Stage::roughing, out};
+  Site s{p, setup, clamping, work, economy, Stage::roughing, out};
   const auto& d = p.drawing;
   const auto hold = p.setups[setup].hold;
   const bool left = hold == part::End::left;

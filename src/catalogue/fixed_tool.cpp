@@ -1,0 +1,17 @@
+#include "turnwright/catalogue/fixed_tool.hpp"
+
+#include <cmath>
+
+namespace turnwright::catalogue {
+
+FixedConditions at(const FixedConditions& c, double vc, double f) {
+  auto other = c;
+  other.vc_m_min = vc;
+  other.f_mm_rev = f;
+  if (!c.window) return other;
+  other.T_min *= std::pow(c.vc_m_min / vc, 1 / c.window->taylor_n);  // Eq. (1)
+  if (c.f_mm_rev > 0) other.T_min *= std::pow(c.f_mm_rev / f, c.window->life_feed);
+  return other;
+}
+
+}  // namespace turnwright::catalogue
