@@ -6,9 +6,9 @@
 #include "turnwright/planning/process_plan.hpp"
 
 /// The operations of a setup other than turning and boring: centre holes, drilling, arcs,
-/// grooves, threads and parting off at the catalogue's conditions, and milled places at
-/// conditions of their own (milled_operations.hpp).  They do not depend on the conditions of the
-/// other surfaces.
+/// grooves, threads and parting off at conditions from the windows of their tools
+/// (chosen_conditions.hpp), and milled places at conditions of their own
+/// (milled_operations.hpp).  They do not depend on the conditions of the other surfaces.
 namespace turnwright::planning {
 
 /// These operations of a setup in their order; milled places come before parting off.
