@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
@@ -18,7 +19,7 @@ using nlohmann::json;
 
 struct ReviewArguments {
   std::vector<std::string> files;
-  std::optional<fs::path> part, output;
+  std::optional<fs::path> part, output, corrected;
   std::size_t setup = 1;
   double zero_mm = 0;
   std::string control = "linuxcnc";
@@ -75,11 +76,48 @@ nlohmann::ordered_json answered(const service::Request& row, const json& request
   }
 }
 
+// The corrected programs under the names of those given, in a folder of their own.
+void write_corrected(const ReviewArguments& arguments,
+                     const nlohmann::ordered_json& result) {
+  if (!result.contains("corrected")) return;
+  service::make_folder(*arguments.corrected);
+  const auto& programs = result["corrected"]["programs"];
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const auto setup = programs[i]["setup"].get<std::size_t>() + 1;
+    fs::path name = "setup-" + std::to_string(setup) + ".nc";
+    if (arguments.part && arguments.files[i] != "-")
+      name = fs::path(arguments.files[i]).filename();
+    service::write_file(*arguments.corrected / name,
+                        programs[i]["text"].get<std::string>());
+  }
+}
+
+// No program is written over one that was given, nor over another of this call.
+void refuse_to_overwrite(const ReviewArguments& arguments) {
+  std::set<fs::path> names;
+  for (const auto& file : arguments.files) {
+    std::error_code none;
+    const auto name = fs::path(file).filename();
+    const bool own =
+        file != "-" && fs::equivalent(*arguments.corrected / name, file, none);
+    if (own || !names.insert(name).second)
+      throw wrong_option("--corrected", '"' + arguments.corrected->string() + '"',
+                         "a folder other than that of the programs, which have names of "
+                         "their own",
+                         "exists");
+  }
+}
+
 void run(const ReviewArguments& arguments, const std::optional<fs::path>& data) {
-  const auto request = request_of(arguments);
+  auto request = request_of(arguments);
+  if (arguments.corrected) {
+    refuse_to_overwrite(arguments);
+    request["correct"] = true;
+  }
   const auto catalogue = document::load_catalogue(document::data_folder(data));
   const auto& row = *service::find_request("review");
   const auto result = answered(row, request, catalogue, arguments);
+  if (arguments.corrected) write_corrected(arguments, result);
   const auto text = result.dump(2) + '\n';
   const bool to_file = arguments.output && *arguments.output != "-";
   if (to_file) service::write_file(*arguments.output, text);
@@ -115,6 +153,9 @@ void add_review(CLI::App& app, const std::optional<fs::path>& data,
                    "with their size, \"2=DRILL-HM-5D 19 mm\"; once for each tool")
       ->allow_extra_args(false)
       ->type_name("N=ID");
+  add_path(*command, "--corrected", arguments->corrected,
+           "write the programs with words F and S changed to the least cost of their own "
+           "passes to this folder");
   add_path(*command, "-o,--output", arguments->output,
            "write the result (JSON) here; - is standard output",
            Dash::is_standard_output);

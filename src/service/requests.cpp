@@ -286,6 +286,33 @@ document::ReviewedPlan predicted(const planning::PreparedPart& part,
   return out;
 }
 
+// The programs with the speeds and feeds of least cost for their own passes, reviewed anew.
+document::CorrectedPrograms corrected(const planning::PreparedPart& part,
+                                      document::ReviewRequest asked,
+                                      const document::ReviewInput& input,
+                                      const review::Review& reviewed,
+                                      const document::Catalogue& catalogue) {
+  document::CorrectedPrograms out;
+  auto own = review::reconstructed(part, reviewed);
+  out.cannot = std::move(own.cannot);
+  if (!out.cannot.empty()) return out;
+  const auto best = review::best_of_passes(part, own.operations, input.tools);
+  for (const auto& conflict : best.conflicts) out.cannot.push_back(conflict.sentence);
+  if (best.status != planning::PlanStatus::ok) return out;
+  for (std::size_t i = 0; i < input.programs.size(); ++i) {
+    const auto& program = input.programs[i];
+    const auto factors = review::word_factors(reviewed.setups[i], program.program,
+                                              best.setups[program.setup]);
+    auto& text = asked.programs[i].text;
+    out.texts.push_back(review::corrected_text(text, asked.control, factors));
+    text = out.texts.back().text;
+  }
+  const auto again = document::review_input(asked, part, catalogue);
+  out.review = review::review(part, again.programs, again.tools);
+  out.plan = predicted(part, again, out.review, {});
+  return out;
+}
+
 ordered_json review_programs(const json& request, const Context& context) {
   auto asked = document::load_review_request(request, context.catalogue);
   auto [part, plan] = planned(std::move(asked.part));
@@ -293,8 +320,11 @@ ordered_json review_programs(const json& request, const Context& context) {
   const bool made = plan.status == planning::PlanStatus::ok;
   const auto held = made ? clamped_as(part.part, plan) : part.part;
   const auto reviewed = review::review(held, input.programs, input.tools);
+  std::optional<document::CorrectedPrograms> other;
+  if (asked.correct) other = corrected(held, asked, input, reviewed, context.catalogue);
   return document::review_result(asked, part, input, reviewed,
-                                 predicted(held, input, reviewed, std::move(plan)));
+                                 predicted(held, input, reviewed, std::move(plan)),
+                                 other);
 }
 
 std::string review_example() {

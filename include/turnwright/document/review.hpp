@@ -5,7 +5,7 @@
 
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/planning/process_plan.hpp"
-#include "turnwright/review/review.hpp"
+#include "turnwright/review/corrected.hpp"
 
 namespace turnwright::document {
 
@@ -29,6 +29,7 @@ struct ReviewRequest {
   };
   std::vector<Text> programs = {};
   std::vector<NumberedTool> tools = {};
+  bool correct = false;  ///< whether corrected programs are asked for
 };
 
 /// @throws InputError with every problem, those of the part below "/part".
@@ -54,11 +55,21 @@ struct ReviewedPlan {
   std::vector<std::string> cannot = {};
 };
 
-/// The result of `review` (schemas/review.result.json).
+/// Corrected programs of the setups, with their own review and prediction; none if `cannot`
+/// says why.
+struct CorrectedPrograms {
+  std::vector<review::CorrectedText> texts = {};
+  review::Review review = {};
+  ReviewedPlan plan = {};
+  std::vector<std::string> cannot = {};
+};
+
+/// The result of `review` (schemas/review.result.json); `corrected` if it was asked for.
 nlohmann::ordered_json review_result(const ReviewRequest& request,
                                      const PreparedDocument& part,
                                      const ReviewInput& input,
                                      const review::Review& review,
-                                     const ReviewedPlan& plan);
+                                     const ReviewedPlan& plan,
+                                     const std::optional<CorrectedPrograms>& corrected);
 
 }  // namespace turnwright::document

@@ -103,6 +103,11 @@ struct RejectedTool {
 /// Minutes and money of a part.
 struct Spending {
   double time_min = 0, cost = 0;
+  Spending& operator+=(const Spending& other) {
+    time_min += other.time_min;
+    cost += other.cost;
+    return *this;
+  }
 };
 
 /// Time and cost of a part by what they are spent on.

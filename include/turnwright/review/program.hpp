@@ -19,11 +19,18 @@ struct Unknown {
   std::string why;       ///< one sentence
 };
 
+/// The lines whose words F and S are in force; 0: none.
+struct WordsInForce {
+  std::size_t F_line = 0, S_line = 0;
+  bool per_minute = false;  ///< F
+};
+
 /// A move of the tip as a block, or a block of a cycle, commands it.
 struct ReadMove {
   std::optional<toolpath::Point> from = {};  ///< none: from a place that is not known
   toolpath::Move to;
   std::size_t line = 0;
+  WordsInForce words = {};
 };
 
 /// Moves at one tool, spindle speed and feed, or a stop.

@@ -138,6 +138,7 @@ ReviewRequest load_review_request(const json& request, const Catalogue& catalogu
   out.control = r.choice_or("control", controls(), out.control);
   out.programs = read_programs(r);
   out.tools = read_turret(r);
+  out.correct = r.boolean_or("correct", false);
   r.finish();
   if (!read_below(part, problems, [&] {
         out.part = prepared_candidates(part.json(), catalogue, "review");

@@ -60,10 +60,14 @@ Spending spent(const ReviewedSetup& s, double machine_per_min) {
 // The same of a plan's setup.
 Spending spent(const planning::Breakdown& b) {
   Spending sum;
-  for (const auto& s : {b.cutting, b.air, b.tool_changes, b.edges}) {
-    sum.time_min += s.time_min;
-    sum.cost += s.cost;
-  }
+  for (const auto& s : {b.cutting, b.air, b.tool_changes, b.edges}) sum += s;
+  return sum;
+}
+
+// And of all programs.
+Spending spent(const review::Review& review, double machine_per_min) {
+  Spending sum;
+  for (const auto& s : review.setups) sum += spent(s, machine_per_min);
   return sum;
 }
 
@@ -124,20 +128,13 @@ bool all_kept(const review::Review& review) {
 // What the plan takes for the setups that were reviewed, and what it would save.
 ordered_json compared(const review::Review& review, const planning::ProcessPlan& plan,
                       double machine_per_min) {
-  Spending programs, planned;
-  const auto add = [](Spending& sum, const Spending& s) {
-    sum.time_min += s.time_min;
-    sum.cost += s.cost;
-  };
-  for (const auto& s : review.setups) {
-    add(programs, spent(s, machine_per_min));
-    add(planned, spent(plan.setups[s.setup].breakdown));
-  }
+  const auto programs = spent(review, machine_per_min);
+  Spending planned;
+  for (const auto& s : review.setups) planned += spent(plan.setups[s.setup].breakdown);
   return {
       {"spent", json_of(planned)},
       {"saves",
-       {{"time_min", programs.time_min - planned.time_min},
-        {"cost", programs.cost - planned.cost}}},
+       json_of({programs.time_min - planned.time_min, programs.cost - planned.cost})},
       {"cost_per_part", plan.cost_per_part},
       {"time_per_part_min", plan.time_per_part_min},
       {"lower_bound", plan.certificate.lower_bound},
@@ -163,25 +160,64 @@ ordered_json predicted_json(const planning::ProcessPlan& predicted) {
   return out;
 }
 
-bool limits_kept(const ordered_json& result) {
-  return !result.contains("predicted") || result["predicted"]["limits"].empty();
+bool limits_kept(const planning::ProcessPlan& predicted) {
+  return std::ranges::all_of(predicted.setups, [](const auto& s) {
+    return std::ranges::all_of(s.operations, [](const auto& o) {
+      return std::ranges::all_of(o.constraints,
+                                 [](const auto& c) { return c.margin >= -kKept; });
+    });
+  });
 }
 
-bool tolerances_kept(const ReviewedPlan& plan) {
-  return !plan.predicted || std::ranges::none_of(plan.predicted->tolerances, [](auto& t) {
+bool tolerances_kept(const planning::ProcessPlan& predicted) {
+  return std::ranges::none_of(predicted.tolerances, [](auto& t) {
     return t.verdict == planning::Verdict::not_met;
   });
+}
+
+const char* status(const review::Review& review, const ReviewedPlan& plan) {
+  const bool kept = all_kept(review) &&
+                    (!plan.predicted ||
+                     (tolerances_kept(*plan.predicted) && limits_kept(*plan.predicted)));
+  return kept ? "kept" : "not-kept";
+}
+
+ordered_json text_json(std::size_t setup, const review::CorrectedText& t) {
+  ordered_json out{{"setup", setup}, {"words", ordered_json::array()}, {"text", t.text}};
+  for (const auto& w : t.words)
+    out["words"].push_back({{"line", w.line}, {"was", w.was}, {"is", w.is}});
+  return out;
+}
+
+void add_corrected(ordered_json& out, const ReviewRequest& request,
+                   const review::Review& review, const CorrectedPrograms& corrected,
+                   double machine_per_min) {
+  out["not_corrected"] = corrected.cannot;
+  if (!corrected.cannot.empty()) return;
+  const auto takes = spent(corrected.review, machine_per_min);
+  const auto took = spent(review, machine_per_min);
+  ordered_json all{
+      {"status", status(corrected.review, corrected.plan)},
+      {"spent", json_of(takes)},
+      {"saves", json_of({took.time_min - takes.time_min, took.cost - takes.cost})},
+      {"programs", ordered_json::array()}};
+  for (std::size_t i = 0; i < corrected.texts.size(); ++i)
+    all["programs"].push_back(text_json(request.programs[i].setup, corrected.texts[i]));
+  if (corrected.plan.predicted)
+    all["predicted"] = predicted_json(*corrected.plan.predicted);
+  out["corrected"] = std::move(all);
 }
 
 }  // namespace
 
 ordered_json review_result(const ReviewRequest& request, const PreparedDocument& document,
                            const ReviewInput& input, const review::Review& review,
-                           const ReviewedPlan& plan) {
+                           const ReviewedPlan& plan,
+                           const std::optional<CorrectedPrograms>& corrected) {
   const double rate = document.part.machine_per_min;
   ordered_json out{{"name", document.part.drawing.name},
                    {"control", gcode::dialect(request.control).id},
-                   {"status", "kept"},
+                   {"status", status(review, plan)},
                    {"tools", ordered_json::array()},
                    {"setups", ordered_json::array()},
                    {"sizes", ordered_json::array()}};
@@ -194,8 +230,7 @@ ordered_json review_result(const ReviewRequest& request, const PreparedDocument&
   out["not_predicted"] = plan.cannot;
   if (plan.plan.status == planning::PlanStatus::ok)
     out["plan"] = compared(review, plan.plan, rate);
-  if (!(all_kept(review) && tolerances_kept(plan) && limits_kept(out)))
-    out["status"] = "not-kept";
+  if (corrected) add_corrected(out, request, review, *corrected, rate);
   out["assumed"] = to_json(document.assumed);
   return out;
 }

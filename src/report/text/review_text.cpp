@@ -195,13 +195,41 @@ std::string comparison(const ordered_json& result) {
   return "\nPLAN\n" + paragraph("  ", made) + paragraph("  ", whole);
 }
 
+std::string corrected_programs(const ordered_json& result) {
+  const auto& why_not = list(result, "not_corrected");
+  std::string text;
+  for (const auto& why : why_not)
+    if (why.is_string()) text += paragraph("  ", why.get<std::string>());
+  if (!text.empty()) return "\nCORRECTED PROGRAMS cannot be given\n" + text;
+  const auto& corrected = object(result, "corrected");
+  if (corrected.empty()) return "";
+  const auto& spent = object(corrected, "spent");
+  const auto& saves = object(corrected, "saves");
+  text = "\nCORRECTED PROGRAMS, words F and S changed\n" +
+         paragraph("  ",
+                   fmt::format("They take {} and cost {}, {} less{}.",
+                               duration(number(spent, "time_min")),
+                               money(number(spent, "cost")), money(number(saves, "cost")),
+                               word(corrected, "status") == "kept"
+                                   ? ""
+                                   : ", and do not keep every limit"));
+  std::vector<Row> rows;
+  for (const auto& program : list(corrected, "programs"))
+    for (const auto& w : list(program, "words"))
+      rows.push_back({{significant(number(program, "setup").value_or(0) + 1, 3),
+                       significant(number(w, "line"), 6), word(w, "was"), word(w, "is")},
+                      ""});
+  return text +
+         table({{"setup"}, {"line"}, {"was", Align::left}, {"is", Align::left}}, rows);
+}
+
 }  // namespace
 
 std::string review_text(const ordered_json& result) {
   auto text = fmt::format("REVIEW  {}\n", clipped(word(result, "name"), 80));
   for (const auto& s : list(result, "setups")) text += reviewed_setup(s);
   return text + sizes_table(result) + predicted_tolerances(result) + comparison(result) +
-         made_by(result);
+         corrected_programs(result) + made_by(result);
 }
 
 }  // namespace turnwright::report

@@ -94,11 +94,17 @@ void finish(ModalState& s, const Contour& contour) {
     return s.unknown("G70 from a place that is not known",
                      "X or Z was not given before it.");
   const double x0 = *s.x_mm, z0 = *s.z_mm, F = s.F;
+  const auto F_line = s.F_line;
   for (const auto& run : contour.runs) {
-    if (run.step.f_mm_rev > 0 && s.per_revolution) s.F = run.step.f_mm_rev;
-    for (const auto& m : run.moves) s.to(m.to);
+    const bool own = run.step.f_mm_rev > 0 && s.per_revolution;
+    if (own) s.F = run.step.f_mm_rev;
+    for (const auto& m : run.moves) {
+      if (own) s.F_line = m.words.F_line;
+      s.to(m.to);
+    }
   }
   s.F = F;
+  s.F_line = F_line;
   s.straight(Kind::rapid, x0, *s.z_mm);
   s.straight(Kind::rapid, x0, z0);
 }

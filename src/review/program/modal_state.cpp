@@ -67,7 +67,7 @@ void ModalState::append(const Move& move, double lead_mm) {
   if (move.kind == Move::Kind::rapid && !runs.empty() && !runs.back().step.stop)
     step.f_mm_rev = runs.back().step.f_mm_rev;
   if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
-  runs.back().moves.push_back({from, move, line});
+  runs.back().moves.push_back({from, move, line, {F_line, S_line, !per_revolution}});
 }
 
 void ModalState::to(Move move) {

@@ -17,6 +17,7 @@ class ModalState {
 
   // Conditions.
   double F = 0, S = 0, limit_rpm = 0;
+  std::size_t F_line = 0, S_line = 0;  ///< that gave them
   bool surface_speed = false, per_revolution = true, turning = false;
   int tool = 0, chosen_tool = 0;
   // Coordinates.

@@ -234,9 +234,9 @@ class ProgramReader {
   void word(const Word& w, const Block& block) {
     const auto value = w.value.value_or(0);
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle)
-      s_.F = s_.mm(value);
+      feed(value);
     else if (w.name == "S")
-      special_ == Special::limit ? limit(value) : void(s_.S = value);
+      special_ == Special::limit ? limit(value) : speed(value);
     else if (w.name == "LIMS" ||
              (w.name == "D" && control_ == Control::linuxcnc && s_.surface_speed))
       limit(value);
@@ -266,6 +266,14 @@ class ProgramReader {
                    "The letter stands twice in the block, which controls refuse.");
   }
 
+  void feed(double value) {
+    s_.F = s_.mm(value);
+    s_.F_line = s_.line;
+  }
+  void speed(double value) {
+    s_.S = value;
+    s_.S_line = s_.line;
+  }
   void limit(double n_rpm) {
     if (n_rpm >= 1) s_.limit_rpm = n_rpm;
   }
