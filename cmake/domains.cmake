@@ -133,9 +133,10 @@ if(BUILD_TESTING)
   add_executable(app_test ${app_tests})
   target_link_libraries(app_test PRIVATE turnwright::service tw_dev GTest::gtest_main
     libzip::zip pugixml::pugixml)
+  string(REPLACE ";" "+" sanitizers "${TURNWRIGHT_SANITIZE}")
   target_compile_definitions(app_test PRIVATE TURNWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TURNWRIGHT_PROGRAM="$<TARGET_FILE:turnwright>" TURNWRIGHT_FAULTS="$<TARGET_FILE:faults>"
-    TURNWRIGHT_SANITIZE="${TURNWRIGHT_SANITIZE}")
+    TURNWRIGHT_SANITIZE="${sanitizers}")
   add_dependencies(app_test turnwright faults)
   add_library(faults MODULE tests/app/faults.cpp)  # loaded before the C library
   target_link_libraries(faults PRIVATE tw_dev ${CMAKE_DL_LIBS})

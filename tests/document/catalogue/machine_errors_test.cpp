@@ -79,7 +79,8 @@ TEST(MachineErrors, TablesOfALaserAreFitted) {
                           {"unit", "um"},
                           {"sign", "physical"},
                           {"degree", 1}}}}}}}}}}};
-  const auto& e = axis(read(m).errors->chain.axes, 'X').errors[0];
+  const auto machine = read(m);
+  const auto& e = axis(machine.errors->chain.axes, 'X').errors[0];
   EXPECT_NEAR(e.c[0], 2e-3, 1e-12);
   EXPECT_NEAR(e.c[1], 2e-3, 1e-12);
   EXPECT_NEAR(e.b, -1e-3, 1e-12);

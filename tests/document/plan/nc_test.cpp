@@ -64,7 +64,8 @@ TEST(NcDoor, ItsProgramsAreTakenForCompensation) {
   for (const char* control : {"linuxcnc", "fanuc", "fanuc-b", "haas"}) {
     json asked = request("drilled-bush");
     asked["control"] = control;
-    for (const auto& program : answered(asked)["programs"]) {
+    const auto answer = answered(asked);
+    for (const auto& program : answer["programs"]) {
       machine["program"] = program["text"];
       const auto corrected = compensate(machine);
       EXPECT_GT(corrected["residual"]["before"]["max_mm"], 1e-4) << control;

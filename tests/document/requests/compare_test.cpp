@@ -118,7 +118,8 @@ TEST(CompareDoor, FindsTheCommonJumpOfRunFour) {
   EXPECT_EQ(jump["overlap_changes_without_it"], json({"EXX", "EZZ"}));
   json request = thesis();
   request["a"]["length_mm"] = request["b"]["length_mm"] = 300;
-  for (const json& ppm : answered(request)["common_jumps"][0]["jump"]) {
+  const json answer = answered(request);
+  for (const json& ppm : answer["common_jumps"][0]["jump"]) {
     EXPECT_GT(ppm, 30);
     EXPECT_LT(ppm, 34.5);
   }

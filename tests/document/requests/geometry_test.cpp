@@ -34,8 +34,8 @@ json example() {
 }
 
 TEST(Geometry, ReproducesTheReferenceChains) {
-  for (json chain :
-       parse_file(source_path("tests/data/volumetric_reference.json"))["chains"]) {
+  const auto reference = parse_file(source_path("tests/data/volumetric_reference.json"));
+  for (json chain : reference["chains"]) {
     json request{{"chain", chain["chain"]}, {"tool_point_mm", chain["tool_point"]}};
     for (json axis : chain["axes"]) {
       axis["p_mm"] = axis["p"];
