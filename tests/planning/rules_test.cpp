@@ -60,6 +60,25 @@ TEST(Rules, ForbiddenToolsAreInNoListOfTheRequest) {
   EXPECT_NE(tool(ruled(request(free_pin())), kRougher), nullptr);
 }
 
+// The window's speeds are cut, and the edge lasts by its law where it runs slower.
+TEST(Rules, HouseSpeedsCutTheWindowsOfFixedTools) {
+  const auto drill = [](const json& rules) {
+    const auto r = ruled(request(pin_with(rules)));
+    return *std::ranges::find(r.fixed_tools, "DRILL-HM-5D", &catalogue::FixedTool::id)
+                ->conditions_in(r.material.group);
+  };
+  const auto own = drill(json::object());
+  const auto slow = drill({{"speeds", {{{"vc_m_min", {60, 75}}}}}});
+  EXPECT_EQ(slow.vc_m_min, 75);
+  EXPECT_EQ(slow.window->vc_m_min.lower, 60);
+  EXPECT_EQ(slow.window->vc_m_min.upper, 75);
+  EXPECT_NEAR(catalogue::at(slow, 70, 0.018).T_min, catalogue::at(own, 70, 0.018).T_min,
+              1e-9);
+  const auto slower = drill({{"speeds", {{{"vc_m_min", {1, 40}}}}}});
+  EXPECT_EQ(slower.window->vc_m_min.lower, 40);
+  EXPECT_EQ(slower.window->vc_m_min.upper, 40);
+}
+
 TEST(Rules, HouseSpeedsCutTheRangesOfTheToolsTheyConcern) {
   const auto with = [](const json& speed) {
     return ruled(request(pin_with({{"speeds", {speed}}})));

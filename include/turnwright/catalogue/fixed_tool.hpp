@@ -49,7 +49,7 @@ struct Pecking {
   double first_diameters = 0, step_diameters = 0;
 };
 
-/// A tool that is used at fixed conditions, which are not optimised.
+/// A tool whose passes are fixed, and its conditions where they have no window.
 struct FixedTool {
   std::string id, name;
   FixedUse use = FixedUse::centring;

@@ -93,7 +93,8 @@ std::optional<Feed> feed_of(FixedUse use) {
 catalogue::Range read_around(Reader& r, const char* key, const Bounds& bounds,
                              double value) {
   const auto range = read_range(r, key, bounds);
-  if (range.lower < range.upper && !(range.lower <= value && value <= range.upper))
+  if (0 < range.upper && range.lower <= range.upper &&
+      !(range.lower <= value && value <= range.upper))
     r.problem_at(key, fmt::format("a range around {:g}", value), "order");
   return range;
 }

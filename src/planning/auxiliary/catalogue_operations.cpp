@@ -279,8 +279,10 @@ AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D
   if (!f.at.window) return make(f);
   auto& [lowest, highest] = f.at.window->vc_m_min;
   highest = std::min(highest, units::cutting_speed_m_min(n_cap, D_mm[0]));
-  lowest = std::clamp(units::cutting_speed_m_min(s.p.machine.n_min_rpm, D_mm[0]),
-                      std::min(lowest, highest), highest);
+  // By a rounding above the spindle's least speed, which is a limit.
+  const double slowest =
+      units::cutting_speed_m_min(s.p.machine.n_min_rpm * (1 + 1e-12), D_mm[0]);
+  lowest = std::clamp(slowest, std::min(lowest, highest), highest);
   std::vector<double> breaks;
   for (const auto& range : s.ranges)
     for (const double D : D_mm)
@@ -381,7 +383,7 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   return h;
 }
 
-// Whether the spindle drives a drill and the jaws hold the part.
+// Whether feed drive and spindle drive a drill and the jaws hold the part.
 bool drives(const PreparedPart& p, std::size_t setup, const Fitted& f) {
   const double D_mm = f.size_mm;
   const auto ranges = cutting::speed_ranges(p.machine);
@@ -392,7 +394,8 @@ bool drives(const PreparedPart& p, std::size_t setup, const Fitted& f) {
   const double P_kW = units::shaft_power_kW(load.M_Nm, n);
   const auto grip =
       grip_forces(p, setup, Clamping::chuck, Stage::roughing, {load, n, D_mm});
-  return P_kW <= cutting::available_kW(ranges, n, false) &&
+  return load.Ff_N <= p.machine.feed_force_max_N &&
+         P_kW <= cutting::available_kW(ranges, n, false) &&
          P_kW <= cutting::available_kW(ranges, n, true) && grip.needed_N <= grip.closed_N;
 }
 

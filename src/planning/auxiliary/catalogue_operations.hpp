@@ -27,7 +27,8 @@ namespace turnwright::planning {
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
 /// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
 /// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
-/// the spindle drives and that the jaws hold; boring takes the rest.
+/// the drives move and that the jaws hold at the catalogue's conditions, or if there is none
+/// at the gentlest of its window; boring takes the rest.
 /// Grooves take the widest blade that fits and that machine, jaws and tool bear, parting off
 /// the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and

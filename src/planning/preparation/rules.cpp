@@ -37,13 +37,24 @@ bool concerns(const HouseSpeed& s, const std::string& tool, const PlanRequest& r
          s.group.value_or(r.material.group) == r.material.group;
 }
 
+// No faster than allowed, and as slow as the tool's window goes.
+catalogue::FixedConditions slowed(const catalogue::FixedConditions& c,
+                                  const Range& allowed) {
+  auto other = catalogue::at(c, std::min(c.vc_m_min, allowed.upper), c.f_mm_rev);
+  if (!other.window) return other;
+  auto& [lowest, highest] = other.window->vc_m_min;
+  highest = std::min(highest, allowed.upper);
+  lowest = std::min(std::max(lowest, allowed.lower), highest);
+  return other;
+}
+
 void keep(const HouseSpeed& s, PlanRequest& r) {
   for (auto* tools : {&r.tools, &r.spare_tools})
     for (auto& t : *tools)
       if (concerns(s, t.id, r)) t.vc_m_min = common(t.vc_m_min, s.vc_m_min);
   for (auto& t : r.fixed_tools) {
     if (!concerns(s, t.id, r)) continue;
-    for (auto& c : t.conditions) c.vc_m_min = std::min(c.vc_m_min, s.vc_m_min.upper);
+    for (auto& c : t.conditions) c = slowed(c, s.vc_m_min);
   }
 }
 
@@ -96,11 +107,13 @@ bool changes(const HouseSpeed& s, const PlanRequest& r) {
     return concerns(s, t.id, r) &&
            (t.vc_m_min.lower < s.vc_m_min.lower || t.vc_m_min.upper > s.vc_m_min.upper);
   };
-  const auto slowed = [&](const catalogue::FixedTool& t) {
+  const auto limited = [&](const catalogue::FixedTool& t) {
     const auto* c = t.conditions_in(r.material.group);
-    return c && concerns(s, t.id, r) && c->vc_m_min > s.vc_m_min.upper;
+    if (!c || !concerns(s, t.id, r)) return false;
+    const Range own = c->window ? c->window->vc_m_min : Range{0, c->vc_m_min};
+    return own.upper > s.vc_m_min.upper || (c->window && own.lower < s.vc_m_min.lower);
   };
-  return std::ranges::any_of(r.tools, cut) || std::ranges::any_of(r.fixed_tools, slowed);
+  return std::ranges::any_of(r.tools, cut) || std::ranges::any_of(r.fixed_tools, limited);
 }
 
 bool changes_spindle(const PlanRequest& r) {

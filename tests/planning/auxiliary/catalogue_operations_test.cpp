@@ -319,12 +319,22 @@ TEST(Drilling, OperationsStandInTheOrderOfTheShop) {
   EXPECT_EQ(place("part-left") + 1, static_cast<long>(all.size()));
 }
 
+// One drill of one size, which no other replaces.
+PlanRequest with_one_drill(PlanRequest request) {
+  std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
+    return t.use == catalogue::FixedUse::drilling && t.id != "DRILL-HM-5D";
+  });
+  for (auto& t : request.fixed_tools)
+    if (t.id == "DRILL-HM-5D") t.sizes_mm = {19};
+  return request;
+}
+
 TEST(Limits, WeakFeedDriveIsNamed) {
   auto d = bush();
   auto machine = file("machines/lathe-medium.json");
   machine["feed"]["feed_force_max_N"] = 900;
   d["machine"] = machine;
-  const auto r = plan(part(d));
+  const auto r = plan(prepare(with_one_drill(part(d))));
   ASSERT_EQ(r.status, PlanStatus::infeasible);
   ASSERT_FALSE(r.conflicts.empty());
   EXPECT_EQ(r.conflicts[0].limit, "feed force");
@@ -334,7 +344,7 @@ TEST(Limits, WeakFeedDriveIsNamed) {
 }
 
 TEST(Limits, ThrustBelowTheDriveIsFeasibleAndExact) {
-  auto p = as_in_catalogue(bush());
+  auto p = prepare(with_one_drill(as_in_catalogue(bush())));
   const auto work = assign(p);
   const auto ops =
       auxiliary_work(p, 0, Clamping::chuck, work.setups[0], {p.machine_per_min, 1}).all();

@@ -102,11 +102,20 @@ TEST(ChosenConditions, AreNoDearerThanAnyOfALattice) {
     compare_with_lattice(part(reference_part(name)));
 }
 
+/// The bush with one drill of one size, which no other replaces.
+PlanRequest with_one_drill() {
+  PlanRequest request = part(reference_part("drilled-bush"));
+  std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
+    return t.use == catalogue::FixedUse::drilling && t.id != "DRILL-HM-5D";
+  });
+  for (auto& t : request.fixed_tools)
+    if (t.id == "DRILL-HM-5D") t.sizes_mm = {19};
+  return request;
+}
+
 // Where power, feed drive and grip bind the feed depends on the speed.
 TEST(ChosenConditions, AreNoDearerThanAnyOfALatticeOnAWeakMachine) {
-  auto request = part(reference_part("drilled-bush"));
-  for (auto& t : request.fixed_tools)
-    if (t.use == catalogue::FixedUse::drilling) t.sizes_mm = {19};
+  auto request = with_one_drill();
   request.machine.feed_force_max_N =
       0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   for (auto& point : request.machine.curve) point.P_kW *= 0.5, point.M_Nm *= 0.5;
@@ -132,7 +141,7 @@ TEST(ChosenConditions, OfADrillAreTaylorsSpeedOfLeastCost) {
 
 // The drive cannot push the drill at the catalogue's feed.
 TEST(ChosenConditions, KeepALimitThatTheCatalogueBreaks) {
-  auto request = part(reference_part("drilled-bush"));
+  auto request = with_one_drill();
   const double Ff =
       operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   request.machine.feed_force_max_N = 0.8 * Ff;
@@ -151,6 +160,20 @@ TEST(ChosenConditions, OfAWiderWindowAreNeverDearer) {
     for (const auto& o : operations(p)) sum += cost(p, o);
     EXPECT_LE(sum, before * (1 + 1e-12)) << width;
     before = sum;
+  }
+}
+
+// A slow spindle's least speed counts as reached, whatever rounding says of it.
+TEST(ChosenConditions, AtTheLeastSpeedOfTheSpindleAreKept) {
+  auto request = with_one_drill();
+  const double most_Ff =
+      0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
+  request.machine.feed_force_max_N = most_Ff;
+  for (const double n : {700.0, 767.0, 811.3, 901.7, 950.1}) {
+    request.machine.n_min_rpm = n;
+    const auto o = operation(with_windows(request, 0.01, 1.5), "s1-drill-b1");
+    EXPECT_NEAR(o.plan.passes[0].Ff_N, most_Ff, 1e-6 * most_Ff) << n;
+    EXPECT_GE(o.plan.passes[0].n_rpm, n * (1 - 1e-9));
   }
 }
 
@@ -187,6 +210,9 @@ TEST(ChosenConditions, StandInAWindowAroundTheToolsOwn) {
               {"f_per_mm", {0.01, 0.02}},
               {"life_feed", 1.5}};
   EXPECT_EQ(told(window), "");
+  window["vc_m_min"] = {50, 50};
+  EXPECT_NE(told(window).find("vc_m_min: got [50,50], expected a range around 90"),
+            std::string::npos);
   window["vc_m_min"] = {95, 110};
   window["f_per_mm"] = {0.02, 0.01};
   window["life_feed"] = -1;
