@@ -1,6 +1,7 @@
 #include "turnwright/gcode/dialect.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace turnwright::gcode {
@@ -199,6 +200,11 @@ std::span<const Dialect> dialects() { return kDialects; }
 
 const Dialect& dialect(Control control) {
   return kDialects[static_cast<std::size_t>(control)];
+}
+
+double cut_off(double value, int decimals) {
+  const double scale = std::pow(10, decimals);
+  return std::floor(value * scale * (1 + 1e-12)) / scale;
 }
 
 }  // namespace turnwright::gcode

@@ -38,11 +38,8 @@ std::string number(double value, int decimals) {
   return text == "-0" ? "0" : text;
 }
 
-// A number cut off at its last decimal, with an allowance for the rounding of whole
-// numbers.
 std::string at_most(double value, int decimals) {
-  const double scale = std::pow(10, decimals);
-  return number(std::floor(value * scale * (1 + 1e-12)) / scale, decimals);
+  return number(gcode::cut_off(value, decimals), decimals);
 }
 
 // Lines of a program, with the numbers of blocks that the shop wants.

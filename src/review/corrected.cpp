@@ -76,13 +76,6 @@ bool near(const planning::ProcessPlan& plan,
   });
 }
 
-// A number with its decimals, cut off.
-std::string cut_off(double value, int decimals) {
-  const double scale = std::pow(10.0, decimals);
-  return fmt::format("{:.{}f}", std::floor(value * scale * (1 + 1e-12)) / scale,
-                     decimals);
-}
-
 int decimals_of(std::string_view number) {
   const auto point = number.find('.');
   return point == number.npos ? 0 : static_cast<int>(number.size() - point - 1);
@@ -94,20 +87,9 @@ std::string multiplied(const Word& word, double factor) {
   const auto head = word.text.substr(0, sign), number = word.text.substr(sign);
   const bool feed = word.name == "F";
   const int decimals = std::max(decimals_of(number), feed ? kFeedDecimals : 0);
-  const auto text = cut_off(factor * *word.value, decimals);
+  const double value = gcode::cut_off(factor * *word.value, decimals);
+  const auto text = fmt::format("{:.{}f}", value, decimals);
   return head + text + (decimals == 0 && number.ends_with('.') ? "." : "");
-}
-
-// The place of a word in a line, its comments left out.
-std::size_t place_of(std::string_view line, std::string_view word, bool brackets) {
-  int depth = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == ';') break;
-    if (brackets && line[i] == '(') ++depth;
-    if (brackets && line[i] == ')') --depth;
-    if (depth == 0 && line.substr(i).starts_with(word)) return i;
-  }
-  return line.npos;
 }
 
 }  // namespace
@@ -155,27 +137,22 @@ CorrectedText corrected_text(std::string_view text, gcode::Control control,
                              const WordFactors& factors) {
   const bool names = control == gcode::Control::siemens;
   CorrectedText out;
-  std::size_t number = 0;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    std::string line(text.substr(0, end));
-    ++number;
-    const auto block = block_of(line, names);
+  const auto lines = lines_of(text);
+  for (std::size_t number = 1; number <= lines.size(); ++number) {
+    std::string line(lines[number - 1]);
     for (const auto& [name, all] : {std::pair{"F", &factors.F}, {"S", &factors.S}}) {
       const auto factor = all->find(number);
+      if (factor == all->end() || std::abs(factor->second - 1) < kAlike) continue;
+      const auto block = block_of(line, names);
       const auto* word = block.find(name);
-      if (factor == all->end() || !word || !word->value ||
-          std::abs(factor->second - 1) < kAlike)
-        continue;
+      if (!word || !word->value) continue;
       const auto is = multiplied(*word, factor->second);
-      const auto at = place_of(line, word->text, !names);
-      if (is == word->text || at == std::string::npos) continue;
-      line.replace(at, word->text.size(), is);
+      if (is == word->text) continue;
+      line.replace(word->at, word->text.size(), is);
       out.words.push_back({number, word->text, is});
     }
     out.text += line;
-    if (end < text.size()) out.text += '\n';
-    text.remove_prefix(std::min(end + 1, text.size()));
+    if (number < lines.size() || text.ends_with('\n')) out.text += '\n';
   }
   return out;
 }

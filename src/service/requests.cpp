@@ -269,10 +269,8 @@ planning::PreparedPart clamped_as(const planning::PreparedPart& part,
 // The operations of the programs, predicted as if a request had given them.
 document::ReviewedPlan predicted(const planning::PreparedPart& part,
                                  const document::ReviewInput& input,
-                                 const review::Review& reviewed,
-                                 planning::ProcessPlan plan) {
+                                 review::Reconstruction all, planning::ProcessPlan plan) {
   document::ReviewedPlan out{std::move(plan)};
-  auto all = review::reconstructed(part, reviewed);
   if (all.cannot.empty()) {
     auto result = planning::predict(
         review::with_operations(part, std::move(all.operations), input.tools));
@@ -291,10 +289,10 @@ document::CorrectedPrograms corrected(const planning::PreparedPart& part,
                                       document::ReviewRequest asked,
                                       const document::ReviewInput& input,
                                       const review::Review& reviewed,
+                                      const review::Reconstruction& own,
                                       const document::Catalogue& catalogue) {
   document::CorrectedPrograms out;
-  auto own = review::reconstructed(part, reviewed);
-  out.cannot = std::move(own.cannot);
+  out.cannot = own.cannot;
   if (!out.cannot.empty()) return out;
   const auto best = review::best_of_passes(part, own.operations, input.tools);
   for (const auto& conflict : best.conflicts) out.cannot.push_back(conflict.sentence);
@@ -309,7 +307,7 @@ document::CorrectedPrograms corrected(const planning::PreparedPart& part,
   }
   const auto again = document::review_input(asked, part, catalogue);
   out.review = review::review(part, again.programs, again.tools);
-  out.plan = predicted(part, again, out.review, {});
+  out.plan = predicted(part, again, review::reconstructed(part, out.review), {});
   return out;
 }
 
@@ -320,10 +318,12 @@ ordered_json review_programs(const json& request, const Context& context) {
   const bool made = plan.status == planning::PlanStatus::ok;
   const auto held = made ? clamped_as(part.part, plan) : part.part;
   const auto reviewed = review::review(held, input.programs, input.tools);
+  auto own = review::reconstructed(held, reviewed);
   std::optional<document::CorrectedPrograms> other;
-  if (asked.correct) other = corrected(held, asked, input, reviewed, context.catalogue);
+  if (asked.correct)
+    other = corrected(held, asked, input, reviewed, own, context.catalogue);
   return document::review_result(asked, part, input, reviewed,
-                                 predicted(held, input, reviewed, std::move(plan)),
+                                 predicted(held, input, std::move(own), std::move(plan)),
                                  other);
 }
 

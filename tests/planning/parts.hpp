@@ -18,6 +18,21 @@ inline const document::Catalogue& shop() {
 inline PreparedPart part(const nlohmann::json& document) {
   return document::prepared_part(document, shop(), "part").part;
 }
+/// A request whose fixed tools have nothing to choose.
+inline PlanRequest without_windows(PlanRequest request) {
+  for (auto& t : request.fixed_tools)
+    for (auto& c : t.conditions) c.window.reset();
+  return request;
+}
+/// One drill of one size, which no other replaces.
+inline PlanRequest with_one_drill(PlanRequest request) {
+  std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
+    return t.use == catalogue::FixedUse::drilling && t.id != "DRILL-HM-5D";
+  });
+  for (auto& t : request.fixed_tools)
+    if (t.id == "DRILL-HM-5D") t.sizes_mm = {19};
+  return request;
+}
 inline nlohmann::json file(const std::string& name) {
   return document::parse_file(TURNWRIGHT_SOURCE_DIR "/" + name);
 }

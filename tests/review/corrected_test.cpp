@@ -65,58 +65,51 @@ planning::OperationPlan best(const char* on, double f, double vc) {
   return o;
 }
 
+/// Factors of moves with one tool that make these cuts, for the best operations.
+WordFactors factors(std::vector<ReadMove> moves, std::vector<Cut> cuts,
+                    std::vector<planning::OperationPlan> operations) {
+  TurningProgram program;
+  program.runs.emplace_back();
+  program.runs[0].step.tool = 1;
+  program.runs[0].moves = std::move(moves);
+  ReviewedSetup setup;
+  setup.cuts = std::move(cuts);
+  planning::SetupPlan plan;
+  plan.operations = std::move(operations);
+  return word_factors(setup, program, plan);
+}
+
 // Two surfaces in one way have one S, and the second its own F.
 TEST(WordFactors, AreTheLeastOfWhatAWordServes) {
-  review::Run run;
-  run.step.tool = 1;
-  run.moves = {feed(10, 9, 5), feed(11, 11, 5)};
-  ReviewedSetup setup;
-  setup.cuts = {cut("a", 10, 0.2), cut("b", 11, 0.2)};
-  planning::SetupPlan plan;
-  plan.operations = {best("a", 0.3, 150), best("b", 0.1, 120)};
-  TurningProgram program;
-  program.runs = {run};
-  const auto together = word_factors(setup, program, plan);
+  const std::vector<Cut> cuts{cut("a", 10, 0.2), cut("b", 11, 0.2)};
+  const std::vector<planning::OperationPlan> operations{best("a", 0.3, 150),
+                                                        best("b", 0.1, 120)};
+  const auto together = factors({feed(10, 9, 5), feed(11, 11, 5)}, cuts, operations);
   EXPECT_NEAR(together.S.at(5), 1.2, 1e-12);
   EXPECT_NEAR(together.F.at(9), 0.5, 1e-12);
   EXPECT_NEAR(together.F.at(11), 0.5, 1e-12);
 
   // A rapid between them parts what they share.
-  run.moves.insert(run.moves.begin() + 1, feed(10, 9, 5, toolpath::Move::Kind::rapid));
-  program.runs = {run};
-  const auto apart = word_factors(setup, program, plan);
+  const auto apart = factors(
+      {feed(10, 9, 5), feed(10, 9, 5, toolpath::Move::Kind::rapid), feed(11, 11, 5)},
+      cuts, operations);
   EXPECT_NEAR(apart.F.at(9), 1.5, 1e-12);
   EXPECT_NEAR(apart.F.at(11), 0.5, 1e-12);
 }
 
 TEST(WordFactors, LeaveTheLeadOfAThread) {
-  review::Run run;
-  run.step.tool = 1;
-  run.moves = {feed(10, 10, 5, toolpath::Move::Kind::thread)};
-  ReviewedSetup setup;
-  setup.cuts = {cut("a", 10, 1.5)};
-  planning::SetupPlan plan;
-  plan.operations = {best("a", 1.5, 80)};
-  TurningProgram program;
-  program.runs = {run};
-  const auto factors = word_factors(setup, program, plan);
-  EXPECT_TRUE(factors.F.empty());
-  EXPECT_NEAR(factors.S.at(5), 0.8, 1e-12);
+  const auto thread = factors({feed(10, 10, 5, toolpath::Move::Kind::thread)},
+                              {cut("a", 10, 1.5)}, {best("a", 1.5, 80)});
+  EXPECT_TRUE(thread.F.empty());
+  EXPECT_NEAR(thread.S.at(5), 0.8, 1e-12);
 }
 
 // 20 % more speed and 50 % more feed a revolution.
 TEST(WordFactors, OfAFeedPerMinuteHaveBoth) {
-  review::Run run;
-  run.step.tool = 1;
-  run.moves = {feed(10, 9, 5)};
-  run.moves[0].words.per_minute = true;
-  ReviewedSetup setup;
-  setup.cuts = {cut("a", 10, 0.2)};
-  planning::SetupPlan plan;
-  plan.operations = {best("a", 0.3, 120)};
-  TurningProgram program;
-  program.runs = {run};
-  EXPECT_NEAR(word_factors(setup, program, plan).F.at(9), 1.8, 1e-12);
+  auto move = feed(10, 9, 5);
+  move.words.per_minute = true;
+  EXPECT_NEAR(factors({move}, {cut("a", 10, 0.2)}, {best("a", 0.3, 120)}).F.at(9), 1.8,
+              1e-12);
 }
 
 }  // namespace

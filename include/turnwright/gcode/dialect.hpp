@@ -64,4 +64,8 @@ struct Dialect {
 std::span<const Dialect> dialects();
 const Dialect& dialect(Control control);
 
+/// A number cut off at its last decimal, with an allowance for the rounding of whole
+/// numbers: a word that must not exceed it.
+double cut_off(double value, int decimals);
+
 }  // namespace turnwright::gcode

@@ -5,19 +5,13 @@
 namespace turnwright::planning {
 
 Breakdown& Breakdown::operator+=(const Breakdown& other) {
-  for (const auto share : kSpendings) {
-    (this->*share).time_min += (other.*share).time_min;
-    (this->*share).cost += (other.*share).cost;
-  }
+  for (const auto share : kSpendings) this->*share += other.*share;
   return *this;
 }
 
 Spending Breakdown::total() const {
   Spending sum;
-  for (const auto share : kSpendings) {
-    sum.time_min += (this->*share).time_min;
-    sum.cost += (this->*share).cost;
-  }
+  for (const auto share : kSpendings) sum += this->*share;
   return sum;
 }
 

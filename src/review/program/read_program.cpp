@@ -463,12 +463,7 @@ class ProgramReader {
 }  // namespace
 
 TurningProgram read_program(std::string_view text, const ReadOptions& options) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  const auto lines = lines_of(text);
   ProgramReader reader(lines, options);
   for (std::size_t i = 0; i < lines.size() && !reader.full(); ++i) {
     leave_if_asked();

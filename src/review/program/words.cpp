@@ -87,6 +87,7 @@ std::optional<Word> word_of(Scanner& in, bool names) {
   }
   if (in.next() == '(' && w.name.size() > 1) return std::nullopt;
   w.text = in.since(start);
+  w.at = start;
   w.point = w.text.find('.') != std::string::npos;
   return w;
 }
@@ -101,6 +102,16 @@ const Word* Block::find(std::string_view name) const {
 std::optional<double> Block::value(std::string_view name) const {
   const auto* word = find(name);
   return word ? word->value : std::nullopt;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 Block block_of(std::string_view line, bool names) {

@@ -13,6 +13,7 @@ struct Word {
   std::optional<double> value = {};
   bool point = false;     ///< whether the number has a point
   std::string text = {};  ///< as it stands
+  std::size_t at = 0;     ///< where, in its line
 };
 
 struct Block {
@@ -24,6 +25,9 @@ struct Block {
   const Word* find(std::string_view name) const;
   std::optional<double> value(std::string_view name) const;
 };
+
+/// The lines of a program, without the ends that part them.
+std::vector<std::string_view> lines_of(std::string_view text);
 
 /// Words of a line up to the first that is none.
 /// @param names  words of several letters, as Siemens writes them.

@@ -39,12 +39,7 @@ const catalogue::FixedTool& tool(const PreparedPart& p, const std::string& id) {
 }
 
 // A part whose tools have nothing to choose (chosen_conditions_test.cpp has what they may).
-PreparedPart as_in_catalogue(const json& d) {
-  PlanRequest request = part(d);
-  for (auto& t : request.fixed_tools)
-    for (auto& c : t.conditions) c.window.reset();
-  return prepare(std::move(request));
-}
+PreparedPart as_in_catalogue(const json& d) { return prepare(without_windows(part(d))); }
 
 // The pin with a groove between its cylinders and a thread at its end.
 json grooved() {
@@ -317,16 +312,6 @@ TEST(Drilling, OperationsStandInTheOrderOfTheShop) {
   EXPECT_LT(place("bore-finish-b2"), place("groove-g1"));
   EXPECT_LT(place("groove-g1"), place("part-left"));
   EXPECT_EQ(place("part-left") + 1, static_cast<long>(all.size()));
-}
-
-// One drill of one size, which no other replaces.
-PlanRequest with_one_drill(PlanRequest request) {
-  std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
-    return t.use == catalogue::FixedUse::drilling && t.id != "DRILL-HM-5D";
-  });
-  for (auto& t : request.fixed_tools)
-    if (t.id == "DRILL-HM-5D") t.sizes_mm = {19};
-  return request;
 }
 
 TEST(Limits, WeakFeedDriveIsNamed) {

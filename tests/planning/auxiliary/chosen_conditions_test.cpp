@@ -16,7 +16,6 @@ namespace turnwright::planning {
 namespace {
 
 using catalogue::ConditionsWindow;
-using catalogue::FixedConditions;
 using nlohmann::json;
 
 constexpr double kTaylor = 0.25, kLifeFeed = 1.5;
@@ -36,11 +35,9 @@ PreparedPart with_windows(PlanRequest p, double low, double high) {
 PreparedPart at_multiple(const PlanRequest& request, double of_vc, double of_f) {
   auto p = with_windows(request, 1, 1);
   for (auto& t : p.fixed_tools)
-    for (auto& c : t.conditions) {
+    for (auto& c : t.conditions)
       c = catalogue::at(c, of_vc * c.vc_m_min, of_f * c.f_mm_rev);
-      c.window.reset();
-    }
-  return p;
+  return prepare(without_windows(p));
 }
 
 std::vector<AuxiliaryOperation> operations(const PreparedPart& p) {
@@ -102,20 +99,9 @@ TEST(ChosenConditions, AreNoDearerThanAnyOfALattice) {
     compare_with_lattice(part(reference_part(name)));
 }
 
-/// The bush with one drill of one size, which no other replaces.
-PlanRequest with_one_drill() {
-  PlanRequest request = part(reference_part("drilled-bush"));
-  std::erase_if(request.fixed_tools, [](const catalogue::FixedTool& t) {
-    return t.use == catalogue::FixedUse::drilling && t.id != "DRILL-HM-5D";
-  });
-  for (auto& t : request.fixed_tools)
-    if (t.id == "DRILL-HM-5D") t.sizes_mm = {19};
-  return request;
-}
-
 // Where power, feed drive and grip bind the feed depends on the speed.
 TEST(ChosenConditions, AreNoDearerThanAnyOfALatticeOnAWeakMachine) {
-  auto request = with_one_drill();
+  auto request = with_one_drill(part(reference_part("drilled-bush")));
   request.machine.feed_force_max_N =
       0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   for (auto& point : request.machine.curve) point.P_kW *= 0.5, point.M_Nm *= 0.5;
@@ -141,7 +127,7 @@ TEST(ChosenConditions, OfADrillAreTaylorsSpeedOfLeastCost) {
 
 // The drive cannot push the drill at the catalogue's feed.
 TEST(ChosenConditions, KeepALimitThatTheCatalogueBreaks) {
-  auto request = with_one_drill();
+  auto request = with_one_drill(part(reference_part("drilled-bush")));
   const double Ff =
       operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   request.machine.feed_force_max_N = 0.8 * Ff;
@@ -165,7 +151,7 @@ TEST(ChosenConditions, OfAWiderWindowAreNeverDearer) {
 
 // A slow spindle's least speed counts as reached, whatever rounding says of it.
 TEST(ChosenConditions, AtTheLeastSpeedOfTheSpindleAreKept) {
-  auto request = with_one_drill();
+  auto request = with_one_drill(part(reference_part("drilled-bush")));
   const double most_Ff =
       0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   request.machine.feed_force_max_N = most_Ff;

@@ -209,11 +209,9 @@ TEST(Holes, OfADrillWithoutCoolantArePecked) {
     auto d = drilled(8, {{"kind", "hole"}});
     d["inner"][0]["length_mm"] = 34 - 4 / std::tan(units::rad_from_deg(59));
     d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", "DRILL-HSS-5D"};
-    PlanRequest request = part(d);
-    for (auto& t : request.fixed_tools) {
+    auto request = without_windows(part(d));
+    for (auto& t : request.fixed_tools)
       if (t.use == catalogue::FixedUse::drilling) t.pecking = pecking;
-      for (auto& c : t.conditions) c.window.reset();
-    }
     return prepare(std::move(request));
   };
   const auto drilling = [](const PreparedPart& p) {
