@@ -30,10 +30,11 @@ double worst_violation(const RecipeModel& m, const Choice<double>& c) {
   return worst;
 }
 
-// The answer at given conditions, in the speed ranges that suit them best.
+// The answer at given conditions: in the cheapest speed ranges that keep every limit, as a
+// plan would choose them, or in those that violate the limits least.
 SurfaceAnswer as_given(const SurfaceTask& task) {
   SurfaceAnswer a;
-  a.least_violation = std::numeric_limits<double>::infinity();
+  std::pair best{std::numeric_limits<double>::infinity(), 0.0};
   const auto& fixed = task.feature.fixed();
   for (const auto& recipe : task.recipes) {
     auto chain = task.feature.chain(recipe, task.economy, {});
@@ -46,7 +47,9 @@ SurfaceAnswer as_given(const SurfaceTask& task) {
     }
     auto m = std::make_shared<RecipeModel>(recipe, std::move(*chain));
     const double worst = worst_violation(*m, c);
-    if (!(worst < a.least_violation)) continue;
+    const std::pair rank{std::max(worst, kBeyondRounding), m->objective(c)};
+    if (!(rank < best)) continue;
+    best = rank;
     a.feasible = true;
     a.least_violation = worst;
     a.choice = c;

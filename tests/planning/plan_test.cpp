@@ -730,6 +730,29 @@ TEST(Predict, APlansConditionsGiveWhatThePlanSays) {
   }
 }
 
+// A face is turned through many spindle speeds, of which its speed range is a choice.
+TEST(Predict, AcrossADipOfTheDriveTheConditionsGiveWhatThePlanSays) {
+  auto document = pin();
+  document["machine"] = file("machines/lathe-medium.json");
+  auto& curve = document["machine"]["spindle"]["curve"];
+  for (const double n : {400.0, 601.0, 1500.0}) {
+    curve = json::array();
+    for (const auto& [n_rpm, P_kW] : {std::pair{40.0, 1.0},
+                                      {n / 2, 7.5},
+                                      {n - 1, 7.5},
+                                      {n, 4.0},
+                                      {1.5 * n, 7.5},
+                                      {4500.0, 7.5}})
+      curve.push_back(
+          {{"n_rpm", n_rpm}, {"P_kW", P_kW}, {"M_Nm", 9549.2966 * P_kW / n_rpm}});
+    const auto planned_part = certified_plan(document);
+    ASSERT_EQ(planned_part.status, PlanStatus::ok) << n;
+    const auto r = predict(part_to_predict(as_planned(document, planned_part)));
+    EXPECT_EQ(r.status, PlanStatus::ok) << n;
+    EXPECT_NEAR(r.cost_per_part, planned_part.cost_per_part, 1e-9) << n;
+  }
+}
+
 TEST(Predict, WhatIsNotKeptIsToldAndTheRestPredictedAllTheSame) {
   auto d = as_planned(pin(), certified_plan(pin()));
   for (auto& o : d["operations"])
