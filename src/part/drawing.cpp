@@ -9,7 +9,9 @@
 namespace turnwright::part {
 namespace {
 
-// Radius, depth, width, and depth in the shoulder.
+constexpr double kSame_mm = 1e-9;
+
+// Of DIN 509: radius, depth, width, and depth in the shoulder.
 constexpr std::array kUndercutsF{
     Undercut{0.2, 0.1, 1, 0.1},   Undercut{0.4, 0.2, 2, 0.1},
     Undercut{0.6, 0.2, 2, 0.1},   Undercut{0.6, 0.3, 2.5, 0.2},
@@ -18,10 +20,30 @@ constexpr std::array kUndercutsF{
     Undercut{1.2, 0.4, 4, 0.3},   Undercut{1.6, 0.3, 4, 0.2},
     Undercut{2.5, 0.4, 5, 0.3},   Undercut{4, 0.5, 7, 0.3}};
 
+// Of DIN 76: pitch, d - dg, g2 of the forms A and B, radius.
+constexpr std::array<std::array<double, 5>, 18> kThreadUndercuts{
+    {{0.5, 0.8, 1.75, 1.25, 0.2},
+     {0.6, 1, 2.1, 1.5, 0.4},
+     {0.7, 1.1, 2.45, 1.75, 0.4},
+     {0.75, 1.2, 2.6, 1.9, 0.4},
+     {0.8, 1.3, 2.8, 2, 0.4},
+     {1, 1.6, 3.5, 2.5, 0.6},
+     {1.25, 2, 4.4, 3.2, 0.6},
+     {1.5, 2.3, 5.2, 3.8, 0.8},
+     {1.75, 2.6, 6.1, 4.3, 1},
+     {2, 3, 7, 5, 1},
+     {2.5, 3.6, 8.7, 6.3, 1.2},
+     {3, 4.4, 10.5, 7.5, 1.6},
+     {3.5, 5, 12, 9, 1.6},
+     {4, 5.7, 14, 10, 2},
+     {4.5, 6.4, 16, 11, 2},
+     {5, 7, 17.5, 12.5, 2.5},
+     {5.5, 7.7, 19, 14, 3.2},
+     {6, 8.3, 21, 15, 3.2}}};
+
 }  // namespace
 
 std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm) {
-  constexpr double kSame_mm = 1e-9;
   if (form != 'E' && form != 'F') return std::nullopt;
   for (auto u : kUndercutsF) {
     if (form == 'E') u.recess_mm = 0;
@@ -32,7 +54,20 @@ std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm) {
   return std::nullopt;
 }
 
+std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
+  if (form != 'A' && form != 'B') return std::nullopt;
+  for (const auto& [pitch, reduced, long_width, short_width, radius] : kThreadUndercuts)
+    if (std::abs(pitch - pitch_mm) < kSame_mm)
+      return Undercut{
+          radius, reduced / 2,          form == 'A' ? long_width : short_width,
+          0,      std::numbers::pi / 6, pitch};
+  return std::nullopt;
+}
+
 std::string designation(const Undercut& u) {
+  if (u.pitch_mm > 0)
+    return u.width_mm < thread_undercut('A', u.pitch_mm)->width_mm ? "DIN 76-B"
+                                                                   : "DIN 76-A";
   return fmt::format("{}{:g}x{:g}", u.recess_mm > 0 ? 'F' : 'E', u.radius_mm, u.depth_mm);
 }
 
@@ -48,8 +83,7 @@ double centre_mm(const Undercut& u) { return u.radius_mm - u.recess_mm; }
 double undercut_mm(const OuterElement& e, double from_left_mm) {
   const auto at = [](const std::optional<Undercut>& u, double from_end_mm) {
     if (!u || from_end_mm >= u->width_mm) return 0.0;
-    return std::min(u->depth_mm,
-                    (u->width_mm - from_end_mm) * std::tan(kUndercutFalls_rad));
+    return std::min(u->depth_mm, (u->width_mm - from_end_mm) * std::tan(u->falls_rad));
   };
   return at(e.left_undercut, from_left_mm) +
          at(e.right_undercut, e.length_mm - from_left_mm);

@@ -67,10 +67,8 @@ void add_broken(const SetupPlan& setup, std::size_t index, ProcessPlan& result) 
   for (const auto& o : setup.operations)
     for (const auto& c : o.constraints)
       if (c.margin < -kBeyondRounding)
-        result.conflicts.push_back(
-            {c.name, setup_label(index) + ", " + o.id, c.value, c.limit, c.unit,
-             fmt::format("{}: {} is {} {} against {} {}", o.id, c.name, readable(c.value),
-                         c.unit, readable(c.limit), c.unit)});
+        result.conflicts.push_back({c.name, setup_label(index) + ", " + o.id, c.value,
+                                    c.limit, c.unit, exceeded(o.id, c)});
 }
 
 // Whether every setup's clamping can be used; if not, adds the reason.

@@ -124,7 +124,7 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     for (const bool left : {true, false})
       if (const auto& u = left ? e.left_undercut : e.right_undercut) {
         std::vector<double> x{u->width_mm,
-                              u->width_mm - u->depth_mm / std::tan(M_PI / 12)};
+                              u->width_mm - u->depth_mm / std::tan(Sizes::slope_of(*u))};
         for (int i = 0; i <= 200; ++i)
           x.push_back(Sizes::centre(*u) - u->radius_mm * std::cos(M_PI / 400 * i));
         for (const double from : x)

@@ -78,7 +78,12 @@ class Sizes {
   // to the shoulder at 8 deg from a circle whose deepest point lies t2 behind it.
   static double centre(const part::Undercut& u) { return u.radius_mm - u.recess_mm; }
 
-  // Depth of an undercut at a distance from the left end: from its width on down at 15 deg,
+  // How steeply an undercut falls to its floor: DIN 76 at 30 deg, DIN 509 at 15 deg.
+  static double slope_of(const part::Undercut& u) {
+    return u.pitch_mm > 0 ? M_PI / 6 : M_PI / 12;
+  }
+
+  // Depth of an undercut at a distance from the left end: from its width on down its slope,
   // level, and up a circle.
   template <class Element>
   static double undercut(const Element& e, double from_left) {
@@ -87,7 +92,8 @@ class Sizes {
       const auto& u = left ? e.left_undercut : e.right_undercut;
       const double x = left ? from_left : e.length_mm - from_left;
       if (!u || x >= u->width_mm) return 0;
-      const double line = std::min(u->depth_mm, (u->width_mm - x) * std::tan(M_PI / 12));
+      const double line =
+          std::min(u->depth_mm, (u->width_mm - x) * std::tan(slope_of(*u)));
       const double r = u->radius_mm, c = centre(*u);
       return line - (x < c ? r - std::sqrt(std::max(0.0, r * r - (c - x) * (c - x))) : 0);
     }

@@ -83,5 +83,35 @@ TEST(Drawing, FormFComesBackToTheShoulderWhereTheStandardSays) {
   EXPECT_EQ(designation(*undercut('E', 1, 0.4)), "E1x0.4");
 }
 
+// DIN 76's other columns: pitch, d - dg, g1 of the forms A and B.  The flank of 30 deg takes
+// what g2 is more than g1, to the 0.1 mm and more that the table rounds to.
+TEST(Drawing, ThreadUndercutsAreThoseOfTheStandard) {
+  const double table[][4]{
+      {0.5, 0.8, 1.1, 0.5}, {0.8, 1.3, 1.7, 0.9}, {1, 1.6, 2.1, 1.1},
+      {1.25, 2, 2.7, 1.5},  {1.5, 2.3, 3.2, 1.8}, {1.75, 2.6, 3.9, 2.1},
+      {2, 3, 4.5, 2.5},     {2.5, 3.6, 5.6, 3.2}, {3, 4.4, 6.7, 3.7},
+      {3.5, 5, 7.7, 4.7},   {4, 5.7, 9, 5},       {5, 7, 11.5, 6.5},
+      {6, 8.3, 14, 8}};
+  const double rises = std::tan(std::acos(-1) / 6);
+  for (const auto& [pitch, reduced, g1_a, g1_b] : table) {
+    const auto a = thread_undercut('A', pitch), b = thread_undercut('B', pitch);
+    ASSERT_TRUE(a && b) << pitch;
+    EXPECT_NEAR(a->depth_mm, reduced / 2, 1e-12) << pitch;
+    EXPECT_NEAR(a->width_mm - g1_a, reduced / 2 / rises, 0.25) << pitch;
+    EXPECT_NEAR(b->width_mm - g1_b, reduced / 2 / rises, 0.25) << pitch;
+    EXPECT_GT(2 * a->depth_mm, 1.22687 * pitch) << pitch;  // below the thread's root
+    EXPECT_EQ(designation(*a), "DIN 76-A");
+    EXPECT_EQ(designation(*b), "DIN 76-B");
+  }
+  EXPECT_FALSE(thread_undercut('A', 1.6));
+  EXPECT_FALSE(thread_undercut('C', 1.5));
+
+  OuterElement e{.id = "t", .length_mm = 20, .left_mm = 24, .right_mm = 24};
+  e.right_undercut = thread_undercut('A', 1.5);
+  EXPECT_NEAR(undercut_mm(e, 20 - 5.2), 0, 1e-12);
+  EXPECT_NEAR(undercut_mm(e, 20 - 4.2), rises, 1e-12);
+  EXPECT_EQ(undercut_mm(e, 20), 1.15);
+}
+
 }  // namespace
 }  // namespace turnwright::part

@@ -31,15 +31,19 @@ struct Chamfer {
   bool general = false;
 };
 
-/// An undercut of form E or F of DIN 509 at the end of an element before a shoulder: at a
-/// distance from the shoulder the surface falls at 15 deg to a depth, and an inner radius
-/// leads from there to the shoulder.  Form F goes into the shoulder too: from the radius
-/// its surface comes back to the shoulder at 8 deg.
+inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
+
+/// An undercut of DIN 509's form E or F, or of DIN 76 behind an outer thread, at the end of
+/// an element before a shoulder: at a distance from the shoulder the surface falls at 15 deg
+/// (DIN 76: 30 deg) to a depth, and an inner radius leads from there to the shoulder.  Form F
+/// goes into the shoulder too: from the radius its surface comes back to the shoulder at
+/// 8 deg.
 struct Undercut {
   double radius_mm = 0, depth_mm = 0, width_mm = 0;
-  double recess_mm = 0;  ///< deepest place in the shoulder, of form F; 0: form E
+  double recess_mm = 0;  ///< deepest place in the shoulder, of form F; 0: no form F
+  double falls_rad = kUndercutFalls_rad;
+  double pitch_mm = 0;  ///< of the thread, of DIN 76
 };
-inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
 inline constexpr double kUndercutLeans_rad = std::numbers::pi / 22.5;
 
 /// The undercut of form 'E' or 'F' with a radius and a depth.
@@ -47,12 +51,17 @@ inline constexpr double kUndercutLeans_rad = std::numbers::pi / 22.5;
 /// Nothing if the table has none.
 std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm);
 
-/// "E0.8x0.3".
+/// The undercut of form 'A' (regular) or 'B' (short) behind an outer thread of a pitch:
+/// depth (d - dg)/2, and the width g2 at which its flank of 30 deg meets the diameter d.
+/// Source: DIN 76-1, table 1: dg, g2 and r by the pitch.  Nothing if the table has none.
+std::optional<Undercut> thread_undercut(char form, double pitch_mm);
+
+/// "E0.8x0.3", "DIN 76-A".
 std::string designation(const Undercut& undercut);
 
 /// Height above its floor at which an undercut ends on the shoulder:
 ///
-///     form E: g = r                                                                  (1)
+///     form E, DIN 76: g = r                                                          (1)
 ///     form F: g = r (1 + sin 8 deg) + (t2 - r (1 - cos 8 deg))/tan 8 deg             (2)
 ///
 /// Source: derived here from DIN 509's picture; its table rounds g to 0.1 mm.

@@ -205,6 +205,25 @@ void read_fillet(Reader& r, const Step& step, Element& e) {
   mine = r.number("fillet_mm", above_up_to(0, 100, "mm"));
 }
 
+// "DIN 76-A" or "DIN 76-B": the undercut of that form behind an outer thread.
+std::optional<part::Undercut> read_thread_undercut(const Reader& r, double pitch_mm) {
+  const auto text = r.as_text(40);
+  static const std::regex kForm(R"(\s*(?:DIN\s*76(?:-1)?)[\s-]*([AB])\s*)");
+  std::smatch m;
+  std::optional<part::Undercut> found;
+  if (std::regex_match(text, m, kForm)) {
+    found = part::thread_undercut(m[1].str()[0], pitch_mm);
+    if (!found)
+      r.problem("a thread with a pitch of DIN 76's table, 0.5 to 6 mm, not " +
+                    number_text(pitch_mm) + " mm",
+                "choice");
+  } else if (!text.empty()) {
+    r.problem("an undercut of DIN 76 behind a thread, \"DIN 76-A\" or \"DIN 76-B\"",
+              "choice");
+  }
+  return found;
+}
+
 // "E0.8x0.3" or "F0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
 std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
@@ -230,12 +249,14 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
 void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterElement& e) {
   auto& mine = undercut_at(e, opposite(step.end));
   const double free = e.length_mm - edge_length_mm(e, step.end);
-  const auto found = read_undercut(r.at("undercut"));
+  const bool thread = e.cut && e.cut->kind == part::CutKind::thread;
+  const auto found = thread ? read_thread_undercut(r.at("undercut"), e.cut->pitch_mm)
+                            : read_undercut(r.at("undercut"));
   if (!found) return;
   if (mine)
     r.problem_at("at", "each corner once", "duplicate");
-  else if (e.cut || e.kind != part::ElementKind::cylinder)
-    r.problem_at("at", "the inner corner beside a cylinder", "conflict");
+  else if (!can_have_edge(e))
+    r.problem_at("at", "the inner corner beside a cylinder or a thread", "conflict");
   else if (!(found->width_mm < free))
     r.problem_at("undercut",
                  "an undercut that is less wide than the " + rounded(free) +

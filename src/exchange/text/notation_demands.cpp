@@ -34,14 +34,25 @@ bool take_chamfer(Word at, Word word, Edge& edge, Mistakes& mistakes) {
   return in_range(at, *axial, kLargest_mm, "mm", mistakes);
 }
 
+// "DIN76-A" as one word.
+bool is_thread_undercut(const Word& word) {
+  return same(word, "din76-a") || same(word, "din76-b");
+}
+
 bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
+  if (is_thread_undercut(word)) {
+    edge.undercut = same(word, "din76-a") ? "DIN 76-A" : "DIN 76-B";
+    return true;
+  }
   Word rest = word;
   const bool into_shoulder = take(rest, {"f"});
   if (!into_shoulder) take(rest, {"e"});
   const auto sizes = product(rest);
   if (!sizes || sizes->size() != 2) {
     mistakes.add(
-        word, "an undercut of form E or F of DIN 509 by radius and depth, like E0.8x0.3");
+        word,
+        "an undercut of form E or F of DIN 509 by radius and depth, like E0.8x0.3, "
+        "or DIN76-A behind a thread");
     return false;
   }
   edge.undercut =
@@ -107,7 +118,8 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
 }
 
 bool begins_corner(Word word) {
-  if (same(word, "chamfer") || begins_with_digit(word)) return true;
+  if (same(word, "chamfer") || begins_with_digit(word) || is_thread_undercut(word))
+    return true;
   return take(word, {"r", "e", "f"}) && begins_with_digit(word);
 }
 
@@ -122,14 +134,15 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
       read = take_chamfer(words[i], words[i], edge, mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
-    } else if (take(first, {"e", "f"}) && begins_with_digit(first)) {
+    } else if (is_thread_undercut(first) ||
+               (take(first, {"e", "f"}) && begins_with_digit(first))) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {
       read = take_fillet(words[i], edge, mistakes);
     } else {
-      mistakes.add(
-          words[i],
-          "a chamfer like 1x45, a fillet like R0.8 or an undercut like E0.8x0.3");
+      mistakes.add(words[i],
+                   "a chamfer like 1x45, a fillet like R0.8 or an undercut like E0.8x0.3 "
+                   "or DIN76-A");
     }
     if (read) edges.push_back(std::move(edge));
   }

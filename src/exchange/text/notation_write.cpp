@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <unordered_map>
 
 #include "running_ids.hpp"
@@ -73,7 +74,10 @@ std::string corner_text(const Edge& e) {
   std::string out;
   if (e.chamfer_mm) out += ' ' + digits(*e.chamfer_mm) + 'x' + digits(e.angle_deg);
   if (e.fillet_mm) out += " R" + digits(*e.fillet_mm);
-  if (e.undercut) out += ' ' + *e.undercut;
+  if (e.undercut) {  // "DIN 76-A" as one word
+    out += ' ';
+    std::ranges::remove_copy(*e.undercut, std::back_inserter(out), ' ');
+  }
   return out;
 }
 

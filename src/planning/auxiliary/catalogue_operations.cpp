@@ -889,10 +889,8 @@ std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t set
   for (const auto& o : fixed.all())
     for (const auto& c : o.plan.constraints)
       if (!(c.margin >= -kBeyondRounding))
-        all.push_back(
-            {c.name, setup_label(setup) + ", " + o.plan.id, c.value, c.limit, c.unit,
-             fmt::format("{}: {} is {} {} where {} {} is allowed", o.plan.id, c.name,
-                         readable(c.value), c.unit, readable(c.limit), c.unit)});
+        all.push_back({c.name, setup_label(setup) + ", " + o.plan.id, c.value, c.limit,
+                       c.unit, exceeded(o.plan.id, c)});
   return all;
 }
 

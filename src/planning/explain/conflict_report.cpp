@@ -23,7 +23,7 @@ const SolvedSurface* feature_of(const Attempt& a, const std::string& surface) {
 // "setup 1, chuck or chuck-tailstock, d2"
 std::string where(const PreparedPart& p, const Attempt& a, const std::string& surface) {
   const auto* f = feature_of(a, surface);
-  if (!f) return surface;
+  if (!f) return surface.empty() ? "the part" : surface;
   const auto setup = f->task.making.setup;
   std::string clampings;
   for (const Clamping c : p.setups[setup].clampings)
@@ -185,11 +185,12 @@ class Explanation {
       return fmt::format("{}: {}, given as {}{}{}, leaves no way to keep {}", c.where,
                          c.limit, readable(c.allowed), c.unit.empty() ? "" : " ", c.unit,
                          others.empty() ? "what the tools can cut" : others);
+    const auto [value, allowed] = readable_apart(c.value, c.allowed);
     return fmt::format(
         "{}: {} would come to {} {} at best, with any clamping, tools and conditions "
         "allowed{}; its limit is {} {}",
-        c.where, c.limit, readable(c.value), c.unit,
-        others.empty() ? "" : " that keep " + others, readable(c.allowed), c.unit);
+        c.where, c.limit, value, c.unit, others.empty() ? "" : " that keep " + others,
+        allowed, c.unit);
   }
 
   Relaxation relaxation(const RelaxableLimit& l, const LimitValue& n,
@@ -200,9 +201,9 @@ class Explanation {
       r.sentence = r.limit + " would have to be left to the planner";
       return r;
     }
+    const auto [from, to] = readable_apart(r.now, needed);
     r.sentence = fmt::format("{} would have to {} from {} to {} {}", r.limit,
-                             l.row->is_width ? "open" : "go", readable(r.now),
-                             readable(needed), n.unit);
+                             l.row->is_width ? "open" : "go", from, to, n.unit);
     if (l.row->is_width && p_.drawing.tolerances[l.owner].limits)
       r.sentence += " about the middle of its limits";
     return r;

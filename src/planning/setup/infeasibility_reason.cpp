@@ -84,11 +84,9 @@ std::string infeasibility_reason(const PreparedPart& plan, const SolvedSurface& 
   const auto& m = *f.answer.model;
   const auto w = worst_row(m, f.answer.choice);
   const auto c = constraint(plan, m.chain(), f.answer.choice, w.row);
-  return fmt::format(
-      "{}: {} is {} {} where {} {} is allowed, {:.1f} % over at the nearest conditions "
-      "found",
-      feature.surface(), c.name, readable(c.value), c.unit, readable(c.limit), c.unit,
-      100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
+  return fmt::format("{}, {:.1f} % over at the nearest conditions found",
+                     exceeded(feature.surface(), c),
+                     100 * (either_sign(w.row.row.check) ? w.g : std::expm1(w.g)));
 }
 
 }  // namespace turnwright::planning

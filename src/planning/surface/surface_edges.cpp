@@ -9,6 +9,11 @@
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::planning {
+namespace {
+
+constexpr double kSame_rad = 1e-9;
+
+}  // namespace
 
 // Where no operations are given, the tool that finishes an element also faces the shoulder
 // behind its undercut.
@@ -25,7 +30,7 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto u = undercut_of_last();
   return !u || (tool.re_mm <= u->radius_mm &&
                 (!(u->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
-                units::rad_from_deg(tool.minor_kapr_deg) >= part::kUndercutFalls_rad &&
+                units::rad_from_deg(tool.minor_kapr_deg) >= u->falls_rad - kSame_rad &&
                 tool.ap_mm.upper > u->depth_mm);
 }
 
@@ -39,13 +44,13 @@ std::string MachinedSurface::edges_asked() const {
     add(fmt::format("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
   if (const auto u = undercut_of_last())
     add(fmt::format(
-        "a corner of at most {:g} mm{} and a minor edge of at least {:g} deg for "
-        "the undercut",
+        "a corner of at most {:g} mm{}, a minor edge of at least {:g} deg and a largest "
+        "depth of cut beyond {:g} mm for the undercut",
         u->radius_mm,
         u->recess_mm > 0 ? fmt::format(", a KAPR of at least {:g} deg",
                                        90 + units::deg_from_rad(part::kUndercutLeans_rad))
                          : std::string(),
-        units::deg_from_rad(part::kUndercutFalls_rad)));
+        units::deg_from_rad(u->falls_rad), u->depth_mm));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
     add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
                     s.wall_chamfer.axial_mm));

@@ -11,4 +11,21 @@ std::string readable(double value) {
                                : fmt::format("{:.0f}", value);
 }
 
+std::pair<std::string, std::string> readable_apart(double a, double b) {
+  constexpr int kExact = 12;
+  std::pair text{readable(a), readable(b)};
+  for (int digits = 5; text.first == text.second && digits <= kExact; ++digits) {
+    const std::pair longer{fmt::format("{:.{}g}", a, digits),
+                           fmt::format("{:.{}g}", b, digits)};
+    if (longer.first != longer.second) text = longer;
+  }
+  return text;
+}
+
+std::string exceeded(const std::string& where, const ConstraintValue& c) {
+  const auto [value, limit] = readable_apart(c.value, c.limit);
+  return fmt::format("{}: {} is {} {} where {} {} is allowed", where, c.name, value,
+                     c.unit, limit, c.unit);
+}
+
 }  // namespace turnwright::planning

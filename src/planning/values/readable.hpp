@@ -1,9 +1,19 @@
 #pragma once
 #include <string>
+#include <utility>
+
+#include "turnwright/planning/process_plan.hpp"
 
 namespace turnwright::planning {
 
 /// A number as sentences show it: four digits, without decimals from ten thousand on.
 std::string readable(double value);
+
+/// Two numbers as sentences compare them: with the digits that tell them apart, if they
+/// differ by more than rounding.
+std::pair<std::string, std::string> readable_apart(double a, double b);
+
+/// "d2: power is 6.2 kW where 5.5 kW is allowed" of a constraint at a place.
+std::string exceeded(const std::string& where, const ConstraintValue& c);
 
 }  // namespace turnwright::planning

@@ -158,8 +158,9 @@ TEST(Undercuts, NeedAToolThatGoesIn) {
   ASSERT_EQ(small.status, PlanStatus::infeasible);
   EXPECT_EQ(
       small.conflicts.front().sentence,
-      "d1: no tool that could finish it fits and has a corner of at most 0.2 mm and a "
-      "minor edge of at least 15 deg for the undercut");
+      "d1: no tool that could finish it fits and has a corner of at most 0.2 mm, a minor "
+      "edge of at least 15 deg and a largest depth of cut beyond 0.1 mm for the "
+      "undercut");
 }
 
 // Form F leans 8 deg into the shoulder: an edge of 93 deg does not go behind it, one of 107.5
@@ -176,7 +177,9 @@ TEST(Undercuts, OfFormFNeedAnEdgeThatGoesBehindTheShoulder) {
   EXPECT_EQ(
       none.conflicts.front().sentence,
       "d1: no tool that could finish it fits and has a corner of at most 0.8 mm, a KAPR "
-      "of at least 98 deg and a minor edge of at least 15 deg for the undercut");
+      "of at least 98 deg, a minor edge of at least 15 deg and a largest depth of cut "
+      "beyond "
+      "0.3 mm for the undercut");
 }
 
 // Of a wall that is asked for its roughness alone, the pass of the undercut is as smooth.
@@ -235,7 +238,9 @@ TEST(Undercuts, OfAShoulderThatIsFacedNeedTheSameTools) {
   EXPECT_EQ(
       none.conflicts.front().sentence,
       "d1: no tool that could finish it fits and has a corner of at most 0.8 mm, a KAPR "
-      "of at least 98 deg and a minor edge of at least 15 deg for the undercut");
+      "of at least 98 deg, a minor edge of at least 15 deg and a largest depth of cut "
+      "beyond "
+      "0.3 mm for the undercut");
   d["tools"].push_back("SVHBL-VBMT160404-PF");
   EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
 }

@@ -2,8 +2,8 @@
 import { alongBores, ends, entries, mouths, type Element } from './elements';
 import type { Part } from './types';
 
-/** An undercut of DIN 509; recess: how deep form F goes into the shoulder, 0 of form E. */
-export interface Undercut { radius: number; depth: number; width: number; recess: number }
+/** recess: how deep DIN 509's form F goes into the shoulder, 0 of others; falls: the slope's angle. */
+export interface Undercut { radius: number; depth: number; width: number; recess: number; falls: number }
 /** Forms E and F by radius and depth, as the planner knows them: src/part/drawing.cpp. */
 export const undercuts: Record<string, Undercut> = Object.fromEntries(
   ['E', 'F'].flatMap((form) =>
@@ -11,9 +11,24 @@ export const undercuts: Record<string, Undercut> = Object.fromEntries(
       [0.2, 0.1, 1, 0.1], [0.4, 0.2, 2, 0.1], [0.6, 0.2, 2, 0.1], [0.6, 0.3, 2.5, 0.2], [0.8, 0.3, 2.5, 0.2], [1, 0.2, 2.5, 0.1],
       [1, 0.4, 4, 0.3], [1.2, 0.2, 2.5, 0.1], [1.2, 0.4, 4, 0.3], [1.6, 0.3, 4, 0.2], [2.5, 0.4, 5, 0.3], [4, 0.5, 7, 0.3],
     ].map(([radius, depth, width, recess]) =>
-      [`${form}${radius}x${depth}`, { radius, depth, width, recess: form === 'F' ? recess : 0 }]),
+      [`${form}${radius}x${depth}`, { radius, depth, width, recess: form === 'F' ? recess : 0, falls: Math.PI / 12 }]),
   ),
 );
+/** DIN 76 behind a thread: pitch, d - dg, width of the forms A and B, radius. */
+const threadUndercuts = [
+  [0.5, 0.8, 1.75, 1.25, 0.2], [0.6, 1, 2.1, 1.5, 0.4], [0.7, 1.1, 2.45, 1.75, 0.4], [0.75, 1.2, 2.6, 1.9, 0.4],
+  [0.8, 1.3, 2.8, 2, 0.4], [1, 1.6, 3.5, 2.5, 0.6], [1.25, 2, 4.4, 3.2, 0.6], [1.5, 2.3, 5.2, 3.8, 0.8],
+  [1.75, 2.6, 6.1, 4.3, 1], [2, 3, 7, 5, 1], [2.5, 3.6, 8.7, 6.3, 1.2], [3, 4.4, 10.5, 7.5, 1.6], [3.5, 5, 12, 9, 1.6],
+  [4, 5.7, 14, 10, 2], [4.5, 6.4, 16, 11, 2], [5, 7, 17.5, 12.5, 2.5], [5.5, 7.7, 19, 14, 3.2], [6, 8.3, 21, 15, 3.2],
+];
+export const threadForms = ['DIN 76-A', 'DIN 76-B'];
+/** The undercut of a designation, of DIN 76 by the pitch of its thread. */
+export function undercutOf(designation = '', pitch = 0): Undercut | undefined {
+  const form = threadForms.indexOf(designation);
+  if (form < 0) return undercuts[designation];
+  const row = threadUndercuts.find(([p]) => Math.abs(p - pitch) < 1e-9);
+  return row && { radius: row[4], depth: row[1] / 2, width: row[2 + form], recess: 0, falls: Math.PI / 6 };
+}
 export const usualUndercut = 'E0.8x0.3';
 
 export interface Place {
@@ -23,6 +38,8 @@ export interface Place {
   chamfer: boolean;
   fillet: boolean;
   undercut: boolean;
+  /** At the foot of a thread, whose undercuts are those of DIN 76. */
+  thread?: boolean;
 }
 
 const turned = (e: Element | undefined) => ['cylinder', 'thread'].includes(String(e?.kind));
@@ -34,7 +51,7 @@ function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undef
   const stands = left > right === (side === 'outer') ? a : b, groove = is('groove', a, b);
   return {
     at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), fillet: !groove,
-    undercut: side === 'outer' && !groove,
+    undercut: side === 'outer' && !groove, thread: (stands === a ? b : a).kind === 'thread',
   };
 }
 

@@ -3,7 +3,7 @@ import { readdirSync } from 'node:fs';
 import { test } from 'node:test';
 import { load, part, projectFile } from './load.mjs';
 
-const { edgeIndex, edgePlaces, undercuts, withEdge } = await load('edges');
+const { edgeIndex, edgePlaces, threadForms, undercutOf, undercuts, withEdge } = await load('edges');
 const parts = readdirSync(process.env.TURNWRIGHT_ROOT ? `${process.env.TURNWRIGHT_ROOT}/parts` : new URL('../../../parts', import.meta.url));
 
 test('every edge of the shipped parts is at a place where it may be', () => {
@@ -27,9 +27,25 @@ test('undercuts are those of the planner', () => {
   const table = [...projectFile('src/part/drawing.cpp').matchAll(row)].map(([, ...row]) => row.map(Number));
   assert.equal(2 * table.length, Object.keys(undercuts).length);
   for (const [radius, depth, width, recess] of table) {
-    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius, depth, width, recess: 0 });
-    assert.deepEqual(undercuts[`F${radius}x${depth}`], { radius, depth, width, recess });
+    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius, depth, width, recess: 0, falls: Math.PI / 12 });
+    assert.deepEqual(undercuts[`F${radius}x${depth}`], { radius, depth, width, recess, falls: Math.PI / 12 });
   }
+});
+
+test('undercuts of threads are those of the planner', () => {
+  const number = '([\\d.]+)';
+  const source = projectFile('src/part/drawing.cpp');
+  const row = new RegExp(`\\{${[number, number, number, number, number].join(',\\s*')}\\}`, 'g');
+  const table = [...source.slice(source.indexOf('kThreadUndercuts')).matchAll(row)].map(([, ...row]) => row.map(Number));
+  assert.equal(table.length, 18);
+  for (const [pitch, reduced, a, b, radius] of table)
+    [a, b].forEach((width, k) => assert.deepEqual(undercutOf(threadForms[k], pitch),
+      { radius, depth: reduced / 2, width, recess: 0, falls: Math.PI / 6 }));
+  assert.equal(undercutOf('DIN 76-A', 1.6), undefined);
+  assert.equal(undercutOf('E0.8x0.3'), undercuts['E0.8x0.3']);
+  const e = (id, kind, d) => ({ id, kind, length_mm: 20, diameter_mm: d });
+  const places = edgePlaces({ outer: [e('a', 'cylinder', 30), e('b', 'cylinder', 20), e('t', 'thread', 16)] });
+  assert.deepEqual(places.map((p) => Boolean(p.thread)), [false, false, true, false]);
 });
 
 test('no edge stands where there is no step, nor at arcs; at grooves only chamfers do', () => {

@@ -1,11 +1,10 @@
 // The contour of a part as polylines of [z, r] in mm: what a drawing shows as thick lines.
-import { undercuts, type Undercut } from '../edges';
+import { undercutOf, type Undercut } from '../edges';
 import type { Drawing, Surface } from '../types';
 
 export type Point = [z: number, r: number];
 
 const chords = 12;
-const fall = Math.tan(Math.PI / 12); // of an undercut, 15 deg
 const lean = (8 * Math.PI) / 180; // of form F, off the shoulder
 const drillPoint = Math.tan((59 * Math.PI) / 180);
 const same_mm = 1e-6;
@@ -27,20 +26,20 @@ const arc = (centre: Point, radius: number, from: number, to: number, count = ch
   });
 
 /** An undercut from the shoulder inwards: (1) and (2) of turnwright/part/drawing.hpp. */
-function undercut({ radius, depth, width, recess }: Undercut): Point[] {
+function undercut({ radius, depth, width, recess, falls }: Undercut): Point[] {
   const a = recess > 0 ? lean : 0;
   const height = a > 0 ? radius * (1 + Math.sin(a)) + (recess - radius * (1 - Math.cos(a))) / Math.tan(a) : radius;
   const centre = radius - recess;
   return [
     [0, height - depth], ...arc([centre, radius - depth], radius, Math.PI - a, 1.5 * Math.PI, 6),
-    [Math.max(centre, width - depth / fall), -depth], [width, 0],
+    [Math.max(centre, width - depth / Math.tan(falls)), -depth], [width, 0],
   ];
 }
 
 /** The end of a surface, from the end inwards: distance from the end, radius above its own. */
 function end(e: Surface, side: 'left' | 'right'): Point[] {
   const out = e.side === 'outer' ? 1 : -1;
-  const chamfer = e[`${side}_chamfer_mm`], f = e[`${side}_fillet_mm`], u = undercuts[e[`${side}_undercut`] ?? ''];
+  const chamfer = e[`${side}_chamfer_mm`], f = e[`${side}_fillet_mm`], u = undercutOf(e[`${side}_undercut`], e.pitch_mm);
   if (chamfer) return [[0, -out * chamfer[1]], [chamfer[0], 0]];
   if (u) return undercut(u);
   if (f) return arc([f, f], f, Math.PI, 1.5 * Math.PI, 6).map(([z, r]) => [z, out * r]);
