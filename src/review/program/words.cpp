@@ -60,6 +60,20 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
+// A message of Siemens to the operator, MSG("text") or MSG(), which moves nothing; its text.
+std::optional<std::string> message_of(Scanner& in) {
+  constexpr std::string_view kBegins = "MSG(";
+  const auto rest = in.rest();
+  if (!std::ranges::equal(rest.substr(0, kBegins.size()), kBegins, {}, capital))
+    return std::nullopt;
+  const bool quoted = rest.substr(kBegins.size()).starts_with('"');
+  const auto text = kBegins.size() + (quoted ? 1 : 0);
+  const auto end = rest.find(quoted ? "\")" : ")", text);
+  if (end == rest.npos) return std::nullopt;
+  in.back_to(in.at() + end + (quoted ? 2 : 1));
+  return std::string(rest.substr(text, end - text));
+}
+
 // The name of a word: a letter, or a name of letters and digits before "=" or alone.
 std::string name_of(Scanner& in, bool names) {
   const auto start = in.at();
@@ -128,6 +142,10 @@ Block block_of(std::string_view line, bool names) {
     if (c == ';' || (c == '(' && !names)) {
       in.skip();
       block.comments.push_back(in.comment(c == '(' ? ')' : '\n'));
+      continue;
+    }
+    if (const auto message = names ? message_of(in) : std::nullopt) {
+      block.comments.push_back(*message);
       continue;
     }
     const auto word = is_letter(c) ? word_of(in, names) : std::nullopt;

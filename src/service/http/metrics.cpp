@@ -28,7 +28,12 @@ Metrics::Metrics()
                   .Name("turnwright_calls_waiting")
                   .Help("calls that wait for a thread or are computed")
                   .Register(registry_)
-                  .Add({})) {}
+                  .Add({})),
+      held_bytes(prometheus::BuildGauge()
+                     .Name("turnwright_held_bytes")
+                     .Help("bytes of bodies and answers on their way, of --body-memory")
+                     .Register(registry_)
+                     .Add({})) {}
 
 void Metrics::answered(const std::string& route, int status, double seconds) {
   calls_.Add({{"route", route}, {"status", std::to_string(status)}}).Increment();

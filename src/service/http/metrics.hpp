@@ -24,6 +24,7 @@ class Metrics {
  public:
   prometheus::Gauge& connections;  ///< open now
   prometheus::Gauge& waiting;      ///< calls that wait for a thread or are computed
+  prometheus::Gauge& held_bytes;   ///< of bodies and answers on their way
 };
 
 }  // namespace turnwright::service

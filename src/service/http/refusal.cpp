@@ -130,8 +130,10 @@ std::optional<Reply> at_once(const ServerState& state, const Call& call) {
     return state.full() || state.draining
                ? problem(503, "busy", "not ready for calls", call)
                : Reply{200, "text/plain; charset=utf-8", "ready\n", {}};
-  if (path == "/metrics")
+  if (path == "/metrics") {
+    state.metrics.held_bytes.Set(static_cast<double>(state.memory.used()));
     return Reply{200, "text/plain; version=0.0.4", state.metrics.text(), {}};
+  }
   if (!state.full()) return std::nullopt;
   return busy("too many calls wait already", call);
 }

@@ -221,6 +221,24 @@ TEST(ReadProgram, ListsWhatItDoesNotKnow) {
   }
 }
 
+// MSG() moves nothing, whatever its text looks like; another name with brackets may.
+TEST(ReadProgram, MessagesToTheOperatorMoveNothing) {
+  const auto program = [](const std::string& line) {
+    return read(
+        Control::siemens,
+        "G18 G710 G90 G95 DIAMON\nG97 S500 M3 F0.1\nG0 X20 Z2\n" + line + "\nG1 Z-9");
+  };
+  for (const auto* line : {"MSG(\"X1 Z2 (E3)\")", "msg()", "N40 MSG(\"TURN\") M8",
+                           "MSG(\"it says: \") ; end\""}) {
+    const auto p = program(line);
+    EXPECT_TRUE(p.unknown.empty()) << line << ": " << p.unknown[0].what;
+    ASSERT_TRUE(p.runs.back().moves.back().from) << line;
+    expect_at(moves(p).back(), 10, -9);
+  }
+  for (const auto* line : {"MSG(\"no end", "MSGX(\"1\")", "CYCLE1(2)"})
+    EXPECT_EQ(program(line).unknown.size(), 2u) << line;  // and the cut that follows
+}
+
 TEST(ReadProgram, DoesNotCutFromAPlaceThatIsNotKnown) {
   const auto p = read(Control::fanuc,
                       "G99 G97 S500 M3\nG1 Z-5. F0.1\nG0 X20. Z2.\nG28 U0.\n"
