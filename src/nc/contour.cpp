@@ -96,7 +96,7 @@ std::vector<Point> with_undercut(std::vector<Point> line, const part::Undercut& 
   const double h =
       a.h_mm + (behind.h_mm - a.h_mm) * (z - a.z_mm) / (behind.z_mm - a.z_mm);
   line.push_back({h, z});
-  line.push_back({h - depth, z - depth / std::tan(u.falls_rad)});
+  line.push_back({h - depth, z - part::fall_mm(u)});
   line.push_back({h - depth, z_mm});
   return line;
 }

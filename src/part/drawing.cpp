@@ -58,9 +58,8 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
   if (form != 'A' && form != 'B') return std::nullopt;
   for (const auto& [pitch, reduced, long_width, short_width, radius] : kThreadUndercuts)
     if (std::abs(pitch - pitch_mm) < kSame_mm)
-      return Undercut{
-          radius, reduced / 2,          form == 'A' ? long_width : short_width,
-          0,      std::numbers::pi / 6, pitch};
+      return Undercut{radius, reduced / 2, form == 'A' ? long_width : short_width, 0,
+                      pitch};
   return std::nullopt;
 }
 
@@ -70,6 +69,11 @@ std::string designation(const Undercut& u) {
                                                                    : "DIN 76-A";
   return fmt::format("{}{:g}x{:g}", u.recess_mm > 0 ? 'F' : 'E', u.radius_mm, u.depth_mm);
 }
+
+double falls_rad(const Undercut& u) {
+  return u.pitch_mm > 0 ? kThreadUndercutFalls_rad : kUndercutFalls_rad;
+}
+double fall_mm(const Undercut& u) { return u.depth_mm / std::tan(falls_rad(u)); }
 
 double height_mm(const Undercut& u) {
   if (!(u.recess_mm > 0)) return u.radius_mm;
@@ -83,7 +87,7 @@ double centre_mm(const Undercut& u) { return u.radius_mm - u.recess_mm; }
 double undercut_mm(const OuterElement& e, double from_left_mm) {
   const auto at = [](const std::optional<Undercut>& u, double from_end_mm) {
     if (!u || from_end_mm >= u->width_mm) return 0.0;
-    return std::min(u->depth_mm, (u->width_mm - from_end_mm) * std::tan(u->falls_rad));
+    return std::min(u->depth_mm, (u->width_mm - from_end_mm) * std::tan(falls_rad(*u)));
   };
   return at(e.left_undercut, from_left_mm) +
          at(e.right_undercut, e.length_mm - from_left_mm);

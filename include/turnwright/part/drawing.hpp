@@ -31,8 +31,6 @@ struct Chamfer {
   bool general = false;
 };
 
-inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
-
 /// An undercut of DIN 509's form E or F, or of DIN 76 behind an outer thread, at the end of
 /// an element before a shoulder: at a distance from the shoulder the surface falls at 15 deg
 /// (DIN 76: 30 deg) to a depth, and an inner radius leads from there to the shoulder.  Form F
@@ -41,9 +39,10 @@ inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
 struct Undercut {
   double radius_mm = 0, depth_mm = 0, width_mm = 0;
   double recess_mm = 0;  ///< deepest place in the shoulder, of form F; 0: no form F
-  double falls_rad = kUndercutFalls_rad;
-  double pitch_mm = 0;  ///< of the thread, of DIN 76
+  double pitch_mm = 0;   ///< of the thread, of DIN 76; 0: DIN 509
 };
+inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
+inline constexpr double kThreadUndercutFalls_rad = std::numbers::pi / 6;
 inline constexpr double kUndercutLeans_rad = std::numbers::pi / 22.5;
 
 /// The undercut of form 'E' or 'F' with a radius and a depth.
@@ -59,6 +58,10 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm);
 /// "E0.8x0.3", "DIN 76-A".
 std::string designation(const Undercut& undercut);
 
+/// Angle at which an undercut falls to its floor, and the length [mm] along the axis that it
+/// falls on, t/tan(angle).
+double falls_rad(const Undercut& undercut);
+double fall_mm(const Undercut& undercut);
 /// Height above its floor at which an undercut ends on the shoulder:
 ///
 ///     form E, DIN 76: g = r                                                          (1)

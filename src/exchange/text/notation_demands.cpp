@@ -34,16 +34,15 @@ bool take_chamfer(Word at, Word word, Edge& edge, Mistakes& mistakes) {
   return in_range(at, *axial, kLargest_mm, "mm", mistakes);
 }
 
-// "DIN76-A" as one word.
-bool is_thread_undercut(const Word& word) {
-  return same(word, "din76-a") || same(word, "din76-b");
+// The designation that "DIN76-A" stands for, written as one word.
+std::optional<std::string> thread_undercut(Word word) {
+  if (same(word, "din76-a")) return "DIN 76-A";
+  if (same(word, "din76-b")) return "DIN 76-B";
+  return std::nullopt;
 }
 
 bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
-  if (is_thread_undercut(word)) {
-    edge.undercut = same(word, "din76-a") ? "DIN 76-A" : "DIN 76-B";
-    return true;
-  }
+  if ((edge.undercut = thread_undercut(word))) return true;
   Word rest = word;
   const bool into_shoulder = take(rest, {"f"});
   if (!into_shoulder) take(rest, {"e"});
@@ -118,7 +117,7 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
 }
 
 bool begins_corner(Word word) {
-  if (same(word, "chamfer") || begins_with_digit(word) || is_thread_undercut(word))
+  if (same(word, "chamfer") || begins_with_digit(word) || thread_undercut(word))
     return true;
   return take(word, {"r", "e", "f"}) && begins_with_digit(word);
 }
@@ -134,7 +133,7 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
       read = take_chamfer(words[i], words[i], edge, mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
-    } else if (is_thread_undercut(first) ||
+    } else if (thread_undercut(first) ||
                (take(first, {"e", "f"}) && begins_with_digit(first))) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {

@@ -120,4 +120,8 @@ UndercutWay undercut_way(const part::Undercut& u, double r) {
   return w;
 }
 
+double slope_excess_mm(const part::Undercut& u) {
+  return u.depth_mm * std::tan(part::falls_rad(u) / 2);
+}
+
 }  // namespace turnwright::planning

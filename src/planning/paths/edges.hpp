@@ -49,6 +49,8 @@ struct UndercutWay {
   double lean_rad = 0;  ///< by which the arc turns further than a right angle
 };
 UndercutWay undercut_way(const part::Undercut& undercut, double corner_mm);
+/// How much longer [mm] the slope of an undercut is than what it falls on.
+double slope_excess_mm(const part::Undercut& undercut);
 
 /// The undercut behind an outer element, as its setup's tool goes.
 std::optional<part::Undercut> undercut_behind(const PreparedPart& plan, std::size_t setup,

@@ -435,12 +435,10 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
-    // Along the shoulder and back, and the slope longer than what lies below it.
-    const double recess = last && s.undercut ? 2 * s.undercut->recess_mm +
-                                                   s.undercut->depth_mm *
-                                                       std::tan(s.undercut->falls_rad / 2)
-                                             : 0;
-    double length = fed(last, left, a, b) + recess + wall +
+    // Into the shoulder and back, and along the slope.
+    const double undercutting =
+        last && s.undercut ? 2 * s.undercut->recess_mm + slope_excess_mm(*s.undercut) : 0;
+    double length = fed(last, left, a, b) + undercutting + wall +
                     (comes ? enters(last) * longer(left, a) : 0);
     if (chamfers)
       length += edge_mm(s, beyond) *

@@ -28,10 +28,11 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const bool into_stock = s.wall_in_stock && s.wall_chamfer.axial_mm > 0;
   if (into_stock && !takes_ring(tool, s.wall_chamfer)) return false;
   const auto u = undercut_of_last();
-  return !u || (tool.re_mm <= u->radius_mm &&
-                (!(u->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
-                units::rad_from_deg(tool.minor_kapr_deg) >= u->falls_rad - kSame_rad &&
-                tool.ap_mm.upper > u->depth_mm);
+  return !u ||
+         (tool.re_mm <= u->radius_mm &&
+          (!(u->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
+          units::rad_from_deg(tool.minor_kapr_deg) >= part::falls_rad(*u) - kSame_rad &&
+          tool.ap_mm.upper > u->depth_mm);
 }
 
 std::string MachinedSurface::edges_asked() const {
@@ -50,7 +51,7 @@ std::string MachinedSurface::edges_asked() const {
         u->recess_mm > 0 ? fmt::format(", a KAPR of at least {:g} deg",
                                        90 + units::deg_from_rad(part::kUndercutLeans_rad))
                          : std::string(),
-        units::deg_from_rad(u->falls_rad), u->depth_mm));
+        units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
     add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
                     s.wall_chamfer.axial_mm));

@@ -96,8 +96,7 @@ Undercutting undercutting(const part::Undercut& u, double corner_mm, double out_
   const double out = std::max(out_mm, u.width_mm);
   const double in = std::hypot(w.foot_h - w.arc_h, w.arc_z);
   const double arc = w.radius_mm * (units::kPi / 2 + w.lean_rad);
-  const double rises = u.depth_mm * std::tan(u.falls_rad / 2);
-  return {w.foot_h - u.depth_mm, in + arc + (out - w.centre_z) + rises, out};
+  return {w.foot_h - u.depth_mm, in + arc + (out - w.centre_z) + slope_excess_mm(u), out};
 }
 
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that

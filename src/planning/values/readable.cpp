@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "turnwright/planning/process_plan.hpp"
+
 namespace turnwright::planning {
 
 std::string readable(double value) {

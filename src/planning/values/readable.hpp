@@ -2,9 +2,9 @@
 #include <string>
 #include <utility>
 
-#include "turnwright/planning/process_plan.hpp"
-
 namespace turnwright::planning {
+
+struct ConstraintValue;
 
 /// A number as sentences show it: four digits, without decimals from ten thousand on.
 std::string readable(double value);

@@ -50,9 +50,8 @@ Runs with_edges(const Element& e, double z, double out) {
   if constexpr (requires { e.left_undercut; }) {
     const auto add = [&](const std::optional<part::Undercut>& u, double from, double to) {
       if (!u) return;
-      const double run_out = u->depth_mm / std::tan(u->falls_rad);
       at.push_back(from + to * u->width_mm);
-      at.push_back(from + to * (u->width_mm - run_out));
+      at.push_back(from + to * (u->width_mm - part::fall_mm(*u)));
     };
     add(e.left_undercut, 0, 1);
     add(e.right_undercut, e.length_mm, -1);
