@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <optional>
 
 #include "turnwright/base/log_dual.hpp"
 #include "turnwright/catalogue/material.hpp"
@@ -104,6 +105,23 @@ struct Forces {
   T Fc_N{}, Ff_N{};
   Signed<T> Fp_N{};  ///< negative if it pulls the tool towards the work
 };
+template <int N>
+struct Forces<LogDual<N>> {
+  LogDual<N> Fc_N{}, Ff_N{};
+  Dual<Interval, N> Fp_N{};
+  std::optional<LogDual<N>> pushing_N = {};  ///< Fp where it pushes all over the box
+};
+
+/// Three forces of which all are positive.
+template <class T>
+Forces<T> pushing(const T& Fc_N, const T& Ff_N, const T& Fp_N) {
+  return {Fc_N, Ff_N, Fp_N};
+}
+template <int N>
+Forces<LogDual<N>> pushing(const LogDual<N>& Fc_N, const LogDual<N>& Ff_N,
+                           const LogDual<N>& Fp_N) {
+  return {Fc_N, Ff_N, linear(Fp_N), Fp_N};
+}
 
 /// Cutting force [N] by Kienzle's law for the equivalent chip b = L, h = ap f/L:
 ///
@@ -169,7 +187,8 @@ Forces<LogDual<N>> chip_flow_forces_N(const Cut& c, const LogDual<N>& Fc_N,
     const auto cosine = monotone(
         u, [&](double ln_u) { return ln_u + ln_sine(ln_u); },
         [&](const Interval& ln_u) { return slope(ln_u) + Interval(1); });
-    return {Fc_N, F_D * monotone(u, ln_sine, slope), linear(F_D * cosine)};
+    return pushing(Fc_N, LogDual<N>(F_D * monotone(u, ln_sine, slope)),
+                   LogDual<N>(F_D * cosine));
   }
   const auto u = flow_cotangent(c, linear(ap_mm), linear(f_mm_rev));
   const double most = std::max(std::abs(u.v.lo), std::abs(u.v.hi));
@@ -209,7 +228,7 @@ Forces<T> forces_N(const Cut& c, const T& ap_mm, const T& f_mm_rev,
   const T chip = force(c.kc);
   const T Fc = c.land_Fc_N_mm > 0 ? T(chip + along(c.land_Fc_N_mm)) : chip;
   if (c.kf && c.kp) {
-    Forces<T> F{Fc, force(*c.kf), linear(force(*c.kp))};
+    const Forces<T> F = pushing(Fc, force(*c.kf), force(*c.kp));
     if (!(c.land_N_mm > 0)) return F;
     const auto land = chip_flow_forces_N(c, Fc, along(c.land_N_mm), ap_mm, f_mm_rev);
     return {Fc, F.Ff_N + land.Ff_N, F.Fp_N + land.Fp_N};

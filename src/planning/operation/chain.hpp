@@ -1,8 +1,11 @@
 #pragma once
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "force_shares.hpp"
 #include "operation_model.hpp"
 #include "planning/limits/check.hpp"
 #include "planning/values/economy.hpp"
@@ -24,6 +27,7 @@ struct Functional {
   std::vector<std::pair<std::size_t, double>> terms;
   double limit = 0;
   std::size_t tolerance = 0;  ///< index into the drawing's tolerances
+  friend bool operator==(const Functional&, const Functional&) = default;
 };
 
 struct Chain {
@@ -58,37 +62,108 @@ double correction_mm(const LastPass& pass);
 /// larger by s: y = law(full + s - y), e = y - s.
 double corrected_error_mm(const LastPass& pass, double s_mm);
 
-/// Error of the finished surface at a station after all passes.  Faces have no feedback:
-/// yielding along the axis changes the length, not the depth.
+/// Error of the surface at a station after some of its passes, or all of them.  Faces have
+/// no feedback: yielding along the axis changes the length, not the depth.
 template <class T>
 Signed<T> error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
-                   const std::array<cutting::Forces<T>, 2>& F) {
+                   const std::array<cutting::Forces<T>, 2>& F, std::size_t passes) {
   Signed<T> e(0.0);
   std::size_t k = 0;
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
     const T ap = o.depth_mm(c.a);
-    for (std::size_t p = 0; p < o.passes.size(); ++p, ++k)
+    for (std::size_t p = 0; p < o.passes.size() && k < passes; ++p, ++k)
       e = o.face ? law_mm<T>(at(station.passes[k], linear(c.a)), F[i])
                  : yielding_mm(station.passes[k], o.cut, c.a, ap, c.f[i], e);
   }
   return e;
 }
+template <class T>
+Signed<T> error_mm(const Chain& chain, const Station& station, const Choice<T>& c,
+                   const std::array<cutting::Forces<T>, 2>& F) {
+  return error_mm(chain, station, c, F, station.passes.size());
+}
+
+/// The errors of some stations, for sums of them.
+template <class T>
+class StationErrors {
+ public:
+  StationErrors(const Chain& chain, const Choice<T>& c,
+                const std::array<cutting::Forces<T>, 2>& F) {
+    for (const auto& s : chain.stations) e_.push_back(error_mm(chain, s, c, F));
+  }
+  T sum(const Functional& g) const {
+    T sum = e_[g.terms[0].first] * g.terms[0].second;
+    for (std::size_t k = 1; k < g.terms.size(); ++k)
+      sum = sum + e_[g.terms[k].first] * g.terms[k].second;
+    return sum;
+  }
+
+ private:
+  std::vector<T> e_;
+};
+
+/// Over a box a sum of errors is enclosed as a sum of enclosures and by (6) of the last
+/// pass; on a face by one law, the sum of their laws.
+template <int N>
+class StationErrors<LogDual<N>> {
+ public:
+  using Error = Dual<Interval, N>;
+  StationErrors(const Chain& chain, const Choice<LogDual<N>>& c,
+                const std::array<cutting::Forces<LogDual<N>>, 2>& F)
+      : F_(F[chain.operations.size() - 1]), face_(chain.operations.back().face) {
+    const auto& o = chain.operations.back();
+    const LogDual<N> ap = o.depth_mm(c.a), f = c.f[chain.operations.size() - 1];
+    for (const auto& s : chain.stations) {
+      const auto& law = s.passes.back();
+      if (face_)
+        last_.push_back({{}, at(law, linear(c.a)), {}, {}});
+      else
+        last_.push_back(yielded(law, o.cut, c.a, ap, f,
+                                error_mm(chain, s, c, F, s.passes.size() - 1)));
+    }
+    if (!face_) shares_ = force_shares(o.cut, ap, f, F_, last_);
+  }
+  Error sum(const Functional& g) const {
+    if (face_) return of_face(g);
+    Error all(0.0), share(0.0);
+    for (const auto& [station, weight] : g.terms) {
+      all = all + last_[station].e * weight;
+      if (shares_) share = share + (*shares_)[station] * weight;
+    }
+    if (!shares_) return all;
+    const Interval P = exp(F_.pushing_N->ln);
+    all.v = intersect(all.v, P * share.v);
+    for (std::size_t j = 0; j < N; ++j) all.d[j] = intersect(all.d[j], P * share.d[j]);
+    return all;
+  }
+
+ private:
+  Error of_face(const Functional& g) const {
+    Coefficients<Error> law{};
+    for (const auto& [station, weight] : g.terms) {
+      const auto& own = last_[station].law;
+      law = {law.p + own.p * weight, law.q + own.q * weight, law.s + own.s * weight,
+             law.r + own.r * weight};
+    }
+    return law_mm<LogDual<N>>(law, F_);
+  }
+
+  cutting::Forces<LogDual<N>> F_;
+  bool face_ = false;
+  std::vector<Yielded<N>> last_;
+  std::optional<std::vector<Error>> shares_;
+};
 
 /// Value and limit of every functional.
 template <class T, class Sink>
 void tolerance_checks(const Chain& chain, const Choice<T>& c,
                       const std::array<cutting::Forces<T>, 2>& F, const Sink& sink) {
   if (chain.functionals.empty()) return;
-  std::vector<Signed<T>> e;
-  e.reserve(chain.stations.size());
-  for (const auto& s : chain.stations) e.push_back(error_mm(chain, s, c, F));
+  const StationErrors<T> errors(chain, c, F);
   for (std::size_t i = 0; i < chain.functionals.size(); ++i) {
     const auto& g = chain.functionals[i];
-    Signed<T> sum = e[g.terms[0].first] * g.terms[0].second;
-    for (std::size_t k = 1; k < g.terms.size(); ++k)
-      sum = sum + e[g.terms[k].first] * g.terms[k].second;
-    sink(i, Check::tolerance, false, sum, Signed<T>(g.limit));
+    sink(i, Check::tolerance, false, errors.sum(g), Signed<T>(g.limit));
   }
 }
 

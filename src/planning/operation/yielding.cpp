@@ -18,18 +18,6 @@ struct Slopes {
   Interval law, depth;
 };
 
-// Depth and feed as the variables of their own box.
-struct DepthAndFeed {
-  std::array<Interval, 2> y;
-  LogDual<2>::Half half;
-  LogDual<2> ap, f;
-  DepthAndFeed(const Interval& depth, const Interval& feed)
-      : y{log(depth), log(feed)},
-        half{width(y[0]) / 2, width(y[1]) / 2},
-        ap(LogDual<2>::variable(y[0], 0, half)),
-        f(LogDual<2>::variable(y[1], 1, half)) {}
-};
-
 Interval law_over(const Box& law, const cutting::Forces<LogDual<2>>& F) {
   return law_mm<LogDual<2>>({{law.p, {}}, {law.q, {}}, {law.s, {}}, {law.r, {}}}, F).v;
 }

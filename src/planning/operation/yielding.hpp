@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "operation_model.hpp"
 
 /// Errors of a surface that yields under the cutting forces, with the feedback of the
@@ -77,28 +79,55 @@ struct Yielding {
   Interval depth = Interval::whole();
   Interval gain = Interval::whole();
 };
+/// Depth and feed as the variables of their own box.
+struct DepthAndFeed {
+  std::array<Interval, 2> y;
+  LogDual<2>::Half half;
+  LogDual<2> ap, f;
+  DepthAndFeed(const Interval& depth, const Interval& feed)
+      : y{log(depth), log(feed)},
+        half{width(y[0]) / 2, width(y[1]) / 2},
+        ap(LogDual<2>::variable(y[0], 0, half)),
+        f(LogDual<2>::variable(y[1], 1, half)) {}
+};
 Yielding yielding_range(const Coefficients<Interval>& law, const cutting::Cut& cut,
                         const Interval& full, const Interval& f);
+
+/// An error over a box, and what it follows from: the law, the error that the pass before
+/// has left, and the enclosures of (2).
+template <int N>
+struct Yielded {
+  Dual<Interval, N> e;
+  Coefficients<Dual<Interval, N>> law{};
+  Dual<Interval, N> e_before;
+  Yielding range;
+};
 
 /// (2) enclosed over a box with its gradient: e' = m law' + (1 - m) full', m = 1/(1 +
 /// gain) and law' without the depth.
 template <int N>
-Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
-                              const LogDual<N>& a, const LogDual<N>& ap,
-                              const LogDual<N>& f, const Dual<Interval, N>& e_before) {
+Yielded<N> yielded(const Law& law, const cutting::Cut& cut, const LogDual<N>& a,
+                   const LogDual<N>& ap, const LogDual<N>& f,
+                   const Dual<Interval, N>& e_before) {
   const auto c = at(law, linear(a));
   const Dual<Interval, N> full = linear(ap) + e_before;
   const Yielding y = yielding_range({c.p.v, c.q.v, c.s.v, c.r.v}, cut, full.v, exp(f.ln));
-  Dual<Interval, N> r;
-  r.v = y.e;
-  r.d.fill(Interval::whole());
+  Yielded<N> r{{}, c, e_before, y};
+  r.e.v = y.e;
+  r.e.d.fill(Interval::whole());
   if (!(y.gain.lo > -1)) return r;
   const LogDual<N> depth = positive(Dual<Interval, N>(y.depth, {}));
   const auto direct = law_mm<LogDual<N>>(c, cutting::forces_N(cut, depth, f));
   const Interval m = Interval(1) / (Interval(1) + y.gain);
   for (std::size_t i = 0; i < N; ++i)
-    r.d[i] = direct.d[i] * m + full.d[i] * (Interval(1) - m);
+    r.e.d[i] = direct.d[i] * m + full.d[i] * (Interval(1) - m);
   return r;
+}
+template <int N>
+Dual<Interval, N> yielding_mm(const Law& law, const cutting::Cut& cut,
+                              const LogDual<N>& a, const LogDual<N>& ap,
+                              const LogDual<N>& f, const Dual<Interval, N>& e_before) {
+  return yielded(law, cut, a, ap, f, e_before).e;
 }
 
 inline double yielding_mm(const Law& law, const cutting::Cut& cut, double a, double ap,

@@ -83,7 +83,8 @@ void TolerancePoints::add(const Terms& terms, double limit, const CutTolerance& 
   g.limit =
       std::max(limit, 1e-12);  // a tolerance the machine has used up: kept by nothing
   g.tolerance = d.tolerance;
-  functionals_.push_back(std::move(g));
+  if (std::ranges::find(functionals_, g) == functionals_.end())
+    functionals_.push_back(std::move(g));
 }
 
 void TolerancePoints::add_first(std::size_t cut_tolerance) {
