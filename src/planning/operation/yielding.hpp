@@ -72,13 +72,6 @@ Dual<double, N> yielding_mm(const Law& law, const cutting::Cut& cut,
   return r;
 }
 
-/// Enclosures of (2) where law, f and the full depth ap + e_before are intervals: the
-/// error, the depth full - e that is really cut, and the loop gain there.
-struct Yielding {
-  Interval e = Interval::whole();
-  Interval depth = Interval::whole();
-  Interval gain = Interval::whole();
-};
 /// Depth and feed as the variables of their own box.
 struct DepthAndFeed {
   std::array<Interval, 2> y;
@@ -89,6 +82,14 @@ struct DepthAndFeed {
         half{width(y[0]) / 2, width(y[1]) / 2},
         ap(LogDual<2>::variable(y[0], 0, half)),
         f(LogDual<2>::variable(y[1], 1, half)) {}
+};
+
+/// Enclosures of (2) where law, f and the full depth ap + e_before are intervals: the
+/// error, the depth full - e that is really cut, and the loop gain there.
+struct Yielding {
+  Interval e = Interval::whole();
+  Interval depth = Interval::whole();
+  Interval gain = Interval::whole();
 };
 Yielding yielding_range(const Coefficients<Interval>& law, const cutting::Cut& cut,
                         const Interval& full, const Interval& f);
