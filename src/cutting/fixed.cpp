@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "turnwright/base/units.hpp"
 
@@ -19,6 +20,20 @@ Load drill(const catalogue::Kienzle& k, double D, double f, double point_deg) {
   const double kc = k.k11_MPa * std::pow(f / 2 * sine, -k.m);  // Eq. (1)
   const double Fc = kc * f * D / 2;                            // Eq. (2)
   return {Fc, 0.5 * kc * f * D / 2 * sine, units::torque_Nm(Fc, D / 2)};
+}
+
+Load ream(const catalogue::Kienzle& k, double D, double d, double f, int edges) {
+  const double sine = std::numbers::sqrt2 / 2, a = (D - d) / 2;
+  const double kc = k.k11_MPa * std::pow(f / edges * sine, -k.m);  // Eq. (7)
+  const double Fc = kc * f * a;                                    // Eq. (8)
+  return {Fc, 0.5 * Fc * sine, units::torque_Nm(Fc, (D + d) / 2)};
+}
+
+Load tap(const catalogue::Kienzle& k, double d, double P, double depth, double lead,
+         int edges) {
+  const double kc = k.k11_MPa * std::pow(depth / (lead * edges), -k.m);  // Eq. (9)
+  const double Fc = kc * P * P / 4;
+  return {Fc, 0, units::torque_Nm(Fc, d)};
 }
 
 double drill_point_mm(double D, double point_deg) {

@@ -65,6 +65,20 @@ Place place_of(Site& site, const std::string& id) {
   throw std::domain_error("nc: no element " + id);
 }
 
+// Through a hole, beyond it by the tool's lead, and back: a reamer at feed, a tap with the
+// spindle reversed in step.
+void through_hole(Site& site, const OperationPlan& o, Kind kind) {
+  const auto& s = place_of(site, o.on[0]).surface();
+  const double from = planning::hole_start_mm(s.z0, site.front) + kBefore_mm;
+  const double to = s.z1 - cut_of(site, s)->lead_mm;
+  site.rapid(0, site.at.z_mm);
+  site.rapid(0, site.front + kBefore_mm);
+  site.rapid(0, from);
+  site.to(kind, site.outer, {0, to});
+  site.to(kind, site.outer, {0, from});
+  site.rapid(0, site.front + kBefore_mm);
+}
+
 // Whether material towards the free end is in the way of an operation that begins at a
 // position; if so it is reported as not programmable.
 bool unfaced(Site& site, const OperationPlan& o, const Surface& s, double z) {
@@ -255,6 +269,10 @@ void fixed(Site& site, std::size_t operation) {
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill(site, o, tool);
+    case FixedUse::reaming:
+      return through_hole(site, o, Kind::feed);
+    case FixedUse::tapping:
+      return through_hole(site, o, Kind::thread);
     case FixedUse::parting:
       return part_off(site, o);
     case FixedUse::grooving:

@@ -28,8 +28,12 @@ bool is_shoulder(const OperationPlan& o) {
   return o.kind == OperationKind::face && o.on[0].find('|') != std::string::npos;
 }
 
+bool on_axis(const Site& site, const OperationPlan& o) {
+  return o.kind == OperationKind::fixed && catalogue::on_axis(use_of(site, o));
+}
+
 bool drills(const Site& site, const OperationPlan& o) {
-  if (o.kind != OperationKind::fixed) return false;
+  if (!on_axis(site, o)) return false;
   const auto use = use_of(site, o);
   return use == FixedUse::centring || use == FixedUse::drilling;
 }
@@ -215,7 +219,7 @@ class Numbers {
   TableTool tool(const Site& site, const OperationPlan& o) {
     TableTool t{.id = planning::tool_label(part_, o),
                 .re_mm = corner_mm(site, o),
-                .orientation = drills(site, o) ? kDrillOrientation : 3};
+                .orientation = on_axis(site, o) ? kDrillOrientation : 3};
     const auto* e = o.on.empty() ? nullptr : &o.on[0];
     const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
     if (extent && extent->inner && t.orientation == 3) t.orientation = 2;

@@ -136,6 +136,13 @@ class Moves {
     write({Move::Kind::rapid, t.from.h_mm, t.from.z_mm});
   }
 
+  /// A tap from where it stands, and back there.
+  void write_tap(const Move& m, double n_rpm) {
+    lines_.blocks(filled(dialect_.tap, fmt::arg("Z", length(m.z_mm)), fmt::arg("R", z_),
+                         fmt::arg("lead", f_),
+                         fmt::arg("S", at_most(n_rpm, dialect_.S_decimals))));
+  }
+
   /// A cut of a thread by a cycle that comes back to where it began.
   void write_returning(const Move& m) {
     lines_.blocks(code(m) + " X" + diameter(m) + " Z" + length(m.z_mm) + feed(m));
@@ -183,7 +190,10 @@ void write_moves(Lines& lines, const Dialect& dialect, const Step& s, bool cycle
   Moves moves(lines, dialect, s.f_mm_rev);
   for (std::size_t k = 0; k < s.moves.size(); ++k) {
     const auto cuts = cycles ? thread_cuts(s.moves, k) : std::nullopt;
-    if (cuts) {
+    if (taps(s.moves, k)) {
+      moves.write_tap(s.moves[k], s.S);
+      ++k;
+    } else if (cuts) {
       moves.write_cycle(*cuts);
       k += 4 * static_cast<std::size_t>(cuts->cuts) - 1;
     } else if (dialect.thread_returns && returns(s.moves, k)) {

@@ -16,6 +16,13 @@ bool returns(const std::vector<Move>& moves, std::size_t k) {
          same(m[3], *from);
 }
 
+bool taps(const std::vector<Move>& moves, std::size_t k) {
+  if (k == 0 || k + 1 >= moves.size()) return false;
+  const Move *from = &moves[k - 1], *m = &moves[k];
+  return m[0].kind == Move::Kind::thread && m[1].kind == Move::Kind::thread &&
+         from->x_mm == 0 && m[0].x_mm == 0 && m[1].x_mm == 0 && m[1].z_mm == from->z_mm;
+}
+
 double ThreadCuts::outside_mm() const {
   return to.h_mm + std::copysign(depth_mm, from.h_mm - to.h_mm);
 }

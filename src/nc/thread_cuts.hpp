@@ -14,6 +14,10 @@ using namespace toolpath;
 /// Z, out to where it began, and back.
 bool returns(const std::vector<Move>& moves, std::size_t k);
 
+/// Whether the k-th move and the next are a tap on the axis: in, and back to where it
+/// began.
+bool taps(const std::vector<Move>& moves, std::size_t k);
+
 /// Cuts of a thread from one position, the k-th sqrt(k) times as deep as the first.
 struct ThreadCuts {
   Point from, to;  ///< the position before the first and the end of the last

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "turnwright/base/units.hpp"
+
 namespace turnwright::part {
 namespace {
 
@@ -23,7 +25,33 @@ Shaped groove(double blank_mm, double floor_mm) {
 
 Shaped hole(double diameter_mm) {
   const Ends ends{diameter_mm, diameter_mm};
-  return {ends, {.kind = CutKind::hole, .drawn = ends, .core = ends}};
+  return {
+      ends,
+      {.kind = CutKind::hole, .drawn = ends, .core = ends, .drilled_mm = diameter_mm}};
+}
+
+Shaped reamed(double diameter_mm, double drilled_mm, double lead_mm) {
+  auto s = hole(diameter_mm);
+  s.cut.depth_mm = (diameter_mm - drilled_mm) / 2;
+  s.cut.drilled_mm = drilled_mm;
+  s.cut.lead_mm = lead_mm;
+  return s;
+}
+
+Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm) {
+  auto s = thread(d_mm, pitch_mm, Where::inside);
+  s.blank = {drilled_mm, drilled_mm};
+  s.cut.depth_mm = (d_mm - drilled_mm) / 2;
+  s.cut.drilled_mm = drilled_mm;
+  s.cut.lead_mm = lead_mm;
+  return s;
+}
+
+MinorDiameter minor_diameter_6H(double d_mm, double P) {
+  const double least = thread(d_mm, P, Where::inside).blank.left_mm;
+  const double width_um =  // Eq. (7)
+      P <= 0.8 ? 433 * P - 190 * std::pow(P, 1.22) : 230 * std::pow(P, 0.7);
+  return {least, least + units::mm_from_um(width_um)};
 }
 
 Shaped thread(double d_mm, double pitch_mm, Where where) {

@@ -42,9 +42,9 @@ class Edge {
 
   bool fixed() const { return tool_.fixed.has_value(); }
   FixedUse use() const { return tool_.fixed->use; }
-  bool drills() const {
-    return fixed() && (use() == FixedUse::drilling || use() == FixedUse::centring);
-  }
+  bool on_axis() const { return fixed() && catalogue::on_axis(use()); }
+  bool taps() const { return fixed() && use() == FixedUse::tapping; }
+  bool reams() const { return fixed() && use() == FixedUse::reaming; }
 
   /// Of a pass at a depth; `D_mm` is its diameter.
   Force force(const PassCut& p, double ap_mm, double f_mm_rev) const {
@@ -58,6 +58,15 @@ class Edge {
       case FixedUse::drilling: {
         const auto load = cutting::drill(kc, tool_.size_mm, f_mm_rev, t.point_deg);
         return {load.Fc_N, load.Ff_N, 0};
+      }
+      case FixedUse::reaming: {
+        const double drilled = tool_.size_mm - 2 * ap_mm;
+        const auto load = cutting::ream(kc, tool_.size_mm, drilled, f_mm_rev, t.edges);
+        return {load.Fc_N, load.Ff_N, 0};
+      }
+      case FixedUse::tapping: {
+        const auto load = cutting::tap(kc, D, f_mm_rev, ap_mm, t.lead, t.edges);
+        return {load.Fc_N, 0, 0};
       }
       case FixedUse::threading: {
         const auto load =
@@ -90,15 +99,22 @@ class Edge {
   cutting::Cut cut_;
 };
 
+// The largest diameter in the cut.
+double diameter_mm(const Edge& edge, const MountedTool& tool, const PassCut& p) {
+  return edge.on_axis() && !edge.taps() ? tool.size_mm : 2 * p.x_to_mm;
+}
+
 // The diameter on which the cutting force has its lever.
 double lever_mm(const Edge& edge, const MountedTool& tool, const PassCut& p) {
-  return edge.drills() ? tool.size_mm / 2 : 2 * p.x_to_mm;
+  const double D = diameter_mm(edge, tool, p);
+  if (edge.reams()) return D - p.ap_mm;
+  return edge.on_axis() && !edge.taps() ? D / 2 : D;
 }
 
 Loads loads_of(const Edge& edge, const MountedTool& tool, const Cut& cut,
                const PassCut& p) {
   Loads l;
-  const double D = edge.drills() ? tool.size_mm : 2 * p.x_to_mm;
+  const double D = diameter_mm(edge, tool, p);
   l.n_rpm = rpm(cut.at, D / 2);
   l.vc_m_min = units::cutting_speed_m_min(l.n_rpm, D);
   const auto F = edge.force(p, p.ap_mm, cut.at.f_mm_rev);
@@ -181,10 +197,10 @@ void add_loads(const planning::PreparedPart& part, std::size_t setup,
     if (tool.turning) add_tool_limits(*tool.turning, p, l, cut.at.f_mm_rev, limits);
     if (tool.fixed && tool.fixed->Fc_max_N)
       limits.add(Check::force, l.Fc_N, *tool.fixed->Fc_max_N);
-    const bool radial = tool.fixed && !edge.drills() && l.Fp_N > 0;
+    const bool radial = tool.fixed && !edge.on_axis() && l.Fp_N > 0;
     // The cutting force acts on the part where it is thickest: before the cut.
     const bool outside =
-        !radial && !edge.drills() && !(tool.turning && tool.turning->bar);
+        !radial && !edge.on_axis() && !(tool.turning && tool.turning->bar);
     const bool faces = cut.kind == planning::OperationKind::face;
     const double lever = lever_mm(edge, tool, p);
     add_machine_limits(part, setup, l, lever,

@@ -42,6 +42,34 @@ TEST(Drill, PowerIsSpecificForceTimesVolumePerTime) {
   EXPECT_NEAR(units::shaft_power_kW(l.M_Nm, n), kc * volume / 60e6, 1e-9);
 }
 
+// As for a drill: the ring between the two diameters.
+TEST(Ream, PowerIsSpecificForceTimesVolumePerTime) {
+  const double D = 12, d = 11.8, f = 0.3, n = 250;
+  const auto l = ream(kSteel, D, d, f, 6);
+  const double kc = 1600 * std::pow(f / 6 * std::sqrt(0.5), -0.25);
+  const double volume = units::kPi / 4 * (D * D - d * d) * f * n;  // mm3/min
+  EXPECT_NEAR(units::shaft_power_kW(l.M_Nm, n), kc * volume / 60e6, 1e-12);
+}
+
+// By hand: each tooth of 2.5 pitches with three flutes takes 0.75/7.5 = 0.1 mm, so
+// kc = 1600 0.1^-0.25 = 2845 N/mm2 and M = 2845 1.5^2 10/8 = 8.0 Nm.
+TEST(Tap, TorqueOfM10InSteelIsEightNewtonMetres) {
+  const auto l = tap(kSteel, 10, 1.5, 0.75, 2.5, 3);
+  EXPECT_NEAR(l.M_Nm, 8.0, 0.05);
+  EXPECT_NEAR(units::torque_Nm(l.Fc_N, 10), l.M_Nm, 1e-12);
+  EXPECT_EQ(l.Ff_N, 0);
+  EXPECT_NEAR(tap(kSteel, 20, 1.5, 0.75, 2.5, 3).M_Nm, 2 * l.M_Nm, 1e-9);
+}
+
+// The section of the thread by the profile's corners: 0.237 P^2 lies below P^2/4.
+TEST(Tap, CutsALittleMoreThanTheSectionOfTheThread) {
+  const double P = 2, H = std::sqrt(3) / 2 * P, depth = 5.0 / 8 * H;
+  const double section = depth * (0.75 * P + 0.125 * P) / 2;
+  EXPECT_NEAR(section, 0.237 * P * P, 1e-3);
+  EXPECT_NEAR(tap({1, 0}, 16, P, depth, 2.5, 3).Fc_N, P * P / 4, 1e-12);
+  EXPECT_GT(P * P / 4, section);
+}
+
 TEST(Pecks, AreAsLongAsTheyMayBeAndReachTheDepth) {
   const catalogue::Pecking pecking{3, 1};
   EXPECT_EQ(peck_depths_mm(std::nullopt, 10, 70), (std::vector<double>{70}));

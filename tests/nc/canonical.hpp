@@ -63,7 +63,8 @@ inline std::vector<Way> ways_of(const std::string& canonical) {
       std::sscanf(line.c_str() + line.find('('), "(%*d %lf", &w.n_max_rpm);
     if (has("SET_SPINDLE_SPEED")) w.S = numbers(line)[1];
     const bool traverse = has("STRAIGHT_TRAVERSE"), arc = has("ARC_FEED");
-    if (!in_operation || (!traverse && !arc && !has("STRAIGHT_FEED"))) continue;
+    const bool tap = has("RIGID_TAP");  // in, and back
+    if (!in_operation || (!traverse && !arc && !tap && !has("STRAIGHT_FEED"))) continue;
     const auto a = numbers(line);
     w.rapid = traverse;
     const double x = arc ? a[1] : a[0], z = arc ? a[0] : a[2];
@@ -72,7 +73,18 @@ inline std::vector<Way> ways_of(const std::string& canonical) {
     known = true;
     if (arc)
       add_arc(ways, w, a);
-    else {
+    else if (tap) {
+      Way to = w, back = w;
+      to.x1 = back.x0 = x;
+      to.z1 = back.z0 = z;
+      back.x1 = w.x0;
+      back.z1 = w.z0;
+      ways.push_back(to);
+      ways.push_back(back);
+      w.x1 = w.x0;
+      w.z1 = w.z0;
+      continue;
+    } else {
       w.x1 = x;
       w.z1 = z;
       ways.push_back(w);

@@ -83,12 +83,27 @@ class Check : private Sizes {
                 false,
                 2 * o.passes[0].ap_mm,
                 o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
+      if (t.use == reaming || t.use == tapping) return behind_lead(o, t);
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
       if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};
       return {{t.re_mm, part::kProfilingClears_rad, 0, 4}, inner, false, false, 0, 0};
     }
     return {};
+  }
+
+  // A reamer or a tap: like a drill whose point is as long as the lead.
+  Tool behind_lead(const planning::OperationPlan& o,
+                   const catalogue::FixedTool& t) const {
+    const auto& inner = p_.part.drawing.inner;
+    const auto& e = *std::ranges::find(inner, o.on[0], &part::InnerElement::id);
+    const bool taps = t.use == catalogue::FixedUse::tapping;
+    return {{},
+            true,
+            true,
+            taps,
+            taps ? 0 : e.left_mm,
+            taps ? t.lead * e.cut->pitch_mm : t.lead};
   }
 
   void conditions(const Way& w, const planning::OperationPlan& o) {
@@ -122,6 +137,7 @@ class Check : private Sizes {
     const auto t = tool(*o);
     if (!w.rapid) conditions(w, *o);
     const auto frame = [&](double z) { return left_ ? z - length() : -z; };
+    if (t.drill && t.thread) return tapped(*o, w, t.point);
     if (t.drill) {
       if (w.x0 == 0 && w.x1 == 0 && !w.rapid)
         inner_.drill(t.D, std::min(w.z0, w.z1) + t.point, frame);
@@ -150,6 +166,19 @@ class Check : private Sizes {
     if (t.thread) return;
     m.cut(t.outline, frame, sign * w.x0, w.z0, sign * w.x1, w.z1);
     remove_gone();
+  }
+
+  // The whole thread passes the element's end.
+  void tapped(const planning::OperationPlan& o, const Way& w, double lead) {
+    if (!w.thread) return;
+    const auto e = *part::extent(p_.part.drawing, o.on[0]);
+    const double end = left_ ? e.z0_mm - length() : -e.z1_mm;
+    const auto& inner = p_.part.drawing.inner;
+    const auto& cut = std::ranges::find(inner, o.on[0], &part::InnerElement::id)->cut;
+    if (w.x0 != 0 || w.x1 != 0 || w.f_mm_rev != cut->pitch_mm)
+      return fault(o.id + ": a tap off the axis or with another lead");
+    if (std::abs(w.z1 + lead - end) < kTolerance)
+      threads_[o.on[0]] = -cut->drawn.left_mm / 2;
   }
 
   template <class Element>

@@ -176,12 +176,24 @@ void CutSimulation::follow(const Way& w) {
       first_touch(b, w, sweep, from, to);
     material_.cut(sweep);
   }
-  if (w.thread) {
+  if (w.thread && b.cutter.drills) {
+    tap(w, *o);
+  } else if (w.thread) {
     const double h = b.cutter.inner ? -w.x1 : w.x1;
     auto& deepest = threads_.emplace(o->on[0], h).first->second;
     deepest = std::min(deepest, h);
   }
   collide(w, b, from, to);
+}
+
+// A tap cuts a thread whole if its full diameter reaches the thread's end.
+void CutSimulation::tap(const Way& w, const planning::OperationPlan& o) {
+  const auto e = *part::extent(p_.part.drawing, o.on[0]);
+  const auto& all = p_.part.drawing.inner;
+  const auto& cut = *std::ranges::find(all, o.on[0], &part::InnerElement::id)->cut;
+  const double end = sign_ > 0 ? e.z0_mm : e.z1_mm;
+  if (std::abs(place(0, w.z1 + cut.lead_mm).z - end) < tolerances_.gouge)
+    threads_[o.on[0]] = -cut.drawn.left_mm / 2;
 }
 
 void CutSimulation::collide(const Way& w, const Body& b, const Spot& from,

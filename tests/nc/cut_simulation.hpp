@@ -69,6 +69,7 @@ class CutSimulation {
   void add_obstacles();
   void add_centre();
   void follow(const Way& w);
+  void tap(const Way& w, const planning::OperationPlan& o);
   void collide(const Way& w, const Body& b, const Spot& from, const Spot& to);
   void first_touch(const Body& b, const Way& w, const Polygon& sweep, const Spot& from,
                    const Spot& to);

@@ -15,6 +15,7 @@ using planning::OperationKind;
 using planning::OperationPlan;
 
 constexpr double kShank_mm = 100;  // of blades, above what they reach
+constexpr double kLong_mm = 1000;  // as a drill
 
 const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o) {
   for (const auto& t : p.part.fixed_tools)
@@ -43,6 +44,22 @@ Cutter drill(double D, double point_deg) {
   return c;
 }
 
+// A reamer or a tap cuts to its whole diameter behind its lead; what the lead does is in
+// the drilled hole's own allowance.
+Cutter behind_lead(const Planned& p, const OperationPlan& o,
+                   const catalogue::FixedTool& t) {
+  const auto& e =
+      *std::ranges::find(p.part.drawing.inner, o.on[0], &part::InnerElement::id);
+  const bool taps = t.use == FixedUse::tapping;
+  const double r = e.cut->drawn.left_mm / 2;
+  const double lead = taps ? t.lead * e.cut->pitch_mm : t.lead;
+  Cutter c;
+  c.drills = true;
+  c.threads = taps;
+  c.edge = rectangle(-r, r, lead, kLong_mm);
+  return c;
+}
+
 Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
                     const catalogue::FixedTool& t) {
   const double ap = o.passes[0].ap_mm;
@@ -52,6 +69,9 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill(2 * ap, t.point_deg);
+    case FixedUse::reaming:
+    case FixedUse::tapping:
+      return behind_lead(p, o, t);
     case FixedUse::grooving:
     case FixedUse::parting:
       c.plunges = true;
@@ -125,10 +145,14 @@ std::optional<Drilled> drilled(const Planned& p, std::size_t setup,
   double depth = t->reach * D;
   if (t->use == FixedUse::drilling) {
     depth = 0;
+    double needed = 0;
     const auto free =
         p.part.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
-    for (const auto& e : p.part.drawing.inner)
+    for (const auto& e : p.part.drawing.inner) {
       if (e.from == free) depth += e.length_mm;
+      if (e.from == free && e.cut) needed = std::max(needed, depth + e.cut->lead_mm);
+    }
+    depth = std::max(depth, needed);
   }
   return Drilled{D, cutting::drill_point_mm(D, t->point_deg), depth};
 }

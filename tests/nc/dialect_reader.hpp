@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -128,11 +129,48 @@ class DialectReader {
     }
     limit_block_ = false;
     reference_ = false;
+    tap_ = std::any_of(all.begin(), all.end(),
+                       [&](const Word& w) { return w.letter == "G" && taps(w.value); });
     for (const auto& w : all)
-      if (w.letter == "G") code(w.whole(), line);
+      if (w.letter == "G" && !tap_) code(w.whole(), line);
     if (reference_) return;
-    for (const auto& w : all) word(w, line);
+    for (const auto& w : all)
+      if (!tap_ || w.letter == "S") word(w, line);
+    if (tap_) return tap(line);
     if (block_.contains("X") || block_.contains("Z")) move(line);
+  }
+
+  bool taps(const std::string& G) const {
+    switch (control_) {
+      case Control::linuxcnc:
+        return G == "33.1";
+      case Control::siemens:
+        return G == "331" || G == "332";
+      case Control::okuma:
+        return G == "77";
+      default:
+        return G == "84";
+    }
+  }
+
+  // In with the spindle in step, and back to where it began; Siemens has a block for each.
+  void tap(const std::string& line) {
+    if (x_mm_ != 0 || now_.surface_speed || !per_revolution_) fail(line, "no way to tap");
+    const auto value = [&](const char* letter) { return block_.at(letter).number(); };
+    const double begins = z_mm_;
+    Read in = now_;
+    in.kind = Move::Kind::thread;
+    in.x_mm = 0;
+    in.z_mm = value("Z");
+    in.f_mm_rev = value(m_.lead == 'K' ? "K" : "F");
+    if (control_ == Control::siemens && !seen_.contains("SPOS0")) fail(line, "no SPOS");
+    if (control_ == Control::haas && value("R") != begins) fail(line, "another R plane");
+    if (block_.contains("R") && control_ != Control::haas && value("R") != 0)
+      fail(line, "another R plane");
+    add(in);
+    if (control_ == Control::siemens) return;
+    in.z_mm = begins;
+    add(in);
   }
 
   void code(int g, const std::string& line) {
@@ -179,7 +217,7 @@ class DialectReader {
     else if (a == "M")
       machine(w.whole(), line);
     else if (a != "G" && a != "X" && a != "Z" && a != "I" && a != "K" && a != "DIAMON" &&
-             a != "O")
+             a != "O" && !(a == "SPOS" && control_ == Control::siemens))
       fail(line, "an unknown word");
   }
 
@@ -209,7 +247,9 @@ class DialectReader {
       now_.coolant = false;
     else if (m == 30)
       ended_ = true;
-    else if (m != 6) {
+    else if (m == 29) {
+      if (!block_.contains("S")) fail(line, "no speed to tap at");
+    } else if (m != 6) {
       if (m < 7) fail(line, "an unknown code");
       now_.coolant = true;
     }
@@ -261,7 +301,8 @@ class DialectReader {
   std::map<std::string, Word> block_;
   std::optional<int> motion_;
   std::optional<double> lead_;
-  bool per_revolution_ = false, limit_block_ = false, reference_ = false, ended_ = false;
+  bool tap_ = false, per_revolution_ = false, limit_block_ = false, reference_ = false,
+       ended_ = false;
   Read now_;
   double x_mm_ = 0, z_mm_ = 0;
   std::vector<Read> moves_;

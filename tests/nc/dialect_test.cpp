@@ -83,18 +83,24 @@ void expect_read_back(const SetupProgram& p, const std::vector<Read>& read,
   EXPECT_EQ(i, read.size()) << name;
 }
 
-TEST(NcDialects, OfEveryReferencePartCommandTheSameMoves) {
-  for (const auto& name : reference_parts()) {
-    const auto p = planned_reference(name);
-    const auto all = programs(p.part, p.plan);
-    for (const auto control : kControls) {
-      const Settings settings{.control = control};
-      for (const auto& program : numbered(all, settings))
-        expect_read_back(program, DialectReader(control).read(text(program, settings)),
-                         control, name + " for " + id(control));
-      if (HasFailure()) return;
-    }
+void expect_read_back(const std::string& name, const Planned& p) {
+  const auto all = programs(p.part, p.plan);
+  for (const auto control : kControls) {
+    const Settings settings{.control = control};
+    for (const auto& program : numbered(all, settings))
+      expect_read_back(program, DialectReader(control).read(text(program, settings)),
+                       control, name + " for " + id(control));
+    if (testing::Test::HasFailure()) return;
   }
+}
+
+TEST(NcDialects, OfEveryReferencePartCommandTheSameMoves) {
+  for (const auto& name : reference_parts())
+    expect_read_back(name, planned_reference(name));
+}
+
+TEST(NcDialects, OfReamedAndTappedPartsCommandTheSameMoves) {
+  for (const char* name : kReamedAndTapped) expect_read_back(name, planned_awkward(name));
 }
 
 Step step(int tool, double x_mm, Move::Kind kind) {

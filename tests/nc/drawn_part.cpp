@@ -291,11 +291,18 @@ void DrawnPart::add_walls(const Run& run) {
     w.to_x = w.high_x - (run.outer ? 0 : fillet) - kEdge_mm;
     if (w.from_x < w.to_x) walls_.push_back(w);
   };
+  const auto drilled = [&](const std::string& id) {
+    const auto& inner = p_.part.drawing.inner;
+    const auto e = std::ranges::find(inner, id, &part::InnerElement::id);
+    return e != inner.end() && part::is_hole(*e);
+  };
   for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
     const auto &a = run.points[i], &b = run.points[i + 1];
     if (std::abs(b.z - a.z) > 1e-9) continue;
     const auto [low, high] = std::minmax(a.x, b.x);
     const auto &before = surfaces_[run.before[i]], &after = surfaces_[run.before[i + 1]];
+    // The bottom of a blind hole is left to the drill's point.
+    if (!run.outer && low == 0 && (drilled(before) || drilled(after))) continue;
     add({before + "|" + after, a.z, low, high, (b.x > a.x) == run.outer, 0, 0},
         std::max(corner_mm(before), corner_mm(after)));
   }

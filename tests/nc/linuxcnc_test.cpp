@@ -85,6 +85,24 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsLeaveTheDrawing) {
   }
 }
 
+TEST_F(NcThroughLinuxCnc, ReamsAndTaps) {
+  for (const char* name : kReamedAndTapped) {
+    const auto& p = planned_awkward(name);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok) << name;
+    EXPECT_EQ(listed(faults_of(rs274, p, p)), "") << name;
+    EXPECT_EQ(listed(cut(rs274, p)), "") << name;
+  }
+  const auto& p = planned_awkward("tapped-ends");
+  const auto with = [&](const char* what, const char* by) {
+    return faults_of(rs274, p, p, [&](auto t) {
+      const auto at = t.find(what);
+      return at == t.npos ? t : t.replace(at, std::string(what).size(), by);
+    });
+  };
+  EXPECT_FALSE(with("G33.1 Z-23.75", "G33.1 Z-23.7").empty()) << "too short a thread";
+  EXPECT_FALSE(with("K1.5", "K1.25").empty()) << "another lead";
+}
+
 // With everything a shop may set but another zero.
 TEST_F(NcThroughLinuxCnc, ProgramsWithTheShopsSettingsMakeTheContour) {
   const auto p = planned_reference("threaded-spindle");

@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,5 +54,17 @@ inline const Planned& planned_reference(const std::string& name) {
   document.erase("what_if");
   return planned(document);
 }
+
+/// A part of tests/data/awkward_parts.json.
+inline const Planned& planned_awkward(const std::string& name) {
+  for (const auto& one : document::parse_file(source("tests/data/awkward_parts.json")))
+    if (one["part"]["name"] == name) return planned(one["part"]);
+  throw std::domain_error("no awkward part " + name);
+}
+
+/// Those with holes that are reamed or tapped.
+inline constexpr std::array kReamedAndTapped{"tapped-ends", "reamed-through",
+                                             "reamed-behind-counterbore",
+                                             "tapped-behind-counterbore"};
 
 }  // namespace turnwright::nc::test

@@ -173,6 +173,13 @@ TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
   EXPECT_EQ(made, 8);
 }
 
+TEST(PlanAndProgram, OfReamedAndTappedPartsTakeTheSameTime) {
+  for (const char* name : kReamedAndTapped) {
+    const auto& p = planned_awkward(name);
+    EXPECT_LE(apart(name, p, programs(p.part, p.plan)), kAlike) << name;
+  }
+}
+
 TEST(PlanAndProgram, OfRandomPartsTakeTheSameTimeAndArePrograms) {
   const int parts = parts_to_try(200);
   int made = 0;

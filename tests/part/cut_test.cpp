@@ -28,6 +28,36 @@ TEST(Thread, HasTheTabulatedDiameters) {
   }
 }
 
+// ISO 965-1's limits of D1, whose widths are rounded to the series R 40, of steps of 6 %.
+TEST(MinorDiameter, IsThatOfThePrintedTableBeforeItsRounding) {
+  struct Printed {
+    double d, P, least, most;
+  };
+  for (const auto& t : {Printed{3, 0.5, 2.459, 2.599}, Printed{5, 0.8, 4.134, 4.334},
+                        Printed{6, 1, 4.917, 5.153}, Printed{8, 1.25, 6.647, 6.912},
+                        Printed{10, 1.5, 8.376, 8.676}, Printed{12, 1.75, 10.106, 10.441},
+                        Printed{16, 2, 13.835, 14.210}, Printed{20, 2.5, 17.294, 17.744},
+                        Printed{24, 3, 20.752, 21.252}}) {
+    const auto D1 = minor_diameter_6H(t.d, t.P);
+    EXPECT_NEAR(D1.least_mm, t.least, 5e-4) << t.d;
+    EXPECT_NEAR(D1.most_mm - D1.least_mm, t.most - t.least, 0.04 * (t.most - t.least))
+        << t.d;
+  }
+}
+
+TEST(Holes, AreAsDeepInTheWallAsTheirToolsCut) {
+  const auto r = reamed(10, 9.8, 1.5);
+  EXPECT_EQ(r.blank.left_mm, 10);
+  EXPECT_NEAR(r.cut.depth_mm, 0.1, 1e-12);
+  EXPECT_EQ(r.cut.drilled_mm, 9.8);
+  const auto t = tapped(10, 1.5, 8.5, 3.75);
+  EXPECT_EQ(t.blank.left_mm, 8.5);
+  EXPECT_EQ(t.cut.drawn.left_mm, 10);
+  EXPECT_EQ(t.cut.core.left_mm, 10) << "as weak as its full diameter";
+  EXPECT_NEAR(t.cut.depth_mm, 0.75, 1e-12);
+  EXPECT_EQ(t.cut.pitch_mm, 1.5);
+}
+
 TEST(Groove, IsAsDeepAsItsFloorIsAway) {
   EXPECT_EQ(groove(30, 26).cut.depth_mm, 2);
   EXPECT_EQ(groove(30, 36).cut.depth_mm, 3);  // in a bore

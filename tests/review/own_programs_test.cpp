@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../nc/plans.hpp"
+#include "planning/values/tool_label.hpp"
 #include "turnwright/cutting/cut.hpp"
 #include "turnwright/review/review.hpp"
 
@@ -27,6 +28,8 @@ MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
     const bool round =
         t.use == catalogue::FixedUse::drilling || t.use == catalogue::FixedUse::centring;
     m.size_mm = t.sizes_mm.empty() ? 0 : (round ? 2 : 1) * o.passes[0].ap_mm;
+    if (t.use == catalogue::FixedUse::reaming)
+      m.size_mm = part::extent(p.part.drawing, o.on[0])->left_mm;
   }
   return m;
 }
@@ -38,7 +41,7 @@ std::vector<MountedTool> turret(const Planned& p, const nc::Programs& programs) 
       for (const auto& setup : p.plan.setups)
         for (const auto& o : setup.operations) {
           const auto m = mounted(p, o, t.number);
-          if ((m.turning || m.fixed) && label(id(m), m.size_mm) == t.id &&
+          if ((m.turning || m.fixed) && planning::tool_label(p.part, o) == t.id &&
               std::ranges::find(all, t.number, &MountedTool::number) == all.end())
             all.push_back(m);
         }
@@ -172,8 +175,8 @@ void expect_tolerances_of_plan(const std::string& name, const Planned& p,
   EXPECT_NEAR(predicted.cost_per_part / p.plan.cost_per_part, 1, 0.01) << name;
 }
 
-void expect_review_of_plan(const std::string& name, const nc::Settings& settings) {
-  const auto& p = nc::test::planned_reference(name);
+void expect_review_of_plan(const std::string& name, const Planned& p,
+                           const nc::Settings& settings) {
   if (p.plan.status != planning::PlanStatus::ok) return;
   const auto r = reviewed(p, settings);
   for (const auto& s : r.review.setups) {
@@ -193,12 +196,33 @@ TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInLinuxCnc) {
   const bool all = std::getenv("TURNWRIGHT_ALL_PARTS") != nullptr;
   for (const auto& name : nc::test::reference_parts())
     if (all || !slow.contains(name))
-      expect_review_of_plan(name, {.control = gcode::Control::linuxcnc});
+      expect_review_of_plan(name, nc::test::planned_reference(name),
+                            {.control = gcode::Control::linuxcnc});
 }
 
 TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {
   for (const char* name : {"drilled-bush", "pump-shaft", "threaded-spindle"})
-    expect_review_of_plan(name, {.control = gcode::Control::fanuc});
+    expect_review_of_plan(name, nc::test::planned_reference(name),
+                          {.control = gcode::Control::fanuc});
+}
+
+// Reamers and taps, whose words differ most.
+TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
+  for (const char* name : nc::test::kReamedAndTapped)
+    for (const auto& d : gcode::dialects()) {
+      SCOPED_TRACE(d.id);
+      const auto& p = nc::test::planned_awkward(name);
+      expect_review_of_plan(name, p, {.control = d.control});
+      for (const auto& s : reviewed(p, {.control = d.control}).review.setups)
+        for (const auto& o : p.plan.setups[s.setup].operations) {
+          if (!o.tool.starts_with("REAM") && !o.tool.starts_with("TAP")) continue;
+          const auto* c = cut_of(s, o);
+          ASSERT_TRUE(c) << name << " " << o.id;
+          EXPECT_EQ(c->passes.size(), 1U) << o.id;
+          EXPECT_NEAR(c->loads.Fc_N / o.passes[0].Fc_N, 1, 0.02) << o.id;
+          EXPECT_NEAR(c->loads.Pc_kW / o.passes[0].Pc_kW, 1, 0.03) << o.id;
+        }
+    }
 }
 
 // A part with a drill, a groove and a thread in every control, threads by cycles too.

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,22 @@
 
 namespace turnwright::catalogue {
 
-enum class FixedUse { centring, drilling, grooving, threading, profiling, parting };
+enum class FixedUse {
+  centring,
+  drilling,
+  reaming,
+  tapping,
+  grooving,
+  threading,
+  profiling,
+  parting
+};
+
+/// Whether a tool works along the axis of the spindle with its whole diameter.
+constexpr bool on_axis(FixedUse use) {
+  using enum FixedUse;
+  return use == centring || use == drilling || use == reaming || use == tapping;
+}
 
 /// Speeds and feeds from which planning chooses, and how the life goes with them.
 struct ConditionsWindow {
@@ -23,8 +39,9 @@ struct ConditionsWindow {
 struct FixedConditions {
   std::vector<IsoGroup> groups;
   double vc_m_min = 0;
-  double f_mm_rev = 0;  ///< feed; for drills and centre drills per mm of diameter
-  double T_min = 0;     ///< tool life at these conditions
+  double f_mm_rev =
+      0;             ///< feed; for drills, centre drills and reamers per mm of diameter
+  double T_min = 0;  ///< tool life at these conditions
   std::optional<ConditionsWindow> window = {};  ///< absent: nothing is chosen
 };
 
@@ -37,7 +54,8 @@ struct FixedConditions {
 /// count.
 FixedConditions at(const FixedConditions& conditions, double vc_m_min, double f_mm_rev);
 
-/// What a drill leaves: the ISO 286 grade above its diameter, and the roughness.
+/// What a drill or a reamer leaves: the ISO 286 grade above its diameter (of a reamer the
+/// tolerance class H of that grade), and the roughness.
 struct DrilledHole {
   int grade = 0;
   double Ra_um = 0;
@@ -49,18 +67,28 @@ struct Pecking {
   double first_diameters = 0, step_diameters = 0;
 };
 
+/// A thread that a tap cuts.
+struct ThreadSize {
+  std::string designation;
+  double d_mm = 0, pitch_mm = 0;
+};
+
 /// A tool whose passes are fixed, and its conditions where they have no window.
 struct FixedTool {
   std::string id, name;
   FixedUse use = FixedUse::centring;
   bool inner = false;      ///< works in a bore
   double min_bore_mm = 0;  ///< smallest bore that an inner tool enters
-  /// Diameters of drills (for centre drills of the countersink) or widths of blades, in
-  /// rising order; empty for threading and profiling.
+  /// Diameters of drills (for centre drills of the countersink) and reamers or widths of
+  /// blades, in rising order; empty for other tools.
   std::vector<double> sizes_mm;
-  Range pitch_mm;        ///< pitches of threads that it cuts
-  double reach = 0;      ///< deepest cut: of drills in diameters, of blades in mm
-  double point_deg = 0;  ///< point angle of a drill
+  Range pitch_mm;    ///< pitches of threads that it cuts
+  double reach = 0;  ///< deepest cut: of tools on the axis in diameters, of blades in mm
+  std::vector<ThreadSize> threads = {};  ///< of taps
+  Range allowance_mm = {};  ///< of the diameter, that a reamer takes off a drilled hole
+  double lead = 0;  ///< length of the tapered front: of reamers in mm, of taps in pitches
+  int edges = 0;    ///< of reamers and taps
+  double point_deg = 0;                  ///< point angle of a drill
   std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
   std::optional<Pecking> pecking = {};   ///< absent: it drills every hole in one feed
   double ap_mm = 0;                      ///< largest depth of a profiling pass
@@ -77,5 +105,13 @@ struct FixedTool {
     return nullptr;
   }
 };
+
+/// The thread of a diameter and a pitch among those that a tap cuts; none.
+inline const ThreadSize* thread_of(const FixedTool& tap, double d_mm, double pitch_mm) {
+  const auto it = std::ranges::find_if(tap.threads, [&](const ThreadSize& t) {
+    return std::abs(t.d_mm - d_mm) < 1e-6 && std::abs(t.pitch_mm - pitch_mm) < 1e-6;
+  });
+  return it == tap.threads.end() ? nullptr : &*it;
+}
 
 }  // namespace turnwright::catalogue

@@ -6,8 +6,8 @@
 #include "turnwright/catalogue/material.hpp"
 #include "turnwright/cutting/spindle.hpp"
 
-/// Forces of drilling, grooving, parting, profiling and threading, which run at fixed
-/// conditions; all follow from the material's specific cutting force by Kienzle's law.
+/// Forces of drilling, reaming, tapping, grooving, parting, profiling and threading, which
+/// run at fixed conditions; all follow from the material's specific cutting force by Kienzle's law.
 namespace turnwright::cutting {
 
 /// Kienzle's constants of a material, corrected by K_gamma of cut.hpp for a rake.
@@ -37,6 +37,28 @@ double drill_point_mm(double D_mm, double point_deg);
 ///     pecks = ceil((depth - first D)/(step D))                                       (6)
 std::vector<double> peck_depths_mm(const std::optional<catalogue::Pecking>& pecking,
                                    double D_mm, double depth_mm);
+
+/// Load on a reamer of z edges, whose lead stands at 45 deg, that widens a hole from the
+/// diameter d to D:
+///
+///     h = (f/z) sin 45 deg,  kc = kc1.1 h^-mc                                        (7)
+///     Fc = kc f (D - d)/2,  M = Fc (D + d)/4,  Ff = 0.5 kc f (D - d)/2 sin 45 deg    (8)
+///
+/// All edges together cut (D - d)/2 wide and f thick.  The thrust is estimated as a drill's.
+/// Source: derived here from Kienzle's law; what the lands rub is not in it.
+Load ream(const catalogue::Kienzle& kc, double D_mm, double drilled_mm, double f_mm_rev,
+          int edges);
+
+/// Load on a tap of z flutes with a lead of n pitches P, for a thread of diameter d and
+/// depth t = (d - D1)/2 in a hole D1:
+///
+///     h = t/(n z),  kc = kc1.1 h^-mc,  M = kc P^2 d/8,  Fc = 2 M/d,  Ff = 0            (9)
+///
+/// h is what each tooth of the lead takes; P^2/4 is a little more than the section of the
+/// thread, 0.237 P^2.  A synchronous spindle feeds the tap.
+/// Source: M is a handbook value; friction in the thread may add 30 %.
+Load tap(const catalogue::Kienzle& kc, double d_mm, double pitch_mm, double depth_mm,
+         double lead_pitches, int edges);
 
 /// Load on a straight edge of width b that is fed into the work at the diameter D:
 ///

@@ -54,6 +54,9 @@ struct Dialect {
   /// and that of the first cut {first}, {first_d}, {first_um}, as a radius [mm], a
   /// diameter [mm] and a radius [um]; the least infeed {least_um}.
   std::string_view thread_cycle;
+  /// A tap of the lead {lead} from where it stands, {R}, to {Z} and back, the spindle in
+  /// step at {S}.
+  std::string_view tap;
 
   bool point;           ///< a number without a point may count steps
   int decimals;         ///< of diameters and lengths

@@ -2,8 +2,8 @@
 #include <numbers>
 
 /// Grooves, threads and arcs: shapes that are cut into an element at fixed conditions
-/// after it has been turned or bored.  The element itself is then their blank.  A hole is a
-/// bore that the drill makes to its size; no blank is bored.
+/// after it has been turned or bored.  The element itself is then their blank.  A hole is
+/// drilled instead of bored: to its size, or narrower for a reamer or a tap.
 namespace turnwright::part {
 
 enum class CutKind { groove, thread, arc, hole };
@@ -24,6 +24,10 @@ struct Cut {
   Ends core = {};       ///< diameters of the load-bearing core: as a beam never too stiff
   double depth_mm = 0;  ///< largest depth, on the radius
   double pitch_mm = 0;  ///< of a thread
+  /// Diameter of the drill of a hole or a tapped thread; 0: bored.
+  double drilled_mm = 0;
+  /// How far the reamer or the tap has to go beyond the element for its lead.
+  double lead_mm = 0;
   double radius_mm = 0;  ///< of an arc
   bool convex = true;    ///< an arc bulges outwards
   double path_mm = 0;    ///< length of an arc
@@ -48,6 +52,22 @@ Shaped groove(double blank_mm, double floor_mm);
 
 /// A hole that is drilled to its size.
 Shaped hole(double diameter_mm);
+/// A hole of a diameter that is drilled narrower and reamed.
+Shaped reamed(double diameter_mm, double drilled_mm, double lead_mm);
+/// An inner thread that is tapped into a drilled hole, its blank.
+Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm);
+
+/// Limits [mm] of the minor diameter D1 of an inner metric thread of class 6H, to which its
+/// tap drill belongs:
+///
+///     D1 = d - 1.08253 P,
+///     T  = 433 P - 190 P^1.22 um up to P = 0.8 mm,  230 P^0.7 um above            (7)
+///
+/// Source: ISO 724; ISO 965-1, 12.2.  DIN 336 gives the drills, about d - P.
+struct MinorDiameter {
+  double least_mm = 0, most_mm = 0;
+};
+MinorDiameter minor_diameter_6H(double d_mm, double pitch_mm);
 
 /// ISO metric thread of nominal diameter d and pitch P, H = (sqrt 3/2) P:
 ///

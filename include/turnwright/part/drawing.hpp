@@ -190,9 +190,13 @@ template <class Element>
 bool is_groove(const Element& e) {
   return e.cut && e.cut->kind == CutKind::groove;
 }
-/// Whether the drill makes a bore to its size.
-inline bool is_hole(const InnerElement& e) {
-  return e.cut && e.cut->kind == CutKind::hole;
+/// Whether a bore is drilled instead of bored: to its size, or for a reamer or a tap.
+inline bool is_hole(const InnerElement& e) { return e.cut && e.cut->drilled_mm > 0; }
+inline bool is_tapped(const InnerElement& e) {
+  return is_hole(e) && e.cut->kind == CutKind::thread;
+}
+inline bool is_reamed(const InnerElement& e) {
+  return is_hole(e) && !is_tapped(e) && e.cut->depth_mm > 0;
 }
 /// Position of an element along the axis, and the diameters at its ends.
 struct Extent {

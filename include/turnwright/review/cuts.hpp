@@ -16,7 +16,7 @@ struct MountedTool {
   int number = 0;
   std::optional<catalogue::Tool> turning = {};
   std::optional<catalogue::FixedTool> fixed = {};
-  double size_mm = 0;  ///< of a drill its diameter, of a blade its width
+  double size_mm = 0;  ///< of a drill or reamer its diameter, of a blade its width
 };
 
 /// The id of a tool in the catalogue.

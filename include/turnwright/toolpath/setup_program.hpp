@@ -9,6 +9,7 @@
 namespace turnwright::toolpath {
 
 struct Move {
+  /// A thread on the axis is tapped: in, and back with the spindle reversed.
   enum class Kind { rapid, feed, arc, thread };
   Kind kind = Kind::rapid;
   double x_mm = 0, z_mm = 0;  ///< radius and place in the program
@@ -45,7 +46,7 @@ struct TableTool {
   std::string id;
   int offset = 0;       ///< number of its offset
   double re_mm = 0;     ///< corner radius, 0 of blades, drills and threading tools
-  int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, or of drills
+  int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, or of tools on the axis
 };
 
 /// Minutes that a program runs or waits, without loading and preparing the machine.

@@ -4,6 +4,8 @@
 
 #include "catalogue_readers.hpp"
 #include "document/json/fields.hpp"
+#include "turnwright/part/inch_thread.hpp"
+#include "turnwright/part/metric_thread.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -13,11 +15,16 @@ using catalogue::FixedUse;
 
 const Choices<FixedUse> kFixedUses{
     {"centring", FixedUse::centring},   {"drilling", FixedUse::drilling},
+    {"reaming", FixedUse::reaming},     {"tapping", FixedUse::tapping},
     {"grooving", FixedUse::grooving},   {"parting", FixedUse::parting},
     {"threading", FixedUse::threading}, {"profiling", FixedUse::profiling}};
 
-bool drills(FixedUse use) {
-  return use == FixedUse::centring || use == FixedUse::drilling;
+// Feeds of these grow with the diameter, those of threads are the pitch.
+bool feeds_by_diameter(FixedUse use) {
+  return catalogue::on_axis(use) && use != FixedUse::tapping;
+}
+bool threads(FixedUse use) {
+  return use == FixedUse::threading || use == FixedUse::tapping;
 }
 
 void read_sizes(Reader& r, FixedTool& t) {
@@ -29,11 +36,35 @@ void read_sizes(Reader& r, FixedTool& t) {
 }
 
 void read_hole(Reader& r, FixedTool& t) {
+  if (t.use == FixedUse::reaming && !r.has("hole"))
+    r.problem_at("hole", "the grade and roughness that the reamer leaves", "missing");
   auto hole = r.optional_object("hole");
   if (!hole) return;
   t.hole = {static_cast<int>(hole->integer("grade", 5, 16)),
             hole->number("Ra_um", above_up_to(0, 100, "um"))};
   hole->finish();
+}
+
+// "M10", "M10x1" or "3/8-16 UNC".
+catalogue::ThreadSize read_thread(const Reader& r) {
+  const auto text = r.as_text(20);
+  if (const auto inch = part::inch_thread(text))
+    return {text, inch->d_mm, inch->pitch_mm};
+  const auto metric = part::metric_thread(text);
+  if (metric && metric->pitch_mm) return {text, metric->d_mm, *metric->pitch_mm};
+  if (!text.empty())
+    r.problem(
+        "a thread like \"M10\", \"M10x1\" or \"3/8-16 UNC\", with a pitch if it is "
+        "not of the coarse series",
+        "choice");
+  return {};
+}
+
+// Of reamers and taps.
+void read_lead(Reader& r, FixedTool& t, const char* key, const Bounds& bounds) {
+  t.reach = r.number("reach_diameters", above_up_to(0, 100));
+  t.lead = r.number(key, bounds);
+  t.edges = static_cast<int>(r.integer("edges", 1, 40));
 }
 
 void read_pecking(Reader& r, FixedTool& t) {
@@ -54,6 +85,17 @@ void read_kind(Reader& r, FixedTool& t) {
       if (t.use != FixedUse::drilling) break;
       read_hole(r, t);
       read_pecking(r, t);
+      break;
+    case FixedUse::reaming:
+      read_sizes(r, t);
+      t.allowance_mm = read_range(r, "allowance_mm", above_up_to(0, 5, "mm"));
+      read_lead(r, t, "lead_mm", within(0, 50, "mm"));
+      read_hole(r, t);
+      break;
+    case FixedUse::tapping:
+      for (const auto& item : r.items("threads", 1, 200))
+        t.threads.push_back(read_thread(item));
+      read_lead(r, t, "lead_pitches", within(0, 20));
       break;
     case FixedUse::grooving:
     case FixedUse::parting:
@@ -84,8 +126,8 @@ struct Feed {
   Bounds bounds;
 };
 std::optional<Feed> feed_of(FixedUse use) {
-  if (use == FixedUse::threading) return std::nullopt;
-  if (drills(use)) return Feed{"f_per_mm", above_up_to(0, 1)};
+  if (threads(use)) return std::nullopt;
+  if (feeds_by_diameter(use)) return Feed{"f_per_mm", above_up_to(0, 1)};
   return Feed{"f_mm_rev", above_up_to(0, 5, "mm/rev")};
 }
 

@@ -40,14 +40,6 @@ bool keeps_size(const FixedTool& drill, double D, const part::Limits& limits) {
          units::um_from_mm(limits.upper_mm) >= tolerance::it_um(D, grade);
 }
 
-// Whether a drill leaves a bore as it is drawn.
-bool keeps(const FixedTool& drill, const part::InnerElement& bore, double depth_mm) {
-  const double D = bore.left_mm;
-  return has_size(drill, D) && depth_mm <= drill.reach * D &&
-         keeps_size(drill, D, limits_of(bore)) &&
-         bore.Ra_um.value_or(drill.hole->Ra_um) >= drill.hole->Ra_um && !bore.Rz_um;
-}
-
 // What a drill is known to leave.
 std::string promise(const FixedTool& drill) {
   return "IT" + std::to_string(drill.hole->grade) + " and Ra " +
@@ -61,51 +53,128 @@ bool can_be_bored(const std::vector<catalogue::Tool>& tools, double diameter_mm)
   });
 }
 
-// The drills of the material of which it is known what they leave.
-std::vector<const FixedTool*> known_drills(const Draft& draft) {
+// Whether an inner threading tool enters a thread's bore.
+bool can_be_threaded(const Draft& draft, const part::InnerElement& thread) {
+  const auto& plan = draft.loaded.plan;
+  return std::ranges::any_of(plan.fixed_tools, [&](const FixedTool& t) {
+    return t.use == FixedUse::threading && t.inner &&
+           t.conditions_in(plan.material.group) && t.min_bore_mm <= thread.left_mm &&
+           t.pitch_mm.lower <= thread.cut->pitch_mm &&
+           thread.cut->pitch_mm <= t.pitch_mm.upper;
+  });
+}
+
+// The tools for a use in the plan's material.
+std::vector<const FixedTool*> tools_for(const Draft& draft, FixedUse use) {
   std::vector<const FixedTool*> all;
   const auto& plan = draft.loaded.plan;
   for (const auto& t : plan.fixed_tools)
-    if (t.use == FixedUse::drilling && t.hole && t.conditions_in(plan.material.group))
-      all.push_back(&t);
+    if (t.use == use && t.conditions_in(plan.material.group)) all.push_back(&t);
   return all;
 }
 
-// The drill that makes a bore to its size; none.
-const FixedTool* drill_of(const Draft& draft, const part::InnerElement& bore,
-                          double depth_mm) {
-  for (const auto* t : known_drills(draft))
-    if (keeps(*t, bore, depth_mm)) return t;
-  return nullptr;
+// Those of which it is known what they leave of a hole.
+std::vector<const FixedTool*> known_tools(const Draft& draft, FixedUse use) {
+  auto all = tools_for(draft, use);
+  std::erase_if(all, [](const FixedTool* t) { return !t->hole; });
+  return all;
 }
 
-bool plain(const part::InnerElement& e) {
-  return !e.cut && e.kind == part::ElementKind::cylinder && !e.left_chamfer &&
-         !e.right_chamfer && !e.left_fillet_mm && !e.right_fillet_mm;
-}
-
-// The bores of an end of a bar, outermost first.
-struct Bores {
-  std::vector<std::size_t> all;
-  double depth_mm = 0;
+// A hole as tools on the axis make it.
+struct Hole {
+  part::Shaped shape;
+  std::string how;  // for people
 };
+
+// A hole while it is looked at: what is asked of it, and the diameter of the drill that
+// makes what lies behind it, if that is a hole too.
+struct Wanted {
+  double D_mm = 0, pitch_mm = 0;            // of a thread its nominal diameter
+  double length_mm = 0, drilled_to_mm = 0;  // at least, from the face
+  std::optional<part::Limits> limits = {};
+  std::optional<double> Ra_um = {};
+  std::optional<double> drill_mm = {};
+
+  bool takes_drill(double size_mm) const { return !drill_mm || *drill_mm == size_mm; }
+};
+
+bool keeps(const FixedTool& tool, const Wanted& w) {
+  return (!w.limits || keeps_size(tool, w.D_mm, *w.limits)) &&
+         w.Ra_um.value_or(tool.hole->Ra_um) >= tool.hole->Ra_um;
+}
+
+// The drill's size between two limits, nearest to a third one, that goes deep enough.
+std::optional<double> drill_between(const Draft& draft, const Wanted& w, double least_mm,
+                                    double most_mm, double best_mm, double lead_mm) {
+  constexpr double kRounding_mm = 1e-9;
+  std::optional<double> found;
+  for (const auto* t : tools_for(draft, FixedUse::drilling))
+    for (const double size : t->sizes_mm) {
+      const double deep = w.drilled_to_mm + lead_mm;
+      if (size < least_mm - kRounding_mm || size > most_mm + kRounding_mm ||
+          !w.takes_drill(size) || deep > t->reach * size)
+        continue;
+      if (!found || std::abs(size - best_mm) < std::abs(*found - best_mm)) found = size;
+    }
+  return found;
+}
+
+std::optional<Hole> drilled_hole(const Draft& draft, const Wanted& w) {
+  for (const auto* t : known_tools(draft, FixedUse::drilling))
+    if (has_size(*t, w.D_mm) && w.takes_drill(w.D_mm) && keeps(*t, w) &&
+        w.drilled_to_mm <= t->reach * w.D_mm)
+      return Hole{part::hole(w.D_mm),
+                  "drilled to its size by " + t->id + ", to " + promise(*t)};
+  return std::nullopt;
+}
+
+std::optional<Hole> reamed_hole(const Draft& draft, const Wanted& w) {
+  for (const auto* t : known_tools(draft, FixedUse::reaming)) {
+    if (!has_size(*t, w.D_mm) || !keeps(*t, w) ||
+        w.length_mm + t->lead > t->reach * w.D_mm)
+      continue;
+    const double least = w.D_mm - t->allowance_mm.upper,
+                 most = w.D_mm - t->allowance_mm.lower;
+    if (const auto drill = drill_between(draft, w, least, most, most, t->lead))
+      return Hole{part::reamed(w.D_mm, *drill, t->lead),
+                  "drilled to " + number_text(*drill) + " mm and reamed by " + t->id +
+                      ", to " + promise(*t)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Hole> tapped_hole(const Draft& draft, const Wanted& w) {
+  const auto D1 = part::minor_diameter_6H(w.D_mm, w.pitch_mm);
+  for (const auto* t : tools_for(draft, FixedUse::tapping)) {
+    const double lead = t->lead * w.pitch_mm;
+    if (!catalogue::thread_of(*t, w.D_mm, w.pitch_mm) ||
+        w.length_mm + lead > t->reach * w.D_mm)
+      continue;
+    if (const auto drill =
+            drill_between(draft, w, D1.least_mm, D1.most_mm, w.D_mm - w.pitch_mm, lead))
+      return Hole{part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
+                  "drilled to " + number_text(*drill) + " mm and tapped by " + t->id};
+  }
+  return std::nullopt;
+}
+
+bool is_thread(const part::InnerElement& e) {
+  return e.cut && e.cut->kind == part::CutKind::thread;
+}
+
+// Without edges of its own.
+bool plain(const part::InnerElement& e) {
+  return e.kind == part::ElementKind::cylinder && !e.left_chamfer && !e.right_chamfer &&
+         !e.left_fillet_mm && !e.right_fillet_mm;
+}
+
+// Indices of the bores of an end of a bar, outermost first.
+using Bores = std::vector<std::size_t>;
 Bores bores_of(const part::Drawing& d, part::End end) {
   Bores bores;
   for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (d.inner[i].from == end) {
-      bores.all.push_back(i);
-      bores.depth_mm += d.inner[i].length_mm;
-    }
+    if (d.inner[i].from == end) bores.push_back(i);
   return bores;
-}
-
-// Whether the innermost bore is so narrow that boring still cuts all others.
-bool leaves_the_others(const part::Drawing& d, const Bores& bores) {
-  const double D = d.inner[bores.all.back()].left_mm;
-  return std::all_of(bores.all.begin(), bores.all.end() - 1, [&](std::size_t i) {
-    return std::min(d.inner[i].left_mm, d.inner[i].right_mm) >=
-           D + 2 * planning::kLeftToBore_mm;
-  });
 }
 
 // The limits that a hole of the document is given, if they can be read.
@@ -124,47 +193,131 @@ std::optional<part::Limits> given_limits(Reader& hole, double D) {
   }
 }
 
-// A hole is not asked for more than some drill of its diameter leaves.
-void check_demands(const Draft& draft, Reader hole, double D) {
-  auto drills = known_drills(draft);
-  std::erase_if(drills, [&](const auto* t) { return !has_size(*t, D); });
-  if (drills.empty()) return;
+// What the drill of the k-th bore of an end has to do; `behind` is the hole that it goes on
+// to make.
+Wanted wanted(const part::Drawing& d, const Bores& bores, std::size_t k,
+              const std::optional<Hole>& behind) {
+  Wanted w;
+  const auto& e = d.inner[bores[k]];
+  w.D_mm = is_thread(e) ? e.cut->drawn.left_mm : e.left_mm;
+  w.length_mm = e.length_mm;
+  if (e.cut) w.pitch_mm = e.cut->pitch_mm;
+  for (std::size_t i = 0; i <= k; ++i) w.drilled_to_mm += d.inner[bores[i]].length_mm;
+  if (behind) w.drill_mm = behind->shape.cut.drilled_mm;
+  return w;
+}
+
+// Refuses what is asked of a hole and no drill or reamer of its diameter leaves.
+void refuse_demands(const Draft& draft, Reader hole, const Wanted& w) {
+  auto tools = known_tools(draft, FixedUse::drilling);
+  for (const auto* t : known_tools(draft, FixedUse::reaming)) tools.push_back(t);
+  std::erase_if(tools, [&](const auto* t) { return !has_size(*t, w.D_mm); });
+  if (tools.empty()) return;
   const auto refuse = [&](const char* key) {
     std::string made;
-    for (const auto* t : drills)
+    for (const auto* t : tools)
       made += (made.empty() ? "" : "; ") + t->id + " " + promise(*t);
     hole.problem_at(key,
-                    "no more than a drill leaves (" + made +
+                    "no more than a drill or a reamer leaves (" + made +
                         "), or \"cylinder\" as kind, which is bored",
                     "conflict");
   };
   const auto none = [&](const auto& leaves) {
-    return std::ranges::none_of(drills, leaves);
+    return std::ranges::none_of(tools, leaves);
   };
-  if (const auto limits = given_limits(hole, D);
-      limits && none([&](const auto* t) { return keeps_size(*t, D, *limits); }))
+  if (w.limits && none([&](const auto* t) { return keeps_size(*t, w.D_mm, *w.limits); }))
     refuse(hole.has("fit") ? "fit" : "limits_mm");
-  if (const auto Ra_um = hole.optional_number("Ra_um", above_up_to(0, 100, "um"));
-      Ra_um && none([&](const auto* t) { return t->hole->Ra_um <= *Ra_um; }))
+  if (w.Ra_um && none([&](const auto* t) { return t->hole->Ra_um <= *w.Ra_um; }))
     refuse("Ra_um");
 }
 
-// The holes that the document asks for.
-void check_holes(const Draft& draft, const std::vector<Reader>& items,
-                 const Bores& bores) {
-  const auto& d = draft.loaded.plan.drawing;
-  for (const std::size_t i : bores.all) {
-    if (!part::is_hole(d.inner[i])) continue;
-    if (d.stock.kind != part::StockKind::bar)
-      items[i].problem_at("kind", "a bore: a tube is not drilled", "conflict");
-    else if (i != bores.all.back() || !leaves_the_others(d, bores))
-      items[i].problem_at("kind",
-                          "a hole that is the innermost bore of its end, at least 1 mm "
-                          "narrower than the others",
-                          "conflict");
-    else
-      check_demands(draft, items[i], d.inner[i].left_mm);
+// A hole that the document asks for; none if the drill of what lies behind does not make it.
+std::optional<Hole> asked_hole(const Draft& draft, Reader item, Wanted w) {
+  w.limits = given_limits(item, w.D_mm);
+  w.Ra_um = item.optional_number("Ra_um", above_up_to(0, 100, "um"));
+  if (w.limits || w.Ra_um) {
+    if (drilled_hole(draft, w)) return Hole{part::hole(w.D_mm), ""};
+    if (auto reamed = reamed_hole(draft, w)) return reamed;
+    refuse_demands(draft, item, w);
   }
+  if (!w.takes_drill(w.D_mm)) return std::nullopt;
+  return Hole{part::hole(w.D_mm), ""};
+}
+
+// Whether the operations are the planner's, or one of them drills a bore and none bores it.
+bool drilled_by_operations(const Draft& draft, const std::string& id) {
+  const auto given = draft.root.find("operations");
+  if (!given || !given->is_array()) return true;
+  bool fixed = false;
+  for (const auto& o : given->json()) {
+    if (!o.is_object() || !names(o.value("on", nlohmann::json()), id)) continue;
+    if (o.value("kind", nlohmann::json()) != "fixed") return false;
+    fixed = true;
+  }
+  return fixed;
+}
+
+// A bore that is too narrow to be bored as drill, reamer or tap make it, if they leave it
+// as it is drawn.
+std::optional<Hole> narrow_hole(const Draft& draft, const part::InnerElement& bore,
+                                Wanted w) {
+  const bool thread = is_thread(bore);
+  const auto named = draft.root.find("tolerances");
+  if (!plain(bore) || (bore.cut && !thread) || bore.Rz_um ||
+      !drilled_by_operations(draft, bore.id) ||
+      (named && names(named->json(), bore.id)) ||
+      (can_be_bored(draft.loaded.plan.tools, bore.left_mm) &&
+       (!thread || can_be_threaded(draft, bore))))
+    return std::nullopt;
+  if (thread) return tapped_hole(draft, w);
+  w.limits = limits_of(bore);
+  w.Ra_um = bore.Ra_um;
+  auto hole = drilled_hole(draft, w);
+  return hole ? hole : reamed_hole(draft, w);
+}
+
+// The holes of an end of a bar, innermost first: one drill makes them all.
+std::vector<Hole> holes_of(const Draft& draft, const std::vector<Reader>& items,
+                           const Bores& bores) {
+  const auto& d = draft.loaded.plan.drawing;
+  std::vector<Hole> holes;
+  std::optional<Hole> behind;
+  for (std::size_t k = bores.size(); k-- > 0;) {
+    const auto& bore = d.inner[bores[k]];
+    const auto w = wanted(d, bores, k, behind);
+    behind = part::is_hole(bore) ? asked_hole(draft, items[bores[k]], w)
+                                 : narrow_hole(draft, bore, w);
+    if (!behind) break;
+    holes.push_back(*behind);
+  }
+  return holes;
+}
+
+// Whether boring still cuts the bores before the holes, and their tools pass through them.
+bool leave_the_others(const part::Drawing& d, const Bores& bores,
+                      const std::vector<Hole>& holes) {
+  double least_mm = 0;
+  for (const auto& hole : holes)
+    least_mm =
+        std::max({least_mm, hole.shape.cut.drilled_mm + 2 * planning::kLeftToBore_mm,
+                  hole.shape.cut.drawn.left_mm});
+  return std::all_of(bores.begin(), bores.end() - std::ssize(holes), [&](std::size_t i) {
+    return std::min(d.inner[i].left_mm, d.inner[i].right_mm) >= least_mm;
+  });
+}
+
+void make(Draft& draft, const Reader& item, part::InnerElement& bore, const Hole& hole) {
+  if (hole.how.empty()) return;  // as the document has it
+  draft.assume(item.pointer_of("kind"), is_thread(bore) ? "thread" : "hole", hole.how);
+  const bool asked = part::is_hole(bore);
+  const auto fit = asked ? Reader(item).optional_text("fit", 8) : bore.fit;
+  if (asked)
+    bore.cut = hole.shape.cut;
+  else
+    make_at_catalogue_conditions(draft, item, bore, hole.shape.cut);
+  if (part::is_reamed(bore)) bore.fit = fit;
+  bore.left_mm = hole.shape.blank.left_mm;
+  bore.right_mm = hole.shape.blank.right_mm;
 }
 
 }  // namespace
@@ -172,25 +325,26 @@ void check_holes(const Draft& draft, const std::vector<Reader>& items,
 void read_drilled_holes(Draft& draft) {
   auto& d = draft.drawing();
   if (!sizes_were_read(d) || d.inner.empty()) return;
-  const bool given = draft.root.has("operations") &&
-                     draft.root.at("operations").json() != nlohmann::json("auto");
-  const auto named = draft.root.find("tolerances");
   const auto items = draft.root.at("inner").as_items(0, d.inner.size());
+  const bool bar = d.stock.kind == part::StockKind::bar;
   for (const auto end : {part::End::left, part::End::right}) {
     const auto bores = bores_of(d, end);
-    if (bores.all.empty()) continue;
-    check_holes(draft, items, bores);
-    auto& bore = d.inner[bores.all.back()];
-    if (given || !plain(bore) || can_be_bored(draft.plan().tools, bore.left_mm) ||
-        d.stock.kind != part::StockKind::bar ||
-        (named && names(named->json(), bore.id)) || !leaves_the_others(d, bores))
-      continue;
-    const auto* drill = drill_of(draft, bore, bores.depth_mm);
-    if (!drill) continue;
-    const Reader& item = items[bores.all.back()];
-    draft.assume(item.pointer_of("kind"), "hole",
-                 "drilled to its size by " + drill->id + ", to " + promise(*drill));
-    make_at_catalogue_conditions(draft, item, bore, part::hole(bore.left_mm).cut);
+    auto holes = bar ? holes_of(draft, items, bores) : std::vector<Hole>{};
+    if (!leave_the_others(d, bores, holes)) holes.clear();
+    const std::size_t bored = bores.size() - holes.size();
+    for (std::size_t k = 0; k < bores.size(); ++k) {
+      const std::size_t i = bores[k];
+      if (k >= bored)
+        make(draft, items[i], d.inner[i], holes[bores.size() - 1 - k]);
+      else if (part::is_hole(d.inner[i]))
+        items[i].problem_at(
+            "kind",
+            bar ? "a hole that is the innermost bore of its end, or is "
+                  "made by the drill of the hole behind it, at least 1 mm "
+                  "narrower than the bores before it"
+                : "a bore: a tube is not drilled",
+            "conflict");
+    }
   }
 }
 

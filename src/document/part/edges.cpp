@@ -37,7 +37,7 @@ std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
 template <class Element>
 bool can_have_edge(const Element& e) {
   return e.kind == part::ElementKind::cylinder &&
-         (!e.cut || e.cut->kind == part::CutKind::thread);
+         (!e.cut || (e.cut->kind == part::CutKind::thread && !(e.cut->drilled_mm > 0)));
 }
 
 template <class Element>

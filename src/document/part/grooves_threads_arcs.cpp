@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -8,6 +7,7 @@
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
 #include "turnwright/part/inch_thread.hpp"
+#include "turnwright/part/metric_thread.hpp"
 #include "turnwright/tolerance/iso286.hpp"
 
 namespace turnwright::document {
@@ -15,22 +15,6 @@ namespace {
 
 using part::CutKind;
 using part::Where;
-
-// ISO 261, coarse series, first and second choice.
-struct Coarse {
-  double d_mm, P_mm;
-};
-constexpr Coarse kCoarse[] = {{3, 0.5},  {4, 0.7},   {5, 0.8},  {6, 1},    {8, 1.25},
-                              {10, 1.5}, {12, 1.75}, {14, 2},   {16, 2},   {18, 2.5},
-                              {20, 2.5}, {22, 2.5},  {24, 3},   {27, 3},   {30, 3.5},
-                              {33, 3.5}, {36, 4},    {39, 4},   {42, 4.5}, {45, 4.5},
-                              {48, 5},   {52, 5},    {56, 5.5}, {60, 5.5}, {64, 6}};
-
-std::optional<double> coarse_pitch_mm(double d_mm) {
-  for (const auto& c : kCoarse)
-    if (c.d_mm == d_mm) return c.P_mm;
-  return std::nullopt;
-}
 
 void read_demands(Draft& draft, Reader& r, double least_mm) {
   r.optional_number("Ra_um", above_up_to(0, 100, "um"));
@@ -47,49 +31,30 @@ struct Size {
   double P_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
-// A number found by the pattern below, with a point in any locale.
-double number(const std::ssub_match& digits) {
-  double x = 0;
-  std::from_chars(&*digits.first, &*digits.first + digits.length(), x);
-  return x;
-}
-
 // "M30x1.5", or "M30" of the coarse series; "1/2-13 UNC" in inches.
 Size read_designation(Reader& r) {
-  static const std::regex kForm("M([0-9]+(?:\\.[0-9]+)?)(?:x([0-9]+(?:\\.[0-9]+)?))?");
   const auto text = r.text("designation", 20);
   for (const char* key : {"diameter_mm", "pitch_mm"})
     if (r.has(key))
       r.problem_at(key, "designation, or diameter_mm and pitch_mm, not both", "conflict");
-  std::smatch m;
   if (text.empty()) return {};
   if (const auto inch = part::inch_thread(text)) return {inch->d_mm, inch->pitch_mm};
-  if (!std::regex_match(text, m, kForm)) {
-    r.problem_at("designation",
-                 "an ISO metric thread like \"M30x1.5\" or \"M30\", or a Unified inch "
-                 "thread like \"1/2-13 UNC\"",
-                 "choice");
-    return {};
-  }
-  Size s{number(m[1]), 0};
-  const auto coarse = coarse_pitch_mm(s.d_mm);
-  if (m[2].matched) {
-    s.P_mm = number(m[2]);
-  } else if (coarse) {
-    s.P_mm = *coarse;
-  } else {
-    r.problem_at("designation", "a pitch too: \"" + text + "\" has no coarse one",
-                 "choice");
-    return {};
-  }
-  return s;
+  const auto metric = part::metric_thread(text);
+  if (metric && metric->pitch_mm) return {metric->d_mm, *metric->pitch_mm};
+  r.problem_at(
+      "designation",
+      metric ? "a pitch too: \"" + text + "\" has no coarse one"
+             : "an ISO metric thread like \"M30x1.5\" or \"M30\", or a Unified inch "
+               "thread like \"1/2-13 UNC\"",
+      "choice");
+  return {};
 }
 
 Size read_thread_size(Draft& draft, Reader& r) {
   if (r.has("designation")) return read_designation(r);
   Size s;
   s.d_mm = r.number("diameter_mm", kSize);
-  const auto coarse = coarse_pitch_mm(s.d_mm);
+  const auto coarse = part::coarse_pitch_mm(s.d_mm);
   if (r.has("pitch_mm")) {
     s.P_mm = r.number("pitch_mm", above_up_to(0, 50, "mm"));
   } else if (!coarse) {

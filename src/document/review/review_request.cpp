@@ -86,7 +86,7 @@ class Crib {
   const Catalogue& catalogue_;
 };
 
-// "DRILL-HM 8.5 mm": an id and a size.
+// "DRILL-HM 8.5 mm": an id and a size; of a tap, "TAP-HSS M10", only the id counts.
 struct Label {
   std::string_view id;
   std::optional<double> size_mm;
@@ -110,11 +110,13 @@ Label split_label(std::string_view label) {
 std::optional<MountedTool> mount(const Crib& crib, int number, std::string_view label,
                                  std::optional<double> size) {
   MountedTool m{.number = number};
-  const auto split = split_label(label);
   if (const auto* t = crib.turning(label)) {
     m.turning = *t;
     return m;
   }
+  const auto* tap = crib.fixed(label.substr(0, label.rfind(' ')));
+  const auto split = tap && tap->use == catalogue::FixedUse::tapping ? Label{tap->id, {}}
+                                                                     : split_label(label);
   const auto* fixed = crib.fixed(split.id);
   if (!fixed) return std::nullopt;
   m.fixed = *fixed;

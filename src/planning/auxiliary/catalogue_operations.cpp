@@ -57,14 +57,14 @@ struct Fitted {
   catalogue::FixedConditions at = {};
 };
 
-bool sized_by_diameter(FixedUse use) {
+bool drills(FixedUse use) {
   return use == FixedUse::centring || use == FixedUse::drilling;
 }
 
 // The conditions of a tool in one of its sizes.
 catalogue::FixedConditions of_size(catalogue::FixedConditions at, FixedUse use,
                                    double size_mm) {
-  if (!sized_by_diameter(use)) return at;
+  if (!drills(use) && use != FixedUse::reaming) return at;
   at.f_mm_rev *= size_mm;
   if (at.window)
     for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
@@ -83,7 +83,7 @@ catalogue::FixedConditions gentlest(const catalogue::FixedConditions& at) {
 bool of_given_depth(const Asked& a, double size) {
   if (!a.given || !a.given->conditions.ap_mm) return true;
   const double ap = *a.given->conditions.ap_mm;
-  if (sized_by_diameter(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
+  if (drills(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
   return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
 }
 
@@ -139,12 +139,21 @@ void refuse(const Site& s, const Asked& a, const std::string& why) {
                              fmt::format("{} {}: {}", a.does, a.surface, why)});
 }
 
-// The given operation at fixed conditions on a surface in this setup.
-const OperationRequest* given_on(const Site& s, const std::string& surface) {
+// Whether the operation names a tool, and one for this.
+bool names_tool(const PlanRequest& p, const OperationRequest& o, FixedUse use) {
+  return std::ranges::any_of(
+      p.fixed_tools, [&](const FixedTool& t) { return o.tool == t.id && t.use == use; });
+}
+
+// The given operation at fixed conditions on a surface in this setup; with a tool for a
+// use, if that is asked.
+const OperationRequest* given_on(const Site& s, const std::string& surface,
+                                 std::optional<FixedUse> use = {}) {
   if (!s.p.operations) return nullptr;
   for (const auto& o : *s.p.operations)
     if (o.kind == OperationKind::fixed && o.setup == s.setup &&
-        std::find(o.on.begin(), o.on.end(), surface) != o.on.end())
+        std::find(o.on.begin(), o.on.end(), surface) != o.on.end() &&
+        (!use || names_tool(s.p, o, *use)))
       return &o;
   return nullptr;
 }
@@ -196,7 +205,7 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
     const double n =
         std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
     const auto& [Fc, Ff, M] = d.load;
-    tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
+    if (Ff > 0) tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
     tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
                             cutting::available_kW(ranges, n, false)));
     tighten(all, constraint(Check::torque, M,
@@ -241,7 +250,7 @@ AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
   o.edges_cost = f.tool->edge_cost * plan.edges;
   o.order = {f.size_mm > 0 ? fmt::format("{} {:g}", f.tool->id, f.size_mm) : f.tool->id,
              s.stage,
-             sized_by_diameter(a.use),
+             drills(a.use),
              way.inner,
              way.from_mm,
              way.to_mm};
@@ -351,8 +360,8 @@ void add_centre(Site& s, const char* face, double end_mm) {
 // The bores of a bar that open to an end: how deep, and the narrowest diameter.
 struct Hole {
   double depth_mm = 0, least_mm = INFINITY;
-  std::string first;     // the outermost bore
-  bool to_size = false;  // the narrowest is a hole: the drill has its diameter
+  std::string first;      // the outermost bore
+  double drilled_mm = 0;  // of the innermost if it is a hole: the drill's diameter
   /// Material left between it and the bores of the other end, or that end; the narrowest
   /// of those bores.
   double rest_mm = 0, behind_mm = INFINITY;
@@ -369,6 +378,7 @@ Hole hole_from(const part::Drawing& d, part::End end) {
   Hole h;
   if (d.stock.kind != part::StockKind::bar) return h;
   h.rest_mm = part::length_mm(d);
+  double needed = 0;  // by reamers and taps
   for (const auto& e : d.inner) {
     h.rest_mm -= e.length_mm;
     if (e.from != end) {
@@ -378,8 +388,12 @@ Hole hole_from(const part::Drawing& d, part::End end) {
     if (h.first.empty()) h.first = e.id;
     h.depth_mm += e.length_mm;
     h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
-    h.to_size = part::is_hole(e);
+    h.drilled_mm = part::is_hole(e) ? e.cut->drilled_mm : 0;
+    if (part::is_hole(e)) needed = std::max(needed, h.depth_mm + e.cut->lead_mm);
   }
+  if (!(needed > h.depth_mm)) return h;
+  if (h.rest_mm >= kNoWall_mm) h.rest_mm -= needed - h.depth_mm;
+  h.depth_mm = needed;
   return h;
 }
 
@@ -406,8 +420,8 @@ Asked drilling(const Hole& h, const OperationRequest* given) {
           false,
           given,
           [h](const FixedTool& t, double size) {
-            return (h.to_size ? size == h.least_mm
-                              : size <= h.least_mm - 2 * kLeftToBore_mm) &&
+            return (h.drilled_mm > 0 ? size == h.drilled_mm
+                                     : size <= h.least_mm - 2 * kLeftToBore_mm) &&
                    h.depth_mm <= t.reach * size && h.spares_behind(t, size);
           }};
 }
@@ -418,6 +432,7 @@ const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
     for (const auto& e : p.drawing.inner)
       if (o.kind == OperationKind::fixed && e.from == end &&
           (!e.cut || part::is_hole(e)) && p.setups[o.setup].hold != end &&
+          (!o.tool || names_tool(p, o, FixedUse::drilling)) &&
           std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
         return &o;
   return nullptr;
@@ -436,15 +451,16 @@ void add_drilling(Site& s, part::End end) {
     s.out.before.push_back(
         drilled(s, a, f, drilled_depth_mm(s.p, s.setup, end, f.tool->reach * f.size_mm)));
   else
-    refuse(s, a,
-           fmt::format(
-               "none of the drills is for {}, {}{:g} mm in diameter and long enough for "
-               "{:g} mm{}",
-               s.p.material.name, h.to_size ? "" : "at most ",
-               h.least_mm - (h.to_size ? 0 : 2 * kLeftToBore_mm), h.depth_mm,
-               h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
-                   ? ""
-                   : ", with a point that stays clear of what lies behind the hole"));
+    refuse(
+        s, a,
+        fmt::format(
+            "none of the drills is for {}, {}{:g} mm in diameter and long enough for "
+            "{:g} mm{}",
+            s.p.material.name, h.drilled_mm > 0 ? "" : "at most ",
+            h.drilled_mm > 0 ? h.drilled_mm : h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+            h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
+                ? ""
+                : ", with a point that stays clear of what lies behind the hole"));
 }
 
 // A facing sweep between two diameters at constant surface speed.
@@ -652,6 +668,77 @@ void add_thread(Site& s, const CutElement& e) {
   }));
 }
 
+// A reamer or a tap goes through its hole to its lead beyond, and back at the same feed:
+// in the cut both ways.
+AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
+                                const CutElement& e, double n_cap,
+                                const std::function<Load(const Fitted&)>& load) {
+  const double z0 = e.around.z0, front = e.around.front;
+  const double start = hole_start_mm(z0, front), before = start + kBefore_mm - z0;
+  return at_best(s, f, {f.size_mm}, n_cap, [&](const Fitted& at) {
+    const Duty d{load(at),
+                 std::min(units::spindle_rpm(at.at.vc_m_min, at.size_mm), n_cap),
+                 at.size_mm};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    return operation(s, a, at, {pass_of(d, e.cut.depth_mm, 2 * e.length_mm / vf)},
+                     {2 * (before + e.cut.lead_mm) / vf, 2 * (front - start), true, 0, 0},
+                     {d});
+  });
+}
+
+// Eq. (7).
+void add_reaming(Site& s, const CutElement& e) {
+  const double D = e.cut.drawn.left_mm, deep = e.length_mm + e.cut.lead_mm;
+  const Asked a{FixedUse::reaming,
+                "ream",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::reaming),
+                [&](const FixedTool& t, double size) {
+                  return size == D && deep <= t.reach * D && t.lead <= e.cut.lead_mm;
+                }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no reamer of the tools is for {}, {:g} mm in diameter and "
+                              "reaches {:g} mm deep",
+                              s.p.material.name, D, deep));
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  s.out.after.push_back(through_hole(s, a, f, e, n_cap_rpm(s), [&](const Fitted& at) {
+    return cutting::ream(kc, D, e.cut.drilled_mm, at.at.f_mm_rev, at.tool->edges);
+  }));
+}
+
+// Eq. (7).
+void add_tapping(Site& s, const CutElement& e) {
+  const double d = e.cut.drawn.left_mm, P = e.cut.pitch_mm;
+  const double deep = e.length_mm + e.cut.lead_mm;
+  const Asked a{FixedUse::tapping,
+                "tap",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::tapping),
+                [&](const FixedTool& t, double) {
+                  return catalogue::thread_of(t, d, P) && deep <= t.reach * d &&
+                         t.lead * P <= e.cut.lead_mm * (1 + kBeyondRounding);
+                }};
+  auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(
+        s, a,
+        fmt::format("no tap of the tools is for {} and a thread of {:g} mm with "
+                    "a pitch of {:g} mm, {:g} mm deep",
+                    s.p.material.name, d, P, deep));
+  f.size_mm = d;
+  f.at.f_mm_rev = P;
+  if (f.at.window) f.at.window->f_mm_rev = {P, P};
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double n_cap = std::min(n_cap_rpm(s), s.p.machine.rapid_mm_min / P);
+  s.out.after.push_back(through_hole(s, a, f, e, n_cap, [&](const Fitted& at) {
+    return cutting::tap(kc, d, P, e.cut.depth_mm, at.tool->lead, at.tool->edges);
+  }));
+}
+
 // Inclination of an arc at its end towards the chuck.
 double end_rad(const CutElement& e) {
   const auto& s = e.around;
@@ -801,7 +888,8 @@ template <class Element>
 void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
              part::CutKind kind) {
   if (!e.cut || e.cut->kind != kind) return;
-  if (s.p.operations && !given_on(s, e.id)) {
+  const bool drilled = e.cut->drilled_mm > 0;
+  if (s.p.operations && !drilled && !given_on(s, e.id)) {
     s.out.conflicts.push_back(
         {"operations", setup_label(s.setup), 0, 0, "",
          fmt::format(
@@ -824,11 +912,11 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
     case part::CutKind::groove:
       return add_groove(s, c);
     case part::CutKind::thread:
-      return add_thread(s, c);
+      return drilled ? add_tapping(s, c) : add_thread(s, c);
     case part::CutKind::arc:
       return add_arc(s, c);
     case part::CutKind::hole:
-      break;  // drilled
+      if (c.cut.depth_mm > 0) add_reaming(s, c);
   }
 }
 
@@ -849,13 +937,17 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   using enum part::CutKind;
   for (const std::size_t i : work.outer_chamfers) add_chamfer(s, i, false);
   for (const std::size_t i : work.inner_chamfers) add_chamfer(s, i, true);
-  for (const auto kind : {arc, groove, thread}) {
+  for (const auto kind : {arc, groove, hole, thread}) {
     for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
     for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);
   }
   add_milled(p, setup, clamping, economy, out);
   if (setup == 0 && d.stock.parted_mm) add_parting(s);
   return out;
+}
+
+double hole_start_mm(double begins_mm, double front_mm) {
+  return begins_mm > -kNoWall_mm ? std::max(begins_mm, front_mm) : begins_mm;
 }
 
 double drilled_depth_mm(const PreparedPart& p, std::size_t setup, part::End end,
@@ -867,7 +959,7 @@ double drilled_depth_mm(const PreparedPart& p, std::size_t setup, part::End end,
     const auto& work = p.work.setups[s];
     open = open || (meets ? !work.bores.empty() : work.end_face);
   }
-  if (h.to_size || open || !(h.rest_mm < kNoWall_mm)) return h.depth_mm;
+  if (h.drilled_mm > 0 || open || !(h.rest_mm < kNoWall_mm)) return h.depth_mm;
   double largest = 0;
   for (const auto& t : p.tools) largest = std::max(largest, t.re_mm);
   return std::clamp(h.depth_mm + 2 * largest + kBehind_mm, h.depth_mm,

@@ -22,6 +22,7 @@ namespace turnwright::planning {
 ///              rises behind (l - P)/(P n)                                            (4)
 ///     arc:  passes = ceil(depth/ap) along the tip's path at the blank's largest
 ///           diameter                                                                 (5)
+///     ream, tap:  t = 2 l/(f n), in and out; a tap's f is P                          (7)
 ///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
@@ -29,6 +30,8 @@ namespace turnwright::planning {
 /// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
 /// the drives move and that the jaws hold at the catalogue's conditions, or if there is none
 /// at the gentlest of its window; boring takes the rest.
+/// A hole or a thread that is reamed or tapped is drilled for that, deeper by the lead of
+/// the tool.
 /// Grooves take the widest blade that fits and that machine, jaws and tool bear, parting off
 /// the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
@@ -36,6 +39,10 @@ namespace turnwright::planning {
 AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
                              Clamping clamping, const SetupWork& work,
                              const Economy& economy);
+
+/// Where [mm, in the program's z] the material of a hole that is drawn from `begins_mm`
+/// inwards begins for a reamer or a tap: there, or at the face that stands before it.
+double hole_start_mm(double begins_mm, double front_mm);
 
 /// How deep [mm] a drill goes in a setup whose free end is `end`, its point left out: as far
 /// as the bores of that end.  Where these meet what later setups open, a bore of the other

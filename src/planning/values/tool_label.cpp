@@ -9,9 +9,17 @@ namespace turnwright::planning {
 std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
   if (o.kind != OperationKind::fixed) return o.tool;
   const auto tool = std::ranges::find(p.fixed_tools, o.tool, &catalogue::FixedTool::id);
-  if (tool == p.fixed_tools.end() || tool->sizes_mm.empty()) return o.tool;
+  if (tool == p.fixed_tools.end()) return o.tool;
   using catalogue::FixedUse;
-  const bool round = tool->use == FixedUse::centring || tool->use == FixedUse::drilling;
+  const auto bore = std::ranges::find(p.drawing.inner, o.on[0], &part::InnerElement::id);
+  if (tool->use == FixedUse::tapping)
+    return o.tool + ' ' +
+           catalogue::thread_of(*tool, bore->cut->drawn.left_mm, bore->cut->pitch_mm)
+               ->designation;
+  if (tool->sizes_mm.empty()) return o.tool;
+  if (tool->use == FixedUse::reaming)
+    return fmt::format("{} {:g} mm", o.tool, bore->cut->drawn.left_mm);
+  const bool round = catalogue::on_axis(tool->use);
   return fmt::format("{} {:g} mm", o.tool, (round ? 2 : 1) * o.passes[0].ap_mm);
 }
 

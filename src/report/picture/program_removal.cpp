@@ -28,19 +28,25 @@ const catalogue::FixedTool& fixed_tool(const PreparedPart& part, const Operation
   return *found;
 }
 
-Cutter fixed_cutter(const catalogue::FixedTool& tool, const OperationPlan& o, bool bore) {
+Cutter fixed_cutter(const PreparedPart& part, const OperationPlan& o, bool bore) {
   using Shape = Cutter::Shape;
+  const auto& tool = fixed_tool(part, o);
   const double size = o.passes[0].ap_mm;
   switch (tool.use) {
     case FixedUse::centring:
     case FixedUse::drilling:
       return {Shape::drill, size, units::rad_from_deg(tool.point_deg) / 2};
+    case FixedUse::reaming: {
+      const double radius = part::extent(part.drawing, o.on[0])->left_mm / 2;
+      return {Shape::drill, radius, std::atan2(radius, tool.lead)};
+    }
     case FixedUse::grooving:
     case FixedUse::parting:
       return {bore ? Shape::bore_blade : Shape::blade, size};
     case FixedUse::profiling:
       return {bore ? Shape::bore : Shape::corner, tool.re_mm};
     case FixedUse::threading:
+    case FixedUse::tapping:
       break;
   }
   return {};
@@ -50,7 +56,7 @@ Cutter cutter(const PreparedPart& part, const OperationPlan& o,
               const toolpath::TableTool& t) {
   using Shape = Cutter::Shape;
   const bool bore = t.orientation == kInBore;
-  if (o.kind == OperationKind::fixed) return fixed_cutter(fixed_tool(part, o), o, bore);
+  if (o.kind == OperationKind::fixed) return fixed_cutter(part, o, bore);
   const bool end_face =
       o.kind == OperationKind::face && (o.on[0] == "left" || o.on[0] == "right");
   return {end_face ? Shape::face : bore ? Shape::bore : Shape::corner, t.re_mm};

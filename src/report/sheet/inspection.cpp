@@ -194,6 +194,16 @@ void add_threads(std::vector<Check>& all, const PreparedPart& p,
   for (const auto& e : p.drawing.inner) add(e, "thread plug");
 }
 
+void add_reamed(std::vector<Check>& all, const PreparedPart& p,
+                const planning::SetupPlan& setup, std::size_t index,
+                const std::vector<ToolRow>& tools) {
+  for (const auto& e : p.drawing.inner)
+    if (part::is_reamed(e) && planning::setup_of(p, e.id) == index)
+      all.push_back({fmt::format("\u00d8{} {}", plain(e.left_mm), e.fit.value_or("")),
+                     e.id, "go, no-go", "not predicted", "plug gauge",
+                     when(p, finishing_tool(tools, setup, e.id), false)});
+}
+
 }  // namespace
 
 std::vector<Check> inspection(const PreparedPart& part, const planning::ProcessPlan& plan,
@@ -208,6 +218,7 @@ std::vector<Check> inspection(const PreparedPart& part, const planning::ProcessP
   }
   add_roughness(all, part, answer, setup, tools);
   add_threads(all, part, answer, setup, tools);
+  add_reamed(all, part, answer, setup, tools);
   return all;
 }
 

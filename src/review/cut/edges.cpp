@@ -32,6 +32,11 @@ Polygon wedge(double re, double kapr_rad, double minor_rad, double length) {
   return insert_edge({re, {corner, on(major), on(minor)}, {}});
 }
 
+// A body of revolution about the axis with a point.
+Polygon pointed(double r, double point) {
+  return hull({{0, 0}, {r, point}, {r, kFar_mm}, {-r, kFar_mm}, {-r, point}});
+}
+
 }  // namespace
 
 Polygon polygon_of(const catalogue::ConvexOutline& outline) {
@@ -62,9 +67,10 @@ Polygon profiling_edge(double re_mm) {
 }
 
 Polygon drill_edge(double D, double point_deg) {
-  const double r = D / 2, point = cutting::drill_point_mm(D, point_deg);
-  return hull({{0, 0}, {r, point}, {r, kFar_mm}, {-r, kFar_mm}, {-r, point}});
+  return pointed(D / 2, cutting::drill_point_mm(D, point_deg));
 }
+
+Polygon reamer_edge(double D, double lead) { return pointed(D / 2, lead); }
 
 Polygon thread_edge(double pitch_mm) {
   const double h = 0.8 * pitch_mm, w = h * std::tan(kPi / 6);

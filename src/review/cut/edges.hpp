@@ -15,6 +15,8 @@ Polygon insert_edge(const catalogue::ToolOutline& outline);
 Polygon profiling_edge(double re_mm);
 /// A drill of any length, its point in the origin.
 Polygon drill_edge(double D_mm, double point_deg);
+/// A reamer of any length, the end of its lead in the origin.
+Polygon reamer_edge(double D_mm, double lead_mm);
 /// The tooth of a threading tool of a pitch; the insert beside it is in no document.
 Polygon thread_edge(double pitch_mm);
 

@@ -158,7 +158,8 @@ class Follower {
     const Spot from = place(m.from->h_mm, m.from->z_mm);
     const Spot to = place(m.to.x_mm, m.to.z_mm);
     if (m.to.kind == Move::Kind::rapid) return rapid(from, to, m.line);
-    if (m.to.kind == Move::Kind::thread) return thread(from, to, m.line);
+    if (m.to.kind == Move::Kind::thread)
+      return edge_.on_axis ? tap(from, to, m.line) : thread(from, to, m.line);
     if (m.to.kind == Move::Kind::feed) return straight(from, to, m.line);
     const auto way = chords(m);
     for (std::size_t i = 1; i < way.size(); ++i) straight(way[i - 1], way[i], m.line);
@@ -237,7 +238,7 @@ class Follower {
       return parts ? w_.face_at(middle, 2 * edge_.width_mm, edge_.inner)
                    : w_.element_at(middle, edge_.inner);
     }
-    if (edge_.drills) {
+    if (edge_.on_axis && tool_->fixed->use != FixedUse::reaming) {
       const bool centres = tool_->fixed->use == FixedUse::centring;
       const double end = sign_ > 0 ? part::length_mm(part_.drawing) : 0;
       const auto bore = centres ? std::string() : w_.element_at(end, true);
@@ -273,6 +274,29 @@ class Follower {
       p.length_mm = static_cast<double>(all.size()) * w_.pitch_mm;
       p.time_min = p.length_mm / (at_->f_mm_rev * rpm_at(*at_, p.x_to_mm));
       add(on, p);
+    }
+  }
+
+  // A tap cuts the threads of the drawing that its full diameter passes; on its way back it
+  // finds them cut.
+  void tap(const Spot& from, const Spot& to, std::size_t line) {
+    const double lead = sign_ * tool_->fixed->lead * at_->f_mm_rev;
+    const auto [low, high] = std::minmax({from.z + lead, to.z + lead});
+    const auto& d = part_.drawing;
+    for (std::size_t i = 0; i < d.inner.size(); ++i) {
+      const auto& e = d.inner[i];
+      if (!part::is_tapped(e)) continue;
+      const double z0 = part::inner_left_z_mm(d, i);
+      const double length = std::min(high, z0 + e.length_mm) - std::max(low, z0);
+      if (!(length > kTaken_mm) || threads_[e.id] > 0) continue;
+      threads_[e.id] = e.cut->depth_mm;
+      PassCut p;
+      p.line = p.most_line = line;
+      p.ap_mm = p.most_mm = e.cut->depth_mm;
+      p.x_mm = p.x_from_mm = p.x_to_mm = e.cut->drawn.left_mm / 2;
+      p.length_mm = 2 * length;
+      p.time_min = p.length_mm / (at_->f_mm_rev * at_->S);
+      add(e.id, p);
     }
   }
 

@@ -17,10 +17,13 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill_edge(size, t.point_deg);
+    case FixedUse::reaming:
+      return reamer_edge(size, t.lead);
     case FixedUse::grooving:
     case FixedUse::parting:
       return rectangle(0, t.reach, 0, size);
     case FixedUse::threading:
+    case FixedUse::tapping:
       return thread_edge(kAnyPitch_mm);
     case FixedUse::profiling:
       break;
@@ -45,15 +48,15 @@ MountedEdge mounted_edge(const MountedTool& tool, double sign) {
     edge = insert_edge(catalogue::outline(*tool.turning));
   } else {
     const auto& t = *tool.fixed;
-    m.drills = t.use == FixedUse::centring || t.use == FixedUse::drilling;
-    m.threads = t.use == FixedUse::threading;
+    m.on_axis = catalogue::on_axis(t.use);
+    m.threads = t.use == FixedUse::threading || t.use == FixedUse::tapping;
     m.plunges = t.use == FixedUse::grooving || t.use == FixedUse::parting;
-    m.inner = t.inner || m.drills;
+    m.inner = t.inner || m.on_axis;
     m.re_mm = t.re_mm;
     m.width_mm = m.plunges ? tool.size_mm : 0;
     edge = fixed_edge(t, tool.size_mm);
   }
-  m.edge = placed(edge, m.inner && !m.drills ? -1 : 1, sign);
+  m.edge = placed(edge, m.inner && !m.on_axis ? -1 : 1, sign);
   m.small = eroded(m.edge, kTouch_mm);
   return m;
 }

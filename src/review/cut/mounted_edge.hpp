@@ -8,7 +8,7 @@ namespace turnwright::review {
 struct MountedEdge {
   Polygon edge;   ///< in the part's directions, from the programmed point
   Polygon small;  ///< smaller by what a rapid may touch
-  bool inner = false, drills = false, threads = false, plunges = false;
+  bool inner = false, on_axis = false, threads = false, plunges = false;
   double width_mm = 0;  ///< of a blade
   double re_mm = 0;
 };

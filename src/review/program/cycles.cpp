@@ -38,6 +38,18 @@ void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm) {
   s.straight(Kind::rapid, x0, z0);
 }
 
+void tap_cycle(ModalState& s, double from_z, double to_z, double lead_mm) {
+  if (!s.x_mm || !s.z_mm || *s.x_mm != 0 || !(lead_mm > 0))
+    return s.unknown(
+        "a tap that is not followed",
+        "X or Z was not given before it, X is not 0, or the lead is missing.");
+  const double z0 = *s.z_mm;
+  s.straight(Kind::rapid, 0, from_z);
+  s.thread(0, to_z, lead_mm);
+  s.thread(0, from_z, lead_mm);
+  s.straight(Kind::rapid, 0, z0);
+}
+
 void thread_cycle(ModalState& s, const ThreadCycle& c) {
   const double depth = std::abs(c.end_x_mm - c.outside_mm);
   if (!(depth > 0 && c.first_mm > 0 && c.degression >= 1 && c.lead_mm > 0) || !s.x_mm)

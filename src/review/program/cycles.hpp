@@ -12,6 +12,10 @@ namespace turnwright::review {
 enum class Box { turning, facing, threading };
 void box_cycle(ModalState& s, Box box, double x, double z, double lead_mm);
 
+/// A tap from a place on the axis, at rapid from where the tool stands, to another one and
+/// back, then to where it stood.
+void tap_cycle(ModalState& s, double from_z_mm, double to_z_mm, double lead_mm);
+
 /// All cuts of a thread by G76, from where the tool stands.
 struct ThreadCycle {
   double outside_mm = 0;  ///< radius before the first cut; of a bore its wall

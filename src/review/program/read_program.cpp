@@ -130,6 +130,7 @@ class ProgramReader {
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
     if (special_ == Special::contour) return contour_cycle(block);
+    if (special_ == Special::tap) return tap(block);
     move(block);
     for (const auto& w : block.words)
       if (w.name == "M" && w.value) ends(static_cast<int>(*w.value));
@@ -144,6 +145,8 @@ class ProgramReader {
       motion_ = g;
     else if (g == 76)
       special_ = Special::thread_cycle;
+    else if (taps(g))
+      special_ = Special::tap;
     else if ((g == 70 || g == 71) && system_a(control_)) {
       special_ = Special::contour;
       contour_code_ = g;
@@ -154,8 +157,18 @@ class ProgramReader {
       strange(g, block);
   }
 
+  bool taps(int g) const {
+    if (control_ == Control::siemens) return g == 331 || g == 332;
+    if (control_ == Control::okuma) return g == 77;
+    return g == 84 && control_ != Control::linuxcnc;
+  }
+
   // Codes with a decimal.
   void fraction(double value) {
+    if (control_ == Control::linuxcnc && std::abs(value - 33.1) < 1e-6) {
+      special_ = Special::tap;
+      return;
+    }
     if (std::abs(value - 92.1) < 1e-6 || std::abs(value - 92.2) < 1e-6) {
       s_.suspended.clear();
       s_.lose_place();
@@ -233,7 +246,8 @@ class ProgramReader {
 
   void word(const Word& w, const Block& block) {
     const auto value = w.value.value_or(0);
-    if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle)
+    if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
+        special_ != Special::tap)
       feed(value);
     else if (w.name == "S")
       special_ == Special::limit ? limit(value) : speed(value);
@@ -246,6 +260,8 @@ class ProgramReader {
       machine(static_cast<int>(value), w.text);
     else if (w.name == "DIAMON" || w.name == "DIAMOF")
       s_.diameter = w.name == "DIAMON";
+    else if (w.name == "SPOS")  // the spindle stops for a tap, which G331 turns
+      return;
     else if (w.name.size() > 1 && !block.find("G"))
       s_.unknown(w.text, "The word is not known.");
     if (w.name.size() == 1 &&
@@ -359,6 +375,20 @@ class ProgramReader {
     box(block, box_end_->h_mm, box_end_->z_mm);
   }
 
+  // On the axis, with the spindle in step.  Siemens has a block for each way.
+  void tap(const Block& block) {
+    const auto t = target(block);
+    if (t.x && t.x != s_.x_mm) s_.straight(Move::Kind::rapid, t.x, s_.z_mm);
+    const bool own_words = words_.lead == 'K';
+    const double lead = s_.mm(block.value(own_words ? "K" : "F").value_or(0));
+    if (!t.z || !s_.z_mm)
+      return s_.unknown("a tap that is not followed", "Z was not given before or in it.");
+    if (control_ == Control::siemens && s_.x_mm) return s_.thread(*s_.x_mm, *t.z, lead);
+    const double R = s_.mm(block.value("R").value_or(0));
+    const bool absolute = control_ == Control::haas && block.find("R");
+    tap_cycle(s_, absolute ? R : *s_.z_mm + R, *t.z, lead);
+  }
+
   // G90, G92 and G94 of system A.
   void box(const Block& block, double x, double z) {
     if (block.value("R").value_or(0) != 0)
@@ -441,7 +471,7 @@ class ProgramReader {
     return std::nullopt;
   }
 
-  enum class Special { none, done, limit, thread_cycle, contour };
+  enum class Special { none, done, limit, thread_cycle, contour, tap };
 
   const std::vector<std::string_view>& lines_;
   Control control_;

@@ -162,7 +162,10 @@ json drilled(double d_mm, const json& more = json::object()) {
   return d;
 }
 
-bool by_the_drill(const json& d) { return part::is_hole(part(d).drawing.inner.at(0)); }
+bool by_the_drill(const json& d) {
+  const auto e = part(d).drawing.inner.at(0);
+  return part::is_hole(e) && !part::is_reamed(e);
+}
 
 // The carbide drills hold IT10, 58 um above 8 mm, and Ra 3.2.
 TEST(Holes, AreDrilledWhereADrillKeepsThem) {
@@ -183,6 +186,104 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
                           {"datum", "d1"},
                           {"value_mm", 0.1}}};
   EXPECT_FALSE(by_the_drill(named));
+}
+
+part::InnerElement first_bore(const json& d) { return part(d).drawing.inner.at(0); }
+
+// The reamers make H7, 15 um above 8 mm, and Ra 0.8, after a drill of 7.8 mm.
+TEST(Holes, AreReamedWhereADrillDoesNotKeepThem) {
+  for (const json& more : {json{{"limits_mm", {0, 0.057}}},
+                           json{{"limits_mm", {-0.01, 0.015}}}, json{{"fit", "H7"}},
+                           json{{"Ra_um", 0.8}}, json{{"kind", "hole"}, {"fit", "H7"}}}) {
+    const auto e = first_bore(drilled(8, more));
+    ASSERT_TRUE(part::is_reamed(e)) << more;
+    EXPECT_EQ(e.left_mm, 8) << more;
+    EXPECT_EQ(e.cut->drilled_mm, 7.8) << more;
+    EXPECT_EQ(e.fit,
+              more.contains("fit") ? std::optional<std::string>("H7") : std::nullopt);
+  }
+  EXPECT_FALSE(part::is_hole(first_bore(drilled(8, {{"limits_mm", {0, 0.014}}}))));
+  EXPECT_FALSE(part::is_hole(first_bore(drilled(8, {{"fit", "G7"}}))));
+  EXPECT_FALSE(part::is_hole(first_bore(drilled(8, {{"Ra_um", 0.7}}))));
+  EXPECT_FALSE(part::is_hole(first_bore(drilled(8.5, {{"fit", "H7"}})))) << "no reamer";
+}
+
+json threaded(const char* designation, double length_mm) {
+  auto d = drilled(8);
+  d["inner"][0] = {{"id", "b1"},
+                   {"kind", "thread"},
+                   {"from", "right"},
+                   {"length_mm", length_mm},
+                   {"designation", designation}};
+  return d;
+}
+
+// DIN 336's drills, where the carbide drills have them.
+TEST(Threads, ThatNoBarEntersAreTapped) {
+  const std::pair<const char*, double> taps[] = {
+      {"M4", 3.3},  {"M5", 4.2},       {"M6", 5},     {"M8", 6.8}, {"M8x1", 7},
+      {"M10", 8.5}, {"M10x1.25", 8.8}, {"M12", 10.2}, {"M16", 14}};
+  for (const auto& [designation, drill] : taps) {
+    const auto e = first_bore(threaded(designation, 8));
+    ASSERT_TRUE(part::is_tapped(e)) << designation;
+    EXPECT_EQ(e.cut->drilled_mm, drill) << designation;
+    EXPECT_EQ(e.left_mm, drill) << designation;
+  }
+  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M20", 8)))) << "a bar enters";
+  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10x0.75", 8)))) << "no tap";
+  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10", 27)))) << "deeper than 3 d";
+  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M3", 8)))) << "no drill";
+}
+
+// The drill goes as deep as the tap with its lead of 2.5 pitches, or as what is drawn
+// behind; with a hole behind that is as wide as the tap's drill, one drill makes both.
+TEST(Threads, AreDrilledForTheLeadOfTheTap) {
+  auto d = threaded("M10", 16);
+  const auto depth = [](const json& document) {
+    const auto p = part(document);
+    EXPECT_EQ(plan(p).status, PlanStatus::ok);
+    return drilled_depth_mm(p, 0, part::End::right, 1000);
+  };
+  EXPECT_NEAR(depth(d), 16 + 2.5 * 1.5, 1e-12);
+  const auto hole = [](double D, double length_mm) {
+    return json{{"id", "b2"},
+                {"kind", "hole"},
+                {"from", "right"},
+                {"length_mm", length_mm},
+                {"diameter_mm", D}};
+  };
+  d["inner"].push_back(hole(8.5, 6));
+  EXPECT_NEAR(depth(d), 22, 1e-12);
+  d["inner"][1] = hole(8.5, 2);
+  EXPECT_NEAR(depth(d), 16 + 2.5 * 1.5, 1e-12);
+  d["inner"][1] = hole(8, 6);
+  EXPECT_THROW(part(d), InputError) << "two drills";
+}
+
+// In the cut both ways through the hole; the lead beyond it and 2 mm before it at feed.
+TEST(Threads, TakeTheTimeOfTheirWays) {
+  const auto p = part(threaded("M10", 16));
+  const auto work =
+      auxiliary_work(p, 0, Clamping::chuck, p.work.setups[0], {p.machine_per_min, 1})
+          .all();
+  const auto tap =
+      std::ranges::find(work, "s1-tap-b1", [](const auto& o) { return o.plan.id; });
+  ASSERT_NE(tap, work.end());
+  const auto& pass = tap->plan.passes.at(0);
+  EXPECT_EQ(pass.f_mm_rev, 1.5);
+  EXPECT_NEAR(tap->plan.time_min, 2 * 16 / (1.5 * pass.n_rpm), 1e-12);
+  EXPECT_NEAR(tap->air_min, 2 * (2 + 2.5 * 1.5) / (1.5 * pass.n_rpm), 1e-12);
+}
+
+// A counterbore before them is bored; the tap has to pass through it.
+TEST(Threads, BehindABoreAreTappedIfTheTapPasses) {
+  auto d = threaded("M12", 16);
+  auto counterbore = cylinder("b0", 6, 20);
+  counterbore["from"] = "right";
+  d["inner"] = json::array({counterbore, d["inner"][0]});
+  EXPECT_TRUE(part::is_tapped(part(d).drawing.inner.at(1)));
+  d["inner"][0]["diameter_mm"] = 11.5;
+  EXPECT_FALSE(part::is_tapped(part(d).drawing.inner.at(1)));
 }
 
 // One drill of 8 mm, no boring, and the bore weakens the part like any other.
@@ -241,6 +342,9 @@ TEST(Holes, OfGivenOperationsAreDrilledByOne) {
                      operation("o3", "finish", "d1"), operation("o4", "fixed", "b1")};
   EXPECT_TRUE(part(d).work.unreachable.empty());
   EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+  d["inner"][0]["kind"] = "cylinder";
+  EXPECT_TRUE(by_the_drill(d)) << "nothing bores it";
+  d["inner"][0]["kind"] = "hole";
   d["operations"].erase(3);
   EXPECT_EQ(
       part(d).work.unreachable,
@@ -260,12 +364,15 @@ TEST(Holes, AreNotAskedForMoreThanADrillLeaves) {
     return "accepted";
   };
   const std::string leaves =
-      ", expected no more than a drill leaves (DRILL-HM-5D IT10 and Ra 3.2 um; "
-      "DRILL-HM-8D IT10 and Ra 3.2 um), or \"cylinder\" as kind, which is bored";
-  EXPECT_EQ(answer({{"fit", "H7"}}), "part: /inner/0/fit: got \"H7\"" + leaves);
+      ", expected no more than a drill or a reamer leaves (DRILL-HM-5D IT10 and Ra 3.2 "
+      "um; "
+      "DRILL-HM-8D IT10 and Ra 3.2 um; REAM-HSS-H7 IT7 and Ra 0.8 um), or \"cylinder\" "
+      "as "
+      "kind, which is bored";
+  EXPECT_EQ(answer({{"fit", "H6"}}), "part: /inner/0/fit: got \"H6\"" + leaves);
   EXPECT_EQ(answer({{"Ra_um", 0.2}}), "part: /inner/0/Ra_um: got 0.2" + leaves);
-  EXPECT_EQ(answer({{"limits_mm", {0.0, 0.05}}}),
-            "part: /inner/0/limits_mm: got [0.0,0.05]" + leaves);
+  EXPECT_EQ(answer({{"limits_mm", {0.0, 0.01}}}),
+            "part: /inner/0/limits_mm: got [0.0,0.01]" + leaves);
   EXPECT_TRUE(answer({{"fit", "H7x"}}).starts_with("part: /inner/0/fit: got \"H7x\""));
   for (const json& asked :
        {json{{"fit", "H10"}}, json{{"Ra_um", 3.2}}, json{{"limits_mm", {0, 0.058}}}})
