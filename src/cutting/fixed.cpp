@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "turnwright/base/units.hpp"
 
@@ -22,8 +21,9 @@ Load drill(const catalogue::Kienzle& k, double D, double f, double point_deg) {
   return {Fc, 0.5 * kc * f * D / 2 * sine, units::torque_Nm(Fc, D / 2)};
 }
 
-Load ream(const catalogue::Kienzle& k, double D, double d, double f, int edges) {
-  const double sine = std::numbers::sqrt2 / 2, a = (D - d) / 2;
+Load ream(const catalogue::Kienzle& k, double D, double d, double f, int edges,
+          double lead_deg) {
+  const double sine = std::sin(units::rad_from_deg(lead_deg)), a = (D - d) / 2;
   const double kc = k.k11_MPa * std::pow(f / edges * sine, -k.m);  // Eq. (7)
   const double Fc = kc * f * a;                                    // Eq. (8)
   return {Fc, 0.5 * Fc * sine, units::torque_Nm(Fc, (D + d) / 2)};

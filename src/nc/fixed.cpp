@@ -65,6 +65,18 @@ Place place_of(Site& site, const std::string& id) {
   throw std::domain_error("nc: no element " + id);
 }
 
+// Down to the chamfer's width where a hole begins; the tool is set by its cone's point.
+void countersink(Site& site, const OperationPlan& o, const FixedTool& tool) {
+  const auto& s = place_of(site, o.on[0]).surface();
+  const double D = 2 * (s.front->radial_mm - s.h0);
+  site.rapid(0, site.at.z_mm);
+  site.rapid(0, site.front + kBefore_mm);
+  site.rapid(0, s.z0 + kBefore_mm);
+  site.to(Kind::feed, site.outer, {0, s.z0 - cutting::drill_point_mm(D, tool.point_deg)});
+  site.rapid(0, s.z0 + kBefore_mm);
+  site.rapid(0, site.front + kBefore_mm);
+}
+
 // Through a hole, beyond it by the tool's lead, and back: a reamer at feed, a tap with the
 // spindle reversed in step.
 void through_hole(Site& site, const OperationPlan& o, Kind kind) {
@@ -269,6 +281,8 @@ void fixed(Site& site, std::size_t operation) {
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill(site, o, tool);
+    case FixedUse::countersinking:
+      return countersink(site, o, tool);
     case FixedUse::reaming:
       return through_hole(site, o, Kind::feed);
     case FixedUse::tapping:

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "turnwright/base/units.hpp"
+
 namespace turnwright::part {
 namespace {
 
@@ -61,6 +63,20 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
       return Undercut{radius, reduced / 2, form == 'A' ? long_width : short_width, 0,
                       pitch};
   return std::nullopt;
+}
+
+double way_in_mm(const Drawing& d, std::size_t i) {
+  double least = INFINITY;
+  for (std::size_t k = 0; k < i; ++k)
+    if (d.inner[k].from == d.inner[i].from)
+      least = std::min({least, d.inner[k].left_mm, d.inner[k].right_mm});
+  return least;
+}
+
+bool fits_countersink(const Chamfer& c, double point_deg) {
+  constexpr double kSame_deg = 1e-6;
+  const double half_deg = units::deg_from_rad(std::atan2(c.radial_mm, c.axial_mm));
+  return std::abs(half_deg - point_deg / 2) < kSame_deg;
 }
 
 std::string designation(const Undercut& u) {

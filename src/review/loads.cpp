@@ -43,8 +43,12 @@ class Edge {
   bool fixed() const { return tool_.fixed.has_value(); }
   FixedUse use() const { return tool_.fixed->use; }
   bool on_axis() const { return fixed() && catalogue::on_axis(use()); }
-  bool taps() const { return fixed() && use() == FixedUse::tapping; }
-  bool reams() const { return fixed() && use() == FixedUse::reaming; }
+  bool drills() const {
+    return fixed() && (use() == FixedUse::drilling || use() == FixedUse::centring);
+  }
+  bool widens() const {
+    return fixed() && (use() == FixedUse::reaming || use() == FixedUse::countersinking);
+  }
 
   /// Of a pass at a depth; `D_mm` is its diameter.
   Force force(const PassCut& p, double ap_mm, double f_mm_rev) const {
@@ -59,9 +63,11 @@ class Edge {
         const auto load = cutting::drill(kc, tool_.size_mm, f_mm_rev, t.point_deg);
         return {load.Fc_N, load.Ff_N, 0};
       }
+      case FixedUse::countersinking:
       case FixedUse::reaming: {
-        const double drilled = tool_.size_mm - 2 * ap_mm;
-        const auto load = cutting::ream(kc, tool_.size_mm, drilled, f_mm_rev, t.edges);
+        const double lead_deg = t.use == FixedUse::reaming ? 45 : t.point_deg / 2;
+        const auto load =
+            cutting::ream(kc, D, D - 2 * p.most_mm, f_mm_rev, t.edges, lead_deg);
         return {load.Fc_N, load.Ff_N, 0};
       }
       case FixedUse::tapping: {
@@ -99,30 +105,22 @@ class Edge {
   cutting::Cut cut_;
 };
 
-// The largest diameter in the cut.
-double diameter_mm(const Edge& edge, const MountedTool& tool, const PassCut& p) {
-  return edge.on_axis() && !edge.taps() ? tool.size_mm : 2 * p.x_to_mm;
-}
-
 // The diameter on which the cutting force has its lever.
-double lever_mm(const Edge& edge, const MountedTool& tool, const PassCut& p) {
-  const double D = diameter_mm(edge, tool, p);
-  if (edge.reams()) return D - p.ap_mm;
-  return edge.on_axis() && !edge.taps() ? D / 2 : D;
+double lever_mm(const Edge& edge, const PassCut& p) {
+  const double D = 2 * p.x_to_mm;
+  return edge.drills() ? D / 2 : edge.widens() ? D - p.most_mm : D;
 }
 
-Loads loads_of(const Edge& edge, const MountedTool& tool, const Cut& cut,
-               const PassCut& p) {
+Loads loads_of(const Edge& edge, const Cut& cut, const PassCut& p) {
   Loads l;
-  const double D = diameter_mm(edge, tool, p);
+  const double D = 2 * p.x_to_mm;
   l.n_rpm = rpm(cut.at, D / 2);
   l.vc_m_min = units::cutting_speed_m_min(l.n_rpm, D);
   const auto F = edge.force(p, p.ap_mm, cut.at.f_mm_rev);
   l.Fc_N = F.Fc_N;
   l.Ff_N = F.Ff_N;
   l.Fp_N = F.Fp_N;
-  l.Pc_kW =
-      units::shaft_power_kW(units::torque_Nm(F.Fc_N, lever_mm(edge, tool, p)), l.n_rpm);
+  l.Pc_kW = units::shaft_power_kW(units::torque_Nm(F.Fc_N, lever_mm(edge, p)), l.n_rpm);
   l.T_min = edge.life_min(l.vc_m_min, cut.at.f_mm_rev, p.ap_mm);
   return l;
 }
@@ -189,7 +187,7 @@ void add_loads(const planning::PreparedPart& part, std::size_t setup,
   const Edge edge(part, tool);
   Limits limits(cut.limits);
   for (const auto& p : cut.passes) {
-    const auto l = loads_of(edge, tool, cut, p);
+    const auto l = loads_of(edge, cut, p);
     if (l.Fc_N > kHeavier * cut.loads.Fc_N) cut.loads = l;
     cut.most_Fc_N =
         std::max(cut.most_Fc_N, edge.force(p, p.most_mm, cut.at.f_mm_rev).Fc_N);
@@ -202,7 +200,7 @@ void add_loads(const planning::PreparedPart& part, std::size_t setup,
     const bool outside =
         !radial && !edge.on_axis() && !(tool.turning && tool.turning->bar);
     const bool faces = cut.kind == planning::OperationKind::face;
-    const double lever = lever_mm(edge, tool, p);
+    const double lever = lever_mm(edge, p);
     add_machine_limits(part, setup, l, lever,
                        lever + (outside && !faces ? 2 * p.ap_mm : 0), radial,
                        rpm(cut.at, p.x_from_mm), limits);

@@ -51,6 +51,14 @@ TEST(Ream, PowerIsSpecificForceTimesVolumePerTime) {
   EXPECT_NEAR(units::shaft_power_kW(l.M_Nm, n), kc * volume / 60e6, 1e-12);
 }
 
+// The thrust of a countersink goes with the sine of half its angle.
+TEST(Ream, OfAFlatterLeadPushesHarder) {
+  const auto steep = ream({1600, 0}, 10, 8, 0.1, 3, 45),
+             flat = ream({1600, 0}, 10, 8, 0.1, 3, 90);
+  EXPECT_NEAR(flat.Ff_N / steep.Ff_N, std::sqrt(2), 1e-12);
+  EXPECT_NEAR(flat.M_Nm, steep.M_Nm, 1e-12);
+}
+
 // By hand: each tooth of 2.5 pitches with three flutes takes 0.75/7.5 = 0.1 mm, so
 // kc = 1600 0.1^-0.25 = 2845 N/mm2 and M = 2845 1.5^2 10/8 = 8.0 Nm.
 TEST(Tap, TorqueOfM10InSteelIsEightNewtonMetres) {

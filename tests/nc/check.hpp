@@ -66,6 +66,7 @@ class Check : private Sizes {
     Outline outline;
     bool inner = false, drill = false, thread = false;
     double D = 0, point = 0;
+    double slope = 0;  ///< of a countersink
   };
   Tool tool(const planning::OperationPlan& o) const {
     const auto e = part::extent(p_.part.drawing, o.on[0]);
@@ -83,6 +84,7 @@ class Check : private Sizes {
                 false,
                 2 * o.passes[0].ap_mm,
                 o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
+      if (t.use == countersinking) return countersink(o, t);
       if (t.use == reaming || t.use == tapping) return behind_lead(o, t);
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
@@ -90,6 +92,20 @@ class Check : private Sizes {
       return {{t.re_mm, part::kProfilingClears_rad, 0, 4}, inner, false, false, 0, 0};
     }
     return {};
+  }
+
+  Tool countersink(const planning::OperationPlan& o,
+                   const catalogue::FixedTool& t) const {
+    const auto& inner = p_.part.drawing.inner;
+    const auto& e = *std::ranges::find(inner, o.on[0], &part::InnerElement::id);
+    const double D = e.left_mm + 2 * part::opening_chamfer(e)->radial_mm;
+    return {{},
+            true,
+            true,
+            false,
+            *std::ranges::lower_bound(t.sizes_mm, D),
+            0,
+            std::tan(t.point_deg * M_PI / 360)};
   }
 
   // A reamer or a tap: like a drill whose point is as long as the lead.
@@ -139,7 +155,9 @@ class Check : private Sizes {
     const auto frame = [&](double z) { return left_ ? z - length() : -z; };
     if (t.drill && t.thread) return tapped(*o, w, t.point);
     if (t.drill) {
-      if (w.x0 == 0 && w.x1 == 0 && !w.rapid)
+      if (w.x0 == 0 && w.x1 == 0 && !w.rapid && t.slope > 0)
+        inner_.countersink(t.slope, t.D, std::min(w.z0, w.z1), frame);
+      else if (w.x0 == 0 && w.x1 == 0 && !w.rapid)
         inner_.drill(t.D, std::min(w.z0, w.z1) + t.point, frame);
       return;
     }

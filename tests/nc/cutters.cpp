@@ -44,6 +44,15 @@ Cutter drill(double D, double point_deg) {
   return c;
 }
 
+// The smallest that is as wide as the chamfer.
+double countersink_mm(const Planned& p, const OperationPlan& o,
+                      const catalogue::FixedTool& t) {
+  const auto& e =
+      *std::ranges::find(p.part.drawing.inner, o.on[0], &part::InnerElement::id);
+  const auto& c = e.from == part::End::left ? e.left_chamfer : e.right_chamfer;
+  return *std::ranges::lower_bound(t.sizes_mm, e.left_mm + 2 * c->radial_mm);
+}
+
 // A reamer or a tap cuts to its whole diameter behind its lead; what the lead does is in
 // the drilled hole's own allowance.
 Cutter behind_lead(const Planned& p, const OperationPlan& o,
@@ -69,6 +78,8 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill(2 * ap, t.point_deg);
+    case FixedUse::countersinking:
+      return drill(countersink_mm(p, o, t), t.point_deg);
     case FixedUse::reaming:
     case FixedUse::tapping:
       return behind_lead(p, o, t);

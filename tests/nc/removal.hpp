@@ -67,6 +67,12 @@ class Material {
     for (std::size_t i = 0; i < h_.size(); ++i)
       if (frame(z(i)) >= z_full) h_[i] = std::min(h_[i], -D / 2);
   }
+  template <class Frame>
+  void countersink(double slope, double D, double z_point, const Frame& frame) {
+    for (std::size_t i = 0; i < h_.size(); ++i)
+      if (frame(z(i)) >= z_point)
+        h_[i] = std::min(h_[i], -std::min(D / 2, slope * (frame(z(i)) - z_point)));
+  }
 
  private:
   // The places that a way's outlines reach.

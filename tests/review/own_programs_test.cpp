@@ -28,6 +28,12 @@ MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
     const bool round =
         t.use == catalogue::FixedUse::drilling || t.use == catalogue::FixedUse::centring;
     m.size_mm = t.sizes_mm.empty() ? 0 : (round ? 2 : 1) * o.passes[0].ap_mm;
+    if (t.use == catalogue::FixedUse::countersinking) {
+      const auto& inner = p.part.drawing.inner;
+      const auto& e = *std::ranges::find(inner, o.on[0], &part::InnerElement::id);
+      const double D = e.left_mm + 2 * part::opening_chamfer(e)->radial_mm;
+      m.size_mm = *std::ranges::lower_bound(t.sizes_mm, D);
+    }
     if (t.use == catalogue::FixedUse::reaming)
       m.size_mm = part::extent(p.part.drawing, o.on[0])->left_mm;
   }
@@ -215,7 +221,9 @@ TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
       expect_review_of_plan(name, p, {.control = d.control});
       for (const auto& s : reviewed(p, {.control = d.control}).review.setups)
         for (const auto& o : p.plan.setups[s.setup].operations) {
-          if (!o.tool.starts_with("REAM") && !o.tool.starts_with("TAP")) continue;
+          if (!o.tool.starts_with("REAM") && !o.tool.starts_with("TAP") &&
+              !o.tool.starts_with("CSINK"))
+            continue;
           const auto* c = cut_of(s, o);
           ASSERT_TRUE(c) << name << " " << o.id;
           EXPECT_EQ(c->passes.size(), 1U) << o.id;

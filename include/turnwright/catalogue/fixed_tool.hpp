@@ -13,6 +13,7 @@ namespace turnwright::catalogue {
 enum class FixedUse {
   centring,
   drilling,
+  countersinking,
   reaming,
   tapping,
   grooving,
@@ -24,7 +25,8 @@ enum class FixedUse {
 /// Whether a tool works along the axis of the spindle with its whole diameter.
 constexpr bool on_axis(FixedUse use) {
   using enum FixedUse;
-  return use == centring || use == drilling || use == reaming || use == tapping;
+  return use == centring || use == drilling || use == countersinking || use == reaming ||
+         use == tapping;
 }
 
 /// Speeds and feeds from which planning chooses, and how the life goes with them.
@@ -79,16 +81,16 @@ struct FixedTool {
   FixedUse use = FixedUse::centring;
   bool inner = false;      ///< works in a bore
   double min_bore_mm = 0;  ///< smallest bore that an inner tool enters
-  /// Diameters of drills (for centre drills of the countersink) and reamers or widths of
-  /// blades, in rising order; empty for other tools.
+  /// Diameters of drills (for centre drills of the countersink), countersinks and reamers
+  /// or widths of blades, in rising order; empty for other tools.
   std::vector<double> sizes_mm;
   Range pitch_mm;    ///< pitches of threads that it cuts
   double reach = 0;  ///< deepest cut: of tools on the axis in diameters, of blades in mm
   std::vector<ThreadSize> threads = {};  ///< of taps
   Range allowance_mm = {};  ///< of the diameter, that a reamer takes off a drilled hole
   double lead = 0;  ///< length of the tapered front: of reamers in mm, of taps in pitches
-  int edges = 0;    ///< of reamers and taps
-  double point_deg = 0;                  ///< point angle of a drill
+  int edges = 0;    ///< of countersinks, reamers and taps
+  double point_deg = 0;                  ///< point angle of a drill or a countersink
   std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
   std::optional<Pecking> pecking = {};   ///< absent: it drills every hole in one feed
   double ap_mm = 0;                      ///< largest depth of a profiling pass

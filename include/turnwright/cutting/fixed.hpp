@@ -38,16 +38,18 @@ double drill_point_mm(double D_mm, double point_deg);
 std::vector<double> peck_depths_mm(const std::optional<catalogue::Pecking>& pecking,
                                    double D_mm, double depth_mm);
 
-/// Load on a reamer of z edges, whose lead stands at 45 deg, that widens a hole from the
-/// diameter d to D:
+/// Load on a reamer of z edges, whose lead stands at kappa = 45 deg, that widens a hole from
+/// the diameter d to D:
 ///
-///     h = (f/z) sin 45 deg,  kc = kc1.1 h^-mc                                        (7)
-///     Fc = kc f (D - d)/2,  M = Fc (D + d)/4,  Ff = 0.5 kc f (D - d)/2 sin 45 deg    (8)
+///     h = (f/z) sin kappa,  kc = kc1.1 h^-mc                                         (7)
+///     Fc = kc f (D - d)/2,  M = Fc (D + d)/4,  Ff = 0.5 kc f (D - d)/2 sin kappa     (8)
 ///
 /// All edges together cut (D - d)/2 wide and f thick.  The thrust is estimated as a drill's.
+/// A countersink is the same when it has reached its diameter D, half its point angle
+/// as kappa.
 /// Source: derived here from Kienzle's law; what the lands rub is not in it.
 Load ream(const catalogue::Kienzle& kc, double D_mm, double drilled_mm, double f_mm_rev,
-          int edges);
+          int edges, double lead_deg = 45);
 
 /// Load on a tap of z flutes with a lead of n pitches P, for a thread of diameter d and
 /// depth t = (d - D1)/2 in a hole D1:

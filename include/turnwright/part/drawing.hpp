@@ -198,6 +198,16 @@ inline bool is_tapped(const InnerElement& e) {
 inline bool is_reamed(const InnerElement& e) {
   return is_hole(e) && !is_tapped(e) && e.cut->depth_mm > 0;
 }
+/// The chamfer where a bore begins.
+inline const std::optional<Chamfer>& opening_chamfer(const InnerElement& e) {
+  return e.from == End::left ? e.left_chamfer : e.right_chamfer;
+}
+/// Diameter [mm] of the narrowest bore through which the i-th one is reached from its end;
+/// infinite at the end itself.
+double way_in_mm(const Drawing& drawing, std::size_t i);
+/// Whether a countersink of a point angle cuts a chamfer.
+bool fits_countersink(const Chamfer& chamfer, double point_deg);
+
 /// Position of an element along the axis, and the diameters at its ends.
 struct Extent {
   double z0_mm = 0, z1_mm = 0;

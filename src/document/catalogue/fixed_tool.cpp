@@ -13,11 +13,15 @@ namespace {
 using catalogue::FixedTool;
 using catalogue::FixedUse;
 
-const Choices<FixedUse> kFixedUses{
-    {"centring", FixedUse::centring},   {"drilling", FixedUse::drilling},
-    {"reaming", FixedUse::reaming},     {"tapping", FixedUse::tapping},
-    {"grooving", FixedUse::grooving},   {"parting", FixedUse::parting},
-    {"threading", FixedUse::threading}, {"profiling", FixedUse::profiling}};
+const Choices<FixedUse> kFixedUses{{"centring", FixedUse::centring},
+                                   {"drilling", FixedUse::drilling},
+                                   {"reaming", FixedUse::reaming},
+                                   {"tapping", FixedUse::tapping},
+                                   {"countersinking", FixedUse::countersinking},
+                                   {"grooving", FixedUse::grooving},
+                                   {"parting", FixedUse::parting},
+                                   {"threading", FixedUse::threading},
+                                   {"profiling", FixedUse::profiling}};
 
 // Feeds of these grow with the diameter, those of threads are the pitch.
 bool feeds_by_diameter(FixedUse use) {
@@ -85,6 +89,11 @@ void read_kind(Reader& r, FixedTool& t) {
       if (t.use != FixedUse::drilling) break;
       read_hole(r, t);
       read_pecking(r, t);
+      break;
+    case FixedUse::countersinking:
+      read_sizes(r, t);
+      t.point_deg = r.number("point_deg", within(60, 150, "deg"));
+      t.edges = static_cast<int>(r.integer("edges", 1, 40));
       break;
     case FixedUse::reaming:
       read_sizes(r, t);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -162,10 +163,34 @@ bool is_thread(const part::InnerElement& e) {
   return e.cut && e.cut->kind == part::CutKind::thread;
 }
 
-// Without edges of its own.
-bool plain(const part::InnerElement& e) {
-  return e.kind == part::ElementKind::cylinder && !e.left_chamfer && !e.right_chamfer &&
-         !e.left_fillet_mm && !e.right_fillet_mm;
+// The countersink of the material for a chamfer up to a diameter where a bore begins, of an
+// angle if that is given; none.
+const FixedTool* countersink_for(const Draft& draft, std::size_t i, double D_mm,
+                                 const part::Chamfer* chamfer) {
+  constexpr double kBeside_mm = 0.2;  // as planning asks in the bores before the hole
+  const double room = part::way_in_mm(draft.loaded.plan.drawing, i) - 2 * kBeside_mm;
+  for (const auto* t : tools_for(draft, FixedUse::countersinking)) {
+    const auto size = std::ranges::lower_bound(t->sizes_mm, D_mm);
+    if (size != t->sizes_mm.end() && *size <= room &&
+        (!chamfer || part::fits_countersink(*chamfer, t->point_deg)))
+      return t;
+  }
+  return nullptr;
+}
+
+// Whether a countersink cuts the chamfer where a bore begins, if it has one.
+bool can_be_countersunk(const Draft& draft, std::size_t i) {
+  const auto& e = draft.loaded.plan.drawing.inner[i];
+  const auto& c = part::opening_chamfer(e);
+  return !c || countersink_for(draft, i, e.left_mm + 2 * c->radial_mm, &*c);
+}
+
+// Without other edges than that chamfer.
+bool plain(const Draft& draft, std::size_t i) {
+  const auto& e = draft.loaded.plan.drawing.inner[i];
+  const auto& inside = e.from == part::End::left ? e.right_chamfer : e.left_chamfer;
+  return e.kind == part::ElementKind::cylinder && !inside && !e.left_fillet_mm &&
+         !e.right_fillet_mm && can_be_countersunk(draft, i);
 }
 
 // Indices of the bores of an end of a bar, outermost first.
@@ -232,7 +257,13 @@ void refuse_demands(const Draft& draft, Reader hole, const Wanted& w) {
 }
 
 // A hole that the document asks for; none if the drill of what lies behind does not make it.
-std::optional<Hole> asked_hole(const Draft& draft, Reader item, Wanted w) {
+std::optional<Hole> asked_hole(const Draft& draft, Reader item, std::size_t i, Wanted w) {
+  if (!plain(draft, i))
+    item.problem_at(
+        "kind",
+        "\"cylinder\" as kind, which is bored, or no other edge than a chamfer "
+        "where the hole begins, of the angle of a countersink of the tools",
+        "conflict");
   w.limits = given_limits(item, w.D_mm);
   w.Ra_um = item.optional_number("Ra_um", above_up_to(0, 100, "um"));
   if (w.limits || w.Ra_um) {
@@ -259,11 +290,11 @@ bool drilled_by_operations(const Draft& draft, const std::string& id) {
 
 // A bore that is too narrow to be bored as drill, reamer or tap make it, if they leave it
 // as it is drawn.
-std::optional<Hole> narrow_hole(const Draft& draft, const part::InnerElement& bore,
-                                Wanted w) {
+std::optional<Hole> narrow_hole(const Draft& draft, std::size_t i, Wanted w) {
+  const auto& bore = draft.loaded.plan.drawing.inner[i];
   const bool thread = is_thread(bore);
   const auto named = draft.root.find("tolerances");
-  if (!plain(bore) || (bore.cut && !thread) || bore.Rz_um ||
+  if (!plain(draft, i) || (bore.cut && !thread) || bore.Rz_um ||
       !drilled_by_operations(draft, bore.id) ||
       (named && names(named->json(), bore.id)) ||
       (can_be_bored(draft.loaded.plan.tools, bore.left_mm) &&
@@ -283,10 +314,10 @@ std::vector<Hole> holes_of(const Draft& draft, const std::vector<Reader>& items,
   std::vector<Hole> holes;
   std::optional<Hole> behind;
   for (std::size_t k = bores.size(); k-- > 0;) {
-    const auto& bore = d.inner[bores[k]];
+    const std::size_t i = bores[k];
     const auto w = wanted(d, bores, k, behind);
-    behind = part::is_hole(bore) ? asked_hole(draft, items[bores[k]], w)
-                                 : narrow_hole(draft, bore, w);
+    behind = part::is_hole(d.inner[i]) ? asked_hole(draft, items[i], i, w)
+                                       : narrow_hole(draft, i, w);
     if (!behind) break;
     holes.push_back(*behind);
   }
@@ -306,7 +337,28 @@ bool leave_the_others(const part::Drawing& d, const Bores& bores,
   });
 }
 
-void make(Draft& draft, const Reader& item, part::InnerElement& bore, const Hole& hole) {
+// A tapped hole without a chamfer is countersunk a little wider than its thread, as far as
+// what it begins at leaves room.
+// Source: DIN 76-1: one to 1.05 times the thread's diameter.
+void countersink_tapped(Draft& draft, const Reader& item, std::size_t i) {
+  constexpr double kOfThread = 1.05, kRing_mm = 0.2;
+  auto& d = draft.drawing();
+  auto& bore = d.inner[i];
+  const bool left = bore.from == part::End::left;
+  const double D = kOfThread * bore.cut->drawn.left_mm;
+  const double end_mm = left ? d.outer.front().left_mm : d.outer.back().right_mm;
+  const auto* t = countersink_for(draft, i, D, nullptr);
+  if (part::opening_chamfer(bore) || !t || D + 2 * kRing_mm > end_mm) return;
+  const double radial = (D - bore.cut->drilled_mm) / 2;
+  const double axial = radial / std::tan(units::rad_from_deg(t->point_deg / 2));
+  if (!(axial < bore.length_mm)) return;
+  (left ? bore.left_chamfer : bore.right_chamfer) = part::Chamfer{axial, radial};
+  draft.assume(item.pointer_of("kind"), {{"countersunk_to_mm", D}},
+               "1.05 times the thread's diameter (DIN 76-1), by " + t->id);
+}
+
+void make(Draft& draft, const Reader& item, std::size_t i, const Hole& hole) {
+  auto& bore = draft.drawing().inner[i];
   if (hole.how.empty()) return;  // as the document has it
   draft.assume(item.pointer_of("kind"), is_thread(bore) ? "thread" : "hole", hole.how);
   const bool asked = part::is_hole(bore);
@@ -318,6 +370,7 @@ void make(Draft& draft, const Reader& item, part::InnerElement& bore, const Hole
   if (part::is_reamed(bore)) bore.fit = fit;
   bore.left_mm = hole.shape.blank.left_mm;
   bore.right_mm = hole.shape.blank.right_mm;
+  if (part::is_tapped(bore)) countersink_tapped(draft, item, i);
 }
 
 }  // namespace
@@ -335,7 +388,7 @@ void read_drilled_holes(Draft& draft) {
     for (std::size_t k = 0; k < bores.size(); ++k) {
       const std::size_t i = bores[k];
       if (k >= bored)
-        make(draft, items[i], d.inner[i], holes[bores.size() - 1 - k]);
+        make(draft, items[i], i, holes[bores.size() - 1 - k]);
       else if (part::is_hole(d.inner[i]))
         items[i].problem_at(
             "kind",

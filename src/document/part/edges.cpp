@@ -37,7 +37,8 @@ std::vector<std::string> both_ways(const std::string& a, const std::string& b) {
 template <class Element>
 bool can_have_edge(const Element& e) {
   return e.kind == part::ElementKind::cylinder &&
-         (!e.cut || (e.cut->kind == part::CutKind::thread && !(e.cut->drilled_mm > 0)));
+         (!e.cut || e.cut->kind == part::CutKind::thread ||
+          e.cut->kind == part::CutKind::hole);
 }
 
 template <class Element>
@@ -180,10 +181,10 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
   const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
-    r.problem_at(
-        "at",
-        "an edge of a cylinder or a thread that has no arc beside it and is in no neck",
-        "conflict");
+    r.problem_at("at",
+                 "an edge of a cylinder, a thread or a hole that has no arc beside it "
+                 "and is in no neck",
+                 "conflict");
   else if (!(axial < free))
     r.problem_at("chamfer_mm",
                  "less than the " + rounded(free) + " mm that " + e.id + " is long" +
@@ -323,7 +324,8 @@ template <class Element>
 void break_edge(const Step& step, double size_mm, double most_mm, Element& e) {
   auto& mine = chamfer_at(e, step.end);
   const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
-  if (!mine && size_mm < free && size_mm <= most_mm)
+  const bool drilled = e.cut && e.cut->drilled_mm > 0;
+  if (!mine && !drilled && size_mm < free && size_mm <= most_mm)
     mine = part::Chamfer{size_mm, size_mm, step.by_blade, true};
 }
 

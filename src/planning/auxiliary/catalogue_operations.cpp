@@ -64,7 +64,7 @@ bool drills(FixedUse use) {
 // The conditions of a tool in one of its sizes.
 catalogue::FixedConditions of_size(catalogue::FixedConditions at, FixedUse use,
                                    double size_mm) {
-  if (!drills(use) && use != FixedUse::reaming) return at;
+  if (!catalogue::on_axis(use) || use == FixedUse::tapping) return at;
   at.f_mm_rev *= size_mm;
   if (at.window)
     for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
@@ -87,10 +87,11 @@ bool of_given_depth(const Asked& a, double size) {
   return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
 }
 
-// The largest size that fits (for parting off the smallest), of the first tool that has
-// it.
+// The largest size that fits (for parting off and countersinking the smallest), of the
+// first tool that has it.
 Fitted fitted(const PlanRequest& p, const Asked& a) {
   Fitted best;
+  const bool smallest = a.use == FixedUse::parting || a.use == FixedUse::countersinking;
   for (const auto& t : p.fixed_tools) {
     const auto* at = t.conditions_in(p.material.group);
     if (t.use != a.use || !at || t.inner != a.inner) continue;
@@ -98,8 +99,7 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
     const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
     for (const double size : sizes)
       if (a.fits(t, size) && of_given_depth(a, size) &&
-          (!best.tool ||
-           (a.use == FixedUse::parting ? size < best.size_mm : size > best.size_mm)))
+          (!best.tool || (smallest ? size < best.size_mm : size > best.size_mm)))
         best = {&t, size, *at};
   }
   if (!best.tool) return best;
@@ -686,6 +686,43 @@ AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
   });
 }
 
+// The chamfer where a hole begins: Eq. (8).
+void add_countersinking(Site& s, const CutElement& e) {
+  const auto& c = e.around.front_chamfer;
+  if (!(c.axial_mm > 0)) return;
+  const double D = 2 * (c.radial_mm - e.around.h0), drilled = e.cut.drilled_mm;
+  const double room = part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm;
+  const Asked a{FixedUse::countersinking,
+                "countersink",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::countersinking),
+                [&](const FixedTool& t, double size) {
+                  return size >= D && size <= room &&
+                         part::fits_countersink(c, t.point_deg);
+                }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no countersink of the tools is for {}, of the chamfer's "
+                              "angle, at least {:g} mm in diameter and passes the bores "
+                              "before it",
+                              s.p.material.name, D));
+  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
+  const double cut = in - cutting::drill_point_mm(drilled, f.tool->point_deg);
+  const double n_cap = n_cap_rpm(s), inside = e.around.front - e.around.z0;
+  s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty duty{cutting::ream(kc, D, drilled, at.at.f_mm_rev, at.tool->edges,
+                                  at.tool->point_deg / 2),
+                    std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
+    const double vf = at.at.f_mm_rev * duty.n_rpm;
+    return operation(s, a, at, {pass_of(duty, (D - drilled) / 2, cut / vf)},
+                     {(fed - cut) / vf, 2 * inside + fed, true, 0, 0}, {duty});
+  }));
+}
+
 // Eq. (7).
 void add_reaming(Site& s, const CutElement& e) {
   const double D = e.cut.drawn.left_mm, deep = e.length_mm + e.cut.lead_mm;
@@ -912,10 +949,13 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
     case part::CutKind::groove:
       return add_groove(s, c);
     case part::CutKind::thread:
-      return drilled ? add_tapping(s, c) : add_thread(s, c);
+      if (!drilled) return add_thread(s, c);
+      add_countersinking(s, c);
+      return add_tapping(s, c);
     case part::CutKind::arc:
       return add_arc(s, c);
     case part::CutKind::hole:
+      add_countersinking(s, c);
       if (c.cut.depth_mm > 0) add_reaming(s, c);
   }
 }

@@ -17,6 +17,11 @@ std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
            catalogue::thread_of(*tool, bore->cut->drawn.left_mm, bore->cut->pitch_mm)
                ->designation;
   if (tool->sizes_mm.empty()) return o.tool;
+  if (tool->use == FixedUse::countersinking) {
+    const double D = bore->left_mm + 2 * part::opening_chamfer(*bore)->radial_mm;
+    return fmt::format("{} {:g} mm", o.tool,
+                       *std::ranges::lower_bound(tool->sizes_mm, D));
+  }
   if (tool->use == FixedUse::reaming)
     return fmt::format("{} {:g} mm", o.tool, bore->cut->drawn.left_mm);
   const bool round = catalogue::on_axis(tool->use);

@@ -209,8 +209,10 @@ class Follower {
       const double a = across ? from.x : from.z, b = across ? to.x : to.z;
       const double u = std::clamp((at - a) / (b - a), 0.0, 1.0);
       const double x = std::lerp(from.x, to.x, u), z = std::lerp(from.z, to.z, u);
+      const double radius =
+          edge_.on_axis ? edge_.radius_behind_mm(std::abs(at - b)) : std::abs(x);
       samples.push_back({surface(across, across ? z : at),
-                         {length * part, w_.pitch_mm / part, std::abs(x), line}});
+                         {length * part, w_.pitch_mm / part, radius, line}});
     };
     w_.section.cut(swept(edge_.edge, from, to), across ? Family::rows : Family::columns,
                    taken);
@@ -238,7 +240,8 @@ class Follower {
       return parts ? w_.face_at(middle, 2 * edge_.width_mm, edge_.inner)
                    : w_.element_at(middle, edge_.inner);
     }
-    if (edge_.on_axis && tool_->fixed->use != FixedUse::reaming) {
+    if (edge_.on_axis && tool_->fixed->use != FixedUse::reaming &&
+        tool_->fixed->use != FixedUse::countersinking) {
       const bool centres = tool_->fixed->use == FixedUse::centring;
       const double end = sign_ > 0 ? part::length_mm(part_.drawing) : 0;
       const auto bore = centres ? std::string() : w_.element_at(end, true);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "edges.hpp"
+#include "turnwright/cutting/fixed.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -16,6 +17,7 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
   switch (t.use) {
     case FixedUse::centring:
     case FixedUse::drilling:
+    case FixedUse::countersinking:
       return drill_edge(size, t.point_deg);
     case FixedUse::reaming:
       return reamer_edge(size, t.lead);
@@ -49,6 +51,12 @@ MountedEdge mounted_edge(const MountedTool& tool, double sign) {
   } else {
     const auto& t = *tool.fixed;
     m.on_axis = catalogue::on_axis(t.use);
+    if (m.on_axis) {
+      m.radius_mm = tool.size_mm / 2;
+      m.point_mm = t.use == FixedUse::reaming
+                       ? t.lead
+                       : cutting::drill_point_mm(tool.size_mm, t.point_deg);
+    }
     m.threads = t.use == FixedUse::threading || t.use == FixedUse::tapping;
     m.plunges = t.use == FixedUse::grooving || t.use == FixedUse::parting;
     m.inner = t.inner || m.on_axis;

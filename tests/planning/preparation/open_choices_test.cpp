@@ -275,6 +275,43 @@ TEST(Threads, TakeTheTimeOfTheirWays) {
   EXPECT_NEAR(tap->air_min, 2 * (2 + 2.5 * 1.5) / (1.5 * pass.n_rpm), 1e-12);
 }
 
+// DIN 76-1: 1.05 times the thread's diameter where nothing is drawn, by a cone of 90 deg.
+TEST(Threads, AreCountersunk) {
+  const auto e = first_bore(threaded("M10", 16));
+  ASSERT_TRUE(e.right_chamfer);
+  EXPECT_NEAR(e.right_chamfer->radial_mm, (10.5 - 8.5) / 2, 1e-12);
+  EXPECT_NEAR(e.right_chamfer->axial_mm, (10.5 - 8.5) / 2, 1e-12);
+  EXPECT_FALSE(e.left_chamfer);
+  auto d = threaded("M10", 16);
+  d["edges"] = {{{"at", "right|b1"}, {"chamfer_mm", 1.5}}};
+  EXPECT_NEAR(first_bore(d).right_chamfer->radial_mm, 1.5, 1e-12) << "as drawn";
+  d["edges"][0]["angle_deg"] = 30;
+  EXPECT_FALSE(part::is_tapped(first_bore(d))) << "no countersink of 60 deg";
+  d = drilled(8, {{"kind", "hole"}});
+  EXPECT_FALSE(first_bore(d).right_chamfer) << "not asked for";
+  d["edges"] = {{{"at", "right|b1"}, {"chamfer_mm", 1}}};
+  EXPECT_TRUE(part::is_hole(first_bore(d)));
+  d["edges"][0]["angle_deg"] = 30;
+  EXPECT_THROW(part(d), InputError);
+}
+
+// Cut from where the cone meets the hole of 8.5 mm to 10.5 mm, 1 mm along the axis; the
+// cone's point comes from 2 mm before the face and goes 5.25 mm deep.
+TEST(Threads, TakeTheTimeOfTheirCountersinks) {
+  const auto p = part(threaded("M10", 16));
+  const auto work =
+      auxiliary_work(p, 0, Clamping::chuck, p.work.setups[0], {p.machine_per_min, 1})
+          .all();
+  const auto sink = std::ranges::find(work, "s1-countersink-b1",
+                                      [](const auto& o) { return o.plan.id; });
+  ASSERT_NE(sink, work.end());
+  const auto& pass = sink->plan.passes.at(0);
+  const double vf = pass.f_mm_rev * pass.n_rpm;
+  EXPECT_NEAR(sink->plan.time_min, 1 / vf, 1e-12);
+  EXPECT_NEAR(sink->air_min, (2 + 5.25 - 1) / vf + (2 + 5.25) / p.machine.rapid_mm_min,
+              1e-12);
+}
+
 // A counterbore before them is bored; the tap has to pass through it.
 TEST(Threads, BehindABoreAreTappedIfTheTapPasses) {
   auto d = threaded("M12", 16);
