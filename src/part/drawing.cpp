@@ -22,6 +22,18 @@ constexpr std::array kUndercutsF{
     Undercut{1.2, 0.4, 4, 0.3},   Undercut{1.6, 0.3, 4, 0.2},
     Undercut{2.5, 0.4, 5, 0.3},   Undercut{4, 0.5, 7, 0.3}};
 
+// Of ISO 6411: pilot, and the largest diameter of the forms A and R, and of B.
+constexpr std::array<std::array<double, 3>, 10> kCentreHoles{{{1, 2.12, 3.15},
+                                                              {1.25, 2.65, 4},
+                                                              {1.6, 3.35, 5},
+                                                              {2, 4.25, 6.3},
+                                                              {2.5, 5.3, 8},
+                                                              {3.15, 6.7, 10},
+                                                              {4, 8.5, 12.5},
+                                                              {5, 10.6, 16},
+                                                              {6.3, 13.2, 18},
+                                                              {10, 21.2, 28}}};
+
 // Of DIN 76: pitch, d - dg, g2 of the forms A and B, radius.
 constexpr std::array<std::array<double, 5>, 18> kThreadUndercuts{
     {{0.5, 0.8, 1.75, 1.25, 0.2},
@@ -63,6 +75,18 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
       return Undercut{radius, reduced / 2, form == 'A' ? long_width : short_width, 0,
                       pitch};
   return std::nullopt;
+}
+
+std::optional<CentreHole> centre_hole(char form, double pilot_mm, double diameter_mm) {
+  if (form != 'A' && form != 'B' && form != 'R') return std::nullopt;
+  for (const auto& row : kCentreHoles)
+    if (row[0] == pilot_mm && row[form == 'B' ? 2 : 1] == diameter_mm)
+      return CentreHole{form, pilot_mm, diameter_mm};
+  return std::nullopt;
+}
+
+std::string designation(const CentreHole& hole) {
+  return fmt::format("ISO 6411-{}{:g}/{:g}", hole.form, hole.pilot_mm, hole.diameter_mm);
 }
 
 double way_in_mm(const Drawing& d, std::size_t i) {

@@ -496,5 +496,18 @@ TEST(Notation, NeverFallsOverAnyText) {
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 99);
 }
 
+TEST(Notation, CentreHolesStandInTheEnds) {
+  const auto o = read_notation("d30 x 40; centre right a4/8,5; Centre left B2.5/8");
+  ASSERT_EQ(o.centre_holes.size(), 2U);
+  EXPECT_EQ(o.centre_holes[0].at, part::End::right);
+  EXPECT_EQ(o.centre_holes[0].designation, "A4/8,5");
+  EXPECT_EQ(o.centre_holes[1].at, part::End::left);
+  EXPECT_EQ(notation(o), "d30 x 40\ncentre right A4/8,5\ncentre left B2.5/8\n");
+  auto named = o;
+  named.centre_holes = {{part::End::right, "ISO 6411 - R 4/8.5"}};
+  EXPECT_EQ(notation(named), "d30 x 40\ncentre right R4/8.5\n");
+  EXPECT_THROW(read_notation("d30 x 40; centre A4/8.5"), InputError);
+}
+
 }  // namespace
 }  // namespace turnwright::exchange

@@ -113,5 +113,21 @@ TEST(Drawing, ThreadUndercutsAreThoseOfTheStandard) {
   EXPECT_EQ(undercut_mm(e, 20), 1.15);
 }
 
+TEST(CentreHole, HasTheDiametersOfTheTable) {
+  EXPECT_EQ(designation(*centre_hole('A', 4, 8.5)), "ISO 6411-A4/8.5");
+  EXPECT_EQ(designation(*centre_hole('B', 2.5, 8)), "ISO 6411-B2.5/8");
+  EXPECT_TRUE(centre_hole('R', 3.15, 6.7));
+  EXPECT_FALSE(centre_hole('B', 4, 8.5)) << "that is form A's";
+  EXPECT_FALSE(centre_hole('C', 4, 8.5));
+  EXPECT_FALSE(centre_hole('A', 4, 8));
+}
+
+// Half the cone's angle from the axis: radius by length.
+TEST(Countersinks, CutTheChamferOfHalfTheirAngle) {
+  EXPECT_TRUE(fits_countersink({1, 1}, 90));
+  EXPECT_TRUE(fits_countersink({1, std::sqrt(3)}, 120));
+  EXPECT_FALSE(fits_countersink({std::sqrt(3), 1}, 120));
+}
+
 }  // namespace
 }  // namespace turnwright::part

@@ -91,6 +91,7 @@ struct FixedTool {
   double lead = 0;  ///< length of the tapered front: of reamers in mm, of taps in pitches
   int edges = 0;    ///< of countersinks, reamers and taps
   double point_deg = 0;                  ///< point angle of a drill or a countersink
+  char form = 'A';                       ///< of centre drills: that of ISO 6411
   std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
   std::optional<Pecking> pecking = {};   ///< absent: it drills every hole in one feed
   double ap_mm = 0;                      ///< largest depth of a profiling pass

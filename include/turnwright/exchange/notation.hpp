@@ -23,6 +23,7 @@
 ///     tolerance = KIND OF [to DATUM] N                       cylindricity d2 0.008
 ///               | diameter ELEMENT limits | length FACE to FACE limits
 ///     milled    = (keyway | slot) WxTxL on ELEMENT at Z [angle A] | flat TxL on ..
+///     centre    = centre (left | right) (A | B | R) D/D          centre right A4/8.5
 ///     title     = (name | material | general | drawing | revision | customer): TEXT
 ///
 /// - Diameters, lengths, radii, widths in mm, roughness in um, angles in degrees.  D is the

@@ -68,6 +68,11 @@ struct Milled {
   std::vector<std::string> sources = {};
 };
 
+struct CentreHole {
+  part::End at = part::End::right;
+  std::string designation;  ///< "A4/8.5"
+};
+
 /// Something that was taken to be so, or that could not be understood, and where.
 struct Remark {
   std::string at;    ///< "#123", "LINE 2F", "d1", "" for the whole drawing
@@ -86,6 +91,7 @@ struct Outline {
   std::vector<part::Tolerance> tolerances =
       {};  ///< `of`, `datum`, `between`: ids as above
   std::vector<Milled> milled = {};
+  std::vector<CentreHole> centre_holes = {};
   std::vector<Remark> assumed = {}, ignored = {};
 };
 

@@ -148,6 +148,19 @@ struct TitleBlock {
   std::string drawing_number, revision, customer;
 };
 
+/// A centre hole of ISO 6411's form A, B (with a protecting chamfer) or R (rounded): the
+/// diameters of its pilot hole and where it is widest.
+struct CentreHole {
+  char form = 'A';
+  double pilot_mm = 0, diameter_mm = 0;
+};
+/// The centre hole of a form with these diameters.
+/// Source: ISO 6411:1982, table: d, and D1 (form R), D2 (A), D3 (B).
+/// Nothing if the table has none.
+std::optional<CentreHole> centre_hole(char form, double pilot_mm, double diameter_mm);
+/// "ISO 6411-A4/8.5".
+std::string designation(const CentreHole& hole);
+
 struct Drawing {
   std::string name;
   Stock stock;
@@ -156,7 +169,11 @@ struct Drawing {
   std::vector<Face> faces;
   std::vector<Tolerance> tolerances;  ///< with the sizes of the elements; ids are unique
   TitleBlock title = {};
+  std::optional<CentreHole> left_centre = {}, right_centre = {};
 };
+inline const std::optional<CentreHole>& centre_at(const Drawing& drawing, End end) {
+  return end == End::left ? drawing.left_centre : drawing.right_centre;
+}
 
 /// Length of the finished part [mm]: the sum of the outer elements.
 double length_mm(const Drawing& drawing);

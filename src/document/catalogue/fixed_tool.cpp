@@ -86,6 +86,8 @@ void read_kind(Reader& r, FixedTool& t) {
       read_sizes(r, t);
       t.reach = r.number("reach_diameters", above_up_to(0, 100));
       t.point_deg = r.number("point_deg", within(60, 180, "deg"));
+      if (t.use == FixedUse::centring)
+        t.form = r.choice_or("form", {{"A", 'A'}, {"B", 'B'}, {"R", 'R'}}, 'A');
       if (t.use != FixedUse::drilling) break;
       read_hole(r, t);
       read_pecking(r, t);

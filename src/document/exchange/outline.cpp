@@ -135,6 +135,10 @@ ordered_json part_members(const Outline& o) {
   add_list(out, "faces", faces, [](const ordered_json& f) { return f; });
   add_list(out, "tolerances", o.tolerances, tolerance);
   add_list(out, "milling", o.milled, milled);
+  add_list(out, "centre_holes", o.centre_holes, [](const exchange::CentreHole& c) {
+    return ordered_json{{"at", c.at == part::End::left ? "left" : "right"},
+                        {"designation", c.designation}};
+  });
   return out;
 }
 

@@ -145,6 +145,10 @@ Outline outline_of_part(const json& d) {
     o.faces.push_back({.id = text_of(f, "id"), .demands = demands_of(f)});
   for (const auto& t : list_of(d, "tolerances")) o.tolerances.push_back(tolerance_of(t));
   for (const auto& m : list_of(d, "milling")) o.milled.push_back(milled_of(m));
+  for (const auto& c : list_of(d, "centre_holes"))
+    o.centre_holes.push_back(
+        {text_of(c, "at") == "left" ? part::End::left : part::End::right,
+         text_of(c, "designation")});
   return o;
 }
 

@@ -203,6 +203,7 @@ LoadedPart load(const nlohmann::json& request, const Catalogue& catalogue,
     check_bores(draft);
     read_edges(draft);
     add_tools_for_undercuts(draft);
+    read_centre_holes(draft);
     read_drilled_holes(draft);
     read_general_edges(draft);
     read_tolerances(draft);

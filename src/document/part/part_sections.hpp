@@ -62,6 +62,7 @@ void read_edges(Draft& draft);   // after the stock
 /// leaves it as it is drawn, becomes a hole; nothing else is asked of it, and the operations
 /// are the planner's.
 void read_drilled_holes(Draft& draft);  // after the edges
+void read_centre_holes(Draft& draft);   // after the bores
 void read_general_edges(Draft& draft);  // after all other edges and the holes
 /// Tools whose edge goes behind shoulders serve, where the request lists none, only drawings
 /// with undercuts that ask for it: the force law is not compared with cuts at such angles.

@@ -108,6 +108,10 @@ ordered_json faces(const PreparedPart& part) {
     ordered_json face{{"id", id}, {"z_mm", planning::face_z_mm(d, id)}};
     for (const auto& drawn : d.faces)
       if (drawn.id == id) add_roughness(face, drawn);
+    if (id == "left" || id == "right")
+      if (const auto& c =
+              part::centre_at(d, id == "left" ? part::End::left : part::End::right))
+        face["centre_hole"] = part::designation(*c);
     add_setup(face, part, id);
     all.push_back(std::move(face));
   }

@@ -53,11 +53,26 @@ class Notation {
         corners_.push_back({out_.outer.size(), std::move(e)});
       return;
     }
+    if (same(w[0], "centre")) return read_centre(w);
     if (read_feature(w, features_, mistakes_)) return;
-    mistakes_.add(w[0],
-                  "an element like d50 h7 x 40, M24x1.5 x 25, groove d26 x 3 or bore d20 "
-                  "H7 x 60, a corner like 1x45, a face, a tolerance, a keyway, or a "
-                  "title like name: Pin");
+    mistakes_.add(
+        w[0],
+        "an element like d50 h7 x 40, M24x1.5 x 25, groove d26 x 3 or bore d20 "
+        "H7 x 60, a corner like 1x45, a face, a tolerance, a keyway, a centre hole "
+        "like centre right A4/8.5, or a title like name: Pin");
+  }
+
+  // "centre right A4/8.5".
+  void read_centre(const std::vector<Word>& w) {
+    const bool left = w.size() > 1 && same(w[1], "left");
+    if (w.size() != 3 || (!left && !same(w[1], "right")))
+      return mistakes_.add(w[0], "a centre hole like centre right A4/8.5");
+    std::string designation(w[2]);
+    std::ranges::transform(designation, designation.begin(), [](unsigned char c) {
+      return static_cast<char>(std::toupper(c));
+    });
+    out_.centre_holes.push_back(
+        {left ? part::End::left : part::End::right, std::move(designation)});
   }
 
   void add_element(const std::vector<Word>& w) {

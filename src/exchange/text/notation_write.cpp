@@ -127,6 +127,16 @@ std::string title_text(const char* head, std::string text) {
   return std::string(head) + ": \"" + text + "\"\n";
 }
 
+// Without the name of the standard, in one word.
+std::string centre_text(const CentreHole& c) {
+  std::string size = c.designation;
+  for (const char* standard : {"ISO 6411", "DIN 332"})
+    if (size.starts_with(standard)) size.erase(0, size.find_first_not_of(" -", 8));
+  std::erase(size, ' ');
+  return std::string("centre ") + (c.at == part::End::left ? "left " : "right ") + size +
+         '\n';
+}
+
 }  // namespace
 
 std::string notation(const Outline& outline) {
@@ -151,6 +161,7 @@ std::string notation(const Outline& outline) {
       out += "face " + f.id + text + '\n';
   for (const auto& t : o.tolerances) out += tolerance_text(t);
   for (const Milled& m : o.milled) out += milled_text(m);
+  for (const CentreHole& c : o.centre_holes) out += centre_text(c);
   return out;
 }
 

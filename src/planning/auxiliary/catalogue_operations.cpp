@@ -337,24 +337,49 @@ AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
   });
 }
 
-// Without any centre drill among the tools the stock is assumed to come centred.
+// Without any centre drill among the tools the stock is assumed to come centred, where the
+// drawing asks for none.
 void add_centre(Site& s, const char* face, double end_mm) {
-  if (std::none_of(s.p.fixed_tools.begin(), s.p.fixed_tools.end(),
-                   [](const auto& t) { return t.use == FixedUse::centring; }))
+  const auto& drawn = part::centre_at(s.p.drawing, free_end(s.p, s.setup));
+  if (!drawn && std::none_of(s.p.fixed_tools.begin(), s.p.fixed_tools.end(),
+                             [](const auto& t) { return t.use == FixedUse::centring; }))
     return;
   Asked a{FixedUse::centring,
           "centre",
           face,
           false,
           given_on(s, face),
-          [&](const FixedTool&, double size) { return size <= kCentreShare * end_mm; }};
+          [&](const FixedTool& t, double size) {
+            return drawn ? t.form == drawn->form && size == drawn->diameter_mm
+                         : t.form == 'A' && size <= kCentreShare * end_mm;
+          }};
   const auto f = fitted(s.p, a);
   if (f.tool)
     s.out.before.push_back(drilled(s, a, f, f.tool->reach * f.size_mm));
   else
     refuse(s, a,
-           fmt::format("no centre drill of the tools is for {} and an end of {:g} mm",
+           drawn ? fmt::format("no centre drill of the tools is for {} and {}",
+                               s.p.material.name, part::designation(*drawn))
+                 : fmt::format(
+                       "no centre drill of the tools is for {} and an end of {:g} mm",
                        s.p.material.name, end_mm));
+}
+
+// Whether a setup makes the drawn centre hole of an end: the first that faces it, else the
+// first that leaves it free.
+bool makes_centre(const PreparedPart& p, std::size_t setup, part::End end) {
+  for (const bool faces : {true, false})
+    for (std::size_t s = 0; s < p.work.setups.size(); ++s)
+      if (free_end(p, s) == end && (!faces || p.work.setups[s].end_face))
+        return s == setup;
+  return false;
+}
+
+// Whether a setup drills a centre hole without being told to.
+bool needs_centre(const PreparedPart& p, std::size_t setup, Clamping clamping) {
+  const auto end = free_end(p, setup);
+  if (part::centre_at(p.drawing, end)) return makes_centre(p, setup, end);
+  return has_live_centre(clamping) && !(free_bore_mm(p, setup) > 0);
 }
 
 // The bores of a bar that open to an end: how deep, and the narrowest diameter.
@@ -970,7 +995,7 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   const auto hold = p.setups[setup].hold;
   const bool left = hold == part::End::left;
   const auto* face = free_face(p, setup);
-  if ((has_live_centre(clamping) && !(free_bore_mm(p, setup) > 0)) || given_on(s, face))
+  if (needs_centre(p, setup, clamping) || given_on(s, face))
     add_centre(s, face, left ? d.outer.back().right_mm : d.outer.front().left_mm);
   if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
   s.stage = Stage::finishing;

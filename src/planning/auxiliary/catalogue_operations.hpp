@@ -27,7 +27,8 @@ namespace turnwright::planning {
 ///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
-/// with the largest countersink below 0.35 of the end's diameter.  Bores of a bar are
+/// with the largest countersink of form A below 0.35 of the end's diameter, or as it is drawn;
+/// a drawn one is drilled without a centre too, in the first setup that finds its end faced.  Bores of a bar are
 /// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
 /// the drives move and that the jaws hold at the catalogue's conditions, or if there is none
 /// at the gentlest of its window; boring takes the rest.

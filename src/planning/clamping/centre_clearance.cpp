@@ -32,11 +32,14 @@ double free_bore_mm(const PreparedPart& p, std::size_t setup) {
 double countersink_mm(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
   if (const double bore = free_bore_mm(p, setup); bore > 0) return bore;
+  const auto& drawn =
+      part::centre_at(d, left_is_free(p, setup) ? part::End::left : part::End::right);
+  if (drawn) return drawn->diameter_mm;
   const double most = kCentreShare * (left_is_free(p, setup) ? d.outer.front().left_mm
                                                              : d.outer.back().right_mm);
   double drilled = 0;
   for (const auto& t : p.fixed_tools)
-    if (t.use == catalogue::FixedUse::centring)
+    if (t.use == catalogue::FixedUse::centring && t.form == 'A')
       for (const double size : t.sizes_mm)
         if (size <= most) drilled = std::max(drilled, size);
   return drilled > 0 ? drilled : most;

@@ -9,6 +9,7 @@
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/setup_body.hpp"
 #include "planning/preparation/assignment.hpp"
+#include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/cutting/fixed.hpp"
 #include "turnwright/planning/plan.hpp"
@@ -199,6 +200,57 @@ TEST(Centre, ComesWithTheStockWhereNoToolMakesOne) {
   ASSERT_EQ(r.status, PlanStatus::ok);
   EXPECT_EQ(find(r, "s1-centre-right"), nullptr);
   EXPECT_LT(r.cost_per_part, cost);
+}
+
+// Each once, in the setup that faces its end, with the drill of its form; a tailstock takes
+// what is drawn instead of its own.
+TEST(Centre, IsDrilledAsDrawnInAnyClamping) {
+  const auto d = [](const char* clamping, const char* right) {
+    auto document = pin();
+    document["setups"][0]["clampings"] = {clamping};
+    document["centre_holes"] = {{{"at", "right"}, {"designation", right}},
+                                {{"at", "left"}, {"designation", "ISO 6411-A4/8.5"}}};
+    return document;
+  };
+  for (const char* clamping : {"chuck", "chuck-tailstock"}) {
+    const auto p = part(d(clamping, "B2,5/8"));
+    const auto r = plan(p);
+    ASSERT_EQ(r.status, PlanStatus::ok) << clamping;
+    EXPECT_EQ(copy_of(r, "s1-centre-right").tool, "DIN333-B") << clamping;
+    EXPECT_EQ(copy_of(r, "s1-centre-right").passes[0].ap_mm, 4) << clamping;
+    EXPECT_EQ(copy_of(r, "s2-centre-left").tool, "DIN333-A") << clamping;
+    EXPECT_EQ(copy_of(r, "s2-centre-left").passes[0].ap_mm, 4.25) << clamping;
+    EXPECT_EQ(find(r, "s1-centre-left"), nullptr) << clamping;
+  }
+  auto none = part(d("chuck", "R10/21.2"));
+  const auto r = plan(none);
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  EXPECT_NE(r.conflicts.at(0).sentence.find("190 HB and ISO 6411-R10/21.2"),
+            std::string::npos)
+      << r.conflicts.at(0).sentence;
+}
+
+TEST(Centre, IsOneOfTheTableInASolidEnd) {
+  const auto refusal = [](const json& holes) -> std::string {
+    auto d = reference_part("drilled-bush");
+    d["centre_holes"] = holes;
+    try {
+      part(d);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto hole = [](const char* at, const char* designation) {
+    return json{{"at", at}, {"designation", designation}};
+  };
+  EXPECT_NE(refusal(json::array({hole("right", "A4/8.5")}))
+                .find("/centre_holes/0/at: got \"right\", expected "
+                      "an end that is not hollow"),
+            std::string::npos);
+  EXPECT_NE(refusal(json::array({hole("left", "A4/9")}))
+                .find("expected a centre hole of ISO 6411's form"),
+            std::string::npos);
 }
 
 json bush() { return reference_part("drilled-bush"); }

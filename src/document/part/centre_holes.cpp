@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <regex>
+#include <string>
+
+#include "part_sections.hpp"
+
+namespace turnwright::document {
+namespace {
+
+using part::CentreHole;
+using part::End;
+
+double number(std::string digits) {
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  return std::stod(digits);
+}
+
+// "ISO 6411-A4/8.5", also "DIN 332-A 4x8,5".
+std::optional<CentreHole> read_designation(const Reader& r) {
+  const auto text = r.as_text(40);
+  static const std::regex kForm(
+      R"(\s*(?:(?:ISO\s*6411|DIN\s*332)\s*[-\s]\s*)?([A-Z])\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*(?:/|[xX]|×)\s*(\d{1,4}(?:[.,]\d{1,4})?)\s*)");
+  std::smatch m;
+  std::optional<CentreHole> found;
+  if (std::regex_match(text, m, kForm))
+    found = part::centre_hole(m[1].str()[0], number(m[2]), number(m[3]));
+  if (!found && !text.empty())
+    r.problem(
+        "a centre hole of ISO 6411's form A, B or R with its pilot's and its largest "
+        "diameter, like \"A4/8.5\", \"B2.5/8\" or \"R4/8.5\"; a thread in a centre is an "
+        "inner thread",
+        "choice");
+  return found;
+}
+
+bool is_hollow(const part::Drawing& d, End end) {
+  return d.stock.kind == part::StockKind::tube ||
+         std::ranges::any_of(d.inner, [&](const auto& e) { return e.from == end; });
+}
+
+}  // namespace
+
+void read_centre_holes(Draft& draft) {
+  auto& d = draft.drawing();
+  for (Reader r : draft.root.optional_items("centre_holes", 0, 2)) {
+    r = r.as_object();
+    if (r.broken()) continue;
+    const auto end = r.choice<End>("at", ends());
+    const auto found = read_designation(r.at("designation", "a centre hole"));
+    r.finish();
+    if (!found || !sizes_were_read(d)) continue;
+    auto& mine = end == End::left ? d.left_centre : d.right_centre;
+    const double D = end == End::left ? d.outer.front().left_mm : d.outer.back().right_mm;
+    if (mine)
+      r.problem_at("at", "each end once", "duplicate");
+    else if (is_hollow(d, end))
+      r.problem_at("at", "an end that is not hollow", "conflict");
+    else if (!(found->diameter_mm < D))
+      r.problem_at("designation",
+                   "a centre hole that is less wide than the " + number_text(D) +
+                       " mm of that end",
+                   "conflict");
+    else
+      mine = found;
+  }
+}
+
+}  // namespace turnwright::document
