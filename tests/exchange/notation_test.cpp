@@ -509,5 +509,15 @@ TEST(Notation, CentreHolesStandInTheEnds) {
   EXPECT_THROW(read_notation("d30 x 40; centre A4/8.5"), InputError);
 }
 
+TEST(Notation, SeatsAreLeftForTheGrinder) {
+  const auto o = read_notation("d30 k6 x 40 Ra0.4 grind0,3; cone d30-d20 x 10 grind 0.2");
+  EXPECT_EQ(o.outer.at(0).demands.grinding_mm, 0.3);
+  EXPECT_EQ(o.outer.at(1).demands.grinding_mm, 0.2);
+  EXPECT_EQ(notation(o), "d30 k6 x 40 Ra0.4 grind0.3\ncone d30-d20 x 10 grind0.2\n");
+  for (const char* text : {"M30x1.5 x 40 grind0.3", "d30 x 40 grind", "d30 x 40 grind6",
+                           "d30 x 40 grind0.3 grind0.2"})
+    EXPECT_THROW(read_notation(text), InputError) << text;
+}
+
 }  // namespace
 }  // namespace turnwright::exchange

@@ -12,7 +12,7 @@
 /// and the corners between them, which are read from left to right.  [ ] may be left out,
 /// { } may be repeated, | divides choices:
 ///
-///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N}
+///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N | grind N}
 ///     shape     = d D | [cone] d D-d D | arc d D-d D R RADIUS [convex | concave]
 ///               | groove d D | hole d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05

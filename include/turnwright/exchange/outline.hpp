@@ -19,6 +19,7 @@ struct Demands {
   std::optional<std::string> fit = {};      ///< ISO 286 tolerance class, "k6"
   std::optional<part::Limits> limits = {};  ///< not together with `fit`
   std::optional<double> Ra_um = {}, Rz_um = {};
+  std::optional<double> grinding_mm = {};  ///< allowance on the diameter that is ground
 };
 
 /// One element of the outer contour or of a bore.

@@ -28,6 +28,7 @@ void add_demands(ordered_json& out, const Demands& d) {
     out["limits_mm"] = {d.limits->lower_mm, d.limits->upper_mm};
   if (d.Ra_um) out["Ra_um"] = *d.Ra_um;
   if (d.Rz_um) out["Rz_um"] = *d.Rz_um;
+  if (d.grinding_mm) out["grinding_allowance_mm"] = *d.grinding_mm;
 }
 
 ordered_json element(const Element& e, bool inner) {

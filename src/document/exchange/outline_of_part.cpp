@@ -39,7 +39,8 @@ std::optional<part::Limits> limits_of(const json& object) {
 Demands demands_of(const json& object) {
   Demands d{.limits = limits_of(object),
             .Ra_um = number_of(object, "Ra_um"),
-            .Rz_um = number_of(object, "Rz_um")};
+            .Rz_um = number_of(object, "Rz_um"),
+            .grinding_mm = number_of(object, "grinding_allowance_mm")};
   if (object.contains("fit")) d.fit = text_of(object, "fit");
   return d;
 }

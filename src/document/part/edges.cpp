@@ -169,7 +169,8 @@ std::string at_most(double mm) {
 // A chamfer of the given length along the axis, in the standing element; `most_mm` of its
 // radius are free for it.
 template <class Element>
-void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
+void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_mm,
+                  Element& e) {
   const double axial = r.number("chamfer_mm", above_up_to(0, 1000, "mm"));
   const double angle = r.number_or("angle_deg", within(1, 89, "deg"), 45);
   auto& mine = chamfer_at(e, step.end);
@@ -177,7 +178,10 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
     r.problem_at("at", "each edge once", "duplicate");
     return;
   }
-  const double radial = axial * std::tan(units::rad_from_deg(angle));
+  // As drawn once its element is ground.
+  const double slope = std::tan(units::rad_from_deg(angle)),
+               more = draft.ground(e.id) / 2;
+  const double radial = axial * slope + more;
   const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
@@ -196,7 +200,7 @@ void read_chamfer(Reader& r, const Step& step, double most_mm, Element& e) {
                      " mm of the radius there (this one takes " + rounded(radial) + ")",
                  "conflict");
   else
-    mine = part::Chamfer{axial, radial, step.by_blade};
+    mine = part::Chamfer{axial + more / slope, radial, step.by_blade};
 }
 
 template <class Element>
@@ -246,14 +250,19 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
   return found;
 }
 
-// In the lower element; `most_mm` of the step are free for its radius.
-void read_undercut(Reader& r, const Step& step, double most_mm, part::OuterElement& e) {
+// In the lower element; `most_mm` of the step are free for its radius.  It is as deep as drawn
+// once its element is ground.
+void read_undercut(const Draft& draft, Reader& r, const Step& step, double most_mm,
+                   part::OuterElement& e) {
   auto& mine = undercut_at(e, opposite(step.end));
   const double free = e.length_mm - edge_length_mm(e, step.end);
   const bool thread = e.cut && e.cut->kind == part::CutKind::thread;
-  const auto found = thread ? read_thread_undercut(r.at("undercut"), e.cut->pitch_mm)
-                            : read_undercut(r.at("undercut"));
+  auto found = thread ? read_thread_undercut(r.at("undercut"), e.cut->pitch_mm)
+                      : read_undercut(r.at("undercut"));
   if (!found) return;
+  const double more = draft.ground(e.id) / 2;
+  found->depth_mm += more;
+  found->width_mm += more / std::tan(part::falls_rad(*found));
   if (mine)
     r.problem_at("at", "each corner once", "duplicate");
   else if (!can_have_edge(e))
@@ -299,11 +308,11 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
       r.find(key);
   } else if (chamfer) {
     const double most_mm = step->most_mm - foot_mm(d, *step);
-    step->inner ? read_chamfer(r, *step, most_mm, d.inner[step->standing])
-                : read_chamfer(r, *step, most_mm, d.outer[step->standing]);
+    step->inner ? read_chamfer(draft, r, *step, most_mm, d.inner[step->standing])
+                : read_chamfer(draft, r, *step, most_mm, d.outer[step->standing]);
   } else if (undercut && step->lower && !step->inner) {
     const auto& edge = chamfer_at(d.outer[step->standing], step->end);
-    read_undercut(r, *step, step->most_mm - (edge ? edge->radial_mm : 0),
+    read_undercut(draft, r, *step, step->most_mm - (edge ? edge->radial_mm : 0),
                   d.outer[*step->lower]);
   } else if (undercut) {
     r.problem_at("undercut", "the inner corner between two outer elements, \"d1|d2\"",

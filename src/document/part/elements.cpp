@@ -73,8 +73,34 @@ void read_size(Reader& r, Element& e, Side side) {
   }
 }
 
+// Turning leaves an allowance on the diameter and does not answer for what is ground: the
+// size that is left then has a third of the allowance as its tolerance.
 template <class Element>
-void read_shape(Reader& r, Element& e, Side side) {
+void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
+  constexpr double kShareOfAllowance = 1.0 / 3;
+  const auto given = r.optional_number("grinding_allowance_mm", above_up_to(0, 5, "mm"));
+  if (!given || !std::isfinite(e.left_mm + e.right_mm)) return;
+  const double by = side == Side::outer ? *given : -*given;
+  if (!(std::min(e.left_mm, e.right_mm) + by > 0))
+    return r.problem_at("grinding_allowance_mm", "less than the diameter", "conflict");
+  e.left_mm += by;
+  e.right_mm += by;
+  for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})
+    if (const auto value = r.find(key); value && !value->broken())
+      draft.assume(r.pointer_of(key), value->json(), "made by grinding: not predicted");
+  const double half = *given * kShareOfAllowance / 2;
+  e.fit.reset();
+  e.Ra_um.reset();
+  e.Rz_um.reset();
+  e.limits = part::Limits{-half, half};
+  draft.ground_mm[e.id] = *given;
+  draft.assume(r.pointer_of("limits_mm"), {-half, half},
+               "a third of the grinding allowance, about the " + number_text(e.left_mm) +
+                   " mm that are turned");
+}
+
+template <class Element>
+void read_shape(Draft& draft, Reader& r, Element& e, Side side) {
   e.length_mm = r.number("length_mm", kSize);
   if (e.kind == ElementKind::cylinder) {
     e.left_mm = e.right_mm = r.number("diameter_mm", kSize);
@@ -87,6 +113,7 @@ void read_shape(Reader& r, Element& e, Side side) {
   }
   read_size(r, e, side);
   read_roughness(r, e.Ra_um, e.Rz_um);
+  read_grinding(draft, r, e, side);
   r.finish();
 }
 
@@ -110,7 +137,7 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
       read_cut(draft, r, e, *shape->cut);
     } else if (shape) {
       e.kind = shape->turned;
-      read_shape(r, e, side);
+      read_shape(draft, r, e, side);
     }
     list.push_back(std::move(e));
   }

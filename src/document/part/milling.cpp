@@ -135,7 +135,8 @@ void read_place(Draft& draft, Reader r) {
   m.length_mm = r.number("length_mm", above_up_to(0, 20000, "mm"));
   if (kind_known && m.kind != MilledKind::flat)
     m.width_mm = r.number("width_mm", above_up_to(0, 500, "mm"));
-  m.depth_mm = r.number("depth_mm", above_up_to(0, 500, "mm"));
+  // Below the rim once it is ground.
+  m.depth_mm = r.number("depth_mm", above_up_to(0, 500, "mm")) + draft.ground(on) / 2;
   m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
   m.corner_mm = r.optional_number("corner_mm", within(0, 250, "mm"));
   if (r.has("tool"))

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,16 @@ struct Draft {
   LoadedPart loaded = {};
   std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, or all
   std::vector<catalogue::Tool> undercut_tools = {};    ///< see add_tools_for_undercuts
+  /// What turning leaves for grinding on the diameters of elements [mm], by their ids; the
+  /// drawing has the turned diameters.
+  std::map<std::string, double> ground_mm = {};
 
   planning::PlanRequest& plan() { return loaded.plan; }
   part::Drawing& drawing() { return loaded.plan.drawing; }
+  double ground(const std::string& id) const {
+    const auto found = ground_mm.find(id);
+    return found == ground_mm.end() ? 0 : found->second;
+  }
   void assume(std::string pointer, nlohmann::json value, std::string why) {
     loaded.assumed.push_back({std::move(pointer), std::move(value), std::move(why)});
   }

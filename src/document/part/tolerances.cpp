@@ -231,6 +231,10 @@ void read_listed(Draft& draft) {
   ToleranceReader reader(draft, features(drawing));
   for (Reader r : draft.root.optional_items("tolerances", 0, 500)) {
     auto t = reader.read(r);
+    if (draft.ground(t.of) > 0) {
+      draft.assume(r.pointer(), t.id, "made by grinding: not predicted");
+      continue;
+    }
     if (t.kind == ToleranceKind::diameter && t.limits) {
       take_diameter(r, t, drawing.outer);
       take_diameter(r, t, drawing.inner);
@@ -297,6 +301,7 @@ void assume_length(Draft& draft, tolerance::LinearClass linear, const std::strin
 
 void assume_form(Draft& draft, tolerance::GeometricalClass form, const std::string& why) {
   for (auto& t : tolerance::implied_form_tolerances(draft.drawing(), form)) {
+    if (draft.ground(t.of) > 0) continue;
     draft.assume("/tolerances",
                  {{"id", t.id},
                   {"kind", part::name(t.kind)},

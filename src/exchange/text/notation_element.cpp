@@ -165,10 +165,25 @@ class ElementWords {
     return false;
   }
 
+  // "grind0.3".
+  void read_grinding(Word word, Word rest) {
+    auto& grinding = e().demands.grinding_mm;
+    const bool turned = e().shape == Shape::cylinder || e().shape == Shape::cone;
+    if (grinding)
+      mistakes_.add(word, "one grinding allowance");
+    else if (const auto x = number(rest); !x || !turned)
+      mistakes_.add(word,
+                    "a grinding allowance on the diameter of a cylinder or cone, like "
+                    "grind0.3");
+    else if (in_range(word, *x, 5, "mm", mistakes_))
+      grinding = x;
+  }
+
   void read_demand(Word word) {
     Word rest = word;
     if (take(rest, {"x", "×"})) return read_length(word, rest);
     if (take_roughness(word, e().demands, mistakes_)) return;
+    if (take(rest, {"grind"})) return read_grinding(word, rest);
     if (e().shape == Shape::arc && read_arc(word)) return;
     const bool thread = e().shape == Shape::thread;
     if (thread ? is_thread_class(word) : is_fit(word)) return read_fit(word);

@@ -19,8 +19,8 @@ bool continues_character(char c) {
 
 // What belongs to the number behind it.
 bool is_prefix(Word word) {
-  constexpr std::array<std::string_view, 11> kPrefixes{"x",  "×",  "d", "Ø", "ø", "⌀",
-                                                       "ra", "rz", "r", "m", "±"};
+  constexpr std::array<std::string_view, 12> kPrefixes{
+      "x", "×", "d", "Ø", "ø", "⌀", "ra", "rz", "r", "m", "±", "grind"};
   const std::string w = small(word);
   return std::find(kPrefixes.begin(), kPrefixes.end(), w) != kPrefixes.end() ||
          w == "+-" || w == "+/-";
