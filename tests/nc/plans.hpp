@@ -63,8 +63,11 @@ inline const Planned& planned_awkward(const std::string& name) {
 }
 
 /// Those with holes that are reamed or tapped.
-inline constexpr std::array kReamedAndTapped{"tapped-ends", "reamed-through",
+inline constexpr std::array kReamedAndTapped{"tapped-ends",
+                                             "reamed-through",
                                              "reamed-behind-counterbore",
-                                             "tapped-behind-counterbore"};
+                                             "tapped-behind-counterbore",
+                                             "tapped-through",
+                                             "taps-that-meet"};
 
 }  // namespace turnwright::nc::test

@@ -345,7 +345,7 @@ void countersink_tapped(Draft& draft, const Reader& item, std::size_t i) {
   auto& d = draft.drawing();
   auto& bore = d.inner[i];
   const bool left = bore.from == part::End::left;
-  const double D = kOfThread * bore.cut->drawn.left_mm;
+  const double D = std::round(100 * kOfThread * bore.cut->drawn.left_mm) / 100;
   const double end_mm = left ? d.outer.front().left_mm : d.outer.back().right_mm;
   const auto* t = countersink_for(draft, i, D, nullptr);
   if (part::opening_chamfer(bore) || !t || D + 2 * kRing_mm > end_mm) return;

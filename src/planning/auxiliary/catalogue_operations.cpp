@@ -631,6 +631,12 @@ void add_groove(Site& s, const CutElement& e) {
   s.out.after.push_back(plunged(s, a, f, e.small_mm, e.large_mm, *plunges, way));
 }
 
+// What an inner thread lacks beside a threading tool.
+constexpr const char* kNotTapped =
+    " in a bore of {:g} mm, and no tap that goes as deep with its lead, and has its "
+    "drill, makes it: a tapped thread is the innermost bore of its end or has a hole of "
+    "its drill's diameter behind it, and no edge but a chamfer that a countersink cuts";
+
 // Eq. (4).
 void add_thread(Site& s, const CutElement& e) {
   const double P = e.cut.pitch_mm;
@@ -643,8 +649,7 @@ void add_thread(Site& s, const CutElement& e) {
                   fmt::format("no threading tool of the tools is for {} and a pitch of "
                               "{:g} mm{}",
                               s.p.material.name, P,
-                              e.inner ? fmt::format(" in a bore of {:g} mm", e.bored_mm)
-                                      : std::string()));
+                              e.inner ? fmt::format(kNotTapped, e.bored_mm) : ""));
   if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
     return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
   f.at.f_mm_rev = P;

@@ -208,6 +208,15 @@ TEST(Holes, AreReamedWhereADrillDoesNotKeepThem) {
   EXPECT_FALSE(part::is_hole(first_bore(drilled(8.5, {{"fit", "H7"}})))) << "no reamer";
 }
 
+// Of several drills that leave the reamer what it needs the one that leaves least.
+TEST(Holes, AreDrilledForTheReamerAsWideAsMayBe) {
+  auto drill = file("tools/fixed/DRILL-HM-5D.json");
+  drill["sizes_mm"] = {7.65, 7.7, 7.85, 7.95};
+  auto d = drilled(8, {{"fit", "H7"}});
+  d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", drill};
+  EXPECT_EQ(first_bore(d).cut->drilled_mm, 7.85);
+}
+
 json threaded(const char* designation, double length_mm) {
   auto d = drilled(8);
   d["inner"][0] = {{"id", "b1"},
@@ -221,10 +230,11 @@ json threaded(const char* designation, double length_mm) {
 // DIN 336's drills, where the carbide drills have them.
 TEST(Threads, ThatNoBarEntersAreTapped) {
   const std::pair<const char*, double> taps[] = {
-      {"M4", 3.3},  {"M5", 4.2},       {"M6", 5},     {"M8", 6.8}, {"M8x1", 7},
-      {"M10", 8.5}, {"M10x1.25", 8.8}, {"M12", 10.2}, {"M16", 14}};
+      {"M3", 2.5},   {"M4", 3.3}, {"M5", 4.2},   {"M6", 5},
+      {"M8", 6.8},   {"M8x1", 7}, {"M10", 8.5},  {"M10x1.25", 8.8},
+      {"M12", 10.2}, {"M16", 14}, {"3/8-16", 8}, {"1/4-20 UNC", 5}};
   for (const auto& [designation, drill] : taps) {
-    const auto e = first_bore(threaded(designation, 8));
+    const auto e = first_bore(threaded(designation, 6));
     ASSERT_TRUE(part::is_tapped(e)) << designation;
     EXPECT_EQ(e.cut->drilled_mm, drill) << designation;
     EXPECT_EQ(e.left_mm, drill) << designation;
@@ -232,7 +242,6 @@ TEST(Threads, ThatNoBarEntersAreTapped) {
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M20", 8)))) << "a bar enters";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10x0.75", 8)))) << "no tap";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10", 27)))) << "deeper than 3 d";
-  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M3", 8)))) << "no drill";
 }
 
 // The drill goes as deep as the tap with its lead of 2.5 pitches, or as what is drawn
