@@ -1,0 +1,251 @@
+#include "fixed_operation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "chosen_conditions.hpp"
+#include "planning/clamping/clamping_speed.hpp"
+#include "planning/clamping/positions.hpp"
+#include "planning/surface/operation_result.hpp"
+#include "planning/values/readable.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::planning::fixed {
+namespace {
+
+bool drills(FixedUse use) {
+  return use == FixedUse::centring || use == FixedUse::drilling;
+}
+
+// The conditions of a tool in one of its sizes.
+catalogue::FixedConditions of_size(catalogue::FixedConditions at, FixedUse use,
+                                   double size_mm) {
+  if (!catalogue::on_axis(use) || use == FixedUse::tapping) return at;
+  at.f_mm_rev *= size_mm;
+  if (at.window)
+    for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
+      *f *= size_mm;
+  return at;
+}
+
+// The lowest speed and feed of a tool's window.
+catalogue::FixedConditions gentlest(const catalogue::FixedConditions& at) {
+  if (!at.window) return at;
+  return catalogue::at(at, at.window->vc_m_min.lower, at.window->f_mm_rev.lower);
+}
+
+// A given depth names the tool's size: half a drill's diameter, the width of a blade
+// that parts off.
+bool of_given_depth(const Asked& a, double size) {
+  if (!a.given || !a.given->conditions.ap_mm) return true;
+  const double ap = *a.given->conditions.ap_mm;
+  if (drills(a.use)) return std::abs(size / (2 * ap) - 1) < 1e-9;
+  return a.use != FixedUse::parting || std::abs(size / ap - 1) < 1e-9;
+}
+
+// Adds a limit, or keeps the tighter of two of the same name.
+void tighten(std::vector<ConstraintValue>& all, const ConstraintValue& c) {
+  const auto it = std::find_if(all.begin(), all.end(),
+                               [&](const auto& o) { return o.name == c.name; });
+  if (it == all.end())
+    all.push_back(c);
+  else if (c.margin < it->margin)
+    *it = c;
+}
+
+}  // namespace
+
+Fitted fitted(const PlanRequest& p, const Asked& a) {
+  Fitted best;
+  const bool smallest = a.use == FixedUse::parting || a.use == FixedUse::countersinking;
+  for (const auto& t : p.fixed_tools) {
+    const auto* at = t.conditions_in(p.material.group);
+    if (t.use != a.use || !at || t.inner != a.inner) continue;
+    if (a.given && a.given->tool && *a.given->tool != t.id) continue;
+    const auto sizes = t.sizes_mm.empty() ? std::vector{0.0} : t.sizes_mm;
+    for (const double size : sizes)
+      if (a.fits(t, size) && of_given_depth(a, size) &&
+          (!best.tool || (smallest ? size < best.size_mm : size > best.size_mm)))
+        best = {&t, size, *at};
+  }
+  if (!best.tool) return best;
+  best.at = of_size(best.at, a.use, best.size_mm);
+  if (a.given) {
+    const auto& [vc, f] =
+        std::pair{a.given->conditions.vc_m_min, a.given->conditions.f_mm_rev};
+    if (best.at.window && vc) best.at.window->vc_m_min = {*vc, *vc};
+    if (best.at.window && f) best.at.window->f_mm_rev = {*f, *f};
+    best.at = catalogue::at(best.at, vc.value_or(best.at.vc_m_min),
+                            f.value_or(best.at.f_mm_rev));
+  }
+  return best;
+}
+
+Fitted fitted_if(const PlanRequest& p, const Asked& a,
+                 const std::function<bool(const Fitted&)>& borne) {
+  if (a.given) return fitted(p, a);
+  for (const bool gently : {false, true}) {
+    auto asked = a;
+    asked.fits = [&](const FixedTool& t, double size) {
+      if (!a.fits(t, size)) return false;
+      const auto at = of_size(*t.conditions_in(p.material.group), a.use, size);
+      return borne({&t, size, gently ? gentlest(at) : at});
+    };
+    if (const auto f = fitted(p, asked); f.tool) return f;
+  }
+  return fitted(p, a);
+}
+
+void refuse(const Site& s, const Asked& a, const std::string& why) {
+  s.out.conflicts.push_back({fmt::format("{} {}", a.does, a.surface),
+                             setup_label(s.setup), 0, 0, "",
+                             fmt::format("{} {}: {}", a.does, a.surface, why)});
+}
+
+bool names_tool(const PlanRequest& p, const OperationRequest& o, FixedUse use) {
+  return std::ranges::any_of(
+      p.fixed_tools, [&](const FixedTool& t) { return o.tool == t.id && t.use == use; });
+}
+
+const OperationRequest* given_on(const Site& s, const std::string& surface,
+                                 std::optional<FixedUse> use) {
+  if (!s.p.operations) return nullptr;
+  for (const auto& o : *s.p.operations)
+    if (o.kind == OperationKind::fixed && o.setup == s.setup &&
+        std::find(o.on.begin(), o.on.end(), surface) != o.on.end() &&
+        (!use || names_tool(s.p, o, *use)))
+      return &o;
+  return nullptr;
+}
+
+double n_cap_rpm(const Site& s) {
+  const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
+  return std::min({s.ranges.back().n_max_rpm, clamping_rpm(s.p, s.clamping),
+                   grip_loss_rpm(s.p, s.clamping, force)});
+}
+
+GripForces grip_forces(const PreparedPart& p, std::size_t setup, Clamping clamping,
+                       Stage stage, const Duty& d) {
+  const auto& m = p.machine;
+  const double force = jaw_force_N(p, setup, clamping, stage);
+  const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+                           grip_diameter_mm(p, setup, clamping)};
+  const double needed = cutting::grip_needed_N(grip, 2000 * d.load.M_Nm / d.D_mm,
+                                               d.radial ? 0.0 : d.load.Ff_N, d.D_mm);
+  return {needed + cutting::grip_loss_N(grip, d.n_rpm), force};
+}
+
+std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
+                                    const std::vector<Duty>& duties) {
+  const auto& m = s.p.machine;
+  const auto& ranges = s.ranges;
+  std::vector<ConstraintValue> all;
+  for (const auto& d : duties) {
+    const double n =
+        std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
+    const auto& [Fc, Ff, M] = d.load;
+    if (Ff > 0) tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
+    tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
+                            cutting::available_kW(ranges, n, false)));
+    tighten(all, constraint(Check::torque, M,
+                            cutting::available_kW(ranges, n, true) /
+                                units::shaft_power_kW(1, n)));
+    tighten(all, constraint(Check::spindle_min, d.n_rpm, m.n_min_rpm));
+    if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
+    if (s.clamping == Clamping::between_centres) continue;
+    const auto grip = grip_forces(s.p, s.setup, s.clamping, s.stage, d);
+    tighten(all, constraint(Check::grip, grip.needed_N, grip.closed_N));
+  }
+  return all;
+}
+
+AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
+                             std::vector<Pass> passes, const Way& way,
+                             const std::vector<Duty>& duties) {
+  AuxiliaryOperation o;
+  auto& plan = o.plan;
+  plan.kind = OperationKind::fixed;
+  plan.id = a.given
+                ? (a.given->on.size() > 1 ? a.given->id + ":" + a.surface : a.given->id)
+                : fmt::format("s{}-{}-{}", s.setup + 1, a.does, a.surface);
+  plan.on = {a.surface};
+  plan.tool = f.tool->id;
+  for (auto& pass : passes) {
+    pass.f_mm_rev = f.at.f_mm_rev;
+    pass.T_min = f.at.T_min;
+    plan.time_min += pass.time_min;
+  }
+  plan.edges = plan.time_min / f.at.T_min;
+  o.air_min = way.fed_min + way.rapid_mm / s.p.machine.rapid_mm_min;
+  o.change_min = f.tool->change_min * plan.edges;
+  o.edges_cost = f.tool->edge_cost * plan.edges;
+  o.order = {f.size_mm > 0 ? fmt::format("{} {:g}", f.tool->id, f.size_mm) : f.tool->id,
+             s.stage,
+             drills(a.use),
+             way.inner,
+             way.from_mm,
+             way.to_mm};
+  plan.passes = std::move(passes);
+  plan.cost = s.p.machine_per_min * o.minutes() + o.edges_cost;
+  plan.constraints = limits(s, *f.tool, duties);
+  const double counted = s.p.objective == Objective::time ? o.minutes() : plan.cost;
+  plan.certificate = {CertificateKind::global,
+                      counted,
+                      0,
+                      0,
+                      "fixed",
+                      f.at.window ? "the best of the tool's window"
+                                  : "catalogue conditions, nothing is chosen"};
+  return o;
+}
+
+Pass pass_of(const Duty& d, double ap_mm, double time_min) {
+  Pass p;
+  p.ap_mm = ap_mm;
+  p.n_rpm = d.n_rpm;
+  p.vc_m_min = units::cutting_speed_m_min(d.n_rpm, d.D_mm);
+  p.time_min = time_min;
+  p.Fc_N = d.load.Fc_N;
+  (d.radial ? p.Fp_N : p.Ff_N) = d.load.Ff_N;
+  p.Pc_kW = units::shaft_power_kW(d.load.M_Nm, d.n_rpm);
+  return p;
+}
+
+AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D_mm,
+                           double n_cap,
+                           const std::function<AuxiliaryOperation(const Fitted&)>& make) {
+  if (!f.at.window) return make(f);
+  auto& [lowest, highest] = f.at.window->vc_m_min;
+  highest = std::min(highest, units::cutting_speed_m_min(n_cap, D_mm[0]));
+  // By a rounding above the spindle's least speed, which is a limit.
+  const double slowest =
+      units::cutting_speed_m_min(s.p.machine.n_min_rpm * (1 + 1e-12), D_mm[0]);
+  lowest = std::clamp(slowest, std::min(lowest, highest), highest);
+  std::vector<double> breaks;
+  for (const auto& range : s.ranges)
+    for (const double D : D_mm)
+      breaks.push_back(units::cutting_speed_m_min(range.n_max_rpm, D));
+  const auto with = [&](const SpeedAndFeed& c) {
+    return Fitted{f.tool, f.size_mm, catalogue::at(f.at, c.vc_m_min, c.f_mm_rev)};
+  };
+  return make(with(best_conditions(*f.at.window, breaks, [&](const SpeedAndFeed& c) {
+    const auto o = make(with(c));
+    const auto kept = [](const ConstraintValue& each) { return each.margin >= 0; };
+    return ConditionsTrial{
+        s.economy.minute * (o.plan.time_min + o.air_min),
+        s.economy.minute * o.change_min + s.economy.edge * o.edges_cost,
+        std::ranges::all_of(o.plan.constraints, kept)};
+  })));
+}
+
+bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {
+  if (!(e.around.front > 0 && z > 0)) return false;
+  refuse(s, a,
+         fmt::format("the end that it begins at is not faced, {:.3g} mm stand before it",
+                     e.around.front));
+  return true;
+}
+
+}  // namespace turnwright::planning::fixed

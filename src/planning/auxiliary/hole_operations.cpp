@@ -1,0 +1,338 @@
+#include "hole_operations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catalogue_operations.hpp"
+#include "planning/clamping/centre_clearance.hpp"
+#include "planning/paths/edges.hpp"
+#include "turnwright/base/units.hpp"
+
+namespace turnwright::planning {
+namespace fixed {
+namespace {
+
+// Eq. (2).
+AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
+                           double depth_mm) {
+  const double D = f.size_mm, n_cap = n_cap_rpm(s);
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double front = front_mm(s.p, s.setup, s.work);
+  const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
+  double fed = path, rapid = kBefore_mm + path;
+  auto pecks = cutting::peck_depths_mm(f.tool->pecking, D, path);
+  pecks.pop_back();
+  for (const double depth : pecks) {
+    fed += kPeck_mm;
+    rapid += 2 * (depth + kBefore_mm) - kPeck_mm;
+  }
+  return at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty d{cutting::drill(kc, D, at.at.f_mm_rev, at.tool->point_deg),
+                 std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    return operation(s, a, at, {pass_of(d, D / 2, fed / vf)},
+                     {kBefore_mm / vf, rapid, true, 0, 0}, {d});
+  });
+}
+
+// Whether a setup makes the drawn centre hole of an end: the first that faces it, else the
+// first that leaves it free.
+bool makes_centre(const PreparedPart& p, std::size_t setup, part::End end) {
+  for (const bool faces : {true, false})
+    for (std::size_t s = 0; s < p.work.setups.size(); ++s)
+      if (free_end(p, s) == end && (!faces || p.work.setups[s].end_face))
+        return s == setup;
+  return false;
+}
+
+// The bores of a bar that open to an end: how deep, and the narrowest diameter.
+struct Hole {
+  double depth_mm = 0, least_mm = INFINITY;
+  std::string first;      // the outermost bore
+  double drilled_mm = 0;  // of the innermost if it is a hole: the drill's diameter
+  /// Material left between it and the bores of the other end, or that end; the narrowest
+  /// of those bores.
+  double rest_mm = 0, behind_mm = INFINITY;
+
+  // Whether a drill's point stays clear of the drawn surfaces behind; between bores from
+  // both ends each may use half.
+  bool spares_behind(const FixedTool& drill, double size_mm) const {
+    if (rest_mm < kNoWall_mm) return size_mm <= behind_mm;
+    const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
+    return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
+  }
+};
+Hole hole_from(const part::Drawing& d, part::End end) {
+  Hole h;
+  if (d.stock.kind != part::StockKind::bar) return h;
+  h.rest_mm = part::length_mm(d);
+  double needed = 0;  // by reamers and taps
+  for (const auto& e : d.inner) {
+    h.rest_mm -= e.length_mm;
+    if (e.from != end) {
+      h.behind_mm = std::min({h.behind_mm, e.left_mm, e.right_mm});
+      continue;
+    }
+    if (h.first.empty()) h.first = e.id;
+    h.depth_mm += e.length_mm;
+    h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
+    h.drilled_mm = part::is_hole(e) ? e.cut->drilled_mm : 0;
+    if (part::is_hole(e)) needed = std::max(needed, h.depth_mm + e.cut->lead_mm);
+  }
+  if (!(needed > h.depth_mm)) return h;
+  if (h.rest_mm >= kNoWall_mm) h.rest_mm -= needed - h.depth_mm;
+  h.depth_mm = needed;
+  return h;
+}
+
+// Whether feed drive and spindle drive a drill and the jaws hold the part.
+bool drives(const PreparedPart& p, std::size_t setup, const Fitted& f) {
+  const double D_mm = f.size_mm;
+  const auto ranges = cutting::speed_ranges(p.machine);
+  const auto load = cutting::drill(cutting::kienzle_at(p.material, f.tool->gamma_deg),
+                                   D_mm, f.at.f_mm_rev, f.tool->point_deg);
+  const double n = std::clamp(units::spindle_rpm(f.at.vc_m_min, D_mm),
+                              ranges.front().n_min_rpm, ranges.back().n_max_rpm);
+  const double P_kW = units::shaft_power_kW(load.M_Nm, n);
+  const auto grip =
+      grip_forces(p, setup, Clamping::chuck, Stage::roughing, {load, n, D_mm});
+  return load.Ff_N <= p.machine.feed_force_max_N &&
+         P_kW <= cutting::available_kW(ranges, n, false) &&
+         P_kW <= cutting::available_kW(ranges, n, true) && grip.needed_N <= grip.closed_N;
+}
+
+Asked drilling(const Hole& h, const OperationRequest* given) {
+  return {FixedUse::drilling,
+          "drill",
+          h.first,
+          false,
+          given,
+          [h](const FixedTool& t, double size) {
+            return (h.drilled_mm > 0 ? size == h.drilled_mm
+                                     : size <= h.least_mm - 2 * kLeftToBore_mm) &&
+                   h.depth_mm <= t.reach * size && h.spares_behind(t, size);
+          }};
+}
+
+const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
+  if (!p.operations) return nullptr;
+  for (const auto& o : *p.operations)
+    for (const auto& e : p.drawing.inner)
+      if (o.kind == OperationKind::fixed && e.from == end &&
+          (!e.cut || part::is_hole(e)) && p.setups[o.setup].hold != end &&
+          (!o.tool || names_tool(p, o, FixedUse::drilling)) &&
+          std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
+        return &o;
+  return nullptr;
+}
+
+Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
+  return fitted_if(p, a, [&](const Fitted& f) { return drives(p, setup, f); });
+}
+
+// A reamer or a tap goes through its hole to its lead beyond, and back at the same feed:
+// in the cut both ways.
+AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
+                                const CutElement& e, double n_cap,
+                                const std::function<cutting::Load(const Fitted&)>& load) {
+  const double z0 = e.around.z0, front = e.around.front;
+  const double start = hole_start_mm(z0, front), before = start + kBefore_mm - z0;
+  return at_best(s, f, {f.size_mm}, n_cap, [&](const Fitted& at) {
+    const Duty d{load(at),
+                 std::min(units::spindle_rpm(at.at.vc_m_min, at.size_mm), n_cap),
+                 at.size_mm};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    return operation(s, a, at, {pass_of(d, e.cut.depth_mm, 2 * e.length_mm / vf)},
+                     {2 * (before + e.cut.lead_mm) / vf, 2 * (front - start), true, 0, 0},
+                     {d});
+  });
+}
+
+// The chamfer where a hole begins: Eq. (8).
+void add_countersinking(Site& s, const CutElement& e) {
+  const auto& c = e.around.front_chamfer;
+  if (!(c.axial_mm > 0)) return;
+  const double D = 2 * (c.radial_mm - e.around.h0), drilled = e.cut.drilled_mm;
+  const double room = part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm;
+  const Asked a{FixedUse::countersinking,
+                "countersink",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::countersinking),
+                [&](const FixedTool& t, double size) {
+                  return size >= D && size <= room &&
+                         part::fits_countersink(c, t.point_deg);
+                }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no countersink of the tools is for {}, of the chamfer's "
+                              "angle, at least {:g} mm in diameter and passes the bores "
+                              "before it",
+                              s.p.material.name, D));
+  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
+  const double cut = in - cutting::drill_point_mm(drilled, f.tool->point_deg);
+  const double n_cap = n_cap_rpm(s), inside = e.around.front - e.around.z0;
+  s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty duty{cutting::ream(kc, D, drilled, at.at.f_mm_rev, at.tool->edges,
+                                  at.tool->point_deg / 2),
+                    std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
+    const double vf = at.at.f_mm_rev * duty.n_rpm;
+    return operation(s, a, at, {pass_of(duty, (D - drilled) / 2, cut / vf)},
+                     {(fed - cut) / vf, 2 * inside + fed, true, 0, 0}, {duty});
+  }));
+}
+
+// Eq. (7).
+void add_reaming(Site& s, const CutElement& e) {
+  const double D = e.cut.drawn.left_mm, deep = e.length_mm + e.cut.lead_mm;
+  const Asked a{FixedUse::reaming,
+                "ream",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::reaming),
+                [&](const FixedTool& t, double size) {
+                  return size == D && deep <= t.reach * D && t.lead <= e.cut.lead_mm;
+                }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no reamer of the tools is for {}, {:g} mm in diameter and "
+                              "reaches {:g} mm deep",
+                              s.p.material.name, D, deep));
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  s.out.after.push_back(through_hole(s, a, f, e, n_cap_rpm(s), [&](const Fitted& at) {
+    return cutting::ream(kc, D, e.cut.drilled_mm, at.at.f_mm_rev, at.tool->edges);
+  }));
+}
+
+// Eq. (7).
+void add_tapping(Site& s, const CutElement& e) {
+  const double d = e.cut.drawn.left_mm, P = e.cut.pitch_mm;
+  const double deep = e.length_mm + e.cut.lead_mm;
+  const Asked a{FixedUse::tapping,
+                "tap",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::tapping),
+                [&](const FixedTool& t, double) {
+                  return catalogue::thread_of(t, d, P) && deep <= t.reach * d &&
+                         t.lead * P <= e.cut.lead_mm * (1 + kBeyondRounding);
+                }};
+  auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(
+        s, a,
+        fmt::format("no tap of the tools is for {} and a thread of {:g} mm with "
+                    "a pitch of {:g} mm, {:g} mm deep",
+                    s.p.material.name, d, P, deep));
+  f.size_mm = d;
+  f.at.f_mm_rev = P;
+  if (f.at.window) f.at.window->f_mm_rev = {P, P};
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double n_cap = std::min(n_cap_rpm(s), s.p.machine.rapid_mm_min / P);
+  s.out.after.push_back(through_hole(s, a, f, e, n_cap, [&](const Fitted& at) {
+    return cutting::tap(kc, d, P, e.cut.depth_mm, at.tool->lead, at.tool->edges);
+  }));
+}
+
+}  // namespace
+
+bool needs_centre(const PreparedPart& p, std::size_t setup, Clamping clamping) {
+  const auto end = free_end(p, setup);
+  if (part::centre_at(p.drawing, end)) return makes_centre(p, setup, end);
+  return has_live_centre(clamping) && !(free_bore_mm(p, setup) > 0);
+}
+
+// Without any centre drill among the tools the stock is assumed to come centred, where the
+// drawing asks for none.
+void add_centre(Site& s, const char* face, double end_mm) {
+  const auto& drawn = part::centre_at(s.p.drawing, free_end(s.p, s.setup));
+  if (!drawn && std::none_of(s.p.fixed_tools.begin(), s.p.fixed_tools.end(),
+                             [](const auto& t) { return t.use == FixedUse::centring; }))
+    return;
+  Asked a{FixedUse::centring,
+          "centre",
+          face,
+          false,
+          given_on(s, face),
+          [&](const FixedTool& t, double size) {
+            return drawn ? t.form == drawn->form && size == drawn->diameter_mm
+                         : t.form == 'A' && size <= kCentreShare * end_mm;
+          }};
+  const auto f = fitted(s.p, a);
+  if (f.tool)
+    s.out.before.push_back(drilled(s, a, f, f.tool->reach * f.size_mm));
+  else
+    refuse(s, a,
+           drawn ? fmt::format("no centre drill of the tools is for {} and {}",
+                               s.p.material.name, part::designation(*drawn))
+                 : fmt::format(
+                       "no centre drill of the tools is for {} and an end of {:g} mm",
+                       s.p.material.name, end_mm));
+}
+
+void add_drilling(Site& s, part::End end) {
+  const auto h = hole_from(s.p.drawing, end);
+  if (h.first.empty()) return;
+  const auto a = drilling(h, given_drilling(s.p, end));
+  const auto f = fitted_drill(s.p, s.setup, a);
+  if (f.tool)
+    s.out.before.push_back(
+        drilled(s, a, f, drilled_depth_mm(s.p, s.setup, end, f.tool->reach * f.size_mm)));
+  else
+    refuse(
+        s, a,
+        fmt::format(
+            "none of the drills is for {}, {}{:g} mm in diameter and long enough for "
+            "{:g} mm{}",
+            s.p.material.name, h.drilled_mm > 0 ? "" : "at most ",
+            h.drilled_mm > 0 ? h.drilled_mm : h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
+            h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
+                ? ""
+                : ", with a point that stays clear of what lies behind the hole"));
+}
+
+void add_hole_work(Site& s, const CutElement& e) {
+  add_countersinking(s, e);
+  if (e.cut.kind == part::CutKind::thread)
+    add_tapping(s, e);
+  else if (e.cut.depth_mm > 0)
+    add_reaming(s, e);
+}
+
+}  // namespace fixed
+
+double hole_start_mm(double begins_mm, double front_mm) {
+  return begins_mm > -kNoWall_mm ? std::max(begins_mm, front_mm) : begins_mm;
+}
+
+double drilled_depth_mm(const PreparedPart& p, std::size_t setup, part::End end,
+                        double longest_mm) {
+  const auto h = fixed::hole_from(p.drawing, end);
+  const bool meets = std::isfinite(h.behind_mm);
+  bool open = false;  // what lies behind
+  for (std::size_t s = 0; s < setup; ++s) {
+    const auto& work = p.work.setups[s];
+    open = open || (meets ? !work.bores.empty() : work.end_face);
+  }
+  if (h.drilled_mm > 0 || open || !(h.rest_mm < kNoWall_mm)) return h.depth_mm;
+  double largest = 0;
+  for (const auto& t : p.tools) largest = std::max(largest, t.re_mm);
+  return std::clamp(h.depth_mm + 2 * largest + kBehind_mm, h.depth_mm,
+                    std::max(h.depth_mm, longest_mm));
+}
+
+double drilled_mm(const PreparedPart& p, part::End end) {
+  const auto h = fixed::hole_from(p.drawing, end);
+  if (h.first.empty()) return 0;
+  const auto a = fixed::drilling(h, fixed::given_drilling(p, end));
+  const auto setup = setup_of(p, h.first);
+  return (setup ? fixed::fitted_drill(p, *setup, a) : fixed::fitted(p, a)).size_mm;
+}
+
+}  // namespace turnwright::planning
