@@ -63,11 +63,8 @@ inline const Planned& planned_awkward(const std::string& name) {
 }
 
 /// Those with holes that are reamed or tapped.
-inline constexpr std::array kReamedAndTapped{"tapped-ends",
-                                             "reamed-through",
-                                             "reamed-behind-counterbore",
-                                             "tapped-behind-counterbore",
-                                             "tapped-through",
-                                             "taps-that-meet"};
+inline constexpr std::array kReamedAndTapped{
+    "tapped-ends", "reamed-through", "reamed-behind-counterbore",
+    "tapped-behind-counterbore", "tapped-through"};
 
 }  // namespace turnwright::nc::test

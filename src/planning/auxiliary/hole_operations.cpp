@@ -52,14 +52,16 @@ struct Hole {
   double depth_mm = 0, least_mm = INFINITY;
   std::string first;      // the outermost bore
   double drilled_mm = 0;  // of the innermost if it is a hole: the drill's diameter
+  double beyond_mm = 0;   // diameter of reamers and taps whose leads go beyond the bores
   /// Material left between it and the bores of the other end, or that end; the narrowest
   /// of those bores.
   double rest_mm = 0, behind_mm = INFINITY;
 
-  // Whether a drill's point stays clear of the drawn surfaces behind; between bores from
-  // both ends each may use half.
+  // Whether a drill's point, and the lead of a reamer or tap, stay clear of the drawn
+  // surfaces behind, as of a thread of the other end; between bores from both ends each may
+  // use half.
   bool spares_behind(const FixedTool& drill, double size_mm) const {
-    if (rest_mm < kNoWall_mm) return size_mm <= behind_mm;
+    if (rest_mm < kNoWall_mm) return std::max(size_mm, beyond_mm) <= behind_mm;
     const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
     return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
   }
@@ -82,6 +84,13 @@ Hole hole_from(const part::Drawing& d, part::End end) {
     if (part::is_hole(e)) needed = std::max(needed, h.depth_mm + e.cut->lead_mm);
   }
   if (!(needed > h.depth_mm)) return h;
+  double deep = 0;
+  for (const auto& e : d.inner) {
+    if (e.from != end) continue;
+    deep += e.length_mm;
+    if (part::is_hole(e) && deep + e.cut->lead_mm > h.depth_mm)
+      h.beyond_mm = std::max(h.beyond_mm, e.cut->drawn.left_mm);
+  }
   if (h.rest_mm >= kNoWall_mm) h.rest_mm -= needed - h.depth_mm;
   h.depth_mm = needed;
   return h;
@@ -294,7 +303,9 @@ void add_drilling(Site& s, part::End end) {
             h.drilled_mm > 0 ? h.drilled_mm : h.least_mm - 2 * kLeftToBore_mm, h.depth_mm,
             h.rest_mm < kNoWall_mm && !std::isfinite(h.behind_mm)
                 ? ""
-                : ", with a point that stays clear of what lies behind the hole"));
+                : ", with a point, and a reamer or tap behind it, that stay clear of "
+                  "what lies "
+                  "behind the hole"));
 }
 
 void add_hole_work(Site& s, const CutElement& e) {

@@ -269,6 +269,19 @@ TEST(Threads, AreDrilledForTheLeadOfTheTap) {
   EXPECT_THROW(part(d), InputError) << "two drills";
 }
 
+// The lead of a tap would cut the thread of the other end anew, out of step.
+TEST(Threads, AreNotTappedIntoTheThreadOfTheOtherEnd) {
+  auto d = threaded("M10", 16);
+  auto behind = d["inner"][0];
+  behind["id"] = "b2";
+  behind["from"] = "left";
+  behind["length_mm"] = part::length_mm(part(d).drawing) - 16;
+  d["inner"].push_back(behind);
+  EXPECT_EQ(drilled_mm(part(d), part::End::right), 0) << "no drill may";
+  d["inner"][1]["designation"] = "M12";
+  EXPECT_EQ(drilled_mm(part(d), part::End::right), 8.5) << "a drill of 10.2 mm was there";
+}
+
 // In the cut both ways through the hole; the lead beyond it and 2 mm before it at feed.
 TEST(Threads, TakeTheTimeOfTheirWays) {
   const auto p = part(threaded("M10", 16));
