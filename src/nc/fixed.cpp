@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "contour.hpp"
-#include "planning/auxiliary/catalogue_operations.hpp"
+#include "planning/auxiliary/hole_operations.hpp"
 #include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "turnwright/base/units.hpp"

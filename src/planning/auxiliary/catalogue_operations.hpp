@@ -27,11 +27,11 @@ namespace turnwright::planning {
 ///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
-/// with the largest countersink of form A below 0.35 of the end's diameter, or as it is drawn;
-/// a drawn one is drilled without a centre too, in the first setup that finds its end faced.  Bores of a bar are
-/// drilled with the largest drill that leaves 0.5 mm on the radius of the narrowest, that
-/// the drives move and that the jaws hold at the catalogue's conditions, or if there is none
-/// at the gentlest of its window; boring takes the rest.
+/// with the largest countersink of form A below 0.35 of the end's diameter, or as it is
+/// drawn; a drawn one is drilled without a centre too, in the first setup that finds its end
+/// faced.  Bores of a bar are drilled with the largest drill that leaves 0.5 mm on the radius
+/// of the narrowest, that the drives move and that the jaws hold at the catalogue's
+/// conditions, or if there is none at the gentlest of its window; boring takes the rest.
 /// A hole or a thread that is reamed or tapped is drilled for that, deeper by the lead of
 /// the tool.
 /// Grooves take the widest blade that fits and that machine, jaws and tool bear, parting off
@@ -42,26 +42,8 @@ AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
                              Clamping clamping, const SetupWork& work,
                              const Economy& economy);
 
-/// Where [mm, in the program's z] the material of a hole that is drawn from `begins_mm`
-/// inwards begins for a reamer or a tap: there, or at the face that stands before it.
-double hole_start_mm(double begins_mm, double front_mm);
-
-/// How deep [mm] a drill goes in a setup whose free end is `end`, its point left out: as far
-/// as the bores of that end.  Where these meet what later setups open, a bore of the other
-/// end or the other face, boring overruns them into material that still stands: the drill
-/// goes before it by the two largest corners and 0.2 mm, as far as it reaches.
-double drilled_depth_mm(const PreparedPart& part, std::size_t setup, part::End end,
-                        double longest_mm);
-
 /// The conflicts of a setup at fixed conditions, limits that are not kept among them.
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& plan, std::size_t setup,
                                           Clamping clamping, const SetupWork& work);
-
-/// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
-/// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches
-/// their end, whose point cuts neither a narrower bore nor a wall behind, and for which
-/// power and torque of the spindle and the grip of the jaws suffice; 0 if nothing is
-/// drilled.  Needs `work`, `grips_mm` and `jaws` of the part.
-double drilled_mm(const PreparedPart& part, part::End end);
 
 }  // namespace turnwright::planning

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "catalogue_operations.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/paths/edges.hpp"
 #include "turnwright/base/units.hpp"

@@ -15,3 +15,25 @@ void add_drilling(Site& site, part::End end);
 void add_hole_work(Site& site, const CutElement& hole);
 
 }  // namespace turnwright::planning::fixed
+
+namespace turnwright::planning {
+
+/// Where [mm, in the program's z] the material of a hole that is drawn from `begins_mm`
+/// inwards begins for a reamer or a tap: there, or at the face that stands before it.
+double hole_start_mm(double begins_mm, double front_mm);
+
+/// How deep [mm] a drill goes in a setup whose free end is `end`, its point left out: as far
+/// as the bores of that end.  Where these meet what later setups open, a bore of the other
+/// end or the other face, boring overruns them into material that still stands: the drill
+/// goes before it by the two largest corners and 0.2 mm, as far as it reaches.
+double drilled_depth_mm(const PreparedPart& part, std::size_t setup, part::End end,
+                        double longest_mm);
+
+/// Diameter [mm] drilled from an end of a bar before its bores are bored: the largest of
+/// the plan's drills that leaves 0.5 mm on the radius of the narrowest bore, reaches
+/// their end, whose point cuts neither a narrower bore nor a wall behind, and for which
+/// power and torque of the spindle and the grip of the jaws suffice; 0 if nothing is
+/// drilled.  Needs `work`, `grips_mm` and `jaws` of the part.
+double drilled_mm(const PreparedPart& part, part::End end);
+
+}  // namespace turnwright::planning

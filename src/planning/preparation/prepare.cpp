@@ -4,7 +4,7 @@
 
 #include "edge_assignment.hpp"
 #include "grips.hpp"
-#include "planning/auxiliary/catalogue_operations.hpp"
+#include "planning/auxiliary/hole_operations.hpp"
 #include "planning/auxiliary/milled_ways.hpp"
 #include "planning/budget/jaw_squeeze.hpp"
 #include "planning/budget/machine_share.hpp"

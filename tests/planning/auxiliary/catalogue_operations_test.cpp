@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "../parts.hpp"
+#include "planning/auxiliary/hole_operations.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/setup_body.hpp"
 #include "planning/preparation/assignment.hpp"

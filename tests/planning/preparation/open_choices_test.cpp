@@ -6,6 +6,7 @@
 
 #include "../parts.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
+#include "planning/auxiliary/hole_operations.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/planning/plan.hpp"
