@@ -77,6 +77,18 @@ void countersink(Site& site, const OperationPlan& o, const FixedTool& tool) {
   site.rapid(0, site.front + kBefore_mm);
 }
 
+// Down to the floor of a counterbore.
+void counterbore(Site& site, const OperationPlan& o) {
+  const auto& s = place_of(site, o.on[0]).surface();
+  const auto way = planning::counterbore_way(site.part.drawing, s.index, site.front);
+  site.rapid(0, site.at.z_mm);
+  site.rapid(0, site.front + kBefore_mm);
+  site.rapid(0, way.from_mm + kBefore_mm);
+  site.to(Kind::feed, site.outer, {0, way.to_mm});
+  site.rapid(0, site.front + kBefore_mm);
+  site.inner.stock_h = std::min(site.inner.stock_h, s.h0);
+}
+
 // Through a hole, beyond it by the tool's lead, and back: a reamer at feed, a tap with the
 // spindle reversed in step.
 void through_hole(Site& site, const OperationPlan& o, Kind kind) {
@@ -281,6 +293,8 @@ void fixed(Site& site, std::size_t operation) {
     case FixedUse::centring:
     case FixedUse::drilling:
       return drill(site, o, tool);
+    case FixedUse::counterboring:
+      return counterbore(site, o);
     case FixedUse::countersinking:
       return countersink(site, o, tool);
     case FixedUse::reaming:

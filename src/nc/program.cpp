@@ -81,7 +81,7 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
   if (o.kind == OperationKind::fixed && use_of(site, o) == FixedUse::countersinking) {
     // From where the cone is as wide as the drilled hole.
     const double slope = s.front->axial_mm / s.front->radial_mm;
-    const double drilled = cut_of(site, s)->drilled_mm / 2;
+    const double drilled = part::opened_mm(*cut_of(site, s)) / 2;
     return {false, s.z0 - slope * (s.front->radial_mm - s.h0), s.z0 - slope * drilled};
   }
   if (o.kind == OperationKind::fixed && use_of(site, o) == FixedUse::profiling &&

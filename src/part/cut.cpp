@@ -38,6 +38,12 @@ Shaped reamed(double diameter_mm, double drilled_mm, double lead_mm) {
   return s;
 }
 
+Shaped counterbored(double diameter_mm, double drilled_mm) {
+  auto s = reamed(diameter_mm, drilled_mm, 0);
+  s.cut.flat = true;
+  return s;
+}
+
 Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm) {
   auto s = thread(d_mm, pitch_mm, Where::inside);
   s.blank = {drilled_mm, drilled_mm};

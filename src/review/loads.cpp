@@ -47,7 +47,8 @@ class Edge {
     return fixed() && (use() == FixedUse::drilling || use() == FixedUse::centring);
   }
   bool widens() const {
-    return fixed() && (use() == FixedUse::reaming || use() == FixedUse::countersinking);
+    return fixed() && (use() == FixedUse::reaming || use() == FixedUse::counterboring ||
+                       use() == FixedUse::countersinking);
   }
 
   /// Of a pass at a depth; `D_mm` is its diameter.
@@ -63,6 +64,7 @@ class Edge {
         const auto load = cutting::drill(kc, tool_.size_mm, f_mm_rev, t.point_deg);
         return {load.Fc_N, load.Ff_N, 0};
       }
+      case FixedUse::counterboring:
       case FixedUse::countersinking:
       case FixedUse::reaming: {
         const double lead_deg = t.use == FixedUse::reaming ? 45 : t.point_deg / 2;

@@ -85,7 +85,8 @@ class Check : private Sizes {
                 2 * o.passes[0].ap_mm,
                 o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
       if (t.use == countersinking) return countersink(o, t);
-      if (t.use == reaming || t.use == tapping) return behind_lead(o, t);
+      if (t.use == counterboring || t.use == reaming || t.use == tapping)
+        return behind_lead(o, t);
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
       if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};

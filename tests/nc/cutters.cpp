@@ -80,6 +80,7 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
       return drill(2 * ap, t.point_deg);
     case FixedUse::countersinking:
       return drill(countersink_mm(p, o, t), t.point_deg);
+    case FixedUse::counterboring:
     case FixedUse::reaming:
     case FixedUse::tapping:
       return behind_lead(p, o, t);

@@ -100,7 +100,7 @@ TEST(NcDialects, OfEveryReferencePartCommandTheSameMoves) {
 }
 
 TEST(NcDialects, OfReamedAndTappedPartsCommandTheSameMoves) {
-  for (const char* name : kReamedAndTapped) expect_read_back(name, planned_awkward(name));
+  for (const char* name : kWithHoles) expect_read_back(name, planned_awkward(name));
 }
 
 Step step(int tool, double x_mm, Move::Kind kind) {

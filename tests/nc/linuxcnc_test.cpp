@@ -86,7 +86,7 @@ TEST_F(NcThroughLinuxCnc, OfReferencePartsLeaveTheDrawing) {
 }
 
 TEST_F(NcThroughLinuxCnc, ReamsAndTaps) {
-  for (const char* name : kReamedAndTapped) {
+  for (const char* name : kWithHoles) {
     const auto& p = planned_awkward(name);
     ASSERT_EQ(p.plan.status, planning::PlanStatus::ok) << name;
     EXPECT_EQ(listed(faults_of(rs274, p, p)), "") << name;

@@ -63,8 +63,14 @@ inline const Planned& planned_awkward(const std::string& name) {
 }
 
 /// Those with holes that are reamed or tapped.
-inline constexpr std::array kReamedAndTapped{
-    "tapped-ends", "reamed-through", "reamed-behind-counterbore",
-    "tapped-behind-counterbore", "tapped-through"};
+inline constexpr std::array kWithHoles{"tapped-ends",
+                                       "reamed-through",
+                                       "reamed-behind-counterbore",
+                                       "tapped-behind-counterbore",
+                                       "tapped-through",
+                                       "counterbored-chamfered",
+                                       "counterbored-twice-reamed",
+                                       "counterbored-from-the-left",
+                                       "counterbored-before-thread"};
 
 }  // namespace turnwright::nc::test

@@ -174,7 +174,7 @@ TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
 }
 
 TEST(PlanAndProgram, OfReamedAndTappedPartsTakeTheSameTime) {
-  for (const char* name : kReamedAndTapped) {
+  for (const char* name : kWithHoles) {
     const auto& p = planned_awkward(name);
     EXPECT_LE(apart(name, p, programs(p.part, p.plan)), kAlike) << name;
   }

@@ -41,6 +41,13 @@ inline nlohmann::json reference_part(const std::string& name) {
   return file("parts/" + name + ".json");
 }
 
+/// The bush whose through bore no drill leaves as it is drawn: it is drilled and bored.
+inline nlohmann::json bored_bush() {
+  auto d = reference_part("drilled-bush");
+  d["inner"][2]["diameter_mm"] = 20.2;
+  return d;
+}
+
 /// No errors of the shop, sizes programmed at the middle of their limits.
 inline nlohmann::json no_shop_errors() {
   return {{"drift_um", 0},

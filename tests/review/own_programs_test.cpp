@@ -34,7 +34,8 @@ MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
       const double D = e.left_mm + 2 * part::opening_chamfer(e)->radial_mm;
       m.size_mm = *std::ranges::lower_bound(t.sizes_mm, D);
     }
-    if (t.use == catalogue::FixedUse::reaming)
+    if (t.use == catalogue::FixedUse::reaming ||
+        t.use == catalogue::FixedUse::counterboring)
       m.size_mm = part::extent(p.part.drawing, o.on[0])->left_mm;
   }
   return m;
@@ -214,7 +215,7 @@ TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {
 
 // Reamers and taps, whose words differ most.
 TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
-  for (const char* name : nc::test::kReamedAndTapped)
+  for (const char* name : nc::test::kWithHoles)
     for (const auto& d : gcode::dialects()) {
       SCOPED_TRACE(d.id);
       const auto& p = nc::test::planned_awkward(name);

@@ -13,6 +13,7 @@ namespace turnwright::catalogue {
 enum class FixedUse {
   centring,
   drilling,
+  counterboring,
   countersinking,
   reaming,
   tapping,
@@ -25,8 +26,8 @@ enum class FixedUse {
 /// Whether a tool works along the axis of the spindle with its whole diameter.
 constexpr bool on_axis(FixedUse use) {
   using enum FixedUse;
-  return use == centring || use == drilling || use == countersinking || use == reaming ||
-         use == tapping;
+  return use == centring || use == drilling || use == counterboring ||
+         use == countersinking || use == reaming || use == tapping;
 }
 
 /// Speeds and feeds from which planning chooses, and how the life goes with them.
@@ -56,7 +57,7 @@ struct FixedConditions {
 /// count.
 FixedConditions at(const FixedConditions& conditions, double vc_m_min, double f_mm_rev);
 
-/// What a drill or a reamer leaves: the ISO 286 grade above its diameter (of a reamer the
+/// What a drill, a flat drill or a reamer leaves: the ISO 286 grade above its diameter (of a reamer the
 /// tolerance class H of that grade), and the roughness.
 struct DrilledHole {
   int grade = 0;
@@ -89,9 +90,9 @@ struct FixedTool {
   std::vector<ThreadSize> threads = {};  ///< of taps
   Range allowance_mm = {};  ///< of the diameter, that a reamer takes off a drilled hole
   double lead = 0;  ///< length of the tapered front: of reamers in mm, of taps in pitches
-  int edges = 0;    ///< of countersinks, reamers and taps
-  double point_deg = 0;                  ///< point angle of a drill or a countersink
-  char form = 'A';                       ///< of centre drills: that of ISO 6411
+  int edges = 0;    ///< of flat drills, countersinks, reamers and taps
+  double point_deg = 0;  ///< point angle of a drill or a countersink, 180 of flat drills
+  char form = 'A';       ///< of centre drills: that of ISO 6411
   std::optional<DrilledHole> hole = {};  ///< absent: what it drills is bored
   std::optional<Pecking> pecking = {};   ///< absent: it drills every hole in one feed
   double ap_mm = 0;                      ///< largest depth of a profiling pass

@@ -19,6 +19,9 @@ struct LoadedPart {
   std::vector<Assumption> assumed;
   nlohmann::json json;   ///< as it was read
   std::string document;  ///< what errors call it
+  /// Of drawing.inner: cylinders that are bored and that a reamer would leave as they are
+  /// drawn too.
+  std::vector<std::size_t> reamable = {};
 };
 
 /// `predict` needs every operation with its tool and all its conditions.

@@ -3,7 +3,7 @@
 
 /// Grooves, threads and arcs: shapes that are cut into an element at fixed conditions
 /// after it has been turned or bored.  The element itself is then their blank.  A hole is
-/// drilled instead of bored: to its size, or narrower for a reamer or a tap.
+/// drilled instead of bored: to its size, or narrower for a reamer, a tap or a flat drill.
 namespace turnwright::part {
 
 enum class CutKind { groove, thread, arc, hole };
@@ -26,6 +26,7 @@ struct Cut {
   double pitch_mm = 0;  ///< of a thread
   /// Diameter of the drill of a hole or a tapped thread; 0: bored.
   double drilled_mm = 0;
+  bool flat = false;  ///< a hole that a flat drill opens: a counterbore
   /// How far the reamer or the tap has to go beyond the element for its lead.
   double lead_mm = 0;
   double radius_mm = 0;  ///< of an arc
@@ -54,6 +55,8 @@ Shaped groove(double blank_mm, double floor_mm);
 Shaped hole(double diameter_mm);
 /// A hole of a diameter that is drilled narrower and reamed.
 Shaped reamed(double diameter_mm, double drilled_mm, double lead_mm);
+/// A counterbore: a flat drill opens a narrower hole to a diameter.
+Shaped counterbored(double diameter_mm, double drilled_mm);
 /// An inner thread that is tapped into a drilled hole, its blank.
 Shaped tapped(double d_mm, double pitch_mm, double drilled_mm, double lead_mm);
 

@@ -212,8 +212,13 @@ inline bool is_hole(const InnerElement& e) { return e.cut && e.cut->drilled_mm >
 inline bool is_tapped(const InnerElement& e) {
   return is_hole(e) && e.cut->kind == CutKind::thread;
 }
+inline bool is_counterbore(const InnerElement& e) { return e.cut && e.cut->flat; }
 inline bool is_reamed(const InnerElement& e) {
-  return is_hole(e) && !is_tapped(e) && e.cut->depth_mm > 0;
+  return is_hole(e) && !is_tapped(e) && !is_counterbore(e) && e.cut->depth_mm > 0;
+}
+/// Diameter [mm] to which drills open a hole before its other tools come.
+inline double opened_mm(const Cut& hole) {
+  return hole.flat ? hole.drawn.left_mm : hole.drilled_mm;
 }
 /// The chamfer where a bore begins.
 inline const std::optional<Chamfer>& opening_chamfer(const InnerElement& e) {

@@ -17,6 +17,7 @@ const Choices<FixedUse> kFixedUses{{"centring", FixedUse::centring},
                                    {"drilling", FixedUse::drilling},
                                    {"reaming", FixedUse::reaming},
                                    {"tapping", FixedUse::tapping},
+                                   {"counterboring", FixedUse::counterboring},
                                    {"countersinking", FixedUse::countersinking},
                                    {"grooving", FixedUse::grooving},
                                    {"parting", FixedUse::parting},
@@ -40,8 +41,12 @@ void read_sizes(Reader& r, FixedTool& t) {
 }
 
 void read_hole(Reader& r, FixedTool& t) {
-  if (t.use == FixedUse::reaming && !r.has("hole"))
-    r.problem_at("hole", "the grade and roughness that the reamer leaves", "missing");
+  if (t.use != FixedUse::drilling && !r.has("hole"))
+    r.problem_at("hole",
+                 t.use == FixedUse::reaming
+                     ? "the grade and roughness that the reamer leaves"
+                     : "the grade and roughness that the flat drill leaves",
+                 "missing");
   auto hole = r.optional_object("hole");
   if (!hole) return;
   t.hole = {static_cast<int>(hole->integer("grade", 5, 16)),
@@ -91,6 +96,13 @@ void read_kind(Reader& r, FixedTool& t) {
       if (t.use != FixedUse::drilling) break;
       read_hole(r, t);
       read_pecking(r, t);
+      break;
+    case FixedUse::counterboring:
+      read_sizes(r, t);
+      t.reach = r.number("reach_diameters", above_up_to(0, 100));
+      t.point_deg = 180;
+      t.edges = static_cast<int>(r.integer("edges", 1, 40));
+      read_hole(r, t);
       break;
     case FixedUse::countersinking:
       read_sizes(r, t);

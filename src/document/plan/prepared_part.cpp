@@ -192,6 +192,38 @@ void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& cat
       all[all.size() - 2].document.part.rules.proven_within_pct / kPercent;
 }
 
+// A variant with its bores as they are, and with each choice of those that may be reamed
+// instead; names tell them apart.
+std::vector<Variant> with_reamers(const Variant& variant, const LoadedPart& loaded) {
+  std::vector<Variant> all{variant};
+  for (const auto i : loaded.reamable) {
+    const auto& id = loaded.plan.drawing.inner[i].id;
+    const auto count = all.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      auto reamed = all[k];
+      const std::string prefix = reamed.name.empty() ? "" : reamed.name + "; ";
+      all[k].name = prefix + id + " bored";
+      reamed.name = prefix + id + " reamed";
+      reamed.document["inner"][i]["kind"] = "hole";
+      all.push_back(std::move(reamed));
+    }
+  }
+  return all;
+}
+
+void add_variant(const Variant& variant, const Catalogue& catalogue,
+                 const std::string& document, bool window_curves, Usable& all) {
+  const auto add = [&](const std::string& name, LoadedPart loaded) {
+    loaded.plan.window_curves = window_curves;
+    add_usable(name, std::move(loaded), catalogue, all);
+  };
+  auto loaded = load_variant(variant, catalogue, document);
+  const auto ways = with_reamers(variant, loaded);
+  add(ways.front().name, std::move(loaded));
+  for (auto way = ways.begin() + 1; way != ways.end(); ++way)
+    add(way->name, load_variant(*way, catalogue, document));
+}
+
 }  // namespace
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
@@ -218,9 +250,7 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
   Candidates out;
   std::optional<InputError> first;
   for (const auto& variant : all) try {
-      auto loaded = load_variant(variant, catalogue, document);
-      loaded.plan.window_curves = window_curves;
-      add_usable(variant.name, std::move(loaded), catalogue, out.usable);
+      add_variant(variant, catalogue, document, window_curves, out.usable);
     } catch (const InputError& error) {
       if (!first) first = error;
       const auto& p = error.problems().front();

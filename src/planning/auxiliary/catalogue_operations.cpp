@@ -409,6 +409,8 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   if (needs_centre(p, setup, clamping) || given_on(s, face))
     add_centre(s, face, left ? d.outer.back().right_mm : d.outer.front().left_mm);
   if (!work.bores.empty()) add_drilling(s, left ? part::End::right : part::End::left);
+  for (const std::size_t i : work.bores)
+    if (part::is_counterbore(d.inner[i])) add_counterbore(s, i);
   s.stage = Stage::finishing;
   using enum part::CutKind;
   for (const std::size_t i : work.outer_chamfers) add_chamfer(s, i, false);

@@ -24,6 +24,7 @@ namespace turnwright::planning {
 ///           diameter                                                                 (5)
 ///     ream, tap:  t = 2 l/(f n), in and out; a tap's f is P                          (7)
 ///     countersink:  t = (D - d)/2/tan(sigma/2)/(f n) from the drilled hole's d on    (8)
+///     counterbore: t = l/(f n)                                                      (10)
 ///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,

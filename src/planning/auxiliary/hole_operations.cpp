@@ -162,7 +162,8 @@ AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
 void add_countersinking(Site& s, const CutElement& e) {
   const auto& c = e.around.front_chamfer;
   if (!(c.axial_mm > 0)) return;
-  const double D = 2 * (c.radial_mm - e.around.h0), drilled = e.cut.drilled_mm;
+  const double D = 2 * (c.radial_mm - e.around.h0);
+  const double from_mm = part::opened_mm(e.cut);
   const double room = part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm;
   const Asked a{FixedUse::countersinking,
                 "countersink",
@@ -183,14 +184,14 @@ void add_countersinking(Site& s, const CutElement& e) {
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
-  const double cut = in - cutting::drill_point_mm(drilled, f.tool->point_deg);
+  const double cut = in - cutting::drill_point_mm(from_mm, f.tool->point_deg);
   const double n_cap = n_cap_rpm(s), inside = e.around.front - e.around.z0;
   s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
-    const Duty duty{cutting::ream(kc, D, drilled, at.at.f_mm_rev, at.tool->edges,
+    const Duty duty{cutting::ream(kc, D, from_mm, at.at.f_mm_rev, at.tool->edges,
                                   at.tool->point_deg / 2),
                     std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
     const double vf = at.at.f_mm_rev * duty.n_rpm;
-    return operation(s, a, at, {pass_of(duty, (D - drilled) / 2, cut / vf)},
+    return operation(s, a, at, {pass_of(duty, (D - from_mm) / 2, cut / vf)},
                      {(fed - cut) / vf, 2 * inside + fed, true, 0, 0}, {duty});
   }));
 }
@@ -307,11 +308,45 @@ void add_drilling(Site& s, part::End end) {
                   "behind the hole"));
 }
 
+// Eq. (10).
+void add_counterbore(Site& s, std::size_t index) {
+  const auto& e = s.p.drawing.inner[index];
+  const double D = e.left_mm;
+  const Asked a{FixedUse::counterboring,
+                "counterbore",
+                e.id,
+                false,
+                given_on(s, e.id, FixedUse::counterboring),
+                [&](const FixedTool& t, double size) {
+                  return size == D && e.length_mm <= t.reach * D;
+                }};
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no flat drill of the tools is for {}, {:g} mm in diameter "
+                              "and reaches {:g} mm deep",
+                              s.p.material.name, D, e.length_mm));
+  const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
+  const double front = front_mm(s.p, s.setup, s.work), n_cap = n_cap_rpm(s);
+  const auto way = counterbore_way(s.p.drawing, index, front);
+  const double cut = way.from_mm - way.to_mm;
+  s.out.before.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty duty{cutting::ream(kc, D, e.cut->drilled_mm, at.at.f_mm_rev,
+                                  at.tool->edges, at.tool->point_deg / 2),
+                    std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
+    const double vf = at.at.f_mm_rev * duty.n_rpm;
+    return operation(
+        s, a, at, {pass_of(duty, e.cut->depth_mm, cut / vf)},
+        {kBefore_mm / vf, 2 * (front - way.from_mm) + kBefore_mm + cut, true, 0, 0},
+        {duty});
+  }));
+}
+
 void add_hole_work(Site& s, const CutElement& e) {
   add_countersinking(s, e);
   if (e.cut.kind == part::CutKind::thread)
     add_tapping(s, e);
-  else if (e.cut.depth_mm > 0)
+  else if (!e.cut.flat && e.cut.depth_mm > 0)
     add_reaming(s, e);
 }
 
@@ -319,6 +354,18 @@ void add_hole_work(Site& s, const CutElement& e) {
 
 double hole_start_mm(double begins_mm, double front_mm) {
   return begins_mm > -kNoWall_mm ? std::max(begins_mm, front_mm) : begins_mm;
+}
+
+CounterboreWay counterbore_way(const part::Drawing& d, std::size_t index,
+                               double front_mm) {
+  CounterboreWay way{front_mm};
+  for (std::size_t i = 0; i <= index; ++i) {
+    const auto& e = d.inner[i];
+    if (e.from != d.inner[index].from) continue;
+    way.to_mm -= e.length_mm;
+    if (part::is_counterbore(e) && i < index) way.from_mm = way.to_mm;
+  }
+  return way;
 }
 
 double drilled_depth_mm(const PreparedPart& p, std::size_t setup, part::End end,
@@ -343,6 +390,15 @@ double drilled_mm(const PreparedPart& p, part::End end) {
   const auto a = fixed::drilling(h, fixed::given_drilling(p, end));
   const auto setup = setup_of(p, h.first);
   return (setup ? fixed::fitted_drill(p, *setup, a) : fixed::fitted(p, a)).size_mm;
+}
+
+double before_boring_mm(const part::Drawing& d, std::size_t index, double drilled_mm) {
+  double D = drilled_mm;
+  if (part::is_hole(d.inner[index])) return D;
+  for (std::size_t i = index + 1; i < d.inner.size(); ++i)
+    if (d.inner[i].from == d.inner[index].from && part::is_counterbore(d.inner[i]))
+      D = std::max(D, d.inner[i].left_mm);
+  return D;
 }
 
 }  // namespace turnwright::planning

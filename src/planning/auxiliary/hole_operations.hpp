@@ -1,8 +1,8 @@
 #pragma once
 #include "fixed_operation.hpp"
 
-/// Centre holes, and the holes that tools on the axis make: drilled, countersunk, reamed,
-/// tapped.  Equations: catalogue_operations.hpp.
+/// Centre holes, and the holes that tools on the axis make: drilled, counterbored,
+/// countersunk, reamed, tapped.  Equations: catalogue_operations.hpp.
 namespace turnwright::planning::fixed {
 
 /// Whether a setup drills a centre hole without being told to.
@@ -11,6 +11,8 @@ bool needs_centre(const PreparedPart& part, std::size_t setup, Clamping clamping
 void add_centre(Site& site, const char* face, double end_mm);
 /// Drills the bores of an end of a bar.
 void add_drilling(Site& site, part::End end);
+/// Opens a counterbore before anything is bored.
+void add_counterbore(Site& site, std::size_t inner);
 /// What is done to a hole once it is drilled.
 void add_hole_work(Site& site, const CutElement& hole);
 
@@ -21,6 +23,14 @@ namespace turnwright::planning {
 /// Where [mm, in the program's z] the material of a hole that is drawn from `begins_mm`
 /// inwards begins for a reamer or a tap: there, or at the face that stands before it.
 double hole_start_mm(double begins_mm, double front_mm);
+
+/// Where [mm, in the program's z] a flat drill cuts the inner element of an index: from the
+/// material of the end, or from the floor of a counterbore before it, to its floor.
+struct CounterboreWay {
+  double from_mm = 0, to_mm = 0;
+};
+CounterboreWay counterbore_way(const part::Drawing& drawing, std::size_t inner,
+                               double front_mm);
 
 /// How deep [mm] a drill goes in a setup whose free end is `end`, its point left out: as far
 /// as the bores of that end.  Where these meet what later setups open, a bore of the other
@@ -35,5 +45,10 @@ double drilled_depth_mm(const PreparedPart& part, std::size_t setup, part::End e
 /// power and torque of the spindle and the grip of the jaws suffice; 0 if nothing is
 /// drilled.  Needs `work`, `grips_mm` and `jaws` of the part.
 double drilled_mm(const PreparedPart& part, part::End end);
+
+/// Diameter [mm] to which an inner element is open before it is bored: drilled, or by the
+/// flat drills of counterbores behind it.
+double before_boring_mm(const part::Drawing& drawing, std::size_t inner,
+                        double drilled_mm);
 
 }  // namespace turnwright::planning

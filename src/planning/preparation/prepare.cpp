@@ -14,13 +14,14 @@
 namespace turnwright::planning {
 namespace {
 
-// The hole of the largest drill that fits, for each bore (catalogue_operations.hpp).
+// The hole before boring, for each bore (hole_operations.hpp).
 std::vector<double> drilled(const PreparedPart& p) {
   const double left = drilled_mm(p, part::End::left);
   const double right = drilled_mm(p, part::End::right);
   std::vector<double> all;
-  for (const auto& e : p.drawing.inner)
-    all.push_back(e.from == part::End::left ? left : right);
+  for (std::size_t i = 0; i < p.drawing.inner.size(); ++i)
+    all.push_back(before_boring_mm(
+        p.drawing, i, p.drawing.inner[i].from == part::End::left ? left : right));
   return all;
 }
 

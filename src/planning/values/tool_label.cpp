@@ -22,7 +22,7 @@ std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
     return fmt::format("{} {:g} mm", o.tool,
                        *std::ranges::lower_bound(tool->sizes_mm, D));
   }
-  if (tool->use == FixedUse::reaming)
+  if (tool->use == FixedUse::reaming || tool->use == FixedUse::counterboring)
     return fmt::format("{} {:g} mm", o.tool, bore->cut->drawn.left_mm);
   const bool round = catalogue::on_axis(tool->use);
   return fmt::format("{} {:g} mm", o.tool, (round ? 2 : 1) * o.passes[0].ap_mm);

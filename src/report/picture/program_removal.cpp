@@ -39,6 +39,7 @@ Cutter fixed_cutter(const PreparedPart& part, const OperationPlan& o, bool bore)
     case FixedUse::countersinking:
       return {Shape::drill, tool.sizes_mm.back() / 2,
               units::rad_from_deg(tool.point_deg) / 2};
+    case FixedUse::counterboring:
     case FixedUse::reaming: {
       const double radius = part::extent(part.drawing, o.on[0])->left_mm / 2;
       return {Shape::drill, radius, std::atan2(radius, tool.lead)};

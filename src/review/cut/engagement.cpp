@@ -241,6 +241,7 @@ class Follower {
                    : w_.element_at(middle, edge_.inner);
     }
     if (edge_.on_axis && tool_->fixed->use != FixedUse::reaming &&
+        tool_->fixed->use != FixedUse::counterboring &&
         tool_->fixed->use != FixedUse::countersinking) {
       const bool centres = tool_->fixed->use == FixedUse::centring;
       const double end = sign_ > 0 ? part::length_mm(part_.drawing) : 0;

@@ -17,6 +17,7 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
   switch (t.use) {
     case FixedUse::centring:
     case FixedUse::drilling:
+    case FixedUse::counterboring:
     case FixedUse::countersinking:
       return drill_edge(size, t.point_deg);
     case FixedUse::reaming:

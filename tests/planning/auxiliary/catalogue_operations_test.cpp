@@ -233,7 +233,7 @@ TEST(Centre, IsDrilledAsDrawnInAnyClamping) {
 
 TEST(Centre, IsOneOfTheTableInASolidEnd) {
   const auto refusal = [](const json& holes) -> std::string {
-    auto d = reference_part("drilled-bush");
+    auto d = bored_bush();
     d["centre_holes"] = holes;
     try {
       part(d);
@@ -254,7 +254,7 @@ TEST(Centre, IsOneOfTheTableInASolidEnd) {
             std::string::npos);
 }
 
-json bush() { return reference_part("drilled-bush"); }
+json bush() { return bored_bush(); }
 
 /// A bar of 60 mm with a bore from the right and a second one from the left, if it is long.
 PreparedPart bored(double right_mm, double D_right_mm, double left_mm, double D_left_mm) {
@@ -283,7 +283,7 @@ TEST(Drilling, SparesWhatIsBehind) {
     return std::pair{drilled_mm(p, part::End::right), drilled_mm(p, part::End::left)};
   };
   // Through: the counterbore's drill is no wider than the bore behind it.
-  const auto [through, counterbore] = drilled(bored(45, 20, 15, 30));
+  const auto [through, counterbore] = drilled(bored(45, 20.2, 15, 30));
   EXPECT_EQ(through, 19);
   EXPECT_LE(counterbore, 20);
   EXPECT_GT(counterbore, 15);

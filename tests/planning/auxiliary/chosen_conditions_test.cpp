@@ -101,7 +101,7 @@ TEST(ChosenConditions, AreNoDearerThanAnyOfALattice) {
 
 // Where power, feed drive and grip bind the feed depends on the speed.
 TEST(ChosenConditions, AreNoDearerThanAnyOfALatticeOnAWeakMachine) {
-  auto request = with_one_drill(part(reference_part("drilled-bush")));
+  auto request = with_one_drill(part(bored_bush()));
   request.machine.feed_force_max_N =
       0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   for (auto& point : request.machine.curve) point.P_kW *= 0.5, point.M_Nm *= 0.5;
@@ -112,7 +112,7 @@ TEST(ChosenConditions, AreNoDearerThanAnyOfALatticeOnAWeakMachine) {
 // what the time does that goes with 1/v, the way to the hole fed included (Taylor's speed of
 // least cost).
 TEST(ChosenConditions, OfADrillAreTaylorsSpeedOfLeastCost) {
-  const auto p = with_windows(part(reference_part("drilled-bush")), 0.3, 3);
+  const auto p = with_windows(part(bored_bush()), 0.3, 3);
   auto narrow = static_cast<PlanRequest>(p);
   for (auto& t : narrow.fixed_tools)
     for (auto& c : t.conditions) c.window->f_mm_rev = {c.f_mm_rev, c.f_mm_rev};
@@ -127,7 +127,7 @@ TEST(ChosenConditions, OfADrillAreTaylorsSpeedOfLeastCost) {
 
 // The drive cannot push the drill at the catalogue's feed.
 TEST(ChosenConditions, KeepALimitThatTheCatalogueBreaks) {
-  auto request = with_one_drill(part(reference_part("drilled-bush")));
+  auto request = with_one_drill(part(bored_bush()));
   const double Ff =
       operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   request.machine.feed_force_max_N = 0.8 * Ff;
@@ -151,7 +151,7 @@ TEST(ChosenConditions, OfAWiderWindowAreNeverDearer) {
 
 // A slow spindle's least speed counts as reached, whatever rounding says of it.
 TEST(ChosenConditions, AtTheLeastSpeedOfTheSpindleAreKept) {
-  auto request = with_one_drill(part(reference_part("drilled-bush")));
+  auto request = with_one_drill(part(bored_bush()));
   const double most_Ff =
       0.8 * operation(at_multiple(request, 1, 1), "s1-drill-b1").plan.passes[0].Ff_N;
   request.machine.feed_force_max_N = most_Ff;
@@ -179,7 +179,7 @@ TEST(ChosenConditions, GivenBackCostTheSame) {
 
 TEST(ChosenConditions, StandInAWindowAroundTheToolsOwn) {
   const auto told = [](const json& window) {
-    auto d = reference_part("drilled-bush");
+    auto d = bored_bush();
     auto drill = file("tools/fixed/DRILL-HM-5D.json");
     drill["conditions"][0]["window"] = window;
     d["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF",

@@ -179,7 +179,8 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
   EXPECT_FALSE(by_the_drill(drilled(8, {{"Ra_um", 1.6}})));
   EXPECT_FALSE(by_the_drill(drilled(8.2))) << "no drill of that size";
   EXPECT_TRUE(by_the_drill(drilled(16)));
-  EXPECT_FALSE(by_the_drill(drilled(17))) << "a bar of 12 mm enters what a drill leaves";
+  EXPECT_TRUE(by_the_drill(drilled(17))) << "a bar enters too, after the drill";
+  EXPECT_FALSE(by_the_drill(drilled(21))) << "IT13 of indexable drills is too wide";
   auto named = drilled(8);
   named["tolerances"] = {{{"id", "t"},
                           {"kind", "coaxiality"},
@@ -190,6 +191,99 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
 }
 
 part::InnerElement first_bore(const json& d) { return part(d).drawing.inner.at(0); }
+
+// A hole of 11 mm behind a bore.
+json before_a_hole(double d_mm, double length_mm, const json& more = json::object()) {
+  auto d = drilled(11);
+  d["inner"].insert(d["inner"].begin(), cylinder("b0", length_mm, d_mm));
+  d["inner"][0]["from"] = "right";
+  d["inner"][0].update(more);
+  return d;
+}
+
+// The flat drills hold IT10, 70 um above 18 mm, and Ra 3.2, down to two diameters.
+TEST(Holes, WiderOnesBeforeThemAreCounterbored) {
+  const auto counterbored = [](const json& d) {
+    const auto e = first_bore(d);
+    if (part::is_counterbore(e)) {
+      EXPECT_EQ(e.cut->drilled_mm, 11);
+    }
+    return part::is_counterbore(e);
+  };
+  EXPECT_TRUE(counterbored(before_a_hole(18, 11)));
+  EXPECT_TRUE(counterbored(before_a_hole(18, 11, {{"limits_mm", {0, 0.070}}})));
+  EXPECT_FALSE(counterbored(before_a_hole(18, 11, {{"limits_mm", {0, 0.069}}})));
+  EXPECT_TRUE(counterbored(before_a_hole(18, 11, {{"Ra_um", 3.2}})));
+  EXPECT_FALSE(counterbored(before_a_hole(18, 11, {{"Ra_um", 1.6}})));
+  EXPECT_TRUE(counterbored(before_a_hole(18, 11, {{"kind", "hole"}, {"fit", "H11"}})));
+  EXPECT_FALSE(counterbored(before_a_hole(18.2, 11))) << "no flat drill of that size";
+  EXPECT_TRUE(counterbored(before_a_hole(9.5 + 2, 20))) << "half a millimetre wider";
+  auto deep = before_a_hole(12, 24.1);
+  deep["outer"][0]["length_mm"] = 46;
+  deep["stock"]["length_mm"] = 76;
+  EXPECT_FALSE(counterbored(deep)) << "deeper than 2 D";
+  auto through = before_a_hole(18, 11);
+  through["inner"][1]["kind"] = "thread";
+  through["inner"][1]["diameter_mm"] = 12;
+  EXPECT_TRUE(part::is_tapped(part(through).drawing.inner[1]));
+  EXPECT_EQ(first_bore(through).cut->drilled_mm, 10.2);
+}
+
+// A cone of 90 deg that is 19 mm wide is 11 mm wide 4 mm deeper.
+TEST(Holes, CounterboresAreChamferedWhereTheConeSparesTheirFloor) {
+  const auto counterbored = [](double length_mm) {
+    auto d = before_a_hole(18, length_mm);
+    d["edges"] = {{{"at", "right|b0"}, {"chamfer_mm", 0.5}}};
+    return part::is_counterbore(first_bore(d));
+  };
+  EXPECT_TRUE(counterbored(4));
+  EXPECT_FALSE(counterbored(3.99));
+}
+
+// From the face on, or from the floor of the counterbore before; bores before them begin at
+// the widest of them.
+TEST(Holes, CounterboresAreCutBeforeBoring) {
+  auto d = before_a_hole(18, 5);
+  d["inner"].insert(d["inner"].begin() + 1, cylinder("b00", 4, 15));
+  d["inner"][1]["from"] = "right";
+  d["inner"].insert(d["inner"].begin(), cylinder("bored", 6, 22));
+  d["inner"][0]["from"] = "right";
+  d["inner"][0]["fit"] = "H7";
+  const auto p = part(d);
+  EXPECT_EQ(p.drilled_mm, (std::vector<double>{18, 11, 11, 11}));
+  const auto wide = counterbore_way(p.drawing, 1, 0.3);
+  EXPECT_NEAR(wide.from_mm, 0.3, 1e-12);
+  EXPECT_NEAR(wide.to_mm, -11, 1e-12);
+  const auto narrow = counterbore_way(p.drawing, 2, 0.3);
+  EXPECT_NEAR(narrow.from_mm, -11, 1e-12);
+  EXPECT_NEAR(narrow.to_mm, -15, 1e-12);
+  const auto work =
+      auxiliary_work(p, 0, Clamping::chuck, p.work.setups[0], {p.machine_per_min, 1});
+  ASSERT_EQ(work.before.size(), 3u);
+  const double lengths[] = {11, 4}, radial[] = {3.5, 2};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& o = work.before[i + 1].plan;
+    EXPECT_EQ(o.tool, "FLAT-HM-2D");
+    const auto& pass = o.passes.at(0);
+    EXPECT_NEAR(pass.ap_mm, radial[i], 1e-12);
+    EXPECT_NEAR(pass.time_min, lengths[i] / (pass.f_mm_rev * pass.n_rpm), 1e-9);
+  }
+}
+
+// Where a bar enters a bore that a reamer leaves as it is drawn, both are planned.
+TEST(Holes, ThatABarEntersAreBoredOrReamed) {
+  const auto names = [](const json& d) {
+    std::vector<std::string> all;
+    for (const auto& c : document::prepared_candidates(d, shop(), "part", false).usable)
+      all.push_back(c.name);
+    return all;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(drilled(20, {{"fit", "H7"}})), (Names{"b1 bored", "b1 reamed"}));
+  EXPECT_EQ(names(drilled(20, {{"fit", "H6"}})), Names{""}) << "no reamer for it";
+  EXPECT_EQ(names(drilled(8, {{"fit", "H7"}})), Names{""}) << "no bar enters";
+  EXPECT_EQ(names(drilled(20)), Names{""}) << "drilled to its size";
+}
 
 // The reamers make H7, 15 um above 8 mm, and Ra 0.8, after a drill of 7.8 mm.
 TEST(Holes, AreReamedWhereADrillDoesNotKeepThem) {
@@ -240,7 +334,7 @@ TEST(Threads, ThatNoBarEntersAreTapped) {
     EXPECT_EQ(e.cut->drilled_mm, drill) << designation;
     EXPECT_EQ(e.left_mm, drill) << designation;
   }
-  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M20", 8)))) << "a bar enters";
+  EXPECT_TRUE(part::is_tapped(first_bore(threaded("M20", 8)))) << "a bar enters too";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10x0.75", 8)))) << "no tap";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10", 27)))) << "deeper than 3 d";
 }
@@ -424,9 +518,11 @@ TEST(Holes, AreNotAskedForMoreThanADrillLeaves) {
     return "accepted";
   };
   const std::string leaves =
-      ", expected no more than a drill or a reamer leaves (DRILL-HM-5D IT10 and Ra 3.2 "
+      ", expected no more than a drill, a flat drill or a reamer leaves (DRILL-HM-5D "
+      "IT10 and Ra 3.2 "
       "um; "
-      "DRILL-HM-8D IT10 and Ra 3.2 um; REAM-HSS-H7 IT7 and Ra 0.8 um), or \"cylinder\" "
+      "DRILL-HM-8D IT10 and Ra 3.2 um; REAM-HSS-H7 IT7 and Ra 0.8 um; FLAT-HM-2D IT10 "
+      "and Ra 3.2 um), or \"cylinder\" "
       "as "
       "kind, which is bored";
   EXPECT_EQ(answer({{"fit", "H6"}}), "part: /inner/0/fit: got \"H6\"" + leaves);

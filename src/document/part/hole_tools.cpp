@@ -1,0 +1,179 @@
+#include "hole_tools.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "turnwright/base/units.hpp"
+#include "turnwright/tolerance/iso286.hpp"
+
+namespace turnwright::document {
+
+using catalogue::FixedTool;
+using catalogue::FixedUse;
+
+namespace {
+
+// The tools for a use in the plan's material.
+std::vector<const FixedTool*> tools_for(const Draft& draft, FixedUse use) {
+  std::vector<const FixedTool*> all;
+  const auto& plan = draft.loaded.plan;
+  for (const auto& t : plan.fixed_tools)
+    if (t.use == use && t.conditions_in(plan.material.group)) all.push_back(&t);
+  return all;
+}
+
+bool keeps(const FixedTool& tool, const HoleDemand& w) {
+  return (!w.limits || keeps_size(tool, w.D_mm, *w.limits)) &&
+         w.Ra_um.value_or(tool.hole->Ra_um) >= tool.hole->Ra_um;
+}
+
+// The drill's size between two limits, nearest to a third one, that goes deep enough.
+std::optional<double> drill_between(const Draft& draft, const HoleDemand& w,
+                                    double least_mm, double most_mm, double best_mm,
+                                    double lead_mm) {
+  std::optional<double> found;
+  for (const auto* t : tools_for(draft, FixedUse::drilling))
+    for (const double size : t->sizes_mm) {
+      const double deep = w.drilled_to_mm + lead_mm;
+      if (size < least_mm - kRounding_mm || size > most_mm + kRounding_mm ||
+          !w.takes_drill(size) || deep > t->reach * size)
+        continue;
+      if (!found || std::abs(size - best_mm) < std::abs(*found - best_mm)) found = size;
+    }
+  return found;
+}
+
+// Whether a countersink cuts the chamfer of a counterbore, if it has one, before its cone
+// meets the floor.
+bool spares_floor(const Draft& draft, std::size_t i, const HoleDemand& w) {
+  const auto& c = part::opening_chamfer(draft.loaded.plan.drawing.inner[i]);
+  if (!c) return true;
+  const double D = w.D_mm + 2 * c->radial_mm;
+  const auto* t = countersink_for(draft, i, D, &*c);
+  return t && (D - *w.drill_mm) / 2 / std::tan(units::rad_from_deg(t->point_deg / 2)) <=
+                  w.length_mm + kRounding_mm;
+}
+
+}  // namespace
+
+bool has_size(const FixedTool& drill, double D) {
+  return std::ranges::find(drill.sizes_mm, D) != drill.sizes_mm.end();
+}
+
+bool keeps_size(const FixedTool& drill, double D, const part::Limits& limits) {
+  const auto grade =
+      tolerance::Grade(static_cast<int>(tolerance::Grade::IT0) + drill.hole->grade);
+  return limits.lower_mm <= 0 &&
+         units::um_from_mm(limits.upper_mm) >= tolerance::it_um(D, grade);
+}
+
+std::string promise(const FixedTool& drill) {
+  return "IT" + std::to_string(drill.hole->grade) + " and Ra " +
+         number_text(drill.hole->Ra_um) + " um";
+}
+
+std::vector<const FixedTool*> known_tools(const Draft& draft, FixedUse use) {
+  auto all = tools_for(draft, use);
+  std::erase_if(all, [](const FixedTool* t) { return !t->hole; });
+  return all;
+}
+
+std::optional<MadeHole> drilled_hole(const Draft& draft, const HoleDemand& w) {
+  for (const auto* t : known_tools(draft, FixedUse::drilling))
+    if (has_size(*t, w.D_mm) && w.takes_drill(w.D_mm) && keeps(*t, w) &&
+        w.drilled_to_mm <= t->reach * w.D_mm)
+      return MadeHole{part::hole(w.D_mm),
+                      "drilled to its size by " + t->id + ", to " + promise(*t)};
+  return std::nullopt;
+}
+
+std::optional<MadeHole> reamed_hole(const Draft& draft, const HoleDemand& w) {
+  for (const auto* t : known_tools(draft, FixedUse::reaming)) {
+    if (!has_size(*t, w.D_mm) || !keeps(*t, w) ||
+        w.length_mm + t->lead > t->reach * w.D_mm)
+      continue;
+    const double least = w.D_mm - t->allowance_mm.upper,
+                 most = w.D_mm - t->allowance_mm.lower;
+    if (const auto drill = drill_between(draft, w, least, most, most, t->lead))
+      return MadeHole{part::reamed(w.D_mm, *drill, t->lead),
+                      "drilled to " + number_text(*drill) + " mm and reamed by " + t->id +
+                          ", to " + promise(*t)};
+  }
+  return std::nullopt;
+}
+
+std::optional<MadeHole> tapped_hole(const Draft& draft, const HoleDemand& w) {
+  const auto D1 = part::minor_diameter_6H(w.D_mm, w.pitch_mm);
+  for (const auto* t : tools_for(draft, FixedUse::tapping)) {
+    const double lead = t->lead * w.pitch_mm;
+    if (!catalogue::thread_of(*t, w.D_mm, w.pitch_mm) ||
+        w.length_mm + lead > t->reach * w.D_mm)
+      continue;
+    if (const auto drill =
+            drill_between(draft, w, D1.least_mm, D1.most_mm, w.D_mm - w.pitch_mm, lead))
+      return MadeHole{part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
+                      "drilled to " + number_text(*drill) + " mm and tapped by " + t->id};
+  }
+  return std::nullopt;
+}
+
+const FixedTool* countersink_for(const Draft& draft, std::size_t i, double D_mm,
+                                 const part::Chamfer* chamfer) {
+  constexpr double kBeside_mm = 0.2;  // as planning asks in the bores before the hole
+  const double room = part::way_in_mm(draft.loaded.plan.drawing, i) - 2 * kBeside_mm;
+  for (const auto* t : tools_for(draft, FixedUse::countersinking)) {
+    const auto size = std::ranges::lower_bound(t->sizes_mm, D_mm);
+    if (size != t->sizes_mm.end() && *size <= room &&
+        (!chamfer || part::fits_countersink(*chamfer, t->point_deg)))
+      return t;
+  }
+  return nullptr;
+}
+
+bool can_be_countersunk(const Draft& draft, std::size_t i) {
+  const auto& e = draft.loaded.plan.drawing.inner[i];
+  const auto& c = part::opening_chamfer(e);
+  return !c || countersink_for(draft, i, e.left_mm + 2 * c->radial_mm, &*c);
+}
+
+std::optional<MadeHole> counterbored_hole(const Draft& draft, std::size_t i,
+                                          const HoleDemand& w) {
+  if (!w.drill_mm || !(w.D_mm > *w.drill_mm) || !spares_floor(draft, i, w))
+    return std::nullopt;
+  for (const auto* t : known_tools(draft, FixedUse::counterboring))
+    if (has_size(*t, w.D_mm) && keeps(*t, w) && w.length_mm <= t->reach * w.D_mm)
+      return MadeHole{part::counterbored(w.D_mm, *w.drill_mm),
+                      "opened from the drill's " + number_text(*w.drill_mm) + " mm by " +
+                          t->id + ", to " + promise(*t)};
+  return std::nullopt;
+}
+
+std::string why_not(const Draft& draft, const HoleDemand& w) {
+  std::string all;
+  const auto add = [&](const FixedTool& t, const std::string& why) {
+    all += (all.empty() ? "" : "; ") + t.id + " " + why;
+  };
+  const auto usable = [&](const FixedTool& t) {
+    return has_size(t, w.D_mm) && keeps(t, w);
+  };
+  for (const auto* t : known_tools(draft, FixedUse::drilling))
+    if (usable(*t))
+      add(*t, w.takes_drill(w.D_mm) ? "reaches " + number_text(t->reach * w.D_mm) + " mm"
+                                    : "is wider than the drill of what lies behind");
+  for (const auto* t : known_tools(draft, FixedUse::reaming)) {
+    if (!usable(*t)) continue;
+    if (w.length_mm + t->lead > t->reach * w.D_mm)
+      add(*t, "reaches " + number_text(t->reach * w.D_mm) + " mm with its lead");
+    else
+      add(*t, "asks for a drill of " + number_text(w.D_mm - t->allowance_mm.upper) +
+                  " to " + number_text(w.D_mm - t->allowance_mm.lower) +
+                  " mm that reaches, and makes what lies behind");
+  }
+  for (const auto* t : known_tools(draft, FixedUse::counterboring))
+    if (usable(*t))
+      add(*t, "opens a narrower hole behind, at most " + number_text(t->reach * w.D_mm) +
+                  " mm deep");
+  return all;
+}
+
+}  // namespace turnwright::document
