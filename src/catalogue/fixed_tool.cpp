@@ -4,6 +4,15 @@
 
 namespace turnwright::catalogue {
 
+FixedConditions of_size(FixedConditions at, FixedUse use, double size_mm) {
+  if (!on_axis(use) || use == FixedUse::tapping) return at;
+  at.f_mm_rev *= size_mm;
+  if (at.window)
+    for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
+      *f *= size_mm;
+  return at;
+}
+
 FixedConditions at(const FixedConditions& c, double vc, double f) {
   auto other = c;
   other.vc_m_min = vc;

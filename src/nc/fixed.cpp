@@ -30,15 +30,14 @@ void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
   const double D = 2 * o.passes[0].ap_mm;
   const bool centre = tool.use == FixedUse::centring;
   const auto end = site.sign > 0 ? part::End::right : part::End::left;
-  const double reaches = tool.reach * D;
-  const double depth =
-      centre ? reaches : planning::drilled_depth_mm(site.part, site.setup, end, reaches);
-  const double point = cutting::drill_point_mm(D, tool.point_deg);
+  const double tip =
+      centre ? catalogue::tip_depth_mm(tool, D)
+             : planning::drilled_depth_mm(site.part, site.setup, end, tool.reach * D) +
+                   cutting::drill_point_mm(D, tool.point_deg);
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);
   double reached = 0;
-  for (const double to :
-       cutting::peck_depths_mm(tool.pecking, D, site.front + depth + point)) {
+  for (const double to : cutting::peck_depths_mm(tool.pecking, D, site.front + tip)) {
     if (reached > 0) site.rapid(0, site.front - reached + kPeck_mm);
     site.to(Kind::feed, site.outer, {0, site.front - to});
     site.rapid(0, site.front + kBefore_mm);
@@ -93,14 +92,16 @@ void counterbore(Site& site, const OperationPlan& o) {
 // spindle reversed in step.
 void through_hole(Site& site, const OperationPlan& o, Kind kind) {
   const auto& s = place_of(site, o.on[0]).surface();
-  const double from = planning::hole_start_mm(s.z0, site.front) + kBefore_mm;
-  const double to = s.z1 - cut_of(site, s)->lead_mm;
+  const auto& cut = *cut_of(site, s);
+  const double from =
+      planning::hole_start_mm(s.z0, site.front) + planning::before_hole_mm(cut);
+  const double outside = std::max(from, site.front + kBefore_mm);
   site.rapid(0, site.at.z_mm);
-  site.rapid(0, site.front + kBefore_mm);
+  site.rapid(0, outside);
   site.rapid(0, from);
-  site.to(kind, site.outer, {0, to});
+  site.to(kind, site.outer, {0, s.z1 - cut.lead_mm});
   site.to(kind, site.outer, {0, from});
-  site.rapid(0, site.front + kBefore_mm);
+  site.rapid(0, outside);
 }
 
 // Whether material towards the free end is in the way of an operation that begins at a

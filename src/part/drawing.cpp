@@ -22,17 +22,22 @@ constexpr std::array kUndercutsF{
     Undercut{1.2, 0.4, 4, 0.3},   Undercut{1.6, 0.3, 4, 0.2},
     Undercut{2.5, 0.4, 5, 0.3},   Undercut{4, 0.5, 7, 0.3}};
 
-// Of ISO 6411: pilot, and the largest diameter of the forms A and R, and of B.
-constexpr std::array<std::array<double, 3>, 10> kCentreHoles{{{1, 2.12, 3.15},
-                                                              {1.25, 2.65, 4},
-                                                              {1.6, 3.35, 5},
-                                                              {2, 4.25, 6.3},
-                                                              {2.5, 5.3, 8},
-                                                              {3.15, 6.7, 10},
-                                                              {4, 8.5, 12.5},
-                                                              {5, 10.6, 16},
-                                                              {6.3, 13.2, 18},
-                                                              {10, 21.2, 28}}};
+// Of ISO 6411: pilot, and the largest diameter of the forms A and R, and of B (none of the
+// smallest pilots); length of the pilot by ISO 866.
+constexpr std::array<std::array<double, 4>, 14> kCentreHoles{{{0.5, 1.06, 0, 0.8},
+                                                              {0.63, 1.32, 0, 0.9},
+                                                              {0.8, 1.7, 0, 1.1},
+                                                              {1, 2.12, 3.15, 1.3},
+                                                              {1.25, 2.65, 4, 1.6},
+                                                              {1.6, 3.35, 5, 2},
+                                                              {2, 4.25, 6.3, 2.5},
+                                                              {2.5, 5.3, 8, 3.1},
+                                                              {3.15, 6.7, 10, 3.9},
+                                                              {4, 8.5, 12.5, 5},
+                                                              {5, 10.6, 16, 6.3},
+                                                              {6.3, 13.2, 18, 8},
+                                                              {8, 17, 22.4, 10.1},
+                                                              {10, 21.2, 28, 12.8}}};
 
 // Of DIN 76: pitch, d - dg, g2 of the forms A and B, radius.
 constexpr std::array<std::array<double, 5>, 18> kThreadUndercuts{
@@ -79,9 +84,14 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
 
 std::optional<CentreHole> centre_hole(char form, double pilot_mm, double diameter_mm) {
   if (form != 'A' && form != 'B' && form != 'R') return std::nullopt;
-  for (const auto& row : kCentreHoles)
-    if (row[0] == pilot_mm && row[form == 'B' ? 2 : 1] == diameter_mm)
-      return CentreHole{form, pilot_mm, diameter_mm};
+  const double t30 = std::tan(units::rad_from_deg(30)), t60 = 3 * t30;
+  for (const auto& [pilot, cone, chamfer, length] : kCentreHoles) {
+    const double widest = form == 'B' ? chamfer : cone;
+    if (pilot != pilot_mm || widest != diameter_mm || (form == 'R' && !(chamfer > 0)))
+      continue;
+    return CentreHole{form, pilot, widest,
+                      (widest - cone) / 2 / t60 + (cone - pilot) / 2 / t30 + length};
+  }
   return std::nullopt;
 }
 

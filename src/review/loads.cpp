@@ -97,8 +97,10 @@ class Edge {
     if (!fixed())
       return std::min(kLongestLife_min,
                       cutting::tool_life_min(cut_, vc_m_min, f_mm_rev, ap_mm));
-    const auto* at = tool_.fixed->conditions_in(material_.group);
-    return at ? at->T_min : 0;
+    const auto* given = tool_.fixed->conditions_in(material_.group);
+    if (!given) return 0;
+    const auto at = catalogue::of_size(*given, use(), tool_.size_mm);
+    return std::min(kLongestLife_min, catalogue::at(at, vc_m_min, f_mm_rev).T_min);
   }
 
  private:

@@ -138,7 +138,8 @@ TEST(Schema, AgreesWithTheReadersOnEverySlipInTheCatalogue) {
   const SchemaCheck fixed("fixed-tool.json");
   for (const auto& entry : fs::directory_iterator(source_path("tools/fixed"))) {
     auto tool_of_one_kind = parse_file(entry.path());
-    if (tool_of_one_kind.contains("sizes_mm")) tool_of_one_kind["sizes_mm"] = {3};
+    for (const char* sizes : {"sizes_mm", "depths_mm"})
+      if (tool_of_one_kind.contains(sizes)) tool_of_one_kind[sizes] = {3};
     tool_of_one_kind["Fc_max_N"] = 3000;
     try_all(fixed, refused_entry<catalogue::FixedTool, read_fixed_tool>, tool_of_one_kind,
             50);

@@ -83,7 +83,9 @@ class Check : private Sizes {
                 true,
                 false,
                 2 * o.passes[0].ap_mm,
-                o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
+                t.use == centring
+                    ? catalogue::tip_depth_mm(t, 2 * o.passes[0].ap_mm)
+                    : o.passes[0].ap_mm / std::tan(t.point_deg * M_PI / 360)};
       if (t.use == countersinking) return countersink(o, t);
       if (t.use == counterboring || t.use == reaming || t.use == tapping)
         return behind_lead(o, t);

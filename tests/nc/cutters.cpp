@@ -37,6 +37,12 @@ double pitch_mm(const Planned& p, const OperationPlan& o) {
   return std::max(pitch(p.part.drawing.outer), pitch(p.part.drawing.inner));
 }
 
+// A centre drill counts as a cone, with a rim that leaves the face square around the hole.
+constexpr double kRim_mm = 0.05;
+double centre_cone_mm(const catalogue::FixedTool& t, double D) {
+  return catalogue::tip_depth_mm(t, D) - kRim_mm;
+}
+
 Cutter drill(double D, double point_deg) {
   Cutter c;
   c.drills = true;
@@ -76,6 +82,8 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
   c.re_mm = t.re_mm;
   switch (t.use) {
     case FixedUse::centring:
+      return drill(2 * ap,
+                   units::deg_from_rad(2 * std::atan(ap / centre_cone_mm(t, 2 * ap))));
     case FixedUse::drilling:
       return drill(2 * ap, t.point_deg);
     case FixedUse::countersinking:
@@ -154,6 +162,7 @@ std::optional<Drilled> drilled(const Planned& p, std::size_t setup,
   if (!t || (t->use != FixedUse::centring && t->use != FixedUse::drilling))
     return std::nullopt;
   const double D = 2 * o.passes[0].ap_mm;
+  if (t->use == FixedUse::centring) return Drilled{D, centre_cone_mm(*t, D), kRim_mm};
   double depth = t->reach * D;
   if (t->use == FixedUse::drilling) {
     depth = 0;
@@ -162,7 +171,10 @@ std::optional<Drilled> drilled(const Planned& p, std::size_t setup,
         p.part.setups[setup].hold == part::End::left ? part::End::right : part::End::left;
     for (const auto& e : p.part.drawing.inner) {
       if (e.from == free) depth += e.length_mm;
-      if (e.from == free && e.cut) needed = std::max(needed, depth + e.cut->lead_mm);
+      if (e.from == free && e.cut) {
+        const double room = e.cut->kind == part::CutKind::thread ? e.cut->pitch_mm : 0;
+        needed = std::max(needed, depth + e.cut->lead_mm + room);
+      }
     }
     depth = std::max(depth, needed);
   }

@@ -196,7 +196,7 @@ Paper supported(double from_z = 15.55) {
   paper.operation(OperationKind::finish, {"d2"}, kFinisher).rapid(18, 2).rapid(14, 2);
   paper.feed(14, -18).feed(17, -18).rapid(18, -17).rapid(100, -17).rapid(100, 100);
   paper.operation(OperationKind::fixed, {"right"}, "DIN333-A", 4.25).rapid(0, 100);
-  paper.rapid(0, 2).feed(0, -8.5 - 4.25 / std::tan(M_PI / 3)).rapid(0, 100);
+  paper.rapid(0, 2).feed(0, -8.9).rapid(0, 100);
   paper.rapid(100, 100).stop("stop: bring up the tailstock");
   paper.operation(OperationKind::finish, {"d1"}, kFacer).rapid(100, from_z);
   return paper.rapid(15, from_z).feed(15, -40.5).rapid(18, -38).rapid(100, -38);

@@ -57,6 +57,10 @@ struct FixedConditions {
 /// count.
 FixedConditions at(const FixedConditions& conditions, double vc_m_min, double f_mm_rev);
 
+/// The conditions of a tool in one of its sizes: feeds of tools on the axis, of taps apart,
+/// grow with the diameter.
+FixedConditions of_size(FixedConditions conditions, FixedUse use, double size_mm);
+
 /// What a drill, a flat drill or a reamer leaves: the ISO 286 grade above its diameter (of a reamer the
 /// tolerance class H of that grade), and the roughness.
 struct DrilledHole {
@@ -85,6 +89,8 @@ struct FixedTool {
   /// Diameters of drills (for centre drills of the countersink), countersinks and reamers
   /// or widths of blades, in rising order; empty for other tools.
   std::vector<double> sizes_mm;
+  /// Of a centre drill: depth of its tip where the hole has its size, one for each size.
+  std::vector<double> depths_mm = {};
   Range pitch_mm;    ///< pitches of threads that it cuts
   double reach = 0;  ///< deepest cut: of tools on the axis in diameters, of blades in mm
   std::vector<ThreadSize> threads = {};  ///< of taps
@@ -109,6 +115,15 @@ struct FixedTool {
     return nullptr;
   }
 };
+
+/// Depth [mm] of a centre drill's tip where the hole has the tool's size that is at least as
+/// large, or its largest.
+inline double tip_depth_mm(const FixedTool& centre_drill, double size_mm) {
+  const auto& sizes = centre_drill.sizes_mm;
+  const auto at = std::ranges::lower_bound(sizes, size_mm) - sizes.begin();
+  return centre_drill.depths_mm.at(
+      std::min(static_cast<std::size_t>(at), sizes.size() - 1));
+}
 
 /// The thread of a diameter and a pitch among those that a tap cuts; none.
 inline const ThreadSize* thread_of(const FixedTool& tap, double d_mm, double pitch_mm) {

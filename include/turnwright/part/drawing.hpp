@@ -149,13 +149,17 @@ struct TitleBlock {
 };
 
 /// A centre hole of ISO 6411's form A, B (with a protecting chamfer) or R (rounded): the
-/// diameters of its pilot hole and where it is widest.
+/// diameters of its pilot hole and where it is widest, and the depth of the pilot's tip.
 struct CentreHole {
   char form = 'A';
-  double pilot_mm = 0, diameter_mm = 0;
+  double pilot_mm = 0, diameter_mm = 0, depth_mm = 0;
 };
 /// The centre hole of a form with these diameters.
-/// Source: ISO 6411:1982, table: d, and D1 (form R), D2 (A), D3 (B).
+///
+///     depth = (D3 - D2)/2/tan 60 deg + (D2 - d)/2/tan 30 deg + l                      (3)
+///
+/// with D3 = D2 but of form B; form R is taken as deep as form A, an estimate.
+/// Source: ISO 6411:1982, table: d, and D1 (form R), D2 (A), D3 (B); l of ISO 866.
 /// Nothing if the table has none.
 std::optional<CentreHole> centre_hole(char form, double pilot_mm, double diameter_mm);
 /// "ISO 6411-A4/8.5".
@@ -219,6 +223,11 @@ inline bool is_reamed(const InnerElement& e) {
 /// Diameter [mm] to which drills open a hole before its other tools come.
 inline double opened_mm(const Cut& hole) {
   return hole.flat ? hole.drawn.left_mm : hole.drilled_mm;
+}
+/// How far [mm] a hole is drilled beyond its end: by the lead of its reamer or its tap, and
+/// for a tap, which does not stop to a hair, a pitch more.
+inline double drilled_beyond_mm(const Cut& hole) {
+  return hole.lead_mm + (hole.kind == CutKind::thread ? hole.pitch_mm : 0);
 }
 /// The chamfer where a bore begins.
 inline const std::optional<Chamfer>& opening_chamfer(const InnerElement& e) {

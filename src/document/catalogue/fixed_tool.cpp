@@ -69,6 +69,18 @@ catalogue::ThreadSize read_thread(const Reader& r) {
   return {};
 }
 
+// Of centre drills: one for each size, or in proportion to it.
+void read_depths(Reader& r, FixedTool& t) {
+  if (r.has("depths_mm")) {
+    t.depths_mm = r.numbers("depths_mm", above_up_to(0, 500, "mm"), 1, 200);
+    if (t.depths_mm.size() != t.sizes_mm.size())
+      r.problem_at("depths_mm", "one for each of sizes_mm", "conflict");
+    return;
+  }
+  t.reach = r.number("reach_diameters", above_up_to(0, 100));
+  for (const double size : t.sizes_mm) t.depths_mm.push_back(t.reach * size);
+}
+
 // Of reamers and taps.
 void read_lead(Reader& r, FixedTool& t, const char* key, const Bounds& bounds) {
   t.reach = r.number("reach_diameters", above_up_to(0, 100));
@@ -87,13 +99,15 @@ void read_pecking(Reader& r, FixedTool& t) {
 void read_kind(Reader& r, FixedTool& t) {
   switch (t.use) {
     case FixedUse::centring:
+      read_sizes(r, t);
+      read_depths(r, t);
+      t.point_deg = r.number("point_deg", within(60, 180, "deg"));
+      t.form = r.choice_or("form", {{"A", 'A'}, {"B", 'B'}, {"R", 'R'}}, 'A');
+      break;
     case FixedUse::drilling:
       read_sizes(r, t);
       t.reach = r.number("reach_diameters", above_up_to(0, 100));
       t.point_deg = r.number("point_deg", within(60, 180, "deg"));
-      if (t.use == FixedUse::centring)
-        t.form = r.choice_or("form", {{"A", 'A'}, {"B", 'B'}, {"R", 'R'}}, 'A');
-      if (t.use != FixedUse::drilling) break;
       read_hole(r, t);
       read_pecking(r, t);
       break;
@@ -118,7 +132,7 @@ void read_kind(Reader& r, FixedTool& t) {
     case FixedUse::tapping:
       for (const auto& item : r.items("threads", 1, 200))
         t.threads.push_back(read_thread(item));
-      read_lead(r, t, "lead_pitches", within(0, 20));
+      read_lead(r, t, "lead_pitches", above_up_to(0, 20));
       break;
     case FixedUse::grooving:
     case FixedUse::parting:

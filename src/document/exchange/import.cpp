@@ -106,9 +106,10 @@ class Remarks {
   ordered_json list_ = ordered_json::array();
 };
 
-// A convex arc may bulge beyond its ends: with its centre at (z, r), up to r + R.
+// As turned, with what is left for grinding.  A convex arc may bulge beyond its ends: with its centre at (z, r), up to r + R.
 double largest_mm(const exchange::Element& e) {
-  const double ends_mm = std::max(e.left_mm, e.right_mm);
+  const double ends_mm =
+      std::max(e.left_mm, e.right_mm) + e.demands.grinding_mm.value_or(0);
   if (e.shape != exchange::Shape::arc || !e.convex) return ends_mm;
   const double rise = (e.right_mm - e.left_mm) / 2,
                half = std::hypot(e.length_mm, rise) / 2;

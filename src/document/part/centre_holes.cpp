@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <string>
 
@@ -33,6 +34,23 @@ std::optional<CentreHole> read_designation(const Reader& r) {
   return found;
 }
 
+// What an end's bores, or its centre hole, take of the part's length.
+double taken_mm(const part::Drawing& d, End end) {
+  const auto& centre = part::centre_at(d, end);
+  double depth = centre ? centre->depth_mm : 0;
+  for (const auto& e : d.inner)
+    if (e.from == end) depth += e.length_mm;
+  return depth;
+}
+
+// Diameter of an end's face inside its chamfer.
+double face_mm(const part::Drawing& d, End end) {
+  const bool left = end == End::left;
+  const auto& e = left ? d.outer.front() : d.outer.back();
+  const auto& chamfer = left ? e.left_chamfer : e.right_chamfer;
+  return (left ? e.left_mm : e.right_mm) - (chamfer ? 2 * chamfer->radial_mm : 0);
+}
+
 bool is_hollow(const part::Drawing& d, End end) {
   return d.stock.kind == part::StockKind::tube ||
          std::ranges::any_of(d.inner, [&](const auto& e) { return e.from == end; });
@@ -50,7 +68,8 @@ void read_centre_holes(Draft& draft) {
     r.finish();
     if (!found || !sizes_were_read(d)) continue;
     auto& mine = end == End::left ? d.left_centre : d.right_centre;
-    const double D = end == End::left ? d.outer.front().left_mm : d.outer.back().right_mm;
+    const double D = face_mm(d, end);
+    const double room = part::length_mm(d) - taken_mm(d, part::opposite(end));
     if (mine)
       r.problem_at("at", "each end once", "duplicate");
     else if (is_hollow(d, end))
@@ -58,7 +77,13 @@ void read_centre_holes(Draft& draft) {
     else if (!(found->diameter_mm < D))
       r.problem_at("designation",
                    "a centre hole that is less wide than the " + number_text(D) +
-                       " mm of that end",
+                       " mm of that end's face",
+                   "conflict");
+    else if (!(found->depth_mm < room))
+      r.problem_at("designation",
+                   "a centre hole that is less deep than the " +
+                       number_text(std::round(1e3 * room) / 1e3) +
+                       " mm before what is drawn from the other end",
                    "conflict");
     else
       mine = found;

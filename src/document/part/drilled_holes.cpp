@@ -23,11 +23,14 @@ bool names(const nlohmann::json& value, const std::string& id) {
                      [&](const auto& v) { return names(v, id); });
 }
 
-// Limits of a bore's size; of an open one the narrowest that a drawing in general has.
-part::Limits limits_of(const part::InnerElement& bore) {
+// Limits of a bore's size; of an open one the narrowest that a drawing in general has, none
+// below the sizes of ISO 2768-1.
+std::optional<part::Limits> limits_of(const part::InnerElement& bore) try {
   return bore.limits
-             ? *bore.limits
+             ? bore.limits
              : tolerance::general_limits_mm(bore.left_mm, tolerance::LinearClass::f);
+} catch (const std::domain_error&) {
+  return std::nullopt;
 }
 
 // Whether a boring bar enters what a drill would leave of a bore.

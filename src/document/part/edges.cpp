@@ -181,7 +181,7 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
   // As drawn once its element is ground.
   const double slope = std::tan(units::rad_from_deg(angle)),
                more = draft.ground(e.id) / 2;
-  const double radial = axial * slope + more;
+  const double radial = axial * slope + more, turned = axial + more / slope;
   const double taken = edge_length_mm(e, opposite(step.end)), free = e.length_mm - taken;
   if (!std::isfinite(axial) || !std::isfinite(angle)) return;  // reported already
   if (!step.plain)
@@ -189,7 +189,7 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
                  "an edge of a cylinder, a thread or a hole that has no arc beside it "
                  "and is in no neck",
                  "conflict");
-  else if (!(axial < free))
+  else if (!(turned < free))
     r.problem_at("chamfer_mm",
                  "less than the " + rounded(free) + " mm that " + e.id + " is long" +
                      (taken > 0 ? " beside the edge at its other end" : ""),
@@ -200,7 +200,7 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
                      " mm of the radius there (this one takes " + rounded(radial) + ")",
                  "conflict");
   else
-    mine = part::Chamfer{axial + more / slope, radial, step.by_blade};
+    mine = part::Chamfer{turned, radial, step.by_blade};
 }
 
 template <class Element>
@@ -328,14 +328,17 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
   r.finish();
 }
 
-// A chamfer of the given size on an edge that has none and takes it.
+// A chamfer of the given size on an edge that has none and takes it; its element is ground
+// by `ground_mm` of its radius once it is cut.
 template <class Element>
-void break_edge(const Step& step, double size_mm, double most_mm, Element& e) {
+void break_edge(const Step& step, double size_mm, double ground_mm, double most_mm,
+                Element& e) {
   auto& mine = chamfer_at(e, step.end);
   const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
   const bool drilled = e.cut && e.cut->drilled_mm > 0;
-  if (!mine && !drilled && size_mm < free && size_mm <= most_mm)
-    mine = part::Chamfer{size_mm, size_mm, step.by_blade, true};
+  const double turned = size_mm + ground_mm;
+  if (!mine && !drilled && turned < free && turned <= most_mm)
+    mine = part::Chamfer{turned, turned, step.by_blade, true};
 }
 
 }  // namespace
@@ -352,8 +355,10 @@ void read_general_edges(Draft& draft) {
   for (const auto& step : steps(d)) {
     if (!step.plain) continue;
     const double most = step.most_mm - foot_mm(d, step);
-    step.inner ? break_edge(step, size, most, d.inner[step.standing])
-               : break_edge(step, size, most, d.outer[step.standing]);
+    const auto broken = [&](auto& e) {
+      break_edge(step, size, draft.ground(e.id) / 2, most, e);
+    };
+    step.inner ? broken(d.inner[step.standing]) : broken(d.outer[step.standing]);
   }
 }
 

@@ -79,7 +79,7 @@ template <class Element>
 void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
   constexpr double kShareOfAllowance = 1.0 / 3;
   const auto given = r.optional_number("grinding_allowance_mm", above_up_to(0, 5, "mm"));
-  if (!given || !std::isfinite(e.left_mm + e.right_mm)) return;
+  if (!given || !std::isfinite(*given + e.left_mm + e.right_mm)) return;
   const double by = side == Side::outer ? *given : -*given;
   if (!(std::min(e.left_mm, e.right_mm) + by > 0))
     return r.problem_at("grinding_allowance_mm", "less than the diameter", "conflict");

@@ -30,11 +30,11 @@ bool keeps(const FixedTool& tool, const HoleDemand& w) {
 // The drill's size between two limits, nearest to a third one, that goes deep enough.
 std::optional<double> drill_between(const Draft& draft, const HoleDemand& w,
                                     double least_mm, double most_mm, double best_mm,
-                                    double lead_mm) {
+                                    double beyond_mm) {
   std::optional<double> found;
   for (const auto* t : tools_for(draft, FixedUse::drilling))
     for (const double size : t->sizes_mm) {
-      const double deep = w.drilled_to_mm + lead_mm;
+      const double deep = w.drilled_to_mm + beyond_mm;
       if (size < least_mm - kRounding_mm || size > most_mm + kRounding_mm ||
           !w.takes_drill(size) || deep > t->reach * size)
         continue;
@@ -109,8 +109,8 @@ std::optional<MadeHole> tapped_hole(const Draft& draft, const HoleDemand& w) {
     if (!catalogue::thread_of(*t, w.D_mm, w.pitch_mm) ||
         w.length_mm + lead > t->reach * w.D_mm)
       continue;
-    if (const auto drill =
-            drill_between(draft, w, D1.least_mm, D1.most_mm, w.D_mm - w.pitch_mm, lead))
+    if (const auto drill = drill_between(draft, w, D1.least_mm, D1.most_mm,
+                                         w.D_mm - w.pitch_mm, lead + w.pitch_mm))
       return MadeHole{part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
                       "drilled to " + number_text(*drill) + " mm and tapped by " + t->id};
   }

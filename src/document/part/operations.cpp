@@ -147,15 +147,35 @@ bool is_end(const std::string& surface) {
   return surface == "left" || surface == "right";
 }
 
+// What the fixed tool that an operation names is for; nothing without one.
+std::optional<catalogue::FixedUse> use_of(const Draft& draft,
+                                          const planning::OperationRequest& op) {
+  const auto& tools = draft.loaded.plan.fixed_tools;
+  if (op.kind != OperationKind::fixed || !op.tool) return std::nullopt;
+  const auto it = std::ranges::find(tools, *op.tool, &catalogue::FixedTool::id);
+  return it == tools.end() ? std::nullopt : std::optional(it->use);
+}
+
+// Whether they are two of the tools that make a bore, one after the other.
+bool differ_in_a_bore(const Draft& draft, const planning::OperationRequest& earlier,
+                      const planning::OperationRequest& op, const std::string& on) {
+  const auto a = use_of(draft, earlier), b = use_of(draft, op);
+  const auto& inner = draft.loaded.plan.drawing.inner;
+  return a && b && *a != *b && earlier.setup == op.setup &&
+         std::ranges::find(inner, on, &part::InnerElement::id) != inner.end();
+}
+
 // An element is made in one setup, by one roughing, one finishing and one fixed operation
 // at most; an end may be faced in one setup and centred or parted off in another, and an
-// element get its chamfer there.
-void check_pair(Reader r, const part::Drawing& drawing,
-                const planning::OperationRequest& earlier,
+// element get its chamfer there.  A bore has as many fixed operations as tools make it.
+void check_pair(Reader r, const Draft& draft, const planning::OperationRequest& earlier,
                 const planning::OperationRequest& op) {
   const auto shared = std::find_first_of(op.on.begin(), op.on.end(), earlier.on.begin(),
                                          earlier.on.end());
-  if (shared == op.on.end() || shared->empty()) return;
+  if (shared == op.on.end() || shared->empty() ||
+      differ_in_a_bore(draft, earlier, op, *shared))
+    return;
+  const auto& drawing = draft.loaded.plan.drawing;
   const auto has_chamfer = [&](const auto& e) { return e.id == *shared && chamfered(e); };
   const bool twice = is_end(*shared) || std::ranges::any_of(drawing.outer, has_chamfer) ||
                      std::ranges::any_of(drawing.inner, has_chamfer);
@@ -174,6 +194,34 @@ void check_pair(Reader r, const part::Drawing& drawing,
                  "conflict");
 }
 
+// Whether a fixed tool is one of those that make a hole.
+bool makes_hole(catalogue::FixedUse use, const part::InnerElement& hole) {
+  using enum catalogue::FixedUse;
+  return use == drilling || (use == countersinking && part::opening_chamfer(hole)) ||
+         (use == tapping && part::is_tapped(hole)) ||
+         (use == reaming && part::is_reamed(hole)) ||
+         (use == counterboring && part::is_counterbore(hole));
+}
+
+// A hole is not made by other tools than those that follow from its drawing.
+void check_hole_tool(const Draft& draft, Reader r, const planning::OperationRequest& op,
+                     const std::string& id) {
+  const auto& inner = draft.loaded.plan.drawing.inner;
+  const auto hole = std::ranges::find(inner, id, &part::InnerElement::id);
+  const auto use = use_of(draft, op);
+  if (hole == inner.end() || !part::is_hole(*hole) || !use || makes_hole(*use, *hole))
+    return;
+  r.problem_at("tool",
+               std::string("a drill") +
+                   (part::is_tapped(*hole)        ? " or a tap"
+                    : part::is_reamed(*hole)      ? " or a reamer"
+                    : part::is_counterbore(*hole) ? " or a flat drill"
+                                                  : "") +
+                   (part::opening_chamfer(*hole) ? ", or a countersink" : "") +
+                   ": they make " + id,
+               "conflict");
+}
+
 // The held end may be parted off, if the stock is; the free end may get a centre hole.
 // Drilling, centring and parting off have one pass.
 void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
@@ -183,6 +231,7 @@ void check_fixed(Draft& draft, Reader r, const planning::OperationRequest& op) {
   const auto known = fixed_surfaces(drawing);
   for (const auto& id : op.on) {
     if (std::find(known.begin(), known.end(), id) == known.end()) continue;  // reported
+    check_hole_tool(draft, r, op, id);
     if (id == (left ? "left" : "right") && !(op.setup == 0 && drawing.stock.parted_mm))
       r.problem_at("on",
                    "the free end; the held one is parted off in the first setup if "
@@ -249,7 +298,7 @@ void read_operations(Draft& draft) {
     for (const auto& earlier : operations) {
       if (!op.id.empty() && earlier.id == op.id)
         item.problem_at("id", "an id no other operation has", "duplicate");
-      check_pair(item, draft.drawing(), earlier, op);
+      check_pair(item, draft, earlier, op);
     }
     check_fixed(draft, item, op);
     operations.push_back(std::move(op));

@@ -14,8 +14,8 @@ namespace turnwright::planning {
 /// These operations of a setup in their order; milled places come before parting off.
 ///
 ///     spindle:  n = min(1000 vc/(pi D), n_cap),  threads also n <= rapid/P           (1)
-///     centre, drill:  t = (depth + D/2/tan(sigma/2) + 0.5 mm a peck)/(f n),  f = k D,
-///                     pecks as (6) of cutting/fixed.hpp                              (2)
+///     drill:  t = (depth + D/2/tan(sigma/2) + 0.5 mm a peck)/(f n),  f = k D,
+///             pecks as (6) of cutting/fixed.hpp;  centre:  depth of its tip/(f n)    (2)
 ///     groove, part:  plunges = ceil(width/blade), each pi (r0^2 - r1^2)/(1000 vc f),
 ///                    with the spindle's limit as spindle.hpp (3)                     (3)
 ///     thread:  infeeds = max(4, ceil(passes_per_mm P)), each l/(P n), where the part

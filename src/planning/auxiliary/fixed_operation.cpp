@@ -19,17 +19,6 @@ bool drills(FixedUse use) {
   return use == FixedUse::centring || use == FixedUse::drilling;
 }
 
-// The conditions of a tool in one of its sizes.
-catalogue::FixedConditions of_size(catalogue::FixedConditions at, FixedUse use,
-                                   double size_mm) {
-  if (!catalogue::on_axis(use) || use == FixedUse::tapping) return at;
-  at.f_mm_rev *= size_mm;
-  if (at.window)
-    for (double* f : {&at.window->f_mm_rev.lower, &at.window->f_mm_rev.upper})
-      *f *= size_mm;
-  return at;
-}
-
 // The lowest speed and feed of a tool's window.
 catalogue::FixedConditions gentlest(const catalogue::FixedConditions& at) {
   if (!at.window) return at;
@@ -71,7 +60,7 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
         best = {&t, size, *at};
   }
   if (!best.tool) return best;
-  best.at = of_size(best.at, a.use, best.size_mm);
+  best.at = catalogue::of_size(best.at, a.use, best.size_mm);
   if (a.given) {
     const auto& [vc, f] =
         std::pair{a.given->conditions.vc_m_min, a.given->conditions.f_mm_rev};
@@ -90,7 +79,7 @@ Fitted fitted_if(const PlanRequest& p, const Asked& a,
     auto asked = a;
     asked.fits = [&](const FixedTool& t, double size) {
       if (!a.fits(t, size)) return false;
-      const auto at = of_size(*t.conditions_in(p.material.group), a.use, size);
+      const auto at = catalogue::of_size(*t.conditions_in(p.material.group), a.use, size);
       return borne({&t, size, gently ? gentlest(at) : at});
     };
     if (const auto f = fitted(p, asked); f.tool) return f;

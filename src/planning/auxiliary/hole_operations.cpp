@@ -13,13 +13,13 @@ namespace turnwright::planning {
 namespace fixed {
 namespace {
 
-// Eq. (2).
+// Eq. (2), down to a depth of the tip.
 AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
-                           double depth_mm) {
+                           double tip_mm) {
   const double D = f.size_mm, n_cap = n_cap_rpm(s);
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double front = front_mm(s.p, s.setup, s.work);
-  const double path = front + depth_mm + cutting::drill_point_mm(D, f.tool->point_deg);
+  const double path = front + tip_mm;
   double fed = path, rapid = kBefore_mm + path;
   auto pecks = cutting::peck_depths_mm(f.tool->pecking, D, path);
   pecks.pop_back();
@@ -80,7 +80,8 @@ Hole hole_from(const part::Drawing& d, part::End end) {
     h.depth_mm += e.length_mm;
     h.least_mm = std::min({h.least_mm, e.left_mm, e.right_mm});
     h.drilled_mm = part::is_hole(e) ? e.cut->drilled_mm : 0;
-    if (part::is_hole(e)) needed = std::max(needed, h.depth_mm + e.cut->lead_mm);
+    if (part::is_hole(e))
+      needed = std::max(needed, h.depth_mm + part::drilled_beyond_mm(*e.cut));
   }
   if (!(needed > h.depth_mm)) return h;
   double deep = 0;
@@ -140,20 +141,33 @@ Fitted fitted_drill(const PreparedPart& p, std::size_t setup, const Asked& a) {
   return fitted_if(p, a, [&](const Fitted& f) { return drives(p, setup, f); });
 }
 
+// Whether a given operation asks for another depth, or more passes, than the one that
+// follows from the drawing; refuses it then.
+bool asks_for_other_passes(const Site& s, const Asked& a, double ap_mm) {
+  if (!a.given) return false;
+  const auto& c = a.given->conditions;
+  if (c.passes.value_or(1) == 1 && std::abs(c.ap_mm.value_or(ap_mm) - ap_mm) < 1e-6)
+    return false;
+  refuse(s, a, fmt::format("it cuts {:.4g} mm deep in one pass", ap_mm));
+  return true;
+}
+
 // A reamer or a tap goes through its hole to its lead beyond, and back at the same feed:
 // in the cut both ways.
 AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
                                 const CutElement& e, double n_cap,
                                 const std::function<cutting::Load(const Fitted&)>& load) {
   const double z0 = e.around.z0, front = e.around.front;
-  const double start = hole_start_mm(z0, front), before = start + kBefore_mm - z0;
+  const double from = hole_start_mm(z0, front) + before_hole_mm(e.cut),
+               before = from - z0;
   return at_best(s, f, {f.size_mm}, n_cap, [&](const Fitted& at) {
     const Duty d{load(at),
                  std::min(units::spindle_rpm(at.at.vc_m_min, at.size_mm), n_cap),
                  at.size_mm};
     const double vf = at.at.f_mm_rev * d.n_rpm;
     return operation(s, a, at, {pass_of(d, e.cut.depth_mm, 2 * e.length_mm / vf)},
-                     {2 * (before + e.cut.lead_mm) / vf, 2 * (front - start), true, 0, 0},
+                     {2 * (before + e.cut.lead_mm) / vf,
+                      2 * std::max(0.0, front + kBefore_mm - from), true, 0, 0},
                      {d});
   });
 }
@@ -181,6 +195,7 @@ void add_countersinking(Site& s, const CutElement& e) {
                               "angle, at least {:g} mm in diameter and passes the bores "
                               "before it",
                               s.p.material.name, D));
+  if (asks_for_other_passes(s, a, (D - from_mm) / 2)) return;
   if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
@@ -213,6 +228,7 @@ void add_reaming(Site& s, const CutElement& e) {
                   fmt::format("no reamer of the tools is for {}, {:g} mm in diameter and "
                               "reaches {:g} mm deep",
                               s.p.material.name, D, deep));
+  if (asks_for_other_passes(s, a, e.cut.depth_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   s.out.after.push_back(through_hole(s, a, f, e, n_cap_rpm(s), [&](const Fitted& at) {
     return cutting::ream(kc, D, e.cut.drilled_mm, at.at.f_mm_rev, at.tool->edges);
@@ -239,6 +255,9 @@ void add_tapping(Site& s, const CutElement& e) {
         fmt::format("no tap of the tools is for {} and a thread of {:g} mm with "
                     "a pitch of {:g} mm, {:g} mm deep",
                     s.p.material.name, d, P, deep));
+  if (asks_for_other_passes(s, a, e.cut.depth_mm)) return;
+  if (a.given && std::abs(a.given->conditions.f_mm_rev.value_or(P) / P - 1) > 1e-9)
+    return refuse(s, a, fmt::format("its feed is its pitch, {:g} mm", P));
   f.size_mm = d;
   f.at.f_mm_rev = P;
   if (f.at.window) f.at.window->f_mm_rev = {P, P};
@@ -275,7 +294,7 @@ void add_centre(Site& s, const char* face, double end_mm) {
           }};
   const auto f = fitted(s.p, a);
   if (f.tool)
-    s.out.before.push_back(drilled(s, a, f, f.tool->reach * f.size_mm));
+    s.out.before.push_back(drilled(s, a, f, catalogue::tip_depth_mm(*f.tool, f.size_mm)));
   else
     refuse(s, a,
            drawn ? fmt::format("no centre drill of the tools is for {} and {}",
@@ -292,7 +311,9 @@ void add_drilling(Site& s, part::End end) {
   const auto f = fitted_drill(s.p, s.setup, a);
   if (f.tool)
     s.out.before.push_back(
-        drilled(s, a, f, drilled_depth_mm(s.p, s.setup, end, f.tool->reach * f.size_mm)));
+        drilled(s, a, f,
+                drilled_depth_mm(s.p, s.setup, end, f.tool->reach * f.size_mm) +
+                    cutting::drill_point_mm(f.size_mm, f.tool->point_deg)));
   else
     refuse(
         s, a,
@@ -326,6 +347,7 @@ void add_counterbore(Site& s, std::size_t index) {
                   fmt::format("no flat drill of the tools is for {}, {:g} mm in diameter "
                               "and reaches {:g} mm deep",
                               s.p.material.name, D, e.length_mm));
+  if (asks_for_other_passes(s, a, e.cut->depth_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double front = front_mm(s.p, s.setup, s.work), n_cap = n_cap_rpm(s);
   const auto way = counterbore_way(s.p.drawing, index, front);
@@ -354,6 +376,10 @@ void add_hole_work(Site& s, const CutElement& e) {
 
 double hole_start_mm(double begins_mm, double front_mm) {
   return begins_mm > -kNoWall_mm ? std::max(begins_mm, front_mm) : begins_mm;
+}
+
+double before_hole_mm(const part::Cut& hole) {
+  return std::max(kBefore_mm, kRunInPitches * hole.pitch_mm);
 }
 
 CounterboreWay counterbore_way(const part::Drawing& d, std::size_t index,

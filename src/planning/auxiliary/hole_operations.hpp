@@ -24,6 +24,10 @@ namespace turnwright::planning {
 /// inwards begins for a reamer or a tap: there, or at the face that stands before it.
 double hole_start_mm(double begins_mm, double front_mm);
 
+/// How far [mm] before it a reamer or a tap is fed from: of a tap three pitches, in which
+/// spindle and feed fall into step.
+double before_hole_mm(const part::Cut& hole);
+
 /// Where [mm, in the program's z] a flat drill cuts the inner element of an index: from the
 /// material of the end, or from the floor of a counterbore before it, to its floor.
 struct CounterboreWay {

@@ -174,6 +174,17 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
   }
 }
 
+// Drawn centre holes at ends that no setup frees.
+void assign_centres(const PreparedPart& p, Assignment& a) {
+  for (const End end : {End::left, End::right}) {
+    const auto frees = [&](const SetupRequest& s) { return s.hold != end; };
+    if (part::centre_at(p.drawing, end) && std::ranges::none_of(p.setups, frees))
+      a.unreachable.push_back(fmt::format(
+          "the centre hole at {} cannot be drilled in any setup: its end is held",
+          end == End::left ? "left" : "right"));
+  }
+}
+
 // Grooves go to the setup that makes the elements at their rims where the blade cuts the
 // chamfers there.
 void follow_rims(const PreparedPart& p, Assignment& a) {
@@ -225,6 +236,7 @@ Assignment assign(const PreparedPart& p) {
     if (holds_left(p, s))
       std::reverse(a.setups[s].elements.begin(), a.setups[s].elements.end());
   assign_faces(p, a);
+  assign_centres(p, a);
   for (const auto& not_cut :
        {assign_chamfers(p, a.setups), undercuts_not_cut(p, a.setups)})
     a.unreachable.insert(a.unreachable.end(), not_cut.begin(), not_cut.end());

@@ -34,6 +34,8 @@ Cutter fixed_cutter(const PreparedPart& part, const OperationPlan& o, bool bore)
   const double size = o.passes[0].ap_mm;
   switch (tool.use) {
     case FixedUse::centring:
+      return {Shape::drill, size,
+              std::atan2(size, catalogue::tip_depth_mm(tool, 2 * size))};
     case FixedUse::drilling:
       return {Shape::drill, size, units::rad_from_deg(tool.point_deg) / 2};
     case FixedUse::countersinking:

@@ -16,6 +16,7 @@ constexpr double kAnyPitch_mm = 3;  // of the tooth of a threading tool
 Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
   switch (t.use) {
     case FixedUse::centring:
+      return reamer_edge(size, catalogue::tip_depth_mm(t, size));
     case FixedUse::drilling:
     case FixedUse::counterboring:
     case FixedUse::countersinking:
@@ -32,6 +33,12 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
       break;
   }
   return profiling_edge(t.re_mm);
+}
+
+// Length over which a tool on the axis grows to its diameter.
+double point_mm(const catalogue::FixedTool& t, double size) {
+  if (t.use == FixedUse::centring) return catalogue::tip_depth_mm(t, size);
+  return t.use == FixedUse::reaming ? t.lead : cutting::drill_point_mm(size, t.point_deg);
 }
 
 Polygon placed(const Polygon& tool, double side, double sign) {
@@ -54,9 +61,7 @@ MountedEdge mounted_edge(const MountedTool& tool, double sign) {
     m.on_axis = catalogue::on_axis(t.use);
     if (m.on_axis) {
       m.radius_mm = tool.size_mm / 2;
-      m.point_mm = t.use == FixedUse::reaming
-                       ? t.lead
-                       : cutting::drill_point_mm(tool.size_mm, t.point_deg);
+      m.point_mm = point_mm(t, tool.size_mm);
     }
     m.threads = t.use == FixedUse::threading || t.use == FixedUse::tapping;
     m.plunges = t.use == FixedUse::grooving || t.use == FixedUse::parting;

@@ -95,6 +95,42 @@ TEST(Grinding, LeavesChamfersAsDrawn) {
               1e-12);
 }
 
+// A flat chamfer goes on further than it is drawn, but not beyond its element.
+TEST(Grinding, ChamfersStayWithinTheirElements) {
+  auto d = shaft();
+  d["outer"][0]["diameter_mm"] = 20;
+  const double length_mm = d["outer"][1]["length_mm"];
+  d["outer"][1]["grinding_allowance_mm"] = 1.1;
+  d["edges"] = {{{"at", "seat|big"}, {"chamfer_mm", 1}, {"angle_deg", 1}}};
+  ASSERT_GT(1 + 0.55 / std::tan(M_PI / 180), length_mm);
+  EXPECT_TRUE(refusal(d).find("/edges/0/chamfer_mm: got 1, expected less than the") !=
+              std::string::npos)
+      << refusal(d);
+}
+
+// Edges that the drawing breaks alike are as it asks once their elements are ground.
+TEST(Grinding, LeavesGeneralEdgesAsDrawn) {
+  auto d = shaft();
+  d["outer"][0]["diameter_mm"] = 20;
+  d["general_edges_mm"] = {0.2, 0.4};
+  const auto e = seat_of(d);
+  ASSERT_TRUE(e.left_chamfer);
+  EXPECT_NEAR(e.left_chamfer->axial_mm, 0.3 + 0.15, 1e-12);
+  EXPECT_NEAR(e.left_chamfer->radial_mm, 0.3 + 0.15, 1e-12);
+}
+
+TEST(Grinding, AWrongAllowanceIsToldOnce) {
+  for (const json& wrong : {json("0.3"), json(-0.3), json(true), json(6)}) {
+    auto d = shaft();
+    d["outer"][1]["grinding_allowance_mm"] = wrong;
+    const auto text = refusal(d);
+    const auto first = text.find("/outer/1/grinding_allowance_mm");
+    EXPECT_NE(first, std::string::npos) << wrong;
+    EXPECT_EQ(text.find("/outer/1/grinding_allowance_mm", first + 1), std::string::npos)
+        << text;
+  }
+}
+
 // So does the floor of an undercut, and where it begins on the finished surface.
 TEST(Grinding, LeavesUndercutsAsDrawn) {
   auto d = shaft();

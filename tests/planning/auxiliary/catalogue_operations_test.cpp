@@ -185,9 +185,10 @@ TEST(Centre, IsDrilledWhereATailstockStands) {
   const auto& t = tool(p, "DIN333-A");
   const auto& at = *t.conditions_in(p.material.group);
   const double D = 10.6;  // the largest below 0.35 of 32 mm
-  const double path = D + D / 2 / std::tan(units::rad_from_deg(60));
+  // A cone of 60 deg to the pilot of 5 mm, and that, 6.3 mm long by ISO 866.
+  const double path = (D - 5) / 2 / std::tan(units::rad_from_deg(30)) + 6.3;
   const double n = 1000 * at.vc_m_min / (units::kPi * D);
-  EXPECT_NEAR(o.time_min, path / (at.f_mm_rev * D * n), 1e-12);
+  EXPECT_NEAR(o.time_min / (path / (at.f_mm_rev * D * n)), 1, 1e-3);  // depths: 0.01 mm
   EXPECT_NEAR(o.passes[0].ap_mm, D / 2, 1e-12);
 }
 
@@ -229,6 +230,79 @@ TEST(Centre, IsDrilledAsDrawnInAnyClamping) {
   EXPECT_NE(r.conflicts.at(0).sentence.find("190 HB and ISO 6411-R10/21.2"),
             std::string::npos)
       << r.conflicts.at(0).sentence;
+}
+
+// An end that no setup frees, parted off, gets none.
+TEST(Centre, IsNotLeftOutWhereItsEndIsHeld) {
+  auto d = pin();
+  d["centre_holes"] = {{{"at", "left"}, {"designation", "A4/8.5"}}};
+  ASSERT_EQ(d["setups"].size(), 2u);
+  EXPECT_EQ(plan(part(d)).status, PlanStatus::ok);
+  for (std::size_t only : {0u, 1u}) {
+    auto one = d;
+    one["setups"] = {d["setups"][only]};
+    const auto unreachable = part(one).work.unreachable;
+    const bool told = std::ranges::any_of(unreachable, [](const std::string& sentence) {
+      return sentence.starts_with("the centre hole at left cannot be drilled");
+    });
+    EXPECT_EQ(told, d["setups"][only]["hold"] == "left");
+  }
+}
+
+// Pilot, cone and protecting chamfer of ISO 6411, the pilot's length of ISO 866 (by hand:
+// (12.5 - 8.5)/2/tan 60 + (8.5 - 4)/2/tan 30 + 5).
+TEST(Centre, IsAsDeepAsItsCones) {
+  EXPECT_NEAR(part::centre_hole('B', 4, 12.5)->depth_mm, 10.05, 5e-3);
+  for (const char* file_name : {"DIN333-A", "DIN333-B", "DIN333-R"}) {
+    const auto t = file(std::string("tools/fixed/") + file_name + ".json");
+    const char form = t.value("form", "A")[0];
+    const double pilots[] = {0.5, 0.8, 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3, 8, 10};
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < t["sizes_mm"].size(); ++i)
+      for (const double pilot : pilots)
+        if (const auto hole = part::centre_hole(form, pilot, t["sizes_mm"][i])) {
+          EXPECT_NEAR(t["depths_mm"][i].get<double>(), hole->depth_mm, 5.1e-3)
+              << file_name << ' ' << pilot;
+          ++found;
+        }
+    EXPECT_EQ(found, t["sizes_mm"].size()) << file_name;
+  }
+}
+
+// Inside the face's chamfer, and not as deep as what is drawn from the other end.
+TEST(Centre, FitsItsEnd) {
+  const auto refusal = [](const json& more) -> std::string {
+    auto d = pin();
+    d["centre_holes"] = {{{"at", "right"}, {"designation", "A4/8.5"}}};
+    d.update(more);
+    try {
+      part(d);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto bore = [&](double rest_mm) {
+    const double length_mm = part::length_mm(part(pin()).drawing) - rest_mm;
+    return json{{"inner",
+                 {{{"id", "b"},
+                   {"kind", "cylinder"},
+                   {"from", "left"},
+                   {"length_mm", length_mm},
+                   {"diameter_mm", 16}}}}};
+  };
+  EXPECT_EQ(refusal(json::object()), "accepted");
+  EXPECT_EQ(refusal(bore(9)), "accepted");
+  EXPECT_NE(refusal(bore(8.8)).find("less deep than the 8.8 mm"), std::string::npos);
+  const double D = part(pin()).drawing.outer.back().right_mm;
+  const double chamfer = (D - 21.2) / 2;
+  const auto edge = [](double mm) {
+    return json{{"centre_holes", {{{"at", "right"}, {"designation", "A10/21.2"}}}},
+                {"edges", {{{"at", "right"}, {"chamfer_mm", mm}}}}};
+  };
+  EXPECT_EQ(refusal(edge(chamfer - 0.01)), "accepted");
+  EXPECT_NE(refusal(edge(chamfer + 0.01)).find("less wide than the 21.18 mm"),
+            std::string::npos);
 }
 
 TEST(Centre, IsOneOfTheTableInASolidEnd) {

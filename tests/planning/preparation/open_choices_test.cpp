@@ -339,8 +339,79 @@ TEST(Threads, ThatNoBarEntersAreTapped) {
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10", 27)))) << "deeper than 3 d";
 }
 
-// The drill goes as deep as the tap with its lead of 2.5 pitches, or as what is drawn
-// behind; with a hole behind that is as wide as the tap's drill, one drill makes both.
+// Tools that would keep what is asked, but do not make the hole here, are named.
+TEST(Holes, AreRefusedWhatTheirToolsCannotKeepHere) {
+  const auto refusal = [](const json& d) -> std::string {
+    try {
+      part(d);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const json h7{{"kind", "hole"}, {"fit", "H7"}};
+  auto deep = drilled(8, h7);
+  deep["inner"][0]["length_mm"] = 30.5;  // and 1.5 mm of lead: four diameters
+  EXPECT_EQ(refusal(deep), "accepted");
+  deep["inner"][0]["length_mm"] = 30.6;
+  EXPECT_EQ(refusal(deep),
+            "part: /inner/0/fit: got \"H7\", expected what the tools can keep here: "
+            "REAM-HSS-H7 reaches 32 mm with its lead");
+  auto before = drilled(8, h7);
+  before["inner"].push_back(cylinder("b2", 5, 8));
+  before["inner"][1]["from"] = "right";
+  before["inner"][1]["kind"] = "hole";
+  EXPECT_NE(refusal(before).find("asks for a drill of 7.7 to 7.9 mm"), std::string::npos)
+      << refusal(before);
+}
+
+// A tap does not pass through a hole that is narrower than its thread.
+TEST(Threads, DoNotLieBehindNarrowerHoles) {
+  auto d = threaded("M10", 12);
+  auto before = cylinder("b0", 6, 8.5);
+  before["from"] = "right";
+  before["kind"] = "hole";
+  d["inner"] = json::array({before, d["inner"][0]});
+  EXPECT_THROW(part(d), InputError);
+  d["inner"][0]["kind"] = "cylinder";
+  EXPECT_NE(plan(part(d)).status, PlanStatus::ok);
+  auto twice = threaded("M10", 8);
+  twice["inner"].push_back(twice["inner"][0]);
+  twice["inner"][1]["id"] = "b2";
+  EXPECT_NE(plan(part(twice)).status, PlanStatus::ok);
+}
+
+// A hole's tools stand each in an operation of its own; others, and depths or feeds that do
+// not follow from the drawing, are refused.
+TEST(Holes, TakeTheOperationsOfTheirPlan) {
+  auto d = threaded("M10", 16);
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  d["operations"] = json::array();
+  for (std::size_t s = 0; s < r.setups.size(); ++s)
+    for (const auto& o : r.setups[s].operations)
+      d["operations"].push_back({{"id", o.id},
+                                 {"setup", s},
+                                 {"kind", name(o.kind)},
+                                 {"on", o.on},
+                                 {"tool", o.tool}});
+  const auto again = plan(part(d));
+  ASSERT_EQ(again.status, PlanStatus::ok);
+  EXPECT_NEAR(again.cost_per_part, r.cost_per_part, 1e-6 * r.cost_per_part);
+  const auto tap = std::ranges::find_if(
+      d["operations"], [](const json& o) { return o["tool"] == "TAP-HSS-6H"; });
+  ASSERT_NE(tap, d["operations"].end());
+  (*tap)["conditions"] = {{"f_mm_rev", 2}};
+  EXPECT_NE(plan(part(d)).status, PlanStatus::ok) << "its pitch is 1.5 mm";
+  (*tap)["conditions"] = {{"passes", 3}};
+  EXPECT_NE(plan(part(d)).status, PlanStatus::ok) << "one pass";
+  tap->erase("conditions");
+  (*tap)["tool"] = "REAM-HSS-H7";
+  EXPECT_THROW(part(d), InputError);
+}
+
+// The drill goes a pitch deeper than the tap with its lead of 2.5 pitches, or as deep as
+// what is drawn behind; with a hole behind that is as wide as the tap's drill, one drill makes both.
 TEST(Threads, AreDrilledForTheLeadOfTheTap) {
   auto d = threaded("M10", 16);
   const auto depth = [](const json& document) {
@@ -348,7 +419,7 @@ TEST(Threads, AreDrilledForTheLeadOfTheTap) {
     EXPECT_EQ(plan(p).status, PlanStatus::ok);
     return drilled_depth_mm(p, 0, part::End::right, 1000);
   };
-  EXPECT_NEAR(depth(d), 16 + 2.5 * 1.5, 1e-12);
+  EXPECT_NEAR(depth(d), 16 + 3.5 * 1.5, 1e-12);
   const auto hole = [](double D, double length_mm) {
     return json{{"id", "b2"},
                 {"kind", "hole"},
@@ -359,7 +430,7 @@ TEST(Threads, AreDrilledForTheLeadOfTheTap) {
   d["inner"].push_back(hole(8.5, 6));
   EXPECT_NEAR(depth(d), 22, 1e-12);
   d["inner"][1] = hole(8.5, 2);
-  EXPECT_NEAR(depth(d), 16 + 2.5 * 1.5, 1e-12);
+  EXPECT_NEAR(depth(d), 16 + 3.5 * 1.5, 1e-12);
   d["inner"][1] = hole(8, 6);
   EXPECT_THROW(part(d), InputError) << "two drills";
 }
@@ -377,7 +448,8 @@ TEST(Threads, AreNotTappedIntoTheThreadOfTheOtherEnd) {
   EXPECT_EQ(drilled_mm(part(d), part::End::right), 8.5) << "a drill of 10.2 mm was there";
 }
 
-// In the cut both ways through the hole; the lead beyond it and 2 mm before it at feed.
+// In the cut both ways through the hole; the lead beyond it and three pitches before it at
+// feed.
 TEST(Threads, TakeTheTimeOfTheirWays) {
   const auto p = part(threaded("M10", 16));
   const auto work =
@@ -389,7 +461,7 @@ TEST(Threads, TakeTheTimeOfTheirWays) {
   const auto& pass = tap->plan.passes.at(0);
   EXPECT_EQ(pass.f_mm_rev, 1.5);
   EXPECT_NEAR(tap->plan.time_min, 2 * 16 / (1.5 * pass.n_rpm), 1e-12);
-  EXPECT_NEAR(tap->air_min, 2 * (2 + 2.5 * 1.5) / (1.5 * pass.n_rpm), 1e-12);
+  EXPECT_NEAR(tap->air_min, 2 * (3 * 1.5 + 2.5 * 1.5) / (1.5 * pass.n_rpm), 1e-12);
 }
 
 // DIN 76-1: 1.05 times the thread's diameter where nothing is drawn, by a cone of 90 deg.
