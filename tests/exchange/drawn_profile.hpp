@@ -6,8 +6,8 @@
 
 #include "turnwright/exchange/profile.hpp"
 
-/// Draws an outline: the half profile with its chamfers, fillets and undercuts, for tests
-/// that read it back.  Written from the drawing's rules alone: every corner is drawn where
+/// Draws an outline: the half profile with its chamfers, fillets, undercuts and centre holes,
+/// for tests that read it back.  Written from the drawing's rules alone: every corner is drawn where
 /// its two elements meet, point by point.
 namespace turnwright::exchange::drawn {
 
@@ -109,6 +109,52 @@ std::vector<Side> chain(const Outline& o, const std::vector<Step>& steps, double
   return sides;
 }
 
+/// The table of ISO 6411: d, and D1 and D2 of the forms R and A, D3 of form B.
+inline constexpr double kCentreHoles_mm[][3]{
+    {1, 2.12, 3.15}, {1.25, 2.65, 4}, {1.6, 3.35, 5}, {2, 4.25, 6.3},  {2.5, 5.3, 8},
+    {3.15, 6.7, 10}, {4, 8.5, 12.5},  {5, 10.6, 16},  {6.3, 13.2, 18}, {10, 21.2, 28}};
+
+/// A centre hole of ISO 6411 in the end at z = 0, drilled towards negative z: an arc of form R
+/// has the radius 2.5 d, and in the middle of its height the slope of 30 deg.
+inline std::vector<Side> centre_hole(const std::string& designation) {
+  const char form = designation.at(designation.find_first_of("ABR"));
+  const auto digits = designation.find_first_of("ABR") + 1;
+  const double d = std::stod(designation.substr(digits)),
+               D = std::stod(designation.substr(designation.find('/') + 1));
+  const double tan30 = std::tan(std::acos(-1) / 6), r = d / 2;
+  double cone = D / 2;
+  for (const auto& row : kCentreHoles_mm)
+    if (form == 'B' && row[0] == d) cone = row[1] / 2;
+  std::vector<Side> sides{{.from = {}, .to = {0, D / 2}}};
+  if (form == 'B') line(sides, {-(D / 2 - cone) * tan30, cone});
+  if (form == 'R') {
+    const double R = 2.5 * d, y = (D / 2 + r) / 2 + R * std::cos(std::acos(-1) / 6);
+    const auto z = [&](double at) { return std::sqrt(R * R - (y - at) * (y - at)); };
+    arc(sides, {z(r) - z(cone), r}, {-z(cone), y}, false);
+  } else {
+    line(sides, {sides.back().to.z_mm - (cone - r) / tan30, r});
+  }
+  line(sides, {sides.back().to.z_mm - 1.2 * d, r});
+  line(sides, {sides.back().to.z_mm - r * tan30, 0});
+  sides.erase(sides.begin());
+  return sides;
+}
+
+/// That in the right end at z, or in the left one: mirrored and gone through the other way.
+inline std::vector<Side> placed(std::vector<Side> hole, part::End at, double z_mm) {
+  const bool left = at == part::End::left;
+  const auto place = [&](Point p) {
+    return Point{left ? -p.z_mm : p.z_mm + z_mm, p.r_mm};
+  };
+  for (Side& s : hole) {
+    s.from = place(s.from), s.to = place(s.to);
+    if (s.centre) s.centre = place(*s.centre);
+    if (left) std::swap(s.from, s.to);
+  }
+  if (left) std::reverse(hole.begin(), hole.end());
+  return hole;
+}
+
 inline Profile profile_of(const Outline& o) {
   std::vector<Step> outer, inner;
   double z = 0;
@@ -148,8 +194,14 @@ inline Profile profile_of(const Outline& o) {
     const Edge* c = edge_at(o, std::string(end) + "|" + s.element->id, true);
     return -(at_right ? s.from.r_mm : s.to.r_mm) + (c ? radial_mm(*c) : 0);
   };
-  const double hole_right = mouth(inner, from_left, "right");
-  const double hole_left = mouth(from_left, inner, "left");
+  std::vector<Side> centre_left, centre_right;
+  for (const CentreHole& c : o.centre_holes)
+    (c.at == part::End::left ? centre_left : centre_right) =
+        placed(centre_hole(c.designation), c.at, z);
+  const double hole_right = centre_right.empty() ? mouth(inner, from_left, "right")
+                                                 : centre_right.front().from.r_mm;
+  const double hole_left =
+      centre_left.empty() ? mouth(from_left, inner, "left") : centre_left.back().to.r_mm;
 
   Profile p;
   p.sides = chain(o, outer, hole_left, hole_right, [&](std::size_t k) {
@@ -174,6 +226,8 @@ inline Profile profile_of(const Outline& o) {
     add(inner, -hole_right, -hole_left, true);
   } else {
     add(inner, -hole_right, 0, false);
+    p.sides.insert(p.sides.end(), centre_right.begin(), centre_right.end());
+    p.sides.insert(p.sides.end(), centre_left.begin(), centre_left.end());
     add(from_left, 0, -hole_left, true);
   }
   return p;

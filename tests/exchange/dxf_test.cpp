@@ -58,6 +58,14 @@ TEST_P(ReferencePart, IsReadFromItsDrawing) {
 }
 INSTANTIATE_TEST_SUITE_P(Dxf, ReferencePart, testing::Values("-half", "-full"));
 
+TEST(Dxf, WhatStandardsDescribeIsKnownByItsSizes) {
+  for (const auto& [name, drawn] : reference::outlines(reference::kFeatures))
+    for (const char* view : {"-half", "-full"}) {
+      SCOPED_TRACE(name + view);
+      expect_same(read_dxf(dxf_file(name + view)), drawn);
+    }
+}
+
 // The parts of write_dxf.py that are no reference parts.
 Outline shaft() {
   return read_notation("1x45; d30 x 30; R0.8; d50 x 40; d24 x 25; 1.5x45");

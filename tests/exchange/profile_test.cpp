@@ -126,6 +126,9 @@ TEST(Profile, RandomPartsComeBackAsDrawn) {
     }
     chamfer("right");
     if (!drawn.inner.empty()) chamfer("right|b1");
+    if (drawn.inner.empty() && random() % 2)
+      drawn.centre_holes.push_back({part::End::right, "ISO 6411-B2.5/8"});
+    if (random() % 2) drawn.centre_holes.push_back({part::End::left, "ISO 6411-R4/8.5"});
     expect_same(outline_of(drawn::profile_of(drawn)), drawn);
   }
 }
@@ -161,27 +164,93 @@ TEST(Profile, ADrillsPointIsLeftToTheDrill) {
             "The conical bottom of the bore is left to the drill's point.");
 }
 
-TEST(Profile, ACentreHoleIsNoBore) {
-  Profile p;
-  for (const auto& [z, r] :
-       std::vector<std::array<double, 2>>{{0, 20},
-                                          {60, 20},
-                                          {60, 4.25},
-                                          {60 - 2.25 / std::tan(std::acos(-1) / 6), 2},
-                                          {53, 2},
-                                          {51.8, 0}})
-    p.sides.push_back(
-        {.from = p.sides.empty() ? Point{} : p.sides.back().to, .to = {z, r}});
-  const Outline o = outline_of(p);
-  EXPECT_TRUE(o.inner.empty());
-  ASSERT_EQ(o.assumed.size(), 1u);
-}
-
 Profile solid(const std::vector<Point>& corners) {
   Profile p;
   for (const Point& to : corners)
     p.sides.push_back({.from = p.sides.empty() ? Point{} : p.sides.back().to, .to = to});
   return p;
+}
+
+TEST(Profile, CentreHolesAreTheRowOfTheirSizes) {
+  for (const auto& [d, a, b] : drawn::kCentreHoles_mm)
+    for (const auto& [form, D] :
+         {std::pair{'A', a}, std::pair{'R', a}, std::pair{'B', b}})
+      for (const auto at : {part::End::left, part::End::right}) {
+        Outline drawn;
+        drawn.outer = {cylinder("d1", 40, 60), cylinder("d2", 50, 60)};
+        drawn.centre_holes.push_back(
+            {at, part::designation(part::CentreHole{form, d, D})});
+        SCOPED_TRACE(drawn.centre_holes[0].designation);
+        const Outline o = outline_of(drawn::profile_of(drawn));
+        expect_same(o, drawn);
+        EXPECT_TRUE(o.assumed.empty());
+        EXPECT_TRUE(o.ignored.empty());
+      }
+}
+
+// The hole of form A 4/8.5 with one size changed, in the right end of a pin of 40 mm.
+struct Hole {
+  double pilot_mm = 4, mouth_mm = 8.5, half_deg = 30, bottom_mm = 0, deep_mm = 5;
+};
+Outline drilled(const Hole& h) {
+  const double r = h.pilot_mm / 2, R = h.mouth_mm / 2;
+  const double z = 60 - (R - r) / std::tan(h.half_deg * std::acos(-1) / 180);
+  return outline_of(solid({{0, 20},
+                           {60, 20},
+                           {60, R},
+                           {z, r},
+                           {z - h.deep_mm, r},
+                           {z - h.deep_mm - h.bottom_mm, 0}}));
+}
+
+TEST(Profile, ACentreHoleMayEndFlatOrInAPoint) {
+  for (const double bottom : {0.0, 1.2, 2 / std::tan(59 * std::acos(-1) / 180)}) {
+    const Outline o = drilled({.bottom_mm = bottom});
+    ASSERT_EQ(o.centre_holes.size(), 1u);
+    EXPECT_EQ(o.centre_holes[0].designation, "ISO 6411-A4/8.5");
+  }
+  EXPECT_TRUE(drilled({.bottom_mm = 2.5}).centre_holes.empty());  // a point of 77 deg
+}
+
+// Its sizes are in no row: it is told, and left to the clamping.
+TEST(Profile, ACentreHoleOfOtherSizesIsTold) {
+  for (const Hole& h : {Hole{.pilot_mm = 3.9}, Hole{.mouth_mm = 8.52},
+                        Hole{.pilot_mm = 2, .mouth_mm = 8}}) {
+    const Outline o = drilled(h);
+    EXPECT_TRUE(o.inner.empty());
+    EXPECT_TRUE(o.centre_holes.empty());
+    ASSERT_EQ(o.assumed.size(), 1u);
+    EXPECT_EQ(o.assumed[0].text,
+              "The centre hole at the right end is drilled where a clamping needs it.");
+  }
+  // Drawings round: ISO 6411 gives two decimals.
+  EXPECT_EQ(drilled({.pilot_mm = 4.004, .mouth_mm = 8.496}).centre_holes.size(), 1u);
+}
+
+TEST(Profile, WhatIsNoCentreHoleIsABore) {
+  EXPECT_EQ(drilled({.half_deg = 31}).inner.size(), 2u);
+  EXPECT_EQ(drilled({.half_deg = 45}).inner.size(), 2u);
+  EXPECT_EQ(drilled({.deep_mm = 10}).inner.size(), 2u);  // deeper than 1.5 x 8.5 mm
+  EXPECT_EQ(drilled({.mouth_mm = 12.5}).centre_holes.size(),
+            0u);  // form B without its cone
+}
+
+// An arc of 10 mm that a centre of 60 deg would touch beyond its ends, and one that bulges
+// into the material, are bores.
+TEST(Profile, AnArcThatCarriesNoCentreIsNoFormR) {
+  const auto arc = [](Point centre, bool left_turn) {
+    Profile p = solid({{0, 20}, {60, 20}, {60, 4.25}, {55, 2}, {50, 2}, {49, 0}});
+    const Point a{60, 4.25}, b{55, 2};
+    const double half = std::hypot(5, 2.25) / 2, R = centre.r_mm;
+    const double off = std::sqrt(R * R - half * half) / (2 * half) * (left_turn ? 1 : -1);
+    p.sides[3].centre =
+        Point{(a.z_mm + b.z_mm) / 2 + off * 2.25, (a.r_mm + b.r_mm) / 2 - off * 5};
+    p.sides[3].counterclockwise = left_turn;
+    return outline_of(p);
+  };
+  EXPECT_EQ(arc({0, 10}, false).centre_holes.size(), 1u);
+  EXPECT_TRUE(arc({0, 10}, true).centre_holes.empty());
+  EXPECT_TRUE(arc({0, 200}, false).centre_holes.empty());
 }
 
 TEST(Profile, ACountersunkBoreIsNoCentreHole) {

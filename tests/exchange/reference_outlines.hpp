@@ -9,7 +9,7 @@
 
 #include "turnwright/exchange/outline.hpp"
 
-/// The reference parts of parts/ as outlines, for tests that write and read them: elements
+/// The reference parts of parts/, and those of kFeatures, as outlines, for tests that write and read them: elements
 /// named as outlines name them.
 namespace turnwright::exchange::reference {
 
@@ -116,17 +116,22 @@ inline Outline outline(const json& part) {
     m.angle_deg = j.value("angle_deg", 0.0);
     o.milled.push_back(m);
   }
+  for (const auto& j : all("centre_holes"))
+    o.centre_holes.push_back({j["at"] == "left" ? part::End::left : part::End::right,
+                              "ISO 6411-" + fields(j, "designation")});
   return o;
 }
 
-/// All parts of parts/ by their files' names.
-inline std::map<std::string, Outline> outlines() {
+/// All parts of a folder of the project by their files' names.
+inline std::map<std::string, Outline> outlines(const std::string& folder = "parts") {
   std::map<std::string, Outline> out;
   for (const auto& file :
-       std::filesystem::directory_iterator(TURNWRIGHT_SOURCE_DIR "/parts"))
+       std::filesystem::directory_iterator(TURNWRIGHT_SOURCE_DIR "/" + folder))
     if (file.path().extension() == ".json")
       out[file.path().stem().string()] = outline(json::parse(std::ifstream(file.path())));
   return out;
 }
+/// Parts with what standards describe: centre holes.
+inline constexpr const char* kFeatures = "tests/data/step/features";
 
 }  // namespace turnwright::exchange::reference

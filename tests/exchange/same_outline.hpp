@@ -45,6 +45,13 @@ inline void expect_same(const Outline& read, const Outline& drawn) {
   for (std::size_t i = 0; i < drawn.inner.size(); ++i)
     expect_same(read.inner[i], drawn.inner[i]);
   expect_same(read.edges, drawn.edges);
+  ASSERT_EQ(read.centre_holes.size(), drawn.centre_holes.size());
+  for (const CentreHole& c : drawn.centre_holes)
+    EXPECT_TRUE(std::any_of(read.centre_holes.begin(), read.centre_holes.end(),
+                            [&](const CentreHole& r) {
+                              return r.at == c.at && r.designation == c.designation;
+                            }))
+        << c.designation;
 }
 
 }  // namespace turnwright::exchange::compared

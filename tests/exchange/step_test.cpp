@@ -92,6 +92,15 @@ TEST_P(Reference, PartsComeBackAsTheyWereDrawn) {
 // of two halves; README.md of the data says which is which.
 INSTANTIATE_TEST_SUITE_P(Step, Reference, testing::Values("occt", "freecad", "placed"));
 
+TEST(Step, WhatStandardsDescribeIsKnownByItsSizes) {
+  for (const auto& [name, drawn] : reference::outlines(reference::kFeatures)) {
+    SCOPED_TRACE(name);
+    const auto outline = read_step(step_text("features/" + name + ".step"));
+    compared::expect_same(outline, drawn);
+    EXPECT_TRUE(outline.ignored.empty());
+  }
+}
+
 /// Volume of the body that a half profile sweeps, by Pappus: 2 pi times the integral of
 /// r dA, as a sum over the sides, which the theorem of Green makes of it:
 /// V = pi * integral of r^2 dz.

@@ -15,6 +15,8 @@ import sys
 
 import ezdxf
 
+FEATURES = pathlib.Path("tests/data/step/features")
+CENTRE_SEAT = {2.5: 5.3, 4: 8.5, 5: 10.6}  # D2 of ISO 6411
 UNDERCUT_WIDTH = {"E0.8x0.3": 2.5, "E0.4x0.2": 2, "E1.2x0.2": 2.5}  # f of DIN 509, form E
 
 
@@ -142,6 +144,38 @@ def bore(part, length):
     return chain.points, through
 
 
+def centre_hole(part, end, length):
+    """From the mouth to the axis; nothing where there is none."""
+    found = [c["designation"] for c in part.get("centre_holes", []) if c["at"] == end]
+    if not found:
+        return []
+    form, (r, R) = found[0][0], (float(d) / 2 for d in found[0][1:].split("/"))
+    slope = math.tan(math.radians(30))
+    z, inwards = (0.0, 1) if end == "left" else (length, -1)
+    chain = Chain(z, R)
+    cone = R
+    if form == "B":
+        cone = CENTRE_SEAT[2 * r] / 2
+        z += inwards * (R - cone) * slope
+        chain.to(z, cone)
+    z += inwards * (cone - r) / slope
+    if form == "R":  # of the radius 2.5 d, out of the material
+        half = (R - r) / math.sin(math.radians(30)) / 2
+        chain.to(z, r, inwards * math.tan(math.asin(half / (5 * r)) / 2))
+    else:
+        chain.to(z, r)
+    z += inwards * 2.5 * r
+    chain.to(z, r)
+    chain.to(z + inwards * r * slope, 0.0)
+    return chain.points
+
+
+def backwards(points):
+    """The same chain from its other end: bulges belong to the link before, turned."""
+    bulges = [-b for _, _, b in points[:-1]][::-1] + [0.0]
+    return [[z, r, b] for (z, r, _), b in zip(points[::-1], bulges)]
+
+
 class Sheet:
     """Draws in (z, r), turned, moved and scaled."""
 
@@ -233,7 +267,9 @@ def half_profile(part, sheet, close):
     points, length = outside(part)
     hole = bore(part, length)
     if not hole:
-        sheet.poly(points, close=close)
+        left, right = (centre_hole(part, end, length) for end in ("left", "right"))
+        sheet.poly(backwards(left) + points[bool(left):len(points) - bool(right)] + right,
+                   close=close)
         return
     inner, through = hole
     if through:
@@ -260,6 +296,9 @@ def full_profile(part, sheet, section):
         if hole:
             inner = hole[0]
             sheet.strokes(inner, sign, "PART" if section else "VERDECKT")
+        for end in ("left", "right"):
+            if centre := centre_hole(part, end, length):
+                sheet.strokes(centre, sign, "VERDECKT")
     if not section:  # shoulder lines and edges of chamfers, across the whole part
         for z, r, _ in points[1:-1]:
             if 0 < z < length:
@@ -286,6 +325,16 @@ def reference_parts(folder):
                       turn_deg=(0, 30, 90, -72.5)[i % 4], move=(120 * (i % 2), -45))
         full_profile(part, sheet, section=i % 2 == 0)
         sheet.save(folder / f"{path.stem}-full.dxf")
+
+
+def parts_with_features(folder):
+    for path in sorted(FEATURES.glob("*.json")):
+        part = json.loads(path.read_text())
+        for view, draw in (("half", lambda s: half_profile(part, s, close=False)),
+                           ("full", lambda s: full_profile(part, s, section=False))):
+            sheet = Sheet("R2010", turn_deg=90 if view == "full" else 0)
+            draw(sheet)
+            sheet.save(folder / f"{path.stem}-{view}.dxf")
 
 
 SHAFT = {"outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 30},
@@ -385,6 +434,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     reference_parts(folder)
+    parts_with_features(folder)
     dimensions(folder, inch=False)
     dimensions(folder, inch=True)
     blocks(folder)

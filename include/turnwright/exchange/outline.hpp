@@ -69,9 +69,10 @@ struct Milled {
   std::vector<std::string> sources = {};
 };
 
+/// A centre hole of ISO 6411 in an end of the part.
 struct CentreHole {
   part::End at = part::End::right;
-  std::string designation;  ///< "A4/8.5"
+  std::string designation;  ///< "A4/8.5" or "ISO 6411-A4/8.5"
 };
 
 /// Something that was taken to be so, or that could not be understood, and where.

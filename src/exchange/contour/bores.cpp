@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "centre_hole.hpp"
 #include "elements.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::exchange {
 namespace {
-
-constexpr double kCentreHole_rad = units::kPi / 6;  // half the 60 deg of ISO 6411
-constexpr double kAngle_rad = 0.01;
 
 Point turned(const Point& p) { return {-p.z_mm, -p.r_mm}; }
 
@@ -72,31 +70,6 @@ void take_point(std::vector<Side>& sides, double join_mm, Outline& out) {
   }
 }
 
-// A cone of 60 deg at the mouth, and behind it a hole of at most half its diameter, all of it
-// no larger and deeper than centre drills make it: the forms A and B of ISO 6411.
-bool is_centre_hole(const std::vector<Side>& sides, double join_mm) {
-  constexpr std::size_t kMost = 5;  // sides, with the point of the drill
-  constexpr double kLargest_mm = 12.5,
-                   kDeepest = 1.5;  // hole; depth over the mouth's width
-  if (sides.size() < 2 || sides.size() > kMost) return false;
-  const bool blind =
-      on_axis(sides.front().from, join_mm) || on_axis(sides.back().to, join_mm);
-  double mouth_mm = 0, z0 = sides.front().from.z_mm, z1 = z0;
-  for (const Side& s : sides) {
-    mouth_mm = std::max({mouth_mm, 2 * s.from.r_mm, 2 * s.to.r_mm});
-    z0 = std::min({z0, s.from.z_mm, s.to.z_mm});
-    z1 = std::max({z1, s.from.z_mm, s.to.z_mm});
-  }
-  if (z1 - z0 > kDeepest * mouth_mm) return false;
-  return blind && std::any_of(sides.begin(), sides.end(), [&](const Side& s) {
-           const double r0 = std::min(s.from.r_mm, s.to.r_mm),
-                        r1 = std::max(s.from.r_mm, s.to.r_mm);
-           const double angle = std::atan2(r1 - r0, std::abs(s.to.z_mm - s.from.z_mm));
-           return !s.centre && r0 > join_mm && r0 <= r1 / 2 && 2 * r0 <= kLargest_mm &&
-                  std::abs(angle - kCentreHole_rad) < kAngle_rad;
-         });
-}
-
 Element inner_element(const Band& b, part::End from) {
   Element e = element_of(b);
   std::swap(e.left_mm, e.right_mm);  // the chain runs from right to left
@@ -149,7 +122,11 @@ void add_bore(Outline& out, const Bore& bore, part::End from, double join_mm) {
 
 void add_blind_bore(Outline& out, Bore bore, part::End from, double join_mm) {
   if (bore.sides.empty()) return;
-  if (is_centre_hole(bore.sides, join_mm)) {
+  if (const auto hole = centre_hole_of(bore.sides, from, join_mm)) {
+    out.centre_holes.push_back({from, part::designation(*hole)});
+    return;
+  }
+  if (like_centre_hole(bore.sides, join_mm)) {
     out.assumed.push_back({named(bore.sides),
                            fmt::format("The centre hole at the {} end is drilled where a "
                                        "clamping needs it.",

@@ -53,9 +53,9 @@ void add_corners(Outline& out, const Chain& chain, const std::vector<Element>& e
 void add_outside(Outline& out, const Parts& parts, double join_mm);
 
 /// Bores of a through hole go with the end from which they are reached: those to the
-/// narrowest with the right one.  The point of a drill at a bottom is left to the drill, and
-/// centre holes (forms A and B of ISO 6411) to the clamping that needs them; `assumed` says
-/// so.
+/// narrowest with the right one.  Centre holes of ISO 6411 are `centre_holes`.  The point of a
+/// drill at a bottom is left to the drill, and centre holes of other sizes to the clamping
+/// that needs them; `assumed` says so.
 void add_inside(Outline& out, const Parts& parts, double join_mm);
 
 }  // namespace turnwright::exchange

@@ -1,5 +1,5 @@
 // Writes a part of parts/ as STEP with Open CASCADE: its half profile is turned about the
-// axis, keyways and flats are cut.  Prints the volume in mm3 before these.
+// axis with its centre holes, keyways and flats are cut.  Prints the volume in mm3 before these.
 //
 //   write_occt PART.json OUT.step [unit MM|INCH] [schema AP214|AP242]
 //              [placed 0|1] [halves 0|1]
@@ -27,7 +27,9 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using nlohmann::json;
@@ -129,20 +131,57 @@ struct Part {
     return {{at}};
   }
 
+  // A centre hole of ISO 6411 from its mouth inwards; `in` leads into the part.
+  std::vector<Seg> centre_hole(const char* at, double z, double in) const {
+    std::string text;
+    for (const auto& c : j.value("centre_holes", json::array()))
+      if (c["at"] == at) text = c["designation"];
+    if (text.empty()) return {};
+    const char form = text[0];
+    const double r = std::stod(text.substr(1)) / 2,
+                 R = std::stod(text.substr(text.find('/') + 1)) / 2;
+    const double slope = std::tan(M_PI / 6), cone = form == 'B' ? seat(2 * r) / 2 : R;
+    std::vector<Seg> path{{{z, R}}};
+    if (form == 'B') path.push_back({{z += in * (R - cone) * slope, cone}});
+    z += in * (cone - r) / slope;
+    Seg flank{{z, r}};
+    if (form == 'R') {
+      // Upright on the middle of the chord, out of the material.
+      const double chord = (R - r) / std::sin(M_PI / 6), rho = 5 * r;
+      const double up = rho - std::sqrt(rho * rho - chord * chord / 4);
+      flank.arc = true;
+      flank.middle = {z - in * (R - r) / slope / 2 - in * up / 2,
+                      (R + r) / 2 - up * std::cos(M_PI / 6)};
+    }
+    path.push_back(flank);
+    path.push_back({{z += in * 2.5 * r, r}});
+    path.push_back({{z + in * r * slope, 0}});
+    return path;
+  }
+
+  // D2 of ISO 6411.
+  static double seat(double d) {
+    for (const auto& [pilot, wide] : {std::pair{2.5, 5.3}, {4.0, 8.5}, {5.0, 10.6}})
+      if (pilot == d) return wide;
+    throw std::runtime_error("centre hole");
+  }
+
   std::vector<Seg> profile() const {
     std::vector<Seg> path;
     const bool bore = !inner.empty();
     double start = bore ? inner.front().r0 : 0;
     const std::string mouth = bore ? "left|" + inner.front().id : "";
     if (bore) start += radial(mouth);
+    const auto left = centre_hole("left", 0, 1), right = centre_hole("right", length, -1);
+    if (!left.empty()) start = left.front().to.r;
     path.push_back({{0, start}});
     for (std::size_t i = 0; i < outer.size(); ++i) {
       const auto& b = outer[i];
       const bool first = i == 0, last = i + 1 == outer.size();
-      const auto left = first ? "left" : outer[i - 1].id + "|" + b.id;
-      const auto right = last ? "right" : b.id + "|" + outer[i + 1].id;
-      auto l = corner({b.z0, b.r0}, first ? 0 : outer[i - 1].r1, -1, left);
-      const auto r = corner({b.z1, b.r1}, last ? 0 : outer[i + 1].r0, 1, right);
+      const auto before = first ? "left" : outer[i - 1].id + "|" + b.id;
+      const auto behind = last ? "right" : b.id + "|" + outer[i + 1].id;
+      auto l = corner({b.z0, b.r0}, first ? 0 : outer[i - 1].r1, -1, before);
+      const auto r = corner({b.z1, b.r1}, last ? 0 : outer[i + 1].r0, 1, behind);
       // The left corner runs from the band outwards: turn it round.
       path.push_back({l.back().to});
       for (auto k = l.size(); k-- > 1;)
@@ -153,7 +192,15 @@ struct Part {
       path.insert(path.end(), r.begin() + 1, r.end());
     }
     if (!bore) {
-      path.push_back({{length, 0}});
+      if (right.empty())
+        path.push_back({{length, 0}});
+      else
+        path.insert(path.end(), right.begin(), right.end());
+      // The left one is gone through outwards.
+      for (auto k = left.size(); k-- > 0;) {
+        const bool arc = k + 1 < left.size() && left[k + 1].arc;
+        path.push_back({left[k].to, arc, arc ? left[k + 1].middle : P{}});
+      }
       return path;
     }
     const auto open = "right|" + inner.back().id;

@@ -79,9 +79,9 @@ TEST(Import, ReferencePartsComeBackFromTheirNotation) {
 
 // What the drawing does not say stands in the document: how the part is held, the shop.
 json with_the_shop_of(const json& document, json part) {
-  static const std::set<std::string> kDrawn{"name",       "material", "outer",
-                                            "inner",      "edges",    "faces",
-                                            "tolerances", "general",  "milling"};
+  static const std::set<std::string> kDrawn{
+      "name",  "material",   "outer",   "inner",   "edges",
+      "faces", "tolerances", "general", "milling", "centre_holes"};
   part.erase("choose");
   for (const auto& [key, value] : document.items())
     if (!kDrawn.contains(key)) part[key] = value;
@@ -110,6 +110,21 @@ TEST(Import, Ap242FilesArePlannedAtTheCostOfTheirDocuments) {
     const double expected = cost(document);
     EXPECT_NEAR(cost(with_the_shop_of(document, part)), expected, 1e-9 * expected);
   }
+}
+
+std::string step_of(const std::string& name) {
+  std::ifstream file(source_path("tests/data/step/features/" + name + ".step"));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Import, CentreHolesOfAShapeAreThoseOfThePart) {
+  const json result = answered({{"text", step_of("centred-shaft")}, {"material", "C45"}});
+  EXPECT_TRUE(result["ignored"].empty()) << result["ignored"];
+  const auto drawing = prepared_part(result["part"], shop(), "part").part.drawing;
+  ASSERT_TRUE(drawing.left_centre && drawing.right_centre);
+  EXPECT_EQ(part::designation(*drawing.left_centre), "ISO 6411-B4/12.5");
+  EXPECT_EQ(part::designation(*drawing.right_centre), "ISO 6411-R4/8.5");
+  EXPECT_NE(part_notation(result["part"]).find("centre left B4/12.5"), std::string::npos);
 }
 
 TEST(Import, WritesThePartThatItsOutlineIsReadFrom) {
