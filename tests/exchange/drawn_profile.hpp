@@ -38,6 +38,13 @@ inline void arc(std::vector<Side>& sides, Point to, Point centre, bool left_turn
                    .counterclockwise = left_turn});
 }
 
+inline part::Undercut undercut_of(const Edge& foot) {
+  const std::string& form = *foot.undercut;
+  if (foot.pitch_mm > 0) return *part::thread_undercut(form.back(), foot.pitch_mm);
+  return *part::undercut('E', std::stod(form.substr(1)),
+                         std::stod(form.substr(form.find('x') + 1)));
+}
+
 /// The corner between what comes before at (x, y0) and what follows at (x, y1).
 inline void corner(std::vector<Side>& sides, double x, double y0, double y1,
                    const Edge* chamfer, const Edge* foot) {
@@ -55,10 +62,9 @@ inline void corner(std::vector<Side>& sides, double x, double y0, double y1,
                       .counterclockwise = true});
     bottom = low + R;
   } else if (foot && foot->undercut) {
-    const double r = std::stod(foot->undercut->substr(1)),
-                 t = std::stod(foot->undercut->substr(foot->undercut->find('x') + 1));
-    const double f = part::undercut('E', r, t)->width_mm;
-    const double run = t / std::tan(part::kUndercutFalls_rad);
+    const auto u = undercut_of(*foot);
+    const double r = u.radius_mm, t = u.depth_mm, f = u.width_mm;
+    const double run = t / std::tan(std::acos(-1) / (u.pitch_mm > 0 ? 6 : 12));
     rising.push_back({.from = {x - up * f, low}, .to = {x - up * (f - run), low - t}});
     rising.push_back({.from = rising.back().to, .to = {x - up * r, low - t}});
     rising.push_back({.from = rising.back().to,

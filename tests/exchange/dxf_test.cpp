@@ -66,6 +66,19 @@ TEST(Dxf, WhatStandardsDescribeIsKnownByItsSizes) {
     }
 }
 
+TEST(Dxf, AnUndercutOfAnotherPitchIsTold) {
+  std::string text = dxf_file("threaded-shaft-half");
+  const std::string note = "M24x1.5";
+  text.replace(text.rfind(note), note.size(), "M24x2");
+  const Outline o = read_dxf(text);
+  EXPECT_EQ(o.outer[0].pitch_mm, 2);
+  EXPECT_EQ(o.edges.size(), 3u);
+  EXPECT_NE(
+      told(o.ignored).find("The undercut at d1|d2 is left out: it is the DIN 76-A of a "
+                           "thread with a pitch of 1.5 mm, and d1 has a pitch of 2 mm."),
+      std::string::npos);
+}
+
 // The parts of write_dxf.py that are no reference parts.
 Outline shaft() {
   return read_notation("1x45; d30 x 30; R0.8; d50 x 40; d24 x 25; 1.5x45");

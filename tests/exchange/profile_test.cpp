@@ -6,6 +6,7 @@
 #include <random>
 
 #include "drawn_profile.hpp"
+#include "exchange/contour/thread_undercut.hpp"
 #include "same_outline.hpp"
 #include "turnwright/base/errors.hpp"
 
@@ -272,6 +273,117 @@ TEST(Profile, ARadiusThatNoToolsCornerLeavesIsTurned) {
   EXPECT_EQ(o.outer[1].radius_mm, 8);
   EXPECT_FALSE(o.outer[1].convex);
   EXPECT_TRUE(o.edges.empty());
+}
+
+// The pitches of DIN 76's table.
+constexpr double kPitches_mm[]{0.5, 0.6, 0.7, 0.75, 0.8, 1,   1.25, 1.5, 1.75,
+                               2,   2.5, 3,   3.5,  4,   4.5, 5,    5.5, 6};
+
+// A shaft whose two ends of 60 mm have undercuts of DIN 76 before the band between them.
+Outline undercut_shaft(const std::string& form, double pitch_mm) {
+  Outline o;
+  o.outer = {cylinder("d1", 60, 50), cylinder("d2", 80, 40), cylinder("d3", 60, 50)};
+  for (const char* at : {"d1|d2", "d2|d3"})
+    o.edges.push_back({.at = at, .undercut = form, .pitch_mm = pitch_mm});
+  return o;
+}
+
+TEST(Profile, UndercutsBehindThreadsAreTheRowOfTheirSizes) {
+  for (const double pitch : kPitches_mm)
+    for (const char* form : {"DIN 76-A", "DIN 76-B"}) {
+      SCOPED_TRACE(testing::Message() << form << " " << pitch);
+      const Outline drawn = undercut_shaft(form, pitch),
+                    o = outline_of(drawn::profile_of(drawn));
+      expect_same(o, drawn);
+      ASSERT_EQ(o.edges.size(), 2u);
+      for (const Edge& e : o.edges) EXPECT_EQ(e.pitch_mm, pitch);
+    }
+}
+
+// DIN 76-A of a pitch of 1.5 mm, drawn by its sizes, before a shoulder of 40 mm.
+struct Recess {
+  double width_mm = 5.2, depth_mm = 1.15, radius_mm = 0.8, falls_deg = 30;
+};
+Outline recessed(const Recess& u) {
+  const double run = u.depth_mm / std::tan(u.falls_deg * std::acos(-1) / 180);
+  const double x = 40 - u.width_mm, low = 12 - u.depth_mm;
+  Profile p = solid({{0, 12},
+                     {x, 12},
+                     {x + run, low},
+                     {40 - u.radius_mm, low},
+                     {40, low + u.radius_mm},
+                     {40, 20},
+                     {60, 20},
+                     {60, 0}});
+  p.sides[4].centre = Point{40 - u.radius_mm, low + u.radius_mm};
+  p.sides[4].counterclockwise = true;
+  return outline_of(p);
+}
+std::string undercut_in(const Outline& o) {
+  for (const Edge& e : o.edges)
+    if (e.undercut) return *e.undercut;
+  return "";
+}
+
+TEST(Profile, AnUndercutBehindAThreadHasTheSizesOfItsRow) {
+  EXPECT_EQ(undercut_in(recessed({})), "DIN 76-A");
+  // By the floor's g1 = 3.2 mm: 3.2 mm and the flank's length.
+  EXPECT_EQ(undercut_in(recessed({.width_mm = 3.2 + 1.15 * std::sqrt(3)})), "DIN 76-A");
+  EXPECT_EQ(undercut_in(recessed({.width_mm = 3.8})), "DIN 76-B");
+  for (const Recess& other :
+       {Recess{.width_mm = 4.5}, Recess{.depth_mm = 1.2}, Recess{.depth_mm = 1.1},
+        Recess{.radius_mm = 1}, Recess{.falls_deg = 28}, Recess{.falls_deg = 45}}) {
+    const Outline o = recessed(other);
+    EXPECT_EQ(undercut_in(o), "");
+    EXPECT_EQ(o.outer.size(), 4u);  // the recess is turned as it is drawn
+  }
+}
+
+// Inner threads have the forms C and D, of other sizes.
+TEST(Profile, TheSameRecessInABoreIsNoUndercutOfAThread) {
+  const double run = 1.15 * std::sqrt(3);
+  Profile p = solid({{0, 30},
+                     {60, 30},
+                     {60, 12},
+                     {25.2, 12},
+                     {25.2 - run, 13.15},
+                     {20.8, 13.15},
+                     {20, 12.35},
+                     {20, 8},
+                     {10, 8},
+                     {10, 0}});
+  p.sides[6].centre = Point{20.8, 12.35};
+  p.sides[6].counterclockwise = true;
+  EXPECT_EQ(undercut_in(outline_of(p)), "");
+}
+
+TEST(ThreadUndercut, StaysBehindAThreadOfItsPitch) {
+  const auto settled = [](Shape shape, double d_mm, double pitch_mm) {
+    Outline o = undercut_shaft("DIN 76-A", 3);
+    for (Element* e : {&o.outer.front(), &o.outer.back()})
+      e->shape = shape, e->left_mm = e->right_mm = d_mm, e->pitch_mm = pitch_mm;
+    o.edges.push_back({.at = "left", .chamfer_mm = 1});
+    settle_thread_undercuts(o);
+    return o;
+  };
+  EXPECT_EQ(settled(Shape::thread, 60, 3).edges.size(), 3u);
+  EXPECT_TRUE(settled(Shape::thread, 60, 3).ignored.empty());
+  EXPECT_EQ(settled(Shape::thread, 24, 0).edges.size(), 3u);  // M24's coarse pitch
+  const Outline other = settled(Shape::thread, 60, 2),
+                none = settled(Shape::cylinder, 60, 0);
+  for (const Outline& o : {other, none}) {
+    ASSERT_EQ(o.edges.size(), 1u);
+    EXPECT_TRUE(o.edges[0].chamfer_mm);
+    ASSERT_EQ(o.ignored.size(), 2u);
+  }
+  EXPECT_EQ(
+      other.ignored[1].text,
+      "The undercut at d2|d3 is left out: it is the DIN 76-A of a thread with a pitch "
+      "of 3 mm, and d3 has a pitch of 2 mm.");
+  EXPECT_EQ(
+      none.ignored[0].text,
+      "The undercut at d1|d2 is left out: it is the DIN 76-A of a thread with a pitch "
+      "of 3 mm, and d1 is no thread; if it is M60x3, say so.");
 }
 
 std::string profile_refused(const Profile& p) {

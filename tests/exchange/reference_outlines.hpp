@@ -131,7 +131,7 @@ inline std::map<std::string, Outline> outlines(const std::string& folder = "part
       out[file.path().stem().string()] = outline(json::parse(std::ifstream(file.path())));
   return out;
 }
-/// Parts with what standards describe: centre holes.
+/// Parts with what standards describe: centre holes, undercuts behind threads.
 inline constexpr const char* kFeatures = "tests/data/step/features";
 
 }  // namespace turnwright::exchange::reference

@@ -92,13 +92,57 @@ TEST_P(Reference, PartsComeBackAsTheyWereDrawn) {
 // of two halves; README.md of the data says which is which.
 INSTANTIATE_TEST_SUITE_P(Step, Reference, testing::Values("occt", "freecad", "placed"));
 
+/// The file with a note at the diameter of a face.
+std::string with_note(std::string text, const std::string& face, double d_mm,
+                      const std::string& note, int first) {
+  const auto before = [&text](const std::string& entity) {
+    const auto eq = text.rfind(" = ", text.find(entity));
+    return text.substr(text.rfind('#', eq), eq - text.rfind('#', eq));
+  };
+  const auto id = [first](int i) { return fmt::format("#{}", first + i); };
+  const std::string added =
+      id(0) + "=SHAPE_ASPECT('','',#4,.T.);" + id(1) +
+      "=GEOMETRIC_ITEM_SPECIFIC_USAGE('',''," + id(0) + "," +
+      before("ADVANCED_BREP_SHAPE_REPRESENTATION") + "," + face + ");" + id(2) +
+      "=DIMENSIONAL_SIZE(" + id(0) + ",'diameter');" + id(3) +
+      fmt::format(
+          "=MEASURE_REPRESENTATION_ITEM('nominal "
+          "value',POSITIVE_LENGTH_MEASURE({:.6f}),{});",
+          d_mm, before("( LENGTH_UNIT()")) +
+      id(4) + "=DESCRIPTIVE_REPRESENTATION_ITEM('dimensional note','" + note + "');" +
+      id(5) + "=SHAPE_DIMENSION_REPRESENTATION('',(" + id(3) + "," + id(4) + "),$);" +
+      id(6) + "=DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(" + id(2) + "," + id(5) + ");";
+  return text.insert(text.rfind("ENDSEC;"), added + "\n");
+}
+
 TEST(Step, WhatStandardsDescribeIsKnownByItsSizes) {
   for (const auto& [name, drawn] : reference::outlines(reference::kFeatures)) {
     SCOPED_TRACE(name);
-    const auto outline = read_step(step_text("features/" + name + ".step"));
+    auto text = step_text("features/" + name + ".step");
+    const auto shape = read_step(text);
+    int next = 100000;
+    for (std::size_t i = 0; i < drawn.outer.size(); ++i) {
+      const Element& e = drawn.outer[i];
+      if (e.shape != Shape::thread) continue;
+      const auto note = e.pitch_mm > 0 ? fmt::format("M{:g}x{:g}", e.left_mm, e.pitch_mm)
+                                       : fmt::format("M{:g}", e.left_mm);
+      text = with_note(text, shape.outer[i].sources.at(0), e.left_mm, note, next += 10);
+    }
+    const auto outline = read_step(text);
     compared::expect_same(outline, drawn);
     EXPECT_TRUE(outline.ignored.empty());
   }
+}
+
+TEST(Step, AnUndercutOfAThreadThatNobodyNamesIsTold) {
+  const auto o = read_step(step_text("features/threaded-shaft.step"));
+  EXPECT_EQ(o.edges.size(), 2U);  // the chamfers
+  ASSERT_EQ(o.ignored.size(), 2U);
+  EXPECT_EQ(o.ignored[0].at[0], '#');
+  EXPECT_EQ(
+      o.ignored[0].text,
+      "The undercut at d1|d2 is left out: it is the DIN 76-A of a thread with a pitch "
+      "of 1.5 mm, and d1 is no thread; if it is M24x1.5, say so.");
 }
 
 /// Volume of the body that a half profile sweeps, by Pappus: 2 pi times the integral of

@@ -19,6 +19,9 @@ FEATURES = pathlib.Path("tests/data/step/features")
 CENTRE_SEAT = {2.5: 5.3, 4: 8.5, 5: 10.6}  # D2 of ISO 6411
 UNDERCUT_WIDTH = {"E0.8x0.3": 2.5, "E0.4x0.2": 2, "E1.2x0.2": 2.5}  # f of DIN 509, form E
 
+# DIN 76 of M24x1.5 and M30: (d - dg)/2, r, g2 of the forms A and B
+THREAD_UNDERCUT = {24: (1.15, 0.8, 5.2, 3.8), 30: (2.5, 1.6, 12, 9)}
+
 
 class Chain:
     """Vertices with bulges, (z, r, bulge to the next)."""
@@ -45,9 +48,13 @@ def rise(z, low, high, up, features):
         out += [(z - s * R, low, s * math.tan(math.pi / 8)), (z, low + R, 0)]
         bottom = low + R
     elif foot:
-        r, t = map(float, foot["undercut"][1:].split("x"))
-        f = UNDERCUT_WIDTH[foot["undercut"]]
-        run = t / math.tan(math.radians(15))
+        if foot["undercut"].startswith("DIN 76"):
+            t, r, *widths = THREAD_UNDERCUT[2 * low]
+            f, falls = widths[foot["undercut"] == "DIN 76-B"], 30
+        else:
+            r, t = map(float, foot["undercut"][1:].split("x"))
+            f, falls = UNDERCUT_WIDTH[foot["undercut"]], 15
+        run = t / math.tan(math.radians(falls))
         out += [(z - s * f, low, 0), (z - s * (f - run), low - t, 0),
                 (z - s * r, low - t, s * math.tan(math.pi / 8)), (z, low - t + r, 0)]
         bottom = low - t + r
@@ -192,7 +199,7 @@ class Sheet:
         self.c, self.s = math.cos(math.radians(turn_deg)), math.sin(math.radians(turn_deg))
         if turn_deg % 90 == 0:
             self.c, self.s = round(self.c), round(self.s)
-        self.move = move
+        self.move, self.turn_deg = move, turn_deg
 
     def at(self, z, r):
         x, y = z + self.move[0], r + self.move[1]
@@ -327,6 +334,13 @@ def reference_parts(folder):
         sheet.save(folder / f"{path.stem}-full.dxf")
 
 
+def across(sheet, z, r, text, z2=None, override=None):
+    sheet.space.add_linear_dim(
+        base=sheet.at(z - 60, 0), p1=sheet.at(z, r), p2=sheet.at(z if z2 is None else z2, -r),
+        angle=90 + sheet.turn_deg, text=text, override=override or {},
+        dxfattribs={"layer": "DIM"}).render()
+
+
 def parts_with_features(folder):
     for path in sorted(FEATURES.glob("*.json")):
         part = json.loads(path.read_text())
@@ -334,6 +348,11 @@ def parts_with_features(folder):
                            ("full", lambda s: full_profile(part, s, section=False))):
             sheet = Sheet("R2010", turn_deg=90 if view == "full" else 0)
             draw(sheet)
+            z = 0
+            for e in part["outer"]:
+                if e["kind"] == "thread":
+                    across(sheet, z + 3, ends(e)[0], e["designation"])
+                z += e["length_mm"]
             sheet.save(folder / f"{path.stem}-{view}.dxf")
 
 
@@ -355,26 +374,20 @@ def dimensions(folder, inch):
     sheet = Sheet("R2010", inch=inch, move=(10, 20))
     full_profile(SHAFT, sheet, section=False)
 
-    def across(z, r, text, z2=None, override=None):
-        sheet.space.add_linear_dim(
-            base=sheet.at(z - 60, 0), p1=sheet.at(z, r),
-            p2=sheet.at(z if z2 is None else z2, -r), angle=90, text=text,
-            override=override or {}, dxfattribs={"layer": "DIM"}).render()
-
     def along(z0, r0, z1, r1, text, override=None):
         sheet.space.add_linear_dim(
             base=sheet.at(0, 60), p1=sheet.at(z0, r0), p2=sheet.at(z1, r1), text=text,
             override=override or {}, dxfattribs={"layer": "DIM"}).render()
 
     k = sheet.k
-    across(1, 15, "%%c<> k6")
-    across(70, 25, f"\\U+2205{50 * k:.10g}\\S+{0.02 * k:.10g}^-{0.01 * k:.10g};")
-    across(75, 12, "M24x1.5 6g Ra 1.6")
+    across(sheet, 1, 15, "%%c<> k6")
+    across(sheet, 70, 25, f"\\U+2205{50 * k:.10g}\\S+{0.02 * k:.10g}^-{0.01 * k:.10g};")
+    across(sheet, 75, 12, "M24x1.5 6g Ra 1.6")
     along(0, 14, 30, 25, "<>", {"dimtol": 1, "dimtp": 0.1 * k, "dimtm": 0.05 * k})
     along(70, 25, 95, 10.5, f"<> %%p{0.2 * k:.10g}")
     along(0, 14, 95, 10.5, "<>")  # asks for nothing
     along(10, 15, 50, 25, "<> +0.1/0")  # from no face
-    across(85, 12, "%%c26 h7")  # not what is drawn
+    across(sheet, 85, 12, "%%c26 h7")  # not what is drawn
     sheet.space.add_text("Ra 3,2", dxfattribs={"insert": sheet.at(100, 40), "layer": "DIM"})
     sheet.space.add_mtext("{\\fArial|b0;General tolerances} ISO 2768-mK",
                           dxfattribs={"insert": sheet.at(100, 60), "layer": "DIM"})

@@ -45,7 +45,9 @@ struct Edge {
   std::optional<double> chamfer_mm = {};  ///< along the axis
   double angle_deg = 45;                  ///< of the chamfer, from the axis
   std::optional<double> fillet_mm = {};
-  std::optional<std::string> undercut = {};  ///< of DIN 509: "E0.8x0.3"
+  std::optional<std::string> undercut = {};  ///< "E0.8x0.3" or "DIN 76-A"
+  /// Of the thread that an undercut of DIN 76 was read as that of; 0: that beside it.
+  double pitch_mm = 0;
   std::vector<std::string> sources = {};
 };
 

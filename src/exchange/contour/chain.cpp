@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "thread_undercut.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -125,8 +126,18 @@ bool take_radius(Items& items, std::size_t i) {
 // As the table of DIN 509 gives its sizes.
 double tenths(double mm) { return std::round(10 * mm) / 10; }
 
-// Form E of DIN 509: from the cylinder a slope of 15 deg down to a floor, and an arc from
-// there up the wall; `first` and `last` enclose them, the arc next to the wall.
+// Form E of DIN 509 falls at 15 deg, DIN 76 behind an outer thread at 30 deg.
+std::optional<part::Undercut> undercut_of(double falls_rad, double radius, double depth,
+                                          double width, bool outside) {
+  if (std::abs(falls_rad - part::kUndercutFalls_rad) <= kTangent_rad)
+    return part::undercut('E', tenths(radius), tenths(depth));
+  if (outside && std::abs(falls_rad - part::kThreadUndercutFalls_rad) <= kTangent_rad)
+    return thread_undercut_of(radius, depth, width);
+  return std::nullopt;
+}
+
+// An undercut: from the cylinder a slope down to a floor, and an arc from there up the wall;
+// `first` and `last` enclose them, the arc next to the wall.
 bool take_undercut(Items& items, std::size_t first, std::size_t last, double join_mm) {
   const Item &before = items[first - 1], &after = items[last];
   const bool wall_first = before.kind == Kind::wall;
@@ -138,15 +149,16 @@ bool take_undercut(Items& items, std::size_t first, std::size_t last, double joi
       slope.kind != Kind::straight || (wall_first ? dy(slope) <= 0 : dy(slope) >= 0))
     return false;
   if (last - first == 3 && !level(items[first + 1], join_mm)) return false;
-  const double angle = std::atan2(std::abs(dy(slope)), dx(slope));
-  if (std::abs(angle - part::kUndercutFalls_rad) > kTangent_rad) return false;
-  const double r = tenths(radius_mm(arc.side)), t = tenths(std::abs(dy(slope)));
-  const auto found = part::undercut('E', r, t);
+  const double depth = std::abs(dy(slope));
+  const double width = items[last - 1].side.to.z_mm - items[first].side.from.z_mm;
+  const auto found = undercut_of(std::atan2(depth, dx(slope)), radius_mm(arc.side), depth,
+                                 width, cylinder.side.from.r_mm > 0);
   if (!found) return false;
   sharpen(items, first, last,
           {.kind = Corner::Kind::undercut,
-           .radius_mm = r,
-           .undercut = part::designation(*found)});
+           .radius_mm = found->radius_mm,
+           .undercut = part::designation(*found),
+           .pitch_mm = found->pitch_mm});
   return true;
 }
 

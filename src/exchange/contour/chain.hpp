@@ -18,7 +18,8 @@ struct Corner {
   Kind kind = Kind::chamfer;
   double axial_mm = 0, angle_rad = 0;  ///< of a chamfer, from the axis
   double radius_mm = 0;                ///< of a fillet or a rounded edge
-  std::string undercut = {};           ///< "E0.8x0.3"; of a recess "F0.8x0.3" or ""
+  std::string undercut = {};           ///< "E0.8x0.3", "DIN 76-A"
+  double pitch_mm = 0;  ///< of the thread that an undercut of DIN 76 is for
   std::vector<std::string> sources = {};
 };
 

@@ -66,6 +66,7 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
                            *e.fillet_mm, at)});
     } else {
       e.undercut = c.undercut;
+      e.pitch_mm = c.pitch_mm;
     }
     out.edges.push_back(std::move(e));
   };

@@ -3,6 +3,7 @@
 #include "dxf_dimensions.hpp"
 #include "dxf_styles.hpp"
 #include "dxf_text.hpp"
+#include "exchange/contour/thread_undercut.hpp"
 #include "exchange/text/notation_words.hpp"
 #include "turnwright/exchange/dxf.hpp"
 
@@ -33,6 +34,7 @@ Outline read_dxf(std::string_view text, const DxfOptions& options) {
   double z0 = read.profile.sides.front().from.z_mm;
   for (const Side& s : read.profile.sides) z0 = std::min({z0, s.from.z_mm, s.to.z_mm});
   dxf::add_dimensions(out, read.view, z0, options.join_mm);
+  settle_thread_undercuts(out);
   append(out.assumed, drawn.assumed);
   append(out.assumed, read.assumed);
   append(out.ignored, drawn.ignored);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "exchange/contour/thread_undercut.hpp"
 #include "exchange/demands/step_pmi.hpp"
 #include "step_milled.hpp"
 #include "turnwright/exchange/profile.hpp"
@@ -56,6 +57,7 @@ Outline read_step(std::string_view text, const StepOptions& options) {
                          body.assumed.end());
   add_milled(faces, contour, axis, outline);
   add_pmi(file, outline);
+  settle_thread_undercuts(outline);
   offer_threads(outline);
   return outline;
 }

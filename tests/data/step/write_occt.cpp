@@ -27,6 +27,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -98,10 +99,21 @@ struct Part {
   double radial(const std::string& at) const {
     return edge(at, "chamfer_mm") * std::tan(edge(at, "angle_deg", 45) * M_PI / 180);
   }
-  bool undercut(const std::string& at) const {
-    for (const auto& e : j.value("edges", json::array()))
-      if (e["at"] == at && e.contains("undercut")) return true;
-    return false;
+  struct Undercut {
+    double depth, radius, width, falls_deg;
+  };
+  // DIN 509's E0.8x0.3; DIN 76 of the pitches 1.5 and 3.5 mm.
+  std::optional<Undercut> undercut(const std::string& at, double d) const {
+    for (const auto& e : j.value("edges", json::array())) {
+      if (e["at"] != at || !e.contains("undercut")) continue;
+      const std::string form = e["undercut"];
+      if (form == "E0.8x0.3") return Undercut{0.3, 0.8, 2.5, 15};
+      const bool regular = form == "DIN 76-A";
+      if (d == 24) return Undercut{2.3 / 2, 0.8, regular ? 5.2 : 3.8, 30};
+      if (d == 30) return Undercut{5.0 / 2, 1.6, regular ? 12.0 : 9.0, 30};
+      throw std::runtime_error(form);
+    }
+    return std::nullopt;
   }
 
   static P circle(P c, double R, double deg) {
@@ -115,8 +127,10 @@ struct Part {
     const double c = edge(name, "chamfer_mm"), f = edge(name, "fillet_mm");
     if (neighbour < at.r && c > 0)
       return {{{at.z - side * c, at.r}}, {{at.z, at.r - radial(name)}}};
-    if (neighbour > at.r && undercut(name)) {
-      const double t = 0.3, rho = 0.8, width = 2.5, run = t / std::tan(M_PI / 12);
+    const auto u = neighbour > at.r ? undercut(name, 2 * at.r) : std::nullopt;
+    if (u) {
+      const auto [t, rho, width, falls] = *u;
+      const double run = t / std::tan(falls * M_PI / 180);
       const P centre{at.z - side * rho, at.r - t + rho};
       return {{{at.z - side * width, at.r}},
               {{at.z - side * (width - run), at.r - t}},

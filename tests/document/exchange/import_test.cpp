@@ -127,6 +127,17 @@ TEST(Import, CentreHolesOfAShapeAreThoseOfThePart) {
   EXPECT_NE(part_notation(result["part"]).find("centre left B4/12.5"), std::string::npos);
 }
 
+TEST(Import, UndercutsBehindThreadsAreThoseOfThePart) {
+  std::ifstream file(source_path("tests/data/dxf/threaded-shaft-half.dxf"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const json result = answered({{"text", text}, {"material", "C45"}});
+  const auto drawing = prepared_part(result["part"], shop(), "part").part.drawing;
+  ASSERT_TRUE(drawing.outer[0].right_undercut && drawing.outer[2].left_undercut);
+  EXPECT_EQ(drawing.outer[0].right_undercut->width_mm, 5.2);
+  EXPECT_EQ(drawing.outer[2].left_undercut->pitch_mm, 3.5);
+  EXPECT_NE(part_notation(result["part"]).find("DIN76-B"), std::string::npos);
+}
+
 TEST(Import, WritesThePartThatItsOutlineIsReadFrom) {
   for (const auto& entry : std::filesystem::directory_iterator(source_path("parts"))) {
     if (entry.path().extension() != ".json") continue;
