@@ -1,6 +1,6 @@
-// A newcomer builds three drawings from nothing, by keyboard and mouse: a motor shaft with
+// A newcomer builds four drawings from nothing, by keyboard and mouse: a motor shaft with
 // thread, keyway and two undercuts, a flanged bush with an oil groove, a hydraulic piston with
-// two seal grooves. Every one is planned and is still there after the page was loaded anew.
+// two seal grooves; and a plug with a reamed hole and an inch thread. Every one is planned and is still there after the page was loaded anew.
 //
 // Usage: node test/builder.mjs TURNWRIGHT FOLDER [PAGE]
 import assert from 'node:assert/strict';
@@ -49,10 +49,10 @@ async function shaft() {
   await field(page, 'Kind of d2').selectOption('groove');
   await write(page, 'Floor diameter of d2', '27.6');
   await page.getByRole('button', { name: 'Add at the right end' }).focus();
-  // length, diameter, fit or limits, Ra, Rz; then the button that inserts the next one
+  // length, diameter, fit or limits, Ra, Rz, for grinding; then the button that inserts the next one
   for (const [values, last] of [
-    [['31', '32', 'h8', '1.6', '']], [['35', '40', 'k6', '0.8', '']], [['170', '50', '0/-0.1', '3.2', '']],
-    [['35', '40', 'k6', '0.8', '']], [['60', '35', 'h8', '1.6', ''], true],
+    [['31', '32', 'h8', '1.6', '', '']], [['35', '40', 'k6', '0.8', '', '0.3']], [['170', '50', '0/-0.1', '3.2', '', '']],
+    [['35', '40', 'k6', '0.8', '', '']], [['60', '35', 'h8', '1.6', '', ''], true],
   ]) {
     await page.keyboard.press('Enter');
     await types(page, ...values);
@@ -64,6 +64,10 @@ async function shaft() {
     await page.keyboard.press('Enter');
   }
   await write(page, 'Chamfer of left end [mm]', '1.5');
+  await page.getByText('Centre holes', { exact: true }).click();
+  await field(page, 'Centre hole in the left end').selectOption('B2.5/8');
+  await field(page, 'Centre hole in the right end').selectOption('A4/8.5');
+  await field(page, 'Centre hole in the right end').selectOption('none');
   await page.getByText('Milled: keyways').click();
   await picture(page).getByRole('button', { name: /^d7, cylinder/ }).focus();
   await page.keyboard.press('Enter');
@@ -88,8 +92,10 @@ async function shaft() {
   assert.deepEqual(part.outer.map((e) => [e.kind, e.length_mm, e.diameter_mm, e.fit ?? e.limits_mm]), [
     ['thread', 25, 30, undefined], ['groove', 4, 27.6, undefined], ['cylinder', 31, 32, 'h8'], ['cylinder', 35, 40, 'k6'],
     ['cylinder', 170, 50, [-0.1, 0]], ['cylinder', 35, 40, 'k6'], ['cylinder', 60, 35, 'h8']]);
+  assert.deepEqual(part.outer.flatMap((e) => ('grinding_allowance_mm' in e ? [e.id, e.grinding_allowance_mm] : [])), ['d4', 0.3]);
+  assert.deepEqual(part.centre_holes, [{ at: 'left', designation: 'B2.5/8' }]);
   assert.deepEqual(part.stock, { kind: 'bar', diameter_mm: 52, length_mm: 364, left_allowance_mm: 2 });
-  for (const text of ['M30×1.5', '⌀50 0/−0.1', '⌀35 h8', 'keyway 10×5×40', '170', '360', 'A ⌀10.6'])
+  for (const text of ['B2.5/8', 'M30×1.5', '⌀50 0/−0.1', '⌀35 h8', 'keyway 10×5×40', '170', '360', 'A ⌀10.6'])
     assert.ok(await picture(page).getByText(text, { exact: true }).count(), text);
   await drags(page);
   await plan(page);
@@ -138,7 +144,7 @@ async function bush() {
   await page.getByLabel('Kind of stock').selectOption('tube');
   await write(page, 'Outer diameter of stock [mm]', '85');
   await write(page, 'Inner diameter of stock [mm]', '35');
-  await press(page, 'Chamfer all 5 sharp edges 1 × 45°');
+  await press(page, 'Chamfer all 7 sharp edges 1 × 45°');
   await page.getByText('Faces', { exact: false }).last().click();
   await write(page, 'Ra of face d1|d2 [µm]', '1.6');
   await press(page, 'Set them here');
@@ -197,5 +203,38 @@ async function piston() {
   await page.context().close();
 }
 
-await Promise.all([inTurn(shaft), inTurn(bush, piston)]);
+/** Holes that tools of a fixed size make: reamed from the right, tapped from the left. */
+async function plug() {
+  const page = await open(wide);
+  await begin(page, 'Drilled plug', 'C45');
+  for (const [label, value] of [['Length of d1', '40'], ['Diameter of d1', '50'], ['Length of d2', '30'], ['Diameter of d2', '40'],
+    ['Fit or limits of d2', 'h6'], ['Ra of d2', '0.4'], ['Grinding allowance of d2', '0.25']])
+    await write(page, label, value);
+  await page.getByText('Bores, from their end inwards').click();
+  await press(page, 'Add a bore from the right');
+  await types(page, '22', '8', 'H7', '1.6');
+  await field(page, 'Kind of b1').selectOption('hole');
+  await press(page, 'Chamfer at bore b1 at the right');
+  await press(page, 'Add a bore from the left');
+  await types(page, '16', '10');
+  await field(page, 'Kind of b2').selectOption('thread');
+  await write(page, 'Diameter of b2', '3/8-16 UNC');
+  await drawn(page);
+  await page.getByText('Centre holes', { exact: true }).click();
+  assert.equal(await page.getByText(/^The (left|right) end is hollow/).count(), 2);
+  const part = await documentOf(page);
+  assert.deepEqual(part.inner, [
+    { id: 'b1', kind: 'hole', from: 'right', length_mm: 22, fit: 'H7', Ra_um: 1.6, diameter_mm: 8 },
+    { id: 'b2', kind: 'thread', from: 'left', length_mm: 16, designation: '3/8-16 UNC' }]);
+  assert.equal(part.outer[1].grinding_allowance_mm, 0.25);
+  assert.deepEqual(part.edges, [{ at: 'right|b1', chamfer_mm: 1 }]);
+  await plan(page);
+  for (const tool of ['REAM-HSS-H7', 'TAP-HSS-2B', 'CSINK-HSS-90']) assert.ok(await page.getByText(tool).count(), tool);
+  await look(page, 'plug-1400');
+  await narrowed(page, 'plug-400');
+  await reloaded(page);
+  await page.context().close();
+}
+
+await Promise.all([inTurn(shaft), inTurn(bush, piston, plug)]);
 await close();

@@ -1,5 +1,5 @@
 // Edges and inner corners of a part: where a chamfer, an undercut or a fillet may stand.
-import { alongBores, ends, entries, mouths, type Element } from './elements';
+import { alongBores, ends, entries, isThrough, mouths, type Element } from './elements';
 import type { Part } from './types';
 
 /** recess: how deep DIN 509's form F goes into the shoulder, 0 of others; falls: the slope's angle. */
@@ -42,7 +42,7 @@ export interface Place {
   thread?: boolean;
 }
 
-const turned = (e: Element | undefined) => ['cylinder', 'thread'].includes(String(e?.kind));
+const turned = (e: Element | undefined) => ['cylinder', 'thread', 'hole'].includes(String(e?.kind));
 const is = (kind: string, ...all: Element[]) => all.some((e) => e.kind === kind);
 
 function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undefined {
@@ -58,8 +58,9 @@ function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undef
 /** The edges of a part from left to right, then those of its bores. */
 export function edgePlaces(part: Part): Place[] {
   const outer = entries(part, 'outer'), bores = alongBores(part);
+  const apart = (a: Element, b: Element) => a.from !== b.from && !isThrough(part);
   const steps = (list: Element[], side: 'outer' | 'inner') =>
-    list.slice(1).map((e, i) => between(list[i], e, side)).filter((p) => p !== undefined);
+    list.slice(1).map((e, i) => (apart(list[i], e) ? undefined : between(list[i], e, side))).filter((p) => p !== undefined);
   const end = (at: string, e: Element | undefined, name: string): Place[] =>
     turned(e) ? [{ at, name, chamfer: true, fillet: false, undercut: false }] : [];
   const mouth = (side: 'left' | 'right') =>

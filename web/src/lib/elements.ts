@@ -36,11 +36,22 @@ export function freshId(part: Part, letter: string): string {
   return `${letter}${n}`;
 }
 
+/** Diameter of a metric or inch thread, "M24x1.5", "1/2-13 UNC", "#10-24"; NaN of other texts. */
+function threadDiameter(designation: string): number {
+  const metric = /^M([\d.]+)/.exec(designation);
+  if (metric) return Number(metric[1]);
+  const m = /^(?:#(\d+)|(?:(\d+)[- ])?(\d+)\/(\d+)|(\d*\.?\d+))-\d*\.?\d+/.exec(designation);
+  if (!m) return NaN;
+  const [number, whole, over, under, decimal] = m.slice(1).map((digits) => (digits === undefined ? undefined : Number(digits)));
+  const inch = number !== undefined ? 0.06 + 0.013 * number : decimal ?? (whole ?? 0) + over! / under!;
+  return Number((25.4 * inch).toFixed(6));
+}
+
 /** Diameters at the left and the right end; NaN where the document has none. */
 export function ends(e: Element | undefined): [number, number] {
   const number = (value: unknown) => (typeof value === 'number' ? value : NaN);
   if (typeof e?.designation === 'string') {
-    const d = Number(/^M([\d.]+)/.exec(e.designation)?.[1] ?? NaN);
+    const d = threadDiameter(e.designation);
     return [d, d];
   }
   if (e && ('left_mm' in e || 'right_mm' in e)) return [number(e.left_mm), number(e.right_mm)];
@@ -56,10 +67,13 @@ export const alongBores = (part: Part): Element[] => {
 
 const lengthOf = (list: Element[]) => list.reduce((total, e) => total + Number(e.length_mm), 0);
 
+/** Whether the bores of both ends meet. */
+export const isThrough = (part: Part): boolean =>
+  Math.abs(lengthOf(alongBores(part)) - lengthOf(entries(part, 'outer'))) < 1e-6;
+
 /** Where bores open: the first of an end, or those of the other end where they go through. */
 export function mouths(part: Part): { end: 'left' | 'right'; bore: Element }[] {
-  const bores = alongBores(part);
-  const through = Math.abs(lengthOf(bores) - lengthOf(entries(part, 'outer'))) < 1e-6;
+  const bores = alongBores(part), through = isThrough(part);
   return (['left', 'right'] as const).flatMap((end) => {
     const bore = end === 'left' ? bores[0] : bores[bores.length - 1];
     return bore && (through || bore.from === end) ? [{ end, bore }] : [];
@@ -142,14 +156,32 @@ function shape(kind: Kind, side: Side, [left, right]: [number, number], length: 
   }
 }
 
+/** Whether turning may leave an allowance on an element that is ground. */
+export const grindable = (e: Element): boolean => ['cylinder', 'cone'].includes(String(e.kind));
+
+/** What stays of an element as another kind: a class of ISO 286 where both have one. */
+function stays(key: string, from: Element, kind: Kind): boolean {
+  if (key === 'fit') return [from.kind, kind].every((k) => ['cylinder', 'hole'].includes(String(k)));
+  return !shapes.includes(key) && (key !== 'grinding_allowance_mm' || grindable({ kind }));
+}
+
 /** The same element as another kind; what only its old kind has is left out. */
 export function reshaped(part: Part, side: Side, index: number, kind: Kind): Part {
   const list = [...(part[side] as Element[])];
   const e = list[index];
-  const rest = Object.fromEntries(Object.entries(e).filter(([key]) => !shapes.includes(key) && key !== 'fit'));
+  const rest = Object.fromEntries(Object.entries(e).filter(([key]) => stays(key, e, kind)));
   const known = ends(e).map((d) => (Number.isFinite(d) ? d : 20)) as [number, number];
   list[index] = { ...rest, kind, ...shape(kind, side, known, Number(e.length_mm) || 10) };
   return { ...part, [side]: list };
+}
+
+/** A thread with its size as it is typed: a diameter, or in its place a designation, "M24x1.5" or "1/2-13 UNC". */
+export function threaded(part: Part, side: Side, index: number, size: unknown): Part {
+  const { designation: _, diameter_mm: __, pitch_mm, ...rest } = (part[side] as Element[])[index];
+  const d = Number(String(size).replace(',', '.'));
+  const written = size === undefined ? {} : Number.isFinite(d) ? { diameter_mm: d } : { designation: String(size) };
+  const next = { ...rest, ...written, ...(!('designation' in written) && pitch_mm !== undefined && { pitch_mm }) };
+  return { ...part, [side]: (part[side] as Element[]).with(index, next) };
 }
 
 /** What is inserted where nothing is known: as wide as its neighbour. */

@@ -39,6 +39,8 @@ export interface Face {
   z_mm: number;
   Ra_um?: number;
   Rz_um?: number;
+  /** "ISO 6411-A4/8.5", in an end that is asked for one. */
+  centre_hole?: string;
   setup?: number;
 }
 

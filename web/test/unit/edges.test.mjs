@@ -57,6 +57,23 @@ test('no edge stands where there is no step, nor at arcs; at grooves only chamfe
   assert.deepEqual([all[1].chamfer, all[1].fillet, all[1].undercut], [true, false, false]);
 });
 
+test('a hole that is drilled has a chamfer where it begins', () => {
+  const outer = [{ id: 'a', kind: 'cylinder', length_mm: 40, diameter_mm: 40 }];
+  const hole = (kind) => ({ outer, inner: [{ id: 'b', kind: 'cylinder', from: 'right', length_mm: 10, diameter_mm: 20 }, { id: 'h', kind, from: 'right', length_mm: 10, diameter_mm: 8 }] });
+  const chamfers = (kind) => edgePlaces(hole(kind)).filter((p) => p.chamfer).map((p) => p.at);
+  assert.deepEqual(chamfers('hole'), ['left', 'right', 'h|b', 'right|b']);
+  assert.deepEqual(chamfers('groove'), ['left', 'right', 'right|b']);
+  assert.ok(edgePlaces({ outer, inner: [hole('hole').inner[1]] }).some((p) => p.at === 'right|h' && p.chamfer));
+});
+
+test('holes of both ends share an edge only where they meet', () => {
+  const bore = (id, from, d, length) => ({ id, kind: 'cylinder', from, length_mm: length, diameter_mm: d });
+  const part = (length) => ({ outer: [{ id: 'a', kind: 'cylinder', length_mm: 40, diameter_mm: 40 }], inner: [bore('l', 'left', 20, 10), bore('r', 'right', 16, length)] });
+  const inside = (length) => edgePlaces(part(length)).map((p) => p.at).slice(2);
+  assert.deepEqual(inside(29), ['left|l', 'right|r']);
+  assert.deepEqual(inside(30), ['left|l', 'l|r', 'right|r']);
+});
+
 test('the chamfer is on what stands: out of the larger shaft, into the smaller bore', () => {
   const e = (id, kind, d, from) => ({ id, kind, length_mm: 5, from, ...(kind === 'cone' ? { left_mm: d, right_mm: d } : { diameter_mm: d }) });
   const shaft = edgePlaces({ outer: [e('a', 'cone', 30), e('b', 'cylinder', 20)] }).find((p) => p.at === 'a|b');

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { load, part } from './load.mjs';
+import { load, part, projectFile } from './load.mjs';
 
-const { ends, freshId, inserted, moved, places, removed, renamed, reshaped } = await load('elements');
+const { ends, freshId, grindable, inserted, moved, places, removed, renamed, reshaped, threaded } = await load('elements');
 
 const stepped = () => ({
   own: { kept: true },
@@ -88,6 +88,38 @@ test('another kind keeps name, length, roughness and unknown members, not the ol
   assert.deepEqual(thread, { id: 'a', kind: 'thread', length_mm: 5, diameter_mm: 20, pitch_mm: 1.5 });
 });
 
+test('what turning leaves for grinding goes with the kinds that the planner lets be ground', () => {
+  const schema = JSON.parse(projectFile('schemas/part.json'));
+  for (const side of ['outer', 'inner'])
+    for (const of of schema.definitions[side].oneOf) {
+      const kind = of.properties.kind.const;
+      assert.equal(grindable({ kind }), 'grinding_allowance_mm' in of.properties, `${side} ${kind}`);
+      const one = { [side]: [{ id: 'a', kind: 'cylinder', from: 'left', length_mm: 5, diameter_mm: 20, fit: 'h7', grinding_allowance_mm: 0.3 }] };
+      const next = reshaped(one, side, 0, kind)[side][0];
+      for (const key of Object.keys(next)) assert.ok(key in of.properties || (side === 'outer' && key === 'from'), `${kind}: ${key}`);
+      assert.equal(next.grinding_allowance_mm, grindable({ kind }) ? 0.3 : undefined);
+    }
+});
+
+test('a hole that was bored keeps its class', () => {
+  const bored = { inner: [{ id: 'b1', kind: 'cylinder', from: 'left', length_mm: 5, diameter_mm: 10, fit: 'H7' }] };
+  assert.equal(reshaped(bored, 'inner', 0, 'hole').inner[0].fit, 'H7');
+  assert.equal(reshaped(bored, 'inner', 0, 'thread').inner[0].fit, undefined);
+});
+
+test('a thread is typed as a diameter or as its designation', () => {
+  const screw = { outer: [{ id: 't', kind: 'thread', length_mm: 20, diameter_mm: 24, pitch_mm: 1.5, fit: '6g' }] };
+  const typed = (part, size) => threaded(part, 'outer', 0, size).outer[0];
+  const rest = { id: 't', kind: 'thread', length_mm: 20, fit: '6g' };
+  assert.deepEqual(typed(screw, '30,5'), { ...rest, diameter_mm: 30.5, pitch_mm: 1.5 });
+  for (const text of ['M24x2', '1/2-13 UNC', '#10-24 UNC']) {
+    const named = threaded(screw, 'outer', 0, text);
+    assert.deepEqual(named.outer[0], { ...rest, designation: text });
+    assert.deepEqual(typed(named, '30'), { ...rest, diameter_mm: 30 });
+  }
+  assert.deepEqual(typed(screw, undefined), { ...rest, pitch_mm: 1.5 });
+});
+
 test('a first element, a first bore and a first groove need nothing before them', () => {
   const one = inserted({}, 'outer', 0, 'cylinder').part;
   assert.equal(one.outer[0].diameter_mm, 30);
@@ -102,6 +134,10 @@ test('new names are free, whatever else has one', () => {
 
 test('diameters come from every kind', () => {
   assert.deepEqual(ends({ designation: 'M30x1.5' }), [30, 30]);
+  // ASME B1.1: 1/2 in; 1 1/4 in; number 10 is 0.190 in; 0.25 in
+  for (const [text, mm] of [['1/2-13 UNC', 12.7], ['1-1/4-7', 31.75], ['1 1/4-7 UNC', 31.75], ['#10-24 UNC', 4.826], ['.25-20', 6.35], ['1-8 UNC-2A', 25.4]])
+    assert.deepEqual(ends({ designation: text }), [mm, mm], text);
+  assert.deepEqual(ends({ designation: 'Tr20x4' }), [NaN, NaN]);
   assert.deepEqual(ends({ left_mm: 3, right_mm: 4 }), [3, 4]);
   assert.deepEqual(ends({}), [NaN, NaN]);
 });

@@ -113,8 +113,19 @@ test('countersinks are those of the catalogue', () => {
 });
 
 const drawing = (more) => ({
-  length_mm: 100, stock: { inner_mm: 0 }, elements: [surface({ z_mm: [0, 100] })],
+  length_mm: 100, stock: { inner_mm: 0 }, faces: [], elements: [surface({ z_mm: [0, 100] })],
   setups: [{ hold: 'left' }, { hold: 'right' }], ...more,
+});
+
+test('a centre hole that is asked for is drawn with its sizes, whatever clamps the part', () => {
+  const asked = (designation) => centreHoles({ ...drawing(), faces: [{ id: 'left', z_mm: 0 }, { id: 'right', z_mm: 1, centre_hole: designation }] }, [['chuck'], ['chuck']]);
+  const [b] = asked('ISO 6411-B4/12.5');
+  assert.deepEqual([b.end, b.text, b.profile[0], b.profile[1][1]], ['right', 'B4/12.5', [0, 6.25], 4.25]);
+  // 120 deg and 60 deg: half of what the radius takes, and 1.73 times.
+  const near = (x, y) => assert.ok(Math.abs(x - y) < 1e-9, `${x} ${y}`);
+  near(b.profile[1][0], 2 * Math.tan(Math.PI / 6));
+  near(b.profile[2][0] - b.profile[1][0], 2.25 * Math.sqrt(3));
+  assert.equal(asked('A4/8.5')[0].profile.length, 4);
 });
 
 test('centre holes are where every clamping has a centre, never in a hollow end', () => {

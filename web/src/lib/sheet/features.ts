@@ -1,4 +1,5 @@
 // What a drawing shows beside the contour: milled places, centre holes, texts of sizes.
+import { centreOf, centres, centreText, type Centre } from '../centres';
 import { entries } from '../elements';
 import { significant, signed } from '../numbers';
 import type { Drawing, DrawnTolerance, Part, Surface } from '../types';
@@ -41,6 +42,15 @@ export function milledShapes(part: Part, drawing: Drawing): MilledShape[] {
 export const countersinks_mm = [1.06, 1.7, 2.12, 2.65, 3.35, 4.25, 5.3, 6.7, 8.5, 10.6, 13.2];
 const share = 0.35; // of the end's diameter that a countersink may take
 const pilot = 2.12; // countersink over hole, of the sizes above
+const slope = Math.tan(Math.PI / 6);
+
+/** As drawn: the cone of 60 deg, of form B within one of 120 deg; form R by its chord. */
+function drawnCentre({ form, pilot: d, widest }: Centre): Point[] {
+  const r = d / 2, R = widest / 2, cone = form === 'B' ? centres.find((c) => c.form === 'A' && c.pilot === d)!.widest / 2 : R;
+  const mouth = (R - cone) * slope, seat = mouth + (cone - r) / slope;
+  const protectedBy: Point[] = form === 'B' ? [[mouth, cone]] : [];
+  return [[0, R], ...protectedBy, [seat, r], [seat + 1.25 * d, r], [seat + 1.25 * d + r * slope, 0]];
+}
 
 export interface CentreHole {
   end: 'left' | 'right';
@@ -54,8 +64,8 @@ const centred: Record<string, ('held' | 'free')[]> = {
 };
 
 /**
- * Centre holes: of the ends to which each clamping that a setup may have brings a centre.
- * Hollow ends have none.
+ * Centre holes: those that the drawing asks for, and of the ends to which each clamping that a
+ * setup may have brings a centre.  Hollow ends have none.
  */
 export function centreHoles(drawing: Drawing, clampings: string[][]): CentreHole[] {
   const outer = drawing.elements.filter((e) => e.side === 'outer');
@@ -64,7 +74,13 @@ export function centreHoles(drawing: Drawing, clampings: string[][]): CentreHole
   const wanted = new Set(drawing.setups.flatMap((s, i) => (['held', 'free'] as const)
     .filter((which) => clampings[i]?.length && clampings[i].every((c) => centred[c]?.includes(which)))
     .map((which) => ((which === 'held') === (s.hold === 'left') ? 'left' as const : 'right' as const))));
-  return [...wanted].sort().flatMap((end): CentreHole[] => {
+  const asked = new Map(drawing.faces.flatMap((f) => {
+    const centre = f.centre_hole && centreOf(f.centre_hole);
+    return centre ? [[f.id, centre] as const] : [];
+  }));
+  return (['left', 'right'] as const).filter((end) => asked.has(end) || wanted.has(end)).flatMap((end): CentreHole[] => {
+    const centre = asked.get(end);
+    if (centre) return [{ end, text: centreText(centre), profile: drawnCentre(centre) }];
     const z = end === 'left' ? 0 : drawing.length_mm;
     const d = end === 'left' ? outer[0]?.diameters_mm[0] : outer[outer.length - 1]?.diameters_mm[1];
     const D = countersinks_mm.findLast((size) => size <= share * d);
