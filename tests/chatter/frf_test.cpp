@@ -503,6 +503,66 @@ TEST(Frf, HiddenModesGrowWithTheNoise) {
   }
 }
 
+// Both series times e^(-A t): the transform at i w + A, here written out of the modes.
+TEST(Frf, TheWindowsDampingIsTakenOut) {
+  constexpr double kA = 60;  // 1/s; the first mode has zeta wn = 91/s
+  for (const int derivative : {0, 1, 2}) {
+    FrequencyResponse r = measured(kThree, 200, 2500, 400, derivative);
+    r.decay_1_s = kA;
+    for (std::size_t i = 0; i < r.w_rad_s.size(); ++i) {
+      const Complex s(kA, r.w_rad_s[i]);
+      Complex H = 0;
+      for (const True& t : kThree) {
+        const double wn = 2 * kPi * t.f_Hz;
+        H += wn * wn / t.k_N_mm / (s * s + 2 * t.zeta * wn * s + wn * wn);
+      }
+      r.value[i] = H * std::pow(Complex(0, r.w_rad_s[i]), derivative);
+    }
+    expect_same(fit(r), kThree, 1e-8);
+  }
+}
+
+TEST(Frf, AModeThatOnlyTheWindowDampsIsNotTold) {
+  FrequencyResponse r = measured(kOne, 300, 2000, 300);
+  r.decay_1_s = 1.01 * kOne[0].zeta * 2 * kPi * kOne[0].f_Hz;
+  EXPECT_EQ(refused(r), NoFit::Why::not_told);
+}
+
+TEST(Frf, GivenErrorsThatAreAlikeChangeNothing) {
+  FrequencyResponse r = measured(kThree, 200, 2500, 400);
+  add_noise(r, 1e-5, 4);
+  const ModalFit without = fit(r);
+  r.error.assign(r.value.size(), 0.7);
+  const ModalFit with = fit(r);
+  ASSERT_EQ(with.modes.size(), without.modes.size());
+  for (std::size_t i = 0; i < with.modes.size(); ++i) {
+    EXPECT_NEAR(with.modes[i].k_N_mm.value / without.modes[i].k_N_mm.value, 1, 1e-7);
+    EXPECT_NEAR(with.modes[i].k_N_mm.u / without.modes[i].k_N_mm.u, 1, 1e-5);
+  }
+  EXPECT_NEAR(with.explained, without.explained, 1e-9);
+}
+
+// Lines that are all noise and said to be so: the others alone tell the modes, within the
+// uncertainties told.
+TEST(Frf, LinesOfLargeErrorsWeighLess) {
+  FrequencyResponse r = measured(kThree, 200, 2500, 400);
+  add_noise(r, 1e-6, 4);
+  FrequencyResponse noise = measured({}, 200, 2500, 400);
+  add_noise(noise, 1e-2, 5);
+  for (std::size_t i = 0; i < r.value.size(); ++i) {
+    const bool bad = i % 5 == 0;
+    if (bad) r.value[i] += noise.value[i];
+    r.error.push_back(bad ? 1e-2 : 1e-6);
+  }
+  const ModalFit found = fit(r);
+  ASSERT_EQ(found.modes.size(), 3u);
+  EXPECT_GT(found.explained, 0.99);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(found.modes[i].zeta.value, kThree[i].zeta, 5 * found.modes[i].zeta.u);
+    EXPECT_LT(found.modes[i].zeta.u, 1e-2 * kThree[i].zeta);
+  }
+}
+
 TEST(Frf, NoiseIsNoMode) {
   for (unsigned seed = 0; seed < 15; ++seed) {
     FrequencyResponse noise = measured({}, 200, 2000, 200);

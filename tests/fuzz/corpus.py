@@ -41,7 +41,8 @@ def seeds():
                 yield "program-lathe", program
             if door == "review":
                 yield "review-fanuc", example["programs"][0]["text"]
-            yield from (("csv-" + door, table) for table in tables(example))
+            name = "frf-csv" if door == "stability" else "csv-" + door
+            yield from ((name, table) for table in tables(example))
     for program in sorted((ROOT / "tests" / "data" / "nc").rglob("*.*")):
         control = {".ngc": "linuxcnc", ".mpf": "siemens"}.get(program.suffix)
         if control:

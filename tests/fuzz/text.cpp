@@ -64,6 +64,16 @@ Text reviewed(const std::string& control) {
   return {request, json::json_pointer("/programs/0/text")};
 }
 
+// A response of `stability` in one of its forms, all else of which its text tells.
+Text response(const std::string& form) {
+  const json request{{"model", "turning"},
+                     {"kappa_deg", 75},
+                     {"kp_MPa", 900},
+                     {"points", {{{"n_rpm", 900}, {"ap_mm", 0.01}}}},
+                     {"frf", json::array({json::object()})}};
+  return {request, json::json_pointer("/frf/0/" + form)};
+}
+
 Target in_request(const std::string& door, Text text) {
   return [&row = door_named(door), text](std::string_view input) {
     auto request = text.request;
@@ -97,6 +107,7 @@ Target text_target(const std::string& name) {
   if (name.starts_with("drawing-"))
     return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
                                  json::json_pointer("/text")});
+  if (name == "frf-csv") return in_request("stability", response("csv"));
   if (name == "library")
     return [&row = door_named("import-tools")](std::string_view bytes) {
       answered(row, document::import_request(std::string(bytes)));

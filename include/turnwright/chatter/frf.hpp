@@ -13,6 +13,11 @@ struct FrequencyResponse {
   int derivative = 0;           ///< d: 0 receptance, 1 mobility, 2 accelerance
   std::vector<double> w_rad_s;  ///< rising, > 0
   std::vector<std::complex<double>> value;  ///< [mm/(s^d N)], one for each of them
+  /// Sizes of the errors, > 0, to a common factor, one for each line; none: not known.
+  std::vector<double> error = {};
+  /// A, where H was measured at i w + A because both time series were multiplied by
+  /// e^(-A t).
+  double decay_1_s = 0;
 };
 
 /// A number with its standard uncertainty.
@@ -37,9 +42,9 @@ struct ModalFit {
   Measured below_mm_N_s2;         ///< b of (1): modes below the lines, free motion
   /// f of (3); none: the errors are equal at every line.
   std::optional<double> error_floor;
-  double explained = 0;     ///< 1 - sum |e|^2 / sum |Y|^2
-  double rms_measured = 0;  ///< of |Y|
-  double rms_left = 0;      ///< of |e|
+  double explained = 0;     ///< 1 - sum |e|^2 / sum |Y|^2; both over given errors
+  double rms_measured = 0;  ///< of |Y|, over given errors
+  double rms_left = 0;      ///< of |e|, over given errors
   /// Correlation of e/s at neighbouring lines, in [-1, 1]: near 0 if the residual is
   /// noise; otherwise the uncertainties are too small.
   double correlation = 0;
@@ -99,6 +104,14 @@ struct NoFit {
 /// make the residual likelier, that is, if 2 L ln(sum |e|^2 / s^2 / 2 L) + 4 sum ln s
 /// falls by more than 5 ln(2 L), all is fitted again with them, at most twice.
 ///
+/// If the response comes with its errors, s is in proportion to them.  H measured at
+/// i w + A has modes of the same form,
+///
+///     wn'^2 = wn^2 + 2 zeta wn A + A^2,  zeta' wn' = zeta wn + A,  k'/k = wn'^2/wn^2
+///
+/// which are fitted and changed back; a mode that A alone damps is not told.  b and c of
+/// (1) are then those at i w + A; `hidden` modes are damped by 0.01 with A.
+///
 /// A mode of compliance a at one of the lines lowers the residual by a^2 S, S the sum of
 /// squares of its shape over s that the fitted modes cannot explain, up to noise of 2 t
 /// in the root.  So a mode is found, as a rule, if
@@ -115,8 +128,8 @@ struct NoFit {
 /// the residual.
 ///
 /// Valid for damping that couples no modes (k real).  Source: [Levenberg 1944],
-/// [Marquardt 1963]; [Schwarz 1978] for (2), the weight 5 derived here; checked in
-/// frf_test on responses of known modes.
+/// [Marquardt 1963]; [Schwarz 1978] for (2), the weight 5 derived here, and so the modes at
+/// i w + A, from (s^2 + 2 zeta wn s + wn^2) at s + A; checked in frf_test on responses of known modes.
 std::variant<ModalFit, NoFit> modal_fit(const FrequencyResponse& response,
                                         std::optional<int> modes = {});
 inline constexpr int kMostModes = 8;

@@ -37,7 +37,10 @@ struct Model {
 /// Relative size of the errors at each line.
 using Sizes = std::vector<double>;
 
-Sizes alike(const FrequencyResponse& r) { return Sizes(r.w_rad_s.size(), 1.0); }
+/// Those given, or alike.
+Sizes given(const FrequencyResponse& r) {
+  return r.error.empty() ? Sizes(r.w_rad_s.size(), 1.0) : r.error;
+}
 
 /// The lines as rows: real parts, then imaginary parts, divided by the size of their
 /// errors.
@@ -313,8 +316,19 @@ std::vector<HiddenMode> hidden_modes(const Lines& lines, const Model& m) {
   return out;
 }
 
+/// A mode without the damping A of the window on the time series.
+struct Unwindowed {
+  double wn = 0, zeta = 0, k_over = 1;  ///< k_over: stiffness over the windowed one
+  Unwindowed(const Peak& p, double A) {
+    const double a = p.zeta() * p.wn() - A, square = 1 - p.zeta() * p.zeta();
+    wn = std::sqrt(p.wn() * p.wn() * square + a * a);
+    zeta = a / wn;
+    k_over = wn * wn / (p.wn() * p.wn());
+  }
+};
+
 /// The reason against a fit: its first invalid peak.
-std::optional<NoFit> fault(const Lines& lines, const Model& m) {
+std::optional<NoFit> fault(const Lines& lines, const Model& m, double A) {
   constexpr double kHeavy = 0.5, kVague = 0.5;
   if (m.peaks.empty() || !std::isfinite(m.left)) return NoFit{Why::no_peak, 0};
   const VectorXd u = uncertainties(lines, m);
@@ -324,7 +338,9 @@ std::optional<NoFit> fault(const Lines& lines, const Model& m) {
     if (!(wn >= lines.w(0) && wn <= lines.w(lines.rows() - 1) && p.zeta() < kHeavy))
       return NoFit{Why::no_peak, wn};
     if (!(p.a > 0)) return NoFit{Why::negative, wn};
-    if (!(std::max({u[i], u[i + 1], u[i + 2] / p.a}) <= kVague))
+    const double of_damping = u[i + 1] * p.zeta() * p.wn();
+    if (!(std::max(u[i], u[i + 2] / p.a) <= kVague) ||
+        !(of_damping <= kVague * (p.zeta() * p.wn() - A)))
       return NoFit{Why::not_told, wn};
     i += kColumns;
   }
@@ -356,9 +372,11 @@ Model without_low_peaks(const Lines& lines, Model m) {
 /// this most; the sum over the lines decides, so that noise at one line does not matter.
 std::optional<NoFit> wrong_way(const FrequencyResponse& r) {
   constexpr std::array<Complex, 3> kTurn{Complex(1, 0), Complex(0, -1), Complex(-1, 0)};
+  const Sizes size = given(r);
   double taken = 0, all = 0, worst = 0, at = 0;
   for (std::size_t i = 0; i < r.w_rad_s.size(); ++i) {
-    const Complex H = r.value[i] * kTurn[static_cast<std::size_t>(r.derivative)];
+    const Complex H =
+        r.value[i] / size[i] * kTurn[static_cast<std::size_t>(r.derivative)];
     taken -= H.imag() * std::abs(H.imag());
     all += H.imag() * H.imag();
     if (H.imag() > worst) worst = H.imag(), at = r.w_rad_s[i];
@@ -388,14 +406,17 @@ ModalFit described(const FrequencyResponse& r, const Lines& lines, Model m) {
   ModalFit out;
   Eigen::Index i = 0;
   for (const Peak& p : m.peaks) {
-    out.modes.push_back({.wn_rad_s = {p.wn(), p.wn() * u[i]},
-                         .zeta = {p.zeta(), p.zeta() * u[i + 1]},
-                         .k_N_mm = {1 / p.a, u[i + 2] / (p.a * p.a)}});
+    const Unwindowed mode(p, r.decay_1_s);
+    const double shift = p.wn() / mode.wn;
+    out.modes.push_back(
+        {.wn_rad_s = {mode.wn, p.wn() * u[i]},
+         .zeta = {mode.zeta, shift * p.zeta() * u[i + 1]},
+         .k_N_mm = {mode.k_over / p.a, mode.k_over * u[i + 2] / (p.a * p.a)}});
     i += kColumns;
   }
   out.above_mm_N = {m.c, u[i]};
   out.below_mm_N_s2 = {m.b, u[i + 1]};
-  const Lines even(r, alike(r));
+  const Lines even(r, given(r));
   const auto L = static_cast<double>(lines.rows());
   const double all = even.y().squaredNorm(), left = even.left(m).squaredNorm();
   out.explained = 1 - left / all;
@@ -414,13 +435,13 @@ struct Choice {
   std::optional<NoFit> no;  // the reason against it
 };
 
-Choice asked(const Lines& lines, int modes) {
+Choice asked(const Lines& lines, int modes, double A) {
   Model fewer, m = without_peaks(lines);
   for (int n = 0; n < modes; ++n) {
     if (nothing_left(lines, m)) return {m, NoFit{n == 0 ? Why::no_peak : Why::not_told}};
     fewer = std::exchange(m, with_one_more(lines, m));
   }
-  if (const auto why = fault(lines, m)) return {m, why};
+  if (const auto why = fault(lines, m, A)) return {m, why};
   const auto lowest = std::ranges::min_element(m.peaks, {}, &Peak::height);
   if (!(lowest->height() >= kLow * highest(m)))
     return {m, NoFit{Why::not_told, lowest->wn()}};
@@ -430,7 +451,7 @@ Choice asked(const Lines& lines, int modes) {
 }
 
 /// Continues past an invalid model, because modes that are still missing may cause that.
-Choice chosen(const Lines& lines) {
+Choice chosen(const Lines& lines, double A) {
   constexpr std::size_t kAhead = 3;
   Model best = without_peaks(lines), m = best;
   std::optional<NoFit> first;  // the reason against the first invalid model
@@ -440,7 +461,7 @@ Choice chosen(const Lines& lines) {
     Model next = with_one_more(lines, m);
     if (!(schwarz(lines, next) < schwarz(lines, m))) break;
     m = std::move(next);
-    const auto why = fault(lines, m);
+    const auto why = fault(lines, m, A);
     if (!why) best = m;
     if (why && !first) first = why;
   }
@@ -455,7 +476,7 @@ Choice chosen(const Lines& lines) {
 /// Eq. (3), with the floor for which the residuals are likeliest; none if equal errors
 /// are not clearly less likely.
 std::optional<double> error_floor(const FrequencyResponse& r, const Model& m) {
-  const Lines lines(r, alike(r));
+  const Lines lines(r, given(r));
   const VectorXd e = lines.left(m), left = squares(e), fit = squares(lines.y() - e);
   const double n = lines.numbers(), top = fit.maxCoeff();
   std::optional<double> best;
@@ -473,7 +494,7 @@ std::optional<double> error_floor(const FrequencyResponse& r, const Model& m) {
 }
 
 Sizes sizes(const FrequencyResponse& r, const Model& m, double floor) {
-  const Lines lines(r, alike(r));
+  const Lines lines(r, given(r));
   const VectorXd fit = squares(lines.y() - lines.left(m));
   Sizes out;
   for (const double square : fit)
@@ -486,13 +507,14 @@ Sizes sizes(const FrequencyResponse& r, const Model& m, double floor) {
 std::variant<ModalFit, NoFit> best_fit(const FrequencyResponse& r,
                                        std::optional<int> modes) {
   constexpr int kRounds = 3;
-  Sizes errors = alike(r);
+  Sizes errors = given(r);
   std::optional<double> floor;
   for (int round = 1;; ++round) {
     const Lines lines(r, errors);
-    Choice choice = modes ? asked(lines, *modes) : chosen(lines);
-    const auto next =
-        nothing_left(lines, choice.model) ? floor : error_floor(r, choice.model);
+    const double A = r.decay_1_s;
+    Choice choice = modes ? asked(lines, *modes, A) : chosen(lines, A);
+    const bool known = !r.error.empty() || nothing_left(lines, choice.model);
+    const auto next = known ? floor : error_floor(r, choice.model);
     if (round == kRounds || next == floor) {
       if (choice.no) return *choice.no;
       ModalFit out = described(r, lines, std::move(choice.model));
@@ -500,16 +522,16 @@ std::variant<ModalFit, NoFit> best_fit(const FrequencyResponse& r,
       return out;
     }
     floor = next;
-    errors = floor ? sizes(r, choice.model, *floor) : alike(r);
+    errors = floor ? sizes(r, choice.model, *floor) : given(r);
   }
 }
 
 /// The residual sum of squares of a response taken for another derivative.
 double left_as(FrequencyResponse r, int derivative) {
   r.derivative = derivative;
-  const Lines lines(r, alike(r));
+  const Lines lines(r, given(r));
   if (wrong_way(r)) return lines.y().squaredNorm();
-  const Choice choice = chosen(lines);
+  const Choice choice = chosen(lines, r.decay_1_s);
   return choice.no ? lines.y().squaredNorm() : choice.model.left;
 }
 

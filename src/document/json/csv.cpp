@@ -30,7 +30,7 @@ std::string_view trimmed(std::string_view s) {
 }
 
 std::string pointer_of(const Reader& csv, const Line& line) {
-  return csv.pointer() + "#line " + std::to_string(line.number);
+  return csv_pointer(csv, line.number);
 }
 
 void report(const Reader& csv, std::string pointer, std::string got, std::string expected,
@@ -178,13 +178,8 @@ std::optional<Header> read_header(const Reader& csv, const Line& line,
 
 /// A number, or the unchanged text.
 nlohmann::json value_of(std::string_view cell) {
-  std::string_view digits = cell;
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  double x = 0;
-  const auto end = digits.data() + digits.size();
-  const auto [to, error] = std::from_chars(digits.data(), end, x);
-  if (error != std::errc() || to != end || !std::isfinite(x)) return std::string(cell);
-  return x;
+  const auto x = csv_number(cell);
+  return x ? nlohmann::json(*x) : nlohmann::json(std::string(cell));
 }
 
 bool has_decimal_comma(std::string cell) {
@@ -194,17 +189,22 @@ bool has_decimal_comma(std::string cell) {
   return value_of(cell).is_number();
 }
 
+/// Whether a row is as long as the header; another length is reported.
+bool has_length(const Reader& csv, const Line& line, std::size_t cells,
+                std::size_t header) {
+  if (cells != header)
+    report(csv, pointer_of(csv, line), std::to_string(cells) + " cells",
+           std::to_string(header) + " as in the header", "count");
+  return cells == header;
+}
+
 /// The row of a line; false if a decimal comma shows that all numbers of the table have
 /// decimal commas.
 bool add_row(const Reader& csv, const Line& line, const Header& header,
              std::vector<CsvRow>& rows) {
   const auto row_cells = cells_of(csv, line, header.separator, header.columns.size());
   if (!row_cells || std::ranges::all_of(*row_cells, &std::string::empty)) return true;
-  if (row_cells->size() != header.columns.size()) {
-    report(csv, pointer_of(csv, line), std::to_string(row_cells->size()) + " cells",
-           std::to_string(header.columns.size()) + " as in the header", "count");
-    return true;
-  }
+  if (!has_length(csv, line, row_cells->size(), header.columns.size())) return true;
   CsvRow row{nlohmann::json::object(), pointer_of(csv, line)};
   for (std::size_t i = 0; i < row_cells->size(); ++i) {
     const CsvColumn* const column = header.columns[i];
@@ -221,7 +221,55 @@ bool add_row(const Reader& csv, const Line& line, const Header& header,
   return true;
 }
 
+/// Reports a table of no rows, unless something else was, or of too many.
+void check_rows(const Reader& csv, std::size_t rows, std::size_t most,
+                std::size_t problems_before, const std::string& header) {
+  const bool nothing = rows == 0 && csv.problems().list.size() == problems_before;
+  if (rows > most || nothing)
+    csv.problem(nothing ? "no rows" : "more rows",
+                header + " and 1 to " + std::to_string(most) + " rows", "count");
+}
+
 }  // namespace
+
+std::string csv_pointer(const Reader& csv, std::size_t line) {
+  return csv.pointer() + "#line " + std::to_string(line);
+}
+
+std::optional<double> csv_number(std::string_view cell) {
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
+  double x = 0;
+  const auto end = cell.data() + cell.size();
+  const auto [to, error] = std::from_chars(cell.data(), end, x);
+  if (error != std::errc() || to != end || !std::isfinite(x)) return std::nullopt;
+  return x;
+}
+
+void csv_cells(const Reader& csv, std::size_t most_rows,
+               const std::function<bool(const CsvCells&)>& take) {
+  const std::size_t before = csv.problems().list.size();
+  const auto lines = lines_of(csv);
+  if (csv.broken() || !is_text(csv, lines)) return;
+  char separator = ',';
+  std::size_t columns = 0, rows = 0;
+  for (const Line& line : lines) {
+    const auto text = trimmed(line.text);
+    const bool header = columns == 0;
+    if (text.empty() || (header && text.starts_with('#'))) continue;
+    if (header) separator = separator_of(line.text);
+    auto row = cells_of(csv, line, separator, columns);
+    if (!row && header) return;
+    if (!row || std::ranges::all_of(*row, &std::string::empty)) continue;
+    if (header)
+      columns = row->size();
+    else if (++rows > most_rows)
+      break;
+    else if (!has_length(csv, line, row->size(), columns))
+      continue;
+    if (!take({line.number, std::move(*row)})) return;
+  }
+  check_rows(csv, rows, most_rows, before, "a header");
+}
 
 std::vector<std::string> csv_header(const Reader& csv) {
   const auto lines = lines_of(csv);
@@ -253,13 +301,8 @@ std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& co
     }
     if (rows.size() > most_rows) break;
   }
-  const bool too_many = rows.size() > most_rows;
-  const bool nothing = rows.empty() && csv.problems().list.size() == before;
-  if (too_many || nothing)
-    csv.problem(nothing ? "no rows" : "more rows",
-                "a header with columns of " + list(columns) + " and 1 to " +
-                    std::to_string(most_rows) + " rows",
-                "count");
+  check_rows(csv, rows.size(), most_rows, before,
+             "a header with columns of " + list(columns));
   return rows;
 }
 

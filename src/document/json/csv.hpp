@@ -1,6 +1,10 @@
 #pragma once
+#include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reader.hpp"
@@ -37,6 +41,25 @@ struct CsvRow {
 /// character (what is read is no text) or a decimal comma.
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows);
+
+/// A line of a table that is not empty, its cells without quotes and blanks around them.
+struct CsvCells {
+  std::size_t line = 0;  ///< counted from 1
+  std::vector<std::string> cells;
+};
+
+/// Calls `take` with the header of a table as csv_rows reads it, then with each row, until
+/// `take` returns false; for tables that tell by their header what their columns are, and
+/// whose numbers may have decimal commas where cells do not end at commas.  Reported: what
+/// csv_rows reports of a table as such and of rows of another length than the header.
+void csv_cells(const Reader& csv, std::size_t most_rows,
+               const std::function<bool(const CsvCells&)>& take);
+
+/// The place of a line, "/csv#line 3".
+std::string csv_pointer(const Reader& csv, std::size_t line);
+
+/// A number with a decimal point; nothing for other text.
+std::optional<double> csv_number(std::string_view cell);
 
 /// The names in the header of such a table, for tables whose columns are not known
 /// before; none if there is no table, which is reported.

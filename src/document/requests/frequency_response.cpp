@@ -5,14 +5,13 @@
 #include <complex>
 #include <iomanip>
 #include <locale>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "document/json/csv.hpp"
+#include "document/response/response_table.hpp"
 #include "turnwright/base/units.hpp"
 
 namespace turnwright::document {
@@ -23,83 +22,61 @@ using chatter::ModalFit;
 using chatter::NoFit;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kRows = 20000, kFrequencyLines = 5000;
-const Bounds kFrequency = within(0, 1e6, "Hz"), kPart = within(-1e12, 1e12);
+constexpr std::size_t kFrequencyLines = 5000;
+const Bounds kFrequency = within(0, 1e6, "Hz");
+constexpr double kLeastCoherence = 0.1;
 
-/// Unit of a response: its order of derivative by time, and its length in mm.
-struct Unit {
-  int derivative = 0;
-  double mm = 1;
-  friend bool operator==(const Unit&, const Unit&) = default;
-};
+using Lines = std::vector<MeasuredLine>;
 
-Unit read_unit(Reader& r) {
-  constexpr double kGravity_mm_s2 = 9806.65;
-  return r.choice<Unit>("unit", {{"mm/N", {0, 1}},
-                                 {"um/N", {0, 1e-3}},
-                                 {"m/N", {0, 1e3}},
-                                 {"mm/s/N", {1, 1}},
-                                 {"m/s/N", {1, 1e3}},
-                                 {"mm/s2/N", {2, 1}},
-                                 {"m/s2/N", {2, 1e3}},
-                                 {"g/N", {2, kGravity_mm_s2}}});
-}
-
-/// A line of the table, with its place there.
-struct Line {
-  double frequency_Hz = 0;
-  std::complex<double> value;
-  std::string pointer;
-};
-
-std::vector<Line> read_lines(Reader& r) {
-  std::map<std::string, std::string> names;  // of the columns
-  for (const char* key : {"frequency_Hz", "real", "imaginary"}) names[key] = key;
-  if (auto given = r.optional_object("columns")) {
-    for (auto& [key, name] : names)
-      if (const auto other = given->optional_text(key)) name = *other;
-    given->finish();
-  }
-  std::vector<CsvColumn> columns;
-  for (const auto& [key, name] : names) columns.push_back({.name = name});
-  std::vector<Line> out;
-  const Reader table = r.at("csv", "the text of a table, or the list of its lines");
-  for (const CsvRow& row : csv_rows(table, columns, OtherColumns::ignored, kRows)) {
-    Reader cells(row.value, r.problems(), row.pointer);
-    Line line{.frequency_Hz = 0, .value = 0, .pointer = row.pointer};
-    line.frequency_Hz = cells.number(names["frequency_Hz"], kFrequency);
-    const double real = cells.number(names["real"], kPart),
-                 imaginary = cells.number(names["imaginary"], kPart);
-    line.value = {real, imaginary};
-    if (!out.empty() && line.frequency_Hz <= out.back().frequency_Hz)
-      cells.at(names["frequency_Hz"])
-          .problem(number_text(line.frequency_Hz),
-                   "more than " + number_text(out.back().frequency_Hz) +
-                       " Hz of the line before",
-                   "order");
-    out.push_back(std::move(line));
-  }
-  return out;
-}
-
-/// Those of the band; at 0 Hz nothing vibrates.
-std::vector<Line> in_band(Reader& r, std::vector<Line> lines) {
+/// Those of the band that say something; at 0 Hz nothing vibrates.
+Lines in_band(Reader& r, Lines lines) {
   const double from = r.number_or("from_Hz", kFrequency, 0),
                to = r.number_or("to_Hz", kFrequency, 1e6);
   if (from >= to) r.problem_at("to_Hz", "more than from_Hz", "order");
-  std::erase_if(lines, [&](const Line& line) {
+  std::erase_if(lines, [&](const MeasuredLine& line) {
     return !(line.frequency_Hz > 0 && line.frequency_Hz >= from &&
-             line.frequency_Hz <= to);
+             line.frequency_Hz <= to && line.coherence.value_or(1) >= kLeastCoherence);
   });
   return lines;
 }
 
-FrequencyResponse response(const std::vector<Line>& lines, const Unit& unit) {
-  FrequencyResponse out{.derivative = unit.derivative, .w_rad_s = {}, .value = {}};
-  for (const Line& line : lines) {
-    out.w_rad_s.push_back(2 * units::kPi * line.frequency_Hz);
-    out.value.push_back(unit.mm * line.value);
+/// Sizes of the errors by the coherence, as the header says.
+std::vector<double> errors(const Lines& lines) {
+  constexpr double kOfLine = 0.003, kOfHighest = 0.001;
+  constexpr std::size_t kBeside = 4;
+  double top = 0;  // of |Y|^2
+  std::vector<double> noise, out;
+  for (const MeasuredLine& line : lines) {
+    const double g = line.coherence.value_or(1), square = std::norm(line.value);
+    noise.push_back(square * (1 - g) / g);
+    top = std::max(top, square);
   }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t from = i - std::min(i, kBeside),
+                      to = std::min(i + kBeside + 1, lines.size());
+    double sum = 0;
+    for (std::size_t k = from; k < to; ++k) sum += noise[k];
+    out.push_back(std::sqrt(sum / static_cast<double>(to - from) +
+                            kOfLine * kOfLine * std::norm(lines[i].value) +
+                            kOfHighest * kOfHighest * top));
+  }
+  return out;
+}
+
+bool has_coherence(const Lines& lines) {
+  return !lines.empty() && lines.front().coherence.has_value();
+}
+
+FrequencyResponse response(const MeasuredResponse& measured) {
+  FrequencyResponse out{.derivative = measured.derivative,
+                        .w_rad_s = {},
+                        .value = {},
+                        .decay_1_s = measured.decay_1_s};
+  for (const MeasuredLine& line : measured.lines) {
+    out.w_rad_s.push_back(2 * units::kPi * line.frequency_Hz);
+    out.value.push_back(line.value);
+  }
+  if (has_coherence(measured.lines)) out.error = errors(measured.lines);
   return out;
 }
 
@@ -113,19 +90,18 @@ std::string counted(std::size_t lines) {
   return lines == 1 ? "1 line" : std::to_string(lines) + " lines";
 }
 
-const char* quantity(int derivative) {
-  return derivative == 0   ? "a receptance"
-         : derivative == 1 ? "a mobility"
-                           : "an accelerance";
+std::string with_article(int derivative) {
+  return (derivative == 2 ? "an " : "a ") + quantity_of(derivative);
 }
 
 /// Reports why there are no modes, at the line nearest to the frequency that shows it.
-void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
-            std::optional<long> modes, int derivative) {
+void report(Reader& r, const MeasuredResponse& measured, const NoFit& no,
+            std::optional<long> modes) {
+  const Lines& lines = measured.lines;
   const std::string f = short_Hz(no.w_rad_s);
-  Problem problem{r.pointer_of("csv"), "", "", "fit"};
+  Problem problem{r.pointer_of(measured.key), "", "", "fit"};
   if (no.w_rad_s > 0) {
-    const auto apart = [&](const Line& line) {
+    const auto apart = [&](const MeasuredLine& line) {
       return std::abs(line.frequency_Hz - hertz(no.w_rad_s));
     };
     problem.pointer = std::ranges::min_element(lines, {}, apart)->pointer;
@@ -145,7 +121,8 @@ void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
       problem.got = "a mode of negative mass at " + f;
       problem.expected =
           "the receptance of a drive point under e^(+i w t): imaginary part < 0 at a "
-          "peak; is the unit that of the quantity measured?";
+          "peak; is the unit that of the quantity measured, and is motion along the "
+          "force counted as positive (else \"reversed\": true)?";
       break;
     case NoFit::Why::not_told:
       problem.got = no.w_rad_s > 0 ? "a mode at " + f + " that the lines do not tell"
@@ -154,13 +131,41 @@ void report(Reader& r, const std::vector<Line>& lines, const NoFit& no,
       break;
     case NoFit::Why::other_quantity:
       problem.pointer = r.pointer_of("unit");
-      problem.got = std::string("the unit of ") + quantity(derivative);
-      problem.expected = std::string("that of ") + quantity(no.derivative) +
+      problem.got = std::string("the unit of ") + with_article(measured.derivative);
+      problem.expected = std::string("that of ") + with_article(no.derivative) +
                          ", whose modes explain these lines far better";
       problem.code = "unit";
       break;
   }
   r.problems().add(std::move(problem));
+}
+
+struct Fitted {
+  std::variant<ModalFit, NoFit> fit;
+  bool conjugate = false;
+};
+
+/// The modes of a response, or else of its conjugate, as the header says.
+Fitted fitted(const FrequencyResponse& r, std::optional<int> modes) {
+  constexpr double kGood = 0.02, kFarLess = 0.25;  // of the squares, left
+  const auto left = [](const std::variant<ModalFit, NoFit>& found) {
+    const auto* fit = std::get_if<ModalFit>(&found);
+    return fit ? 1 - fit->explained : 1;
+  };
+  auto as_given = chatter::modal_fit(r, modes);
+  const auto* no = std::get_if<NoFit>(&as_given);
+  if (left(as_given) < kGood || (no && no->why == NoFit::Why::too_few_lines))
+    return {std::move(as_given)};
+  FrequencyResponse conjugate = r, opposite = r;
+  for (std::size_t i = 0; i < r.value.size(); ++i) {
+    conjugate.value[i] = std::conj(r.value[i]);
+    opposite.value[i] = -r.value[i];
+  }
+  auto turned = chatter::modal_fit(conjugate, modes);
+  if (left(turned) < kFarLess * left(as_given) &&
+      left(turned) < kFarLess * left(chatter::modal_fit(opposite, modes)))
+    return {std::move(turned), true};
+  return {std::move(as_given)};
 }
 
 std::string three_digits(double x) {
@@ -175,6 +180,22 @@ void add(ordered_json& out, const std::string& key, double value, double u) {
   out["u_" + key] = u;
 }
 
+const MeasuredLine& nearest_line(const Lines& lines, double f_Hz) {
+  return *std::ranges::min_element(lines, {}, [&](const MeasuredLine& line) {
+    return std::abs(line.frequency_Hz - f_Hz);
+  });
+}
+
+std::optional<ordered_json> described_coherence(const Lines& lines) {
+  if (!has_coherence(lines)) return std::nullopt;
+  const auto least = std::ranges::min_element(lines, {}, &MeasuredLine::coherence);
+  double sum = 0;
+  for (const MeasuredLine& line : lines) sum += *line.coherence;
+  return ordered_json{{"mean", sum / static_cast<double>(lines.size())},
+                      {"least", *least->coherence},
+                      {"at_Hz", least->frequency_Hz}};
+}
+
 }  // namespace
 
 std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
@@ -184,30 +205,35 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   if (axis == AxisKey::asked)
     out.axis = r.choice<chatter::Axis>(
         "axis", {{"x", chatter::Axis::x}, {"y", chatter::Axis::y}});
-  const Unit unit = read_unit(r);
-  std::vector<Line> all = read_lines(r);
-  const std::size_t given = all.size();
-  const std::vector<Line> lines = in_band(r, std::move(all));
+  auto measured = read_response_table(r);
+  const std::size_t given = measured ? measured->lines.size() : 0;
+  Lines lines = in_band(r, measured ? std::move(measured->lines) : Lines());
+  const bool reversed = r.boolean_or("reversed", false);
   const auto modes = r.optional_integer("modes", 1, chatter::kMostModes);
   r.finish();
-  if (lines.size() > kFrequencyLines)
-    r.problem_at("csv",
+  if (measured && lines.size() > kFrequencyLines)
+    r.problem_at(measured->key,
                  "at most " + std::to_string(kFrequencyLines) + " lines in the band",
                  "count");
-  if (r.broken() || r.problems().list.size() > before) return std::nullopt;
+  if (!measured || r.broken() || r.problems().list.size() > before) return std::nullopt;
+  measured->lines = std::move(lines);
+  FrequencyResponse asked = response(*measured);
+  if (reversed)
+    for (auto& y : asked.value) y = -y;
   const auto found =
-      chatter::modal_fit(response(lines, unit),
-                         modes ? std::optional(static_cast<int>(*modes)) : std::nullopt);
-  if (const auto* no = std::get_if<NoFit>(&found)) {
-    report(r, lines, *no, modes, unit.derivative);
+      fitted(asked, modes ? std::optional(static_cast<int>(*modes)) : std::nullopt);
+  if (const auto* no = std::get_if<NoFit>(&found.fit)) {
+    report(r, *measured, *no, modes);
     return std::nullopt;
   }
   out.pointer = r.pointer();
-  out.lines = lines.size();
-  out.left_out = given - lines.size();
-  out.from_Hz = lines.front().frequency_Hz;
-  out.to_Hz = lines.back().frequency_Hz;
-  out.fit = std::get<ModalFit>(found);
+  out.lines = measured->lines.size();
+  out.left_out = given - measured->lines.size();
+  out.from_Hz = measured->lines.front().frequency_Hz;
+  out.to_Hz = measured->lines.back().frequency_Hz;
+  out.response = std::move(*measured);
+  out.conjugate = found.conjugate;
+  out.fit = std::get<ModalFit>(found.fit);
   return out;
 }
 
@@ -223,6 +249,9 @@ ordered_json described(const MeasuredAxis& measured) {
     modes.push_back(std::move(told));
   }
   ordered_json out{{"axis", measured.axis == chatter::Axis::x ? "x" : "y"},
+                   {"quantity", quantity_of(measured.response.derivative)},
+                   {"unit", measured.response.unit},
+                   {"convention", measured.conjugate ? "e^(-i w t)" : "e^(+i w t)"},
                    {"lines", measured.lines},
                    {"left_out", measured.left_out},
                    {"from_Hz", measured.from_Hz},
@@ -239,6 +268,9 @@ ordered_json described(const MeasuredAxis& measured) {
   out["relative_rest"] = fit.rms_left / fit.rms_measured;
   out["correlation"] = fit.correlation;
   out["error_floor"] = fit.error_floor ? ordered_json(*fit.error_floor) : ordered_json();
+  if (const auto coherence = described_coherence(measured.response.lines))
+    out["coherence"] = *coherence;
+  out.update(measured.response.told);
   return out;
 }
 
@@ -260,6 +292,21 @@ std::optional<std::string> doubt_of_hidden(const MeasuredAxis& measured) {
          "or mobility in place of accelerance, show more";
 }
 
+/// Of the modes at which noise or a second source is a part of the motion.
+void add_doubts_of_coherence(const MeasuredAxis& measured,
+                             std::vector<std::string>& out) {
+  constexpr double kUsual = 0.8;
+  if (!has_coherence(measured.response.lines)) return;
+  for (const chatter::FittedMode& m : measured.fit.modes) {
+    const auto& line = nearest_line(measured.response.lines, hertz(m.wn_rad_s.value));
+    if (*line.coherence < kUsual)
+      out.push_back(line.pointer + ": a coherence of " + three_digits(*line.coherence) +
+                    " at the mode of " + short_Hz(m.wn_rad_s.value) +
+                    ", where more than 0.8 is usual: noise, a double hit or a loose "
+                    "sensor is a part of it");
+  }
+}
+
 std::vector<std::string> doubts(const MeasuredAxis& measured) {
   constexpr double kExplained = 0.9;
   const Bounds usual = within(100, 1e6, "N/mm");  // of tools, spindles and slender work
@@ -271,6 +318,11 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
         number_text(std::round(1000 * fit.explained) / 10) +
         " % of the response's squares, less than 90 %: its limits are not to be "
         "trusted; is the unit right, the band wide enough, the noise low?");
+  if (measured.conjugate)
+    out.push_back(measured.pointer + "/" + measured.response.key +
+                  ": its phase is that under a force e^(-i w t): the imaginary part of "
+                  "the receptance is positive at its peaks; its conjugate was fitted");
+  add_doubts_of_coherence(measured, out);
   if (auto doubt = doubt_of_hidden(measured)) out.push_back(std::move(*doubt));
   const auto weakest = std::ranges::min_element(
       fit.modes, {}, [](const chatter::FittedMode& m) { return m.k_N_mm.value; });

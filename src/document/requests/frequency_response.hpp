@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document/json/reader.hpp"
+#include "document/response/measured_response.hpp"
 #include "turnwright/chatter/frf.hpp"
 #include "turnwright/chatter/system.hpp"
 
@@ -17,22 +18,37 @@ struct MeasuredAxis {
   std::size_t lines = 0;     ///< lines used
   std::size_t left_out = 0;  ///< lines outside the band, or at 0 Hz
   double from_Hz = 0, to_Hz = 0;
+  MeasuredResponse response;  ///< as read; without the lines left out
+  bool conjugate = false;     ///< it was measured under a force e^(-i w t)
   chatter::ModalFit fit;
 };
 
 enum class AxisKey { asked, none };
 
-/// {"axis", "unit": "mm/N" .. "g/N", "csv", "columns", "from_Hz", "to_Hz", "modes"}.  A
-/// response that cannot be fitted is reported with the line of the table that shows it.
+/// {"axis", a response (response/response_table.hpp), "reversed", "from_Hz", "to_Hz",
+/// "modes"}.  A response that cannot be fitted is reported with the line that shows it.
 /// Nothing if there is a problem.
+///
+/// Measured under a force e^(-i w t) it is the conjugate of what (1) of chatter/frf.hpp
+/// fits.  It is taken as such if as measured less than 0.98 is explained, and the conjugate
+/// leaves less than a quarter of what the response as measured and the one of opposite sign
+/// leave.
+///
+/// Errors of lines with a coherence g: s^2 = N + (0.003 |Y|)^2 + (0.001 max |Y|)^2, with N
+/// the mean of |Y|^2 (1 - g)/g over nine neighbouring lines, because the coherence of few
+/// averages scatters; the two shares stand for what coherence does not see.  Lines below a
+/// coherence of 0.1 are left out.  Source: [Bendat 2010] for N, derived here again: the
+/// part of the motion that the force does not explain, over the force's power; the shares
+/// are chosen here.
 std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis);
 
 /// The fit as in the document of a result.
 nlohmann::ordered_json described(const MeasuredAxis& measured);
 
 /// Warnings of a possibly wrong unit or table although there are modes: less than 0.9 of
-/// the squares explained, the most compliant mode outside 100 to 1e6 N/mm, or noise that
-/// may hide a mode of a tenth of the highest peak.
+/// the squares explained, the most compliant mode outside 100 to 1e6 N/mm, noise that
+/// may hide a mode of a tenth of the highest peak, the other sign of phase, or a coherence
+/// below 0.8 at a mode.
 std::vector<std::string> doubts(const MeasuredAxis& measured);
 
 }  // namespace turnwright::document

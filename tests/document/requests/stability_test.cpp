@@ -402,9 +402,9 @@ TEST(Stability, RefusesResponsesThatHoldNoMode) {
   lines[7] = "1;2;3";
   EXPECT_EQ(
       refused(with({{"csv", lines}, {"unit", "mm"}})),
-      R"(stability: /frf/0/unit: got "mm", expected "mm/N", "um/N", "m/N", "mm/s/N", "m/s/N", "mm/s2/N", "m/s2/N" or "g/N" (did you mean "mm/N"?)
-stability: /frf/0/csv#line 8: got 1 cells, expected 3 as in the header
+      R"(stability: /frf/0/unit: got "mm", expected "mm/N", "um/N", "m/N", "mm/s/N", "m/s/N", "mm/s2/N", "m/s2/N", "g/N", "nm/N", "in/lbf", "mil/lbf", "in/s/lbf", "in/s2/lbf" or "g/lbf" (did you mean "mm/N"?)
 stability: /frf/0/csv#line 6/imaginary: got "x", expected a number from -1000000000000 to 1000000000000
+stability: /frf/0/csv#line 8: got 1 cells, expected 3 as in the header
 stability: /frf/0/csv#line 6/frequency_Hz: got 142, expected more than 142 Hz of the line before)");
 }
 
@@ -470,10 +470,12 @@ TEST(Stability, RefusesAResponseOfNegativeMass) {
         text.insert(at + 1, "-");
     line = text;
   }
-  EXPECT_EQ(refused(q),
-            "stability: /frf/0/csv#line 14: got a mode of negative mass at 178 Hz, "
-            "expected the receptance of a drive point under e^(+i w t): imaginary part < "
-            "0 at a peak; is the unit that of the quantity measured?");
+  EXPECT_EQ(
+      refused(q),
+      "stability: /frf/0/csv#line 14: got a mode of negative mass at 178 Hz, "
+      "expected the receptance of a drive point under e^(+i w t): imaginary part < "
+      "0 at a peak; is the unit that of the quantity measured, and is motion along the "
+      "force counted as positive (else \"reversed\": true)?");
 }
 
 TEST(Stability, ModesResponsesAndCutterDoNotOverlap) {
