@@ -50,6 +50,8 @@ def seeds():
     for kind, pattern in ("step", "step/cases/*.step"), ("dxf", "dxf/*.dxf"):
         for drawing in sorted((ROOT / "tests" / "data").glob(pattern)):
             yield f"drawing-{kind}", drawing.read_text()
+    for file in sorted((ROOT / "tests" / "data" / "uff").rglob("*.uff")):
+        yield "frf-uff", file.read_bytes().decode("latin-1")
     for library in sorted((ROOT / "tests" / "data" / "tools").glob("*.[cjxf]*")):
         yield "library", library.read_bytes().decode("latin-1")
         yield "library", zipped(library).decode("latin-1")

@@ -108,6 +108,7 @@ Target text_target(const std::string& name) {
     return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
                                  json::json_pointer("/text")});
   if (name == "frf-csv") return in_request("stability", response("csv"));
+  if (name == "frf-uff") return in_request("stability", response("uff/text"));
   if (name == "library")
     return [&row = door_named("import-tools")](std::string_view bytes) {
       answered(row, document::import_request(std::string(bytes)));

@@ -7,16 +7,16 @@
 #include <string_view>
 
 #include "pointer.hpp"
+#include "text_lines.hpp"
 
 namespace turnwright::document {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kBlank = " \t";
+using Line = TextLine;
 
-struct Line {
-  std::size_t number;
-  std::string_view text;
-};
+constexpr std::string_view kBlank = " \t";
+constexpr const char* kForm = "the text of a table, or the list of its lines";
+constexpr const char* kText = "a table as text";
 
 struct Header {
   char separator = ',';
@@ -30,66 +30,13 @@ std::string_view trimmed(std::string_view s) {
 }
 
 std::string pointer_of(const Reader& csv, const Line& line) {
-  return csv_pointer(csv, line.number);
+  return line_pointer(csv, line.number);
 }
 
 void report(const Reader& csv, std::string pointer, std::string got, std::string expected,
             std::string code) {
   csv.problems().add(
       {std::move(pointer), std::move(got), std::move(expected), std::move(code)});
-}
-
-std::vector<Line> lines_of_text(std::string_view text) {
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  std::vector<Line> lines;
-  for (std::size_t number = 1;; ++number) {
-    const auto end = text.find('\n');
-    lines.push_back({number, text.substr(0, end)});
-    if (end == text.npos) return lines;
-    text.remove_prefix(end + 1);
-  }
-}
-
-/// The lines of either form, without their ends; they point into the document.
-std::vector<Line> lines_of(const Reader& csv) {
-  std::vector<Line> lines;
-  if (csv.broken()) return lines;
-  constexpr const char* kForm = "the text of a table, or the list of its lines";
-  if (csv.is_text()) {
-    lines = lines_of_text(csv.json().get_ref<const std::string&>());
-  } else if (csv.is_array()) {
-    for (const auto& item : csv.json()) {
-      if (!item.is_string()) {
-        csv.problem(kForm, "type");
-        return {};
-      }
-      lines.push_back({lines.size() + 1, item.get_ref<const std::string&>()});
-    }
-    if (!lines.empty() && lines[0].text.starts_with(kByteOrderMark))
-      lines[0].text.remove_prefix(kByteOrderMark.size());
-  } else {
-    csv.problem(kForm, "type");
-  }
-  for (Line& line : lines)
-    if (line.text.ends_with('\r')) line.text.remove_suffix(1);
-  return lines;
-}
-
-/// Whether the lines are text; the first invalid character is reported.
-bool is_text(const Reader& csv, const std::vector<Line>& lines) {
-  const auto control = [](char c) {
-    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7f';
-  };
-  for (const Line& line : lines) {
-    const auto at = std::ranges::find_if(line.text, control);
-    if (at == line.text.end()) continue;
-    report(csv, pointer_of(csv, line),
-           "the control character " + std::to_string(static_cast<int>(*at)) +
-               " in column " + std::to_string(at - line.text.begin() + 1),
-           "a table as text", "type");
-    return false;
-  }
-  return true;
 }
 
 /// The cells without their quotes; nothing if quotes are misplaced.
@@ -232,10 +179,6 @@ void check_rows(const Reader& csv, std::size_t rows, std::size_t most,
 
 }  // namespace
 
-std::string csv_pointer(const Reader& csv, std::size_t line) {
-  return csv.pointer() + "#line " + std::to_string(line);
-}
-
 std::optional<double> csv_number(std::string_view cell) {
   if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
   double x = 0;
@@ -248,8 +191,8 @@ std::optional<double> csv_number(std::string_view cell) {
 void csv_cells(const Reader& csv, std::size_t most_rows,
                const std::function<bool(const CsvCells&)>& take) {
   const std::size_t before = csv.problems().list.size();
-  const auto lines = lines_of(csv);
-  if (csv.broken() || !is_text(csv, lines)) return;
+  const auto lines = text_lines(csv, kForm);
+  if (csv.broken() || !are_text(csv, lines, kText)) return;
   char separator = ',';
   std::size_t columns = 0, rows = 0;
   for (const Line& line : lines) {
@@ -272,8 +215,8 @@ void csv_cells(const Reader& csv, std::size_t most_rows,
 }
 
 std::vector<std::string> csv_header(const Reader& csv) {
-  const auto lines = lines_of(csv);
-  if (csv.broken() || !is_text(csv, lines)) return {};
+  const auto lines = text_lines(csv, kForm);
+  if (csv.broken() || !are_text(csv, lines, kText)) return {};
   for (const Line& line : lines) {
     const auto text = trimmed(line.text);
     if (!text.empty() && !text.starts_with('#'))
@@ -286,10 +229,10 @@ std::vector<std::string> csv_header(const Reader& csv) {
 std::vector<CsvRow> csv_rows(const Reader& csv, const std::vector<CsvColumn>& columns,
                              OtherColumns others, std::size_t most_rows) {
   const std::size_t before = csv.problems().list.size();
-  const auto lines = lines_of(csv);
+  const auto lines = text_lines(csv, kForm);
   std::vector<CsvRow> rows;
   std::optional<Header> header;
-  if (csv.broken() || !is_text(csv, lines)) return rows;
+  if (csv.broken() || !are_text(csv, lines, kText)) return rows;
   for (const Line& line : lines) {
     const auto text = trimmed(line.text);
     if (text.empty() || (!header && text.starts_with('#'))) continue;

@@ -55,9 +55,6 @@ struct CsvCells {
 void csv_cells(const Reader& csv, std::size_t most_rows,
                const std::function<bool(const CsvCells&)>& take);
 
-/// The place of a line, "/csv#line 3".
-std::string csv_pointer(const Reader& csv, std::size_t line);
-
 /// A number with a decimal point; nothing for other text.
 std::optional<double> csv_number(std::string_view cell);
 

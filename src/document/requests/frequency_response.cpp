@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "document/response/response_file.hpp"
 #include "document/response/response_table.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -196,16 +197,23 @@ std::optional<ordered_json> described_coherence(const Lines& lines) {
                       {"at_Hz", least->frequency_Hz}};
 }
 
+/// The response in the one form in which it is given.
+std::optional<MeasuredResponse> read_measured(Reader& r) {
+  if (r.has("uff") && r.has("csv"))
+    r.problem_at("uff", "one of csv and uff", "exclusive");
+  return r.has("uff") ? read_response_file(r) : read_response_table(r);
+}
+
 }  // namespace
 
 std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
   r = r.as_object();
-  const auto before = r.problems().list.size();
+  const auto before = problems_of(r);
   MeasuredAxis out;
   if (axis == AxisKey::asked)
     out.axis = r.choice<chatter::Axis>(
         "axis", {{"x", chatter::Axis::x}, {"y", chatter::Axis::y}});
-  auto measured = read_response_table(r);
+  auto measured = read_measured(r);
   const std::size_t given = measured ? measured->lines.size() : 0;
   Lines lines = in_band(r, measured ? std::move(measured->lines) : Lines());
   const bool reversed = r.boolean_or("reversed", false);
@@ -215,7 +223,7 @@ std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis) {
     r.problem_at(measured->key,
                  "at most " + std::to_string(kFrequencyLines) + " lines in the band",
                  "count");
-  if (!measured || r.broken() || r.problems().list.size() > before) return std::nullopt;
+  if (!measured || r.broken() || problems_of(r) > before) return std::nullopt;
   measured->lines = std::move(lines);
   FrequencyResponse asked = response(*measured);
   if (reversed)

@@ -12,6 +12,10 @@ constexpr std::array<std::string_view, 14> kResponseUnits{
 
 }  // namespace
 
+std::size_t problems_of(const Reader& r) {
+  return r.problems().list.size() + r.problems().more;
+}
+
 std::optional<WrittenUnit> read_response_unit(Reader& r) {
   Choices<std::string_view> choices;
   for (const std::string_view unit : kResponseUnits) choices.emplace_back(unit, unit);

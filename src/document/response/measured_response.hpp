@@ -34,6 +34,9 @@ struct WrittenUnit {
   ResponseUnit unit;
 };
 
+/// How many problems the document of a reader has so far, listed or only counted.
+std::size_t problems_of(const Reader& r);
+
 /// "unit", if it is there.
 std::optional<WrittenUnit> read_response_unit(Reader& r);
 

@@ -7,6 +7,7 @@
 
 #include "document/json/csv.hpp"
 #include "document/json/pointer.hpp"
+#include "document/json/text_lines.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -41,7 +42,7 @@ class TableRows {
       const auto key = key_of(line.cells[i], head.quantity);
       if (!key) continue;
       if (const auto* other = table_.find(*key)) {
-        report(csv_pointer(csv_, line.line),
+        report(line_pointer(csv_, line.line),
                "columns " + shown(other->name) + " and " + shown(line.cells[i]),
                "one " + *key + ", named under columns", "duplicate");
         continue;
@@ -52,7 +53,7 @@ class TableRows {
     for (const auto& [key, name] : names_) {
       if (std::ranges::count(line.cells, name) > 0) continue;
       const auto near = nearest(name, line.cells);
-      report(csv_pointer(csv_, line.line), "no column " + shown(name),
+      report(line_pointer(csv_, line.line), "no column " + shown(name),
              near.empty() ? "one" : "perhaps " + shown(near), "missing");
     }
   }
@@ -112,7 +113,7 @@ class TableRows {
     else if (x && has_point && mark_ == ',')
       expected = "a decimal comma, as in the numbers before";
     if (expected || !x || (has_comma && has_point) || !contains(form_.bounds, *x)) {
-      report(child_pointer(csv_pointer(csv_, line), name),
+      report(child_pointer(line_pointer(csv_, line), name),
              cell.empty() ? "nothing" : shown(cell),
              expected ? expected : expected_number(form_.bounds),
              x && !expected ? "range" : "type");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "turnwright/base/units.hpp"
+
 namespace turnwright::document {
 namespace {
 
@@ -165,6 +167,13 @@ std::optional<ResponseUnit> response_unit(const MeasuredUnit& unit) {
 std::optional<ResponseUnit> response_unit(std::string_view text) {
   const auto unit = measured_unit(text);
   return unit ? response_unit(*unit) : std::nullopt;
+}
+
+std::optional<double> hertz_of_unit(std::string_view text) {
+  if (text == "Hz") return 1;
+  if (text == "kHz") return 1e3;
+  if (text == "rad/s") return 1 / (2 * units::kPi);
+  return std::nullopt;
 }
 
 std::optional<int> motion_derivative(const MeasuredUnit& unit) {

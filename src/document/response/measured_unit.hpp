@@ -34,6 +34,9 @@ struct ResponseUnit {
 std::optional<ResponseUnit> response_unit(const MeasuredUnit& unit);
 std::optional<ResponseUnit> response_unit(std::string_view text);
 
+/// Hz of one Hz, kHz or rad/s.
+std::optional<double> hertz_of_unit(std::string_view text);
+
 /// The order of derivative by time of a motion: 0 length, 1 speed, 2 acceleration.
 std::optional<int> motion_derivative(const MeasuredUnit& unit);
 

@@ -5,6 +5,7 @@
 
 #include "document/json/csv.hpp"
 #include "document/json/pointer.hpp"
+#include "document/json/text_lines.hpp"
 #include "measured_table.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -15,25 +16,12 @@ using Column = MeasuredTable::Column;
 
 constexpr std::size_t kRows = 20000;
 
-/// Hz or rad of one unit.
-struct NamedFactor {
-  std::string_view name;
-  double factor;
-};
-constexpr NamedFactor kFrequencyUnits[] = {
-    {"Hz", 1}, {"kHz", 1e3}, {"rad/s", 1 / (2 * units::kPi)}};
-constexpr NamedFactor kPhaseUnits[] = {{"deg", units::rad_from_deg(1)},
-                                       {"degree", units::rad_from_deg(1)},
-                                       {"degrees", units::rad_from_deg(1)},
-                                       {"\u00b0", units::rad_from_deg(1)},
-                                       {"rad", 1},
-                                       {"radian", 1},
-                                       {"radians", 1}};
-
-template <std::size_t N>
-std::optional<double> factor(const NamedFactor (&known)[N], std::string_view name) {
-  for (const NamedFactor& f : known)
-    if (f.name == name) return f.factor;
+/// rad of one unit of a phase.
+std::optional<double> radian_of_unit(std::string_view text) {
+  for (const std::string_view degree : {"deg", "degree", "degrees", "\u00b0"})
+    if (text == degree) return units::rad_from_deg(1);
+  for (const std::string_view radian : {"rad", "radian", "radians"})
+    if (text == radian) return 1;
   return std::nullopt;
 }
 
@@ -68,7 +56,7 @@ std::optional<MagnitudeUnit> magnitude_unit(std::string_view text) {
 }
 
 bool is_unit(std::string_view text) {
-  return factor(kFrequencyUnits, text) || factor(kPhaseUnits, text) || text == "%" ||
+  return hertz_of_unit(text) || radian_of_unit(text) || text == "%" ||
          magnitude_unit(text);
 }
 
@@ -97,7 +85,7 @@ class ResponseTable {
                                                                     parts ? "imaginary"
                                                                           : "phase");
     if (!f || !a || !b) {
-      report(csv_pointer(csv_, table_.header), "columns of " + found(),
+      report(line_pointer(csv_, table_.header), "columns of " + found(),
              "a frequency, and real and imaginary part, or magnitude and phase",
              "missing");
       return std::nullopt;
@@ -106,15 +94,14 @@ class ResponseTable {
     if (!parts) check_unit(a, size || a->unit.empty(), "motion per force, or dB");
     const auto unit = agreed_unit(r_, given, parts ? of_parts(*a, *b) : of(size),
                                   "in the header of the column");
-    const double hertz = factor_of(kFrequencyUnits, *f, 1),
-                 radian = parts ? 1 : radian_of(*b);
+    const double hertz = hertz_of(*f), radian = parts ? 1 : radian_of(*b);
     check_unit(coherence, coherence && (coherence->unit.empty() || percent(*coherence)),
                "none or %");
     MeasuredResponse out;
     out.key = "csv";
     for (std::size_t i = 0; i < table_.lines.size(); ++i) {
       MeasuredLine line{.frequency_Hz = hertz * f->values[i], .value = {}, .pointer = {}};
-      line.pointer = csv_pointer(csv_, table_.lines[i]);
+      line.pointer = line_pointer(csv_, table_.lines[i]);
       check(*f, i, line.frequency_Hz, within(0, 1e6, "Hz"));
       if (!out.lines.empty() && line.frequency_Hz <= out.lines.back().frequency_Hz)
         report(child_pointer(line.pointer, f->name), number_text(line.frequency_Hz),
@@ -160,7 +147,7 @@ class ResponseTable {
       const auto unit = response_unit(c->unit);
       check_unit(c, unit || c->unit.empty(), "motion per force");
       if (unit && out && out->unit != *unit)
-        report(csv_pointer(csv_, table_.header), c->unit, "one unit, " + out->text,
+        report(line_pointer(csv_, table_.header), c->unit, "one unit, " + out->text,
                "unit");
       if (unit) out = WrittenUnit{c->unit, *unit};
     }
@@ -169,33 +156,29 @@ class ResponseTable {
 
   void check_unit(const Column* c, bool good, const std::string& expected) {
     if (c && !good)
-      report(child_pointer(csv_pointer(csv_, table_.header), c->name), shown(c->unit),
+      report(child_pointer(line_pointer(csv_, table_.header), c->name), shown(c->unit),
              "a unit of " + c->key + ": " + expected, "unit");
   }
 
-  template <std::size_t N>
-  double factor_of(const NamedFactor (&known)[N], const Column& c, double none) {
-    const auto found = factor(known, c.unit);
-    std::string names;
-    for (const NamedFactor& f : known) {
-      names += names.empty() ? "" : ", ";
-      names += f.name;
-    }
-    check_unit(&c, found || c.unit.empty(), names);
-    return found.value_or(none);
+  /// Hz of one unit.
+  double hertz_of(const Column& f) {
+    const auto stated = hertz_of_unit(f.unit);
+    check_unit(&f, stated || f.unit.empty(), "Hz, kHz or rad/s");
+    return stated.value_or(1);
   }
 
   /// One unit of the phase [rad], from the header or from "phase_unit".
   double radian_of(const Column& phase) {
     const auto given = r_.optional_choice<double>(
         "phase_unit", {{"deg", units::rad_from_deg(1)}, {"rad", 1}});
-    const double stated = factor_of(kPhaseUnits, phase, 0);
-    if (given && stated > 0 && *given != stated)
+    const auto stated = radian_of_unit(phase.unit);
+    check_unit(&phase, stated || phase.unit.empty(), "deg or rad");
+    if (given && stated && *given != *stated)
       r_.problem_at("phase_unit", "none or that of the header", "conflict");
     if (!given && phase.unit.empty())
       r_.problem_at("phase_unit", "deg or rad, here or in the header of the phase",
                     "missing");
-    return given.value_or(stated);
+    return given.value_or(stated.value_or(1));
   }
 
   std::complex<double> turned(const Column& size, std::size_t i,
@@ -212,7 +195,7 @@ class ResponseTable {
   /// Reports a value outside its bounds; one that was no number has been reported.
   void check(const Column& c, std::size_t i, double x, const Bounds& bounds) {
     if (std::isfinite(c.values[i]) && !contains(bounds, x))
-      report(child_pointer(csv_pointer(csv_, table_.lines[i]), c.name),
+      report(child_pointer(line_pointer(csv_, table_.lines[i]), c.name),
              number_text(c.values[i]), expected_number(bounds), "range");
   }
 
@@ -231,7 +214,7 @@ class ResponseTable {
 
 std::optional<MeasuredResponse> read_response_table(Reader& r) {
   const auto given = read_response_unit(r);
-  const auto before = r.problems().list.size();
+  const auto before = problems_of(r);
   const Reader csv = r.at("csv", "the text of a table, or the list of its lines");
   const MeasuredTable table =
       read_measured_table(csv, r.optional_object("columns"), form());
@@ -241,7 +224,7 @@ std::optional<MeasuredResponse> read_response_table(Reader& r) {
   }
   auto out = ResponseTable(r, csv, table).response(given);
   r.has("phase_unit");
-  return r.problems().list.size() > before ? std::nullopt : std::move(out);
+  return problems_of(r) > before ? std::nullopt : std::move(out);
 }
 
 }  // namespace turnwright::document

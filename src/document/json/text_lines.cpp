@@ -1,0 +1,66 @@
+#include "text_lines.hpp"
+
+#include <algorithm>
+
+namespace turnwright::document {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::vector<TextLine> lines_of_text(std::string_view text) {
+  std::vector<TextLine> lines;
+  for (std::size_t number = 1;; ++number) {
+    const auto end = text.find('\n');
+    lines.push_back({number, text.substr(0, end)});
+    if (end == text.npos) return lines;
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<TextLine> text_lines(const Reader& value, const char* form) {
+  std::vector<TextLine> lines;
+  if (value.broken()) return lines;
+  if (value.is_text()) {
+    lines = lines_of_text(value.json().get_ref<const std::string&>());
+  } else if (value.is_array()) {
+    for (const auto& item : value.json()) {
+      if (!item.is_string()) {
+        value.problem(form, "type");
+        return {};
+      }
+      lines.push_back({lines.size() + 1, item.get_ref<const std::string&>()});
+    }
+  } else {
+    value.problem(form, "type");
+  }
+  if (!lines.empty() && lines[0].text.starts_with(kByteOrderMark))
+    lines[0].text.remove_prefix(kByteOrderMark.size());
+  for (TextLine& line : lines)
+    if (line.text.ends_with('\r')) line.text.remove_suffix(1);
+  return lines;
+}
+
+bool are_text(const Reader& value, const std::vector<TextLine>& lines, const char* form) {
+  const auto control = [](char c) {
+    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7f';
+  };
+  for (const TextLine& line : lines) {
+    const auto at = std::ranges::find_if(line.text, control);
+    if (at == line.text.end()) continue;
+    value.problems().add({line_pointer(value, line.number),
+                          "the control character " +
+                              std::to_string(static_cast<int>(*at)) + " in column " +
+                              std::to_string(at - line.text.begin() + 1),
+                          form, "type"});
+    return false;
+  }
+  return true;
+}
+
+std::string line_pointer(const Reader& value, std::size_t number) {
+  return value.pointer() + "#line " + std::to_string(number);
+}
+
+}  // namespace turnwright::document

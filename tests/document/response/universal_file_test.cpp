@@ -1,0 +1,208 @@
+// Universal files that others wrote (tests/data/uff/README.md) give back the modes in them;
+// malformed ones are refused with the text beside them.
+#include "document/response/universal_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "document/response/measured_file.hpp"
+#include "responses.hpp"
+
+namespace turnwright::document::universal_file_test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace responses;
+
+const std::vector<True> kTwo{{640, 0.03, 9000}, {880, 0.025, 16000}};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A file of tests/data/uff as a member of "frf".
+json frf(const std::string& name) {
+  return measured_file(bytes_of(source_path("tests/data/uff/" + name + ".uff")));
+}
+
+json with(json frf, const json& more) {
+  frf["uff"].update(more);
+  return frf;
+}
+
+TEST(UniversalFile, EveryFormOfValuesGivesTheModesBack) {
+  struct File {
+    const char *name, *quantity, *unit;
+    double relative;  // of five or twelve digits
+  };
+  for (const File& f :
+       {File{"accelerance-even-double", "accelerance", "m/s^2/N", 1e-9},
+        {"accelerance-even-single", "accelerance", "m/s^2/N", 1e-4},
+        {"accelerance-uneven-double", "accelerance", "m/s^2/N", 1e-9},
+        {"receptance-uneven-single", "receptance", "um/N", 1e-4},
+        {"mobility-dataset-164", "mobility", "length/s/force of dataset 164", 1e-9}}) {
+    SCOPED_TRACE(f.name);
+    const json r = told(frf(f.name));
+    expect_modes(r, kTwo, f.relative);
+    EXPECT_EQ(r["lines"], 51);
+    EXPECT_EQ(r["from_Hz"], 500);
+    EXPECT_EQ(r["quantity"], f.quantity);
+    EXPECT_EQ(r["unit"], f.unit);
+    EXPECT_EQ(r["record"]["response"], "7+X");
+    EXPECT_EQ(r["record"]["name"], "H1 drive point");
+  }
+}
+
+TEST(UniversalFile, TheListOfItsLinesIsTheSame) {
+  json asked = frf("accelerance-even-double");
+  const json as_text = told(asked);
+  std::istringstream text(asked["uff"]["text"].get<std::string>());
+  json lines = json::array();
+  for (std::string line; std::getline(text, line);) lines.push_back(line + "\r");
+  asked["uff"]["text"] = lines;
+  EXPECT_EQ(told(asked), as_text);
+}
+
+// Records 3 and 5 are at drive points, 2 is across nodes, 4 is the coherence of 3, 1 a time
+// series.  Record 5 was counted against the force: -Y by +Y, and is half as compliant.
+TEST(UniversalFile, RecordsAreChosenByNumberNodeAndDirection) {
+  const json all = frf("several-records");
+  EXPECT_EQ(refused(all),
+            "stability: /frf/0/uff: got the records 3 (7+X by 7+X), 5 (7-Y by 7+Y), "
+            "expected one of them, chosen by record, response and reference");
+  const json third = told(with(all, {{"record", 3}}));
+  expect_modes(third, kTwo, 1e-9);
+  EXPECT_EQ(third["record"]["number"], 3);
+  EXPECT_DOUBLE_EQ(third["coherence"]["least"], 0.3);
+  EXPECT_DOUBLE_EQ(third["coherence"]["at_Hz"], 500);
+  EXPECT_EQ(told(with(all, {{"response", {{"node", 7}, {"direction", "+X"}}}})), third);
+  const std::vector<True> half{{640, 0.03, 18000}, {880, 0.025, 32000}};
+  const json fifth = told(with(all, {{"reference", {{"direction", "+Y"}}}}));
+  expect_modes(fifth, half, 1e-9);
+  EXPECT_FALSE(fifth.contains("coherence"));
+  expect_modes(told(with(all, {{"response", {{"node", 9}}}})),
+               {{640, 0.03, 30000}, {880, 0.025, 16000 / 0.3}}, 1e-9);
+  EXPECT_EQ(refused(with(all, {{"record", 4}})),
+            "stability: /frf/0/uff: got none of the records asked for, expected of the "
+            "records 2 (9+X by 7+X), 3 (7+X by 7+X), 5 (7-Y by 7+Y)");
+}
+
+TEST(UniversalFile, TheUnitOfTheRequestCounts) {
+  json asked = frf("accelerance-even-double");
+  asked["unit"] = "g/N";
+  expect_modes(told(asked), {{640, 0.03, 9000 / 9.80665}, {880, 0.025, 16000 / 9.80665}},
+               1e-9);
+  asked["unit"] = "m/N";
+  EXPECT_EQ(
+      refused(asked),
+      R"(stability: /frf/0/unit: got "m/N", expected that of accelerance, as data type 12 of the file says)");
+}
+
+TEST(UniversalFile, BinaryValuesAreRefusedByName) {
+  EXPECT_EQ(
+      refused(frf("binary-58b")),
+      R"(stability: /frf/0/uff/text#line 2: got a binary dataset 58b, expected the ASCII form, dataset 58)");
+}
+
+TEST(UniversalFile, OneFormIsGiven) {
+  json asked = frf("accelerance-even-double");
+  asked["csv"] = "f,re [m/N],im\n1,2,3";
+  EXPECT_EQ(refused(asked).substr(0, 21), "stability: /frf/0/uff");
+}
+
+std::vector<UniversalFunction> functions(const json& text) {
+  Problems problems{.document = "file"};
+  auto out = read_universal_file(Reader(text, problems));
+  problems.throw_if_any();
+  return out;
+}
+
+// Values as its text has them; the label's second power is one byte of ISO 8859-1.
+TEST(UniversalFile, AHeaderThatIsNotAscii) {
+  const auto all = functions(frf("pyuff-non-ascii-header")["uff"]["text"]);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].type, UniversalFunction::kResponse);
+  EXPECT_EQ(all[0].ordinate.units, "(1/N)*(m/s\u00b2)");
+  ASSERT_EQ(all[0].y.size(), 6U);
+  EXPECT_DOUBLE_EQ(all[0].x[1], 0.195313);
+  EXPECT_EQ(all[0].y[5], std::complex(3.75037, 2.93363));
+  EXPECT_EQ(all[0].lines[5], 15U);
+}
+
+TEST(UniversalFile, OtherFunctionsAreNamedWithoutTheirValues) {
+  const auto all = functions(frf("pyuff-time-history")["uff"]["text"]);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].type, 1);
+  EXPECT_TRUE(all[0].y.empty());
+  EXPECT_EQ(
+      refused(frf("pyuff-time-history")),
+      "stability: /frf/0/uff/text: got no frequency response, expected a dataset 58 of "
+      "function type 4");
+}
+
+// Fields that touch each other stand in the columns of the format.
+TEST(UniversalFile, FieldsWithoutBlanksBetweenThem) {
+  std::string text = frf("accelerance-even-single")["uff"]["text"];
+  const auto change = [&](const std::string& old, const std::string& now) {
+    const auto at = text.find(old);
+    ASSERT_NE(at, text.npos);
+    text.replace(at, old.size(), now);
+  };
+  change(" -4.11428e+00  4.61366e-01", "-4.114280e+00-4.613660e-01");
+  change("  9.77899e-01", "  9.77899D-01");
+  const auto f = functions(text);
+  EXPECT_EQ(f[0].y[1], std::complex(-4.11428, -0.461366));
+  EXPECT_EQ(f[0].y[4], std::complex(-5.96741, 0.977899));
+}
+
+TEST(UniversalFile, MalformedFilesAreRefusedWithTheirText) {
+  int files = 0;
+  for (const auto& entry :
+       fs::directory_iterator(source_path("tests/data/uff/malformed"))) {
+    if (entry.path().extension() != ".uff") continue;
+    ++files;
+    auto expected = entry.path();
+    expected.replace_extension(".expected");
+    json asked = {{"uff", {{"text", bytes_of(entry.path())}}}};
+    EXPECT_EQ(refused(asked) + "\n", bytes_of(expected)) << entry.path();
+  }
+  EXPECT_EQ(files, 20);
+}
+
+TEST(UniversalFile, DamagedFilesAreTakenOrRefusedAndNothingElse) {
+  const std::string good = bytes_of(source_path("tests/data/uff/several-records.uff"));
+  std::mt19937 random(3);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  int refusals = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::string text = good;
+    for (std::size_t slips = 1 + below(3); slips > 0; --slips) {
+      const auto at = below(text.size());
+      if (below(3) == 0)
+        text.erase(at, 1 + below(200));
+      else if (below(2) == 0)
+        text.insert(at, text.substr(below(text.size()), below(200)));
+      else
+        text[at] = "-+ 0158EeD\n.x"[below(13)];
+    }
+    if (refused({{"uff", {{"text", text}, {"record", 3}}}}) != "") ++refusals;
+  }
+  EXPECT_GT(refusals, 200);
+  EXPECT_LT(refusals, 400);
+}
+
+TEST(MeasuredFile, IsRecognisedByItsFirstLine) {
+  EXPECT_TRUE(measured_file("    -1\r\n    58\r\n").contains("uff"));
+  EXPECT_TRUE(measured_file("-1,2\n").contains("csv"));
+  EXPECT_TRUE(measured_file("-1").contains("csv"));
+  EXPECT_EQ(measured_file("f,\xB5m/N\n")["csv"], "f,\u00b5m/N\n");
+  EXPECT_EQ(measured_file("f,\u00b5m/N\n")["csv"], "f,\u00b5m/N\n");
+}
+
+}  // namespace
+}  // namespace turnwright::document::universal_file_test
