@@ -60,6 +60,10 @@ struct ShopErrors {
   /// tolerance holds from the new edge to this one.  0: forces are those of new edges, and
   /// edges serve their whole life.
   double edge_wear_mm = 0;
+  /// An edge whose land is this many times as large as the law says is noticed and
+  /// changed, 1 or more.  2 is an estimate, 1.5 to 3: ISO 3685 ends a life at VB 0.3 mm,
+  /// and where the land is uneven at its largest width, 0.6 mm.
+  double wear_noticed_times = 2;
   catalogue::Rechucking rechucking = {0, 0, 0, 0};  ///< in a later setup
   double measurement_U_um = 0;  ///< expanded uncertainty of the measurement (ISO 14253-1)
   /// Offsets are set by gauging the first part: they take out the machine's mean error of

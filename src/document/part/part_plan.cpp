@@ -129,6 +129,7 @@ nlohmann::json json_of(const planning::ShopErrors& shop) {
           {"life_between_offsets", shop.life_between_offsets},
           {"wear_land_mm", shop.wear_land_mm},
           {"edge_wear_mm", shop.edge_wear_mm},
+          {"wear_noticed_times", shop.wear_noticed_times},
           {"rechucking_um",
            {{"hard_jaws", r.hard_jaws_um},
             {"soft_jaws", r.soft_jaws_um},
@@ -174,6 +175,7 @@ void read_budget(Draft& draft) {
                         "at most wear_land_mm, " + number_text(shop.wear_land_mm) + " mm",
                         number_text(shop.edge_wear_mm));
   }
+  read("wear_noticed_times", shop.wear_noticed_times, within(1, 10));
   if (has("rechucking_um")) shop.rechucking = read_rechucking(given->at("rechucking_um"));
   read("measurement_U_um", shop.measurement_U_um, error);
   if (has("first_part_gauged"))

@@ -204,6 +204,12 @@ void add_rechucking(const PreparedPart& p, const Tolerance& t, const Making& mak
   if (source.value_um > 0) a.spread.push_back(std::move(source));
 }
 
+// Eq. (4), of the land where ln T spreads by this.
+double land_spread(double ln_T) {
+  constexpr double kReach = 3;
+  return std::expm1(kReach * ln_T) / kReach;
+}
+
 // The largest E in [0, most] that meets a condition which fails from some E on.
 template <class Suffices>
 double largest(double most, const Suffices& suffices) {
@@ -304,8 +310,11 @@ double force_spread(const PreparedPart& p) {
 }
 
 double life_spread(const PreparedPart& p) {
-  constexpr double kReach = 3;
-  return std::expm1(kReach * p.material.life_scatter_pct / 100) / kReach;  // Eq. (4)
+  const auto& m = p.material;
+  const double noticed = (p.shop.wear_noticed_times - 1) / 2;  // at two of them
+  const double law =
+      std::min(land_spread(m.taylor_uncertainty_pct / 100 / m.taylor.n), noticed);
+  return std::hypot(land_spread(m.life_scatter_pct / 100), law);  // Eq. (5)
 }
 
 double error_spread(const PreparedPart& p) {

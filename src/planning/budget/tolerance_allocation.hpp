@@ -36,7 +36,7 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     repeatability normal                         sizes
 ///     wear          +- r u/2, uniform, shop_errors.hpp (2), r of the whole life
 ///     life          normal, life_spread() of r u/2: an edge that wears out sooner than
-///                   thought recedes faster
+///                   thought recedes faster, be it this edge or any in this material
 ///     heat          +- alpha dT D/4 of the radius, alpha dT L/2 of a length, uniform
 ///     rechucking    rayleigh, to a datum that another setup cuts: twice for run-out,
 ///                   coaxiality and position, once for a profile; sqrt(2) D/grip times
@@ -89,14 +89,20 @@ double passive_spread(const PreparedPart& plan);
 /// Relative standard deviation of the deflection, from those of forces and stiffness alone.
 double force_spread(const PreparedPart& plan);
 
-/// Relative standard deviation of the wear land at a given time, from the scatter s of ln T
-/// between edges, normal.  The land is in proportion to 1/T; a normal land that is as large
-/// at 3 s as the lognormal one,
+/// Relative standard deviation of the wear land at a given time, normal.  The land is in
+/// proportion to 1/T; a normal land that is as large at 3 s as the lognormal one of a
+/// spread s of ln T,
 ///
-///     (exp(3 s) - 1)/3,                                                              (4)
+///     g(s) = (exp(3 s) - 1)/3,                                                       (4)
 ///
-/// is on the safe side of it for all edges between there and the middle.  0 where the
-/// material tells no scatter.
+/// is on the safe side of it for all edges between there and the middle.  Edges scatter
+/// among each other by s, `scatter_pct` of the material.  Taylor's C is uncertain by u for
+/// all of them, and T by u/n; a land N = `wear_noticed_times` as large as the law says is
+/// noticed, which counts as two standard deviations:
+///
+///     hypot(g(s), min(g(u/n), (N - 1)/2))                                            (5)
+///
+/// Source: derived here; uncertain_limits_test draws edges.
 double life_spread(const PreparedPart& plan);
 
 /// Relative standard deviation of the deflection.  With forces of worn edges life_spread() is

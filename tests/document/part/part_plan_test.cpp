@@ -254,10 +254,16 @@ TEST(PartPlan, ASteadyRestStandsBesideTheJaws) {
 
 TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   auto document = full();
-  document["budget"] = {
-      {"drift_um", 1},      {"drift_axial_um", 2},         {"repeatability_um", 3},
-      {"part_warm_K", 4},   {"life_between_offsets", 0.5}, {"wear_land_mm", 0.2},
-      {"rechucking_um", 6}, {"measurement_U_um", 7},       {"first_part_gauged", true}};
+  document["budget"] = {{"drift_um", 1},
+                        {"drift_axial_um", 2},
+                        {"repeatability_um", 3},
+                        {"part_warm_K", 4},
+                        {"life_between_offsets", 0.5},
+                        {"wear_land_mm", 0.2},
+                        {"rechucking_um", 6},
+                        {"measurement_U_um", 7},
+                        {"first_part_gauged", true},
+                        {"wear_noticed_times", 3}};
   EXPECT_EQ(SchemaCheck("part.json").fault(document), "");
   const auto& shop = load(document).plan.shop;
   EXPECT_EQ(shop.drift_um, 1);
@@ -266,6 +272,7 @@ TEST(PartPlan, TheBudgetKeepsWhatIsGiven) {
   EXPECT_EQ(shop.part_warm_K, 4);
   EXPECT_EQ(shop.life_between_offsets, 0.5);
   EXPECT_EQ(shop.wear_land_mm, 0.2);
+  EXPECT_EQ(shop.wear_noticed_times, 3);
   EXPECT_EQ(shop.rechucking.hard_jaws_um, 6);
   EXPECT_EQ(shop.rechucking.centres_um, 6);
   EXPECT_EQ(shop.measurement_U_um, 7);
@@ -355,6 +362,7 @@ TEST(PartPlan, TheSmallestDocumentTellsEveryDefaultUsed) {
   for (const auto* text : {"source", "note", "uncertainty_pct"}) budget.erase(text);
   budget.update({{"wear_land_mm", 0.3},
                  {"edge_wear_mm", 0.0},
+                 {"wear_noticed_times", 2.0},
                  {"measurement_U_um", 0.0},
                  {"first_part_gauged", true}});
   EXPECT_EQ(told, json({{"/name", "part"},

@@ -84,12 +84,16 @@ TEST(UncertainLimits, RoughnessIsJudgedWithTheQuantileOfHmin) {
   EXPECT_NEAR(least_chip_factor(p), 1, 1e-9);
 }
 
-// A pin whose worn edges decide, with lives of edges that scatter.
-nlohmann::json scattering_pin(double scatter_pct) {
+// A pin whose worn edges decide, with lives of edges that scatter and a Taylor's C that is
+// uncertain for all of them.
+nlohmann::json scattering_pin(double scatter_pct, double law_pct = 0,
+                              double half_mm = 0.06) {
   auto d = pin();
   d["material"] = file("materials/C45.json");
-  if (scatter_pct > 0) d["material"]["taylor"]["scatter_pct"] = scatter_pct;
-  d["outer"][1]["limits_mm"] = {-0.06, 0.06};
+  auto& taylor = d["material"]["taylor"];
+  if (scatter_pct > 0) taylor["scatter_pct"] = scatter_pct;
+  taylor["uncertainty_pct"] = law_pct;
+  d["outer"][1]["limits_mm"] = {-half_mm, half_mm};
   d["damping_ratio"] = 0.1;
   d["robust"] = true;
   d["budget"]["edge_wear_mm"] = 0.3;
@@ -102,23 +106,69 @@ double share_um(const ToleranceResult& t, const std::string& source) {
   return 0;
 }
 
-TEST(UncertainLife, DocumentsWithoutScatterArePlannedAsBefore) {
+TEST(UncertainLife, WhatIsKnownTakesNothing) {
   auto d = scattering_pin(0);
   const auto without = plan(part(d));
   ASSERT_EQ(without.status, PlanStatus::ok);
   EXPECT_EQ(share_um(tolerance(without, "d2:diameter"), "life"), 0);
   d["material"]["taylor"]["scatter_pct"] = 0;
   EXPECT_EQ(plan(part(d)).cost_per_part, without.cost_per_part);
+  // Every edge is changed in time, whatever C is.
+  d = scattering_pin(0, 30);
+  d["budget"]["wear_noticed_times"] = 1;
+  EXPECT_EQ(plan(part(d)).cost_per_part, without.cost_per_part);
+}
+
+// C of the catalogue's C45 is known to 30 %, its lives not even to a factor of two: without
+// being asked a plan counts as much of it as is not noticed.
+TEST(UncertainLife, TheCataloguesIsCounted) {
+  const auto known = plan(part(scattering_pin(0, 0, 0.04)));
+  ASSERT_EQ(known.status, PlanStatus::ok);
+  auto d = as_planned(scattering_pin(0, 0, 0.04), known);
+  d["material"] = "C45";
+  const auto p = part_to_predict(d);
+  EXPECT_EQ(life_spread(p), 0.5);
+  const auto& t = tolerance(predict(p), "d2:diameter");
+  EXPECT_GT(share_um(t, "life"), 0);
+  EXPECT_LT(t.P_conform, tolerance(known, "d2:diameter").P_conform - 1e-3);
+}
+
+double spread_of(double scatter_pct, double law_pct, double noticed = 2) {
+  auto d = scattering_pin(scatter_pct, law_pct);
+  d["budget"]["wear_noticed_times"] = noticed;
+  return life_spread(part(d));
+}
+
+// n of C45 is 0.255: a life is uncertain by four times as much as C.
+TEST(UncertainLife, FollowsFromEdgesAndFromTheLaw) {
+  EXPECT_NEAR(spread_of(20, 0), (std::exp(0.6) - 1) / 3, 1e-12);
+  EXPECT_NEAR(spread_of(0, 2.55), (std::exp(0.3) - 1) / 3, 1e-12);
+  EXPECT_NEAR(spread_of(0, 30, 3), 1, 1e-12);
+  EXPECT_NEAR(spread_of(20, 5.1), std::sqrt(2.0) * (std::exp(0.6) - 1) / 3, 1e-12);
+  double spread = 0;
+  for (const double law : {0, 1, 3, 10, 100}) {
+    EXPECT_GE(spread_of(10, law), spread);
+    spread = spread_of(10, law);
+  }
+  for (const double noticed : {2.0, 2.5, 10.0}) {
+    EXPECT_GE(spread_of(10, 30, noticed), spread);
+    spread = spread_of(10, 30, noticed);
+  }
 }
 
 // Edges drawn one by one: each has a land of its own when it is changed, VB exp(-s Z) of
-// a lognormal life, which makes the error that the new edge does not.
+// a lognormal life, which makes the error that the new edge does not.  What all lives of
+// the material are off by is drawn likewise, up to where it is noticed.
 TEST(UncertainLife, EdgesThatWearOutEarlyAreCounted) {
-  for (const double s : {0.15, 0.3}) {
-    const auto d = scattering_pin(100 * s);
+  struct Lives {
+    double s, law;
+  };
+  for (const auto& [s, law] :
+       {Lives{0.15, 0}, Lives{0.3, 0}, Lives{0, 0.05}, Lives{0, 0.3}, Lives{0.2, 0.3}}) {
+    const auto d = scattering_pin(100 * s, 100 * law);
     const auto p = part(d);
     const auto r = plan(p);
-    ASSERT_EQ(r.status, PlanStatus::ok) << s;
+    ASSERT_EQ(r.status, PlanStatus::ok) << s << ' ' << law;
     const auto& t = tolerance(r, "d2:diameter");
     EXPECT_GT(share_um(t, "life"), 0);
     EXPECT_GE(t.P_conform, 0.9973 - 1e-6);
@@ -131,7 +181,8 @@ TEST(UncertainLife, EdgesThatWearOutEarlyAreCounted) {
     int kept = 0;
     constexpr int kEdges = 100'000;
     for (int k = 0; k < kEdges; ++k) {
-      const double land = std::exp(s * normal(random));
+      const double all = std::exp(law / p.material.taylor.n * normal(random));
+      const double land = std::exp(s * normal(random)) * std::min(all, 2.0);
       const double force = 1 + force_spread(p) * normal(random);
       double worst = 0;
       for (std::size_t i = 0; i < d2->table_mm.size(); ++i) {
@@ -140,7 +191,7 @@ TEST(UncertainLife, EdgesThatWearOutEarlyAreCounted) {
       }
       kept += worst <= 0.06 - 0.0005;  // and the machine's share at each limit
     }
-    EXPECT_GE(static_cast<double>(kept) / kEdges, t.P_conform - 0.001) << s;
+    EXPECT_GE(static_cast<double>(kept) / kEdges, t.P_conform - 0.001) << s << ' ' << law;
   }
 }
 
@@ -152,6 +203,15 @@ TEST(UncertainLife, MoreScatterNeverMakesPartsSafer) {
     const auto at = predict(part_to_predict(as_planned(scattering_pin(pct), r)));
     const double now = tolerance(at, "d2:diameter").P_conform;
     EXPECT_LE(now, P) << pct;
+    P = now;
+  }
+  EXPECT_LT(P, 0.99);
+  P = 1;
+  for (const double law_pct : {0, 1, 3, 6, 30}) {
+    const auto at =
+        predict(part_to_predict(as_planned(scattering_pin(0, law_pct, 0.03), r)));
+    const double now = tolerance(at, "d2:diameter").P_conform;
+    EXPECT_LE(now, P) << law_pct;
     P = now;
   }
   EXPECT_LT(P, 0.99);
