@@ -99,6 +99,13 @@ std::string designation(const CentreHole& hole) {
   return fmt::format("ISO 6411-{}{:g}/{:g}", hole.form, hole.pilot_mm, hole.diameter_mm);
 }
 
+bool leaves_part(const Drawing& d, std::size_t i) {
+  const auto& e = d.inner[i];
+  const double left = inner_left_z_mm(d, i), right = left + e.length_mm;
+  return e.from == End::left ? std::abs(right - length_mm(d)) < kSame_mm
+                             : std::abs(left) < kSame_mm;
+}
+
 double way_in_mm(const Drawing& d, std::size_t i) {
   double least = INFINITY;
   for (std::size_t k = 0; k < i; ++k)

@@ -101,7 +101,9 @@ class Check : private Sizes {
                    const catalogue::FixedTool& t) const {
     const auto& inner = p_.part.drawing.inner;
     const auto& e = *std::ranges::find(inner, o.on[0], &part::InnerElement::id);
-    const double D = e.left_mm + 2 * part::opening_chamfer(e)->radial_mm;
+    const bool left_is_free = p_.part.setups[setup_].hold == part::End::right;
+    const auto& c = left_is_free ? e.left_chamfer : e.right_chamfer;
+    const double D = e.left_mm + 2 * c->radial_mm;
     return {{},
             true,
             true,

@@ -55,7 +55,13 @@ double countersink_mm(const Planned& p, const OperationPlan& o,
                       const catalogue::FixedTool& t) {
   const auto& e =
       *std::ranges::find(p.part.drawing.inner, o.on[0], &part::InnerElement::id);
-  const auto& c = e.from == part::End::left ? e.left_chamfer : e.right_chamfer;
+  const auto setup = std::ranges::find_if(p.plan.setups, [&](const auto& s) {
+    return std::ranges::find(s.operations, o.id, &OperationPlan::id) !=
+           s.operations.end();
+  });
+  const auto s = static_cast<std::size_t>(setup - p.plan.setups.begin());
+  const bool left_is_free = p.part.setups[s].hold == part::End::right;
+  const auto& c = left_is_free ? e.left_chamfer : e.right_chamfer;
   return *std::ranges::lower_bound(t.sizes_mm, e.left_mm + 2 * c->radial_mm);
 }
 

@@ -71,6 +71,8 @@ inline constexpr std::array kWithHoles{"tapped-ends",
                                        "counterbored-chamfered",
                                        "counterbored-twice-reamed",
                                        "counterbored-from-the-left",
-                                       "counterbored-before-thread"};
+                                       "counterbored-before-thread",
+                                       "chamfered-at-both-ends",
+                                       "nut-chamfered-at-both-ends"};
 
 }  // namespace turnwright::nc::test

@@ -18,7 +18,8 @@ using nc::test::Planned;
 using planning::OperationPlan;
 
 /// The tool that an operation of a plan has in the program.
-MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
+MountedTool mounted(const Planned& p, std::size_t setup, const OperationPlan& o,
+                    int number) {
   MountedTool m{.number = number};
   for (const auto& t : p.part.tools)
     if (t.id == o.tool) m.turning = t;
@@ -31,7 +32,9 @@ MountedTool mounted(const Planned& p, const OperationPlan& o, int number) {
     if (t.use == catalogue::FixedUse::countersinking) {
       const auto& inner = p.part.drawing.inner;
       const auto& e = *std::ranges::find(inner, o.on[0], &part::InnerElement::id);
-      const double D = e.left_mm + 2 * part::opening_chamfer(e)->radial_mm;
+      const bool left_is_free = p.part.setups[setup].hold == part::End::right;
+      const auto& c = left_is_free ? e.left_chamfer : e.right_chamfer;
+      const double D = e.left_mm + 2 * c->radial_mm;
       m.size_mm = *std::ranges::lower_bound(t.sizes_mm, D);
     }
     if (t.use == catalogue::FixedUse::reaming ||
@@ -45,9 +48,9 @@ std::vector<MountedTool> turret(const Planned& p, const nc::Programs& programs) 
   std::vector<MountedTool> all;
   for (const auto& s : programs.setups)
     for (const auto& t : s.tools)
-      for (const auto& setup : p.plan.setups)
-        for (const auto& o : setup.operations) {
-          const auto m = mounted(p, o, t.number);
+      for (std::size_t k = 0; k < p.plan.setups.size(); ++k)
+        for (const auto& o : p.plan.setups[k].operations) {
+          const auto m = mounted(p, k, o, t.number);
           if ((m.turning || m.fixed) && planning::tool_label(p.part, o) == t.id &&
               std::ranges::find(all, t.number, &MountedTool::number) == all.end())
             all.push_back(m);

@@ -233,6 +233,11 @@ inline double drilled_beyond_mm(const Cut& hole) {
 inline const std::optional<Chamfer>& opening_chamfer(const InnerElement& e) {
   return e.from == End::left ? e.left_chamfer : e.right_chamfer;
 }
+/// The chamfer at the other end of a bore, and whether that is a face of the part.
+inline const std::optional<Chamfer>& closing_chamfer(const InnerElement& e) {
+  return e.from == End::left ? e.right_chamfer : e.left_chamfer;
+}
+bool leaves_part(const Drawing& drawing, std::size_t inner);
 /// Diameter [mm] of the narrowest bore through which the i-th one is reached from its end;
 /// infinite at the end itself.
 double way_in_mm(const Drawing& drawing, std::size_t i);

@@ -44,11 +44,10 @@ bool is_thread(const part::InnerElement& e) {
   return e.cut && e.cut->kind == part::CutKind::thread;
 }
 
-// Without other edges than a chamfer where it begins that a countersink cuts.
+// Without other edges than chamfers that countersinks cut.
 bool plain(const Draft& draft, std::size_t i) {
   const auto& e = draft.loaded.plan.drawing.inner[i];
-  const auto& inside = e.from == part::End::left ? e.right_chamfer : e.left_chamfer;
-  return e.kind == part::ElementKind::cylinder && !inside && !e.left_fillet_mm &&
+  return e.kind == part::ElementKind::cylinder && !e.left_fillet_mm &&
          !e.right_fillet_mm && can_be_countersunk(draft, i);
 }
 
@@ -122,8 +121,9 @@ std::optional<MadeHole> asked_hole(const Draft& draft, Reader item, std::size_t 
   if (!plain(draft, i))
     item.problem_at(
         "kind",
-        "\"cylinder\" as kind, which is bored, or no other edge than a chamfer "
-        "where the hole begins, of the angle of a countersink of the tools",
+        "\"cylinder\" as kind, which is bored, or no other edges than chamfers where "
+        "the hole begins or leaves the part, of the angle of a countersink of the "
+        "tools",
         "conflict");
   w.limits = given_limits(item, w.D_mm);
   w.Ra_um = item.optional_number("Ra_um", above_up_to(0, 100, "um"));
@@ -233,7 +233,7 @@ void countersink_tapped(Draft& draft, const Reader& item, std::size_t i) {
   const bool left = bore.from == part::End::left;
   const double D = std::round(100 * kOfThread * bore.cut->drawn.left_mm) / 100;
   const double end_mm = left ? d.outer.front().left_mm : d.outer.back().right_mm;
-  const auto* t = countersink_for(draft, i, D, nullptr);
+  const auto* t = countersink_for(draft, part::way_in_mm(d, i), D, nullptr);
   if (part::opening_chamfer(bore) || !t || D + 2 * kRing_mm > end_mm) return;
   const double radial = (D - bore.cut->drilled_mm) / 2;
   const double axial = radial / std::tan(units::rad_from_deg(t->point_deg / 2));

@@ -46,10 +46,11 @@ std::optional<double> drill_between(const Draft& draft, const HoleDemand& w,
 // Whether a countersink cuts the chamfer of a counterbore, if it has one, before its cone
 // meets the floor.
 bool spares_floor(const Draft& draft, std::size_t i, const HoleDemand& w) {
-  const auto& c = part::opening_chamfer(draft.loaded.plan.drawing.inner[i]);
+  const auto& d = draft.loaded.plan.drawing;
+  const auto& c = part::opening_chamfer(d.inner[i]);
   if (!c) return true;
   const double D = w.D_mm + 2 * c->radial_mm;
-  const auto* t = countersink_for(draft, i, D, &*c);
+  const auto* t = countersink_for(draft, part::way_in_mm(d, i), D, &*c);
   return t && (D - *w.drill_mm) / 2 / std::tan(units::rad_from_deg(t->point_deg / 2)) <=
                   w.length_mm + kRounding_mm;
 }
@@ -117,10 +118,10 @@ std::optional<MadeHole> tapped_hole(const Draft& draft, const HoleDemand& w) {
   return std::nullopt;
 }
 
-const FixedTool* countersink_for(const Draft& draft, std::size_t i, double D_mm,
+const FixedTool* countersink_for(const Draft& draft, double way_in_mm, double D_mm,
                                  const part::Chamfer* chamfer) {
   constexpr double kBeside_mm = 0.2;  // as planning asks in the bores before the hole
-  const double room = part::way_in_mm(draft.loaded.plan.drawing, i) - 2 * kBeside_mm;
+  const double room = way_in_mm - 2 * kBeside_mm;
   for (const auto* t : tools_for(draft, FixedUse::countersinking)) {
     const auto size = std::ranges::lower_bound(t->sizes_mm, D_mm);
     if (size != t->sizes_mm.end() && *size <= room &&
@@ -131,9 +132,14 @@ const FixedTool* countersink_for(const Draft& draft, std::size_t i, double D_mm,
 }
 
 bool can_be_countersunk(const Draft& draft, std::size_t i) {
-  const auto& e = draft.loaded.plan.drawing.inner[i];
-  const auto& c = part::opening_chamfer(e);
-  return !c || countersink_for(draft, i, e.left_mm + 2 * c->radial_mm, &*c);
+  const auto& d = draft.loaded.plan.drawing;
+  const auto& e = d.inner[i];
+  const auto cut = [&](const std::optional<part::Chamfer>& c, double way_in_mm) {
+    return !c || countersink_for(draft, way_in_mm, e.left_mm + 2 * c->radial_mm, &*c);
+  };
+  return cut(part::opening_chamfer(e), part::way_in_mm(d, i)) &&
+         (!part::closing_chamfer(e) || part::leaves_part(d, i)) &&
+         cut(part::closing_chamfer(e), INFINITY);
 }
 
 std::optional<MadeHole> counterbored_hole(const Draft& draft, std::size_t i,

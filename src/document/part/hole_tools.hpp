@@ -48,12 +48,13 @@ std::optional<MadeHole> counterbored_hole(const Draft& draft, std::size_t inner,
 /// such tools.
 std::string why_not(const Draft& draft, const HoleDemand& demand);
 
-/// The countersink of the material for a chamfer up to a diameter where a bore begins, of an
-/// angle if that is given; none.
-const catalogue::FixedTool* countersink_for(const Draft& draft, std::size_t inner,
+/// The countersink of the material for a chamfer up to a diameter, of an angle if that is
+/// given, which passes the bores before it; none.
+const catalogue::FixedTool* countersink_for(const Draft& draft, double way_in_mm,
                                             double diameter_mm,
                                             const part::Chamfer* chamfer);
-/// Whether a countersink cuts the chamfer where a bore begins, if it has one.
+/// Whether countersinks cut the chamfers of a bore: where it begins, and where it leaves the
+/// part.
 bool can_be_countersunk(const Draft& draft, std::size_t inner);
 
 }  // namespace turnwright::document

@@ -414,7 +414,8 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   s.stage = Stage::finishing;
   using enum part::CutKind;
   for (const std::size_t i : work.outer_chamfers) add_chamfer(s, i, false);
-  for (const std::size_t i : work.inner_chamfers) add_chamfer(s, i, true);
+  for (const std::size_t i : work.inner_chamfers)
+    part::is_hole(d.inner[i]) ? add_closing_chamfer(s, i) : add_chamfer(s, i, true);
   for (const auto kind : {arc, groove, hole, thread}) {
     for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
     for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);

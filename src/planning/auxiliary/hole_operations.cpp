@@ -172,21 +172,26 @@ AuxiliaryOperation through_hole(const Site& s, const Asked& a, const Fitted& f,
   });
 }
 
-// The chamfer where a hole begins: Eq. (8).
-void add_countersinking(Site& s, const CutElement& e) {
-  const auto& c = e.around.front_chamfer;
-  if (!(c.axial_mm > 0)) return;
-  const double D = 2 * (c.radial_mm - e.around.h0);
-  const double from_mm = part::opened_mm(e.cut);
-  const double room = part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm;
+// A chamfer of a hole, at its beginning or where it leaves the part.
+struct Sink {
+  const std::string& id;
+  part::Chamfer chamfer;
+  double hole_mm = 0, from_mm = 0;  // drawn, and what is open when the countersink comes
+  double room_mm = INFINITY;        // in the bores before it
+  double inside_mm = 0;             // behind the material of the end
+};
+
+// Eq. (8).
+void countersink(Site& s, const Sink& k) {
+  const double D = k.hole_mm + 2 * k.chamfer.radial_mm, from_mm = k.from_mm;
   const Asked a{FixedUse::countersinking,
                 "countersink",
-                e.id,
+                k.id,
                 false,
-                given_on(s, e.id, FixedUse::countersinking),
+                given_on(s, k.id, FixedUse::countersinking),
                 [&](const FixedTool& t, double size) {
-                  return size >= D && size <= room &&
-                         part::fits_countersink(c, t.point_deg);
+                  return size >= D && size <= k.room_mm &&
+                         part::fits_countersink(k.chamfer, t.point_deg);
                 }};
   const auto f = fitted(s.p, a);
   if (!f.tool)
@@ -196,19 +201,29 @@ void add_countersinking(Site& s, const CutElement& e) {
                               "before it",
                               s.p.material.name, D));
   if (asks_for_other_passes(s, a, (D - from_mm) / 2)) return;
-  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double in = cutting::drill_point_mm(D, f.tool->point_deg), fed = kBefore_mm + in;
   const double cut = in - cutting::drill_point_mm(from_mm, f.tool->point_deg);
-  const double n_cap = n_cap_rpm(s), inside = e.around.front - e.around.z0;
+  const double n_cap = n_cap_rpm(s);
   s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
     const Duty duty{cutting::ream(kc, D, from_mm, at.at.f_mm_rev, at.tool->edges,
                                   at.tool->point_deg / 2),
                     std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
     const double vf = at.at.f_mm_rev * duty.n_rpm;
     return operation(s, a, at, {pass_of(duty, (D - from_mm) / 2, cut / vf)},
-                     {(fed - cut) / vf, 2 * inside + fed, true, 0, 0}, {duty});
+                     {(fed - cut) / vf, 2 * k.inside_mm + fed, true, 0, 0}, {duty});
   }));
+}
+
+// The chamfer where a hole begins.
+void add_countersinking(Site& s, const CutElement& e) {
+  const auto& c = e.around.front_chamfer;
+  if (!(c.axial_mm > 0)) return;
+  const Asked a{FixedUse::countersinking, "countersink", e.id, false, nullptr, {}};
+  if (unfaced(s, a, e, e.around.z0 + kBefore_mm)) return;
+  countersink(s, {e.id, c, -2 * e.around.h0, part::opened_mm(e.cut),
+                  part::way_in_mm(s.p.drawing, e.index) - 2 * kAboveBore_mm,
+                  e.around.front - e.around.z0});
 }
 
 // Eq. (7).
@@ -362,6 +377,11 @@ void add_counterbore(Site& s, std::size_t index) {
         {kBefore_mm / vf, 2 * (front - way.from_mm) + kBefore_mm + cut, true, 0, 0},
         {duty});
   }));
+}
+
+void add_closing_chamfer(Site& s, std::size_t inner) {
+  const auto& e = s.p.drawing.inner[inner];
+  countersink(s, {e.id, *part::closing_chamfer(e), e.left_mm, e.left_mm});
 }
 
 void add_hole_work(Site& s, const CutElement& e) {

@@ -13,6 +13,8 @@ void add_centre(Site& site, const char* face, double end_mm);
 void add_drilling(Site& site, part::End end);
 /// Opens a counterbore before anything is bored.
 void add_counterbore(Site& site, std::size_t inner);
+/// The chamfer where a hole that is made leaves the part.
+void add_closing_chamfer(Site& site, std::size_t inner);
 /// What is done to a hole once it is drilled.
 void add_hole_work(Site& site, const CutElement& hole);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "edge_assignment.hpp"
@@ -174,6 +176,28 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
   }
 }
 
+// Whether a thread's tool comes in before an outer element in a setup: 1.5 pitches to what
+// stands higher than the root towards the free end, cones that rise to the thread apart.
+bool has_run_in(const PreparedPart& p, std::size_t s, std::size_t i) {
+  constexpr double kPitches = 1.5;
+  const auto& outer = p.drawing.outer;
+  const auto& thread = outer[i].cut;
+  if (!thread || thread->kind != part::CutKind::thread) return true;
+  const double D = outer[i].left_mm, root = D - 2 * thread->depth_mm;
+  const std::size_t step = holds_left(p, s) ? 1 : SIZE_MAX;
+  double room = 0;
+  for (std::size_t k = i + step; k < outer.size(); k += step) {
+    const auto& e = outer[k];
+    const double floor = part::is_groove(e) ? e.cut->drawn.left_mm : INFINITY;
+    const double low = std::min({floor, e.left_mm, e.right_mm});
+    const double high = std::min(floor, std::max(e.left_mm, e.right_mm));
+    if ((low >= root && high > root) || high > D)
+      return room >= kPitches * thread->pitch_mm;
+    room += e.length_mm;
+  }
+  return true;
+}
+
 // Drawn centre holes at ends that no setup frees.
 void assign_centres(const PreparedPart& p, Assignment& a) {
   for (const End end : {End::left, End::right}) {
@@ -222,7 +246,12 @@ Assignment assign(const PreparedPart& p) {
     const auto can = [&](std::size_t s) {
       return reachable(p, s, i) && cleared(p, s, i) && before_jaws(p, s, i).enough();
     };
-    if (const auto s = place(p, outer[i].id, why_not(p, i), can, a))
+    const auto threads_too = [&](std::size_t s) { return can(s) && has_run_in(p, s, i); };
+    bool somewhere = false;
+    for (std::size_t s = 0; s < p.setups.size(); ++s)
+      somewhere = somewhere || (wanted_in(p, s, outer[i].id) && threads_too(s));
+    const auto asked = [&](std::size_t s) { return somewhere ? threads_too(s) : can(s); };
+    if (const auto s = place(p, outer[i].id, why_not(p, i), asked, a))
       a.setups[*s].elements.push_back(i);
   }
   if (!p.operations) follow_rims(p, a);

@@ -26,6 +26,17 @@ double usual_mm(const PlanRequest& r, std::size_t s) {
   return std::min(std::max(kUsual_mm, held / 2), length / 2);
 }
 
+// Width of the narrowest blade that parts off the stock; 0 without one.
+double parting_blade_mm(const PlanRequest& r) {
+  const double deep = (r.drawing.stock.outer_mm - r.drawing.stock.inner_mm) / 2;
+  double least = 0;
+  for (const auto& t : r.fixed_tools)
+    if (t.use == catalogue::FixedUse::parting && t.conditions_in(r.material.group) &&
+        deep <= t.reach && (least == 0 || t.sizes_mm.front() < least))
+      least = t.sizes_mm.front();
+  return least;
+}
+
 // z of the end of what the jaws can hold without a step, a groove or a milled place.
 double level_to_mm(const PreparedPart& p, std::size_t s) {
   const auto& e = p.drawing.outer;
@@ -106,6 +117,9 @@ std::optional<double> longer_grip_mm(const PreparedPart& p, std::size_t s) {
     const double z1 = z0 + p.drawing.outer[i].length_mm;
     room = std::min(room, (free > root ? z0 - root : root - z1) - corner);
   }
+  if (const auto& parted = p.drawing.stock.parted_mm; parted && s == 0)
+    room = std::min(room, (free > root ? -root : root - part::length_mm(p.drawing)) -
+                              *parted - parting_blade_mm(p) - kRunOut_mm);
   const auto& clampings = p.setups[s].clampings;
   if (std::ranges::find(clampings, Clamping::chuck_steady) != clampings.end())
     room = std::min(room, std::abs(p.setups[s].steady_z_mm - root) - kSteadyWidth_mm / 2);

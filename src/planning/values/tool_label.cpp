@@ -3,8 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace turnwright::planning {
+namespace {
+
+// Diameter of the chamfer that a countersink cuts: where the hole begins, by what it takes
+// off, else where it leaves the part.
+double countersunk_mm(const part::InnerElement& hole, const OperationPlan& o) {
+  constexpr double kSame_mm = 1e-9;
+  const auto& opening = part::opening_chamfer(hole);
+  if (opening) {
+    const double D = hole.left_mm + 2 * opening->radial_mm;
+    const double taken = (D - part::opened_mm(*hole.cut)) / 2;
+    if (std::abs(o.passes[0].ap_mm - taken) < kSame_mm) return D;
+  }
+  return hole.left_mm + 2 * part::closing_chamfer(hole)->radial_mm;
+}
+
+}  // namespace
 
 std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
   if (o.kind != OperationKind::fixed) return o.tool;
@@ -18,7 +35,7 @@ std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
                ->designation;
   if (tool->sizes_mm.empty()) return o.tool;
   if (tool->use == FixedUse::countersinking) {
-    const double D = bore->left_mm + 2 * part::opening_chamfer(*bore)->radial_mm;
+    const double D = countersunk_mm(*bore, o);
     return fmt::format("{} {:g} mm", o.tool,
                        *std::ranges::lower_bound(tool->sizes_mm, D));
   }

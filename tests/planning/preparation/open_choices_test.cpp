@@ -150,6 +150,60 @@ TEST(Necks, WithConesAreNotPlunged) {
   EXPECT_FALSE(p.work.unreachable.empty());
 }
 
+json thread(const char* id, double length_mm, double d_mm, double pitch_mm) {
+  auto e = cylinder(id, length_mm, d_mm);
+  e["kind"] = "thread";
+  e["pitch_mm"] = pitch_mm;
+  return e;
+}
+
+// A stud as thick as its threads: each is cut from its own end, where its tool comes in.
+TEST(Assignment, ThreadsAreCutWhereTheirToolComesIn) {
+  const auto stud = [](double neck_mm) {
+    auto d = turned({thread("a", 30, 16, 2), cylinder("neck", 4, neck_mm),
+                     cylinder("shank", 36, 16), thread("b", 30, 16, 2)},
+                    18);
+    d["setups"] = {{{"hold", "left"}, {"grip_mm", 20}, {"clampings", {"chuck"}}},
+                   {{"hold", "right"}, {"grip_mm", 20}, {"clampings", {"chuck"}}}};
+    d["stock"]["left_allowance_mm"] = 40;
+    d["stock"]["length_mm"] = 142;
+    return d;
+  };
+  const auto elements = [](const json& d, std::size_t s) {
+    auto all = part(d).work.setups.at(s).elements;
+    std::ranges::sort(all);
+    return all;
+  };
+  using All = std::vector<std::size_t>;
+  EXPECT_EQ(elements(stud(16), 0), (All{1, 2, 3}));
+  EXPECT_EQ(elements(stud(16), 1), (All{0}));
+  EXPECT_EQ(plan(part(stud(16))).status, PlanStatus::ok);
+  EXPECT_EQ(elements(stud(13), 0), (All{0, 1, 2, 3})) << "the neck is as low as the root";
+  auto one = stud(16);
+  one["setups"].erase(1);
+  EXPECT_EQ(elements(one, 0), (All{0, 1, 2, 3})) << "nowhere else";
+}
+
+// The jaws of a bar that is parted off leave the blade its room.
+TEST(Grip, LeavesTheBladeItsRoom) {
+  auto d = turned({cylinder("d1", 100, 20), cylinder("d2", 60, 18)}, 22);
+  d["stock"] = {{"kind", "bar"},
+                {"diameter_mm", 22},
+                {"length_mm", 202},
+                {"left_allowance_mm", 40},
+                {"part_off_allowance_mm", 0.6}};
+  d["setups"] = {{{"hold", "left"}, {"clampings", {"chuck", "chuck-tailstock"}}},
+                 {{"hold", "right"}, {"clampings", {"chuck"}}}};
+  const auto p = part(d);
+  double least = INFINITY;
+  for (const auto& t : p.fixed_tools)
+    if (t.use == catalogue::FixedUse::parting && t.reach >= 11)
+      least = std::min(least, t.sizes_mm.front());
+  EXPECT_GE(40 - 0.6 - p.grips_mm[0], least + 2 - 1e-9);
+  EXPECT_GT(p.grips_mm[0], 15) << "lengthened";
+  EXPECT_EQ(plan(p).status, PlanStatus::ok);
+}
+
 json drilled(double d_mm, const json& more = json::object()) {
   auto d = turned({cylinder("d1", 40, 30)}, 34);
   d["setups"] = {{{"hold", "left"}, {"grip_mm", 15}, {"clampings", {"chuck"}}}};
