@@ -91,10 +91,14 @@ std::string write_tools(const ImportToolsArguments& arguments,
                         const ordered_json& result) {
   const auto folder = *arguments.folder / "tools";
   std::vector<service::NamedText> files;
-  for (const auto& tool : result["tools"])
-    files.push_back({tool["id"].get<std::string>() + ".json", tool.dump(2) + '\n'});
+  for (const auto& tool : result["tools"]) {
+    const bool fixed = tool["format"] == "turnwright-fixed-tool/1";
+    files.push_back({(fixed ? "fixed/" : "") + tool["id"].get<std::string>() + ".json",
+                     tool.dump(2) + '\n'});
+  }
   if (!arguments.force) require_new(folder, files);
   service::make_folder(folder);
+  for (const auto& file : files) service::make_folder((folder / file.name).parent_path());
   service::replace_files(folder, files, [](std::string_view) { return false; });
   std::string list;
   for (const auto& file : files) list += (folder / file.name).string() + '\n';
@@ -129,7 +133,8 @@ void add_import_tools(CLI::App& app,
                    "MTConnect, .fctb of FreeCAD; - reads standard input")
       ->required();
   add_path(*command, "--out", arguments->folder,
-           "write each document to tools/ID.json in this data folder");
+           "write each document to tools/ID.json in this data folder, of taps, reamers "
+           "and countersinks to tools/fixed/ID.json");
   command->add_flag("--force", arguments->force, "replace files that are there already");
   add_path(*command, "-o,--output", arguments->output,
            "write the result (JSON) here; - is standard output",

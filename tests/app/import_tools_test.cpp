@@ -65,6 +65,14 @@ TEST_F(ImportTools, AToolWrittenToADataFolderIsInItsCatalogue) {
   EXPECT_EQ(nlohmann::json::parse(plan.out)["status"], "ok");
 }
 
+TEST_F(ImportTools, TapsStandAmongTheToolsOfFixedOperations) {
+  put(folder_ / "taps.csv", "id;type;TDZ\nT10;tap;M10\n");
+  const auto run = shell("turnwright import-tools taps.csv --out shop");
+  EXPECT_EQ(run.out, "shop/tools/fixed/T10.json\n") << run.err;
+  EXPECT_EQ(json_of(folder_ / "shop/tools/fixed/T10.json")["threads"][0], "M10");
+  EXPECT_EQ(shell("turnwright import-tools taps.csv --out shop").code, 2);
+}
+
 TEST_F(ImportTools, FilesThatAreThereStayUnlessForced) {
   fs::create_directories(folder_ / "shop/tools");
   put(folder_ / "shop/tools/F1.json", "mine");

@@ -8,8 +8,9 @@ namespace turnwright::document {
 inline constexpr std::size_t kLargestLibrary = 20'000'000;
 
 /// The result of `import-tools` (schemas/import-tools.result.json): documents of turning
-/// tools (schemas/tool.json) made from a tool library of another program, what they assume,
-/// where the library contradicts itself, and what of it was ignored.
+/// tools (schemas/tool.json) and of taps, reamers and countersinks (schemas/fixed-tool.json)
+/// made from a tool library of another program, what they assume, where the library
+/// contradicts itself, and what of it was ignored.
 ///
 /// The library, given as `text` or in `base64`, is a library of Autodesk Fusion (.json,
 /// .tools), a table with symbols of ISO 13399 (.csv), cutting tool assets of MTConnect

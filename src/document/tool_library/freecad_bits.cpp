@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 #include "turnwright/catalogue/tool_codes.hpp"
 
@@ -53,8 +54,37 @@ std::optional<char> shape_by_angle(double tip_deg) {
   return std::nullopt;
 }
 
+// A tap, a reamer or a countersink: what its shape's file is called.
+std::optional<LibraryTool> read_hole_bit(const json& bit, Parameters& parameters,
+                                         LibraryTool t, std::string& why) {
+  const auto given = [&](const char* key) {
+    return parameters.has(key) ? std::optional(parameters.length_mm(key)) : std::nullopt;
+  };
+  t.DC_mm = given("Diameter");
+  t.TP_mm = given("Pitch");
+  t.LU_mm = given("CuttingEdgeLength");
+  if (parameters.has("CuttingEdgeAngle"))
+    t.SIG_deg = parameters.angle_deg("CuttingEdgeAngle");
+  const auto attribute = bit.value("attribute", json::object());
+  if (!parameters.wrong().empty())
+    why = "It cannot be read: " + parameters.wrong() + ".";
+  else if (attribute.is_object() &&
+           attribute.value("SpindleDirection", json()) == "Reverse")
+    why = "It turns to the left: part documents have right-hand threads.";
+  return why.empty() ? std::optional(t) : std::nullopt;
+}
+
 std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
   Parameters parameters(bit);
+  if (const auto shape = bit.value("shape", json()); shape.is_string()) {
+    const auto& file = shape.get_ref<const std::string&>();
+    LibraryTool hole;
+    hole.use = hole_use(file.substr(0, file.find('.')));
+    const auto called = bit.value("name", json());
+    if (called.is_string()) hole.name = called.get<std::string>();
+    hole.texts = {hole.name};
+    if (!hole.use.empty()) return read_hole_bit(bit, parameters, std::move(hole), why);
+  }
   if (!parameters.has("TipAngle") || !parameters.has("EdgeLength")) {
     why = "It is no turning bit, which has TipAngle, EdgeLength, TipRadius and Rotation.";
     return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "document/json/pointer.hpp"
+#include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 
 namespace turnwright::document {
@@ -124,6 +125,8 @@ std::string other_type(const std::string& type) {
   constexpr std::array kNoCutters{"holder", "tool block", "probe"};
   if (std::ranges::find(kNoCutters, type) != kNoCutters.end())
     return fmt::format("\"{}\" is no cutting tool.", type);
+  if (type == "tap left hand")
+    return "\"tap left hand\": part documents have right-hand threads.";
   if (type.starts_with("turning "))
     return fmt::format(
         "\"{}\": documents of such tools (schemas/fixed-tool.json) need reach and "
@@ -133,8 +136,28 @@ std::string other_type(const std::string& type) {
                      type.empty() ? "An entry without a type" : '"' + type + '"');
 }
 
+// Numbers of a tap, a reamer or a countersink.
+void read_hole_tool(const json& geometry, double unit, Numbers& numbers, LibraryTool& t) {
+  constexpr const char* kPlace = "geometry/";
+  const auto length = [&](const char* key) {
+    return numbers.length_mm(geometry, kPlace, key, unit);
+  };
+  t.DC_mm = length("DC");
+  t.TP_mm = length("TP");
+  t.LU_mm = length("LCF");
+  t.NOF = numbers.at(geometry, kPlace, "NOF");
+  t.SIG_deg = numbers.at(geometry, kPlace, "SIG");
+}
+
+bool is_read(const std::string& type) {
+  constexpr std::array kTypes{"turning general", "turning boring", "tap right hand",
+                              "reamer", "counter sink"};
+  return std::ranges::find(kTypes, type) != kTypes.end();
+}
+
 LibraryTool read_fusion_tool(const json& item, Numbers& numbers) {
   LibraryTool t;
+  t.use = hole_use(text_at(item, "type"));
   t.boring = text_at(item, "type") == "turning boring";
   t.name = text_at(item, "description");
   t.id = text_at(item, "product-id");
@@ -144,6 +167,10 @@ LibraryTool read_fusion_tool(const json& item, Numbers& numbers) {
                            text_at(member_of(item, "post-process"), "comment")})
     if (!text.empty()) t.texts.push_back(text);
   const double unit = numbers.unit(item, "", 0);
+  if (!t.use.empty()) {
+    read_hole_tool(member_of(item, "geometry"), unit, numbers, t);
+    return t;
+  }
   read_insert(member_of(item, "geometry"), unit, numbers, t);
   if (holder.is_object()) read_fusion_holder(holder, unit, numbers, t);
   read_presets(item, unit, numbers, t);
@@ -172,14 +199,14 @@ ToolLibrary read_fusion_library(const Reader& library) {
     if (!at_most(out.tools.size(), kMostTools, "turning tools")) return out;
     const auto at = fmt::format("/{}/{}", key, i);
     const auto type = text_at(list[i], "type");
-    if (type != "turning general" && type != "turning boring") {
+    if (!is_read(type)) {
       out.ignored.push_back({at, other_type(shortened(type, 60))});
       continue;
     }
     Numbers numbers;
     auto tool = read_fusion_tool(list[i], numbers);
     tool.at = at;
-    if (text_at(list[i], "BMC") == "hss")
+    if (tool.use.empty() && text_at(list[i], "BMC") == "hss")
       out.ignored.push_back(
           {at, "A tool of high-speed steel: lives of materials are those of carbide."});
     else if (!numbers.wrong().empty())

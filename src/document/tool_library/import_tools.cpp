@@ -11,6 +11,7 @@
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/exchange/given_file.hpp"
 #include "document/json/fields.hpp"
+#include "hole_tool_draft.hpp"
 #include "library_file.hpp"
 #include "tool_draft.hpp"
 
@@ -69,7 +70,10 @@ class Ids {
 std::string objection(const ordered_json& document) {
   const json value = document;
   Problems problems{.document = kDoor};
-  (void)read_tool(Reader(value, problems));
+  if (value["format"] == "turnwright-fixed-tool/1")
+    (void)read_fixed_tool(Reader(value, problems));
+  else
+    (void)read_tool(Reader(value, problems));
   if (problems.list.empty()) return "";
   const auto& p = problems.list.front();
   return fmt::format("Its document would be refused: {}: got {}, expected {}.", p.pointer,
@@ -89,7 +93,8 @@ ordered_json result_of(const LibraryFile& file, const std::string& groups) {
   for (const auto& remark : file.library.ignored) ignored.add(remark.at, remark.text);
   Ids ids;
   for (const auto& tool : file.library.tools) {
-    auto [document, assumptions, disagreements, refused] = tool_draft(tool, groups);
+    auto [document, assumptions, disagreements, refused] =
+        tool.use.empty() ? tool_draft(tool, groups) : hole_tool_draft(tool, groups);
     if (refused.empty()) {
       document["id"] =
           ids.of(tool.id.empty() ? document["name"].get<std::string>() : tool.id);

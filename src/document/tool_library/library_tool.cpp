@@ -19,7 +19,9 @@ const std::vector<Symbol>& symbols() {
       {"DCON", &T::DCON_mm, true},   {"DCONMS", &T::DCON_mm, true},
       {"DMM", &T::DCON_mm, true},    {"DMIN", &T::DMIN_mm, true},
       {"DMIN1", &T::DMIN_mm, true},  {"OHX", &T::OHX_mm, true},
-      {"APMX", &T::APMX_mm, true},
+      {"APMX", &T::APMX_mm, true},   {"DC", &T::DC_mm, true},
+      {"TP", &T::TP_mm, true},       {"SIG", &T::SIG_deg, false},
+      {"NOF", &T::NOF, false},       {"LU", &T::LU_mm, true},
   };
   return kSymbols;
 }

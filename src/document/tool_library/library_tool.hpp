@@ -15,7 +15,7 @@ struct LibraryPreset {
   double vc_m_min = 0, f_mm_rev = 0;  ///< 0: not said
 };
 
-/// A turning tool of a library, in symbols of ISO 13399; what is not said is absent.
+/// A turning tool of a library, or one that makes holes to its size, in symbols of ISO 13399; what is not said is absent.
 struct LibraryTool {
   std::string at;    ///< its place in the library: "/data/4", "line 7"
   std::string name;  ///< for people
@@ -48,6 +48,16 @@ struct LibraryTool {
   std::optional<double> OHX_mm;   ///< overhang
   std::optional<double> APMX_mm;  ///< largest depth of cut
 
+  /// Of tools that make holes to their size: "tapping", "reaming", "countersinking"; "" of
+  /// turning tools.
+  std::string use = {};
+  std::string thread = {};        ///< of a tap, as the library writes it
+  std::optional<double> DC_mm;    ///< cutting diameter
+  std::optional<double> TP_mm;    ///< pitch of a tap's thread
+  std::optional<double> SIG_deg;  ///< point angle
+  std::optional<double> NOF;      ///< number of flutes
+  std::optional<double> LU_mm;    ///< usable length
+
   std::string groups;  ///< ISO 513 letters of the materials it is for, "PMK"
   std::vector<LibraryPreset> presets;
 };
@@ -66,7 +76,7 @@ struct ToolLibrary {
 struct Symbol {
   std::string_view code;
   std::optional<double> LibraryTool::*member;
-  bool length;  ///< a length, otherwise an angle
+  bool length;  ///< a length, otherwise an angle or a number
 };
 /// Those that tables and assets may hold; other spellings of one number are rows too.
 const std::vector<Symbol>& symbols();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
+#include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 
 namespace turnwright::document {
@@ -78,12 +79,13 @@ std::optional<LibraryTool> read_asset(const pugi::xml_node& asset, std::string& 
   const auto count = std::count_if(items.begin(), items.end(), [](const auto& node) {
     return local_name(node) == "CuttingItem";
   });
-  why = no_turning_tool(life_cycle, count);
-  if (!why.empty()) return std::nullopt;
-  const auto item = child_of(items, "CuttingItem");
   LibraryTool t;
   t.id = readable(asset.attribute("toolId").value());
   t.name = t.id;
+  const auto item = child_of(items, "CuttingItem");
+  t.use = hole_use(child_of(asset, "Description").child_value());
+  if (t.use.empty()) why = no_turning_tool(life_cycle, count);
+  if (!why.empty()) return std::nullopt;
   for (const char* text : {item.attribute("itemId").value(), t.id.c_str(),
                            child_of(asset, "Description").child_value()})
     if (*text != '\0') t.texts.push_back(readable(shortened(text, 200)));

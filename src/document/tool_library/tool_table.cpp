@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "document/json/csv.hpp"
+#include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
 #include "printed_designations.hpp"
 
@@ -12,8 +13,9 @@ namespace {
 using nlohmann::json;
 
 /// Columns with words.
-constexpr std::string_view kWords[] = {"id",   "name", "type",   "unit", "insert",
-                                       "MIID", "SC",   "holder", "HAND", "TMC1ISO"};
+constexpr std::string_view kWords[] = {"id",     "name",    "type", "unit",
+                                       "insert", "MIID",    "SC",   "holder",
+                                       "HAND",   "TMC1ISO", "TDZ"};
 
 std::vector<CsvColumn> columns() {
   std::vector<CsvColumn> out;
@@ -73,8 +75,10 @@ void read_words(Row& row, LibraryTool& t) {
   letter("HAND", t.hand);
   const auto type = row.word("type");
   t.boring = type == "boring";
-  if (!type.empty() && type != "boring" && type != "turning")
-    row.wrong("type", type, "turning or boring");
+  t.thread = row.word("TDZ");
+  t.use = hole_use(type);
+  if (!type.empty() && type != "boring" && type != "turning" && t.use.empty())
+    row.wrong("type", type, "turning, boring, tap, reamer or countersink");
 }
 
 LibraryTool read_row(Row& row, double unit) {

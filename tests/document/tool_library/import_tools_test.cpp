@@ -11,6 +11,7 @@
 #include "../slips.hpp"
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
+#include "document/tool_library/hole_tool_draft.hpp"
 #include "turnwright/document/import.hpp"
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/planning/plan.hpp"
@@ -27,13 +28,18 @@ std::string bytes_of(const std::string& name) {
 }
 
 json answered(const json& request) {
-  static const SchemaCheck kRequest("import-tools.request.json"), kTool("tool.json");
+  static const SchemaCheck kRequest("import-tools.request.json"), kTool("tool.json"),
+      kFixed("fixed-tool.json");
   EXPECT_EQ(kRequest.fault(request), "") << request;
   json result = import_tools(request);
   for (const json& tool : result["tools"]) {
-    EXPECT_EQ(kTool.fault(tool), "") << tool;
+    const bool fixed = tool["format"] == "turnwright-fixed-tool/1";
+    EXPECT_EQ((fixed ? kFixed : kTool).fault(tool), "") << tool;
     Problems problems{.document = "tool"};
-    (void)read_tool(Reader(tool, problems));
+    if (fixed)
+      (void)read_fixed_tool(Reader(tool, problems));
+    else
+      (void)read_tool(Reader(tool, problems));
     EXPECT_TRUE(problems.list.empty()) << tool;
   }
   return result;
@@ -78,6 +84,151 @@ std::string zipped(const std::vector<std::pair<std::string, std::string>>& entri
   zip_source_close(source);
   zip_source_free(source);
   return bytes;
+}
+
+// --------------------------------------------------- taps, reamers and countersinks
+
+json catalogue_tool(const std::string& id) {
+  return parse_file(source_path("tools/fixed/" + id + ".json"));
+}
+
+TEST(ImportTools, WhatIsNotSaidOfHoleToolsIsAsInTheCatalogue) {
+  for (const auto& [use, id] : {std::pair{"tapping", "TAP-HSS-6H"},
+                                {"reaming", "REAM-HSS-H7"},
+                                {"countersinking", "CSINK-HSS-90"}}) {
+    SCOPED_TRACE(id);
+    const json tool = catalogue_tool(id);
+    const auto& usual = hole_estimates(use);
+    EXPECT_EQ(tool["edges"], usual.edges);
+    EXPECT_EQ(tool.value("reach_diameters", 0.0), usual.reach_diameters);
+    for (const auto& [key, value] : {std::pair{"gamma_deg", usual.gamma_deg},
+                                     {"change_min", usual.change_min},
+                                     {"edge_cost", usual.edge_cost}})
+      EXPECT_EQ(tool[key], value) << key;
+    ASSERT_EQ(tool["conditions"].size(), usual.conditions.size());
+    for (std::size_t i = 0; i < usual.conditions.size(); ++i) {
+      const auto& c = usual.conditions[i];
+      const json& of = tool["conditions"][i];
+      EXPECT_EQ(of["groups"], json({c.group}));
+      EXPECT_EQ(of["vc_m_min"], c.vc_m_min);
+      EXPECT_EQ(of.value("f_per_mm", 0.0), c.f_per_mm);
+      EXPECT_EQ(of["T_min"], c.T_min);
+    }
+  }
+}
+
+TEST(ImportTools, HoleToolsOfATableAreDocuments) {
+  const json r = imported(
+      "id;type;DC;TP;NOF;LU;SIG;TDZ;TMC1ISO;unit\n"
+      "T8;tap;8;1.25;3;20;;;PK;\nT9;tap;;;;;;M10x1;;\nTI;tap;0.375;0.0625;;;;;;inch\n"
+      "R;reamer;12;;6;36;;;;\nC;countersink;20.5;;3;;60;;P;\nN;reamer;;;;;;;;\n"
+      "H;tap;8;1.25;;;;;H;\nE;tap;8;1e-9;;;;;;\nF;reamer;8;;1e300;;;;;\n");
+  ASSERT_EQ(r["tools"].size(), 5u) << r["ignored"];
+  const json tap = tool_called(r, "T8"), reamer = tool_called(r, "R"),
+             sink = tool_called(r, "C");
+  EXPECT_EQ(tap["use"], "tapping");
+  EXPECT_EQ(tap["threads"], json({"M8"}));
+  EXPECT_EQ(tap["reach_diameters"], 2.5);
+  ASSERT_EQ(tap["conditions"].size(), 2u);
+  EXPECT_EQ(tap["conditions"][1]["groups"], json({"K"}));
+  EXPECT_EQ(tap["uncertainty_pct"], 50);
+  EXPECT_EQ(tool_called(r, "T9")["threads"], json({"M10x1"}));
+  EXPECT_EQ(tool_called(r, "TI")["threads"], json({"3/8-16 UN"}));
+  EXPECT_EQ(reamer["sizes_mm"], json({12}));
+  EXPECT_EQ(reamer["reach_diameters"], 3);
+  EXPECT_EQ(reamer["edges"], 6);
+  EXPECT_EQ(reamer["hole"], json({{"grade", 7}, {"Ra_um", 0.8}}));
+  EXPECT_EQ(sink["point_deg"], 60);
+  EXPECT_EQ(sink["sizes_mm"], json({20.5}));
+  EXPECT_EQ(at(r["assumed"], "R/edges"), "");
+  EXPECT_NE(at(r["assumed"], "T9/edges"), "");
+  EXPECT_NE(at(r["assumed"], "T9/reach_diameters").find("3 diameters"),
+            std::string::npos);
+  EXPECT_EQ(at(r["ignored"], "line 7"), "Its cutting diameter (DC) is not said.\n");
+  EXPECT_NE(at(r["ignored"], "line 8").find("no material of the groups H"),
+            std::string::npos);
+  EXPECT_NE(at(r["ignored"], "line 9").find("is no thread of a tap"), std::string::npos);
+  EXPECT_NE(at(r["ignored"], "line 10").find("/edges"), std::string::npos);
+}
+
+TEST(ImportTools, HoleToolsOfFusionAreDocuments) {
+  const auto tool = [](const char* type, const char* called, json geometry,
+                       const char* unit = "millimeters") {
+    return json{{"type", type},
+                {"description", called},
+                {"unit", unit},
+                {"geometry", std::move(geometry)},
+                {"BMC", "hss"}};
+  };
+  const json r = imported(json{
+      {"data",
+       {tool("tap right hand", "M42 steel, M6", {{"DC", 6}, {"LCF", 15}, {"NOF", 2}}),
+        tool("tap right hand", "tap", {{"DC", 0.25}, {"TP", 0.05}}, "inches"),
+        tool("tap left hand", "M6 LH", {{"DC", 6}, {"TP", 1}}),
+        tool("reamer", "6H7", {{"DC", 6}, {"LCF", 24}, {"NOF", 6}}),
+        tool("counter sink", "90", {{"DC", 12.4}, {"SIG", 90}, {"NOF", 3}}),
+        tool("tap right hand", "special",
+             {{"DC", 6}})}}}.dump());
+  ASSERT_EQ(r["tools"].size(), 4u) << r["ignored"];
+  EXPECT_EQ(r["tools"][0]["threads"], json({"M6"}));  // not the steel's grade
+  EXPECT_EQ(r["tools"][0]["reach_diameters"], 2.5);
+  EXPECT_EQ(r["tools"][1]["threads"], json({"1/4-20 UN"}));
+  EXPECT_EQ(r["tools"][2]["use"], "reaming");
+  EXPECT_EQ(r["tools"][3]["point_deg"], 90);
+  EXPECT_NE(at(r["ignored"], "/data/2").find("right-hand"), std::string::npos);
+  EXPECT_NE(at(r["ignored"], "/data/5").find("neither the thread"), std::string::npos);
+}
+
+TEST(ImportTools, HoleToolsOfFreeCadAndMtconnectAreDocuments) {
+  const auto bit = [](const char* shape, json parameters,
+                      json attribute = json::object()) {
+    return json{{"version", 2},
+                {"name", "a bit"},
+                {"shape", shape},
+                {"parameter", std::move(parameters)},
+                {"attribute", std::move(attribute)}}
+        .dump();
+  };
+  const json tap{
+      {"Diameter", "8 mm"}, {"Pitch", "1.25 mm"}, {"CuttingEdgeLength", "24 mm"}};
+  const json r = imported(
+      zipped({{"tap.fctb", bit("tap.fcstd", tap)},
+              {"left.fctb", bit("tap.fcstd", tap, {{"SpindleDirection", "Reverse"}})},
+              {"inch.fctb",
+               bit("tap.fcstd", {{"Diameter", "0.375 \""}, {"Pitch", "0.0625 in"}})},
+              {"reamer.fctb", bit("reamer.fcstd", {{"Diameter", "5 mm"}})}}));
+  ASSERT_EQ(r["tools"].size(), 3u) << r["ignored"];
+  EXPECT_EQ(r["tools"][0]["threads"], json({"M8"}));
+  EXPECT_EQ(r["tools"][0]["reach_diameters"], 3);
+  EXPECT_NE(at(r["ignored"], "left.fctb").find("turns to the left"), std::string::npos);
+
+  const json x = imported(
+      R"(<MTConnectAssets><CuttingTool assetId="1" toolId="R8"><Description>Reamer 8 H7</Description>
+         <CuttingToolLifeCycle><Measurements><CuttingDiameter code="DC">8</CuttingDiameter>
+         <UsableLength code="LU">32</UsableLength></Measurements></CuttingToolLifeCycle>
+         </CuttingTool></MTConnectAssets>)");
+  ASSERT_EQ(x["tools"].size(), 1u) << x["ignored"];
+  EXPECT_EQ(x["tools"][0]["id"], "R8");
+  EXPECT_EQ(x["tools"][0]["sizes_mm"], json({8}));
+  EXPECT_EQ(x["tools"][0]["reach_diameters"], 4);
+}
+
+TEST(ImportTools, AHoleIsTappedByTheLibrarysTap) {
+  const json tap = imported("id;type;TDZ\nOURS;tap;M10\n")["tools"][0];
+  json part =
+      json::parse(R"({"format": "turnwright-part/1", "name": "nut", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 42, "length_mm": 34, "left_allowance_mm": 2},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 15, "diameter_mm": 40},
+              {"id": "d2", "kind": "cylinder", "length_mm": 15, "diameter_mm": 30}],
+    "inner": [{"id": "t", "kind": "thread", "from": "right", "length_mm": 16,
+               "designation": "M10"}], "choose": {"setups": "auto"}})");
+  part["tools"] = {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", tap};
+  static const Catalogue kShop = load_catalogue(source_path(""));
+  const auto candidates = prepared_part(part, kShop, "part").part.fixed_tools;
+  const auto ours = std::ranges::find(candidates, "OURS", &catalogue::FixedTool::id);
+  ASSERT_NE(ours, candidates.end());
+  for (const auto& t : candidates)
+    EXPECT_TRUE(t.id == "OURS" || t.use != catalogue::FixedUse::tapping) << t.id;
 }
 
 // ------------------------------------------------------------------------------ Fusion
