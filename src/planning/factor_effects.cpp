@@ -56,6 +56,7 @@ void scale_compliance(catalogue::Lathe& m, double factor) {
   for (auto* at : {&m.tail_centre, &m.head_centre, &m.steady_rest, &m.follow_rest})
     for (double* x : {&at->radial_mm_N, &at->tangential_mm_N}) *x *= factor;
   for (double* x : {&m.chuck.axial_mm_N, &m.tool_rr_mm_N, &m.tool_rt_mm_N}) *x *= factor;
+  if (m.tool_zz_mm_N) *m.tool_zz_mm_N *= factor;
 }
 
 // The middle of a surface's error on the diameter.

@@ -63,9 +63,9 @@ TEST(Cut, ForcesOfASharpEdgeFollowItsAngle) {
                    kienzle_N(*own.kp, engaged_edge_mm(own, 2.0, 0.3), 2.0, 0.3));
 }
 
-// The section between an edge moved in by w and the surface it left a turn before, by
-// quadrature: its slope over w is the edge's axial extent ap u.
-TEST(Cut, ChatterStiffnessIsThePressureTimesTheSectionsSlope) {
+// The section between an edge moved in by w and along the feed by z and the surface it left
+// a turn before, by quadrature: its slopes are the edge's axial extent ap u and its depth.
+TEST(Cut, ChatterStiffnessesAreThePressureTimesTheSectionsSlopes) {
   const double f = 0.2, h = 1e-4;
   for (const double ap : {0.1, 0.5, 2.0}) {
     const auto c = steel(75, 0.8);
@@ -74,28 +74,77 @@ TEST(Cut, ChatterStiffnessIsThePressureTimesTheSectionsSlope) {
       if (z > join) return c.corner.depth_mm + (z - join) / c.corner.cotangent;
       return r - std::sqrt(r * r - z * z);
     };
-    const auto section = [&](double w) {
+    const auto section = [&](double w, double along) {
       constexpr int kSteps = 2000000;
       const double low = -0.5 * f, high = f + 2;
       double sum = 0;
       for (int k = 0; k < kSteps; ++k) {
         const double z = low + (high - low) * (k + 0.5) / kSteps;
-        sum += std::max(0.0, std::min(ap, edge(z)) - edge(z - f) + w);
+        sum += std::max(0.0, std::min(ap, edge(z)) - edge(z - f - along) + w);
       }
       return sum * (high - low) / kSteps;
     };
-    const double slope = (section(h) - section(-h)) / (2 * h);
-    EXPECT_NEAR(slope, ap * flow_cotangent(c, ap, f), 1e-3 * slope) << ap;
+    const double slope = (section(h, 0) - section(-h, 0)) / (2 * h);
+    const double u = flow_cotangent(c, ap, f);
+    EXPECT_NEAR(slope, ap * u, 1e-3 * slope) << ap;
+    const double along = (section(0, h) - section(0, -h)) / (2 * h);
+    EXPECT_NEAR(along, ap - f * f / (8 * r), 2e-3 * ap) << ap;  // without the feed mark
     const auto F = forces_N(c, ap, f);
     const double F_D = std::hypot(F.Ff_N, F.Fp_N);
-    const double chip = 0.4 * F.Fc_N * F.Fp_N / F_D;  // the part that does not plough
-    EXPECT_NEAR(chatter_stiffness_N_mm(c, ap, f), chip / (ap * f) * slope,
-                1e-3 * chip * slope / (ap * f));
+    const double Fp = 0.4 * F.Fc_N * F.Fp_N / F_D;  // the parts that do not plough
+    const double Ff = 0.4 * F.Fc_N * F.Ff_N / F_D;
+    const auto K = chatter_stiffnesses_N_mm(c, ap, f);
+    EXPECT_EQ(K.ww, chatter_stiffness_N_mm(c, ap, f));
+    EXPECT_NEAR(K.ww, Fp / (ap * f) * slope, 1e-3 * K.ww);
+    EXPECT_NEAR(K.zz, Ff / f, 1e-9 * K.zz);
+    // A compliance in one direction of the plane, at any angle.
+    for (const double angle : {0.3, 1.0, 2.0}) {
+      const double w = std::cos(angle), z = std::sin(angle);
+      const double gain = (Fp * w + Ff * z) * (ap * u * w + ap * z) / (ap * f);
+      EXPECT_NEAR(K.ww * w * w + 2 * K.wz * w * z + K.zz * z * z, gain, 1e-9 * K.zz);
+    }
   }
 }
 
+// Constants of its own by component: the forces do not follow the chord, the gain is that
+// of one mode all the same.
+TEST(Cut, ChatterStiffnessesOfOwnFeedAndPassiveForces) {
+  auto c = steel(95, 0.8);
+  c.kf = Kienzle{400, 0.7};
+  c.kp = Kienzle{300, 0.5};
+  const double ap = 1.3, f = 0.2, u = flow_cotangent(c, ap, f);
+  const auto F = forces_N(c, ap, f);
+  const auto K = chatter_stiffnesses_N_mm(c, ap, f);
+  for (const double z : {-0.7, 0.2, 1.5})
+    EXPECT_NEAR(K.ww + 2 * K.wz * z + K.zz * z * z, (F.Fp_N + F.Ff_N * z) * (u + z) / f,
+                1e-9 * K.zz);
+}
+
+// What an edge of 95 deg loses by radial motion beyond its corner it gains along the feed.
+TEST(Cut, AlongTheFeedTheChatterStiffnessGrowsWithTheDepth) {
+  const auto c = steel(95, 0.4);
+  auto before = chatter_stiffnesses_N_mm(c, 0.5, 0.1);
+  for (const double ap : {0.7, 1.0, 2.0, 4.0}) {
+    const auto K = chatter_stiffnesses_N_mm(c, ap, 0.1);
+    EXPECT_LT(K.ww, before.ww);
+    EXPECT_GT(K.zz, before.zz);
+    before = K;
+  }
+}
+
+// Whether a value and its changes from the one before lie in an enclosure.
+void expect_enclosed(const Dual<Interval, 2>& box, double K, double before,
+                     const std::array<double, 2>& step) {
+  const double slack = 1e-9 * (1 + std::abs(K));
+  EXPECT_LE(box.v.lo, K + slack);
+  EXPECT_GE(box.v.hi, K - slack);
+  const Interval change = box.d[0] * Interval(step[0]) + box.d[1] * Interval(step[1]);
+  EXPECT_LE(change.lo, K - before + slack);
+  EXPECT_GE(change.hi, K - before - slack);
+}
+
 // Enclosed over boxes, where an obtuse edge pulls too.
-TEST(Cut, ChatterStiffnessIsEnclosed) {
+TEST(Cut, ChatterStiffnessesAreEnclosed) {
   using L = LogDual<2>;
   std::mt19937 seed(11);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -107,23 +156,17 @@ TEST(Cut, ChatterStiffnessIsEnclosed) {
     const Interval y(std::log(0.2) + 2 * unit(seed)), z(std::log(0.08) + unit(seed));
     const Interval ap(y.lo, y.lo + w), f(z.lo, z.lo + w);
     const L::Half half{w / 2, w / 2};
-    const L a = L::variable(ap, 0, half), b = L::variable(f, 1, half);
-    const auto box = chatter_stiffness_N_mm(c, a, b);
-    double before = 0;
-    std::array<double, 2> at{};
+    const auto box =
+        chatter_stiffnesses_N_mm(c, L::variable(ap, 0, half), L::variable(f, 1, half));
+    std::array<double, 2> at{mid(ap), mid(f)};
+    auto before = chatter_stiffnesses_N_mm(c, std::exp(at[0]), std::exp(at[1]));
     for (int k = 0; k < 5; ++k) {
       const std::array<double, 2> x{ap.lo + w * unit(seed), f.lo + w * unit(seed)};
-      const double depth = std::exp(x[0]), feed = std::exp(x[1]);
-      const double K = chatter_stiffness_N_mm(c, depth, feed);
-      const double slack = 1e-9 * (1 + std::abs(K));
-      EXPECT_LE(box.v.lo, K + slack);
-      EXPECT_GE(box.v.hi, K - slack);
-      if (k > 0) {
-        const Interval step =
-            box.d[0] * Interval(x[0] - at[0]) + box.d[1] * Interval(x[1] - at[1]);
-        EXPECT_LE(step.lo, K - before + slack);
-        EXPECT_GE(step.hi, K - before - slack);
-      }
+      const std::array<double, 2> step{x[0] - at[0], x[1] - at[1]};
+      const auto K = chatter_stiffnesses_N_mm(c, std::exp(x[0]), std::exp(x[1]));
+      expect_enclosed(box.ww, K.ww, before.ww, step);
+      expect_enclosed(box.wz, K.wz, before.wz, step);
+      expect_enclosed(box.zz, K.zz, before.zz, step);
       before = K;
       at = x;
     }

@@ -84,6 +84,9 @@ struct Lathe {
   LiveCentre live_centre = {};
   double tool_rr_mm_N = 0;  ///< toolpost: radial deflection per radial force
   double tool_rt_mm_N = 0;  ///< and per tangential force (usually towards the work)
+  /// Its axial deflection per axial force, for chatter; none: chatter along the feed is not
+  /// counted.
+  std::optional<double> tool_zz_mm_N = {};
   double stiffness_uncertainty_pct = 0;
   ShopBudget budget = {};
   std::optional<GeometricErrors> errors = {};

@@ -246,24 +246,37 @@ Forces<T> chip_forces_N(Cut c, const T& ap_mm, const T& f_mm_rev) {
   return forces_N(c, ap_mm, f_mm_rev);
 }
 
-/// Stiffness of regenerative chatter [N/mm]: change of the passive force per radial
-/// motion w of the edge relative to the surface of the turn before:
+/// Stiffnesses of regenerative chatter [N/mm]: forces per motion of the edge relative to
+/// the surface of the turn before, w out of the work and z against the feed.  They change
+/// the chip's section A = ap f,
 ///
-///     dA = (x + f/2) dw,  K = Fp'/(ap f) (x + f/2) = (Fp'/f) u                       (7)
+///     dA = -((x + f/2) dw + ap dz) = -ap (u dw + dz)
 ///
-/// A = ap f is the chip's section, x + f/2 the edge's axial extent, u = cot(kappa_eff) of
-/// (4), Fp' the part of the passive force that makes the chip: lambda Fc cos(kappa_eff),
-/// or all of it where the material has kp1.1.  Ploughing does not depend on the surface
-/// of the turn before.  The wave w' of that turn changes the section by (x - f/2) w'; x +
-/// f/2 in its place is on the safe side.  The slope of (3) at constant b is (1 - mc) K,
-/// so the secant K is on the safe side, too.
-/// Source: derived here; cut_test measures the section of two profiles.
+/// x + f/2 is the edge's axial extent, u = cot(kappa_eff) of (4), ap its radial extent.  A
+/// motion along the cutting speed leaves A as it is.  With the forces Fp', Ff' that make
+/// the chip, (5) without ploughing, which does not depend on the surface of the turn
+/// before, and (6), by which they lie across the chord like A's slope,
+///
+///     K_zz = Ff'/f,  K_wz = (Fp' + u Ff')/(2 f) = u K_zz,  K_ww = Fp' u/f = u^2 K_zz   (7)
+///
+/// so that static compliances c of work and tool have the loop gain
+/// K_ww c_ww + 2 K_wz c_wz + K_zz c_zz.  A material with kp1.1 has the first form of K_wz
+/// and K_ww, with all of its Ff and Fp.  The wave w' of the turn before changes the section
+/// by (x - f/2) w'; x + f/2 in its place is on the safe side.  The slope of (3) at constant
+/// b is (1 - mc) of K, so the secant K is on the safe side, too.
+/// Source: derived here; cut_test measures the sections of two profiles.
+template <class T>
+struct ChatterStiffness {
+  Signed<T> ww{}, wz{}, zz{};
+};
+
+/// K_ww of (7).
 template <class T>
 Signed<T> chatter_stiffness_N_mm(const Cut& c, const T& ap_mm, const T& f_mm_rev) {
   return chip_forces_N(c, ap_mm, f_mm_rev).Fp_N * flow_cotangent(c, ap_mm, f_mm_rev) /
          f_mm_rev;
 }
-/// Enclosure of (7), by elasticities where u > 0.
+/// Its enclosure, by elasticities where u > 0.
 template <int N>
 Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const LogDual<N>& ap_mm,
                                          const LogDual<N>& f_mm_rev) {
@@ -282,6 +295,20 @@ Dual<Interval, N> chatter_stiffness_N_mm(const Cut& c, const LogDual<N>& ap_mm,
                         1 + 1 / (1 + std::exp(2 * ln_u.lo)));
       });
   return linear(c.thrust.ratio * kienzle_N(c.kc, L, ap_mm, f_mm_rev) * flow / f_mm_rev);
+}
+
+/// All of (7).
+template <class T>
+ChatterStiffness<T> chatter_stiffnesses_N_mm(const Cut& c, const T& ap_mm,
+                                             const T& f_mm_rev) {
+  const Forces<T> F = chip_forces_N(c, ap_mm, f_mm_rev);
+  const Signed<T> f = linear(f_mm_rev);
+  ChatterStiffness<T> K;
+  K.ww = chatter_stiffness_N_mm(c, ap_mm, f_mm_rev);
+  K.wz = F.Fp_N / f;
+  K.zz = linear(T(F.Ff_N / f_mm_rev));
+  if (c.kf && c.kp) K.wz = (K.wz + K.zz * flow_cotangent(c, linear(ap_mm), f)) * 0.5;
+  return K;
 }
 
 /// ap^b, with the material's other exponent below 1 mm where it has one.

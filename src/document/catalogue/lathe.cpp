@@ -123,6 +123,7 @@ void read_stiffness(Reader group, catalogue::Lathe& m) {
       group.optional_number("tail_thrust_N", within(0, 1e6, "N")).value_or(0);
   m.tool_rr_mm_N = group.number("tool_rr_mm_N", kCompliance);
   m.tool_rt_mm_N = group.number("tool_rt_mm_N", within(-0.1, 0.1, "mm/N"));
+  m.tool_zz_mm_N = group.optional_number("tool_zz_mm_N", kCompliance);
   m.damping_ratio = group.optional_number("damping_ratio", kDamping);
   m.stiffness_uncertainty_pct = finish_group(group);
 }

@@ -15,7 +15,8 @@ BarTip tip_of(const catalogue::BoringBar& bar) {
                                             {h.c0_mm_N, h.c1_rad_N, h.c2_rad_Nmm}});
   const double offset = bar.tip_offset_mm;
   const double w = bar.tip_mm_N.value_or(f.f_ww_mm_N);
-  return {w, f.f_wp_rad_N * offset, w + offset * offset * beam.twist_rad_Nmm()};
+  return {w, f.f_wp_rad_N * offset, w + offset * offset * beam.twist_rad_Nmm(),
+          f.f_pp_rad_Nmm * offset * offset};
 }
 
 }  // namespace turnwright::planning

@@ -4,9 +4,10 @@
 namespace turnwright::planning {
 
 /// Compliance of a boring bar's tip: y_w, y_p, y_t of yielding.hpp (3), per passive, feed
-/// and cutting force [mm/N].
+/// and cutting force [mm/N], and y_z, its motion along the bar per feed force: the tip lies
+/// beside the axis of a bar that bends.
 struct BarTip {
-  double w = 0, p = 0, t = 0;
+  double w = 0, p = 0, t = 0, z = 0;
 };
 BarTip tip_of(const catalogue::BoringBar& bar);
 

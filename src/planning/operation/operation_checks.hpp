@@ -39,27 +39,59 @@ void depth_checks(const OperationModel& o, const T& f, const T& a,
   if (o.Rz_um > 0) sink(Check::Rz, cutting::Rz_um(o.cut, f), T(o.Rz_um));
 }
 
-/// What is held against the limit of the chatter stiffness: K, or -K in the proportion of
-/// both limits where it is negative.
-inline double chatter_N_mm(const OperationModel& o, double f, double a) {
-  const double K = cutting::chatter_stiffness_N_mm(o.cut, o.depth_mm(a), f);
-  return std::max(K, -o.chatter_inwards * K);
+/// Gain of the regenerative loop from what the edge yields along the feed, (7) of
+/// cutting/cut.hpp, and that of its coupling with the radial motion.
+template <class T>
+struct AlongFeed {
+  Signed<T> alone{}, coupled{};
+  bool coupling = false;  ///< counts where it adds
+};
+template <class T>
+AlongFeed<T> along_feed(const OperationModel& o, const T& f, const T& a) {
+  if (!(o.chatter_zz_mm_N > 0)) return {Signed<T>(0.0), Signed<T>(0.0)};
+  const auto K = cutting::chatter_stiffnesses_N_mm(o.cut, T(o.depth_mm(a)), f);
+  return {K.zz * o.chatter_zz_mm_N, K.wz * (2 * o.chatter_wz_mm_N),
+          o.chatter_wz_mm_N != 0};
 }
 
-/// And chatter, in terms of either sign: K/limit at each place.
+/// Hands every gain of a place to sink, of which each is held against 1: K_ww times its
+/// compliance C_ww, and what comes on top along the feed.  Where K_ww < 0, -K_ww counts in
+/// the proportion of both limits.
+template <class T, class Sink>
+void chatter_gains(const OperationModel& o, const Signed<T>& radial,
+                   const AlongFeed<T>& along, const Sink& sink) {
+  const bool pushed = o.cut.kp && o.cut.corner.cotangent < 0;  // K_ww < 0 may be
+  if (!(o.chatter_zz_mm_N > 0)) {
+    sink(radial);
+    if (pushed) sink(Signed<T>(radial * -o.chatter_inwards));
+    return;
+  }
+  const Signed<T> apart = radial + along.alone;
+  sink(apart);
+  if (along.coupling) sink(Signed<T>(apart + along.coupled));
+  if (pushed) sink(Signed<T>(radial * -o.chatter_inwards + along.alone));
+}
+
+/// The largest gain at conditions, where the radial compliance is C_ww.
+inline double chatter_gain(const OperationModel& o, double f, double a, double ww_mm_N) {
+  const double K = cutting::chatter_stiffness_N_mm(o.cut, o.depth_mm(a), f);
+  double most = 0;
+  chatter_gains<double>(o, K * ww_mm_N, along_feed(o, f, a),
+                        [&](double gain) { most = std::max(most, gain); });
+  return most;
+}
+
+/// And chatter, in terms of either sign: the gains at each place.
 template <class T, class Sink>
 void chatter_checks(const OperationModel& o, std::size_t operation, const T& f,
                     const T& a, const Sink& sink) {
   if (o.chatter_mm_N.empty()) return;
   const Signed<T> K = cutting::chatter_stiffness_N_mm(o.cut, o.depth_mm(a), f);
-  const bool pushed = o.cut.kp && o.cut.corner.cotangent < 0;  // K < 0 may be
-  for (const auto& c : o.chatter_mm_N) {
-    const Signed<T> share = K * c(linear(a));
-    sink(operation, Check::chatter, false, share, Signed<T>(1.0));
-    if (pushed)
-      sink(operation, Check::chatter, false, Signed<T>(share * -o.chatter_inwards),
-           Signed<T>(1.0));
-  }
+  const auto along = along_feed(o, f, a);
+  for (const auto& c : o.chatter_mm_N)
+    chatter_gains<T>(o, Signed<T>(K * c(linear(a))), along, [&](const Signed<T>& gain) {
+      sink(operation, Check::chatter, false, gain, Signed<T>(1.0));
+    });
 }
 
 /// And every check of the speed.

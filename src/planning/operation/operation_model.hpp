@@ -59,7 +59,10 @@ struct OperationModel {
   /// finishing depth (MachinedSurface::limit_chatter).
   std::vector<Polynomial> chatter_mm_N;
   std::vector<double> chatter_at_mm;  ///< these positions
-  double chatter_inwards = 1;         ///< limit where K > 0 over that where K < 0
+  double chatter_inwards = 1;         ///< limit where K_ww > 0 over that where K_ww < 0
+  /// What the edge yields along the feed at every position: C_wz and C_zz of (1) of
+  /// MachinedSurface::chatter_limits_N_mm.
+  double chatter_wz_mm_N = 0, chatter_zz_mm_N = 0;
   catalogue::Range vc, f;  ///< open ranges: the tool's, or as the request fixes them
   catalogue::Range vc_window, f_window, ap;  ///< allowed by the tool
   std::vector<catalogue::ChipEdge> chip;     ///< and these of its chip breaker

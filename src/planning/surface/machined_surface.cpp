@@ -286,6 +286,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   double most = std::max(plan_->damping_ratio, plan_->machine_damping_ratio);
   if (o.inner) most = std::max(most, tool.bar->damping_ratio.value_or(0));
   o.chatter_inwards = (1 + most) / (1 - most);
+  yield_along_feed(o);
   o.tapered = o.face || D_small_ < D_large_;
   o.reaches_axis = o.face && !(D_small_ > 0);
   return o;
@@ -379,6 +380,15 @@ bool MachinedSurface::cut_to_chuck(const OperationModel& o) const {
          Direction::to_chuck;
 }
 
+// Towards the chuck the feed force bends an outside away from the tool less.
+double MachinedSurface::feed_sign(const OperationModel& o) const {
+  return (cut_to_chuck(o) ? -1 : 1) * sign();
+}
+
+double MachinedSurface::axial_mm_N() const {
+  return clamping_ == Clamping::between_centres ? 0 : plan_->machine.chuck.axial_mm_N;
+}
+
 double MachinedSurface::x_mm(const OperationModel& o, double at_mm) const {
   const auto& body = bodies_[o.finishing ? 1 : 0];
   return std::clamp(body.x_mm(at_mm), 0.0, body.length_mm());
@@ -436,12 +446,11 @@ void MachinedSurface::yields(const part::Shaft& chuck_side, const part::Shaft& t
 
 std::vector<std::vector<MachinedSurface::Values>> MachinedSurface::face_laws(
     const Chain& chain) const {
-  const auto& m = plan_->machine;
   const auto body = bodies_[0].shaft();
   std::vector<deflection::Flexibility> radial(1), tangential(1);
   yields(body, body, bodies_[0], {face_x_}, radial, tangential);
   const auto& f = radial[0];
-  const double c_ax = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
+  const double c_ax = axial_mm_N();
   std::vector<std::vector<Values>> all(chain.stations.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double rho = chain.stations[i].at_mm;
@@ -462,7 +471,6 @@ std::vector<std::vector<MachinedSurface::Values>> MachinedSurface::laws_at(
   std::vector<deflection::Flexibility> r(n), t(n);
   for (std::size_t i = 0; i < chain.operations.size(); ++i) {
     const auto& o = chain.operations[i];
-    const bool to_chuck = cut_to_chuck(o);
     const BarTip bar = o.inner ? tip_of(*o.tool->bar) : BarTip{};
     for (std::size_t k = 0; k < n; ++k) x[k] = x_mm(o, chain.stations[k].at_mm);
     for (const auto& pass : o.passes) {
@@ -473,10 +481,8 @@ std::vector<std::vector<MachinedSurface::Values>> MachinedSurface::laws_at(
         const double D = std::max(
             left_mm_ + (right_mm_ - left_mm_) * u + sign() * 2 * left, o.least_D_mm);
         const double slip = t[k].f_ww_mm_N + bar.t;
-        // Towards the chuck the feed force bends an outside away from the tool less.
-        const double towards = (to_chuck ? -1 : 1) * sign();
         all[k].push_back({r[k].f_ww_mm_N + bar.w + m.tool_rr_mm_N,
-                          towards * (r[k].f_wp_rad_N * D / 2 - bar.p),
+                          feed_sign(o) * (r[k].f_wp_rad_N * D / 2 - bar.p),
                           sign() * m.tool_rt_mm_N, sign() * slip * slip / D});
       }
     }

@@ -98,23 +98,28 @@ class MachinedSurface {
                              const std::vector<double>& stations,
                              std::optional<double> a_mm = {}) const;
 
-  /// Largest chatter stiffness [N/mm] allowed in each operation at a finishing depth:
+  /// Largest stiffness K_ww of chatter [N/mm] allowed in each operation at a finishing
+  /// depth, were the edge rigid along the feed: 1/C_ww of
   ///
-  ///     K <= 1/C,                                                                    (1)
-  ///     C = f_b/(2 zeta (1 + zeta)) + (f_s + c_rr)/(2 zeta_m (1 + zeta_m))
-  ///         + y_w/(2 zeta_b (1 + zeta_b)),   f_s + f_b = f_ww
+  ///     K_ww C_ww + max(0, 2 K_wz C_wz) + K_zz C_zz <= 1,                            (1)
+  ///     C_ww = f_b/(2 zeta (1 + zeta)) + (f_s + c_rr)/(2 zeta_m (1 + zeta_m))
+  ///            + y_w/(2 zeta_t (1 + zeta_t)),   f_s + f_b = f_ww
+  ///     C_zz = (c_zz + c_ax)/(2 zeta_m (1 + zeta_m)) + y_z/(2 zeta_t (1 + zeta_t))
+  ///     C_wz = -+y_p/(2 zeta_t (1 + zeta_t))
   ///
-  /// at the worst of 33 places of its last pass, the most slender.  Letters as in (1) and
-  /// (3) of yielding.hpp, on faces f_pp rho^2 and c_ax in place of f_ww and c_rr.  f_s is
-  /// what an all but rigid part yields in its supports, f_b the bending on top of that,
-  /// never negative because a stiffer body yields less everywhere; zeta is the damping
-  /// ratio of the bending part, zeta_m of the machine, zeta_b of a boring bar.  The
-  /// compliances are static.  For modes of any frequencies and at any spindle speed the
-  /// limit from the sum of their compliances is at most that of the modes together
-  /// (docs/planning-chatter.md).
+  /// with K by (7) of cutting/cut.hpp, at the worst of 33 places of the last pass, the most
+  /// slender.  Letters as in (1) and (3) of yielding.hpp, y_z of bar_tip.hpp; on faces f_pp
+  /// rho^2 and c_ax in place of f_ww and c_rr, and c_rr in place of c_zz + c_ax.  c_zz is
+  /// the machine's tool_zz_mm_N; without it the compliances of machine and chuck along the
+  /// feed do not count.  f_s is what an all but rigid part yields in its supports, f_b the
+  /// bending on top of that, never negative because a stiffer body yields less everywhere;
+  /// zeta is the damping ratio of the bending part, zeta_m of the machine, zeta_t of a
+  /// boring bar.  The compliances are static.  For modes of any frequencies and at any
+  /// spindle speed the limit from the sum of their compliances is at most that of the modes
+  /// together (docs/planning-chatter.md).
   std::vector<double> chatter_limits_N_mm(const Chain& chain, double a_mm) const;
 
-  /// The largest of the operations' chatter stiffness over its limit.
+  /// The largest of the operations' gains, the left side of (1).
   double chatter_share(const Chain& chain, const Choice<double>& choice) const;
 
   /// Imposes (1) on the operations of a chain that can reach it within their ranges; if
@@ -181,7 +186,10 @@ class MachinedSurface {
   std::vector<double> last_yields(const OperationModel& o, double a_mm,
                                   const std::vector<double>& places) const;
   std::vector<double> chatter_places() const;
+  void yield_along_feed(OperationModel& o) const;
   bool cut_to_chuck(const OperationModel& o) const;
+  double feed_sign(const OperationModel& o) const;  // of what the feed force bends
+  double axial_mm_N() const;                        // of what holds the part
   double x_mm(const OperationModel& o, double at_mm) const;  // from the root
   // Compliances while a pass leaves left_mm of uncut_mm, at distances from the root.
   void yields(const OperationModel& o, double left_mm, double uncut_mm,

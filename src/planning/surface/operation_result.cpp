@@ -56,15 +56,24 @@ ConstraintValue priced(ConstraintValue c, double multiplier) {
   return c;
 }
 
-// Chatter stiffness at conditions, against the largest that part and tool allow.
+// Chatter stiffness at conditions, K_ww and where the edge yields along the feed K_zz too,
+// against the largest that part and tool allow.  `limit_N_mm` is that of K_ww alone.
 ConstraintValue chatter(const Chosen& x, std::size_t i, double limit_N_mm) {
   const auto& limit = limit_row(Check::chatter);
   ConstraintValue c;
   c.name = limit.name;
   c.unit = limit.unit;
-  c.value = chatter_N_mm(x.chain.operations[i], x.c.f[i], x.c.a);
-  c.limit = limit_N_mm;
-  c.margin = -std::log(std::max(c.value / c.limit, 1e-300));
+  const auto& o = x.chain.operations[i];
+  const double f = x.c.f[i], a = x.c.a;
+  const double gain = chatter_gain(o, f, a, 1 / limit_N_mm);
+  if (o.chatter_zz_mm_N > 0) {
+    const auto K = cutting::chatter_stiffnesses_N_mm(o.cut, o.depth_mm(a), f);
+    c.value = std::max(K.ww, -o.chatter_inwards * K.ww) + K.zz;
+  } else {
+    c.value = gain * limit_N_mm;
+  }
+  c.limit = c.value / std::max(gain, 1e-300);
+  c.margin = -std::log(std::max(gain, 1e-300));
   c.binding = c.margin < kBinding;
   return c;
 }

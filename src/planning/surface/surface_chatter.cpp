@@ -23,8 +23,9 @@ double largest(const std::vector<double>& c) {
   return *std::max_element(c.begin(), c.end());
 }
 
-// An upper bound of K over the operation's depths and feeds.
-double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
+// An upper bound of the gain over the operation's depths and feeds, where the radial
+// compliance is at most C_ww.
+double most_gain(const OperationModel& o, const catalogue::Range& a, double ww_mm_N) {
   using L = LogDual<2>;
   const auto [low, high] = std::minmax({o.depth_mm(a.lower), o.depth_mm(a.upper)});
   const Interval depth(std::log(low), std::log(high));
@@ -39,8 +40,12 @@ double most_N_mm(const OperationModel& o, const catalogue::Range& a) {
       const Interval y = part(depth, i), z = part(feed, j);
       const L::Half half{width(y) / 2, width(z) / 2};
       const L ap = L::variable(y, 0, half), f = L::variable(z, 1, half);
-      const auto K = cutting::chatter_stiffness_N_mm(o.cut, ap, f);
-      most = std::max({most, K.v.hi, -o.chatter_inwards * K.v.lo});
+      const auto K = cutting::chatter_stiffnesses_N_mm(o.cut, ap, f);
+      const double along =
+          K.zz.v.hi * o.chatter_zz_mm_N +
+          2 * std::max(K.wz.v.hi, -K.wz.v.lo) * std::abs(o.chatter_wz_mm_N);
+      most = std::max(
+          most, std::max(K.ww.v.hi, -o.chatter_inwards * K.ww.v.lo) * ww_mm_N + along);
     }
   return most;
 }
@@ -89,10 +94,9 @@ std::vector<double> MachinedSurface::chatter_yields(
     yields(body, body, bodies_[0], {face_x_}, r, t);
     auto s = r;
     if (!alike) yields(stiff, stiff, bodies_[0], {face_x_}, s, t);
-    const double axial = clamping_ == Clamping::between_centres ? 0 : m.chuck.axial_mm_N;
     for (std::size_t k = 0; k < c.size(); ++k)
       c[k] = together(r[0].f_pp_rad_Nmm, s[0].f_pp_rad_Nmm) * sqr(places[k]) +
-             machine * axial;
+             machine * axial_mm_N();
     return c;
   }
   std::vector<double> x(places.size());
@@ -109,6 +113,22 @@ std::vector<double> MachinedSurface::chatter_yields(
   for (std::size_t k = 0; k < c.size(); ++k)
     c[k] = together(r[k].f_ww_mm_N, s[k].f_ww_mm_N) + machine * m.tool_rr_mm_N + bar;
   return c;
+}
+
+// C_zz and C_wz of (1).
+void MachinedSurface::yield_along_feed(OperationModel& o) const {
+  const auto& m = plan_->machine;
+  const double machine = 1 / damped(*plan_, plan_->machine_damping_ratio);
+  if (m.tool_zz_mm_N)
+    o.chatter_zz_mm_N =
+        machine * (is_face() ? m.tool_rr_mm_N : *m.tool_zz_mm_N + axial_mm_N());
+  if (!o.inner) return;
+  const auto bar = tip_of(*o.tool->bar);
+  const double of_bar =
+      1 /
+      damped(*plan_, o.tool->bar->damping_ratio.value_or(plan_->machine_damping_ratio));
+  o.chatter_zz_mm_N += of_bar * bar.z;
+  o.chatter_wz_mm_N = -feed_sign(o) * of_bar * bar.p;
 }
 
 std::vector<double> MachinedSurface::last_yields(
@@ -137,7 +157,7 @@ double MachinedSurface::chatter_share(const Chain& chain, const Choice<double>& 
   const auto limits = chatter_limits_N_mm(chain, c.a);
   double most = 0;
   for (std::size_t i = 0; i < limits.size(); ++i)
-    most = std::max(most, chatter_N_mm(chain.operations[i], c.f[i], c.a) / limits[i]);
+    most = std::max(most, chatter_gain(chain.operations[i], c.f[i], c.a, 1 / limits[i]));
   return most;
 }
 
@@ -160,7 +180,7 @@ void MachinedSurface::limit_chatter(Chain& chain, std::optional<double> a_mm) co
   const double centre = (a.lower + a.upper) / 2, half = (a.upper - a.lower) / 2;
   const auto places = chatter_places();
   for (auto& o : chain.operations) {
-    if (most_N_mm(o, a) * largest(chatter_yields(o, 0, 0, places)) < 1) continue;
+    if (most_gain(o, a, largest(chatter_yields(o, 0, 0, places))) < 1) continue;
     if (!(half > 0) || is_face()) {
       const auto c = last_yields(o, centre, places);
       for (std::size_t k = 0; k < c.size(); ++k) add_place(places[k], {0, 1, {c[k]}}, o);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "../parts.hpp"
+#include "planning/operation/bar_tip.hpp"
 #include "turnwright/base/units.hpp"
 #include "turnwright/chatter/limits.hpp"
 #include "turnwright/cutting/cut.hpp"
@@ -131,6 +132,133 @@ TEST(Chatter, BendingAndSupportsHaveTheirOwnDamping) {
   EXPECT_NEAR(c.limit,
               1 / (bending / damped(0.012) + (supports + m.tool_rr_mm_N) / damped(0.03)),
               2e-3 * c.limit);
+}
+
+// One pass of 95 deg over a stiff shaft in the chuck at given conditions, on a machine whose
+// toolpost yields along the feed.
+nlohmann::json given_pass(double ap_mm, double tool_zz_mm_N) {
+  constexpr double kD_mm = 60;
+  const double blank = kD_mm + 2 * ap_mm;
+  auto machine = file("machines/lathe-medium.json");
+  if (tool_zz_mm_N > 0) machine["stiffness"]["tool_zz_mm_N"] = tool_zz_mm_N;
+  return {
+      {"format", "turnwright-part/1"},
+      {"name", "shaft"},
+      {"material", "C45"},
+      {"stock",
+       {{"kind", "bar"},
+        {"diameter_mm", blank},
+        {"length_mm", 120},
+        {"left_allowance_mm", 0}}},
+      {"outer",
+       {{{"id", "held"},
+         {"kind", "cylinder"},
+         {"length_mm", 60},
+         {"diameter_mm", blank - 0.1}},
+        {{"id", "d"}, {"kind", "cylinder"}, {"length_mm", 60}, {"diameter_mm", kD_mm}}}},
+      {"machine", machine},
+      {"tools", {"PCLNL-CNMG120408-PM"}},
+      {"damping_ratio", 0.03},
+      {"setups", {{{"hold", "left"}, {"grip_mm", 50}, {"clampings", {"chuck"}}}}},
+      {"operations",
+       {{{"id", "turn"},
+         {"kind", "finish"},
+         {"on", {"d"}},
+         {"tool", "PCLNL-CNMG120408-PM"},
+         {"setup", 0},
+         {"conditions",
+          {{"passes", 1}, {"vc_m_min", 200}, {"f_mm_rev", 0.2}, {"ap_mm", ap_mm}}}}}}};
+}
+
+ConstraintValue chatter_at(const nlohmann::json& d) {
+  return chatter_of(operation(predict(part_to_predict(d)), "turn"));
+}
+double gain_of(const nlohmann::json& d) {
+  const auto c = chatter_at(d);
+  return c.value / c.limit;
+}
+
+// What yields along the feed adds K_zz of its compliance, written anew.
+TEST(Chatter, AToolpostThatYieldsAlongTheFeedAddsToIt) {
+  constexpr double kAp_mm = 3, kFeed_mm = 0.2, kAxial_mm_N = 1e-5, kZeta = 0.03;
+  const auto d = given_pass(kAp_mm, kAxial_mm_N);
+  const auto p = part_to_predict(d);
+  const auto radial = chatter_at(given_pass(kAp_mm, 0)), c = chatter_at(d);
+  const auto cut = cutting::cut_of(p.material, p.tools.at(0));
+  const double u = cutting::flow_cotangent(cut, kAp_mm, kFeed_mm);
+  const double K_zz =
+      0.4 * cutting::forces_N(cut, kAp_mm, kFeed_mm).Fc_N / std::hypot(1, u) / kFeed_mm;
+  EXPECT_NEAR(c.value, K_zz * (1 + u * u), 1e-9 * c.value);
+  EXPECT_NEAR(radial.value, K_zz * u * u, 1e-9 * radial.value);
+  const double yields = (kAxial_mm_N + p.machine.chuck.axial_mm_N) / (2 * kZeta * 1.03);
+  EXPECT_NEAR(c.value / c.limit, radial.value / radial.limit + K_zz * yields,
+              1e-9 * c.value / c.limit);
+  EXPECT_NEAR(c.margin, -std::log(c.value / c.limit), 1e-9);
+}
+
+// Measured chatter grows with the depth of cut.  By radial motion alone that of a 95 deg
+// edge falls beyond its corner.
+TEST(Chatter, AlongTheFeedDeepCutsComeCloserToIt) {
+  double radial = 1e9, both = 0;
+  for (const double ap : {1.5, 2.5, 4.0}) {
+    const double alone = gain_of(given_pass(ap, 0)), now = gain_of(given_pass(ap, 1e-5));
+    EXPECT_LT(alone, radial) << ap;
+    EXPECT_GT(now, both) << ap;
+    EXPECT_GT(now, alone) << ap;
+    radial = alone;
+    both = now;
+  }
+}
+
+// A plan in which it binds is certified, and dearer than one that does not count it.
+TEST(Chatter, AlongTheFeedItBindsAndIsCertified) {
+  auto d = pin();
+  d["stock"]["diameter_mm"] = 60;
+  const auto radial = plan(part(d));
+  ASSERT_EQ(radial.status, PlanStatus::ok);
+  d["machine"] = file("machines/lathe-medium.json");
+  d["machine"]["stiffness"]["tool_zz_mm_N"] = 4e-5;
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  EXPECT_EQ(r.certificate.kind, CertificateKind::global);
+  EXPECT_GT(r.cost_per_part, radial.cost_per_part * (1 + 1e-3));
+  double least = 1;
+  for (const auto& s : r.setups)
+    for (const auto& o : s.operations)
+      if (o.kind != OperationKind::fixed) {
+        EXPECT_GE(chatter_of(o).margin, -1e-9) << o.id;
+        least = std::min(least, chatter_of(o).margin);
+      }
+  EXPECT_LT(least, 1e-6);
+}
+
+// The tip lies beside the bar's axis, so that a bar that bends moves it along the feed: by
+// f^2 (L/EI + c2) per feed force.
+TEST(Chatter, TheSlopeOfABoringBarCounts) {
+  catalogue::BoringBar bar;
+  bar.E_MPa = 210000;
+  bar.nu = 0.3;
+  bar.segments = {{100, 25, 0}};
+  bar.tip_offset_mm = 17;
+  bar.holder.c2_rad_Nmm = 3e-10;
+  const double EI = 210000 * units::kPi * std::pow(25, 4) / 64;
+  EXPECT_NEAR(tip_of(bar).z, 17 * 17 * (100 / EI + 3e-10), 1e-15);
+  auto p = part(reference_part("flanged-bush"));
+  const auto r = plan(p);
+  auto given = part_to_predict(as_planned(reference_part("flanged-bush"), r));
+  const auto most = [&] {
+    double gain = 0;
+    for (const auto& s : predict(given).setups)
+      for (const auto& o : s.operations)
+        if (o.kind == OperationKind::bore_finish)
+          gain = std::max(gain, chatter_of(o).value / chatter_of(o).limit);
+    return gain;
+  };
+  const double before = most();
+  EXPECT_GT(before, 0);
+  for (auto& t : given.tools)
+    if (t.bar) t.bar->tip_offset_mm *= 1.5;
+  EXPECT_GT(most(), before * 1.001);
 }
 
 // Where it binds, the plan is dearer than with more damping, says so, and is certified.
