@@ -10,13 +10,14 @@ export interface Centre {
   widest: number;
 }
 
-/** d, the largest diameter of the forms A and R, and that of B, as the planner knows them: src/part/drawing.cpp. */
+/** d, the largest diameter of the forms A and R, and that of B (0: form A alone), as the planner knows them: src/part/drawing.cpp. */
 const rows = [
+  [0.5, 1.06, 0], [0.63, 1.32, 0], [0.8, 1.7, 0],
   [1, 2.12, 3.15], [1.25, 2.65, 4], [1.6, 3.35, 5], [2, 4.25, 6.3], [2.5, 5.3, 8], [3.15, 6.7, 10], [4, 8.5, 12.5], [5, 10.6, 16],
-  [6.3, 13.2, 18], [10, 21.2, 28],
+  [6.3, 13.2, 18], [8, 17, 22.4], [10, 21.2, 28],
 ];
 export const centres: Centre[] = (['A', 'B', 'R'] as const).flatMap((form) =>
-  rows.map(([pilot, a, b]) => ({ form, pilot, widest: form === 'B' ? b : a })));
+  rows.filter(([, , b]) => b > 0 || form === 'A').map(([pilot, a, b]) => ({ form, pilot, widest: form === 'B' ? b : a })));
 
 /** "A4/8.5". */
 export const centreText = (c: Centre): string => `${c.form}${c.pilot}/${c.widest}`;

@@ -39,7 +39,7 @@ export function milledShapes(part: Part, drawing: Drawing): MilledShape[] {
 }
 
 /** Countersinks of centring tools: tools/fixed/DIN333-A.json. */
-export const countersinks_mm = [1.06, 1.7, 2.12, 2.65, 3.35, 4.25, 5.3, 6.7, 8.5, 10.6, 13.2];
+export const countersinks_mm = [1.06, 1.7, 2.12, 2.65, 3.35, 4.25, 5.3, 6.7, 8.5, 10.6, 13.2, 17, 21.2];
 const share = 0.35; // of the end's diameter that a countersink may take
 const pilot = 2.12; // countersink over hole, of the sizes above
 const slope = Math.tan(Math.PI / 6);
