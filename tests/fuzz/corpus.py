@@ -41,8 +41,9 @@ def seeds():
                 yield "program-lathe", program
             if door == "review":
                 yield "review-fanuc", example["programs"][0]["text"]
-            name = "frf-csv" if door == "stability" else "csv-" + door
-            yield from ((name, table) for table in tables(example))
+            for table in tables(example):
+                taps = "frf-taps" if table.startswith("t [s]") else "frf-csv"
+                yield taps if door == "stability" else "csv-" + door, table
     for program in sorted((ROOT / "tests" / "data" / "nc").rglob("*.*")):
         control = {".ngc": "linuxcnc", ".mpf": "siemens"}.get(program.suffix)
         if control:

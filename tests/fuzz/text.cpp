@@ -109,6 +109,7 @@ Target text_target(const std::string& name) {
                                  json::json_pointer("/text")});
   if (name == "frf-csv") return in_request("stability", response("csv"));
   if (name == "frf-uff") return in_request("stability", response("uff/text"));
+  if (name == "frf-taps") return in_request("stability", response("taps/csv"));
   if (name == "library")
     return [&row = door_named("import-tools")](std::string_view bytes) {
       answered(row, document::import_request(std::string(bytes)));

@@ -13,7 +13,9 @@
 
 #include "document/response/response_file.hpp"
 #include "document/response/response_table.hpp"
+#include "document/response/response_taps.hpp"
 #include "turnwright/base/units.hpp"
+#include "turnwright/chatter/coherence.hpp"
 
 namespace turnwright::document {
 namespace {
@@ -41,29 +43,6 @@ Lines in_band(Reader& r, Lines lines) {
   return lines;
 }
 
-/// Sizes of the errors by the coherence, as the header says.
-std::vector<double> errors(const Lines& lines) {
-  constexpr double kOfLine = 0.003, kOfHighest = 0.001;
-  constexpr std::size_t kBeside = 4;
-  double top = 0;  // of |Y|^2
-  std::vector<double> noise, out;
-  for (const MeasuredLine& line : lines) {
-    const double g = line.coherence.value_or(1), square = std::norm(line.value);
-    noise.push_back(square * (1 - g) / g);
-    top = std::max(top, square);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::size_t from = i - std::min(i, kBeside),
-                      to = std::min(i + kBeside + 1, lines.size());
-    double sum = 0;
-    for (std::size_t k = from; k < to; ++k) sum += noise[k];
-    out.push_back(std::sqrt(sum / static_cast<double>(to - from) +
-                            kOfLine * kOfLine * std::norm(lines[i].value) +
-                            kOfHighest * kOfHighest * top));
-  }
-  return out;
-}
-
 bool has_coherence(const Lines& lines) {
   return !lines.empty() && lines.front().coherence.has_value();
 }
@@ -73,11 +52,14 @@ FrequencyResponse response(const MeasuredResponse& measured) {
                         .w_rad_s = {},
                         .value = {},
                         .decay_1_s = measured.decay_1_s};
+  std::vector<double> coherence;
   for (const MeasuredLine& line : measured.lines) {
     out.w_rad_s.push_back(2 * units::kPi * line.frequency_Hz);
     out.value.push_back(line.value);
+    coherence.push_back(line.coherence.value_or(1));
   }
-  if (has_coherence(measured.lines)) out.error = errors(measured.lines);
+  if (has_coherence(measured.lines))
+    out.error = chatter::errors_by_coherence(out.value, coherence);
   return out;
 }
 
@@ -199,8 +181,9 @@ std::optional<ordered_json> described_coherence(const Lines& lines) {
 
 /// The response in the one form in which it is given.
 std::optional<MeasuredResponse> read_measured(Reader& r) {
-  if (r.has("uff") && r.has("csv"))
-    r.problem_at("uff", "one of csv and uff", "exclusive");
+  const int forms = int{r.has("csv")} + int{r.has("uff")} + int{r.has("taps")};
+  if (forms > 1) r.problem("several of them", "one of csv, uff and taps", "exclusive");
+  if (r.has("taps")) return read_response_taps(r);
   return r.has("uff") ? read_response_file(r) : read_response_table(r);
 }
 
@@ -330,6 +313,7 @@ std::vector<std::string> doubts(const MeasuredAxis& measured) {
     out.push_back(measured.pointer + "/" + measured.response.key +
                   ": its phase is that under a force e^(-i w t): the imaginary part of "
                   "the receptance is positive at its peaks; its conjugate was fitted");
+  for (const std::string& doubt : measured.response.doubts) out.push_back(doubt);
   add_doubts_of_coherence(measured, out);
   if (auto doubt = doubt_of_hidden(measured)) out.push_back(std::move(*doubt));
   const auto weakest = std::ranges::min_element(

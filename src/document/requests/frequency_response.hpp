@@ -34,12 +34,8 @@ enum class AxisKey { asked, none };
 /// leaves less than a quarter of what the response as measured and the one of opposite sign
 /// leave.
 ///
-/// Errors of lines with a coherence g: s^2 = N + (0.003 |Y|)^2 + (0.001 max |Y|)^2, with N
-/// the mean of |Y|^2 (1 - g)/g over nine neighbouring lines, because the coherence of few
-/// averages scatters; the two shares stand for what coherence does not see.  Lines below a
-/// coherence of 0.1 are left out.  Source: [Bendat 2010] for N, derived here again: the
-/// part of the motion that the force does not explain, over the force's power; the shares
-/// are chosen here.
+/// Lines with a coherence have errors by it (chatter/coherence.hpp); those below 0.1 are left
+/// out.
 std::optional<MeasuredAxis> read_frequency_response(Reader r, AxisKey axis);
 
 /// The fit as in the document of a result.

@@ -25,6 +25,7 @@ struct MeasuredResponse {
   std::string unit;    ///< as written
   std::vector<MeasuredLine> lines;  ///< rising in frequency
   double decay_1_s = 0;             ///< of the window on its time series
+  std::vector<std::string> doubts;  ///< for the warnings
   nlohmann::ordered_json told = nlohmann::ordered_json::object();  ///< for the result
 };
 
