@@ -20,6 +20,7 @@
 #include "document/json/file.hpp"
 #include "document/json/parse.hpp"
 #include "document/json/reader.hpp"
+#include "document/response/measured_file.hpp"
 #include "exit.hpp"
 #include "foreign_file.hpp"
 #include "import.hpp"
@@ -54,6 +55,7 @@ struct Arguments {
   std::optional<fs::path> report_file;
   std::optional<fs::path> card;         ///< process card of a quote
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
+  std::vector<std::string> responses;   ///< files of measured responses, for `frf`
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
   std::string listed;
@@ -248,6 +250,29 @@ bool is_of_measured_parts(const service::Request& row) {
 constexpr ForeignFile kMeasured{"table", "table of measured parts",
                                 document::kLocalLimits.bytes};
 
+bool is_of_chatter(const service::Request& row) {
+  return service::request_schema(row) == "stability.request.json";
+}
+
+constexpr ForeignFile kResponse{"measurement", "CSV or universal file",
+                                document::kLocalLimits.bytes};
+
+/// Puts a file's text into the first entry of "frf" that has no data, or into a new one.
+void add_response(const std::string& file, nlohmann::json& request) {
+  const auto data = document::measured_file(read_foreign_file(file, kResponse));
+  auto& all = request["frf"];
+  if (!all.is_array()) all = nlohmann::json::array();
+  const auto empty = std::ranges::find_if(all, [](const nlohmann::json& r) {
+    return r.is_object() && !r.contains("csv") && !r.contains("uff") &&
+           (!r.contains("taps") || (r["taps"].is_object() && !r["taps"].contains("csv")));
+  });
+  auto& entry = empty == all.end() ? all.emplace_back(nlohmann::json::object()) : *empty;
+  if (entry.contains("taps") && data.contains("csv"))
+    entry["taps"]["csv"] = data["csv"];
+  else
+    entry.update(data);
+}
+
 nlohmann::json asked(const Arguments& arguments) {
   if (arguments.file.empty() && !arguments.table)
     throw wrong_option("REQUEST", "nothing", "a request document, or --csv with a table",
@@ -259,6 +284,7 @@ nlohmann::json asked(const Arguments& arguments) {
     request["csv"] = read_foreign_file(arguments.table->string(), kMeasured);
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
   if (arguments.update) request["update"] = true;
+  for (const auto& file : arguments.responses) add_response(file, request);
   return request;
 }
 
@@ -346,6 +372,10 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     } else {
       file->required();
     }
+    if (is_of_chatter(row))
+      command->add_option("--frf", arguments.responses,
+                          "measured response (CSV, universal file) of the next entry of "
+                          "frf; taps where that has the key taps");
     add_path(*command, "-o,--output", arguments.result_file,
              "write the result (JSON) here; - is standard output",
              Dash::is_standard_output);
