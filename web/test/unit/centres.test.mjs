@@ -45,9 +45,9 @@ test('what an import or a hand has written is shown as the table has it, other t
 test('those are offered that are less wide than their end', () => {
   const widest = (end, d) => Math.max(...centresFor(pin(d), end).map((text) => centreOf(text).widest));
   assert.equal(widest('left', 40), 28);
-  assert.equal(widest('left', 28), 21.2);
+  assert.equal(widest('left', 28), 22.4);
   assert.equal(widest('right'), 10.6);
-  assert.equal(centresFor({}, 'left').length, 30);
+  assert.equal(centresFor({}, 'left').length, 36);
 });
 
 test('an end is hollow where a bore opens, and of a tube', () => {
