@@ -82,6 +82,7 @@ struct OuterElement {
   std::optional<std::string> fit = {};  ///< ISO 286 tolerance class as drawn, "k6"
   std::optional<Limits> limits = {};    ///< from `fit`, `limits_mm` or general
   std::optional<double> Ra_um = {}, Rz_um = {};
+  std::optional<std::string> ground_to = {};  ///< what grinding makes later, "25 k6"
   std::optional<Cut> cut = {};
   std::optional<Chamfer> left_chamfer = {}, right_chamfer = {};
   /// Largest radius that may stay in the inner corner at that end.
@@ -107,6 +108,7 @@ struct InnerElement {
   std::optional<std::string> fit = {};
   std::optional<Limits> limits = {};
   std::optional<double> Ra_um = {}, Rz_um = {};
+  std::optional<std::string> ground_to = {};  ///< what grinding makes later, "25 k6"
   std::optional<Cut> cut = {};
   std::optional<Chamfer> left_chamfer = {}, right_chamfer = {};
   /// Largest radius that may stay in the inner corner at that end.

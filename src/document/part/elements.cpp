@@ -73,6 +73,14 @@ void read_size(Reader& r, Element& e, Side side) {
   }
 }
 
+// "25 k6", of a cone "25-30".
+template <class Element>
+std::string drawn_size(const Element& e) {
+  std::string size = number_text(e.left_mm);
+  if (e.left_mm != e.right_mm) size += "-" + number_text(e.right_mm);
+  return e.fit ? size + " " + *e.fit : size;
+}
+
 // Turning leaves an allowance on the diameter and does not answer for what is ground: the
 // size that is left then has a third of the allowance as its tolerance.
 template <class Element>
@@ -83,6 +91,7 @@ void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
   const double by = side == Side::outer ? *given : -*given;
   if (!(std::min(e.left_mm, e.right_mm) + by > 0))
     return r.problem_at("grinding_allowance_mm", "less than the diameter", "conflict");
+  e.ground_to = drawn_size(e);
   e.left_mm += by;
   e.right_mm += by;
   for (const char* key : {"fit", "limits_mm", "Ra_um", "Rz_um"})

@@ -39,13 +39,15 @@ std::string made_on(const PreparedPart& p, const part::Tolerance& t, std::size_t
   return t.of.empty() ? t.between[0] : t.of;
 }
 
-const std::optional<std::string>& fit_of(const part::Drawing& d, const std::string& id) {
-  static const std::optional<std::string> kNone;
+/// What `get` takes of the element of an id; nothing of none.
+template <class Get>
+std::optional<std::string> of_element(const part::Drawing& d, const std::string& id,
+                                      const Get& get) {
   for (const auto& e : d.outer)
-    if (e.id == id) return e.fit;
+    if (e.id == id) return get(e);
   for (const auto& e : d.inner)
-    if (e.id == id) return e.fit;
-  return kNone;
+    if (e.id == id) return get(e);
+  return std::nullopt;
 }
 
 /// The nominal size that the limits of a `diameter` or `length` are about.
@@ -116,9 +118,11 @@ Check check(const PreparedPart& p, const planning::SetupPlan& setup,
   c.of = t.of.empty() ? t.between[0] + " to " + t.between[1] : t.of;
   if (size) {
     const double nominal = nominal_mm(d, t);
-    const auto& fit = fit_of(d, t.of);
+    const auto fit = of_element(d, t.of, [](const auto& e) { return e.fit; });
+    const auto ground = of_element(d, t.of, [](const auto& e) { return e.ground_to; });
     c.what = (t.kind == part::ToleranceKind::length ? "length " : "\u00d8") +
              plain(nominal) + (fit ? ' ' + *fit : "");
+    if (ground) c.what += ", for grinding to \u00d8" + *ground;
     c.limits = fmt::format("{:.{}f} .. {:.{}f}", nominal + t.limits->lower_mm,
                            kMicrometre, nominal + t.limits->upper_mm, kMicrometre);
   } else {

@@ -56,7 +56,7 @@ TEST(Shop, APartWithoutToolsHasThoseOfTheWorkshop) {
   const auto& workshop = shipped().shops.front();
   EXPECT_EQ(workshop.id, "workshop");
   auto all = ids(loaded.plan.tools);
-  EXPECT_EQ(all.size(), 18u);
+  EXPECT_EQ(all.size(), 19u);
   for (const auto& more : {ids(loaded.plan.fixed_tools)})
     all.insert(all.end(), more.begin(), more.end());
   for (const auto& id : all)

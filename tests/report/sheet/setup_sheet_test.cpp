@@ -167,6 +167,16 @@ TEST(SetupSheet, LimitsAreThoseOfTheSizes) {
   EXPECT_EQ(bore.gauge, "three-point micrometer");
 }
 
+// The turned size is checked; what it is turned for stands beside it.
+TEST(SetupSheet, SizesForGrindingSayWhatTheyAreFor) {
+  auto d = bush();
+  for (auto& e : d["outer"])
+    if (e.value("fit", "") == "h7") e["grinding_allowance_mm"] = 0.3;
+  const auto s = sheets_of(d);
+  const auto& shaft = check(s.all[0], "\u00d836.3, for grinding to \u00d836 h7");
+  EXPECT_EQ(shaft.limits, "36.250 .. 36.350");
+}
+
 // The length from end to end can be measured after the second setup only.
 TEST(SetupSheet, ALengthIsCheckedOnceBothItsFacesAreMade) {
   const auto lengths = [](const SetupSheet& sheet) {
