@@ -55,7 +55,7 @@ struct Arguments {
   std::optional<fs::path> report_file;
   std::optional<fs::path> card;         ///< process card of a quote
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
-  std::vector<std::string> responses;   ///< files of measured responses, for `frf`
+  std::vector<fs::path> responses;      ///< files of measured responses, for `frf`
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
   std::string listed;
@@ -258,8 +258,8 @@ constexpr ForeignFile kResponse{"measurement", "CSV or universal file",
                                 document::kLocalLimits.bytes};
 
 /// Puts a file's text into the first entry of "frf" that has no data, or into a new one.
-void add_response(const std::string& file, nlohmann::json& request) {
-  const auto data = document::measured_file(read_foreign_file(file, kResponse));
+void add_response(const std::filesystem::path& file, nlohmann::json& request) {
+  const auto data = document::measured_file(read_foreign_file(file.string(), kResponse));
   auto& all = request["frf"];
   if (!all.is_array()) all = nlohmann::json::array();
   const auto empty = std::ranges::find_if(all, [](const nlohmann::json& r) {
@@ -373,9 +373,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
       file->required();
     }
     if (is_of_chatter(row))
-      command->add_option("--frf", arguments.responses,
-                          "measured response (CSV, universal file) of the next entry of "
-                          "frf; taps where that has the key taps");
+      add_paths(*command, "--frf", arguments.responses,
+                "measured response (CSV, universal file) of the next entry of frf; taps "
+                "where that has the key taps");
     add_path(*command, "-o,--output", arguments.result_file,
              "write the result (JSON) here; - is standard output",
              Dash::is_standard_output);

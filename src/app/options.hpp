@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 #include "turnwright/base/errors.hpp"
 
@@ -67,20 +68,42 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, Number& value,
 
 enum class Dash { is_no_name, is_standard_output };
 
+/// The path of an option; errors name the last of its names.
+inline std::filesystem::path path_of(const std::string& names, const std::string& text,
+                                     Dash dash) {
+  if (text.empty() || (text == "-" && dash == Dash::is_no_name))
+    throw wrong_option(names.substr(names.rfind(',') + 1), '"' + text + '"',
+                       "a name in the file system (./- for one that is called -)",
+                       "file");
+  return text;
+}
+
 /// Adds an option with a file or folder.
-/// @param names  for example "-o,--output"; errors name the last one.
+/// @param names  for example "-o,--output"
 template <class Path>
 CLI::Option* add_path(CLI::App& app, const std::string& names, Path& path,
                       const std::string& help, Dash dash = Dash::is_no_name) {
-  const auto put = [&path, names, dash](const std::string& text) {
-    const auto option = names.substr(names.rfind(',') + 1);
-    if (text.empty() || (text == "-" && dash == Dash::is_no_name))
-      throw wrong_option(option, '"' + text + '"',
-                         "a name in the file system (./- for one that is called -)",
-                         "file");
-    path = std::filesystem::path(text);
-  };
-  return app.add_option_function<std::string>(names, put, help);
+  return app.add_option_function<std::string>(
+      names,
+      [&path, names, dash](const std::string& text) {
+        path = path_of(names, text, dash);
+      },
+      help);
+}
+/// The same, any number of times.
+inline CLI::Option* add_paths(CLI::App& app, const std::string& names,
+                              std::vector<std::filesystem::path>& paths,
+                              const std::string& help) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          names,
+          [&paths, names](const std::vector<std::string>& texts) {
+            for (const auto& text : texts)
+              paths.push_back(path_of(names, text, Dash::is_no_name));
+          },
+          help)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 }  // namespace turnwright::app
