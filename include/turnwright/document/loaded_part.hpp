@@ -14,14 +14,19 @@ struct Assumption {
   std::string why;
 };
 
+/// A cylinder of drawing.inner that is bored and that tools on the axis would leave as it is
+/// drawn too.
+struct DrillableBore {
+  std::size_t inner = 0;
+  std::string how;  ///< "drilled", "reamed", "counterbored"
+};
+
 struct LoadedPart {
   planning::PlanRequest plan;
   std::vector<Assumption> assumed;
   nlohmann::json json;   ///< as it was read
   std::string document;  ///< what errors call it
-  /// Of drawing.inner: cylinders that are bored and that a reamer would leave as they are
-  /// drawn too.
-  std::vector<std::size_t> reamable = {};
+  std::vector<DrillableBore> drillable = {};
 };
 
 /// `predict` needs every operation with its tool and all its conditions.

@@ -33,10 +33,15 @@ std::optional<part::Limits> limits_of(const part::InnerElement& bore) try {
   return std::nullopt;
 }
 
-// Whether a boring bar enters what a drill would leave of a bore.
-bool can_be_bored(const std::vector<catalogue::Tool>& tools, double diameter_mm) {
+// Whether a boring bar enters what the drill would leave of a bore; into a counterbore it
+// has to enter the hole behind.
+bool can_be_bored(const std::vector<catalogue::Tool>& tools,
+                  const part::InnerElement& bore, const MadeHole& hole) {
+  const auto& cut = hole.shape.cut;
+  const double open_mm =
+      cut.flat ? cut.drilled_mm : bore.left_mm - 2 * planning::kLeftToBore_mm;
   return std::ranges::any_of(tools, [&](const catalogue::Tool& t) {
-    return t.bar && t.bar->min_bore_mm <= diameter_mm - 2 * planning::kLeftToBore_mm;
+    return t.bar && t.bar->min_bore_mm <= open_mm;
   });
 }
 
@@ -128,7 +133,7 @@ std::optional<MadeHole> asked_hole(const Draft& draft, Reader item, std::size_t 
   w.limits = given_limits(item, w.D_mm);
   w.Ra_um = item.optional_number("Ra_um", above_up_to(0, 100, "um"));
   if (w.limits || w.Ra_um) {
-    if (drilled_hole(draft, w)) return MadeHole{part::hole(w.D_mm), ""};
+    if (drilled_hole(draft, w)) return MadeHole{part::hole(w.D_mm), "", "drilled"};
     if (auto reamed = reamed_hole(draft, w)) return reamed;
     if (auto flat = counterbored_hole(draft, i, w)) return flat;
     const auto before = item.problems().list.size();
@@ -139,16 +144,21 @@ std::optional<MadeHole> asked_hole(const Draft& draft, Reader item, std::size_t 
                       "what the tools can keep here: " + why, "conflict");
   }
   if (!w.takes_drill(w.D_mm)) return counterbored_hole(draft, i, w);
-  return MadeHole{part::hole(w.D_mm), ""};
+  return MadeHole{part::hole(w.D_mm), "", "drilled"};
+}
+
+// Whether the operations are given.
+bool are_given(const Draft& draft) {
+  const auto given = draft.root.find("operations");
+  return given && given->is_array();
 }
 
 // Whether the operations are the planner's, or none of them bores a bore and one drills it
 // or another bore of its end.
 bool drilled_by_operations(const Draft& draft, const part::InnerElement& bore) {
-  const auto given = draft.root.find("operations");
-  if (!given || !given->is_array()) return true;
+  if (!are_given(draft)) return true;
   bool drilled = false;
-  for (const auto& o : given->json()) {
+  for (const auto& o : draft.root.at("operations").json()) {
     if (!o.is_object()) continue;
     const auto on = o.value("on", nlohmann::json());
     const bool fixed = o.value("kind", nlohmann::json()) == "fixed";
@@ -162,26 +172,23 @@ bool drilled_by_operations(const Draft& draft, const part::InnerElement& bore) {
   return drilled;
 }
 
-// A bore as a drill or a flat drill makes it, where that leaves it as it is drawn; one that
-// is too narrow to be bored also as a reamer or a tap makes it.  Others that a reamer would
-// leave as they are drawn are noted.
+// A bore as tools on the axis make it, where they leave it as it is drawn.  With operations
+// that are the planner's and a boring bar that enters, it is noted that it may be bored as well.
 std::optional<MadeHole> fitting_hole(Draft& draft, std::size_t i, HoleDemand w) {
   const auto& plan = draft.loaded.plan;
   const auto& bore = plan.drawing.inner[i];
-  const bool thread = is_thread(bore);
   const auto named = draft.root.find("tolerances");
-  if (!plain(draft, i) || (bore.cut && !thread) || bore.Rz_um ||
+  if (!plain(draft, i) || (bore.cut && !is_thread(bore)) || bore.Rz_um ||
       !drilled_by_operations(draft, bore) || (named && names(named->json(), bore.id)))
     return std::nullopt;
-  if (thread) return tapped_hole(draft, w);
+  if (is_thread(bore)) return tapped_hole(draft, w);
   w.limits = limits_of(bore);
   w.Ra_um = bore.Ra_um;
   auto hole = drilled_hole(draft, w);
   if (!hole) hole = counterbored_hole(draft, i, w);
-  if (hole) return hole;
-  hole = reamed_hole(draft, w);
-  if (!hole || !can_be_bored(plan.tools, bore.left_mm)) return hole;
-  draft.loaded.reamable.push_back(i);
+  if (!hole) hole = reamed_hole(draft, w);
+  if (!hole || are_given(draft) || !can_be_bored(plan.tools, bore, *hole)) return hole;
+  draft.loaded.drillable.push_back({i, hole->word});
   return std::nullopt;
 }
 

@@ -84,7 +84,8 @@ std::optional<MadeHole> drilled_hole(const Draft& draft, const HoleDemand& w) {
     if (has_size(*t, w.D_mm) && w.takes_drill(w.D_mm) && keeps(*t, w) &&
         w.drilled_to_mm <= t->reach * w.D_mm)
       return MadeHole{part::hole(w.D_mm),
-                      "drilled to its size by " + t->id + ", to " + promise(*t)};
+                      "drilled to its size by " + t->id + ", to " + promise(*t),
+                      "drilled"};
   return std::nullopt;
 }
 
@@ -98,7 +99,8 @@ std::optional<MadeHole> reamed_hole(const Draft& draft, const HoleDemand& w) {
     if (const auto drill = drill_between(draft, w, least, most, most, t->lead))
       return MadeHole{part::reamed(w.D_mm, *drill, t->lead),
                       "drilled to " + number_text(*drill) + " mm and reamed by " + t->id +
-                          ", to " + promise(*t)};
+                          ", to " + promise(*t),
+                      "reamed"};
   }
   return std::nullopt;
 }
@@ -113,7 +115,8 @@ std::optional<MadeHole> tapped_hole(const Draft& draft, const HoleDemand& w) {
     if (const auto drill = drill_between(draft, w, D1.least_mm, D1.most_mm,
                                          w.D_mm - w.pitch_mm, lead + w.pitch_mm))
       return MadeHole{part::tapped(w.D_mm, w.pitch_mm, *drill, lead),
-                      "drilled to " + number_text(*drill) + " mm and tapped by " + t->id};
+                      "drilled to " + number_text(*drill) + " mm and tapped by " + t->id,
+                      "tapped"};
   }
   return std::nullopt;
 }
@@ -147,10 +150,11 @@ std::optional<MadeHole> counterbored_hole(const Draft& draft, std::size_t i,
   if (!w.drill_mm || !(w.D_mm > *w.drill_mm) || !spares_floor(draft, i, w))
     return std::nullopt;
   for (const auto* t : known_tools(draft, FixedUse::counterboring))
-    if (has_size(*t, w.D_mm) && keeps(*t, w) && w.length_mm <= t->reach * w.D_mm)
+    if (has_size(*t, w.D_mm) && keeps(*t, w) && w.drilled_to_mm <= t->reach * w.D_mm)
       return MadeHole{part::counterbored(w.D_mm, *w.drill_mm),
                       "opened from the drill's " + number_text(*w.drill_mm) + " mm by " +
-                          t->id + ", to " + promise(*t)};
+                          t->id + ", to " + promise(*t),
+                      "counterbored"};
   return std::nullopt;
 }
 

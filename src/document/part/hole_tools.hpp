@@ -13,7 +13,8 @@ inline constexpr double kRounding_mm = 1e-9;  ///< of diameters and depths
 /// A hole as tools on the axis make it.
 struct MadeHole {
   part::Shaped shape;
-  std::string how;  ///< for people
+  std::string how;   ///< for people
+  const char* word;  ///< "drilled", "reamed", "tapped", "counterbored"
 };
 
 /// What is asked of a hole, and of the tools that make it.

@@ -192,36 +192,29 @@ void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& cat
       all[all.size() - 2].document.part.rules.proven_within_pct / kPercent;
 }
 
-// A variant with its bores as they are, and with each choice of those that may be reamed
-// instead; names tell them apart.
-std::vector<Variant> with_reamers(const Variant& variant, const LoadedPart& loaded) {
-  std::vector<Variant> all{variant};
-  for (const auto i : loaded.reamable) {
-    const auto& id = loaded.plan.drawing.inner[i].id;
-    const auto count = all.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      auto reamed = all[k];
-      const std::string prefix = reamed.name.empty() ? "" : reamed.name + "; ";
-      all[k].name = prefix + id + " bored";
-      reamed.name = prefix + id + " reamed";
-      reamed.document["inner"][i]["kind"] = "hole";
-      all.push_back(std::move(reamed));
-    }
-  }
-  return all;
-}
-
-void add_variant(const Variant& variant, const Catalogue& catalogue,
-                 const std::string& document, bool window_curves, Usable& all) {
-  const auto add = [&](const std::string& name, LoadedPart loaded) {
-    loaded.plan.window_curves = window_curves;
-    add_usable(name, std::move(loaded), catalogue, all);
-  };
+// A variant in every way of making those bores that tools on the axis may make instead of a
+// boring bar; names tell them apart.  `bored` are those that are settled so.
+void add_ways(Variant variant, std::vector<std::size_t> bored, const Catalogue& catalogue,
+              const std::string& document, bool window_curves, Usable& all) {
   auto loaded = load_variant(variant, catalogue, document);
-  const auto ways = with_reamers(variant, loaded);
-  add(ways.front().name, std::move(loaded));
-  for (auto way = ways.begin() + 1; way != ways.end(); ++way)
-    add(way->name, load_variant(*way, catalogue, document));
+  const auto open = std::ranges::find_if(loaded.drillable, [&](const DrillableBore& b) {
+    return std::ranges::find(bored, b.inner) == bored.end();
+  });
+  if (open == loaded.drillable.end()) {
+    loaded.plan.window_curves = window_curves;
+    return add_usable(variant.name, std::move(loaded), catalogue, all);
+  }
+  const std::string bore = (variant.name.empty() ? "" : variant.name + "; ") +
+                           loaded.plan.drawing.inner[open->inner].id + " ";
+  auto other = variant;
+  other.name = bore + open->how;
+  other.document["inner"][open->inner]["kind"] = "hole";
+  variant.name = bore + "bored";
+  auto settled = bored;
+  settled.push_back(open->inner);
+  add_ways(std::move(variant), std::move(settled), catalogue, document, window_curves,
+           all);
+  add_ways(std::move(other), std::move(bored), catalogue, document, window_curves, all);
 }
 
 }  // namespace
@@ -250,7 +243,7 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
   Candidates out;
   std::optional<InputError> first;
   for (const auto& variant : all) try {
-      add_variant(variant, catalogue, document, window_curves, out.usable);
+      add_ways(variant, {}, catalogue, document, window_curves, out.usable);
     } catch (const InputError& error) {
       if (!first) first = error;
       const auto& p = error.problems().front();

@@ -347,25 +347,25 @@ void add_drilling(Site& s, part::End end) {
 // Eq. (10).
 void add_counterbore(Site& s, std::size_t index) {
   const auto& e = s.p.drawing.inner[index];
-  const double D = e.left_mm;
+  const double D = e.left_mm, front = front_mm(s.p, s.setup, s.work);
+  const auto way = counterbore_way(s.p.drawing, index, front);
   const Asked a{FixedUse::counterboring,
                 "counterbore",
                 e.id,
                 false,
                 given_on(s, e.id, FixedUse::counterboring),
                 [&](const FixedTool& t, double size) {
-                  return size == D && e.length_mm <= t.reach * D;
+                  return size == D && -way.to_mm <= t.reach * D;
                 }};
   const auto f = fitted(s.p, a);
   if (!f.tool)
     return refuse(s, a,
                   fmt::format("no flat drill of the tools is for {}, {:g} mm in diameter "
                               "and reaches {:g} mm deep",
-                              s.p.material.name, D, e.length_mm));
+                              s.p.material.name, D, -way.to_mm));
   if (asks_for_other_passes(s, a, e.cut->depth_mm)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
-  const double front = front_mm(s.p, s.setup, s.work), n_cap = n_cap_rpm(s);
-  const auto way = counterbore_way(s.p.drawing, index, front);
+  const double n_cap = n_cap_rpm(s);
   const double cut = way.from_mm - way.to_mm;
   s.out.before.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
     const Duty duty{cutting::ream(kc, D, e.cut->drilled_mm, at.at.f_mm_rev,

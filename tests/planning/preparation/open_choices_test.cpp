@@ -232,9 +232,8 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
   EXPECT_TRUE(by_the_drill(drilled(8, {{"Ra_um", 3.2}})));
   EXPECT_FALSE(by_the_drill(drilled(8, {{"Ra_um", 1.6}})));
   EXPECT_FALSE(by_the_drill(drilled(8.2))) << "no drill of that size";
-  EXPECT_TRUE(by_the_drill(drilled(16)));
-  EXPECT_TRUE(by_the_drill(drilled(17))) << "a bar enters too, after the drill";
-  EXPECT_FALSE(by_the_drill(drilled(21))) << "IT13 of indexable drills is too wide";
+  EXPECT_TRUE(by_the_drill(drilled(10.5)));
+  EXPECT_FALSE(by_the_drill(drilled(11))) << "a bar of 8 mm enters what a drill leaves";
   auto named = drilled(8);
   named["tolerances"] = {{{"id", "t"},
                           {"kind", "coaxiality"},
@@ -246,9 +245,10 @@ TEST(Holes, AreDrilledWhereADrillKeepsThem) {
 
 part::InnerElement first_bore(const json& d) { return part(d).drawing.inner.at(0); }
 
-// A hole of 11 mm behind a bore.
-json before_a_hole(double d_mm, double length_mm, const json& more = json::object()) {
-  auto d = drilled(11);
+// A bore before a hole, by default one that no boring bar enters.
+json before_a_hole(double d_mm, double length_mm, const json& more = json::object(),
+                   double behind_mm = 9) {
+  auto d = drilled(behind_mm);
   d["inner"].insert(d["inner"].begin(), cylinder("b0", length_mm, d_mm));
   d["inner"][0]["from"] = "right";
   d["inner"][0].update(more);
@@ -260,7 +260,7 @@ TEST(Holes, WiderOnesBeforeThemAreCounterbored) {
   const auto counterbored = [](const json& d) {
     const auto e = first_bore(d);
     if (part::is_counterbore(e)) {
-      EXPECT_EQ(e.cut->drilled_mm, 11);
+      EXPECT_EQ(e.cut->drilled_mm, 9);
     }
     return part::is_counterbore(e);
   };
@@ -271,27 +271,27 @@ TEST(Holes, WiderOnesBeforeThemAreCounterbored) {
   EXPECT_FALSE(counterbored(before_a_hole(18, 11, {{"Ra_um", 1.6}})));
   EXPECT_TRUE(counterbored(before_a_hole(18, 11, {{"kind", "hole"}, {"fit", "H11"}})));
   EXPECT_FALSE(counterbored(before_a_hole(18.2, 11))) << "no flat drill of that size";
-  EXPECT_TRUE(counterbored(before_a_hole(9.5 + 2, 20))) << "half a millimetre wider";
+  EXPECT_TRUE(counterbored(before_a_hole(9.5, 19))) << "half a millimetre wider";
   auto deep = before_a_hole(12, 24.1);
   deep["outer"][0]["length_mm"] = 46;
   deep["stock"]["length_mm"] = 76;
   EXPECT_FALSE(counterbored(deep)) << "deeper than 2 D";
   auto through = before_a_hole(18, 11);
   through["inner"][1]["kind"] = "thread";
-  through["inner"][1]["diameter_mm"] = 12;
+  through["inner"][1]["diameter_mm"] = 10;
   EXPECT_TRUE(part::is_tapped(part(through).drawing.inner[1]));
-  EXPECT_EQ(first_bore(through).cut->drilled_mm, 10.2);
+  EXPECT_EQ(first_bore(through).cut->drilled_mm, 8.5);
 }
 
-// A cone of 90 deg that is 19 mm wide is 11 mm wide 4 mm deeper.
+// A cone of 90 deg that is 19 mm wide is 9 mm wide 5 mm deeper.
 TEST(Holes, CounterboresAreChamferedWhereTheConeSparesTheirFloor) {
   const auto counterbored = [](double length_mm) {
     auto d = before_a_hole(18, length_mm);
     d["edges"] = {{{"at", "right|b0"}, {"chamfer_mm", 0.5}}};
     return part::is_counterbore(first_bore(d));
   };
-  EXPECT_TRUE(counterbored(4));
-  EXPECT_FALSE(counterbored(3.99));
+  EXPECT_TRUE(counterbored(5));
+  EXPECT_FALSE(counterbored(4.99));
 }
 
 // From the face on, or from the floor of the counterbore before; bores before them begin at
@@ -304,7 +304,7 @@ TEST(Holes, CounterboresAreCutBeforeBoring) {
   d["inner"][0]["from"] = "right";
   d["inner"][0]["fit"] = "H7";
   const auto p = part(d);
-  EXPECT_EQ(p.drilled_mm, (std::vector<double>{18, 11, 11, 11}));
+  EXPECT_EQ(p.drilled_mm, (std::vector<double>{18, 9, 9, 9}));
   const auto wide = counterbore_way(p.drawing, 1, 0.3);
   EXPECT_NEAR(wide.from_mm, 0.3, 1e-12);
   EXPECT_NEAR(wide.to_mm, -11, 1e-12);
@@ -314,7 +314,7 @@ TEST(Holes, CounterboresAreCutBeforeBoring) {
   const auto work =
       auxiliary_work(p, 0, Clamping::chuck, p.work.setups[0], {p.machine_per_min, 1});
   ASSERT_EQ(work.before.size(), 3u);
-  const double lengths[] = {11, 4}, radial[] = {3.5, 2};
+  const double lengths[] = {11, 4}, radial[] = {4.5, 3};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& o = work.before[i + 1].plan;
     EXPECT_EQ(o.tool, "FLAT-HM-2D");
@@ -324,8 +324,8 @@ TEST(Holes, CounterboresAreCutBeforeBoring) {
   }
 }
 
-// Where a bar enters a bore that a reamer leaves as it is drawn, both are planned.
-TEST(Holes, ThatABarEntersAreBoredOrReamed) {
+// Where a bar enters a bore that other tools leave as it is drawn too, all are planned.
+TEST(Holes, ThatABarEntersAreMadeInTheCheapestWay) {
   const auto names = [](const json& d) {
     std::vector<std::string> all;
     for (const auto& c : document::prepared_candidates(d, shop(), "part", false).usable)
@@ -336,7 +336,10 @@ TEST(Holes, ThatABarEntersAreBoredOrReamed) {
   EXPECT_EQ(names(drilled(20, {{"fit", "H7"}})), (Names{"b1 bored", "b1 reamed"}));
   EXPECT_EQ(names(drilled(20, {{"fit", "H6"}})), Names{""}) << "no reamer for it";
   EXPECT_EQ(names(drilled(8, {{"fit", "H7"}})), Names{""}) << "no bar enters";
-  EXPECT_EQ(names(drilled(20)), Names{""}) << "drilled to its size";
+  EXPECT_EQ(names(drilled(20)), (Names{"b1 bored", "b1 drilled"}));
+  EXPECT_EQ(names(drilled(21)), Names{""}) << "IT13 of indexable drills is too wide";
+  EXPECT_EQ(names(before_a_hole(18, 11, json::object(), 11)),
+            (Names{"b1 bored", "b1 drilled; b0 bored", "b1 drilled; b0 counterbored"}));
 }
 
 // The reamers make H7, 15 um above 8 mm, and Ra 0.8, after a drill of 7.8 mm.
