@@ -260,8 +260,9 @@ constexpr ForeignFile kResponse{"measurement", "CSV or universal file",
 /// Puts a file's text into the first entry of "frf" that has no data, or into a new one.
 void add_response(const std::filesystem::path& file, nlohmann::json& request) {
   const auto data = document::measured_file(read_foreign_file(file.string(), kResponse));
+  if (request.contains("frf") && !request["frf"].is_array()) return;  // refused later
   auto& all = request["frf"];
-  if (!all.is_array()) all = nlohmann::json::array();
+  if (all.is_null()) all = nlohmann::json::array();
   const auto empty = std::ranges::find_if(all, [](const nlohmann::json& r) {
     return r.is_object() && !r.contains("csv") && !r.contains("uff") &&
            (!r.contains("taps") || (r["taps"].is_object() && !r["taps"].contains("csv")));

@@ -25,7 +25,13 @@ bool is_of_word(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Its words in lower case.
+bool means(std::string_view word, std::string_view known) {
+  return known.ends_with('*') ? word.starts_with(known.substr(0, known.size() - 1))
+                              : word == known;
+}
+
+}  // namespace
+
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> out;
   bool inside = false;
@@ -37,13 +43,6 @@ std::vector<std::string> words_of(std::string_view text) {
   }
   return out;
 }
-
-bool means(std::string_view word, std::string_view known) {
-  return known.ends_with('*') ? word.starts_with(known.substr(0, known.size() - 1))
-                              : word == known;
-}
-
-}  // namespace
 
 Heading heading(std::string_view name, bool (*is_unit)(std::string_view)) {
   constexpr std::string_view kBefore = " [(,:/_", kJoined = "[(";

@@ -15,6 +15,9 @@ struct Heading {
 };
 Heading heading(std::string_view name, bool (*is_unit)(std::string_view));
 
+/// Words of a heading in lower case.
+std::vector<std::string> words_of(std::string_view text);
+
 /// A quantity that a column may hold, and words that name it: lower-case words, or their
 /// beginnings, marked by a star, "phas*".
 struct Quantity {

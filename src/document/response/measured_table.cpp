@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <regex>
 #include <utility>
 
 #include "document/json/csv.hpp"
@@ -11,6 +12,8 @@
 
 namespace turnwright::document {
 namespace {
+
+constexpr std::size_t kLongestName = 200;  // of a header in which a unit is looked for
 
 /// Rows of a table, one after the other.
 class TableRows {
@@ -58,14 +61,21 @@ class TableRows {
     }
   }
 
-  /// What stands in square brackets is a unit, known or not.
+  /// What stands in brackets at the end is a unit, known or not, and so is what has a slash;
+  /// in round brackets there may also be the name of a channel, "(H1)".
   Heading heading_of(const std::string& name) const {
-    Heading out = heading(name, form_.is_unit);
-    const auto bracket = name.find('[');
-    if (out.unit.empty() && name.ends_with(']') && bracket > 0)
-      out = {name.substr(0, bracket),
-             name.substr(bracket + 1, name.size() - bracket - 2)};
-    return out;
+    static const std::regex kUnit(
+        R"((.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\s(\S+/\S+))\s*)");
+    static const std::regex kChannel(R"([A-Za-z]{0,8}[ _-]?\d*)");
+    const Heading known = heading(name, form_.is_unit);
+    std::smatch m;
+    if (!known.unit.empty() || name.size() > kLongestName ||
+        !std::regex_match(name, m, kUnit))
+      return known;
+    const std::string unit = m[2].str() + m[3].str() + m[4].str();
+    const bool channel = m[3].matched && std::regex_match(unit, kChannel) &&
+                         unit.find_first_of("0123456789") != unit.npos;
+    return channel ? known : Heading{m[1], unit};
   }
 
   std::optional<std::string> key_of(const std::string& name,

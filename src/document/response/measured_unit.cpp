@@ -1,5 +1,6 @@
 #include "measured_unit.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -39,6 +40,8 @@ constexpr std::array kUnits{NamedUnit{"m", {1e3, 1, 0, 0}},
                             NamedUnit{"g", {kGravity_mm_s2, 1, -2, 0}},
                             NamedUnit{"ips", {kInch_mm, 1, -1, 0}},
                             NamedUnit{"kg", {1e-3, -1, 2, 1}}};
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
 constexpr int kMostPower = 9, kMostDeep = 9;
 
@@ -170,9 +173,16 @@ std::optional<ResponseUnit> response_unit(std::string_view text) {
 }
 
 std::optional<double> hertz_of_unit(std::string_view text) {
-  if (text == "Hz") return 1;
-  if (text == "kHz") return 1e3;
-  if (text == "rad/s") return 1 / (2 * units::kPi);
+  constexpr std::array<std::pair<std::string_view, double>, 7> kHertz{
+      {{"hz", 1},
+       {"khz", 1e3},
+       {"rad/s", 1 / (2 * units::kPi)},
+       {"rad/sec", 1 / (2 * units::kPi)},
+       {"radians/s", 1 / (2 * units::kPi)},
+       {"rpm", 1.0 / 60},
+       {"cpm", 1.0 / 60}}};
+  for (const auto& [name, hertz] : kHertz)
+    if (std::ranges::equal(text, name, {}, lower)) return hertz;
   return std::nullopt;
 }
 

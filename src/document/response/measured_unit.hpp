@@ -34,7 +34,7 @@ struct ResponseUnit {
 std::optional<ResponseUnit> response_unit(const MeasuredUnit& unit);
 std::optional<ResponseUnit> response_unit(std::string_view text);
 
-/// Hz of one Hz, kHz or rad/s.
+/// Hz of one Hz, kHz, rad/s (rad/sec, radians/s), rpm or cpm, in any case.
 std::optional<double> hertz_of_unit(std::string_view text);
 
 /// The order of derivative by time of a motion: 0 length, 1 speed, 2 acceleration.

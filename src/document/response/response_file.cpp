@@ -142,6 +142,19 @@ std::optional<WrittenUnit> unit_of_types(const UniversalFunction& f) {
       {*derivative, 1e3 * f.units->force / f.units->length}};
 }
 
+/// Whether what the labels say, each by itself, is what dataset 164 says.
+bool labels_agree(const UniversalFunction& f, int derivative) {
+  constexpr double kSame = 1e-6;
+  const auto is = [&](const UniversalAxis& axis, const MeasuredUnit& unit) {
+    if (axis.units.empty()) return true;
+    const auto label = measured_unit(axis.units);
+    return label && label->of_dimensions(unit.length, unit.time, unit.force) &&
+           std::abs(label->scale / unit.scale - 1) < kSame;
+  };
+  return is(f.ordinate, {1e3 / f.units->length, 1, -derivative, 0}) &&
+         is(f.denominator, {1 / f.units->force, 0, 0, 1});
+}
+
 /// The unit that the file states; contradictions are reported.
 std::optional<WrittenUnit> stated_unit(const Reader& text, const UniversalFunction& f) {
   constexpr double kSame = 1e-6;  // factors are printed to 7 digits or more
@@ -157,6 +170,9 @@ std::optional<WrittenUnit> stated_unit(const Reader& text, const UniversalFuncti
                                    std::to_string(f.ordinate.type) + " says");
   if (labels && types && std::abs(labels->unit.mm / types->unit.mm - 1) > kSame)
     return wrong(labels->text, "units that agree with dataset 164");
+  if (!labels && types && !labels_agree(f, *derivative))
+    return wrong(f.ordinate.units + "/" + f.denominator.units,
+                 "units that can be read and agree with dataset 164");
   if (!labels && !types && !f.ordinate.units.empty())
     return wrong(f.ordinate.units + "/" + f.denominator.units,
                  "a unit of motion per force");
@@ -254,6 +270,10 @@ std::optional<MeasuredResponse> read_response_file(Reader& r) {
   out.derivative = unit->unit.derivative;
   out.unit = unit->text;
   out.told["record"] = described(*f);
+  if (!is_drive_point(*f))
+    out.doubts.push_back("the record, " + document::text_of(f->response) + " by " +
+                         document::text_of(f->reference) +
+                         ", is no drive point: a tool cuts where it yields itself");
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "response_table.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,10 +20,13 @@ constexpr std::size_t kRows = 20000;
 
 /// rad of one unit of a phase.
 std::optional<double> radian_of_unit(std::string_view text) {
-  for (const std::string_view degree : {"deg", "degree", "degrees", "\u00b0"})
-    if (text == degree) return units::rad_from_deg(1);
+  if (text == "\u00b0") return units::rad_from_deg(1);
+  const auto words = words_of(text);
+  if (words.size() != 1) return std::nullopt;
+  for (const std::string_view degree : {"deg", "degree", "degrees"})
+    if (words[0] == degree) return units::rad_from_deg(1);
   for (const std::string_view radian : {"rad", "radian", "radians"})
-    if (text == radian) return 1;
+    if (words[0] == radian) return 1;
   return std::nullopt;
 }
 
@@ -160,11 +165,25 @@ class ResponseTable {
              "a unit of " + c->key + ": " + expected, "unit");
   }
 
-  /// Hz of one unit.
+  /// Hz of one unit.  Without one the header has no other words than those of a frequency.
   double hertz_of(const Column& f) {
     const auto stated = hertz_of_unit(f.unit);
-    check_unit(&f, stated || f.unit.empty(), "Hz, kHz or rad/s");
+    const auto expected = "Hz, kHz, rad/s, rpm or cpm";
+    check_unit(&f, stated || f.unit.empty(), expected);
+    for (const auto& word : words_of(f.unit.empty() ? f.name : ""))
+      if (!is_of_frequency(word)) {
+        report(child_pointer(line_pointer(csv_, table_.header), f.name), shown(word),
+               std::string("a frequency, or its unit: ") + expected, "unit");
+        break;
+      }
     return stated.value_or(1);
+  }
+
+  static bool is_of_frequency(const std::string& word) {
+    constexpr std::array kWords{"f",     "hz", "axis",  "line",
+                                "lines", "x",  "value", "values"};
+    return word.starts_with("freq") || std::ranges::find(kWords, word) != kWords.end() ||
+           word.find_first_not_of("0123456789") == word.npos;
   }
 
   /// One unit of the phase [rad], from the header or from "phase_unit".

@@ -72,6 +72,20 @@ std::vector<Field> of_widths(std::string_view line, std::span<const std::size_t>
   return out;
 }
 
+/// Numbers in the columns of the format, 0 for blanks, as Fortran reads them; empty if some
+/// columns hold no number.
+std::vector<double> in_columns(std::string_view line,
+                               std::span<const std::size_t> widths) {
+  std::vector<double> out;
+  for (std::size_t at = 0, i = 0; i < widths.size(); at += widths[i++]) {
+    const auto field = at < line.size() ? trim(line.substr(at, widths[i])) : "";
+    const auto x = field.empty() ? std::optional(0.0) : fortran_number(field);
+    if (!x) return {};
+    out.push_back(*x);
+  }
+  return out;
+}
+
 /// Lines of one file, one dataset after the other.
 class UniversalReader {
  public:
@@ -229,7 +243,8 @@ class UniversalReader {
   std::optional<Form> form(std::size_t i) {
     constexpr std::size_t kWidths[] = {10, 10, 10, 13, 13, 13};
     const auto before = problems_of(text_);
-    auto x = numbers(i, kWidths);
+    auto x = in_columns(line(i), kWidths);
+    if (x.empty()) x = numbers(i, kWidths);
     if (problems_of(text_) > before) return std::nullopt;
     x.resize(6, 0);
     const auto wrong = [&](std::size_t k, const char* expected) {

@@ -244,6 +244,47 @@ stability: /frf/0/phase_unit: got nothing, expected deg or rad, here or in the h
 stability: /frf/0/csv#line 1: got no column "arc", expected one)");
 }
 
+// A unit that is not known makes no other unit of it, in whatever brackets it stands.
+TEST(ResponseTable, UnitsThatAreNotKnownAreRefused) {
+  for (const char* f : {"Frequency (rad/min)", "Frequency (Bark)", "freq_rad_s",
+                        "Frequency in parsec", "Frequency deg/s"})
+    EXPECT_NE(refused({{"csv", {std::string(f) + ",Re [m/N],Im [m/N]", "1,2,3"}}})
+                  .find("Hz, kHz, rad/s, rpm or cpm"),
+              std::string::npos)
+        << f;
+  for (const char* real : {"Real (um/N rms)", "Real (V/V)", "Real mils/lbf"})
+    EXPECT_NE(refused({{"unit", "mm/N"},
+                       {"csv", {std::string("f,") + real + ",Imag", "1,2,3"}}})
+                  .find("a unit of real: motion per force"),
+              std::string::npos)
+        << real;
+  for (const char* phase : {"Phase (gon)", "Phase [turns]"})
+    EXPECT_NE(refused({{"phase_unit", "deg"},
+                       {"csv", {std::string("f,Mag [m/N],") + phase, "1,2,3"}}})
+                  .find("a unit of phase: deg or rad"),
+              std::string::npos)
+        << phase;
+  EXPECT_NE(refused({{"csv", {"f,Mag (dB re. 1 m/N),Phase (deg)", "1,2,3"}}})
+                .find("a unit of magnitude"),
+            std::string::npos);
+}
+
+TEST(ResponseTable, UnitsOfFrequencyInAnyCase) {
+  for (const auto& [name, hertz] : {std::pair("Frequency (KHz)", 1e3),
+                                    {"Freq HZ", 1.0},
+                                    {"Frequency", 1.0},
+                                    {"f (rad/sec)", 1 / (2 * M_PI)},
+                                    {"Frequency [RPM]", 1.0 / 60}}) {
+    const double unit = hertz;
+    const auto lines = table(
+        std::string(name) + ",Re(H1) [mm/N],Im(H1) [mm/N]", [&](double f, Complex y) {
+          return text_of(f / unit) + "," + text_of(y.real()) + "," + text_of(y.imag());
+        });
+    SCOPED_TRACE(name);
+    expect_modes(told({{"csv", lines}}), kTwo, 1e-6);
+  }
+}
+
 TEST(ResponseTable, UnitsThatContradict) {
   EXPECT_EQ(refused({{"unit", "mm/N"}, {"csv", {"f,Re [m/N],Im [um/N]", "1,2,3"}}}),
             R"(stability: /frf/0/csv#line 1: got um/N, expected one unit, m/N
@@ -259,7 +300,7 @@ stability: /frf/0/unit: got "mm/N", expected none or "um/N", as in the header of
                {"phase_unit", "deg"},
                {"csv", {"f [1/min],amp [V/N],arg", "1,2,3"}}}),
       R"(stability: /frf/0/csv#line 1/amp [V~1N]: got "V/N", expected a unit of magnitude: motion per force, or dB
-stability: /frf/0/csv#line 1/f [1~1min]: got "1/min", expected a unit of frequency_Hz: Hz, kHz or rad/s)");
+stability: /frf/0/csv#line 1/f [1~1min]: got "1/min", expected a unit of frequency_Hz: Hz, kHz, rad/s, rpm or cpm)");
 }
 
 }  // namespace

@@ -92,6 +92,47 @@ TEST(UniversalFile, RecordsAreChosenByNumberNodeAndDirection) {
             "records 2 (9+X by 7+X), 3 (7+X by 7+X), 5 (7-Y by 7+Y)");
 }
 
+/// The file with mobilities, one text in it replaced.
+json edited(const std::string& text, const std::string& with) {
+  auto bytes = bytes_of(source_path("tests/data/uff/mobility-dataset-164.uff"));
+  const auto at = bytes.find(text);
+  EXPECT_NE(at, bytes.npos) << text;
+  return measured_file(bytes.replace(at, text.size(), with));
+}
+
+// The file's units are mm and N.
+TEST(UniversalFile, LabelsDoNotContradictDataset164) {
+  const std::string ordinate = "        11    0    0    0 NONE                 ";
+  const std::string force = "        13    0    0    0 NONE                 ";
+  expect_modes(told(edited(ordinate + "NONE", ordinate + "mm/s")), kTwo, 1e-9);
+  expect_modes(told(edited(force + "NONE", force + "N")), kTwo, 1e-9);
+  for (const char* unit : {"g", "m/s", "mm/s2", "ips's", "mm/s/N"}) {
+    const auto asked = edited(ordinate + "NONE", ordinate + unit);
+    EXPECT_NE(refused(asked).find("line 27"), std::string::npos)
+        << unit << ": " << refused(asked);
+  }
+  EXPECT_NE(refused(edited(force + "NONE", force + "lbf")).find("dataset 164"),
+            std::string::npos);
+}
+
+// Fortran reads blanks of a number's columns as 0.
+TEST(UniversalFile, BlankColumnsAreZero) {
+  const json r = told(edited("  5.00000e+02  1.20000e+01", "               1.20000e+01"));
+  EXPECT_EQ(r["from_Hz"], 0);
+  EXPECT_EQ(r["to_Hz"], 600);
+}
+
+TEST(UniversalFile, ARecordThatIsNoDrivePointIsTold) {
+  const auto warned = [](const json& frf) {
+    const json told = answer(request(frf));
+    return told.value("warnings", json::array()).dump().find("is no drive point") !=
+           std::string::npos;
+  };
+  const json all = frf("several-records");
+  EXPECT_TRUE(warned(with(all, {{"response", {{"node", 9}}}})));
+  EXPECT_FALSE(warned(with(all, {{"record", 3}})));
+}
+
 TEST(UniversalFile, TheUnitOfTheRequestCounts) {
   json asked = frf("accelerance-even-double");
   asked["unit"] = "g/N";
