@@ -46,7 +46,9 @@ std::vector<std::string> words_of(std::string_view text) {
 
 Heading heading(std::string_view name, bool (*is_unit)(std::string_view)) {
   constexpr std::string_view kBefore = " [(,:/_", kJoined = "[(";
+  constexpr std::size_t kLongest = 200;
   name = between_blanks(name);
+  if (name.size() > kLongest) return {std::string(name), ""};
   for (std::size_t at = 1; at < name.size(); ++at) {
     if (kBefore.find(name[at]) == kBefore.npos) continue;
     const std::size_t from = at + (kJoined.find(name[at]) == kJoined.npos ? 1 : 0);

@@ -9,7 +9,8 @@ namespace turnwright::document {
 
 /// "Phase [deg]", "Phase (deg)", "phase_deg", "Phase, deg" -> "Phase" and "deg": the unit
 /// is the longest end, brackets around it not counted, that `is_unit` takes, behind a blank,
-/// a bracket, a comma, a colon, a slash or an underscore; "" if there is none.
+/// a bracket, a comma, a colon, a slash or an underscore; "" if there is none, or in a name of
+/// more than 200 bytes.
 struct Heading {
   std::string quantity, unit;
 };

@@ -53,6 +53,35 @@ std::vector<std::string> threads_in(const std::string& text) {
   return out;
 }
 
+// Why a tap cuts no right-hand metric or unified thread, by the words of the library; empty
+// if it may.
+std::string other_thread(const LibraryTool& tool) {
+  constexpr std::size_t kLongest = 200;
+  constexpr auto kAnyCase = std::regex::ECMAScript | std::regex::icase;
+  static const std::regex kLeft(R"(\b(left|reverse|links\w*)\b|\bLH\b)", kAnyCase);
+  static const std::regex kForming(R"(\b(roll|cold|thread)? ?form(ing)?\b|\bfluteless\b)",
+                                   kAnyCase);
+  static const std::regex kInsert(R"(\b(EG|STI|helicoil)\b)", kAnyCase);
+  static const std::regex kOther(
+      R"(\b(NPTF?|NPSM?|BSPT?|BSPP|BSW|BSF|BA|Rc|Rp|Rd|Tr|PG|Acme)\b ?\d*|\bG ?\d{1,2}(/\d)?)",
+      kAnyCase);
+  if (tool.hand == 'L') return "A left-hand tap: part documents have right-hand threads.";
+  auto texts = tool.texts;
+  texts.insert(texts.end(), {tool.thread, tool.name});
+  for (const auto& text : texts) {
+    const std::string searched = shortened(text, kLongest);
+    if (std::regex_search(searched, kLeft))
+      return "A left-hand tap: part documents have right-hand threads.";
+    if (std::regex_search(searched, kForming))
+      return "A forming tap: its hole is wider than that of a cutting one.";
+    if (std::regex_search(searched, kInsert))
+      return "A tap for wire inserts: its thread is wider than it is called.";
+    if (std::regex_search(searched, kOther))
+      return "A tap of another thread than metric or unified ones.";
+  }
+  return "";
+}
+
 double diameter_mm(const std::string& thread) {
   if (const auto inch = part::inch_thread(thread)) return inch->d_mm;
   const auto metric = part::metric_thread(thread);
@@ -65,8 +94,13 @@ double diameter_mm(const std::string& thread) {
 // (M42).
 std::string thread_of_tap(const LibraryTool& tool) {
   constexpr double kNominal_mm = 0.2;  // between a tap's diameter and its thread's
+  constexpr double kMostPitch = 0.4;   // of the diameter
+  if (const auto why = other_thread(tool); !why.empty()) throw std::domain_error(why);
   if (const auto named = threads_in(tool.thread); !named.empty()) return named.front();
   if (tool.DC_mm && tool.TP_mm) {
+    if (!(*tool.TP_mm <= kMostPitch * *tool.DC_mm))
+      throw std::domain_error(fmt::format("A pitch (TP) of {:g} mm on {:g} mm (DC).",
+                                          *tool.TP_mm, *tool.DC_mm));
     const auto inch = part::inch_designation(*tool.DC_mm, *tool.TP_mm);
     return inch ? *inch : metric(rounded(*tool.DC_mm), rounded(*tool.TP_mm));
   }

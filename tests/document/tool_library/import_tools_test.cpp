@@ -213,6 +213,22 @@ TEST(ImportTools, HoleToolsOfFreeCadAndMtconnectAreDocuments) {
   EXPECT_EQ(x["tools"][0]["reach_diameters"], 4);
 }
 
+// Left-hand, forming and other taps than metric and unified ones are told, none is another.
+TEST(ImportTools, OtherTapsAreNotTakenForMetricOnes) {
+  const char* wrong[] = {"tap left hand;M8;", "tap;M8x1.25 LH;",   "tap;M8;L",
+                         "forming tap;M8;",   "tap fluteless;M8;", "tap;EG M8;",
+                         "tap;M10 STI;",      "tap;1/4-20 BSW;",   "tap;1/4-18 NPT;",
+                         "tap;G 1/8;",        "tap;Rd 8x1;",       "tap;Tr 8x1.5;"};
+  std::string table = "id;type;TDZ;HAND;DC;TP\n";
+  for (const char* line : wrong) table += std::string("T;") + line + ";8;1\n";
+  const json r = imported(table);
+  EXPECT_EQ(r["tools"].size(), 0u) << r["tools"];
+  EXPECT_EQ(r["ignored"].size(), std::size(wrong));
+  EXPECT_EQ(imported("id;type;TDZ;HAND\nA;tap;M8;R\n")["tools"].size(), 1u);
+  EXPECT_EQ(imported("id;type;DC;TP\nA;tap;9.525;406.4\nB;tap;8;1\n")["tools"].size(),
+            1u);
+}
+
 TEST(ImportTools, AHoleIsTappedByTheLibrarysTap) {
   const json tap = imported("id;type;TDZ\nOURS;tap;M10\n")["tools"][0];
   json part =
