@@ -33,16 +33,33 @@ std::optional<part::Limits> limits_of(const part::InnerElement& bore) try {
   return std::nullopt;
 }
 
+// Whether a boring bar enters a diameter.
+bool bar_enters(const Draft& draft, double diameter_mm) {
+  return std::ranges::any_of(draft.loaded.plan.tools, [&](const catalogue::Tool& t) {
+    return t.bar && t.bar->min_bore_mm <= diameter_mm;
+  });
+}
+
 // Whether a boring bar enters what the drill would leave of a bore; into a counterbore it
 // has to enter the hole behind.
-bool can_be_bored(const std::vector<catalogue::Tool>& tools,
-                  const part::InnerElement& bore, const MadeHole& hole) {
+bool can_be_bored(const Draft& draft, const part::InnerElement& bore,
+                  const MadeHole& hole) {
   const auto& cut = hole.shape.cut;
-  const double open_mm =
-      cut.flat ? cut.drilled_mm : bore.left_mm - 2 * planning::kLeftToBore_mm;
-  return std::ranges::any_of(tools, [&](const catalogue::Tool& t) {
-    return t.bar && t.bar->min_bore_mm <= open_mm;
-  });
+  return bar_enters(
+      draft, cut.flat ? cut.drilled_mm : bore.left_mm - 2 * planning::kLeftToBore_mm);
+}
+
+// Whether a boring bar and a threading tool enter what the drill would leave of a thread.
+bool can_be_threaded(const Draft& draft, const part::InnerElement& thread) {
+  const auto& plan = draft.loaded.plan;
+  return bar_enters(draft, thread.left_mm - 2 * planning::kLeftToBore_mm) &&
+         std::ranges::any_of(plan.fixed_tools, [&](const FixedTool& t) {
+           return t.use == FixedUse::threading && t.inner &&
+                  t.conditions_in(plan.material.group) &&
+                  t.min_bore_mm <= thread.left_mm &&
+                  t.pitch_mm.lower <= thread.cut->pitch_mm &&
+                  thread.cut->pitch_mm <= t.pitch_mm.upper;
+         });
 }
 
 bool is_thread(const part::InnerElement& e) {
@@ -181,13 +198,14 @@ std::optional<MadeHole> fitting_hole(Draft& draft, std::size_t i, HoleDemand w) 
   if (!plain(draft, i) || (bore.cut && !is_thread(bore)) || bore.Rz_um ||
       !drilled_by_operations(draft, bore) || (named && names(named->json(), bore.id)))
     return std::nullopt;
-  if (is_thread(bore)) return tapped_hole(draft, w);
+  if (is_thread(bore))
+    return can_be_threaded(draft, bore) ? std::nullopt : tapped_hole(draft, w);
   w.limits = limits_of(bore);
   w.Ra_um = bore.Ra_um;
   auto hole = drilled_hole(draft, w);
   if (!hole) hole = counterbored_hole(draft, i, w);
   if (!hole) hole = reamed_hole(draft, w);
-  if (!hole || are_given(draft) || !can_be_bored(plan.tools, bore, *hole)) return hole;
+  if (!hole || are_given(draft) || !can_be_bored(draft, bore, *hole)) return hole;
   draft.loaded.drillable.push_back({i, hole->word});
   return std::nullopt;
 }

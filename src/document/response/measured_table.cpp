@@ -65,7 +65,7 @@ class TableRows {
   /// in round brackets there may also be the name of a channel, "(H1)".
   Heading heading_of(const std::string& name) const {
     static const std::regex kUnit(
-        R"((.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\s(\S+/\S+))\s*)");
+        R"((.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|\s([^\s()\[\]]+/[^\s()\[\]]+))\s*)");
     static const std::regex kChannel(R"([A-Za-z]{0,8}[ _-]?\d*)");
     const Heading known = heading(name, form_.is_unit);
     std::smatch m;

@@ -234,6 +234,7 @@ std::string hole_use(std::string_view text) {
   const auto has = [&](const char* word) {
     return std::regex_search(lower, std::regex(word));
   };
+  if (has("\\b(drill|collet|holder|boring|taper(ed)?|adjustable)\\b")) return "";
   if (has("counter ?sink")) return "countersinking";
   if (has("\\bream(er|ing)?\\b")) return "reaming";
   return has("\\btap(ping)?\\b") ? "tapping" : "";

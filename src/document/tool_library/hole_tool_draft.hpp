@@ -9,8 +9,8 @@
 namespace turnwright::document {
 
 /// What a library calls such a tool: "tapping", "reaming", "countersinking", as the documents'
-/// `use` has it; "" if none of the words tap, reamer, countersink is in the text, whatever its
-/// case.
+/// `use` has it; "" if none of the words tap, reamer, countersink is in the text, or another
+/// that makes it something else (tap drill, tapered reamer), whatever their case.
 std::string hole_use(std::string_view text);
 
 /// The conditions of one group of materials in which high-speed steel cuts.

@@ -77,6 +77,7 @@ void read_words(Row& row, LibraryTool& t) {
   t.boring = type == "boring";
   t.thread = row.word("TDZ");
   t.use = hole_use(type);
+  if (!t.use.empty()) t.texts.push_back(type);  // "tap left hand"
   if (!type.empty() && type != "boring" && type != "turning" && t.use.empty())
     row.wrong("type", type, "turning, boring, tap, reamer or countersink");
 }
