@@ -382,16 +382,16 @@ json threaded(const char* designation, double length_mm) {
 // DIN 336's drills, where the carbide drills have them.
 TEST(Threads, ThatNoBarEntersAreTapped) {
   const std::pair<const char*, double> taps[] = {
-      {"M3", 2.5},   {"M4", 3.3}, {"M5", 4.2},   {"M6", 5},
-      {"M8", 6.8},   {"M8x1", 7}, {"M10", 8.5},  {"M10x1.25", 8.8},
-      {"M12", 10.2}, {"M16", 14}, {"3/8-16", 8}, {"1/4-20 UNC", 5}};
+      {"M3", 2.5},   {"M4", 3.3},   {"M5", 4.2},      {"M6", 5},
+      {"M8", 6.8},   {"M8x1", 7},   {"M10", 8.5},     {"M10x1.25", 8.8},
+      {"M12", 10.2}, {"3/8-16", 8}, {"1/4-20 UNC", 5}};
   for (const auto& [designation, drill] : taps) {
     const auto e = first_bore(threaded(designation, 6));
     ASSERT_TRUE(part::is_tapped(e)) << designation;
     EXPECT_EQ(e.cut->drilled_mm, drill) << designation;
     EXPECT_EQ(e.left_mm, drill) << designation;
   }
-  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M20", 8)))) << "a bar enters";
+  EXPECT_FALSE(part::is_tapped(first_bore(threaded("M16", 6)))) << "a bar enters";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10x0.75", 8)))) << "no tap";
   EXPECT_FALSE(part::is_tapped(first_bore(threaded("M10", 27)))) << "deeper than 3 d";
 }
@@ -667,7 +667,8 @@ TEST(Holes, AreNotAskedForMoreThanADrillLeaves) {
 // Behind a bored seat the drill has the hole's size and boring starts from that.
 TEST(Holes, BehindABoreAreWhereBoringStarts) {
   auto d = drilled(20);
-  d["inner"] = {cylinder("b1", 20, 26), cylinder("b2", 15, 9)};
+  d["inner"] = {cylinder("b1", 20, 26), cylinder("b2", 15, 16)};
+  d["inner"][1]["kind"] = "hole";
   for (auto& b : d["inner"]) b["from"] = "right";
   d["inner"][0]["fit"] = "H7";
   d["outer"][0]["diameter_mm"] = 50;
@@ -675,7 +676,7 @@ TEST(Holes, BehindABoreAreWhereBoringStarts) {
   const auto p = part(d);
   EXPECT_TRUE(part::is_hole(p.drawing.inner[1]));
   EXPECT_FALSE(part::is_hole(p.drawing.inner[0]));
-  EXPECT_EQ(p.drilled_mm, (std::vector<double>{9, 9}));
+  EXPECT_EQ(p.drilled_mm, (std::vector<double>{16, 16}));
   EXPECT_EQ(plan(p).status, PlanStatus::ok);
 }
 
