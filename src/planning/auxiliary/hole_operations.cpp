@@ -52,8 +52,9 @@ struct Hole {
   std::string first;      // the outermost bore
   double drilled_mm = 0;  // of the innermost if it is a hole: the drill's diameter
   double beyond_mm = 0;   // diameter of reamers and taps whose leads go beyond the bores
-  /// Material left between it and the bores of the other end, or that end; the narrowest
-  /// of those bores.
+  double extra_mm = 0;    // that the drill goes beyond the bores for them
+  /// Material left between the bores of both ends, or to the other end or its centre hole;
+  /// the narrowest of the bores there.
   double rest_mm = 0, behind_mm = INFINITY;
 
   // Whether a drill's point, and the lead of a reamer or tap, stay clear of the drawn
@@ -61,14 +62,15 @@ struct Hole {
   // use half.
   bool spares_behind(const FixedTool& drill, double size_mm) const {
     if (rest_mm < kNoWall_mm) return std::max(size_mm, beyond_mm) <= behind_mm;
-    const double point = cutting::drill_point_mm(size_mm, drill.point_deg);
-    return point < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
+    const double tip = extra_mm + cutting::drill_point_mm(size_mm, drill.point_deg);
+    return tip < (std::isfinite(behind_mm) ? rest_mm / 2 : rest_mm);
   }
 };
 Hole hole_from(const part::Drawing& d, part::End end) {
   Hole h;
   if (d.stock.kind != part::StockKind::bar) return h;
-  h.rest_mm = part::length_mm(d);
+  const auto& centre = part::centre_at(d, part::opposite(end));
+  h.rest_mm = part::length_mm(d) - (centre ? centre->depth_mm : 0);
   double needed = 0;  // by reamers and taps
   for (const auto& e : d.inner) {
     h.rest_mm -= e.length_mm;
@@ -91,7 +93,7 @@ Hole hole_from(const part::Drawing& d, part::End end) {
     if (part::is_hole(e) && deep + e.cut->lead_mm > h.depth_mm)
       h.beyond_mm = std::max(h.beyond_mm, e.cut->drawn.left_mm);
   }
-  if (h.rest_mm >= kNoWall_mm) h.rest_mm -= needed - h.depth_mm;
+  h.extra_mm = needed - h.depth_mm;
   h.depth_mm = needed;
   return h;
 }

@@ -505,6 +505,27 @@ TEST(Threads, AreNotTappedIntoTheThreadOfTheOtherEnd) {
   EXPECT_EQ(drilled_mm(part(d), part::End::right), 8.5) << "a drill of 10.2 mm was there";
 }
 
+// Two taps from both ends: each drill may use half of what is left, with what it goes deeper
+// for its tap (3.5 pitches) and its point; nor does it meet the centre hole of the other end.
+TEST(Threads, AreDrilledClearOfTheOtherEnd) {
+  const double tip = 3.5 * 1.5 + 8.5 / 2 / std::tan(units::rad_from_deg(70));
+  const auto drill = [](double rest_mm, bool both) {
+    auto d = threaded("M10", 16);
+    d["outer"][0]["length_mm"] = 16 + rest_mm + (both ? 16 : 0);
+    auto behind = d["inner"][0];
+    behind["id"] = "b2";
+    behind["from"] = "left";
+    if (both) d["inner"].push_back(behind);
+    if (!both) d["centre_holes"] = {{{"at", "left"}, {"designation", "A4/8.5"}}};
+    return drilled_mm(part(d), part::End::right);
+  };
+  EXPECT_EQ(drill(2 * tip + 0.01, true), 8.5);
+  EXPECT_EQ(drill(2 * tip - 0.01, true), 0);
+  const double centre = part::centre_hole('A', 4, 8.5)->depth_mm;
+  EXPECT_EQ(drill(centre + tip + 0.01, false), 8.5);
+  EXPECT_EQ(drill(centre + tip - 0.01, false), 0);
+}
+
 // In the cut both ways through the hole; the lead beyond it and three pitches before it at
 // feed.
 TEST(Threads, TakeTheTimeOfTheirWays) {
