@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "made_surfaces.hpp"
 #include "supports.hpp"
 #include "turnwright/catalogue/live_centre.hpp"
 
@@ -19,11 +20,23 @@ bool has_live_centre(Clamping c) {
   return has_tailstock(c) || c == Clamping::between_centres;
 }
 
-double free_bore_mm(const PreparedPart& p, std::size_t setup) {
+double open_bore_mm(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
   const bool left = left_is_free(p, setup);
   double bore = d.stock.inner_mm;
-  for (const auto& e : d.inner)
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const auto& e = d.inner[i];
+    if ((e.from == part::End::left) == left || !part::leaves_part(d, i)) continue;
+    const auto made = setup_of(p, e.id);
+    if (made && *made < setup) bore = std::max(bore, left ? e.left_mm : e.right_mm);
+  }
+  return bore;
+}
+
+double free_bore_mm(const PreparedPart& p, std::size_t setup) {
+  const bool left = left_is_free(p, setup);
+  double bore = open_bore_mm(p, setup);
+  for (const auto& e : p.drawing.inner)
     if ((e.from == part::End::left) == left)
       bore = std::max(bore, left ? e.left_mm : e.right_mm);
   return bore;
