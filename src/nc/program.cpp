@@ -94,6 +94,14 @@ InCut in_cut(const Site& site, const OperationPlan& o) {
   return {true, small, large};
 }
 
+// The clamping in which an operation is cut: ends are faced in the chuck, before a centre
+// comes in.
+planning::Clamping clamping_of(const Site& site, const OperationPlan& o) {
+  const bool end =
+      o.kind == OperationKind::face && (o.on[0] == "left" || o.on[0] == "right");
+  return end ? planning::Clamping::chuck : site.clamping;
+}
+
 // The spindle limit [1/min] that applies to the plan's conditions.
 double spindle_limit_rpm(const Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
@@ -105,12 +113,12 @@ double spindle_limit_rpm(const Site& site, std::size_t operation) {
       cap = r.n_max_rpm;
       break;
     }
+  const auto clamping = clamping_of(site, o);
   const double force =
-      planning::jaw_force_N(site.part, site.setup, site.clamping, stage_of(site, o));
+      planning::jaw_force_N(site.part, site.setup, clamping, stage_of(site, o));
   if (!(force > 0)) return std::min(cap, m.n_max_rpm);
-  const cutting::Grip grip{
-      force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
-      planning::grip_diameter_mm(site.part, site.setup, site.clamping)};
+  const cutting::Grip grip{force, m.chuck.jaw_mass_radius_kg_m, m.chuck.friction,
+                           planning::grip_diameter_mm(site.part, site.setup, clamping)};
   const double keeps_a_third = cutting::grip_rpm(grip, (1 - cutting::kGripLoss) * force);
   cap = std::min({cap, m.n_max_rpm, m.chuck.n_max_rpm, keeps_a_third});
   const auto D = swept(site, o);

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "check.hpp"
+#include "planning/clamping/clamping_speed.hpp"
+#include "planning/clamping/jaws.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "random_parts.hpp"
 
@@ -96,6 +98,30 @@ nlohmann::json joined_surfaces_document() {
     "machine": "lathe-medium",
     "tools": ["PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF"],
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})");
+}
+
+// A part that is turned between centres is faced in the chuck, whose jaws lose their force
+// at speed.
+TEST(NcPrograms, FaceInTheChuckBeforeTheCentresComeIn) {
+  const auto& p = planned_reference("motor-shaft");
+  ASSERT_EQ(p.plan.setups[0].clamping, planning::Clamping::between_centres);
+  const double force = planning::jaw_force_N(p.part, 0, planning::Clamping::chuck,
+                                             planning::Stage::roughing);
+  const double most = planning::grip_loss_rpm(p.part, planning::Clamping::chuck, force);
+  ASSERT_LT(most, p.part.machine.n_max_rpm);
+  int faces = 0, others = 0;
+  for (const auto& step : programs(p.part, p.plan).setups.at(0).steps) {
+    if (step.stop) continue;
+    const bool face = std::ranges::any_of(step.comments, [](const std::string& line) {
+      return line.find("s1-face-right") != line.npos;
+    });
+    face ? ++faces : ++others;
+    if (face) {
+      EXPECT_LE(step.n_max_rpm, most);
+    }
+  }
+  EXPECT_GT(faces, 0);
+  EXPECT_GT(others, 0);
 }
 
 TEST(NcPrograms, LeaveTheStepsBetweenCorrections) {
