@@ -3,6 +3,7 @@
 #include "turnwright/chatter/tap_test.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -160,16 +161,26 @@ std::size_t block_of(std::vector<Hit>& all, const TapOptions& options) {
   return smooth(static_cast<std::size_t>(std::isfinite(block) ? block : 0));
 }
 
+/// The values of a series: their ends, the one in the middle, and the smallest step.
+struct ValueRange {
+  double lowest = 0, highest = 0, rest = 0;
+  double step = std::numeric_limits<double>::infinity();
+};
+ValueRange range_of(const std::vector<double>& x) {
+  const auto [lowest, highest] = std::ranges::minmax(x);
+  ValueRange out{lowest, highest, median(x)};
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] != x[i - 1]) out.step = std::min(out.step, std::abs(x[i] - x[i - 1]));
+  return out;
+}
+
 /// The first sample of a series at the end of its range, among those of a block.
-std::optional<std::size_t> overload(const std::vector<double>& x, std::size_t from,
-                                    std::size_t to) {
+std::optional<std::size_t> overload(const std::vector<double>& x, const ValueRange& range,
+                                    std::size_t from, std::size_t to) {
   constexpr std::size_t kInARow = 3;
   constexpr double kSteps = 10;
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < x.size(); ++i)
-    if (x[i] != x[i - 1]) step = std::min(step, std::abs(x[i] - x[i - 1]));
-  const auto [lowest, highest] = std::ranges::minmax(x);
-  const double rest = median(x), far = std::max(highest - rest, rest - lowest) / 2;
+  const auto [lowest, highest, rest, step] = range;
+  const double far = std::max(highest - rest, rest - lowest) / 2;
   for (std::size_t i = from; i < to;) {
     std::size_t end = i + 1;
     while (end < x.size() && x[end] == x[i]) ++end;
@@ -186,15 +197,21 @@ std::optional<std::size_t> overload(const std::vector<double>& x, std::size_t fr
 
 void find_overload(std::vector<Hit>& all, std::span<const TapRecord> records,
                    std::size_t block) {
+  std::vector<std::array<ValueRange, 2>> ranges;
+  for (const TapRecord& r : records)
+    ranges.push_back({range_of(r.force_N), range_of(r.motion)});
   for (Hit& hit : all) {
+    leave_if_asked();
     const TapRecord& r = records[hit.pulse.record];
     const std::size_t from = hit.pulse.block(),
                       to = std::min(from + block, r.force_N.size());
-    for (const auto* series : {&r.force_N, &r.motion})
-      if (const auto at = overload(*series, from, to); at && hit.fault == Fault::none) {
-        hit.fault = Fault::overload;
-        hit.fault_at = *at;
-      }
+    for (const std::size_t k : {0U, 1U}) {
+      const auto& series = k == 0 ? r.force_N : r.motion;
+      const auto at = overload(series, ranges[hit.pulse.record][k], from, to);
+      if (!at || hit.fault != Fault::none) continue;
+      hit.fault = Fault::overload;
+      hit.fault_at = *at;
+    }
   }
 }
 
