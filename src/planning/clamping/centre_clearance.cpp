@@ -20,25 +20,17 @@ bool has_live_centre(Clamping c) {
   return has_tailstock(c) || c == Clamping::between_centres;
 }
 
-double open_bore_mm(const PreparedPart& p, std::size_t setup) {
+double free_bore_mm(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
   const bool left = left_is_free(p, setup);
   double bore = d.stock.inner_mm;
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const auto& e = d.inner[i];
-    if ((e.from == part::End::left) == left || !part::leaves_part(d, i)) continue;
-    const auto made = setup_of(p, e.id);
-    if (made && *made < setup) bore = std::max(bore, left ? e.left_mm : e.right_mm);
-  }
-  return bore;
-}
-
-double free_bore_mm(const PreparedPart& p, std::size_t setup) {
-  const bool left = left_is_free(p, setup);
-  double bore = open_bore_mm(p, setup);
-  for (const auto& e : p.drawing.inner)
-    if ((e.from == part::End::left) == left)
+    const bool opens_here = (e.from == part::End::left) == left;
+    const auto made = opens_here ? std::nullopt : setup_of(p, e.id);
+    if (opens_here || (part::leaves_part(d, i) && made && *made < setup))
       bore = std::max(bore, left ? e.left_mm : e.right_mm);
+  }
   return bore;
 }
 

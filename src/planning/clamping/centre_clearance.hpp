@@ -10,10 +10,8 @@ inline constexpr double kCentreShare = 0.35;
 /// Whether a live centre stands at the free end.
 bool has_live_centre(Clamping clamping);
 
-/// Diameter [mm] of the hole in the free face when a setup begins: the stock's, or a bore that
-/// an earlier one made through to it; 0 of a solid end.
-double open_bore_mm(const PreparedPart& plan, std::size_t setup);
-/// The same once the bores of that face are made.
+/// Diameter [mm] of the bore at the free face, also of one that an earlier setup made through
+/// to it; 0 of a solid end.
 double free_bore_mm(const PreparedPart& plan, std::size_t setup);
 
 /// The largest diameter [mm] at the free face that the point of the centre may have: of a

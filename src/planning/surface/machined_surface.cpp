@@ -147,7 +147,7 @@ MachinedSurface MachinedSurface::end_face(const PreparedPart& plan, std::size_t 
   f.bodies_.emplace_back(plan, setup, Clamping::chuck, before);
   f.face_x_ = f.bodies_[0].length_mm();
   f.stock_ = face_stock_mm(plan, left ? part::End::left : part::End::right);
-  f.D_small_ = open_bore_mm(plan, setup);
+  f.D_small_ = plan.drawing.stock.inner_mm;
   f.D_large_ = plan.drawing.stock.outer_mm;
   // The face of the finished part ends at its outermost element.
   const auto& outer = plan.drawing.outer;
