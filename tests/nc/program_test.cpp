@@ -110,7 +110,8 @@ TEST(NcPrograms, FaceInTheChuckBeforeTheCentresComeIn) {
   const double most = planning::grip_loss_rpm(p.part, planning::Clamping::chuck, force);
   ASSERT_LT(most, p.part.machine.n_max_rpm);
   int faces = 0, others = 0;
-  for (const auto& step : programs(p.part, p.plan).setups.at(0).steps) {
+  const auto all = programs(p.part, p.plan);
+  for (const auto& step : all.setups.at(0).steps) {
     if (step.stop) continue;
     const bool face = std::ranges::any_of(step.comments, [](const std::string& line) {
       return line.find("s1-face-right") != line.npos;

@@ -84,7 +84,7 @@ double cheapest(const json& document, const std::vector<json>& machines) {
     for (const auto& way : ways(document)) try {
         auto d = having(having(document, "/machine", m), "/setups", way.setups);
         d["stock"] = way.stock;
-        const auto alone = plan(part(d));
+        const auto alone = chosen(d).plan;
         if (alone.status == PlanStatus::ok) least = std::min(least, alone.cost_per_part);
       } catch (const InputError&) {  // not to be held there
       }

@@ -7,6 +7,7 @@
 
 #include "../parts.hpp"
 #include "planning/auxiliary/hole_operations.hpp"
+#include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/clamping/setup_body.hpp"
 #include "planning/preparation/assignment.hpp"
@@ -247,6 +248,22 @@ TEST(Centre, IsNotLeftOutWhereItsEndIsHeld) {
     });
     EXPECT_EQ(told, d["setups"][only]["hold"] == "left");
   }
+}
+
+// Nor is one drilled into the end of a hole that an earlier setup made through the part.
+TEST(Centre, IsNotDrilledIntoAHole) {
+  auto d = pin();
+  d["setups"][0]["clampings"] = {"chuck"};
+  d["setups"][1]["clampings"] = {"chuck-tailstock"};
+  EXPECT_NE(find(plan(part(d)), "s2-centre-left"), nullptr);
+  d["inner"] = {{{"id", "b"},
+                 {"kind", "hole"},
+                 {"from", "right"},
+                 {"length_mm", part::length_mm(part(d).drawing)},
+                 {"diameter_mm", 10}}};
+  const auto p = part(d);
+  EXPECT_EQ(free_bore_mm(p, 1), 10);
+  EXPECT_EQ(find(plan(p), "s2-centre-left"), nullptr);
 }
 
 // Pilot, cone and protecting chamfer of ISO 6411, the pilot's length of ISO 866 (by hand:

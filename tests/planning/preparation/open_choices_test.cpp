@@ -512,6 +512,7 @@ TEST(Threads, AreDrilledClearOfTheOtherEnd) {
   const auto drill = [](double rest_mm, bool both) {
     auto d = threaded("M10", 16);
     d["outer"][0]["length_mm"] = 16 + rest_mm + (both ? 16 : 0);
+    d["stock"]["length_mm"] = 110;
     auto behind = d["inner"][0];
     behind["id"] = "b2";
     behind["from"] = "left";
