@@ -324,6 +324,36 @@ TEST(Holes, CounterboresAreCutBeforeBoring) {
   }
 }
 
+// The chamfer at the far end is cut in the setup that frees it: from the hole's edge 0.8 mm
+// deep, by a cone of 90 deg.
+TEST(Holes, AreChamferedWhereTheyLeaveThePart) {
+  auto d = drilled(8, {{"length_mm", 40}});
+  d["outer"] = {cylinder("d1", 18, 32), cylinder("d2", 22, 30)};
+  d["setups"].push_back({{"hold", "right"}, {"grip_mm", 15}, {"clampings", {"chuck"}}});
+  d["edges"] = {{{"at", "right|b1"}, {"chamfer_mm", 0.5}},
+                {{"at", "left|b1"}, {"chamfer_mm", 0.8}}};
+  const auto p = part(d);
+  EXPECT_TRUE(part::is_hole(p.drawing.inner[0]));
+  const auto work =
+      auxiliary_work(p, 1, Clamping::chuck, p.work.setups[1], {p.machine_per_min, 1})
+          .all();
+  const auto sink = std::ranges::find(work, "s2-countersink-b1",
+                                      [](const auto& o) { return o.plan.id; });
+  ASSERT_NE(sink, work.end());
+  const auto& pass = sink->plan.passes.at(0);
+  EXPECT_NEAR(pass.ap_mm, 0.8, 1e-12);
+  EXPECT_NEAR(pass.time_min, 0.8 / (pass.f_mm_rev * pass.n_rpm), 1e-12);
+  auto inside = d;
+  inside["inner"][0]["length_mm"] = 30;
+  inside["inner"].push_back({{"id", "b2"},
+                             {"kind", "cylinder"},
+                             {"from", "right"},
+                             {"length_mm", 10},
+                             {"diameter_mm", 6}});
+  inside["edges"] = {{{"at", "b1|b2"}, {"chamfer_mm", 0.2}}};
+  EXPECT_FALSE(part::is_reamed(part(inside).drawing.inner[0]));
+}
+
 // Where a bar enters a bore that other tools leave as it is drawn too, all are planned.
 TEST(Holes, ThatABarEntersAreMadeInTheCheapestWay) {
   const auto names = [](const json& d) {
