@@ -46,7 +46,7 @@ double centre_cone_mm(const catalogue::FixedTool& t, double D) {
 Cutter drill(double D, double point_deg) {
   Cutter c;
   c.drills = true;
-  c.edge = drill_edge(D, point_deg);
+  c.edge = pointed_edge(D, cutting::drill_point_mm(D, point_deg));
   return c;
 }
 

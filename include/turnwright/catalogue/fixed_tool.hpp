@@ -61,8 +61,8 @@ FixedConditions at(const FixedConditions& conditions, double vc_m_min, double f_
 /// grow with the diameter.
 FixedConditions of_size(FixedConditions conditions, FixedUse use, double size_mm);
 
-/// What a drill, a flat drill or a reamer leaves: the ISO 286 grade above its diameter (of a reamer the
-/// tolerance class H of that grade), and the roughness.
+/// What a drill, a flat drill or a reamer leaves: the ISO 286 grade above its diameter (of a
+/// reamer the tolerance class H of that grade), and the roughness.
 struct DrilledHole {
   int grade = 0;
   double Ra_um = 0;

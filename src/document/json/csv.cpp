@@ -23,12 +23,6 @@ struct Header {
   std::vector<const CsvColumn*> columns;  // null where a column is ignored
 };
 
-std::string_view trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(kBlank);
-  if (first == s.npos) return {};
-  return s.substr(first, s.find_last_not_of(kBlank) - first + 1);
-}
-
 std::string pointer_of(const Reader& csv, const Line& line) {
   return line_pointer(csv, line.number);
 }

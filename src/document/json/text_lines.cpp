@@ -59,6 +59,13 @@ bool are_text(const Reader& value, const std::vector<TextLine>& lines, const cha
   return true;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
 std::string line_pointer(const Reader& value, std::size_t number) {
   return value.pointer() + "#line " + std::to_string(number);
 }

@@ -22,6 +22,9 @@ std::vector<TextLine> text_lines(const Reader& value, const char* form);
 /// Whether the lines are text; the first control character is reported, `form` expected.
 bool are_text(const Reader& value, const std::vector<TextLine>& lines, const char* form);
 
+/// A text without the blanks and tabs around it.
+std::string_view trimmed(std::string_view text);
+
 /// The place of a line, "/csv#line 3".
 std::string line_pointer(const Reader& value, std::size_t number);
 

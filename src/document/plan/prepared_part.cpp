@@ -194,9 +194,8 @@ void add_usable(const std::string& name, LoadedPart loaded, const Catalogue& cat
 
 // A variant in every way of making those bores that tools on the axis may make instead of a
 // boring bar; names tell them apart.  `bored` are those that are settled so.
-void add_ways(Variant variant, std::vector<std::size_t> bored, const Catalogue& catalogue,
-              const std::string& document, bool window_curves, Usable& all) {
-  auto loaded = load_variant(variant, catalogue, document);
+void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored,
+              const Catalogue& catalogue, bool window_curves, Usable& all) {
   const auto open = std::ranges::find_if(loaded.drillable, [&](const DrillableBore& b) {
     return std::ranges::find(bored, b.inner) == bored.end();
   });
@@ -212,9 +211,12 @@ void add_ways(Variant variant, std::vector<std::size_t> bored, const Catalogue& 
   variant.name = bore + "bored";
   auto settled = bored;
   settled.push_back(open->inner);
-  add_ways(std::move(variant), std::move(settled), catalogue, document, window_curves,
-           all);
-  add_ways(std::move(other), std::move(bored), catalogue, document, window_curves, all);
+  const std::string document = loaded.document;
+  add_ways(std::move(variant), std::move(loaded), std::move(settled), catalogue,
+           window_curves, all);
+  auto drilled = load_variant(other, catalogue, document);
+  add_ways(std::move(other), std::move(drilled), std::move(bored), catalogue,
+           window_curves, all);
 }
 
 }  // namespace
@@ -243,7 +245,8 @@ Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& cata
   Candidates out;
   std::optional<InputError> first;
   for (const auto& variant : all) try {
-      add_ways(variant, {}, catalogue, document, window_curves, out.usable);
+      add_ways(variant, load_variant(variant, catalogue, document), {}, catalogue,
+               window_curves, out.usable);
     } catch (const InputError& error) {
       if (!first) first = error;
       const auto& p = error.problems().front();

@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <cctype>
 
+#include "document/json/text_lines.hpp"
+
 namespace turnwright::document {
 namespace {
 
-std::string_view between_blanks(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t");
-  if (first == s.npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t") - first + 1);
-}
-
 /// Without brackets that hold all of it.
 std::string_view without_brackets(std::string_view s) {
-  s = between_blanks(s);
+  s = trimmed(s);
   const bool inside = (s.starts_with('[') && s.find(']') == s.size() - 1) ||
                       (s.starts_with('(') && s.find(')') == s.size() - 1);
-  return inside ? between_blanks(s.substr(1, s.size() - 2)) : s;
+  return inside ? trimmed(s.substr(1, s.size() - 2)) : s;
 }
 
 bool is_of_word(char c) {
@@ -47,14 +43,14 @@ std::vector<std::string> words_of(std::string_view text) {
 Heading heading(std::string_view name, bool (*is_unit)(std::string_view)) {
   constexpr std::string_view kBefore = " [(,:/_", kJoined = "[(";
   constexpr std::size_t kLongest = 200;
-  name = between_blanks(name);
+  name = trimmed(name);
   if (name.size() > kLongest) return {std::string(name), ""};
   for (std::size_t at = 1; at < name.size(); ++at) {
     if (kBefore.find(name[at]) == kBefore.npos) continue;
     const std::size_t from = at + (kJoined.find(name[at]) == kJoined.npos ? 1 : 0);
     const std::string_view unit = without_brackets(name.substr(from));
     if (!unit.empty() && is_unit(unit))
-      return {std::string(between_blanks(name.substr(0, at))), std::string(unit)};
+      return {std::string(trimmed(name.substr(0, at))), std::string(unit)};
   }
   return {std::string(name), ""};
 }

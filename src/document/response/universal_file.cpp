@@ -32,16 +32,10 @@ std::string_view columns(std::string_view line, std::size_t from, std::size_t co
   return line.substr(begin, at(from + count) - begin);
 }
 
-std::string_view trim(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t");
-  if (first == s.npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t") - first + 1);
-}
-
-bool is_delimiter(std::string_view line) { return trim(line) == "-1"; }
+bool is_delimiter(std::string_view line) { return trimmed(line) == "-1"; }
 
 std::optional<double> fortran_number(std::string_view field) {
-  std::string digits(trim(field));
+  std::string digits(trimmed(field));
   for (char& c : digits)
     if (c == 'D' || c == 'd') c = 'e';
   return csv_number(digits);
@@ -67,7 +61,8 @@ std::vector<Field> fields_of(std::string_view line) {
 std::vector<Field> of_widths(std::string_view line, std::span<const std::size_t> widths) {
   std::vector<Field> out;
   for (std::size_t at = 0, i = 0; at < line.size(); at += widths[i++ % widths.size()])
-    if (const auto text = line.substr(at, widths[i % widths.size()]); !trim(text).empty())
+    if (const auto text = line.substr(at, widths[i % widths.size()]);
+        !trimmed(text).empty())
       out.push_back({at + 1, text});
   return out;
 }
@@ -78,7 +73,7 @@ std::vector<double> in_columns(std::string_view line,
                                std::span<const std::size_t> widths) {
   std::vector<double> out;
   for (std::size_t at = 0, i = 0; i < widths.size(); at += widths[i++]) {
-    const auto field = at < line.size() ? trim(line.substr(at, widths[i])) : "";
+    const auto field = at < line.size() ? trimmed(line.substr(at, widths[i])) : "";
     const auto x = field.empty() ? std::optional(0.0) : fortran_number(field);
     if (!x) return {};
     out.push_back(*x);
@@ -99,7 +94,7 @@ class UniversalReader {
       ++at_;
       const std::size_t first = at_;
       while (at_ < lines_.size() && !is_delimiter(lines_[at_].text)) ++at_;
-      if (at_ == lines_.size() && !trim(line(first)).starts_with("58b"))
+      if (at_ == lines_.size() && !trimmed(line(first)).starts_with("58b"))
         report(first, shown_line(first), "a dataset that ends with a line of -1", "type");
       dataset(first, at_);
       ++at_;
@@ -114,7 +109,7 @@ class UniversalReader {
  private:
   std::string_view line(std::size_t i) const { return lines_[i].text; }
   std::string shown_line(std::size_t i) const {
-    return shown(std::string(trim(line(i))));
+    return shown(std::string(trimmed(line(i))));
   }
 
   void report(std::size_t i, std::string got, std::string expected, std::string code) {
@@ -124,7 +119,7 @@ class UniversalReader {
 
   /// The dataset whose number stands in line `first`, its records up to `end`.
   void dataset(std::size_t first, std::size_t end) {
-    const auto number = trim(line(first)).substr(0, trim(line(first)).find(' '));
+    const auto number = trimmed(line(first)).substr(0, trimmed(line(first)).find(' '));
     if (number == "58b")
       report(first, "a binary dataset 58b", "the ASCII form, dataset 58", "type");
     else if (number == "58")
@@ -149,10 +144,10 @@ class UniversalReader {
     for (const Field& f : fields) {
       const auto x = fortran_number(f.text);
       if (!x)
-        report(
-            i,
-            shown(std::string(trim(f.text))) + " in column " + std::to_string(f.column),
-            "a number", "type");
+        report(i,
+               shown(std::string(trimmed(f.text))) + " in column " +
+                   std::to_string(f.column),
+               "a number", "type");
       out.push_back(x.value_or(kUnread));
     }
     return out;
@@ -160,7 +155,7 @@ class UniversalReader {
 
   /// An integer in fixed columns; 0 for blanks.
   long integer(std::size_t i, std::size_t from, std::size_t width) {
-    const auto field = trim(columns(line(i), from, width));
+    const auto field = trimmed(columns(line(i), from, width));
     if (field.empty()) return 0;
     const auto x = csv_number(field);
     if (x && std::abs(*x) < 1e10 && std::floor(*x) == *x) return static_cast<long>(*x);
@@ -188,7 +183,7 @@ class UniversalReader {
   UniversalAxis axis(std::size_t i) {
     UniversalAxis out;
     out.type = static_cast<int>(integer(i, 0, 10));
-    out.units = trim(columns(line(i), 47, 20));
+    out.units = trimmed(columns(line(i), 47, 20));
     if (out.units == "NONE") out.units.clear();
     return out;
   }
@@ -211,7 +206,7 @@ class UniversalReader {
       return;
     }
     f.line = lines_[first].number;
-    f.name = trim(line(first));
+    f.name = trimmed(line(first));
     f.type = static_cast<int>(integer(first + 5, 0, 5));
     f.response = dof(first + 5, 41);
     f.reference = dof(first + 5, 66);
@@ -320,7 +315,7 @@ std::vector<UniversalFunction> read_universal_file(const Reader& text) {
   auto lines = text_lines(text, kUniversal);
   if (text.broken() || lines.empty()) return {};
   const bool binary = std::ranges::any_of(
-      lines, [](const TextLine& line) { return trim(line.text).starts_with("58b "); });
+      lines, [](const TextLine& line) { return trimmed(line.text).starts_with("58b "); });
   if (!binary && !are_text(text, lines, kUniversal)) return {};
   return UniversalReader(text, std::move(lines)).functions();
 }

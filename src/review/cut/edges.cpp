@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "turnwright/cutting/fixed.hpp"
 #include "turnwright/part/cut.hpp"
 
 namespace turnwright::review {
@@ -30,11 +29,6 @@ Polygon wedge(double re, double kapr_rad, double minor_rad, double length) {
                                    corner.z_mm + length * edge.z_mm};
   };
   return insert_edge({re, {corner, on(major), on(minor)}, {}});
-}
-
-// A body of revolution about the axis with a point.
-Polygon pointed(double r, double point) {
-  return hull({{0, 0}, {r, point}, {r, kFar_mm}, {-r, kFar_mm}, {-r, point}});
 }
 
 }  // namespace
@@ -66,11 +60,10 @@ Polygon profiling_edge(double re_mm) {
   return wedge(re_mm, kProfilingKapr_rad, part::kProfilingClears_rad, kProfilingEdge_mm);
 }
 
-Polygon drill_edge(double D, double point_deg) {
-  return pointed(D / 2, cutting::drill_point_mm(D, point_deg));
+Polygon pointed_edge(double D, double point) {
+  const double r = D / 2;
+  return hull({{0, 0}, {r, point}, {r, kFar_mm}, {-r, kFar_mm}, {-r, point}});
 }
-
-Polygon reamer_edge(double D, double lead) { return pointed(D / 2, lead); }
 
 Polygon thread_edge(double pitch_mm) {
   const double h = 0.8 * pitch_mm, w = h * std::tan(kPi / 6);

@@ -13,10 +13,9 @@ Polygon insert_edge(const catalogue::ToolOutline& outline);
 /// The edges of a profiling tool, whose insert's width is in no document: the minor edge at
 /// the angle that it is taken to clear, the major edge at 93 deg.
 Polygon profiling_edge(double re_mm);
-/// A drill of any length, its point in the origin.
-Polygon drill_edge(double D_mm, double point_deg);
-/// A reamer of any length, the end of its lead in the origin.
-Polygon reamer_edge(double D_mm, double lead_mm);
+/// A tool on the axis of any length that grows to its diameter over `point_mm`: a drill, its
+/// point in the origin, or a reamer, the end of its lead there.
+Polygon pointed_edge(double D_mm, double point_mm);
 /// The tooth of a threading tool of a pitch; the insert beside it is in no document.
 Polygon thread_edge(double pitch_mm);
 

@@ -13,16 +13,20 @@ using catalogue::FixedUse;
 constexpr double kTouch_mm = 2e-3;  // by which rapids may come too near
 constexpr double kAnyPitch_mm = 3;  // of the tooth of a threading tool
 
+// Length over which a tool on the axis grows to its diameter.
+double point_mm(const catalogue::FixedTool& t, double size) {
+  if (t.use == FixedUse::centring) return catalogue::tip_depth_mm(t, size);
+  return t.use == FixedUse::reaming ? t.lead : cutting::drill_point_mm(size, t.point_deg);
+}
+
 Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
   switch (t.use) {
     case FixedUse::centring:
-      return reamer_edge(size, catalogue::tip_depth_mm(t, size));
     case FixedUse::drilling:
     case FixedUse::counterboring:
     case FixedUse::countersinking:
-      return drill_edge(size, t.point_deg);
     case FixedUse::reaming:
-      return reamer_edge(size, t.lead);
+      return pointed_edge(size, point_mm(t, size));
     case FixedUse::grooving:
     case FixedUse::parting:
       return rectangle(0, t.reach, 0, size);
@@ -33,12 +37,6 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
       break;
   }
   return profiling_edge(t.re_mm);
-}
-
-// Length over which a tool on the axis grows to its diameter.
-double point_mm(const catalogue::FixedTool& t, double size) {
-  if (t.use == FixedUse::centring) return catalogue::tip_depth_mm(t, size);
-  return t.use == FixedUse::reaming ? t.lead : cutting::drill_point_mm(size, t.point_deg);
 }
 
 Polygon placed(const Polygon& tool, double side, double sign) {
