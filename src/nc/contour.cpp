@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace turnwright::nc {
@@ -11,8 +12,22 @@ namespace {
 
 constexpr double kFar_mm = 1e4;
 constexpr double kTouch_mm = 1e-5;  // larger than the tolerance of free_mm
+constexpr int kFacets = 16;         // of a rounded edge
 
-// A line that begins with a chamfer.
+// The corners, before its end on the surface, of a polygon that touches a rounded edge of
+// radius R from outside, in equal turns of d: R/cos(d/2) from the centre.
+std::vector<Point> facets(const Point& edge, double R, double towards) {
+  const double turn = std::numbers::pi / 2 / kFacets, far = R / std::cos(turn / 2);
+  std::vector<Point> all{{edge.h_mm - R, edge.z_mm - towards * R}};
+  for (int i = 0; i < kFacets; ++i) {
+    const double a = turn * (i + 0.5);
+    all.push_back(
+        {edge.h_mm - R + far * std::sin(a), edge.z_mm - towards * far * std::cos(a)});
+  }
+  return all;
+}
+
+// A line that begins with a chamfer or a rounded edge.
 std::vector<Point> chamfered(std::vector<Point> line, const part::Chamfer& chamfer) {
   const double towards = line.back().z_mm < line.front().z_mm ? -1 : 1;
   const double end = line.front().z_mm + towards * chamfer.axial_mm;
@@ -21,8 +36,11 @@ std::vector<Point> chamfered(std::vector<Point> line, const part::Chamfer& chamf
   const double u = (end - a.z_mm) / (b.z_mm - a.z_mm);
   const Point edge{a.h_mm + (b.h_mm - a.h_mm) * u, end};
   line[0] = edge;
-  line.insert(line.begin(),
-              {edge.h_mm - chamfer.radial_mm, end - towards * chamfer.axial_mm});
+  const auto before = chamfer.round
+                          ? facets(edge, chamfer.axial_mm, towards)
+                          : std::vector<Point>{{edge.h_mm - chamfer.radial_mm,
+                                                end - towards * chamfer.axial_mm}};
+  line.insert(line.begin(), before.begin(), before.end());
   return line;
 }
 
@@ -131,12 +149,43 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
 
 std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
                             double left_mm) {
-  std::vector<Point> line;
-  if (left_mm > 0)
-    line = {{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
-  else
-    line = with_its_undercut(corrected(site, side, s), s);
-  return with_front(std::move(line), s);
+  if (!(left_mm > 0))
+    return with_front(with_its_undercut(corrected(site, side, s), s), s);
+  std::vector<Point> line{{s.h0 + left_mm, s.z0}, {s.h1 + left_mm, s.z1}};
+  return s.front ? chamfered(std::move(line), part::roughed(*s.front)) : line;
+}
+
+std::size_t edge_of_front(const Surface& s) { return s.front->round ? kFacets + 1 : 1; }
+
+std::optional<Arc> rounding(const Site& site, const Side& side, const Surface& s,
+                            double re_mm) {
+  if (!s.front || !s.front->round) return std::nullopt;
+  const auto line = own_line(site, side, s, 0);
+  const Point &from = line[0], &to = line[edge_of_front(s)];
+  return tip_arc({from, to, {from.h_mm, to.z_mm}, true}, re_mm);
+}
+
+std::size_t around_edge(const std::vector<Point>& way, std::size_t i, const Arc& arc) {
+  const auto from_centre = [&](const Point& p) {
+    return std::hypot(p.h_mm - arc.centre.h_mm, p.z_mm - arc.centre.z_mm);
+  };
+  const double R = from_centre(arc.from);
+  const double most = R / std::cos(std::numbers::pi / 4 / kFacets);
+  const auto on = [&](const Point& p) {
+    const double d = from_centre(p);
+    return d > R - kTouch_mm && d < most + kTouch_mm &&
+           p.h_mm > arc.from.h_mm - kTouch_mm && p.z_mm > arc.to.z_mm - kTouch_mm;
+  };
+  if (!on(way[i])) return i;
+  while (i + 1 < way.size() && on(way[i + 1])) ++i;
+  return i;
+}
+
+Point onto(const Arc& arc, const Point& p) {
+  const auto n = arc_normal(arc, p);
+  const double R =
+      std::hypot(arc.from.h_mm - arc.centre.h_mm, arc.from.z_mm - arc.centre.z_mm);
+  return {arc.centre.h_mm + R * n.h, arc.centre.z_mm + R * n.z};
 }
 
 const std::optional<part::Cut>& cut_of(const Site& site, const Surface& s) {

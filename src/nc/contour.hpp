@@ -14,9 +14,20 @@ std::vector<Point> corrected(const Site& site, const Side& side, const Surface& 
 std::vector<Point> with_undercut(std::vector<Point> line, const part::Undercut& undercut,
                                  double z_mm);
 /// The line of a pass over an element that leaves a thickness: it begins with the chamfer at
-/// its front; with nothing left it is the finished line, which ends with its undercut.
+/// its front; with nothing left it is the finished line, which ends with its undercut.  A
+/// rounded edge is a polygon that touches it from outside; roughing leaves it a chamfer.
 std::vector<Point> own_line(const Site& site, const Side& side, const Surface& s,
                             double left_mm);
+/// Index in a finished line at which the chamfer at its front ends.
+std::size_t edge_of_front(const Surface& s);
+/// The way of the tip around the rounded edge at the front of a surface; none without one.
+std::optional<Arc> rounding(const Site& site, const Side& side, const Surface& s,
+                            double re_mm);
+/// The last point of a way, from the i-th one on, that belongs to the polygon of such an arc;
+/// i itself if the i-th does not.
+std::size_t around_edge(const std::vector<Point>& way, std::size_t i, const Arc& arc);
+/// The point of an arc that is next to another.
+Point onto(const Arc& arc, const Point& p);
 /// The plan's correction of a surface in the setup that finishes it; empty if none is
 /// proposed.
 const planning::Compensation::Table& correction(const Site& site,

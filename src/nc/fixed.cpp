@@ -248,22 +248,39 @@ void arc(Site& site, const OperationPlan& o, const FixedTool& tool, const Place&
     if (unfaced(site, o, s, from->z_mm + 2 * tool.re_mm)) return;
     site.approach(p.side, *from, way->from, tool.re_mm);
     site.to(Kind::feed, p.side, way->from);
-    site.arc(way->to, way->centre, !way->convex);
+    site.arc(p.side, way->to, way->centre, way->convex, true);
     site.lift(p.side);
   }
   p.surface().h0 = drawn.from.h_mm;
   p.surface().h1 = drawn.to.h_mm;
 }
 
-// Along the chamfer at the front of an element, the deepest cut last.
+// Around the rounded edge at the front of an element, which a way of the tip makes; comes up
+// to the face on a slope of 45 deg.
+void round_edge(Site& site, const Place& p, const Arc& way) {
+  const double from = planning::before_rounding_mm(kBefore_mm);
+  site.approach(p.side, {way.from.h_mm - from, way.from.z_mm + from});
+  site.to(Kind::feed, p.side, way.from);
+  site.arc(p.side, way.to, way.centre, true, true);
+}
+
+// Along the chamfer at the front of an element, or around its edge, the deepest cut last.
 void chamfer(Site& site, const OperationPlan& o, const FixedTool& tool, const Place& p) {
   const auto& s = p.surface();
   const auto line = own_line(site, p.side, s, 0);
   const auto n = normal(line[0], line[1]);
+  const auto round = rounding(site, p.side, s, tool.re_mm);
   double left = s.front->radial_mm;
   const double step = left / static_cast<double>(o.passes.size());
   for (std::size_t i = 0; i < o.passes.size(); ++i) {
     left = i + 1 == o.passes.size() ? 0 : left - step;
+    if (round) {
+      Arc raised = *round;
+      for (Point* q : {&raised.from, &raised.to, &raised.centre}) q->h_mm += left;
+      round_edge(site, p, raised);
+      site.lift(p.side);
+      continue;
+    }
     const auto at = [&](const Point& q, double beyond) {
       return moved_along(tip({q.h_mm + left, q.z_mm}, n, tool.re_mm), n, beyond);
     };

@@ -108,9 +108,15 @@ void Site::to(Move::Kind kind, const Side& side, const Point& p) {
   at = {side.sign * p.h_mm, p.z_mm};
 }
 
-void Site::arc(const Point& end, const Point& centre, bool clockwise) {
-  moves.push_back({Move::Kind::arc, end.h_mm, end.z_mm, centre, clockwise});
-  at = end;
+void Site::arc(const Side& side, const Point& end, const Point& centre, bool convex,
+               bool inwards) {
+  const bool clockwise = (convex != inwards) == (side.sign > 0);
+  moves.push_back({Move::Kind::arc,
+                   side.sign * end.h_mm,
+                   end.z_mm,
+                   {side.sign * centre.h_mm, centre.z_mm},
+                   clockwise});
+  at = {side.sign * end.h_mm, end.z_mm};
 }
 
 void Site::approach(const Side& side, const Point& p, double re_mm) {

@@ -82,7 +82,10 @@ class Site {
   Point at;  ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
-  void arc(const Point& end, const Point& centre, bool clockwise);  // outside
+  /// Around a centre, which lies in the material if the arc is convex; `inwards` from the
+  /// free end towards the chuck.
+  void arc(const Side& side, const Point& end, const Point& centre, bool convex,
+           bool inwards);
   /// Moves from any position to above a point, clear of the material with the whole
   /// corner, then at feed onto it.
   void approach(const Side& side, const Point& p, double re_mm);

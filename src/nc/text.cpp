@@ -91,11 +91,15 @@ class Lines {
   int last_ = 0;
 };
 
-// The moves of a step, of which blocks have only the words that change.
+// The moves of a step, of which blocks have only the words that change, from where the step
+// before has ended.
 class Moves {
  public:
-  Moves(Lines& lines, const Dialect& dialect, double f_mm_rev)
-      : lines_(lines), dialect_(dialect), f_(pointed(at_most(f_mm_rev, 4))) {}
+  Moves(Lines& lines, const Dialect& dialect, double f_mm_rev, const Point& from)
+      : lines_(lines),
+        dialect_(dialect),
+        f_(pointed(at_most(f_mm_rev, 4))),
+        from_(from) {}
 
   void write(const Move& m) {
     const auto x = diameter(m), z = length(m.z_mm);
@@ -104,8 +108,10 @@ class Moves {
     if (z != z_) words += " Z" + z;
     if (words.empty()) return;
     if (m.kind == Move::Kind::arc) {
-      words = " X" + x + " Z" + z + " I" + centre(m.centre.h_mm - std::stod(x_) / 2) +
-              " K" + centre(m.centre.z_mm - std::stod(z_));
+      const auto from_x = x_.empty() ? length(2 * from_.h_mm) : x_;
+      const auto from_z = z_.empty() ? length(from_.z_mm) : z_;
+      words = " X" + x + " Z" + z + " I" + centre(m.centre.h_mm - std::stod(from_x) / 2) +
+              " K" + centre(m.centre.z_mm - std::stod(from_z));
     }
     lines_.blocks(code(m).append(words).append(feed(m)));
     x_ = x;
@@ -183,11 +189,13 @@ class Moves {
   Lines& lines_;
   const Dialect& dialect_;
   std::string f_, x_, z_;
+  Point from_;
   bool fed_ = false;
 };
 
-void write_moves(Lines& lines, const Dialect& dialect, const Step& s, bool cycles) {
-  Moves moves(lines, dialect, s.f_mm_rev);
+void write_moves(Lines& lines, const Dialect& dialect, const Step& s, bool cycles,
+                 const Point& from) {
+  Moves moves(lines, dialect, s.f_mm_rev, from);
   for (std::size_t k = 0; k < s.moves.size(); ++k) {
     const auto cuts = cycles ? thread_cuts(s.moves, k) : std::nullopt;
     if (taps(s.moves, k)) {
@@ -286,7 +294,8 @@ class Writer {
     write_spindle(lines_, d_, step, reversed ? "M4" : "M3");
     if (!s_.coolant.empty()) lines_.blocks(s_.coolant);
     running_ = true;
-    write_moves(lines_, d_, step, s_.cycles && !d_.thread_cycle.empty());
+    write_moves(lines_, d_, step, s_.cycles && !d_.thread_cycle.empty(), at_);
+    if (!step.moves.empty()) at_ = {step.moves.back().x_mm, step.moves.back().z_mm};
   }
   /// Before another tool.
   void change() {
@@ -301,6 +310,7 @@ class Writer {
   const Dialect& d_;
   Lines lines_;
   int tool_ = 0;
+  Point at_ = {};  // where the last step has ended
   bool running_ = false;
 };
 

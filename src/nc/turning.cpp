@@ -201,8 +201,8 @@ bool begins_on_finished(const Pass& p) {
 }
 
 // A finishing pass comes in along the element's own line, from as far away as the
-// surfaces in front allow; onto the end of a finished surface, down a slope of 45 deg.  A
-// roughing pass comes in along the axis.
+// surfaces in front allow; onto the end of a finished surface, down a slope of 45 deg; to a
+// rounded edge, up one.  A roughing pass comes in along the axis.
 void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way) {
   const auto n = normal(c[0], c[1]);
   const double far = kBefore_mm + p.re_mm;
@@ -215,7 +215,12 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
     return;
   }
   const double own = along(way).length_mm;
-  way.front() = {way.front().h_mm - n.z * far, way.front().z_mm + n.h * far};
+  if (p.surface().front && p.surface().front->round) {
+    const double from = planning::before_rounding_mm(far);
+    way.insert(way.begin(), {way.front().h_mm - from, way.front().z_mm + from});
+  } else {
+    way.front() = {way.front().h_mm - n.z * far, way.front().z_mm + n.h * far};
+  }
   const auto pieces = drawn_before(p.site, p.side, p.k);
   way = {way.rbegin(), way.rend()};
   const double lets = free_mm(along(way), pieces, {p.re_mm});
@@ -320,19 +325,22 @@ void leave_stock(const Pass& p, std::vector<Point>& way) {
 // makes; through stock on that element the tool is then drawn out.
 void over_edge(const Pass& p, const Surface& s, std::vector<Point>& way) {
   const auto line = own_line(p.site, p.side, s, 0);
-  const auto n = normal(line[0], line[1]);
+  const auto edge = edge_of_front(s);
+  const auto front =
+      tips({line.begin(), line.begin() + static_cast<std::ptrdiff_t>(edge) + 1}, p.re_mm);
+  const auto n = normal(line[edge - 1], line[edge]);
   const auto own = own_line(p.site, p.side, p.surface(), 0);
   const auto m = normal(own[own.size() - 2], own.back());
-  const auto over = up_wall(own.back(), m, line[0], n, p.re_mm);
+  const auto over = up_wall(own.back(), m, line[0], normal(line[0], line[1]), p.re_mm);
   if (p.surface().z1 == s.z0) way.back() = over[0];
   way.push_back(over[1]);
+  way.insert(way.end(), front.begin() + 1, front.end() - 1);
+  const double beyond = planning::beyond_edge_mm(*s.front, s.stock, p.re_mm);
   if (s.stock) {
-    const auto end =
-        moved_along(line[1], n, planning::beyond_surface_mm(*s.front, p.re_mm));
-    way.push_back(tip(end, n, kWall, p.re_mm));
+    way.push_back(tip(moved_along(line[edge], n, beyond), n, kWall, p.re_mm));
     way.push_back({p.side.top0(s), way.back().z_mm});
   } else {
-    way.push_back(moved_along(tip(line[1], n, p.re_mm), n, p.re_mm + kBehind_mm));
+    way.push_back(moved_along(front.back(), n, beyond));
   }
 }
 
@@ -402,14 +410,57 @@ void up_undercut(const Pass& p, const part::Undercut& u, double h, double z) {
   const auto way = planning::undercut_way(u, p.re_mm);
   p.site.to(Kind::feed, p.side, {h, z + way.centre_z});
   if (way.radius_mm > kSame_mm)
-    p.site.arc({h + way.arc_h, z + way.arc_z}, {h + way.centre_h, z + way.centre_z},
-               true);
+    p.site.arc(p.side, {h + way.arc_h, z + way.arc_z},
+               {h + way.centre_h, z + way.centre_z}, false, true);
   if (way.lean_rad > 0) p.site.to(Kind::feed, p.side, {h + way.foot_h, z});
 }
 
-// Follows a path at feed to one of its points, which may be where an undercut ends at a
-// wall.
-void follow(const Pass& p, const std::vector<Point>& way, std::size_t i) {
+// The rounded edges that the last pass over an element goes around: at its own front, and
+// behind the wall, of an element that another setup makes.
+std::vector<Arc> roundings(const Pass& p) {
+  std::vector<Arc> all;
+  if (!p.last) return all;
+  const auto add = [&](const Surface& s) {
+    if (const auto arc = rounding(p.site, p.side, s, p.re_mm)) all.push_back(*arc);
+  };
+  add(p.surface());
+  const auto w = wall_behind(p.site, p.side, p.k);
+  if (const auto* edge = w ? edge_to_cut(p.site, p.side, w->before + 1) : nullptr)
+    add(*edge);
+  return all;
+}
+
+// Puts the ends of each stretch of a way that goes around a rounded edge onto its arc.
+void meet(std::vector<Point>& way, const std::vector<Arc>& arcs) {
+  for (const auto& arc : arcs)
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const auto end = around_edge(way, i, arc);
+      if (end == i) continue;
+      way[i] = onto(arc, way[i]);
+      way[end] = onto(arc, way[end]);
+      i = end;
+    }
+}
+
+// Follows a way from its first point on, around the rounded edges in arcs; `go` moves to a
+// point of it.
+template <class Go>
+void follow(Site& site, Side& side, const std::vector<Point>& way,
+            const std::vector<Arc>& arcs, bool inwards, const Go& go) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const auto around = std::ranges::find_if(
+        arcs, [&](const Arc& a) { return around_edge(way, i - 1, a) >= i; });
+    if (around == arcs.end()) {
+      go(i);
+      continue;
+    }
+    i = around_edge(way, i - 1, *around);
+    site.arc(side, way[i], around->centre, true, inwards);
+  }
+}
+
+// Goes at feed to one of the points of a path, which may be where an undercut ends at a wall.
+void to_point(const Pass& p, const std::vector<Point>& way, std::size_t i) {
   const auto& undercut = p.surface().undercut;
   const bool foot = p.last && undercut && i + 1 < way.size() &&
                     std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
@@ -421,13 +472,15 @@ void follow(const Pass& p, const std::vector<Point>& way, std::size_t i) {
 void pass(const Pass& p) {
   auto& s = p.surface();
   if (p.side.sign < 0 && !p.from_before()) p.site.clear_bore();  // as the bores stand yet
-  const auto [way, entered] = way_of(p);
+  auto [way, entered] = way_of(p);
+  const auto arcs = roundings(p);
+  meet(way, arcs);
   if (way.size() > 1) {
     if (!p.from_before()) p.site.approach(p.side, way[0], way[1], p.re_mm);
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      follow(p, way, i);
+    follow(p.site, p.side, way, arcs, true, [&](std::size_t i) {
+      to_point(p, way, i);
       p.site.moves.back().entering = i <= entered;
-    }
+    });
   }
   if (!p.goes_on()) p.site.lift(p.side);
   s.stock = false;
@@ -436,16 +489,22 @@ void pass(const Pass& p) {
 
 // A facing pass over contact points, which are ordered from the axis outwards; the tool
 // comes from outside.  Its corner continues a radius beyond the first point, independent
-// of the slope there, or as far as the surfaces `before` the face allow.
+// of the slope there, or as far as the surfaces `before` the face allow.  It comes down at
+// feed onto a rounded edge that it begins with.
 void face_pass(Site& site, const std::vector<Point>& contact, double re,
-               const std::vector<Piece>& before) {
+               const std::vector<Piece>& before, const std::vector<Arc>& arcs = {}) {
   auto way = tips(contact, re);
   way.front() = at_h(way[0], way[1], contact.front().h_mm - re);
   std::reverse(way.begin(), way.end());
   clip(way, before, {re});
   if (way.empty()) return;
-  site.approach(site.outer, way.front());
-  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
+  meet(way, arcs);
+  if (!arcs.empty() && around_edge(way, 0, arcs[0]) > 0)
+    site.approach(site.outer, way.front(), re);
+  else
+    site.approach(site.outer, way.front());
+  follow(site, site.outer, way, arcs, false,
+         [&](std::size_t i) { site.to(Kind::feed, site.outer, way[i]); });
 }
 
 // Contact points of a face at z between two radii; those of the last pass are corrected.
@@ -470,18 +529,17 @@ std::vector<Point> with_edge(const Site& site, std::vector<Point> contact, std::
   const auto* s = edge_to_cut(site, site.outer, k);
   if (!s) return contact;
   const auto line = own_line(site, site.outer, *s, 0);
-  const auto n = normal(line[0], line[1]);
+  const auto edge = edge_of_front(*s);
+  const auto n = normal(line[edge - 1], line[edge]);
   const double top = contact.back().h_mm;
   while (contact.size() > 1 && contact[contact.size() - 2].h_mm >= line[0].h_mm)
     contact.pop_back();
   contact.back() = {line[0].h_mm, contact.back().z_mm};
-  if (s->stock) {
-    contact.push_back(
-        moved_along(line[1], n, planning::beyond_surface_mm(*s->front, re_mm)));
-    contact.push_back({top, contact.back().z_mm});
-  } else {
-    contact.push_back(moved_along(line[1], n, re_mm + kBehind_mm));
-  }
+  contact.insert(contact.end(), line.begin() + 1,
+                 line.begin() + static_cast<std::ptrdiff_t>(edge));
+  contact.push_back(
+      moved_along(line[edge], n, planning::beyond_edge_mm(*s->front, s->stock, re_mm)));
+  if (s->stock) contact.push_back({top, contact.back().z_mm});
   return contact;
 }
 
@@ -542,7 +600,8 @@ void down_undercut(Site& site, const planning::UndercutWay& way, double h) {
   const double z = site.at.z_mm;
   if (way.lean_rad > 0) site.to(Kind::feed, site.outer, {h + way.arc_h, z + way.arc_z});
   if (way.radius_mm > kSame_mm)
-    site.arc({h, z + way.centre_z}, {h + way.centre_h, z + way.centre_z}, false);
+    site.arc(site.outer, {h, z + way.centre_z}, {h + way.centre_h, z + way.centre_z},
+             false, false);
 }
 
 }  // namespace
@@ -682,7 +741,10 @@ void face_shoulder(Site& site, std::size_t operation) {
           re, before);
     } else {
       const auto contact = face_contour(site, id, z, foot.h, outside, true);
-      face_pass(site, with_edge(site, contact, k + 1, re), re, before);
+      const auto* edge = edge_to_cut(site, site.outer, k + 1);
+      const auto arc = edge ? rounding(site, site.outer, *edge, re) : std::nullopt;
+      face_pass(site, with_edge(site, contact, k + 1, re), re, before,
+                arc ? std::vector<Arc>{*arc} : std::vector<Arc>{});
       if (foot.undercut) down_undercut(site, *foot.undercut, foot.line.back().h_mm);
       run_out(site, k, foot.line, re,
               std::max(z + stock + site.r_most - re, z + foot.width_mm));

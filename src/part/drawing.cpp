@@ -114,7 +114,23 @@ double way_in_mm(const Drawing& d, std::size_t i) {
   return least;
 }
 
+double into_radius_mm(const Chamfer& c, double x) {
+  if (!(x < c.axial_mm)) return 0;
+  if (!c.round) return c.radial_mm * (1 - x / c.axial_mm);
+  const double R = c.axial_mm, beside = R - std::max(x, 0.0);
+  return R - std::sqrt(R * R - beside * beside);
+}
+
+Chamfer roughed(const Chamfer& c) {
+  Chamfer straight = c;
+  straight.round = false;
+  if (c.round)
+    straight.axial_mm = straight.radial_mm = c.axial_mm * (2 - std::numbers::sqrt2);
+  return straight;
+}
+
 bool fits_countersink(const Chamfer& c, double point_deg) {
+  if (c.round) return false;
   constexpr double kSame_deg = 1e-6;
   const double half_deg = units::deg_from_rad(std::atan2(c.radial_mm, c.axial_mm));
   return std::abs(half_deg - point_deg / 2) < kSame_deg;

@@ -17,13 +17,15 @@ struct Step {
   Point from, to;
 };
 
-inline const Edge* edge_at(const Outline& o, const std::string& at, bool chamfer) {
+/// The chamfer or rounded edge there, or what the inner corner has.
+inline const Edge* edge_at(const Outline& o, const std::string& at, bool outside) {
   for (const Edge& e : o.edges)
-    if (e.at == at && e.chamfer_mm.has_value() == chamfer) return &e;
+    if (e.at == at && (e.chamfer_mm || e.radius_mm) == outside) return &e;
   return nullptr;
 }
 
 inline double radial_mm(const Edge& chamfer) {
+  if (chamfer.radius_mm) return *chamfer.radius_mm;
   return *chamfer.chamfer_mm * std::tan(chamfer.angle_deg * std::acos(-1) / 180);
 }
 
@@ -50,7 +52,8 @@ inline void corner(std::vector<Side>& sides, double x, double y0, double y1,
                    const Edge* chamfer, const Edge* foot) {
   const double up = y1 > y0 ? 1 : -1;  // the standing one follows, or came before
   const double low = std::min(y0, y1), high = std::max(y0, y1);
-  const double c = chamfer ? *chamfer->chamfer_mm : 0;
+  const bool round = chamfer && chamfer->radius_mm;
+  const double c = !chamfer ? 0 : round ? *chamfer->radius_mm : *chamfer->chamfer_mm;
   const double c_y = chamfer ? radial_mm(*chamfer) : 0;
   std::vector<Side> rising;  // from the lower element up to the standing one
   double bottom = low;
@@ -75,6 +78,7 @@ inline void corner(std::vector<Side>& sides, double x, double y0, double y1,
   }
   rising.push_back({.from = {x, bottom}, .to = {x, high - c_y}});
   if (chamfer) rising.push_back({.from = {x, high - c_y}, .to = {x + up * c, high}});
+  if (round) rising.back().centre = Point{x + up * c, high - c};
   // Drawn from left to right the material is below: mirrored, an inner corner's arc turns
   // left again when it is gone through from the other end.
   if (up < 0) {

@@ -49,6 +49,7 @@ void expect_equal(const std::vector<Edge>& a, const std::vector<Edge>& b) {
     EXPECT_EQ(a[i].at, b[i].at);
     EXPECT_EQ(a[i].chamfer_mm, b[i].chamfer_mm);
     EXPECT_EQ(a[i].angle_deg, b[i].angle_deg);
+    EXPECT_EQ(a[i].radius_mm, b[i].radius_mm);
     EXPECT_EQ(a[i].fillet_mm, b[i].fillet_mm);
     EXPECT_EQ(a[i].undercut, b[i].undercut);
   }
@@ -172,6 +173,19 @@ TEST(Notation, ABoresR7IsAFitAndACornersR7AFillet) {
   EXPECT_EQ(read_notation("d50 d9 x 40").outer[0].demands.fit, "d9");
   EXPECT_EQ(read_notation("d50 m6 x 40").outer[0].demands.fit, "m6");
   EXPECT_EQ(read_notation("bore d50 E8 x 40").inner[0].demands.fit, "E8");
+}
+
+TEST(Notation, RoundsEdgesAndAtEndsRIsTheEdgesRadiusToo) {
+  const Outline o = read_notation(
+      "R1; d30 x 20; round2 R0.8; d50 x 40; round 1,5; bore d20 x 30; right|b1: R0.5");
+  ASSERT_EQ(o.edges.size(), 5u);
+  EXPECT_EQ(o.edges[0].radius_mm, 1);
+  EXPECT_EQ(o.edges[1].radius_mm, 2);
+  EXPECT_EQ(o.edges[2].fillet_mm, 0.8);
+  EXPECT_EQ(o.edges[3].at, "right");
+  EXPECT_EQ(o.edges[3].radius_mm, 1.5);
+  EXPECT_EQ(o.edges[4].radius_mm, 0.5);
+  EXPECT_FALSE(o.edges[0].fillet_mm || o.edges[4].fillet_mm);
 }
 
 TEST(Notation, MeasuresAChamferAlongTheAxis) {
@@ -437,11 +451,14 @@ class Chance {
     return {-x - 1, -x};
   }
   void add_edges(Outline& o, const std::string& at) {
-    if (one_in(2))
+    if (one_in(4))
+      o.edges.push_back({.at = at, .radius_mm = size()});
+    else if (one_in(2))
       o.edges.push_back({.at = at,
                          .chamfer_mm = size(),
                          .angle_deg = static_cast<double>(count(1, 89))});
-    if (one_in(3)) o.edges.push_back({.at = at, .fillet_mm = size()});
+    const bool end = at.find("left") != at.npos || at.find("right") != at.npos;
+    if (!end && one_in(3)) o.edges.push_back({.at = at, .fillet_mm = size()});
     if (one_in(3))
       o.edges.push_back({.at = at, .undercut = one_in(2) ? "E0.8x0.3" : "DIN 76-B"});
   }

@@ -36,6 +36,16 @@ Outline motor_shaft() {
   return o;
 }
 
+TEST(Profile, RoundedEdgesAreAttributesToo) {
+  Outline drawn;
+  drawn.outer = {cylinder("d1", 40, 40), cylinder("d2", 60, 30), cylinder("d3", 45, 50)};
+  drawn.inner = {cylinder("b1", 25, 40)};
+  drawn.edges = {{.at = "left", .radius_mm = 1},       {.at = "d1|d2", .radius_mm = 2},
+                 {.at = "d1|d2", .fillet_mm = 0.8},    {.at = "d2|d3", .radius_mm = 2.5},
+                 {.at = "right|b1", .radius_mm = 1.5}, {.at = "right", .radius_mm = 3}};
+  expect_same(outline_of(drawn::profile_of(drawn)), drawn);
+}
+
 TEST(Profile, EdgesAreAttributesOfTheElementsTheyAreCutFrom) {
   const Outline drawn = motor_shaft();
   expect_same(outline_of(drawn::profile_of(drawn)), drawn);
@@ -112,7 +122,9 @@ TEST(Profile, RandomPartsComeBackAsDrawn) {
       hole -= 6;
     }
     const auto chamfer = [&](const std::string& at) {
-      if (random() % 2)
+      if (random() % 4 == 0)
+        drawn.edges.push_back({.at = at, .radius_mm = number(0.3, 1.5)});
+      else if (random() % 2)
         drawn.edges.push_back(
             {.at = at, .chamfer_mm = number(0.3, 1.5), .angle_deg = number(20, 60)});
     };

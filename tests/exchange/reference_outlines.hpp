@@ -81,6 +81,7 @@ inline Outline outline(const json& part) {
   for (const auto& j : all("edges")) {
     Edge e{.at = renamed(j["at"])};
     if (j.contains("chamfer_mm")) e.chamfer_mm = j["chamfer_mm"];
+    if (j.contains("radius_mm")) e.radius_mm = j["radius_mm"];
     if (j.contains("fillet_mm")) e.fillet_mm = j["fillet_mm"];
     if (j.contains("undercut")) e.undercut = j["undercut"];
     e.angle_deg = j.value("angle_deg", 45.0);

@@ -27,11 +27,13 @@ inline void expect_same(const std::vector<Edge>& read, const std::vector<Edge>& 
   for (const Edge& e : drawn) {
     SCOPED_TRACE(e.at);
     const auto found = std::find_if(read.begin(), read.end(), [&](const Edge& r) {
-      return r.at == e.at && r.chamfer_mm.has_value() == e.chamfer_mm.has_value();
+      return r.at == e.at && r.chamfer_mm.has_value() == e.chamfer_mm.has_value() &&
+             r.radius_mm.has_value() == e.radius_mm.has_value();
     });
     ASSERT_NE(found, read.end());
     EXPECT_NEAR(found->chamfer_mm.value_or(0), e.chamfer_mm.value_or(0), kSame_mm);
     EXPECT_NEAR(found->angle_deg, e.angle_deg, 1e-7);
+    EXPECT_NEAR(found->radius_mm.value_or(0), e.radius_mm.value_or(0), kSame_mm);
     EXPECT_NEAR(found->fillet_mm.value_or(0), e.fillet_mm.value_or(0), kSame_mm);
     EXPECT_EQ(found->undercut, e.undercut);
   }

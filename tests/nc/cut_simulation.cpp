@@ -258,7 +258,8 @@ void CutSimulation::first_touch(const Body& b, const Way& w, const Polygon& swee
     }
   };
   const double inside = std::min(finished_for(1), finished_for(-1));
-  const double allowed = kInside_mm + (b.cutter.finishes ? b.cutter.re_mm : 0);
+  const double allowed = kInside_mm + (b.cutter.finishes ? b.cutter.re_mm : 0) +
+                         drawn_.along_face_mm(spot, kMade_mm);
   if (inside > allowed && !b.cutter.plunges)
     find(Fault::start, w.operation, inside, spot);
 }

@@ -118,8 +118,18 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     for (const auto& [z, dr] : c.table_mm)
       if (c.on == e.id && z > z0 && z < z0 + e.length_mm)
         at.push_back((z - z0) / e.length_mm);
-  if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm / e.length_mm);
-  if (e.right_chamfer) at.push_back(1 - e.right_chamfer->axial_mm / e.length_mm);
+  const auto add_edge = [&](const std::optional<part::Chamfer>& c, bool left) {
+    if (!c) return;
+    const int n =
+        c->round ? 1 + static_cast<int>(std::sqrt(c->axial_mm / kArcChord_mm)) : 1;
+    for (int i = 1; i <= n; ++i) {
+      const double u =
+          c->axial_mm / e.length_mm * (c->round ? 1 - std::cos(M_PI / 2 * i / n) : 1);
+      at.push_back(left ? u : 1 - u);
+    }
+  };
+  add_edge(e.left_chamfer, true);
+  add_edge(e.right_chamfer, false);
   if constexpr (requires { e.left_undercut; })
     for (const bool left : {true, false})
       if (const auto& u = left ? e.left_undercut : e.right_undercut) {
@@ -135,11 +145,16 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
   const double high_z =
       z0 + e.length_mm - (e.right_chamfer ? e.right_chamfer->axial_mm : 0);
   const auto [straight_from, straight_to] = Sizes::straight(e);
-  // Chamfers go down from where they leave the surface.
+  // Chamfers go down from where they leave the surface, rounded edges on a circle that is
+  // tangent to it there.
+  const auto falls = [](const part::Chamfer& c, double beyond) {
+    const double angle = std::asin(std::min(1.0, beyond / c.axial_mm));
+    return c.round ? c.axial_mm * (1 - std::cos(angle))
+                   : c.radial_mm * beyond / c.axial_mm;
+  };
   const auto chamfered = [&](double z) {
-    if (z < low_z) return e.left_chamfer->radial_mm * (low_z - z) / (low_z - z0);
-    if (z > high_z)
-      return e.right_chamfer->radial_mm * (z - high_z) / (z0 + e.length_mm - high_z);
+    if (z < low_z) return falls(*e.left_chamfer, low_z - z);
+    if (z > high_z) return falls(*e.right_chamfer, z - high_z);
     return 0.0;
   };
   const auto root = [&](const Element& thread) {
@@ -166,6 +181,10 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     const double h = sign * size - chamfered(z) - Sizes::undercut(e, z - z0);
     line.push_back({sign * std::min(h, most), z});
   }
+  if (e.left_chamfer && e.left_chamfer->round)
+    roundings_.emplace_back(line.front(), e.left_chamfer->axial_mm);
+  if (e.right_chamfer && e.right_chamfer->round)
+    roundings_.emplace_back(line.back(), e.right_chamfer->axial_mm);
   if constexpr (requires { e.left_undercut; }) {
     if (e.left_undercut) {
       auto behind = recess(*e.left_undercut, line.front(), -1);
@@ -177,6 +196,15 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     }
   }
   append(run, e.id, line);
+}
+
+double DrawnPart::along_face_mm(const Spot& beside, double within_mm) const {
+  double most = 0;
+  for (const auto& [begins, R] : roundings_) {
+    const double flat = std::sqrt(2 * R * within_mm);
+    if (length(beside - begins) < 2 * flat) most = std::max(most, flat);
+  }
+  return most;
 }
 
 DrawnPart::Run DrawnPart::run(bool outer, Threads threads) {

@@ -57,6 +57,9 @@ class DrawnPart {
   /// next to it leaves in inner corners: where it rolls over the contour, or touches the
   /// lines of a corner's two sides, however short they are.
   double beyond_mm(const Spot& outside) const;
+  /// How far the rounded edge that begins beside a point lies within a distance of the face
+  /// that it is tangent to, sqrt(2 R d); 0 where none begins.
+  double along_face_mm(const Spot& beside, double within_mm) const;
   /// The surface next to a point.
   const std::string& surface_at(const Spot& p) const;
 
@@ -97,6 +100,7 @@ class DrawnPart {
 
   Sizes sizes_;
   const Planned& p_;
+  std::vector<std::pair<Spot, double>> roundings_;  // where they begin, and their radii
   std::map<std::string, double> corners_mm_;
   std::vector<std::string> surfaces_;
   Body least_, full_;

@@ -127,26 +127,31 @@ class RandomPart {
     }
   }
 
-  // Chamfers on some steps between cylinders and threads, and at the ends.
+  // Chamfers on some steps between cylinders and threads, and at the ends; steep ones of
+  // cylinders are rounded edges instead.
   json edges() {
     json all = json::array();
     const auto turned = [](const json& e) {
       return e["kind"] == "cylinder" || e["kind"] == "thread";
     };
-    const auto add = [&](const std::string& at, double most_mm) {
+    const auto add = [&](const std::string& at, double most_mm, const json& of) {
       const double angles[] = {45, 45, 30, 60}, angle = angles[below(4)];
       const double mm = 0.25 * (1 + below(8));
-      if (mm * std::tan(angle * std::acos(-1) / 180) < most_mm && below(4))
+      if (!(mm * std::tan(angle * std::acos(-1) / 180) < most_mm && below(4))) return;
+      if (angle == 60 && of["kind"] == "cylinder" && mm + 0.9 < most_mm)
+        all.push_back({{"at", at}, {"radius_mm", mm}});
+      else
         all.push_back({{"at", at}, {"chamfer_mm", mm}, {"angle_deg", angle}});
     };
-    if (turned(outer_.front())) add("left", 3);
-    if (turned(outer_.back())) add("right", 3);
+    if (turned(outer_.front())) add("left", 3, outer_.front());
+    if (turned(outer_.back())) add("right", 3, outer_.back());
     for (std::size_t i = 1; i < outer_.size(); ++i) {
       const auto &a = outer_[i - 1], &b = outer_[i];
       if (!turned(a) || !turned(b)) continue;
       const double step =
           std::abs(a["diameter_mm"].get<double>() - b["diameter_mm"].get<double>()) / 2;
-      add(a["id"].get<std::string>() + "|" + b["id"].get<std::string>(), step - 0.1);
+      add(a["id"].get<std::string>() + "|" + b["id"].get<std::string>(), step - 0.1,
+          a["diameter_mm"] > b["diameter_mm"] ? a : b);
     }
     return all;
   }

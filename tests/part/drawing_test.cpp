@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace turnwright::part {
@@ -45,6 +46,24 @@ TEST(Drawing, AllowancesAndPartFillTheStock) {
   EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162
   EXPECT_EQ(d.stock.left_allowance_mm + length_mm(d) + right_allowance_mm(d),
             d.stock.length_mm);
+}
+
+// At 30 deg from where it meets the face a point of a rounded edge lies R (1 - sin 30) below
+// the surface.
+TEST(Drawing, ARoundedEdgeIsACircle) {
+  const Chamfer edge{.axial_mm = 2, .radial_mm = 2, .round = true};
+  EXPECT_EQ(into_radius_mm(edge, 0), 2);
+  EXPECT_NEAR(into_radius_mm(edge, 2 * (1 - std::cos(std::numbers::pi / 6))), 1, 1e-12);
+  EXPECT_EQ(into_radius_mm(edge, 2), 0);
+  EXPECT_FALSE(fits_countersink(edge, 90));
+
+  // The chamfer that roughing leaves touches the circle half way.
+  const auto straight = roughed(edge);
+  const double touches = 2 * (1 - std::sqrt(0.5));
+  EXPECT_FALSE(straight.round);
+  EXPECT_NEAR(into_radius_mm(straight, touches), into_radius_mm(edge, touches), 1e-12);
+  for (double x = 0; x < 2; x += 0.01)
+    EXPECT_LE(into_radius_mm(straight, x), into_radius_mm(edge, x) + 1e-12) << x;
 }
 
 TEST(Drawing, ChamfersAndUndercutsGoIntoTheRadius) {

@@ -17,7 +17,8 @@
 ///               | groove d D | hole d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05
 ///     corner    = feature {feature}
-///     feature   = AxANGLE | chamfer AxANGLE | R RADIUS | E RxT | F RxT    1x45  E0.8x0.3
+///     feature   = AxANGLE | chamfer AxANGLE | round RADIUS | R RADIUS     1x45  round2
+///               | E RxT | F RxT | DIN76-A | DIN76-B                       E0.8x0.3
 ///     edge      = EDGE: corner                               left: 1x45   right|b1: 1x30
 ///     face      = face FACE (Ra N | Rz N) ..                 face d1|d2 Ra1.6
 ///     tolerance = KIND OF [to DATUM] N                       cylindricity d2 0.008
@@ -34,6 +35,8 @@
 /// - A corner that stands between two outer elements is the edge between them, before the
 ///   first one the left end's, after the last one the right end's.  Edges of bores are
 ///   named.  A is measured along the axis, ANGLE from the axis; E RxT is form E of DIN 509.
+///   `round` is the radius of the edge, R the largest fillet of the inner corner at its foot;
+///   at an end, where no inner corner is, R too is the radius of the edge.
 /// - Outer elements are named d1, d2 .. from left to right, grooves and threads counted too.
 ///   Bores are named b1, b2 .. in the order in which they are written; those of one end from
 ///   it inwards, at the right end unless it says left.  EDGE and FACE are "left", "right" or

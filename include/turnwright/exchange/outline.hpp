@@ -44,6 +44,7 @@ struct Edge {
   std::string at;
   std::optional<double> chamfer_mm = {};  ///< along the axis
   double angle_deg = 45;                  ///< of the chamfer, from the axis
+  std::optional<double> radius_mm = {};   ///< of a rounded edge
   std::optional<double> fillet_mm = {};
   std::optional<std::string> undercut = {};  ///< "E0.8x0.3" or "DIN 76-A"
   /// Of the thread that an undercut of DIN 76 was read as that of; 0: that beside it.

@@ -20,7 +20,7 @@ struct Limits {
 };
 
 /// A chamfer at an end of an element, which ends with a smaller radius outside and with a
-/// larger one inside.
+/// larger one inside; or a rounded edge.
 struct Chamfer {
   double axial_mm = 0, radial_mm = 0;  ///< taken from the length and from the radius
   /// At the rim of a groove whose blank is as high as the element: the grooving blade cuts
@@ -29,7 +29,20 @@ struct Chamfer {
   /// Asked for by the title block of all edges alike: where no tool passes it is left to the
   /// hand.
   bool general = false;
+  /// A rounded edge: a quarter of a circle of the radius axial_mm == radial_mm, tangent to the
+  /// element and to the face or the wall before it.
+  bool round = false;
 };
+
+/// How far a chamfer goes into the radius at a distance from its end of the element; 0 beyond
+/// it.  Of a rounded edge of radius R, at x < R,
+///
+///     R - sqrt(R^2 - (R - x)^2).                                                     (4)
+double into_radius_mm(const Chamfer& chamfer, double from_end_mm);
+
+/// The straight chamfer at which roughing stops: the chamfer itself; of a rounded edge of
+/// radius R the one of 45 deg that touches it, with legs of R (2 - sqrt 2).
+Chamfer roughed(const Chamfer& chamfer);
 
 /// An undercut of DIN 509's form E or F, or of DIN 76 behind an outer thread, at the end of
 /// an element before a shoulder: at a distance from the shoulder the surface falls at 15 deg
@@ -200,8 +213,7 @@ Ends core(const Element& e) {
 template <class Element>
 double chamfered_mm(const Element& e, double from_left_mm) {
   const auto into = [](const std::optional<Chamfer>& c, double from_end_mm) {
-    return c && from_end_mm < c->axial_mm ? c->radial_mm * (1 - from_end_mm / c->axial_mm)
-                                          : 0.0;
+    return c ? into_radius_mm(*c, from_end_mm) : 0.0;
   };
   return into(e.left_chamfer, from_left_mm) +
          into(e.right_chamfer, e.length_mm - from_left_mm);

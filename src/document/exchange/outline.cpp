@@ -55,6 +55,8 @@ ordered_json edge(const exchange::Edge& e) {
   if (e.chamfer_mm) {
     out["chamfer_mm"] = *e.chamfer_mm;
     if (e.angle_deg != 45) out["angle_deg"] = e.angle_deg;
+  } else if (e.radius_mm) {
+    out["radius_mm"] = *e.radius_mm;
   } else if (e.fillet_mm) {
     out["fillet_mm"] = *e.fillet_mm;
   } else if (e.undercut) {

@@ -88,6 +88,7 @@ exchange::Edge edge_of(const json& object) {
   exchange::Edge e{.at = text_of(object, "at"),
                    .chamfer_mm = number_of(object, "chamfer_mm"),
                    .angle_deg = number_of(object, "angle_deg").value_or(45),
+                   .radius_mm = number_of(object, "radius_mm"),
                    .fillet_mm = number_of(object, "fillet_mm")};
   if (object.contains("undercut")) e.undercut = text_of(object, "undercut");
   return e;

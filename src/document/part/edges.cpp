@@ -203,6 +203,39 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
     mine = part::Chamfer{turned, radial, step.by_blade};
 }
 
+// A rounded edge of the standing element; `most_mm` of its radius are free for it.
+template <class Element>
+void read_rounding(const Draft& draft, Reader& r, const Step& step, double most_mm,
+                   Element& e) {
+  const double radius = r.number("radius_mm", above_up_to(0, 1000, "mm"));
+  if (!std::isfinite(radius)) return;  // reported already
+  auto& mine = chamfer_at(e, step.end);
+  const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
+  if (mine)
+    r.problem_at("at", "each edge once", "duplicate");
+  else if (!step.plain || step.by_blade || e.cut)
+    r.problem_at("at",
+                 "an edge of a cylinder that has no arc or groove beside it: only a "
+                 "chamfer_mm is cut there",
+                 "conflict");
+  else if (draft.ground(e.id) > 0)
+    r.problem_at("radius_mm",
+                 "a chamfer_mm: " + e.id +
+                     " is ground, which would leave a part of the "
+                     "radius alone",
+                 "conflict");
+  else if (!(radius < free))
+    r.problem_at("radius_mm",
+                 "less than the " + rounded(free) + " mm that are free of " + e.id,
+                 "conflict");
+  else if (!(radius <= most_mm))
+    r.problem_at("radius_mm",
+                 "a radius that takes at most " + at_most(most_mm) + " mm there",
+                 "conflict");
+  else
+    mine = part::Chamfer{.axial_mm = radius, .radial_mm = radius, .round = true};
+}
+
 template <class Element>
 void read_fillet(Reader& r, const Step& step, Element& e) {
   auto& mine = opposite(step.end) == End::left ? e.left_fillet_mm : e.right_fillet_mm;
@@ -293,23 +326,27 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
   const auto step = std::find_if(all.begin(), all.end(), [&](const Step& s) {
     return std::find(s.names.begin(), s.names.end(), id) != s.names.end();
   });
-  const bool chamfer = r.has("chamfer_mm"), fillet = r.has("fillet_mm"),
-             undercut = r.has("undercut");
-  const int asked = chamfer + fillet + undercut;
+  const bool chamfer = r.has("chamfer_mm"), radius = r.has("radius_mm"),
+             fillet = r.has("fillet_mm"), undercut = r.has("undercut");
+  const int asked = chamfer + radius + fillet + undercut;
   if (!id.empty() && !all.empty() && step == all.end())
     at.problem(expected_reference(id, told, "an edge of the part"), "unknown-id");
   if (asked != 1)
     r.problem(asked == 0 ? "an edge without a shape" : "an edge with several shapes",
-              "chamfer_mm for the edge, or fillet_mm or undercut for the inner corner at "
-              "its foot",
+              "chamfer_mm or radius_mm for the edge, or fillet_mm or undercut for the "
+              "inner corner at its foot",
               "conflict");
   if (step == all.end() || asked != 1) {
-    for (const char* key : {"chamfer_mm", "angle_deg", "fillet_mm", "undercut"})
+    for (const char* key :
+         {"chamfer_mm", "angle_deg", "radius_mm", "fillet_mm", "undercut"})
       r.find(key);
-  } else if (chamfer) {
+  } else if (chamfer || radius) {
     const double most_mm = step->most_mm - foot_mm(d, *step);
-    step->inner ? read_chamfer(draft, r, *step, most_mm, d.inner[step->standing])
-                : read_chamfer(draft, r, *step, most_mm, d.outer[step->standing]);
+    const auto read = [&](auto& e) {
+      chamfer ? read_chamfer(draft, r, *step, most_mm, e)
+              : read_rounding(draft, r, *step, most_mm, e);
+    };
+    step->inner ? read(d.inner[step->standing]) : read(d.outer[step->standing]);
   } else if (undercut && step->lower && !step->inner) {
     const auto& edge = chamfer_at(d.outer[step->standing], step->end);
     read_undercut(draft, r, *step, step->most_mm - (edge ? edge->radial_mm : 0),
@@ -318,9 +355,10 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
     r.problem_at("undercut", "the inner corner between two outer elements, \"d1|d2\"",
                  "conflict");
   } else if (!step->lower) {
-    r.problem_at("fillet_mm",
-                 "a chamfer_mm: there is no inner corner at a face of the part",
-                 "conflict");
+    r.problem_at(
+        "fillet_mm",
+        "a chamfer_mm or radius_mm: there is no inner corner at a face of the part",
+        "conflict");
   } else {
     step->inner ? read_fillet(r, *step, d.inner[*step->lower])
                 : read_fillet(r, *step, d.outer[*step->lower]);

@@ -47,10 +47,15 @@ const char* kind(part::CutKind cut) {
 template <class Element>
 void add_edges(ordered_json& out, const Element& e) {
   const auto chamfer = [&](const char* key, const std::optional<part::Chamfer>& c) {
-    if (c) out[key] = {c->axial_mm, c->radial_mm};
+    if (c && !c->round) out[key] = {c->axial_mm, c->radial_mm};
   };
   chamfer("left_chamfer_mm", e.left_chamfer);
   chamfer("right_chamfer_mm", e.right_chamfer);
+  const auto radius = [&](const char* key, const std::optional<part::Chamfer>& c) {
+    if (c && c->round) out[key] = c->axial_mm;
+  };
+  radius("left_radius_mm", e.left_chamfer);
+  radius("right_radius_mm", e.right_chamfer);
   if (e.left_fillet_mm) out["left_fillet_mm"] = *e.left_fillet_mm;
   if (e.right_fillet_mm) out["right_fillet_mm"] = *e.right_fillet_mm;
   if constexpr (requires { e.left_undercut; }) {

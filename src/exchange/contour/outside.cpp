@@ -23,11 +23,13 @@ void leave_sharp(Outline& out, const std::string& at, const Corner& c, const cha
        fmt::format("The {}{} at {} is left out: {}.", what, of, at, why)});
 }
 
-// Whether a document can have such an edge between these two: at grooves only chamfers.
+// Whether a document can have such an edge between these two: at grooves only chamfers, and
+// rounded edges only of cylinders.
 bool plain(const Element* a, const Element* b, const Corner& c) {
   const auto has_edges = [&](const Element* e) {
     return !e || (e->shape != Shape::arc &&
-                  (e->shape != Shape::groove || c.kind == Corner::Kind::chamfer));
+                  (e->shape != Shape::groove || c.kind == Corner::Kind::chamfer) &&
+                  (c.kind != Corner::Kind::rounded || e->shape == Shape::cylinder));
   };
   return has_edges(a) && has_edges(b);
 }
@@ -58,6 +60,8 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
     if (c.kind == Corner::Kind::chamfer) {
       e.chamfer_mm = tidy_mm(c.axial_mm);
       e.angle_deg = tidy_mm(units::deg_from_rad(c.angle_rad));
+    } else if (c.kind == Corner::Kind::rounded) {
+      e.radius_mm = tidy_mm(c.radius_mm);
     } else if (c.kind == Corner::Kind::fillet) {
       e.fillet_mm = tidy_mm(c.radius_mm);
       out.assumed.push_back(
@@ -70,15 +74,16 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
     }
     out.edges.push_back(std::move(e));
   };
-  if (c.kind == Corner::Kind::rounded)
-    leave_sharp(out, at, c, "a part document has no rounded edges, the edge stays sharp");
-  else if (c.kind == Corner::Kind::recess)
+  if (c.kind == Corner::Kind::recess)
     leave_sharp(
         out, at, c,
         "of DIN 509 a part document has forms E and F alone, the corner stays sharp");
   else if (!plain(a, b, c))
-    leave_sharp(out, at, c, "edges beside grooves and arcs are left to their tools");
-  else if (face && c.kind != Corner::Kind::chamfer)
+    leave_sharp(out, at, c,
+                c.kind == Corner::Kind::rounded
+                    ? "only edges of cylinders are rounded"
+                    : "edges beside grooves and arcs are left to their tools");
+  else if (face && c.kind != Corner::Kind::chamfer && c.kind != Corner::Kind::rounded)
     leave_sharp(out, at, c, "the corner lies at the bottom of a bore");
   else
     edge();

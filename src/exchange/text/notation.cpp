@@ -134,6 +134,14 @@ class Notation {
       out_.edges.push_back(std::move(c.edge));
     }
     std::move(edges_.begin(), edges_.end(), std::back_inserter(out_.edges));
+    for (Edge& e : out_.edges)
+      if (is_at_end(e.at) && e.fillet_mm) std::swap(e.fillet_mm, e.radius_mm);
+  }
+
+  // Of an edge, that of a bore too.
+  static bool is_at_end(std::string_view at) {
+    return at.starts_with("left") || at.starts_with("right") || at.ends_with("|left") ||
+           at.ends_with("|right");
   }
 
   void check_names() {

@@ -59,15 +59,14 @@ bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
   return true;
 }
 
-bool take_fillet(Word word, Edge& edge, Mistakes& mistakes) {
-  Word rest = word;
-  take(rest, {"r"});
-  edge.fillet_mm = number(rest);
-  if (!edge.fillet_mm) {
-    mistakes.add(word, "a fillet like R0.8");
+bool take_radius(Word word, Word rest, std::optional<double>& radius_mm,
+                 const char* example, Mistakes& mistakes) {
+  radius_mm = number(rest);
+  if (!radius_mm) {
+    mistakes.add(word, example);
     return false;
   }
-  return in_range(word, *edge.fillet_mm, kLargest_mm, "mm", mistakes);
+  return in_range(word, *radius_mm, kLargest_mm, "mm", mistakes);
 }
 
 }  // namespace
@@ -117,8 +116,10 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
 }
 
 bool begins_corner(Word word) {
-  if (same(word, "chamfer") || begins_with_digit(word) || thread_undercut(word))
+  if (same(word, "chamfer") || same(word, "round") || begins_with_digit(word) ||
+      thread_undercut(word))
     return true;
+  if (Word rest = word; take(rest, {"round"}) && begins_with_digit(rest)) return true;
   return take(word, {"r", "e", "f"}) && begins_with_digit(word);
 }
 
@@ -131,17 +132,22 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
     if (same(words[i], "chamfer") && i + 1 < words.size()) {
       ++i;
       read = take_chamfer(words[i], words[i], edge, mistakes);
+    } else if (take(first, {"round"})) {
+      if (first.empty() && i + 1 < words.size()) first = words[++i];
+      read = take_radius(words[i], first, edge.radius_mm, "a rounded edge like round2",
+                         mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
     } else if (thread_undercut(first) ||
                (take(first, {"e", "f"}) && begins_with_digit(first))) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {
-      read = take_fillet(words[i], edge, mistakes);
+      read = take_radius(words[i], first, edge.fillet_mm, "a fillet like R0.8", mistakes);
     } else {
-      mistakes.add(words[i],
-                   "a chamfer like 1x45, a fillet like R0.8 or an undercut like E0.8x0.3 "
-                   "or DIN76-A");
+      mistakes.add(
+          words[i],
+          "a chamfer like 1x45, a rounded edge like round2, a fillet like R0.8 or "
+          "an undercut like E0.8x0.3 or DIN76-A");
     }
     if (read) edges.push_back(std::move(edge));
   }

@@ -75,6 +75,7 @@ std::string element_text(const Element& e) {
 std::string corner_text(const Edge& e) {
   std::string out;
   if (e.chamfer_mm) out += ' ' + digits(*e.chamfer_mm) + 'x' + digits(e.angle_deg);
+  if (e.radius_mm) out += " round" + digits(*e.radius_mm);
   if (e.fillet_mm) out += " R" + digits(*e.fillet_mm);
   if (e.undercut) {  // "DIN 76-A" as one word
     out += ' ';

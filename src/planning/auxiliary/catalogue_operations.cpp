@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "hole_operations.hpp"
 #include "milled_operations.hpp"
@@ -292,8 +293,8 @@ void add_arc(Site& s, const CutElement& e) {
                 false, from, to}));
 }
 
-// A chamfer at the free end by a pass of its own, along its line in cuts as deep as the
-// tool may; depth and forces are those across the line.
+// A chamfer or a rounded edge at the free end by a pass of its own, along its line in cuts as
+// deep as the tool may; depth and forces are those across the line.
 void add_chamfer(Site& s, std::size_t index, bool inner) {
   const auto& d = s.p.drawing;
   const auto& id = inner ? d.inner[index].id : d.outer[index].id;
@@ -314,8 +315,11 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
         s, a,
         fmt::format("no profiling tool of the tools is for {}{}", s.p.material.name,
                     inner ? fmt::format(" in a bore of {:g} mm", bore) : std::string()));
-  const double length = std::hypot(c.axial_mm, c.radial_mm);
-  const double depth = c.axial_mm * c.radial_mm / length;
+  const double chord = std::hypot(c.axial_mm, c.radial_mm);
+  const double length =
+      c.round ? std::numbers::pi / 2 * (c.axial_mm + f.tool->re_mm) : chord;
+  // Of a rounded edge, R (sqrt 2 - 1).
+  const double depth = c.round ? chord - c.axial_mm : c.axial_mm * c.radial_mm / chord;
   const auto passes = passes_of(s, a, times(depth, f.tool->ap_mm),
                                 [&](double ap) { return times(depth, ap); });
   if (!passes) return;
@@ -324,7 +328,7 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
   const double from = inner ? bore / 2 : around.z0 + kBefore_mm;
   s.out.after.push_back(profiled(
       s, a, f, {count, depth / count, D, length},
-      {count * (kBefore_mm + f.tool->re_mm + kBehind_mm),
+      {count * (kBefore_mm + beyond_edge_mm(c, false, f.tool->re_mm)),
        2 * (outside + kClear_mm) + (count - 1) * 2 * length, inner, from, from}));
 }
 

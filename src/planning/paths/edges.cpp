@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "approach.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/values/surface_request.hpp"
 
@@ -20,14 +21,20 @@ bool makes(const SetupWork& work, const Element& e) {
   return std::find(all.begin(), all.end(), e.index) != all.end();
 }
 
-double beyond_surface_mm(const part::Chamfer& c, double corner_mm) {
+double beyond_edge_mm(const part::Chamfer& c, bool in_stock, double corner_mm) {
   constexpr double kAboveSurface_mm = 0.05;
+  if (c.round) return in_stock ? corner_mm : 0;
+  if (!in_stock) return corner_mm + kBehind_mm;
   const double angle = std::atan2(c.radial_mm, c.axial_mm);
   return corner_mm * std::tan((std::numbers::pi / 2 - angle) / 2) + kAboveSurface_mm;
 }
 
+double before_rounding_mm(double distance_mm) {
+  return distance_mm * std::numbers::sqrt2 / 2;
+}
+
 bool takes_ring(const catalogue::Tool& tool, const part::Chamfer& c) {
-  return c.axial_mm + beyond_surface_mm(c, tool.re_mm) +
+  return c.axial_mm + beyond_edge_mm(c, true, tool.re_mm) +
              catalogue::least_depth_mm(tool) <=
          tool.ap_mm.upper;
 }

@@ -69,10 +69,17 @@ std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& plan,
 /// Whether a setup makes an element.
 bool makes(const SetupWork& work, const Element& element);
 
-/// How far [mm] a chamfer that is cut into stock goes on beyond the surface that is made
-/// later, before the tool is drawn out: the fillet that a corner of radius r leaves there,
-/// r tan((pi/2 - angle)/2), and a twentieth of a millimetre stay above that surface.
-double beyond_surface_mm(const part::Chamfer& chamfer, double corner_mm);
+/// How far [mm] a tool goes on along the chamfer of an element that another setup makes.  Into
+/// stock it goes beyond the surface that is made later, and is drawn out from there: the
+/// fillet that a corner of radius r leaves, r tan((pi/2 - angle)/2), and a twentieth of a
+/// millimetre stay above that surface.  At a rounded edge, which ends along the surface, the
+/// fillet stands on it.  Off a surface that is made already it goes on until it is clear;
+/// at a rounded edge it is lifted where that ends.
+double beyond_edge_mm(const part::Chamfer& chamfer, bool in_stock, double corner_mm);
+
+/// Distance along either axis from which a tool comes up on a slope of 45 deg, from a
+/// distance, to the beginning of a rounded edge.
+double before_rounding_mm(double distance_mm);
 
 /// Whether a tool takes the ring of stock above such a chamfer, and what roughing leaves on
 /// the wall, in one cut.

@@ -230,10 +230,18 @@ double before_radius_mm(const Surroundings& s, double r, double left) {
   return most - std::sqrt(most * most - sqr(std::min(below, most)));
 }
 
-// Length along the chamfer of a wall, of which what lies in stock replaces a piece of wall.
-double edge_mm(const Surroundings& s, double beyond_mm) {
+// Way of the tip of a corner of radius r around a rounded edge.
+double around_mm(const part::Chamfer& rounded, double r) {
+  return kUpright * (rounded.axial_mm + r);
+}
+
+// Length along the edge of a wall, of which what lies in stock replaces a piece of wall; of
+// a rounded edge, where the tip begins below it, a corner's radius does so in any case.
+double edge_mm(const Surroundings& s, double r) {
   const auto& c = s.wall_chamfer;
-  const double chamfer = std::hypot(c.radial_mm, c.axial_mm), along = chamfer + beyond_mm;
+  if (c.round) return around_mm(c, r) - (s.wall_in_stock ? c.axial_mm + r : r);
+  const double chamfer = std::hypot(c.radial_mm, c.axial_mm);
+  const double along = chamfer + beyond_edge_mm(c, s.wall_in_stock, r);
   return s.wall_in_stock ? along * (1 - c.radial_mm / chamfer) : along;
 }
 
@@ -297,6 +305,9 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   if (e.h0 == e.h1 && !next.cut_later && std::abs(next.h0 - e.h1 - up) < kLevel_mm &&
       std::abs(next.h1 - e.h1 - up) < kLevel_mm)
     s.level_behind = next.index;
+  if (const auto edge = front_chamfer(p, setup, {s.inner, next.index});
+      edge && edge->round)
+    s.below_rounding_mm = next.h0 - edge->radial_mm - e.h1;
   s.behind = passage(p, setup, work, s.inner, e, next);
   if (s.behind && s.behind->rad == 0) s.behind->rad = next.rad();
   return s;
@@ -323,7 +334,10 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   const double r = strokes.corner_mm, rad = std::atan2(s.h1 - s.h0, s.z0 - s.z1);
   const double slope = std::cos(rad), above = s.inner ? kAboveBore_mm : kAbove_mm;
   const bool tapered = s.h0 != s.h1;
-  const auto& chamfer = s.front_chamfer;
+  // Roughing leaves a chamfer at a rounded edge; finishing comes up to that on a slope of
+  // 45 deg, or up the wall.
+  const bool rounds = s.front_chamfer.round;
+  const auto chamfer = part::roughed(s.front_chamfer);
   const double chamfer_rad = std::atan2(chamfer.radial_mm, chamfer.axial_mm);
   const auto runs = [&](const std::optional<Passage>& g) {
     return strokes.contour && g && runs_on(*g, r, strokes.minor_rad);
@@ -362,6 +376,7 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     return std::max(h, last ? s.wall_drawn_h : std::min(s.wall_h, h + strokes.depth_mm));
   };
   const auto start = [&](bool last) {
+    if (last && from_before && rounds) return s.z0;
     if (last && from_before)
       return s.z0 + r * tip_z(chamfer.axial_mm > 0 ? chamfer_rad : rad, s.before->rad);
     if (last && s.front_falls_mm > kSame_mm)
@@ -371,8 +386,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
              r * (rad < *s.front_rad ? std::sin(rad) - 1 : tip_z(rad, *s.front_rad));
     const double level = s.z0 + kBefore_mm;
     const double along = chamfer.axial_mm > 0 ? chamfer_rad : rad;
-    const double own =
-        s.z0 + r * (std::sin(along) - 1) + (kBefore_mm + r) * std::cos(along);
+    const double own = s.z0 + (rounds ? 0 : r * (std::sin(along) - 1)) +
+                       (kBefore_mm + r) * std::cos(along);
     const double z = last ? own : level;
     return s.first && s.front > 0 ? std::max(z, s.front + kBefore_mm) : z;
   };
@@ -391,6 +406,14 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   // Length [mm] at feed from a to b, counted as that which takes as long at the element's
   // mean diameter.  Roughing enters along the axis, finishing along the element's own line.
   const auto fed = [&](bool last, double left, double a, double b) {
+    if (last && rounds) {
+      const double R = s.front_chamfer.axial_mm, h = s.h0 + left;
+      // The mean height of the arc is R (1 - 2/pi) below the surface.
+      return (a - s.z0) / std::cos(chamfer_rad) +
+             around_mm(s.front_chamfer, r) * turns(h - R * (1 - 2 / std::numbers::pi)) /
+                 turns(h) +
+             s.z0 - R - r - b;
+    }
     if (chamfer.axial_mm > 0) {
       const double foot = last ? a : s.z0 + r * tip_z(0, chamfer_rad);
       const double edge = s.z0 - chamfer.axial_mm + r * tip_z(chamfer_rad, 0);
@@ -430,8 +453,6 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left - undercut;
     const bool chamfers =
         last && !on && s.wall_chamfer.axial_mm > 0 && out_h > s.wall_edge_h;
-    const double beyond =
-        s.wall_in_stock ? beyond_surface_mm(s.wall_chamfer, r) : r + kBehind_mm;
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);
@@ -441,8 +462,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     double length = fed(last, left, a, b) + undercutting + wall +
                     (comes ? enters(last) * longer(left, a) : 0);
     if (chamfers)
-      length += edge_mm(s, beyond) *
-                std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));
+      length +=
+          edge_mm(s, r) * std::abs((s.wall_edge_h + out_h) / (s.h0 + s.h1 + 2 * left));
     sum.wall_mm += wall * of_pass;
     sum.fed_mm += length * of_pass;
     if (s.inner) {

@@ -60,7 +60,9 @@ struct Surroundings {
   /// Before that wall: cut by the last pass, or by the operation that faces the wall.
   std::optional<part::Undercut> undercut = {}, faced_undercut = {};
   std::optional<double> fillet_mm = {};  ///< largest that may stay at the wall's foot
-  bool first = false;                    ///< begins at the free end
+  /// Height of that wall below its rounded edge, which a larger corner cannot reach.
+  std::optional<double> below_rounding_mm = {};
+  bool first = false;       ///< begins at the free end
   double wall_z = 0;        ///< a rising surface, where roughing ends at the latest
   bool wall_steps = false;  ///< it is a wall
   double wall_h = 0;        ///< its height when this element is roughed,

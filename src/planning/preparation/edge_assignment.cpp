@@ -65,7 +65,7 @@ bool before_jaws(const PreparedPart& p, std::size_t s, const Element& e, End end
     corner = std::max(corner, t->re_mm);
   const double room = std::abs(end_z_mm(p.drawing, e, end) - jaws_z_mm(p, s));
   return room >= chamfer.axial_mm + corner +
-                     std::max(kBehind_mm, beyond_surface_mm(chamfer, corner));
+                     std::max(kBehind_mm, beyond_edge_mm(chamfer, true, corner));
 }
 
 bool cut_in(const PreparedPart& p, const std::vector<SetupWork>& setups, std::size_t s,
@@ -111,12 +111,13 @@ void assign(const PreparedPart& p, const List& elements, bool inner,
       if (const auto s = alone_in(p, setups, {inner, i}, end))
         (inner ? setups[*s].inner_chamfers : setups[*s].outer_chamfers).push_back(i);
       else
-        not_cut.push_back("the chamfer at the " +
-                          std::string(end == End::left ? "left" : "right") + " end of " +
-                          e.id + " cannot be cut in any setup: none makes " + e.id +
-                          " or the surface before that end, with the end free, enough "
-                          "wall for the tool "
-                          "and room before the jaws");
+        not_cut.push_back(
+            std::string(chamfer->round ? "the rounded edge" : "the chamfer") +
+            " at the " + std::string(end == End::left ? "left" : "right") + " end of " +
+            e.id + " cannot be cut in any setup: none makes " + e.id +
+            " or the surface before that end, with the end free, enough "
+            "wall for the tool "
+            "and room before the jaws");
     }
 }
 

@@ -25,6 +25,7 @@ std::optional<part::Undercut> MachinedSurface::undercut_of_last() const {
 bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto& s = around_;
   if (s.fillet_mm && tool.re_mm > *s.fillet_mm) return false;
+  if (s.below_rounding_mm && tool.re_mm > *s.below_rounding_mm) return false;
   const bool into_stock = s.wall_in_stock && s.wall_chamfer.axial_mm > 0;
   if (into_stock && !takes_ring(tool, s.wall_chamfer)) return false;
   const auto u = undercut_of_last();
@@ -43,6 +44,9 @@ std::string MachinedSurface::edges_asked() const {
   };
   if (s.fillet_mm)
     add(fmt::format("a corner of at most {:g} mm for the fillet", *s.fillet_mm));
+  if (s.below_rounding_mm)
+    add(fmt::format("a corner of at most {:.3g} mm for the wall below the rounded edge",
+                    *s.below_rounding_mm));
   if (const auto u = undercut_of_last())
     add(fmt::format(
         "a corner of at most {:g} mm{}, a minor edge of at least {:g} deg and a largest "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace turnwright::report {
 namespace {
@@ -12,7 +13,7 @@ using planning::PreparedPart;
 
 constexpr double kNothing_mm = 1e-9;  // shorter runs are rounding of sums of lengths
 
-constexpr int kArcChords = 12;  // of an arc
+constexpr int kArcChords = 12;  // of an arc, of a rounded edge
 
 // Points of an arc are M + t e +- n (sqrt(R^2 - t^2) - d), M the middle of its chord, t
 // along it, d = sqrt(R^2 - c^2/4) the centre's distance from it.
@@ -41,12 +42,20 @@ bool has_edges(const Element& e) {
   return e.left_chamfer || e.right_chamfer;
 }
 
-// A cylinder with its chamfers and undercuts; out: 1 outside, -1 in a bore.
+// A cylinder with its chamfers, rounded edges and undercuts; out: 1 outside, -1 in a bore.
 template <class Element>
 Runs with_edges(const Element& e, double z, double out) {
   std::vector<double> at{0, e.length_mm};
-  if (e.left_chamfer) at.push_back(e.left_chamfer->axial_mm);
-  if (e.right_chamfer) at.push_back(e.length_mm - e.right_chamfer->axial_mm);
+  const auto edge = [&](const std::optional<part::Chamfer>& c, double from, double to) {
+    if (!c) return;
+    const int chords = c->round ? kArcChords : 1;
+    for (int i = 1; i <= chords; ++i) {
+      const double turned = std::numbers::pi / 2 * i / chords;
+      at.push_back(from + to * c->axial_mm * (i < chords ? 1 - std::cos(turned) : 1));
+    }
+  };
+  edge(e.left_chamfer, 0, 1);
+  edge(e.right_chamfer, e.length_mm, -1);
   if constexpr (requires { e.left_undercut; }) {
     const auto add = [&](const std::optional<part::Undercut>& u, double from, double to) {
       if (!u) return;

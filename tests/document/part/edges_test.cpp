@@ -144,12 +144,14 @@ TEST(Edges, ThatThePartHasNotAreRefusedByName) {
 }
 
 TEST(Edges, HaveOneShapeThatFits) {
-  EXPECT_EQ(refusal({edge("left", json::object())}),
-            "t: /edges/0: got an edge without a shape, expected chamfer_mm for the edge, "
-            "or fillet_mm or undercut for the inner corner at its foot");
-  EXPECT_EQ(refusal({edge("d1|d2", {{"chamfer_mm", 1}, {"fillet_mm", 1}})}),
-            "t: /edges/0: got an edge with several shapes, expected chamfer_mm for the "
-            "edge, or fillet_mm or undercut for the inner corner at its foot");
+  EXPECT_EQ(
+      refusal({edge("left", json::object())}),
+      "t: /edges/0: got an edge without a shape, expected chamfer_mm or radius_mm for "
+      "the edge, or fillet_mm or undercut for the inner corner at its foot");
+  EXPECT_EQ(
+      refusal({edge("d1|d2", {{"chamfer_mm", 1}, {"fillet_mm", 1}})}),
+      "t: /edges/0: got an edge with several shapes, expected chamfer_mm or radius_mm "
+      "for the edge, or fillet_mm or undercut for the inner corner at its foot");
   EXPECT_EQ(
       refusal({edge("d2|d3", {{"chamfer_mm", 5}})}),
       "t: /edges/0/chamfer_mm: got 5, expected a chamfer that takes at most 4.95 mm "
@@ -163,8 +165,34 @@ TEST(Edges, HaveOneShapeThatFits) {
             "of the radius there (this one takes 3)");
   EXPECT_EQ(
       refusal({edge("left", {{"fillet_mm", 1}})}),
-      "t: /edges/0/fillet_mm: got 1, expected a chamfer_mm: there is no inner corner "
-      "at a face of the part");
+      "t: /edges/0/fillet_mm: got 1, expected a chamfer_mm or radius_mm: there is no "
+      "inner corner at a face of the part");
+}
+
+TEST(Edges, RoundedEdgesAreQuartersOfACircle) {
+  const auto d =
+      read({edge("left", {{"radius_mm", 1}}), edge("d2|d3", {{"radius_mm", 2}}),
+            edge("right|b1", {{"radius_mm", 1.5}})});
+  for (const auto& [c, R] : {std::pair{d.outer[0].left_chamfer, 1.0},
+                             {d.outer[1].right_chamfer, 2.0},
+                             {d.inner[0].right_chamfer, 1.5}}) {
+    ASSERT_TRUE(c && c->round);
+    EXPECT_EQ(c->axial_mm, R);
+    EXPECT_EQ(c->radial_mm, R);
+  }
+}
+
+TEST(Edges, RoundedEdgesAreThoseOfCylindersThatHaveRoomAndAreNotGround) {
+  EXPECT_EQ(refusal({edge("d2|d3", {{"radius_mm", 5}})}),
+            "t: /edges/0/radius_mm: got 5, expected a radius that takes at most 4.95 mm "
+            "there");
+  EXPECT_EQ(refusal({edge("left", {{"radius_mm", 1}, {"angle_deg", 30}})}),
+            "t: /edges/0/angle_deg: got 30, expected no such key");
+  EXPECT_EQ(
+      refusal({edge("left", {{"radius_mm", 1}}), edge("left", {{"chamfer_mm", 1}})}),
+      "t: /edges/1/at: got \"left\", expected each edge once");
+  EXPECT_EQ(refusal({edge("left", {{"radius_mm", 0}})}),
+            "t: /edges/0/radius_mm: got 0, expected a number > 0 and <= 1000 mm");
 }
 
 // Whichever of the two is named first.

@@ -70,6 +70,14 @@ TEST(Drawing, RepeatsTheEdges) {
   EXPECT_EQ(named(d.at("elements"), "d1").at("right_fillet_mm"), 0.8);
 }
 
+TEST(Drawing, RepeatsRoundedEdges) {
+  auto document = document::parse_file(source_path("parts/motor-shaft.json"));
+  document["edges"] = {{{"at", "left"}, {"radius_mm", 1.5}}};
+  const auto first = named(drawn(document).at("elements"), "d1");
+  EXPECT_EQ(first.at("left_radius_mm"), 1.5);
+  EXPECT_FALSE(first.contains("left_chamfer_mm") || first.contains("right_radius_mm"));
+}
+
 TEST(Drawing, RepeatsTheTitleBlock) {
   auto document = tube();
   EXPECT_FALSE(drawn(document).contains("drawing_number"));

@@ -1,4 +1,4 @@
-// Edges and inner corners of a part: where a chamfer, an undercut or a fillet may stand.
+// Edges and inner corners of a part: where a chamfer, a radius, an undercut or a fillet may stand.
 import { alongBores, ends, entries, isThrough, mouths, type Element } from './elements';
 import type { Part } from './types';
 
@@ -36,6 +36,8 @@ export interface Place {
   name: string;
   /** What may stand there: an edge has chamfers; the foot of a wall fillets and, outside, undercuts. */
   chamfer: boolean;
+  /** Of a cylinder's edge, which may be rounded instead. */
+  radius: boolean;
   fillet: boolean;
   undercut: boolean;
   /** At the foot of a thread, whose undercuts are those of DIN 76. */
@@ -50,7 +52,7 @@ function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undef
   if (is('arc', a, b) || left === right) return undefined;
   const stands = left > right === (side === 'outer') ? a : b, groove = is('groove', a, b);
   return {
-    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), fillet: !groove,
+    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), radius: is('cylinder', stands) && !groove, fillet: !groove,
     undercut: side === 'outer' && !groove, thread: (stands === a ? b : a).kind === 'thread',
   };
 }
@@ -62,7 +64,7 @@ export function edgePlaces(part: Part): Place[] {
   const steps = (list: Element[], side: 'outer' | 'inner') =>
     list.slice(1).map((e, i) => (apart(list[i], e) ? undefined : between(list[i], e, side))).filter((p) => p !== undefined);
   const end = (at: string, e: Element | undefined, name: string): Place[] =>
-    turned(e) ? [{ at, name, chamfer: true, fillet: false, undercut: false }] : [];
+    turned(e) ? [{ at, name, chamfer: true, radius: is('cylinder', e!), fillet: false, undercut: false }] : [];
   const mouth = (side: 'left' | 'right') =>
     mouths(part).filter((m) => m.end === side)
       .flatMap(({ bore }) => end(`${side}|${bore.id}`, bore, `bore ${bore.id} at the ${side}`));
@@ -72,16 +74,18 @@ export function edgePlaces(part: Part): Place[] {
   ];
 }
 
-type Key = 'chamfer_mm' | 'angle_deg' | 'undercut' | 'fillet_mm';
+export type Key = 'chamfer_mm' | 'angle_deg' | 'radius_mm' | 'undercut' | 'fillet_mm';
+/** What an entry of the document's list makes of a corner. */
+export const shapes: Key[] = ['chamfer_mm', 'radius_mm', 'undercut', 'fillet_mm'];
 const holder = (key: Key) => (key === 'angle_deg' ? 'chamfer_mm' : key);
 
 const turnedRound = (at: string) => at.split('|').reverse().join('|');
 
-/** Where in the document's list a corner's chamfer, undercut or fillet stands; -1: nowhere. */
+/** Where in the document's list a corner's chamfer, radius, undercut or fillet stands; -1: nowhere. */
 export const edgeIndex = (part: Part, at: string, key: Key): number =>
   (Array.isArray(part.edges) ? part.edges : []).findIndex((e: Element) => [at, turnedRound(at)].includes(e?.at) && holder(key) in e);
 
-/** The document with a chamfer, an undercut or a fillet there; undefined takes it away. */
+/** The document with a chamfer, a radius, an undercut or a fillet there; undefined takes it away. */
 export function withEdge(part: Part, at: string, key: Key, value: unknown): Part {
   const list: Element[] = Array.isArray(part.edges) ? part.edges : [];
   const index = edgeIndex(part, at, key);

@@ -95,7 +95,7 @@ export function places(part: Part): Set<string> {
 
 /** What is asked for at a place, in words: "chamfer d1|d2". */
 const edgeName = (e: Element) =>
-  `${'chamfer_mm' in e ? 'chamfer' : 'undercut' in e ? 'undercut' : 'fillet'} ${e.at}`;
+  `${'chamfer_mm' in e ? 'chamfer' : 'radius_mm' in e ? 'radius' : 'undercut' in e ? 'undercut' : 'fillet'} ${e.at}`;
 
 /**
  * Lets a list of the document follow a change of names. An entry goes when `place` tells

@@ -20,6 +20,8 @@ export interface Surface {
   /** Of a chamfer: along the axis and on the radius. */
   left_chamfer_mm?: Pair;
   right_chamfer_mm?: Pair;
+  left_radius_mm?: number;
+  right_radius_mm?: number;
   left_fillet_mm?: number;
   right_fillet_mm?: number;
   left_undercut?: string;

@@ -13,7 +13,7 @@ test('every edge of the shipped parts is at a place where it may be', () => {
     for (const e of document.edges ?? []) {
       const place = all.find((p) => p.at === e.at);
       assert.ok(place, `${file}: ${e.at}`);
-      const kind = e.chamfer_mm ? 'chamfer' : e.undercut ? 'undercut' : 'fillet';
+      const kind = e.chamfer_mm ? 'chamfer' : e.radius_mm ? 'radius' : e.undercut ? 'undercut' : 'fillet';
       assert.ok(place[kind], `${file}: ${kind} ${e.at}`);
       seen += 1;
     }
@@ -54,7 +54,20 @@ test('no edge stands where there is no step, nor at arcs; at grooves only chamfe
   assert.deepEqual(names, ['left', 'b|g', 'g|c', 'right']);
   const all = edgePlaces({ outer: [e('b', 'cylinder', 20), e('g', 'groove', 15), { ...e('a', 'arc'), left_mm: 20, right_mm: 10 }] });
   assert.deepEqual(all.map((p) => p.at), ['left', 'b|g']);
-  assert.deepEqual([all[1].chamfer, all[1].fillet, all[1].undercut], [true, false, false]);
+  assert.deepEqual([all[1].chamfer, all[1].radius, all[1].fillet, all[1].undercut], [true, false, false, false]);
+});
+
+test('edges of cylinders may be rounded, those of threads and holes not', () => {
+  const e = (id, kind, d) => ({ id, kind, length_mm: 20, diameter_mm: d });
+  const places = edgePlaces({ outer: [e('a', 'thread', 20), e('b', 'cylinder', 30)], inner: [{ ...e('h', 'hole', 8), from: 'right' }] });
+  assert.deepEqual(places.map((p) => [p.at, p.radius]), [['left', false], ['a|b', true], ['right', true], ['right|h', false]]);
+});
+
+test('a radius stands beside nothing else in its entry and goes with it', () => {
+  const rounded = withEdge({ edges: [] }, 'a|b', 'radius_mm', 2);
+  assert.deepEqual(rounded.edges, [{ at: 'a|b', radius_mm: 2 }]);
+  assert.equal(edgeIndex(rounded, 'b|a', 'radius_mm'), 0);
+  assert.deepEqual(withEdge(rounded, 'a|b', 'radius_mm', undefined).edges, []);
 });
 
 test('a hole that is drilled has a chamfer where it begins', () => {

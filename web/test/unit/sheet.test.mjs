@@ -25,6 +25,14 @@ test('an arc runs on its circle from end to end, on the side it bulges to', () =
   }
 });
 
+test('a rounded edge is a quarter of a circle, in a bore it widens the mouth', () => {
+  const apart = ([z, r], [cz, cr]) => Math.hypot(z - cz, r - cr);
+  const left = profile(surface({ left_radius_mm: 2 })).slice(0, -1);
+  assert.deepEqual([left[0], left.at(-1)].map((p) => p.map((x) => Math.round(1e9 * x) / 1e9)), [[10, 13], [12, 15]]);
+  for (const p of left) assert.ok(Math.abs(apart(p, [12, 13]) - 2) < 1e-9);
+  for (const p of profile(surface({ side: 'inner', right_radius_mm: 1 })).slice(1)) assert.ok(Math.abs(apart(p, [49, 16]) - 1) < 1e-9);
+});
+
 test('a chamfer takes its lengths of the corner, in a bore it widens the mouth', () => {
   assert.deepEqual(profile(surface({ left_chamfer_mm: [2, 1] })), [[10, 14], [12, 15], [50, 15]]);
   assert.deepEqual(profile(surface({ side: 'inner', right_chamfer_mm: [1, 1] })), [[10, 15], [49, 15], [50, 16]]);

@@ -39,8 +39,9 @@ function undercut({ radius, depth, width, recess, falls }: Undercut): Point[] {
 /** The end of a surface, from the end inwards: distance from the end, radius above its own. */
 function end(e: Surface, side: 'left' | 'right'): Point[] {
   const out = e.side === 'outer' ? 1 : -1;
-  const chamfer = e[`${side}_chamfer_mm`], f = e[`${side}_fillet_mm`], u = undercutOf(e[`${side}_undercut`], e.pitch_mm);
+  const chamfer = e[`${side}_chamfer_mm`], R = e[`${side}_radius_mm`], f = e[`${side}_fillet_mm`], u = undercutOf(e[`${side}_undercut`], e.pitch_mm);
   if (chamfer) return [[0, -out * chamfer[1]], [chamfer[0], 0]];
+  if (R) return arc([R, -R], R, Math.PI, 0.5 * Math.PI, 6).map(([z, r]) => [z, out * r]);
   if (u) return undercut(u);
   if (f) return arc([f, f], f, Math.PI, 1.5 * Math.PI, 6).map(([z, r]) => [z, out * r]);
   return [[0, 0]];
@@ -57,7 +58,7 @@ function bulge(e: Surface, [z0, r0]: Point, [z1, r1]: Point): Point[] {
   return arc(centre, radius, from, from + turn, 2 * chords).slice(1, -1);
 }
 
-/** The profile of a surface from its left to its right end, with chamfer, fillet, undercut. */
+/** The profile of a surface from its left to its right end, with chamfer, radius, fillet, undercut. */
 export function profile(e: Surface): Point[] {
   const [z0, z1] = e.z_mm, [r0, r1] = radii(e);
   const left = end(e, 'left').map(([d, dr]): Point => [z0 + d, r0 + dr]);

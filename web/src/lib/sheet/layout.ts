@@ -55,7 +55,7 @@ function sizes(part: Part, drawing: Drawing): Unplaced[] {
   });
 }
 
-/** Chamfers, undercuts, fillets: one line for all that stand at one place. */
+/** Chamfers, radii, undercuts, fillets: one line for all that stand at one place. */
 function corners(drawing: Drawing): Unplaced[] {
   const all = new Map<string, Unplaced>();
   for (const e of drawing.elements)
@@ -75,6 +75,8 @@ function corners(drawing: Drawing): Unplaced[] {
 function cornerText(e: Surface, side: 'left' | 'right'): string {
   const chamfer = e[`${side}_chamfer_mm`], undercut = e[`${side}_undercut`], fillet = e[`${side}_fillet_mm`];
   if (chamfer) return `${lengthText(chamfer[0])}×${Math.round((Math.atan2(chamfer[1], chamfer[0]) * 180) / Math.PI)}°`;
+  const radius = e[`${side}_radius_mm`];
+  if (radius) return `R${lengthText(radius)}`;
   return undercut ? undercut.replace('x', '×') : fillet ? `R${lengthText(fillet)} max` : '';
 }
 
