@@ -248,6 +248,19 @@ class Numbers {
   std::vector<std::string> ids_;
 };
 
+const char* section_words(part::StockKind kind) {
+  switch (kind) {
+    case part::StockKind::hexagon:
+      return "hexagon across flats";
+    case part::StockKind::square:
+      return "square across flats";
+    case part::StockKind::bar:
+    case part::StockKind::tube:
+      break;
+  }
+  return "diameter";
+}
+
 std::vector<std::string> heading(const Site& site) {
   const auto& d = site.part.drawing;
   const auto& s = site.answer();
@@ -259,8 +272,9 @@ std::vector<std::string> heading(const Site& site) {
                         site.root_z);
   return {"part " + d.name,
           "material " + site.part.material.name + ", machine " + site.part.machine.name,
-          fmt::format("stock diameter {:g} x {:g} mm long, its face at Z{:g}",
-                      d.stock.outer_mm, d.stock.length_mm, site.front),
+          fmt::format("stock {} {:g} x {:g} mm long, its face at Z{:g}",
+                      section_words(d.stock.kind), part::across_mm(d.stock),
+                      d.stock.length_mm, site.front),
           held,
           "zero: spindle axis and finished face of the free end",
           "tools at their imaginary tip, corner radius in the path"};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "turnwright/base/units.hpp"
@@ -112,6 +113,31 @@ double way_in_mm(const Drawing& d, std::size_t i) {
     if (d.inner[k].from == d.inner[i].from)
       least = std::min({least, d.inner[k].left_mm, d.inner[k].right_mm});
   return least;
+}
+
+int flats(StockKind kind) {
+  switch (kind) {
+    case StockKind::hexagon:
+      return 6;
+    case StockKind::square:
+      return 4;
+    case StockKind::bar:
+    case StockKind::tube:
+      break;
+  }
+  return 0;
+}
+
+double across_mm(const Stock& s) {
+  const int n = flats(s.kind);
+  return n > 0 ? s.outer_mm * std::cos(std::numbers::pi / n) : s.outer_mm;
+}
+
+double section_mm2(const Stock& s) {
+  const int n = flats(s.kind);
+  const double across = across_mm(s);
+  if (n > 0) return n * across * across / 4 * std::tan(std::numbers::pi / n);
+  return std::numbers::pi / 4 * (s.outer_mm * s.outer_mm - s.inner_mm * s.inner_mm);
 }
 
 double into_radius_mm(const Chamfer& c, double x) {

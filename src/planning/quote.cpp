@@ -10,13 +10,10 @@
 namespace turnwright::planning {
 namespace {
 
-double section_mm2(const part::Stock& s) {
-  return units::kPi / 4 * (s.outer_mm * s.outer_mm - s.inner_mm * s.inner_mm);
-}
-
 double mass_kg(const PlanRequest& r, double length_mm) {
   constexpr double kCubicMetres = 1e-9;
-  return section_mm2(r.drawing.stock) * length_mm * kCubicMetres * r.material.rho_kg_m3;
+  return part::section_mm2(r.drawing.stock) * length_mm * kCubicMetres *
+         r.material.rho_kg_m3;
 }
 
 // What an offer costs apart from its batch, and once for each.

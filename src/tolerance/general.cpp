@@ -86,7 +86,7 @@ void add_straightness(const part::Drawing& drawing, const std::vector<Element>& 
                       GeometricalClass form, std::vector<part::Tolerance>& out) {
   using enum ToleranceKind;
   for (const auto& e : elements) {
-    if (e.cut || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
+    if (e.cut || part::stays(e) || !(e.length_mm > 0 && e.length_mm <= 3000)) continue;
     const double value = general_straightness_mm(e.length_mm, form);
     const bool held =
         (e.limits && (e.limits->upper_mm - e.limits->lower_mm) / 2 <= value) ||

@@ -34,6 +34,7 @@ void expect_equal(const std::vector<Element>& a, const std::vector<Element>& b) 
     EXPECT_EQ(a[i].length_mm, b[i].length_mm);
     EXPECT_EQ(a[i].left_mm, b[i].left_mm);
     EXPECT_EQ(a[i].right_mm, b[i].right_mm);
+    EXPECT_EQ(a[i].flats, b[i].flats);
     EXPECT_EQ(a[i].pitch_mm, b[i].pitch_mm);
     EXPECT_EQ(a[i].radius_mm, b[i].radius_mm);
     EXPECT_EQ(a[i].convex, b[i].convex);
@@ -173,6 +174,21 @@ TEST(Notation, ABoresR7IsAFitAndACornersR7AFillet) {
   EXPECT_EQ(read_notation("d50 d9 x 40").outer[0].demands.fit, "d9");
   EXPECT_EQ(read_notation("d50 m6 x 40").outer[0].demands.fit, "m6");
   EXPECT_EQ(read_notation("bore d50 E8 x 40").inner[0].demands.fit, "E8");
+}
+
+TEST(Notation, ReadsWhatStaysAsTheBarIs) {
+  const Outline o =
+      read_notation("stock hex27 x 20; d20 h9 x 30; stock d50x5; stock square 20 x 8");
+  ASSERT_EQ(o.outer.size(), 4u);
+  for (const auto& [k, across, flats] : {std::tuple{0, 27, 6}, {2, 50, 0}, {3, 20, 4}}) {
+    const auto& e = o.outer[static_cast<std::size_t>(k)];
+    EXPECT_EQ(e.shape, Shape::as_stock);
+    EXPECT_EQ(e.left_mm, across);
+    EXPECT_EQ(e.right_mm, across);
+    EXPECT_EQ(e.flats, flats);
+  }
+  EXPECT_NE(mistakes("stock hex27 h9 x 20").find("has no fit"), std::string::npos);
+  EXPECT_NE(mistakes("stock M20 x 20").find("hex27"), std::string::npos);
 }
 
 TEST(Notation, RoundsEdgesAndAtEndsRIsTheEdgesRadiusToo) {
@@ -427,9 +443,14 @@ class Chance {
   }
   Element element(const std::string& id) {
     static constexpr Shape kAll[] = {Shape::cylinder, Shape::cone,   Shape::arc,
-                                     Shape::groove,   Shape::thread, Shape::hole};
-    Element e{.id = id, .shape = kAll[count(0, 5)], .length_mm = size()};
+                                     Shape::groove,   Shape::thread, Shape::hole,
+                                     Shape::as_stock};
+    Element e{.id = id, .shape = kAll[count(0, 6)], .length_mm = size()};
     e.left_mm = e.right_mm = size();
+    if (e.shape == Shape::as_stock) {
+      e.flats = one_in(2) ? 6 : one_in(2) ? 4 : 0;
+      return e;
+    }
     const bool sloped = e.shape == Shape::cone || e.shape == Shape::arc;
     if (sloped) e.right_mm = size();
     if (e.shape == Shape::arc) {

@@ -14,7 +14,7 @@
 ///
 ///     element   = [bore [left | right]] shape [FIT | limits] x LENGTH {FIT | Ra N | Rz N | grind N}
 ///     shape     = d D | [cone] d D-d D | arc d D-d D R RADIUS [convex | concave]
-///               | groove d D | hole d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
+///               | stock (d D | hexA | squareA) | groove d D | hole d D | M D[x PITCH] | INCHES-N [UNC | UNF | ..]
 ///     limits    = UPPER/LOWER | ±N                           +0.02/-0.01  +0.1/0  ±0.05
 ///     corner    = feature {feature}
 ///     feature   = AxANGLE | chamfer AxANGLE | round RADIUS | R RADIUS     1x45  round2
@@ -32,6 +32,7 @@
 ///   of ISO 261 where none is written.  The pitch is written without a blank, "M24x1.5 x
 ///   25", or before the length, "M24 x 1.5 x 25".  Inch threads of N threads per inch are
 ///   written "1/2-13 UNC 2A x 25", "1-1/4-7 x 40", "#10-24 UNC x 12" (part/inch_thread.hpp).
+/// - `stock` stays as the bar is, round, or a hexagon or square bar of A across its flats.
 /// - A corner that stands between two outer elements is the edge between them, before the
 ///   first one the left end's, after the last one the right end's.  Edges of bores are
 ///   named.  A is measured along the axis, ANGLE from the axis; E RxT is form E of DIN 509.

@@ -12,7 +12,8 @@
 namespace turnwright::exchange {
 
 /// Shapes of an element of the contour, as the part document names them.
-enum class Shape { cylinder, cone, arc, groove, thread, hole };
+/// `as_stock`: it stays as the bar is, of `flats` flats if that is no round one.
+enum class Shape { cylinder, cone, arc, groove, thread, hole, as_stock };
 
 /// What the drawing asks of one surface: an element, the shoulder between two, an end.
 struct Demands {
@@ -28,9 +29,11 @@ struct Element {
   Shape shape = Shape::cylinder;
   double length_mm = 0;
   /// Diameters at its ends along the part; equal for a cylinder, for a groove (its floor)
-  /// and for a thread (its nominal diameter).
+  /// and for a thread (its nominal diameter); of what stays as the bar is that of the bar, or
+  /// across its flats.
   double left_mm = 0, right_mm = 0;
   double pitch_mm = 0;                ///< of a thread; 0: the coarse one of ISO 261
+  int flats = 0;                      ///< of what stays as a hexagon or square bar is
   double radius_mm = 0;               ///< of an arc
   bool convex = true;                 ///< an arc bulges out of the material
   part::End from = part::End::right;  ///< end that an inner element is reached from

@@ -92,6 +92,8 @@ struct OuterElement {
   ElementKind kind = ElementKind::cylinder;
   double length_mm = 0;
   double left_mm = 0, right_mm = 0;
+  /// It stays as the stock is: no tool turns it, and no tolerance is on it.
+  bool as_stock = false;
   std::optional<std::string> fit = {};  ///< ISO 286 tolerance class as drawn, "k6"
   std::optional<Limits> limits = {};    ///< from `fit`, `limits_mm` or general
   std::optional<double> Ra_um = {}, Rz_um = {};
@@ -128,6 +130,10 @@ struct InnerElement {
   std::optional<double> left_fillet_mm = {}, right_fillet_mm = {};
 };
 
+/// Whether an element stays as the stock is; bores never do.
+inline bool stays(const OuterElement& e) { return e.as_stock; }
+inline bool stays(const InnerElement&) { return false; }
+
 /// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
 struct Face {
   std::string id;
@@ -147,16 +153,29 @@ struct Tolerance {
   std::string common_datum = {};
 };
 
-enum class StockKind { bar, tube };
+enum class StockKind { bar, tube, hexagon, square };
 
 struct Stock {
   StockKind kind = StockKind::bar;
-  double outer_mm = 0, inner_mm = 0;  ///< inner 0 for a bar
+  /// Diameters; outside that through the corners of a hexagon or square; inside 0 but of a
+  /// tube.
+  double outer_mm = 0, inner_mm = 0;
   double length_mm = 0;
   double left_allowance_mm = 0;  ///< stock to the left of z = 0
   /// If set, the first setup parts off at the held end and leaves this allowance there.
   std::optional<double> parted_mm = {};
 };
+
+/// Number of flats of a stock's section, 0 of a round one.
+int flats(StockKind kind);
+/// Across the flats of a stock [mm], the largest circle in its section:
+///
+///     outer cos(pi/n)                                                                (5)
+///
+/// of n flats; of a round one its diameter.  Jaws hold it, and no bar is taken for stiffer.
+double across_mm(const Stock& stock);
+/// Area of a stock's section [mm^2]; of n flats n across^2/4 tan(pi/n).
+double section_mm2(const Stock& stock);
 
 /// What the title block of the drawing says beside the name; empty: not given.
 struct TitleBlock {

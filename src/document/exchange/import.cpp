@@ -132,28 +132,46 @@ bool plain(const Outline& o) {
   });
 }
 
+// The section of the bar: that which an element keeps, or the next round one.
+struct Section {
+  ordered_json stock;
+  double across_mm = 0;
+  std::string words;
+};
+Section section_of(const Outline& o) {
+  for (const auto& e : o.outer) {
+    if (e.shape != exchange::Shape::as_stock) continue;
+    const char* kind = e.flats == 6 ? "hexagon" : e.flats == 4 ? "square" : "bar";
+    const char* size = e.flats > 0 ? "across_flats_mm" : "diameter_mm";
+    return {{{"kind", kind}, {size, e.left_mm}},
+            e.left_mm,
+            "the bar that " + e.id + " keeps, " + mm_text(e.left_mm)};
+  }
+  const double d_mm = bar_mm(largest_mm(o));
+  return {{{"kind", "bar"}, {"diameter_mm", d_mm}},
+          d_mm,
+          "the next round bar, " + mm_text(d_mm)};
+}
+
 ordered_json next_bar(const Outline& o, Remarks& assumed) {
   double length_mm = 0;
   for (const auto& e : o.outer) length_mm += e.length_mm;
-  const double d_mm = bar_mm(largest_mm(o));
+  auto [stock, across_mm, words] = section_of(o);
   const auto micrometres = [](double mm) { return std::round(mm * 1e6) / 1e6; };
   if (plain(o)) {
-    const double held_mm = std::max(kHeld_mm, d_mm);
-    assumed.add("/stock", "The stock is the next round bar, " + mm_text(d_mm) + ": " +
-                              mm_text(held_mm) +
+    const double held_mm = std::max(kHeld_mm, across_mm);
+    assumed.add("/stock", "The stock is " + words + ": " + mm_text(held_mm) +
                               " of it are held, and the part is parted off.");
-    return {{"kind", "bar"},
-            {"diameter_mm", d_mm},
-            {"length_mm", micrometres(length_mm + held_mm + kFacing_mm)},
-            {"left_allowance_mm", held_mm},
-            {"part_off_allowance_mm", kPartedOff_mm}};
+    stock["length_mm"] = micrometres(length_mm + held_mm + kFacing_mm);
+    stock["left_allowance_mm"] = held_mm;
+    stock["part_off_allowance_mm"] = kPartedOff_mm;
+    return stock;
   }
-  assumed.add("/stock", "The stock is the next round bar, " + mm_text(d_mm) + ", with " +
-                            mm_text(kFacing_mm) + " to face at each end.");
-  return {{"kind", "bar"},
-          {"diameter_mm", d_mm},
-          {"length_mm", micrometres(length_mm + 2 * kFacing_mm)},
-          {"left_allowance_mm", kFacing_mm}};
+  assumed.add("/stock", "The stock is " + words + ", with " + mm_text(kFacing_mm) +
+                            " to face at each end.");
+  stock["length_mm"] = micrometres(length_mm + 2 * kFacing_mm);
+  stock["left_allowance_mm"] = kFacing_mm;
+  return stock;
 }
 
 // A drawing may name none, one, several or an unknown one.

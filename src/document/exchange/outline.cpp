@@ -38,7 +38,7 @@ ordered_json element(const Element& e, bool inner) {
   if (e.shape == Shape::cone || e.shape == Shape::arc) {
     out["left_mm"] = e.left_mm;
     out["right_mm"] = e.right_mm;
-  } else {
+  } else if (e.shape != Shape::as_stock) {
     out["diameter_mm"] = e.left_mm;
   }
   if (e.shape == Shape::arc) {
@@ -112,6 +112,8 @@ const char* shape_name(Shape shape) {
       return "groove";
     case Shape::hole:
       return "hole";
+    case Shape::as_stock:
+      return "as-stock";
     case Shape::thread:
       break;
   }

@@ -46,8 +46,8 @@ Demands demands_of(const json& object) {
 }
 
 Shape shape_of(const std::string& kind) {
-  for (const Shape s :
-       {Shape::cylinder, Shape::cone, Shape::arc, Shape::groove, Shape::hole})
+  for (const Shape s : {Shape::cylinder, Shape::cone, Shape::arc, Shape::groove,
+                        Shape::hole, Shape::as_stock})
     if (kind == shape_name(s)) return s;
   return Shape::thread;
 }
@@ -65,14 +65,26 @@ void read_designation(const std::string& text, Element& e) {
   if (x < text.size()) e.pitch_mm = std::stod(text.substr(x + 1));
 }
 
-Element element_of(const json& object) {
+// What stays as the stock is has the size that the stock says.
+void read_as_stock(const json& stock, Element& e) {
+  const auto kind = text_of(stock, "kind");
+  e.flats = kind == "hexagon" ? 6 : kind == "square" ? 4 : 0;
+  const char* key = e.flats > 0      ? "across_flats_mm"
+                    : kind == "tube" ? "outer_mm"
+                                     : "diameter_mm";
+  e.left_mm = e.right_mm = *number_of(stock, key);
+}
+
+Element element_of(const json& object, const json& stock) {
   Element e{.id = text_of(object, "id"),
             .shape = shape_of(text_of(object, "kind")),
             .length_mm = *number_of(object, "length_mm"),
             .radius_mm = number_of(object, "radius_mm").value_or(0),
             .convex = object.value("bulge", std::string("convex")) == "convex",
             .demands = demands_of(object)};
-  if (object.contains("designation")) {
+  if (e.shape == Shape::as_stock) {
+    read_as_stock(stock, e);
+  } else if (object.contains("designation")) {
     read_designation(text_of(object, "designation"), e);
   } else {
     const auto diameter = number_of(object, "diameter_mm");
@@ -140,8 +152,9 @@ Outline outline_of_part(const json& d) {
             .inner = {}};
   if (const auto m = d.find("material"); m != d.end() && m->is_string())
     o.material = m->get<std::string>();
-  for (const auto& e : list_of(d, "outer")) o.outer.push_back(element_of(e));
-  for (const auto& e : list_of(d, "inner")) o.inner.push_back(element_of(e));
+  const json stock = d.value("stock", json::object());
+  for (const auto& e : list_of(d, "outer")) o.outer.push_back(element_of(e, stock));
+  for (const auto& e : list_of(d, "inner")) o.inner.push_back(element_of(e, stock));
   for (const auto& e : list_of(d, "edges")) o.edges.push_back(edge_of(e));
   for (const auto& f : list_of(d, "faces"))
     o.faces.push_back({.id = text_of(f, "id"), .demands = demands_of(f)});

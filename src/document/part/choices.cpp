@@ -26,10 +26,14 @@ std::string machine_name(const json& machine) {
 
 std::string stock_name(const json& stock) {
   if (!stock.is_object()) return "stock";
-  const bool tube = stock.value("kind", json()) == "tube";
-  return (tube ? "tube " + written(stock, "outer_mm") + "/" + written(stock, "inner_mm")
-               : "bar " + written(stock, "diameter_mm")) +
-         " x " + written(stock, "length_mm") + " mm";
+  const auto kind = stock.value("kind", json());
+  const std::string length = " x " + written(stock, "length_mm") + " mm";
+  if (kind == "tube")
+    return "tube " + written(stock, "outer_mm") + "/" + written(stock, "inner_mm") +
+           length;
+  if (kind == "hexagon" || kind == "square")
+    return kind.get<std::string>() + " bar " + written(stock, "across_flats_mm") + length;
+  return "bar " + written(stock, "diameter_mm") + length;
 }
 
 std::string setups_name(const json& setups) {

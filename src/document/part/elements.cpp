@@ -19,13 +19,21 @@ enum class Side { outer, inner };
 struct Shape {
   ElementKind turned = ElementKind::cylinder;
   std::optional<CutKind> cut = {};
+  bool as_stock = false;
 };
 const Choices<std::optional<Shape>> kShapes{{"cylinder", Shape{}},
                                             {"cone", Shape{ElementKind::cone}},
                                             {"arc", Shape{{}, CutKind::arc}},
                                             {"groove", Shape{{}, CutKind::groove}},
                                             {"thread", Shape{{}, CutKind::thread}},
-                                            {"hole", Shape{{}, CutKind::hole}}};
+                                            {"hole", Shape{{}, CutKind::hole}},
+                                            {"as-stock", Shape{{}, {}, true}}};
+
+// Bores never stay as the stock is.
+const Choices<std::optional<Shape>>& shapes(Side side) {
+  static const Choices<std::optional<Shape>> kBores(kShapes.begin(), kShapes.end() - 1);
+  return side == Side::outer ? kShapes : kBores;
+}
 
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 
@@ -126,6 +134,14 @@ void read_shape(Draft& draft, Reader& r, Element& e, Side side) {
   r.finish();
 }
 
+// An outer element that stays as the stock is.
+void read_as_stock(const Draft& draft, Reader& r, part::OuterElement& e) {
+  e.as_stock = true;
+  e.length_mm = r.number("length_mm", kSize);
+  e.left_mm = e.right_mm = outer_of_stock_mm(draft.loaded.json);
+  r.finish();
+}
+
 template <class Element>
 void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reader>& items,
                Side side, std::vector<std::string>& ids) {
@@ -139,11 +155,14 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
     if (!e.id.empty() && std::find(ids.begin(), ids.end(), e.id) != ids.end())
       r.problem_at("id", "an id no other element has", "duplicate");
     ids.push_back(e.id);
-    const auto shape = r.choice<std::optional<Shape>>("kind", kShapes);
+    const auto shape = r.choice<std::optional<Shape>>("kind", shapes(side));
     if constexpr (std::is_same_v<Element, part::InnerElement>)
       e.from = r.choice<part::End>("from", ends());
     if (shape && shape->cut) {
       read_cut(draft, r, e, *shape->cut);
+    } else if (shape && shape->as_stock) {
+      if constexpr (std::is_same_v<Element, part::OuterElement>)
+        read_as_stock(draft, r, e);
     } else if (shape) {
       e.kind = shape->turned;
       read_shape(draft, r, e, side);
@@ -191,7 +210,10 @@ std::vector<NamedFeature> features(const part::Drawing& drawing) {
                          : e.kind == ElementKind::cylinder ? Feature::cylinder
                                                            : Feature::cone});
   };
-  for (const auto& e : drawing.outer) add(e);
+  for (const auto& e : drawing.outer) {
+    add(e);
+    if (e.as_stock) out.back().feature = Feature::fixed;
+  }
   for (const auto& e : drawing.inner) add(e);
   const bool unreadable = std::any_of(out.begin(), out.end(),
                                       [](const auto& named) { return named.id.empty(); });

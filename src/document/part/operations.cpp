@@ -33,7 +33,7 @@ std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
   for (const auto& e : drawing.outer)
     if (e.cut || chamfered(e)) out.push_back(e.id);
   for (const auto& e : drawing.inner)
-    if (e.cut || chamfered(e) || drawing.stock.kind == part::StockKind::bar)
+    if (e.cut || chamfered(e) || drawing.stock.kind != part::StockKind::tube)
       out.push_back(e.id);
   out.insert(out.end(), {"left", "right"});
   return out;
@@ -50,7 +50,8 @@ std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind ki
   if (is_boring(kind))
     for (const auto& e : drawing.inner) out.push_back(e.id);
   else
-    for (const auto& e : drawing.outer) out.push_back(e.id);
+    for (const auto& e : drawing.outer)
+      if (!e.as_stock) out.push_back(e.id);
   return out;
 }
 

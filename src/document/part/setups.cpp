@@ -38,10 +38,11 @@ nlohmann::json words(const std::vector<Clamping>& list) {
 
 // The body that the jaws hold: the stock at first, finished ends afterwards.
 double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
-  if (setup == 0) return drawing.stock.outer_mm;
+  const double stock = part::across_mm(drawing.stock);
+  if (setup == 0) return stock;
   if (drawing.outer.empty()) return 0;
-  return hold == part::End::left ? drawing.outer.front().left_mm
-                                 : drawing.outer.back().right_mm;
+  return std::min(stock, hold == part::End::left ? drawing.outer.front().left_mm
+                                                 : drawing.outer.back().right_mm);
 }
 
 bool has_jaws(const planning::SetupRequest& setup) {
@@ -85,6 +86,9 @@ void read_clampings(Draft& draft, Reader& r, planning::SetupRequest& setup) {
                    "what " + draft.loaded.plan.machine.id + " has: " +
                        nlohmann::json(draft.loaded.plan.machine.clampings).dump(),
                    "conflict");
+  if (part::flats(draft.loaded.plan.drawing.stock.kind) > 0 &&
+      std::ranges::any_of(setup.clampings, has_rest))
+    r.problem_at("clampings", "no rest, which runs on no bar with corners", "conflict");
 }
 
 void read_grip_forces(const Draft& draft, Reader& r, planning::SetupRequest& setup) {

@@ -1,24 +1,50 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "part_sections.hpp"
 
 namespace turnwright::document {
 namespace {
 
+const Choices<part::StockKind>& stock_kinds() {
+  static const Choices<part::StockKind> kKinds{{"bar", part::StockKind::bar},
+                                               {"tube", part::StockKind::tube},
+                                               {"hexagon", part::StockKind::hexagon},
+                                               {"square", part::StockKind::square}};
+  return kKinds;
+}
+
 // Cross-checks of the stock report at the pointer of its diameter.
-const char* outer_key(const part::Stock& stock) {
-  return stock.kind == part::StockKind::bar ? "diameter_mm" : "outer_mm";
+const char* outer_key(part::StockKind kind) {
+  switch (kind) {
+    case part::StockKind::bar:
+      return "diameter_mm";
+    case part::StockKind::tube:
+      return "outer_mm";
+    case part::StockKind::hexagon:
+    case part::StockKind::square:
+      break;
+  }
+  return "across_flats_mm";
+}
+
+// The outer diameter, through the corners, of a stock by what its document says of it.
+double outer_mm(part::StockKind kind, double said_mm) {
+  const int n = part::flats(kind);
+  return n > 0 ? said_mm / std::cos(std::numbers::pi / n) : said_mm;
 }
 
 void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing) {
   const auto& stock = drawing.stock;
   double largest_mm = 0, smallest_mm = stock.outer_mm;
   for (const auto& e : drawing.outer) {
+    if (e.as_stock) continue;
     largest_mm = std::max({largest_mm, e.left_mm, e.right_mm});
     if (e.left_mm > 0) smallest_mm = std::min({smallest_mm, e.left_mm, e.right_mm});
   }
   if (stock.outer_mm <= largest_mm)
-    r.problem_at(outer_key(stock),
+    r.problem_at(outer_key(stock.kind),
                  "more than the largest element, " + number_text(largest_mm) + " mm",
                  "conflict");
   if (stock.inner_mm >= stock.outer_mm)
@@ -29,7 +55,7 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
                  "conflict");
   const auto& machine = draft.loaded.plan.machine;
   if (machine.swing_mm > 0 && stock.outer_mm > machine.swing_mm)
-    r.problem_at(outer_key(stock),
+    r.problem_at(outer_key(stock.kind),
                  "at most the swing of " + machine.id + ", " +
                      number_text(machine.swing_mm) + " mm",
                  "conflict");
@@ -54,15 +80,37 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
                  "conflict");
 }
 
+// What the models leave out of a section with corners.
+void assume_corners(Draft& draft, const part::Stock& stock) {
+  if (part::flats(stock.kind) == 0) return;
+  draft.assume("/stock/kind", draft.loaded.json["stock"]["kind"],
+               "passes through the corners count as if they were round, their shocks do "
+               "not wear the edge");
+  if (stock.kind == part::StockKind::square)
+    draft.assume("/machine/chuck", "four jaws or a collet",
+                 "three jaws do not centre a square bar");
+}
+
 }  // namespace
+
+double outer_of_stock_mm(const nlohmann::json& part) {
+  const auto stock = part.find("stock");
+  if (stock == part.end() || !stock->is_object()) return NAN;  // reported with the stock
+  const auto kind = stock->value("kind", nlohmann::json());
+  for (const auto& [name, value] : stock_kinds())
+    if (kind == name)
+      if (const auto said = stock->find(outer_key(value));
+          said != stock->end() && said->is_number())
+        return outer_mm(value, said->get<double>());
+  return NAN;
+}
 
 void read_stock(Draft& draft) {
   auto& drawing = draft.drawing();
   auto& stock = drawing.stock;
   Reader r = draft.root.object("stock");
-  stock.kind = r.choice<part::StockKind>(
-      "kind", {{"bar", part::StockKind::bar}, {"tube", part::StockKind::tube}});
-  stock.outer_mm = r.number(outer_key(stock), kSize);
+  stock.kind = r.choice<part::StockKind>("kind", stock_kinds());
+  stock.outer_mm = outer_mm(stock.kind, r.number(outer_key(stock.kind), kSize));
   if (stock.kind == part::StockKind::tube) stock.inner_mm = r.number("inner_mm", kSize);
   stock.length_mm = r.number("length_mm", kSize);
   if (r.has("left_allowance_mm")) {
@@ -76,6 +124,7 @@ void read_stock(Draft& draft) {
   stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));
   draft.plan().stock_price = r.number_or("price", within(0, 1e9), 0);
   r.finish();
+  assume_corners(draft, stock);
   check_diameters(r, draft, drawing);
   check_length(r, draft, drawing);
 }

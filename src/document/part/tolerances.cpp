@@ -255,7 +255,7 @@ void assume_sizes(Draft& draft, std::vector<Element>& elements, const std::strin
   for (std::size_t i = 0; i < elements.size(); ++i) {
     auto& e = elements[i];
     const double size_mm = std::min(e.left_mm, e.right_mm);
-    if (e.limits || e.cut || !(size_mm > 0)) continue;
+    if (e.limits || e.cut || part::stays(e) || !(size_mm > 0)) continue;
     try {
       e.limits = tolerance::general_limits_mm(size_mm, linear);
     } catch (const std::domain_error&) {

@@ -74,9 +74,10 @@ ordered_json json_of(const Element& e, const char* side, double z_mm,
   const part::Ends ends = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   ordered_json out{{"id", e.id},
                    {"side", side},
-                   {"kind", e.cut      ? kind(e.cut->kind)
-                            : cylinder ? "cylinder"
-                                       : "cone"},
+                   {"kind", part::stays(e) ? "as-stock"
+                            : e.cut        ? kind(e.cut->kind)
+                            : cylinder     ? "cylinder"
+                                           : "cone"},
                    {"z_mm", {z_mm, z_mm + e.length_mm}},
                    {"diameters_mm", {ends.left_mm, ends.right_mm}}};
   if (e.cut && e.cut->kind == part::CutKind::thread) out["pitch_mm"] = e.cut->pitch_mm;
@@ -158,6 +159,10 @@ ordered_json drawing(const PreparedDocument& prepared) {
        {-d.stock.left_allowance_mm, d.stock.length_mm - d.stock.left_allowance_mm}},
       {"outer_mm", d.stock.outer_mm},
       {"inner_mm", d.stock.inner_mm}};
+  if (const int n = part::flats(d.stock.kind); n > 0) {
+    out["stock"]["flats"] = n;
+    out["stock"]["across_flats_mm"] = part::across_mm(d.stock);
+  }
   out["elements"] = elements(part);
   out["faces"] = faces(part);
   out["tolerances"] = ordered_json::array();

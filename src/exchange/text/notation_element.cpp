@@ -7,12 +7,13 @@
 namespace turnwright::exchange::notated {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Shape>, 5> kShapes{
+constexpr std::array<std::pair<std::string_view, Shape>, 6> kShapes{
     {{"cone", Shape::cone},
      {"arc", Shape::arc},
      {"groove", Shape::groove},
      {"thread", Shape::thread},
-     {"hole", Shape::hole}}};
+     {"hole", Shape::hole},
+     {"stock", Shape::as_stock}}};
 
 std::optional<Shape> shape_word(Word word) {
   for (const auto& [name, shape] : kShapes)
@@ -87,6 +88,8 @@ class ElementWords {
     const bool cylinder = e().shape == Shape::cylinder;
     if (!ends && (cylinder || e().shape == Shape::thread) && take(rest, {"m"}))
       return read_thread(word, rest);
+    if (!ends && e().shape == Shape::as_stock && take_flats(rest))
+      return read_across(word, rest);
     if (!ends && e().shape != Shape::thread && take_d(rest))
       return read_diameters(word, rest);
     return head_mistake(word);
@@ -99,11 +102,27 @@ class ElementWords {
     if (e().shape == Shape::thread) wanted = "a thread like M24x1.5 or 1/2-13 UNC";
     if (e().shape == Shape::groove)
       wanted = "the diameter of the groove's floor like d26";
+    if (e().shape == Shape::as_stock)
+      wanted = "the bar that stays like d50, hex27 or square20";
     if (e().shape == Shape::hole) wanted = "the diameter of the hole like d8";
     if (e().shape == Shape::cone || e().shape == Shape::arc)
       wanted = "the diameters at both ends like d30-d40";
     mistakes_.add(word, wanted);
     return false;
+  }
+
+  bool take_flats(Word& rest) {
+    e().flats = take(rest, {"hex"}) ? 6 : take(rest, {"square"}) ? 4 : 0;
+    return e().flats > 0;
+  }
+
+  bool read_across(Word word, Word rest) {
+    if (rest.empty() && next_ < words_.size()) rest = words_[next_++];
+    const auto across = take_number(rest);
+    if (!across) return head_mistake(word);
+    e().left_mm = e().right_mm = *across;
+    return in_range(word, *across, kLargest_mm, "mm", mistakes_) &&
+           read_glued(word, rest);
   }
 
   bool read_inch(const part::InchThread& inch) {
@@ -182,6 +201,10 @@ class ElementWords {
   void read_demand(Word word) {
     Word rest = word;
     if (take(rest, {"x", "×"})) return read_length(word, rest);
+    if (e().shape == Shape::as_stock)
+      return mistakes_.add(word,
+                           "a length like x 20 alone: what stays as the bar is has no "
+                           "fit, limits or roughness");
     if (take_roughness(word, e().demands, mistakes_)) return;
     if (take(rest, {"grind"})) return read_grinding(word, rest);
     if (e().shape == Shape::arc && read_arc(word)) return;

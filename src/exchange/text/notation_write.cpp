@@ -55,6 +55,10 @@ std::string shape_text(const Element& e) {
       return fmt::format("groove {}", d);
     case Shape::hole:
       return fmt::format("hole {}", d);
+    case Shape::as_stock:
+      if (e.flats == 0) return fmt::format("stock {}", d);
+      return fmt::format("stock {}{}", e.flats == 6 ? "hex" : "square",
+                         digits(e.left_mm));
     case Shape::thread:
       break;
   }

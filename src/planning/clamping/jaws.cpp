@@ -8,9 +8,10 @@ namespace turnwright::planning {
 
 double grip_diameter_mm(const PreparedPart& p, std::size_t s, Clamping clamping) {
   if (clamping == Clamping::between_centres) return 0;
-  if (s == 0) return p.drawing.stock.outer_mm;
+  const double stock = part::across_mm(p.drawing.stock);
+  if (s == 0) return stock;
   const auto& e = p.drawing.outer;  // the smallest diameter between the jaws
-  double d = p.drawing.stock.outer_mm;
+  double d = stock;
   for (std::size_t i = 0; i < e.size(); ++i) {
     const double z0 = part::left_z_mm(p.drawing, i), z1 = z0 + e[i].length_mm;
     if (holds_left(p, s) ? z0 < jaws_z_mm(p, s) - 1e-9 : z1 > jaws_z_mm(p, s) + 1e-9)

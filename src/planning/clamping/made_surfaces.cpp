@@ -7,7 +7,9 @@
 namespace turnwright::planning {
 
 Finished nothing_finished(const part::Drawing& d) {
-  return {std::vector<bool>(d.outer.size()), std::vector<bool>(d.inner.size())};
+  Finished none{std::vector<bool>(d.outer.size()), std::vector<bool>(d.inner.size())};
+  for (std::size_t i = 0; i < d.outer.size(); ++i) none.outer[i] = d.outer[i].as_stock;
+  return none;
 }
 
 void finish(Finished& finished, const SetupWork& work) {

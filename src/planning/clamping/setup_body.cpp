@@ -13,11 +13,12 @@ SetupBody::SetupBody(const PreparedPart& p, std::size_t s, Clamping clamping,
       sign_(holds_left(p, s) ? 1 : -1),
       length_(sign_ * (free_z_mm(p, s) - root_z_)) {
   const auto& d = p.drawing;
-  const double stock = d.stock.outer_mm, far = 1e9;
+  const double stock = part::across_mm(d.stock), far = 1e9;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const double z0 = part::left_z_mm(d, i);
     const auto& e = d.outer[i];
-    const auto made = finished.outer[i] ? part::core(e) : part::Ends{stock, stock};
+    const bool turned = finished.outer[i] && !e.as_stock;
+    const auto made = turned ? part::core(e) : part::Ends{stock, stock};
     outer_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
   outer_.push_back({-far, 0, stock, stock});

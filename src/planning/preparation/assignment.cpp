@@ -243,6 +243,7 @@ Assignment assign(const PreparedPart& p) {
   a.setups.resize(p.setups.size());
   const auto& outer = p.drawing.outer;
   for (std::size_t i = 0; i < outer.size(); ++i) {
+    if (outer[i].as_stock) continue;
     const auto can = [&](std::size_t s) {
       return reachable(p, s, i) && cleared(p, s, i) && before_jaws(p, s, i).enough();
     };

@@ -91,7 +91,7 @@ std::optional<std::size_t> alone_in(const PreparedPart& p,
                                     const std::vector<SetupWork>& setups,
                                     const Element& e, End end) {
   if (neighbour(p.drawing, e, end)) return std::nullopt;
-  bool made = false;
+  bool made = !e.inner && p.drawing.outer[e.index].as_stock;
   for (std::size_t s = 0; s < setups.size(); ++s) {
     if (made && free_end(p, s) == end && !(front_mm(p, s, setups[s]) > 0)) return s;
     made = made || makes(setups[s], e);

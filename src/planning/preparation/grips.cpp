@@ -16,8 +16,10 @@ constexpr double kDigit_mm = 0.1;
 
 // What the jaws hold: the stock first, finished ends afterwards.
 double held_mm(const part::Drawing& d, std::size_t setup, part::End hold) {
-  if (setup == 0) return d.stock.outer_mm;
-  return hold == part::End::left ? d.outer.front().left_mm : d.outer.back().right_mm;
+  const double stock = part::across_mm(d.stock);
+  if (setup == 0) return stock;
+  return std::min(
+      stock, hold == part::End::left ? d.outer.front().left_mm : d.outer.back().right_mm);
 }
 
 double usual_mm(const PlanRequest& r, std::size_t s) {

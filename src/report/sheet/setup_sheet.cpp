@@ -54,8 +54,11 @@ std::string stock(const PreparedPart& p, std::size_t setup) {
     return fmt::format(
         "the part from setup {}{}", setup,
         p.setups[setup].hold == p.setups[setup - 1].hold ? "" : ", turned round");
-  auto text = (s.kind == part::StockKind::tube ? "tube \u00d8" : "bar \u00d8") +
-              plain(s.outer_mm);
+  auto text = (s.kind == part::StockKind::tube      ? "tube \u00d8"
+               : s.kind == part::StockKind::hexagon ? "hexagon bar "
+               : s.kind == part::StockKind::square  ? "square bar "
+                                                    : "bar \u00d8") +
+              plain(part::across_mm(s));
   if (s.inner_mm > 0) text += "/\u00d8" + plain(s.inner_mm);
   return text + " \u00d7 " + plain(s.length_mm) + " mm";
 }

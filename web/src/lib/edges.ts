@@ -44,7 +44,8 @@ export interface Place {
   thread?: boolean;
 }
 
-const turned = (e: Element | undefined) => ['cylinder', 'thread', 'hole'].includes(String(e?.kind));
+const turned = (e: Element | undefined) => ['cylinder', 'thread', 'hole', 'as-stock'].includes(String(e?.kind));
+const round = (e: Element) => ['cylinder', 'as-stock'].includes(String(e.kind));
 const is = (kind: string, ...all: Element[]) => all.some((e) => e.kind === kind);
 
 function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undefined {
@@ -52,7 +53,7 @@ function between(a: Element, b: Element, side: 'outer' | 'inner'): Place | undef
   if (is('arc', a, b) || left === right) return undefined;
   const stands = left > right === (side === 'outer') ? a : b, groove = is('groove', a, b);
   return {
-    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), radius: is('cylinder', stands) && !groove, fillet: !groove,
+    at: `${a.id}|${b.id}`, name: `${a.id} to ${b.id}`, chamfer: turned(stands), radius: round(stands) && !groove, fillet: !groove,
     undercut: side === 'outer' && !groove, thread: (stands === a ? b : a).kind === 'thread',
   };
 }
@@ -64,7 +65,7 @@ export function edgePlaces(part: Part): Place[] {
   const steps = (list: Element[], side: 'outer' | 'inner') =>
     list.slice(1).map((e, i) => (apart(list[i], e) ? undefined : between(list[i], e, side))).filter((p) => p !== undefined);
   const end = (at: string, e: Element | undefined, name: string): Place[] =>
-    turned(e) ? [{ at, name, chamfer: true, radius: is('cylinder', e!), fillet: false, undercut: false }] : [];
+    turned(e) ? [{ at, name, chamfer: true, radius: round(e!), fillet: false, undercut: false }] : [];
   const mouth = (side: 'left' | 'right') =>
     mouths(part).filter((m) => m.end === side)
       .flatMap(({ bore }) => end(`${side}|${bore.id}`, bore, `bore ${bore.id} at the ${side}`));

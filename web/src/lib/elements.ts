@@ -3,7 +3,7 @@
 import type { Part } from './types';
 
 export type Side = 'outer' | 'inner';
-export type Kind = 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole';
+export type Kind = 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole' | 'as-stock';
 
 /** An entry of `outer` or `inner`; what the planner has written may be anything. */
 // eslint-disable-next-line @typescript-eslint/no-explicit-any
@@ -16,13 +16,23 @@ export interface Edit {
 }
 
 export const kinds: Record<Side, Kind[]> = {
-  outer: ['cylinder', 'cone', 'arc', 'groove', 'thread'],
+  outer: ['cylinder', 'cone', 'arc', 'groove', 'thread', 'as-stock'],
   inner: ['cylinder', 'cone', 'groove', 'thread', 'hole'],
 };
 
-/** The entries of a list of the document; none where it is something else. */
+/** Across the flats of a bar over the circle through its corners. */
+const flat: Record<string, number> = { hexagon: Math.cos(Math.PI / 6), square: Math.cos(Math.PI / 4) };
+
+/** The outer diameter of a part's stock, through the corners of one that has them. */
+export function outerOfStock(part: Part): number | undefined {
+  const s = part.stock, size = flat[s?.kind] ? s.across_flats_mm / flat[s.kind] : (s?.diameter_mm ?? s?.outer_mm);
+  return Number.isFinite(size) ? size : undefined;
+}
+
+/** The entries of a list of the document; none where it is something else. What stays as the stock is has its diameter. */
 export const entries = (part: Part, name: string): Element[] =>
-  Array.isArray(part[name]) ? part[name].filter((e) => e !== null && typeof e === 'object') : [];
+  (Array.isArray(part[name]) ? part[name].filter((e) => e !== null && typeof e === 'object') : [])
+    .map((e: Element) => (name === 'outer' && e.kind === 'as-stock' ? { ...e, diameter_mm: outerOfStock(part) } : e));
 
 /** Names that are taken, by elements and by what is milled into them. */
 const taken = (part: Part) =>
@@ -147,6 +157,7 @@ const grooveDeep_mm = 1.5, grooveWide_mm = 3, finePitch_mm = 1.5;
 function shape(kind: Kind, side: Side, [left, right]: [number, number], length: number): Element {
   const mean = Number(((left + right) / 2).toFixed(3));
   switch (kind) {
+    case 'as-stock': return {};
     case 'cylinder': return { diameter_mm: left };
     case 'hole': return { diameter_mm: Math.round(mean) };
     case 'cone': return { left_mm: left, right_mm: left === right ? left + (side === 'outer' ? 4 : -2) : right };
@@ -161,6 +172,7 @@ export const grindable = (e: Element): boolean => ['cylinder', 'cone'].includes(
 
 /** What stays of an element as another kind: a class of ISO 286 where both have one. */
 function stays(key: string, from: Element, kind: Kind): boolean {
+  if (kind === 'as-stock') return ['id', 'length_mm'].includes(key);
   if (key === 'fit') return [from.kind, kind].every((k) => ['cylinder', 'hole'].includes(String(k)));
   return !shapes.includes(key) && (key !== 'grinding_allowance_mm' || grindable({ kind }));
 }
@@ -168,7 +180,7 @@ function stays(key: string, from: Element, kind: Kind): boolean {
 /** The same element as another kind; what only its old kind has is left out. */
 export function reshaped(part: Part, side: Side, index: number, kind: Kind): Part {
   const list = [...(part[side] as Element[])];
-  const e = list[index];
+  const e = entries({ ...part, [side]: [list[index]] }, side)[0];
   const rest = Object.fromEntries(Object.entries(e).filter(([key]) => stays(key, e, kind)));
   const known = ends(e).map((d) => (Number.isFinite(d) ? d : 20)) as [number, number];
   list[index] = { ...rest, kind, ...shape(kind, side, known, Number(e.length_mm) || 10) };

@@ -11,7 +11,7 @@ const least_mm = 1, facing_mm = 2, wall_mm = 1;
 
 const rounded = (mm: number) => Number(mm.toFixed(6));
 
-/** The next bar, or for a tube the next ring, with 2 mm to face at each end. */
+/** The next bar, or for a tube the next ring, with 2 mm to face at each end; one that an element keeps, or that has corners, as wide as it is. */
 export function fitting(part: Part): Part | undefined {
   const outer = entries(part, 'outer');
   const length = outer.reduce((sum, e) => sum + Number(e.length_mm), 0);
@@ -20,6 +20,7 @@ export function fitting(part: Part): Part | undefined {
   const wanted = largest + least_mm;
   const diameter = bars_mm.find((d) => d >= wanted) ?? 10 * Math.ceil(wanted / 10);
   const rest = { length_mm: rounded(length + 2 * facing_mm), left_allowance_mm: facing_mm };
+  if (outer.some((e) => e.kind === 'as-stock') || !['bar', 'tube', undefined].includes(part.stock?.kind)) return rest;
   if (part.stock?.kind !== 'tube') return { kind: 'bar', diameter_mm: diameter, ...rest };
   const bores = entries(part, 'inner').flatMap(ends).filter(Number.isFinite);
   const inner = bores.length ? Math.min(...bores) - 2 * wall_mm : part.stock.inner_mm;

@@ -14,7 +14,7 @@ export type Pair = [number, number];
 export interface Surface {
   id: string;
   side: 'outer' | 'inner';
-  kind: 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole';
+  kind: 'cylinder' | 'cone' | 'arc' | 'groove' | 'thread' | 'hole' | 'as-stock';
   z_mm: Pair;
   diameters_mm: Pair;
   /** Of a chamfer: along the axis and on the radius. */
@@ -67,7 +67,7 @@ export interface DrawnSetup {
 export interface Drawing {
   name: string;
   length_mm: number;
-  stock: { z_mm: Pair; outer_mm: number; inner_mm: number };
+  stock: { z_mm: Pair; outer_mm: number; inner_mm: number; flats?: number; across_flats_mm?: number };
   elements: Surface[];
   faces: Face[];
   tolerances: DrawnTolerance[];

@@ -34,6 +34,8 @@ test('stock is what import takes for the same contour', () => {
   assert.deepEqual(fitting(part), { kind: 'bar', diameter_mm: 52, length_mm: 76, left_allowance_mm: 2 });
   assert.equal(fitting(shaft(10, 300)).diameter_mm, 310);
   assert.equal(fitting({}), undefined);
+  const kept = { stock: { kind: 'bar', diameter_mm: 30 }, outer: [{ id: 'd1', kind: 'as-stock', length_mm: 10 }, { id: 'd2', kind: 'cylinder', length_mm: 5, diameter_mm: 20 }] };
+  assert.deepEqual(fitting(kept), { length_mm: 19, left_allowance_mm: 2 });
   assert.equal(fitting(shaft(NaN, 20)), undefined);
 });
 

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { load, part, projectFile } from './load.mjs';
 
-const { ends, freshId, grindable, inserted, moved, places, removed, renamed, reshaped, threaded } = await load('elements');
+const { ends, entries, freshId, grindable, inserted, moved, places, removed, renamed, reshaped, threaded } = await load('elements');
 
 const stepped = () => ({
   own: { kept: true },
@@ -99,6 +99,15 @@ test('what turning leaves for grinding goes with the kinds that the planner lets
       for (const key of Object.keys(next)) assert.ok(key in of.properties || (side === 'outer' && key === 'from'), `${kind}: ${key}`);
       assert.equal(next.grinding_allowance_mm, grindable({ kind }) ? 0.3 : undefined);
     }
+});
+
+test('what stays as the stock is has its diameter, through the corners of a hexagon, and nothing else of its own', () => {
+  const bar = { stock: { kind: 'hexagon', across_flats_mm: 27 }, outer: [{ id: 'd1', kind: 'cylinder', length_mm: 8, diameter_mm: 20, fit: 'h7', Ra_um: 1.6 }] };
+  const kept = reshaped(bar, 'outer', 0, 'as-stock');
+  assert.deepEqual(kept.outer[0], { id: 'd1', kind: 'as-stock', length_mm: 8 });
+  assert.ok(Math.abs(ends(entries(kept, 'outer')[0])[0] - 31.1769) < 1e-4);
+  assert.equal(ends(entries({ ...kept, stock: { kind: 'bar', diameter_mm: 30 } }, 'outer')[0])[0], 30);
+  assert.equal(Math.round(reshaped(kept, 'outer', 0, 'cylinder').outer[0].diameter_mm), 31);
 });
 
 test('a hole that was bored keeps its class', () => {

@@ -34,7 +34,9 @@ const aside = [20, 32, 10, 46, 62, 80, 100];
 const outwards = { left: aside.map((px) => -px), right: aside, '': [0, ...aside.flatMap((px) => [px, -px])] };
 
 /** A size with the limits that the document itself gives; general ones stand in the title block. */
-function ownSize(part: Part, e: Surface): string {
+function ownSize(part: Part, drawing: Drawing, e: Surface): string {
+  const { flats, across_flats_mm } = drawing.stock;
+  if (e.kind === 'as-stock' && across_flats_mm) return `${flats === 6 ? 'hex' : 'sq'} ${lengthText(across_flats_mm)}`;
   const asked = entries(part, e.side).find((own) => own.id === e.id);
   return sizeText(asked?.limits_mm ? e : { ...e, limits_mm: undefined });
 }
@@ -48,7 +50,7 @@ function sizes(part: Part, drawing: Drawing): Unplaced[] {
     const straight = e.kind !== 'cone' && e.kind !== 'arc', outer = e.side === 'outer';
     const [a, b] = radii(e), r = straight ? a : (a + b) / 2;
     return {
-      id: e.id, text: ownSize(part, e), rank: e.z_mm[1] - e.z_mm[0] < narrow * drawing.length_mm ? 0 : 1, r,
+      id: e.id, text: ownSize(part, drawing, e), rank: e.z_mm[1] - e.z_mm[0] < narrow * drawing.length_mm ? 0 : 1, r,
       ...(straight ? { over: e.z_mm, share: outer ? 0.3 : 0.72 } : { at: (e.z_mm[0] + e.z_mm[1]) / 2, asides: outwards[''] }),
       kind: outer && straight ? 'diameter' : outer ? 'leader' : 'bore', until: outer ? (straight ? -r : r) : -0.12 * r,
     };

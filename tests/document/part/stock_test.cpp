@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../test_catalogue.hpp"
+#include "turnwright/base/errors.hpp"
+#include "turnwright/document/part_plan.hpp"
+#include "turnwright/planning/quote.hpp"
+
+namespace turnwright::document::stock_test {
+namespace {
+
+using nlohmann::json;
+
+/// A spigot before a head that stays as a hexagon bar of 27 mm is.
+json fitting() {
+  return json::parse(R"({
+    "material": "test-steel",
+    "stock": {"kind": "hexagon", "across_flats_mm": 27, "length_mm": 60},
+    "outer": [{"id": "head", "kind": "as-stock", "length_mm": 20},
+              {"id": "spigot", "kind": "cylinder", "length_mm": 30, "diameter_mm": 20,
+               "fit": "h9"}],
+    "general": "ISO 2768-mK"})");
+}
+
+part::Drawing read(const json& document) {
+  return load_part_plan(document, test_catalogue(), "t").plan.drawing;
+}
+
+std::string refusal(const json& document) {
+  try {
+    read(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// A hexagon of 27 mm across flats is 2/sqrt(3) wider through its corners and has an area of
+// sqrt(3)/2 s^2; a square sqrt(2) and s^2.
+TEST(Stock, OfBarsWithCornersIsKnownAcrossFlats) {
+  auto document = fitting();
+  const auto hexagon = read(document).stock;
+  EXPECT_NEAR(hexagon.outer_mm, 27 * 2 / std::sqrt(3), 1e-12);
+  EXPECT_NEAR(part::across_mm(hexagon), 27, 1e-12);
+  EXPECT_NEAR(part::section_mm2(hexagon), std::sqrt(3) / 2 * 27 * 27, 1e-9);
+
+  document["stock"]["kind"] = "square";
+  const auto square = read(document).stock;
+  EXPECT_NEAR(square.outer_mm, 27 * std::sqrt(2), 1e-12);
+  EXPECT_NEAR(part::section_mm2(square), 27 * 27, 1e-9);
+}
+
+TEST(Stock, AnElementKeepsItUncutAndWithoutTolerances) {
+  const auto d = read(fitting());
+  ASSERT_TRUE(d.outer[0].as_stock);
+  EXPECT_EQ(d.outer[0].left_mm, d.stock.outer_mm);
+  const auto is_of_head = [](const part::Tolerance& t) { return t.of == "head"; };
+  EXPECT_TRUE(std::ranges::none_of(d.tolerances, is_of_head));
+  EXPECT_FALSE(d.outer[0].limits);
+}
+
+TEST(Stock, WhatKeepsItHasNoDemandsOfItsOwn) {
+  auto document = fitting();
+  document["outer"][0]["diameter_mm"] = 27;
+  EXPECT_EQ(refusal(document), "t: /outer/0/diameter_mm: got 27, expected no such key");
+  document = fitting();
+  document["tolerances"] = {
+      {{"id", "r"}, {"kind", "circularity"}, {"of", "head"}, {"value_mm", 0.01}}};
+  EXPECT_NE(refusal(document).find("/tolerances/0/of"), std::string::npos)
+      << refusal(document);
+  document = fitting();
+  document["inner"] = {
+      {{"id", "b"}, {"kind", "as-stock"}, {"from", "right"}, {"length_mm", 10}}};
+  EXPECT_NE(refusal(document).find("/inner/0/kind"), std::string::npos)
+      << refusal(document);
+}
+
+TEST(Stock, WithCornersRunsInNoRestAndOtherElementsAreSmaller) {
+  auto document = fitting();
+  document["outer"][1]["diameter_mm"] = 31.2;
+  EXPECT_EQ(refusal(document),
+            "t: /stock/across_flats_mm: got 27, expected more than the largest element, "
+            "31.2 mm");
+  document = fitting();
+  document["setups"] = {
+      {{"hold", "left"}, {"clampings", {"chuck-steady"}}, {"steady_mm", 45}}};
+  EXPECT_NE(refusal(document).find("no rest, which runs on no bar with corners"),
+            std::string::npos)
+      << refusal(document);
+}
+
+TEST(Stock, ThatIsMissingIsToldOnce) {
+  auto document = fitting();
+  document["stock"].erase("across_flats_mm");
+  EXPECT_EQ(
+      refusal(document),
+      "t: /stock/across_flats_mm: got nothing, expected a number > 0 and <= 20000 mm");
+}
+
+}  // namespace
+}  // namespace turnwright::document::stock_test
