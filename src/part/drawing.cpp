@@ -155,6 +155,23 @@ Chamfer roughed(const Chamfer& c) {
   return straight;
 }
 
+std::vector<InnerShoulder> inner_shoulders(const Drawing& d) {
+  std::vector<InnerShoulder> all;
+  for (std::size_t a = 0; a < d.inner.size(); ++a)
+    for (std::size_t b = 0; b < d.inner.size(); ++b) {
+      const auto &left = d.inner[a], &right = d.inner[b];
+      const double z = inner_left_z_mm(d, b);
+      if (a == b || std::abs(inner_left_z_mm(d, a) + left.length_mm - z) > kSame_mm ||
+          is_groove(left) || is_groove(right) ||
+          std::abs(left.right_mm - right.left_mm) <= kSame_mm)
+        continue;
+      const std::size_t wider = left.right_mm > right.left_mm ? a : b;
+      const std::size_t narrower = wider == a ? b : a;
+      all.push_back({d.inner[wider].id + '|' + d.inner[narrower].id, wider, narrower, z});
+    }
+  return all;
+}
+
 bool fits_countersink(const Chamfer& c, double point_deg) {
   if (c.round) return false;
   constexpr double kSame_deg = 1e-6;

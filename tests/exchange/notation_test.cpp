@@ -418,6 +418,7 @@ class Chance {
                .z_mm = one_in(2) ? 0 : size(),
                .length_mm = size(),
                .depth_mm = size(),
+               .count = one_in(3) ? 6 : 1,
                .angle_deg = one_in(2) ? 0 : -size()};
       if (m.kind != flat) m.width_mm = size();
       o.milled.push_back(m);

@@ -185,13 +185,17 @@ async function piston() {
   await add('cylinder', '10', '63', 'f7');
   await page.getByText('Bores, from their end inwards').click();
   await press(page, 'Add a bore from the right');
-  await types(page, '12', '35', '', '3.2'); // its bottom is a face in the bore
+  await types(page, '12', '35', '', '3.2');
   await press(page, 'Add a bore from the right');
   await types(page, '50', '25', 'H7', '1.6');
   await press(page, 'Chamfer at bore b1 at the right');
   await write(page, 'Batch [parts]', '20');
   await drawn(page);
+  await page.getByText('Faces', { exact: false }).last().click();
+  await write(page, 'Ra of face b1|b2 [µm]', '3.2'); // the bottom of the counterbore
+  await drawn(page);
   const part = await documentOf(page);
+  assert.deepEqual(part.faces, [{ id: 'b1|b2', Ra_um: 3.2 }]);
   assert.deepEqual(part.outer.map((e) => [e.kind, e.length_mm, e.diameter_mm]), [
     ['cylinder', 10, 63], ['groove', 6.3, 53], ['cylinder', 29.4, 63], ['groove', 6.3, 53], ['cylinder', 10, 63]]);
   assert.deepEqual(part.edges, [{ at: 'right|b1', chamfer_mm: 1 }]);

@@ -23,7 +23,7 @@
 ///     face      = face FACE (Ra N | Rz N) ..                 face d1|d2 Ra1.6
 ///     tolerance = KIND OF [to DATUM] N                       cylindricity d2 0.008
 ///               | diameter ELEMENT limits | length FACE to FACE limits
-///     milled    = (keyway | slot) WxTxL on ELEMENT at Z [angle A] | flat TxL on ..
+///     milled    = (keyway | slot) WxTxL on ELEMENT at Z [angle A] [times N] | flat TxL on ..
 ///     centre    = centre (left | right) (A | B | R) D/D          centre right A4/8.5
 ///     title     = (name | material | general | drawing | revision | customer): TEXT
 ///

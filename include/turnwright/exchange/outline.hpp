@@ -71,6 +71,7 @@ struct Milled {
   double z_mm = 0, length_mm = 0;
   double width_mm = 0;  ///< not of a flat
   double depth_mm = 0;  ///< below the cylinder's rim
+  int count = 1;        ///< of such places at equal angles
   double angle_deg = 0;
   std::vector<std::string> sources = {};
 };

@@ -274,6 +274,15 @@ bool leaves_part(const Drawing& drawing, std::size_t inner);
 /// Diameter [mm] of the narrowest bore through which the i-th one is reached from its end;
 /// infinite at the end itself.
 double way_in_mm(const Drawing& drawing, std::size_t i);
+/// The shoulder between two bores that meet: "b1|b2" by the wider and the narrower one.
+struct InnerShoulder {
+  std::string id;
+  std::size_t wider = 0, narrower = 0;  ///< inner elements
+  double z_mm = 0;
+};
+/// The shoulders between bores of different diameters that no groove is beside.
+std::vector<InnerShoulder> inner_shoulders(const Drawing& drawing);
+
 /// Whether a countersink of a point angle cuts a chamfer.
 bool fits_countersink(const Chamfer& chamfer, double point_deg);
 

@@ -108,6 +108,8 @@ const char* name(MilledKind kind);
 /// axis crosses that of the part at a right angle, and which is fed along the part.
 struct Milled {
   std::string id;
+  std::size_t entry =
+      0;  ///< of the list that asks for it, which may ask for several alike
   MilledKind kind = MilledKind::keyway;
   std::size_t element = 0;          ///< of drawing.outer
   double z_mm = 0, length_mm = 0;   ///< left end, along the part; rounded ends included

@@ -87,6 +87,7 @@ ordered_json milled(const exchange::Milled& m) {
                    {"length_mm", m.length_mm}};
   if (m.kind != exchange::Milled::Kind::flat) out["width_mm"] = m.width_mm;
   out["depth_mm"] = m.depth_mm;
+  if (m.count > 1) out["count"] = m.count;
   if (m.angle_deg != 0) out["angle_deg"] = m.angle_deg;
   return out;
 }

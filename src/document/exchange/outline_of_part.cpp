@@ -125,7 +125,15 @@ part::Tolerance tolerance_of(const json& object) {
   return t;
 }
 
-exchange::Milled milled_of(const json& object) {
+// Of flats by their width across, below the rim of the element they are on.
+double depth_mm(const json& object, const Outline& o) {
+  if (const auto depth = number_of(object, "depth_mm")) return *depth;
+  const double across = *number_of(object, "across_flats_mm");
+  const auto on = std::ranges::find(o.outer, text_of(object, "on"), &Element::id);
+  return on == o.outer.end() ? 0 : (on->left_mm - across) / 2;
+}
+
+exchange::Milled milled_of(const json& object, const Outline& o) {
   using enum exchange::Milled::Kind;
   const auto k = text_of(object, "kind");
   return {.id = text_of(object, "id"),
@@ -136,7 +144,8 @@ exchange::Milled milled_of(const json& object) {
           .z_mm = *number_of(object, "z_mm"),
           .length_mm = *number_of(object, "length_mm"),
           .width_mm = number_of(object, "width_mm").value_or(0),
-          .depth_mm = *number_of(object, "depth_mm"),
+          .depth_mm = depth_mm(object, o),
+          .count = object.value("count", 1),
           .angle_deg = number_of(object, "angle_deg").value_or(0)};
 }
 
@@ -159,7 +168,7 @@ Outline outline_of_part(const json& d) {
   for (const auto& f : list_of(d, "faces"))
     o.faces.push_back({.id = text_of(f, "id"), .demands = demands_of(f)});
   for (const auto& t : list_of(d, "tolerances")) o.tolerances.push_back(tolerance_of(t));
-  for (const auto& m : list_of(d, "milling")) o.milled.push_back(milled_of(m));
+  for (const auto& m : list_of(d, "milling")) o.milled.push_back(milled_of(m, o));
   for (const auto& c : list_of(d, "centre_holes"))
     o.centre_holes.push_back(
         {text_of(c, "at") == "left" ? part::End::left : part::End::right,

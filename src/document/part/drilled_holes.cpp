@@ -66,11 +66,21 @@ bool is_thread(const part::InnerElement& e) {
   return e.cut && e.cut->kind == part::CutKind::thread;
 }
 
-// Without other edges than chamfers that countersinks cut.
+// Whether the drawing asks for the roughness of the shoulder where a bore ends.
+bool has_smooth_shoulder(const part::Drawing& d, std::size_t i) {
+  return std::ranges::any_of(part::inner_shoulders(d), [&](const auto& s) {
+    return s.wider == i &&
+           std::ranges::find(d.faces, s.id, &part::Face::id) != d.faces.end();
+  });
+}
+
+// Without other edges than chamfers that countersinks cut, and without a shoulder of its
+// own roughness.
 bool plain(const Draft& draft, std::size_t i) {
-  const auto& e = draft.loaded.plan.drawing.inner[i];
-  return e.kind == part::ElementKind::cylinder && !e.left_fillet_mm &&
-         !e.right_fillet_mm && can_be_countersunk(draft, i);
+  const auto& d = draft.loaded.plan.drawing;
+  const auto& e = d.inner[i];
+  return !has_smooth_shoulder(d, i) && e.kind == part::ElementKind::cylinder &&
+         !e.left_fillet_mm && !e.right_fillet_mm && can_be_countersunk(draft, i);
 }
 
 // Indices of the bores of an end of a bar, outermost first.

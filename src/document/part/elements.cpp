@@ -171,16 +171,34 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
   }
 }
 
+// The shoulder between bores of this name.
+std::optional<part::InnerShoulder> wall_of(const part::Drawing& d,
+                                           const std::string& id) {
+  for (const auto& s : part::inner_shoulders(d))
+    if (id == s.id || id == d.inner[s.narrower].id + '|' + d.inner[s.wider].id) return s;
+  return std::nullopt;
+}
+
 void read_faces(Draft& draft) {
   std::vector<std::string> known;
-  for (const auto& named : features(draft.drawing()))
-    if (named.feature == Feature::face) known.push_back(named.id);
+  const auto& d = draft.drawing();
+  for (const auto& named : features(d))
+    if (named.feature == Feature::face || named.feature == Feature::wall)
+      known.push_back(named.id);
   auto& faces = draft.drawing().faces;
   for (Reader r : draft.root.optional_items("faces", 0, 200)) {
     r = r.as_object();
     part::Face face;
     face.id =
         checked_reference(r.at("id", "the id of a face"), known, "a face of the part");
+    if (const auto wall = wall_of(d, face.id)) {
+      face.id = wall->id;
+      if (part::is_hole(d.inner[wall->wider]))
+        r.problem_at("id",
+                     "the shoulder of a bore that is bored: none of what a drill makes "
+                     "is predicted",
+                     "unsupported");
+    }
     for (const auto& earlier : faces)
       if (!face.id.empty() && earlier.id == face.id)
         r.problem_at("id", "each face once", "duplicate");
@@ -224,6 +242,11 @@ std::vector<NamedFeature> features(const part::Drawing& drawing) {
     const auto &before = drawing.outer[i - 1], &after = drawing.outer[i];
     if (before.right_mm != after.left_mm)
       out.push_back({before.id + '|' + after.id, Feature::face});
+  }
+  for (const auto& s : part::inner_shoulders(drawing)) {
+    out.push_back({s.id, Feature::wall});
+    out.push_back(
+        {drawing.inner[s.narrower].id + '|' + drawing.inner[s.wider].id, Feature::wall});
   }
   return out;
 }

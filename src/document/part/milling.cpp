@@ -30,6 +30,20 @@ deflection::Slot slot_of(const Milled& m, double diameter_mm) {
   return {m.width_mm, diameter_mm / 2 - m.depth_mm, units::rad_from_deg(m.angle_deg)};
 }
 
+// Depth of flats by the width across two that are opposite.
+double depth_of_flats(Reader& r, double D_mm, int count) {
+  const double across = r.number("across_flats_mm", above_up_to(0, 1000, "mm"));
+  if (r.has("depth_mm"))
+    r.problem_at("across_flats_mm", "depth_mm or across_flats_mm, not both", "conflict");
+  else if (count % 2 != 0)
+    r.problem_at("across_flats_mm", "an even count: each flat has one opposite",
+                 "conflict");
+  else if (across >= D_mm)
+    r.problem_at("across_flats_mm", "less than the diameter, " + mm_text(D_mm),
+                 "conflict");
+  return (D_mm - across) / 2;
+}
+
 // Checks that a place lies on its element, below its rim and above its hole.
 void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
   const auto& e = d.outer[m.element];
@@ -70,6 +84,7 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
     r.problem_at("length_mm", "at least its width, " + mm_text(m.width_mm), "conflict");
 }
 
+// Flats of one entry may meet in an edge, as those of a hexagon do.
 void check_others(const Draft& draft, Reader& r, const Milled& m) {
   for (const auto& feature : features(draft.loaded.plan.drawing))
     if (!m.id.empty() && feature.id == m.id)
@@ -78,7 +93,8 @@ void check_others(const Draft& draft, Reader& r, const Milled& m) {
     if (!m.id.empty() && other.id == m.id)
       r.problem_at("id", "an id no other milled place has", "duplicate");
     const double D = draft.loaded.plan.drawing.outer[m.element].left_mm;
-    if (other.element == m.element && other.z_mm < m.z_mm + m.length_mm &&
+    const bool own = other.entry == m.entry && m.kind == MilledKind::flat;
+    if (!own && other.element == m.element && other.z_mm < m.z_mm + m.length_mm &&
         m.z_mm < other.z_mm + other.length_mm &&
         meet(slot_of(m, D), slot_of(other, D), D))
       r.problem("a place that does not meet " + other.id, "conflict");
@@ -118,9 +134,22 @@ double margin(Draft& draft, Reader& r, const char* key, const Bounds& bounds,
   return r.number_or(key, bounds, fallback);
 }
 
-void read_place(Draft& draft, Reader r) {
+// The places of an entry: at equal angles about the axis, "k1-1", "k1-2" .. if they are
+// several.
+std::vector<Milled> places(const Milled& first, int count) {
+  std::vector<Milled> all(static_cast<std::size_t>(count), first);
+  for (int i = 0; count > 1 && i < count; ++i) {
+    auto& m = all[static_cast<std::size_t>(i)];
+    m.id += '-' + std::to_string(i + 1);
+    m.angle_deg += 360.0 * i / count;
+  }
+  return all;
+}
+
+void read_place(Draft& draft, Reader r, std::size_t entry) {
   r = r.as_object();
   Milled m;
+  m.entry = entry;
   m.id = read_id(r);
   const auto before = r.problems().list.size();
   m.kind =
@@ -135,8 +164,13 @@ void read_place(Draft& draft, Reader r) {
   m.length_mm = r.number("length_mm", above_up_to(0, 20000, "mm"));
   if (kind_known && m.kind != MilledKind::flat)
     m.width_mm = r.number("width_mm", above_up_to(0, 500, "mm"));
-  // Below the rim once it is ground.
-  m.depth_mm = r.number("depth_mm", above_up_to(0, 500, "mm")) + draft.ground(on) / 2;
+  const int count = static_cast<int>(r.optional_integer("count", 1, kPlaces).value_or(1));
+  const bool across =
+      kind_known && m.kind == MilledKind::flat && r.has("across_flats_mm");
+  m.depth_mm = across && e != outer.end() ? depth_of_flats(r, e->left_mm, count)
+               : across                   ? 0 * r.number("across_flats_mm", kSize)
+                        : r.number("depth_mm", above_up_to(0, 500, "mm"));
+  if (!across) m.depth_mm += draft.ground(on) / 2;  // below the rim once it is ground
   m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
   m.corner_mm = r.optional_number("corner_mm", within(0, 250, "mm"));
   if (r.has("tool"))
@@ -161,9 +195,11 @@ void read_place(Draft& draft, Reader r) {
   if (e == outer.end() || r.problems().list.size() > before) return;
   m.element = static_cast<std::size_t>(e - outer.begin());
   check_shape(draft.drawing(), r, m);
-  check_others(draft, r, m);
   if (setup) m.given_setup = static_cast<std::size_t>(*setup);
-  draft.plan().milled.push_back(std::move(m));
+  for (auto& one : places(m, count)) {
+    check_others(draft, r, one);
+    draft.plan().milled.push_back(std::move(one));
+  }
 }
 
 // Machines of the catalogue that mill.
@@ -185,7 +221,10 @@ void read_milling(Draft& draft) {
         "milling",
         "none: " + machine.id + " has no driven_tools, " + that_mill(draft.catalogue),
         "conflict");
-  for (const auto& item : items) read_place(draft, item);
+  for (std::size_t i = 0; i < items.size(); ++i) read_place(draft, items[i], i);
+  if (draft.plan().milled.size() > kPlaces)
+    draft.root.problem_at(
+        "milling", "at most " + std::to_string(kPlaces) + " places in all", "range");
 }
 
 }  // namespace turnwright::document

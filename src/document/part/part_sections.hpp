@@ -86,13 +86,16 @@ void read_what_if(Draft& draft);     // the form alone
 
 // Targets of cross-references.
 
-enum class Feature { cylinder, cone, face, fixed };  // fixed: a groove, thread or arc
+/// fixed: a groove, thread or arc, or what stays as the stock is; wall: a shoulder between
+/// bores, which the finishing pass of the wider one makes
+enum class Feature { cylinder, cone, face, fixed, wall };
 struct NamedFeature {
   std::string id;
   Feature feature;
 };
-/// Elements, then faces ("left", "right" and the shoulders).  Empty if an element's id
-/// could not be read, so that references cannot be checked.
+/// Elements, then faces ("left", "right", the outer and the inner shoulders, these by both
+/// orders of their bores).  Empty if an element's id could not be read, so that references
+/// cannot be checked.
 std::vector<NamedFeature> features(const part::Drawing& drawing);
 
 /// "limits_mm": deviations [lower, upper] of a size, lower < upper.

@@ -15,6 +15,12 @@ using Datum = part::DatumFeature;
 using Of = part::Toleranced;
 
 bool is_face(Feature feature) { return feature == Feature::face; }
+bool is_wall(Feature feature) { return feature == Feature::wall; }
+
+constexpr auto kOfWalls =
+    "an end or an outer shoulder: of a shoulder between bores, which the finishing pass "
+    "of "
+    "the wider one makes, only the roughness is predicted";
 
 std::vector<std::string> names(const std::vector<NamedFeature>& features,
                                bool (*wanted)(Feature)) {
@@ -126,11 +132,16 @@ class ToleranceReader {
   }
 
   void read_between(Reader& r, part::Tolerance& t) const {
-    const auto faces = names(features_, is_face);
+    const auto faces = names(features_, is_face), walls = names(features_, is_wall);
     const auto ends = r.items("between", 2, 2);
     if (ends.size() != 2) return;
-    for (std::size_t i = 0; i < 2; ++i)
-      t.between[i] = checked_reference(ends[i], faces, "a face of the part");
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (ends[i].json().is_string() &&
+          std::ranges::find(walls, ends[i].json().get<std::string>()) != walls.end())
+        ends[i].problem(kOfWalls, "unsupported");
+      else
+        t.between[i] = checked_reference(ends[i], faces, "a face of the part");
+    }
     if (t.between[0] == t.between[1] && !t.between[0].empty())
       r.problem_at("between", "two different faces", "conflict");
   }
@@ -144,6 +155,8 @@ class ToleranceReader {
                    "a surface that is turned, faced or bored: no tolerance is predicted "
                    "of what catalogue conditions make",
                    "unsupported");
+    else if (of.feature == Feature::wall)
+      r.problem_at("of", kOfWalls, "unsupported");
     else if (of.feature && !fits(facts.of, *of.feature))
       r.problem_at("of",
                    wanted_feature(facts.of) + std::string(" for ") + part::name(t.kind),

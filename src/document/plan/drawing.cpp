@@ -109,6 +109,7 @@ ordered_json faces(const PreparedPart& part) {
   for (std::size_t k = 1; k < d.outer.size(); ++k)
     ids.push_back(planning::shoulder_id(d, k));
   ids.push_back("right");
+  for (const auto& s : part::inner_shoulders(d)) ids.push_back(s.id);
   auto all = ordered_json::array();
   for (const auto& id : ids) {
     ordered_json face{{"id", id}, {"z_mm", planning::face_z_mm(d, id)}};

@@ -84,8 +84,9 @@ void add_milled_places(const LoadedPart& loaded, const planning::PreparedPart& p
   if (p.milled_places.empty()) return;
   Problems problems{.document = loaded.document};
   const auto items = Reader(loaded.json, problems).items("milling", 0, p.milled.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-    add_milled_place(p, p.milled_places[i], items[i], assumed);
+  for (std::size_t i = 0; i < p.milled_places.size(); ++i)
+    if (const auto entry = p.milled[i].entry; i == 0 || p.milled[i - 1].entry != entry)
+      add_milled_place(p, p.milled_places[i], items[entry], assumed);
   problems.throw_if_any();
 }
 

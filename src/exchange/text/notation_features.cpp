@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace turnwright::exchange::notated {
 namespace {
@@ -140,6 +141,15 @@ void read_tolerance(Rest rest, ToleranceKind kind, Features& out, Mistakes& mist
   out.tolerances.push_back(std::move(t));
 }
 
+bool take_count(Rest& rest, int& count) {
+  double value = 0;
+  if (!take_value(rest, "how often like times 6", value)) return false;
+  count = value >= 2 && value <= 100 && value == std::floor(value)
+              ? static_cast<int>(value)
+              : 0;
+  return count > 0 || rest.mistake("a whole number from 2 to 100 before this");
+}
+
 void read_milled(Rest rest, Milled::Kind kind, Features& out) {
   Milled m{.id = fmt::format("m{}", out.milled.size() + 1), .kind = kind, .on = {}};
   const bool flat = kind == Milled::Kind::flat;
@@ -162,6 +172,7 @@ void read_milled(Rest rest, Milled::Kind kind, Features& out) {
                       : rest.mistake("at and its left end along the part, like at 12"));
   if (read && rest.take("angle"))
     read = take_value(rest, "an angle like 90", m.angle_deg);
+  if (read && rest.take("times")) read = take_count(rest, m.count);
   if (read && rest.end()) out.milled.push_back(std::move(m));
 }
 

@@ -119,6 +119,7 @@ std::string milled_text(const Milled& m) {
   out += digits(m.depth_mm) + 'x' + digits(m.length_mm) + " on " + m.on + " at " +
          digits(m.z_mm);
   if (m.angle_deg != 0) out += " angle " + digits(m.angle_deg);
+  if (m.count > 1) out += fmt::format(" times {}", m.count);
   return out + '\n';
 }
 

@@ -208,13 +208,17 @@ MilledCase milled_case(const MilledSite& s, const MilledChoice& c,
   return k;
 }
 
+void name_after(const Milled& m, std::size_t setup, OperationPlan& operation) {
+  operation.id = fmt::format("s{}-mill-{}", setup + 1, m.id);
+  operation.on = {m.id};
+}
+
 AuxiliaryOperation milled_operation(const MilledSite& s, const MilledChoice& c,
                                     const MilledCase& k, double n, double fz) {
   AuxiliaryOperation o;
   auto& plan = o.plan;
   plan.kind = OperationKind::mill;
-  plan.id = fmt::format("s{}-mill-{}", s.setup + 1, s.m.id);
-  plan.on = {s.m.id};
+  name_after(s.m, s.setup, plan);
   plan.tool = c.cutter->id;
   Pass pass;
   pass.ap_mm = c.ap_mm(s.m);

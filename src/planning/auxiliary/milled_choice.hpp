@@ -62,6 +62,9 @@ catalogue::Range speeds_rpm(const PreparedPart& plan,
 MilledCase milled_case(const MilledSite& site, const MilledChoice& choice,
                        const cutting::SpeedRange& range);
 
+/// Names an operation after the place that it mills.
+void name_after(const Milled& place, std::size_t setup, OperationPlan& operation);
+
 /// The choice at a speed and feed, with its limits evaluated again.
 AuxiliaryOperation milled_operation(const MilledSite& site, const MilledChoice& choice,
                                     const MilledCase& c, double n_rpm, double fz_mm);

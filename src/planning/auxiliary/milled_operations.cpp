@@ -259,8 +259,21 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
 
 void add_milled(const PreparedPart& p, std::size_t setup, Clamping clamping,
                 const Economy& economy, AuxiliaryWork& out) {
-  for (const auto& m : p.milled_places)
-    if (m.setup.value_or(0) == setup) add(p, m, setup, clamping, economy, out);
+  const MilledPlace* before = nullptr;
+  bool made = false;
+  for (const auto& m : p.milled_places) {
+    if (m.setup.value_or(0) != setup) continue;
+    if (before && before->entry == m.entry) {  // alike but for the angle
+      if (!made) continue;
+      out.after.push_back(out.after.back());
+      name_after(m, setup, out.after.back().plan);
+      continue;
+    }
+    const auto operations = out.after.size();
+    add(p, m, setup, clamping, economy, out);
+    made = out.after.size() > operations;
+    before = &m;
+  }
 }
 
 void add_lobes(const PreparedPart& p, OperationPlan& o) {

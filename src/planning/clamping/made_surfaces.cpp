@@ -47,13 +47,22 @@ double face_stock_after_mm(const PreparedPart& p, std::size_t setup, part::End e
 
 double face_z_mm(const part::Drawing& d, const std::string& face) {
   if (face == "left") return 0;
+  for (const auto& s : part::inner_shoulders(d))
+    if (s.id == face) return s.z_mm;
   for (std::size_t k = 1; k < d.outer.size(); ++k)
     if (shoulder_id(d, k) == face) return part::left_z_mm(d, k);
   return part::length_mm(d);
 }
 
-std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& surface) {
+std::string cut_with(const part::Drawing& d, const std::string& surface) {
+  for (const auto& s : part::inner_shoulders(d))
+    if (s.id == surface) return d.inner[s.wider].id;
+  return surface;
+}
+
+std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& of) {
   const auto& d = p.drawing;
+  const auto surface = cut_with(d, of);
   for (std::size_t s = 0; s < p.work.setups.size(); ++s) {
     const SetupWork& w = p.work.setups[s];
     const auto any = [&](const std::vector<std::size_t>& indices, const auto& id) {

@@ -51,7 +51,11 @@ PreparedPart assigned(PlanRequest request) {
 PreparedPart prepare(PlanRequest request) {
   auto p = assigned(std::move(request));
   p.machine_takes = machine_takes(p);
-  for (auto& m : p.milled_places) m.ways = milled_ways(p, m);
+  auto& places = p.milled_places;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i].ways = i > 0 && places[i - 1].entry == places[i].entry
+                         ? places[i - 1].ways
+                         : milled_ways(p, places[i]);
   return p;
 }
 

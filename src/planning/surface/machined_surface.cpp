@@ -125,6 +125,7 @@ MachinedSurface MachinedSurface::bore(const PreparedPart& plan, std::size_t setu
   MachinedSurface f(plan, setup, clamping, Kind::bore, e.id, fixed);
   f.take(e, index, part::inner_left_z_mm(plan.drawing, index));
   f.around_ = surroundings(plan, setup, clamping, work, {true, index});
+  f.take_wall();
   f.hole_mm_ = hole_mm(plan, index);
   f.stock_ = (f.D_large_ - f.hole_mm_) / 2;
   f.depth_mm_ =
@@ -206,11 +207,22 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
   Rz_um_ = e.Rz_um.value_or(0);
 }
 
-// A wall that is made in one pass with an undercut is as smooth as the drawing asks.
-void MachinedSurface::take_wall() {
-  if (!around_.undercut) return;
+// The wall that is made in one pass with an undercut, or with the bore before it.
+const part::Face* MachinedSurface::own_wall() const {
+  const auto& d = plan_->drawing;
+  if (kind_ == Kind::bore) {
+    for (const auto& s : part::inner_shoulders(d))
+      if (s.wider == index_)
+        if (const auto* wall = find_face(*plan_, s.id)) return wall;
+    return nullptr;
+  }
   const std::size_t k = around_.mirrored ? index_ + 1 : index_;
-  const auto* wall = find_face(*plan_, shoulder_id(plan_->drawing, k));
+  return around_.undercut ? find_face(*plan_, shoulder_id(d, k)) : nullptr;
+}
+
+// Such a wall is as smooth as the drawing asks.
+void MachinedSurface::take_wall() {
+  const auto* wall = own_wall();
   if (!wall) return;
   const auto smoother = [](double& own, const std::optional<double>& asked) {
     if (asked && !(own > 0 && own < *asked)) own = *asked;

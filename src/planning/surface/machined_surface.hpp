@@ -160,6 +160,7 @@ class MachinedSurface {
                   Kind kind, std::string surface, const GivenConditions& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
+  const part::Face* own_wall() const;
   void take_wall();
   std::optional<part::Undercut> undercut_of_last() const;
   OperationModel operation(const Recipe& recipe, bool finishing,

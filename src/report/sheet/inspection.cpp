@@ -156,14 +156,15 @@ void add_roughness(std::vector<Check>& all, const PreparedPart& p,
   const auto add = [&](const std::string& id, const char* what,
                        const std::optional<double>& limit_um, double as_Ra) {
     if (!limit_um || planning::setup_of(p, id) != index) return;
-    const auto predicted = predicted_um(setup, id, what);
+    const auto made_with = planning::cut_with(p.drawing, id);
+    const auto predicted = predicted_um(setup, made_with, what);
     const Check one{
         what,
         id,
         plain(*limit_um) + " \u00b5m",
         predicted ? fmt::format("{:.2f} \u00b5m", *predicted) : "not predicted",
         roughness_gauge(*limit_um * as_Ra),
-        when(p, finishing_tool(tools, setup, id), false)};
+        when(p, finishing_tool(tools, setup, made_with), false)};
     const auto like = std::ranges::find_if(all, [&](const Check& c) {
       return c.what == one.what && c.limits == one.limits &&
              c.predicted == one.predicted && c.when == one.when;

@@ -255,5 +255,52 @@ TEST(Milling, SchemaAgreesWithTheReaderOnEverySlip) {
   EXPECT_GT(SlipsOf(SchemaCheck("part.json"), refused_part, part()).try_all(), 100);
 }
 
+// A hexagon of 30 mm on 36 mm lies 3 mm below the rim, at every 60 deg.
+TEST(Milling, SeveralPlacesAreAlikeAtEqualAngles) {
+  auto document = part();
+  document["milling"] = json::parse(R"([
+    {"id": "sw", "kind": "flat", "on": "d3", "z_mm": 105, "length_mm": 20,
+     "across_flats_mm": 30, "count": 6, "angle_deg": 15},
+    {"id": "s1", "kind": "slot", "on": "d1", "z_mm": 0, "length_mm": 15, "width_mm": 12,
+     "depth_mm": 4, "count": 2}])");
+  const auto plan = load(document).part;
+  ASSERT_EQ(plan.milled_places.size(), 8U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& m = plan.milled_places[i];
+    EXPECT_EQ(m.id, "sw-" + std::to_string(i + 1));
+    EXPECT_EQ(m.entry, 0U);
+    EXPECT_NEAR(m.depth_mm, 3, 1e-12);
+    EXPECT_NEAR(m.angle_deg, 15 + 60.0 * static_cast<double>(i), 1e-12);
+    EXPECT_EQ(m.ways.size(), plan.milled_places[0].ways.size());
+  }
+  EXPECT_EQ(plan.milled_places[7].id, "s1-2");
+  EXPECT_EQ(plan.milled_places[7].angle_deg, 180);
+}
+
+TEST(Milling, FlatsAcrossHaveOppositeOnesAndOthersMayNotMeet) {
+  auto document = part();
+  auto& flat = document["milling"][1];
+  flat.erase("depth_mm");
+  flat["across_flats_mm"] = 40;
+  flat["count"] = 3;
+  EXPECT_NE(refused(document).find("/milling/1/across_flats_mm: got 40, expected an even "
+                                   "count"),
+            std::string::npos)
+      << refused(document);
+  flat["count"] = 2;
+  flat["across_flats_mm"] = 46;
+  EXPECT_NE(refused(document).find("less than the diameter, 46 mm"), std::string::npos)
+      << refused(document);
+  flat["across_flats_mm"] = 40;
+  flat["depth_mm"] = 3;
+  EXPECT_NE(refused(document).find("depth_mm or across_flats_mm, not both"),
+            std::string::npos)
+      << refused(document);
+  document = part();
+  document["milling"][2]["count"] = 12;  // of 12 mm on 40 mm
+  EXPECT_NE(refused(document).find("a place that does not meet s1-1"), std::string::npos)
+      << refused(document);
+}
+
 }  // namespace
 }  // namespace turnwright::document::milling_test

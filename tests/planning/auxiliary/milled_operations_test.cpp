@@ -298,6 +298,27 @@ TEST(Milled, LobesAreThoseOfTheCutsAndTheRatiosAtTheEndsOfTheFeeds) {
   EXPECT_NEAR(m.ways.front().fz_from_mm / from, hex.lower / hex.upper, 1e-12);
 }
 
+// Turned about the axis a place is milled in the same way.
+TEST(Milled, PlacesOfOneEntryAreMilledAlike) {
+  auto place = keyway();
+  place["count"] = 2;
+  const auto both = work_of(part(milled_pin(place))).after;
+  place.erase("count");
+  place["angle_deg"] = 180;
+  const auto turned = work_of(part(milled_pin(place))).after;
+  std::vector<const OperationPlan*> mills;
+  for (const auto& o : both)
+    if (o.plan.kind == OperationKind::mill) mills.push_back(&o.plan);
+  ASSERT_EQ(mills.size(), 2U);
+  EXPECT_EQ(mills[0]->id, "s1-mill-k1-1");
+  EXPECT_EQ(mills[1]->id, "s1-mill-k1-2");
+  EXPECT_EQ(mills[1]->on, std::vector<std::string>{"k1-2"});
+  for (const auto* m : mills) {
+    EXPECT_EQ(m->cost, turned.back().plan.cost);
+    EXPECT_EQ(m->tool, turned.back().plan.tool);
+  }
+}
+
 TEST(Milled, WhereNothingIsStableThePlanIsInfeasibleAndSaysWhy) {
   auto j = milled_pin(keyway());
   auto cutter = file("tools/milling/KEYWAY-HM-10.json");

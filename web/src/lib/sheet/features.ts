@@ -24,16 +24,17 @@ export function milledShapes(part: Part, drawing: Drawing): MilledShape[] {
   return entries(part, 'milling').flatMap((m): MilledShape[] => {
     const on = drawing.elements.find((e) => e.id === m.on);
     const flat = m.kind === 'flat';
-    if (!on || !finite(m.z_mm, m.length_mm, m.depth_mm) || !(flat || finite(m.width_mm))) return [];
-    const R = on.diameters_mm[0] / 2, left = Math.max(0, R - m.depth_mm);
+    const R = on ? on.diameters_mm[0] / 2 : 0, depth = m.depth_mm ?? R - m.across_flats_mm / 2;
+    if (!on || !finite(m.z_mm, m.length_mm, depth) || !(flat || finite(m.width_mm))) return [];
+    const left = Math.max(0, R - depth), times = m.count > 1 ? `${m.count} × ` : '';
     const z: [number, number] = [m.z_mm, m.z_mm + m.length_mm];
-    const size = [flat ? undefined : m.width_mm, m.depth_mm, m.length_mm].filter((x) => x !== undefined);
+    const size = [flat ? undefined : m.width_mm, depth, m.length_mm].filter((x) => x !== undefined);
     const turned = m.angle_deg ? ` at ${significant(m.angle_deg)}°` : '';
     return [{
       id: String(m.id ?? m.kind), kind: m.kind, on, z, half: flat ? Math.sqrt(R * R - left * left) : m.width_mm / 2,
       round: flat ? [false, false] : [
         m.kind === 'keyway' || z[0] > on.z_mm[0] + ends_mm, m.kind === 'keyway' || z[1] < on.z_mm[1] - ends_mm],
-      text: `${m.kind} ${size.map((x) => significant(x)).join('×')}${turned}`,
+      text: `${times}${m.kind} ${size.map((x) => significant(x)).join('×')}${turned}`,
     }];
   });
 }
