@@ -79,7 +79,8 @@ class Site {
 
   // The tool's path.
   std::vector<Move> moves;
-  Point at;  ///< x, z of the tool
+  std::optional<Pecks> pecks;  ///< of the operation's drill
+  Point at;                    ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
   void arc(const Point& end, const Point& centre, bool clockwise);  // outside
