@@ -80,6 +80,7 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
   flag("reference_returns",
        "to the reference position at both ends and before each change of the tool");
   flag("cycles", "threads by the control's own cycle");
+  flag("drill_cycles", "holes by the control's own cycles");
   all.push_back(command
                     .add_option_function<std::vector<std::string>>(
                         "--tool",

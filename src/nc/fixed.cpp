@@ -36,6 +36,9 @@ void drill(Site& site, const OperationPlan& o, const FixedTool& tool) {
                    cutting::drill_point_mm(D, tool.point_deg);
   site.rapid(0, site.at.z_mm);
   site.rapid(0, site.front + kBefore_mm);
+  if (tool.pecking)
+    site.pecks =
+        Pecks{tool.pecking->first_diameters * D, tool.pecking->step_diameters * D};
   double reached = 0;
   for (const double to : cutting::peck_depths_mm(tool.pecking, D, site.front + tip)) {
     if (reached > 0) site.rapid(0, site.front - reached + kPeck_mm);

@@ -329,6 +329,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
     step.f_mm_rev = o.passes[0].f_mm_rev;
     step.in_cut = in_cut(site, o);
     site.moves.clear();
+    site.pecks.reset();
     const auto from = site.at;
     way(site, i);
     if (planning::has_live_centre(site.clamping) && !in_chuck_alone(site, o))
@@ -338,6 +339,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
                             numbers.tool(site, operations[i + 1]).number == tool.number;
     if (!tool_stays) site.home(tool.orientation != 3);
     step.moves = site.moves;
+    step.pecks = site.pecks;
     p.steps.push_back(std::move(step));
   }
   p.minutes = minutes(p, site.part.machine);

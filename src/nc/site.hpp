@@ -79,7 +79,8 @@ class Site {
 
   // The tool's path.
   std::vector<Move> moves;
-  Point at;  ///< x, z of the tool
+  std::optional<Pecks> pecks;  ///< of the operation's drill
+  Point at;                    ///< x, z of the tool
   void to(Move::Kind kind, const Side& side, const Point& p);
   void rapid(double x_mm, double z_mm);
   /// Around a centre, which lies in the material if the arc is convex; `inwards` from the

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "drilled_hole.hpp"
 #include "thread_cuts.hpp"
 
 namespace turnwright::nc {
@@ -16,12 +17,14 @@ namespace turnwright::nc {
 using gcode::Dialect;
 using gcode::dialect;
 using gcode::OffsetNumber;
+using gcode::PeckLaw;
 
 namespace {
 
 using std::string_view;
 
 constexpr int kLastBlock = 9999;
+constexpr double kMostRatio = 0.999;  ///< of a peck to the one before it: less than 1
 
 template <class... Args>
 std::string filled(string_view words, const Args&... args) {
@@ -98,6 +101,7 @@ class Moves {
   Moves(Lines& lines, const Dialect& dialect, double f_mm_rev, const Point& from)
       : lines_(lines),
         dialect_(dialect),
+        lead_mm_(f_mm_rev),
         f_(pointed(at_most(f_mm_rev, 4))),
         from_(from) {}
 
@@ -122,10 +126,6 @@ class Moves {
   /// needs no further cut for what rounding has left.
   void write_cycle(const ThreadCuts& t) {
     const double first = t.first_mm();
-    const auto up = [this](double mm) {
-      const double scale = std::pow(10, dialect_.decimals);
-      return length(std::ceil(mm * scale * (1 - 1e-12)) / scale);
-    };
     lines_.blocks(
         filled(dialect_.thread_cycle, fmt::arg("X", length(2 * t.to.h_mm)),
                fmt::arg("Z", length(t.to.z_mm)), fmt::arg("lead", f_),
@@ -135,6 +135,11 @@ class Moves {
                fmt::arg("depth_um", std::lround(1e3 * t.depth_mm)),
                fmt::arg("first", up(first)), fmt::arg("first_d", up(2 * first)),
                fmt::arg("first_um", std::lround(std::ceil(1e3 * first))),
+               fmt::arg("least", length(t.least_mm())), fmt::arg("others", t.cuts - 1),
+               fmt::arg("Z_run_in", length(t.from.z_mm - lead_mm_)),
+               fmt::arg("outside_d", length(2 * t.outside_mm())),
+               fmt::arg("clear", length(std::abs(t.from.h_mm - t.outside_mm()))),
+               fmt::arg("form", t.to.h_mm < t.from.h_mm ? 3 : 4),
                fmt::arg("least_um", std::lround(std::floor(1e3 * t.least_mm())))));
     // Where along Z a cycle ends depends on the control.
     x_.clear();
@@ -147,6 +152,25 @@ class Moves {
     lines_.blocks(filled(dialect_.tap, fmt::arg("Z", length(m.z_mm)), fmt::arg("R", z_),
                          fmt::arg("lead", f_),
                          fmt::arg("S", at_most(n_rpm, dialect_.S_decimals))));
+  }
+
+  /// A hole by the control's drilling cycle, and back to where the drill stands.  Pecks are
+  /// rounded up, so that rounding leaves nothing for a further one.
+  void write_hole(const DrilledHole& h) {
+    const double first = h.first_mm(),
+                 peck = h.places_mm.size() > 1 ? h.step_mm() : first;
+    lines_.blocks(
+        filled(h.places_mm.size() > 1 ? dialect_.peck_cycle : dialect_.drill_cycle,
+               fmt::arg("Z", length(h.bottom_mm())), fmt::arg("R", z_),
+               fmt::arg("R_less_1", length(h.from_mm - 1)),
+               fmt::arg("depth", up(h.from_mm - h.bottom_mm())), fmt::arg("feed", f_),
+               fmt::arg("peck", up(peck)),
+               fmt::arg("peck_um", std::lround(std::ceil(1e3 * peck * (1 - 1e-12)))),
+               fmt::arg("first", up(first)), fmt::arg("first_Z", length(h.places_mm[0])),
+               fmt::arg("less", up(first - peck)),
+               fmt::arg("ratio", at_most(std::min(peck / first, kMostRatio), 3)),
+               fmt::arg("back", length(h.back_mm))));
+    fed_ = true;
   }
 
   /// A cut of a thread by a cycle that comes back to where it began.
@@ -179,6 +203,11 @@ class Moves {
     const bool whole = number.find('.') == number.npos;
     return dialect_.point && whole ? number + '.' : number;
   }
+  /// Rounded up.
+  std::string up(double mm) const {
+    const double scale = std::pow(10, dialect_.decimals);
+    return length(std::ceil(mm * scale * (1 - 1e-12)) / scale);
+  }
   std::string length(double mm) const { return pointed(number(mm, dialect_.decimals)); }
   std::string diameter(const Move& m) const { return length(2 * m.x_mm); }
   /// From the start as it is written.
@@ -188,17 +217,23 @@ class Moves {
 
   Lines& lines_;
   const Dialect& dialect_;
+  double lead_mm_;
   std::string f_, x_, z_;
   Point from_;
   bool fed_ = false;
 };
 
-void write_moves(Lines& lines, const Dialect& dialect, const Step& s, bool cycles,
-                 const Point& from) {
+void write_moves(Lines& lines, const Dialect& dialect, const Step& s,
+                 const Settings& settings, const Point& from) {
   Moves moves(lines, dialect, s.f_mm_rev, from);
+  const bool cycles = settings.cycles && !dialect.thread_cycle.empty();
   for (std::size_t k = 0; k < s.moves.size(); ++k) {
     const auto cuts = cycles ? thread_cuts(s.moves, k) : std::nullopt;
-    if (taps(s.moves, k)) {
+    const auto hole = settings.drill_cycles ? drilled_hole(s.moves, k) : std::nullopt;
+    if (hole && hole->pecked_as(dialect.pecks)) {
+      moves.write_hole(*hole);
+      k += hole->moves().size() - 1;
+    } else if (taps(s.moves, k)) {
       moves.write_tap(s.moves[k], s.S);
       ++k;
     } else if (cuts) {
@@ -294,7 +329,7 @@ class Writer {
     write_spindle(lines_, d_, step, reversed ? "M4" : "M3");
     if (!s_.coolant.empty()) lines_.blocks(s_.coolant);
     running_ = true;
-    write_moves(lines_, d_, step, s_.cycles && !d_.thread_cycle.empty(), at_);
+    write_moves(lines_, d_, step, s_, at_);
     if (!step.moves.empty()) at_ = {step.moves.back().x_mm, step.moves.back().z_mm};
   }
   /// Before another tool.
@@ -313,6 +348,23 @@ class Writer {
   Point at_ = {};  // where the last step has ended
   bool running_ = false;
 };
+
+// A drill's moves with pecks of one length, where it pecks.
+std::vector<Move> pecked_alike(const Step& step, double back_mm) {
+  std::vector<Move> all;
+  for (std::size_t k = 0; k < step.moves.size(); ++k) {
+    const auto hole = drilled_hole(step.moves, k);
+    if (!hole || hole->places_mm.size() == 1) {
+      all.push_back(step.moves[k]);
+      continue;
+    }
+    const double back = back_mm > 0 ? back_mm : hole->back_mm;
+    std::ranges::copy(with_equal_pecks(*hole, *step.pecks, back).moves(),
+                      std::back_inserter(all));
+    k += hole->moves().size() - 1;
+  }
+  return all;
+}
 
 int usual_offset(const Settings& settings, int number) {
   return dialect(settings.control).offset == OffsetNumber::edge ? 1 : number;
@@ -348,6 +400,17 @@ void number_tools(std::vector<SetupProgram>& programs, const Settings& settings)
     }
     for (auto& step : p.steps)
       if (!step.stop) step.tool = now.at(step.tool);
+  }
+}
+
+void fit_to_control(std::vector<SetupProgram>& programs, const Settings& settings,
+                    const catalogue::Lathe& machine) {
+  const auto& d = dialect(settings.control);
+  if (!settings.drill_cycles || d.pecks != PeckLaw::equal) return;
+  for (auto& p : programs) {
+    for (auto& step : p.steps)
+      if (step.pecks) step.moves = pecked_alike(step, d.peck_back_mm);
+    p.minutes = minutes(p, machine);
   }
 }
 

@@ -246,7 +246,9 @@ ordered_json nc_programs(const json& request, const Context& context) {
   planning::Judge judge = nc::refuse_unprogrammed;
   if (candidates.usable.size() == 1) judge = [](const auto&, auto&) {};
   const auto [part, plan] = planned(std::move(candidates), judge);
-  return document::to_json(nc::programs(part.part, plan), plan, settings);
+  auto programs = nc::programs(part.part, plan);
+  nc::fit_to_control(programs.setups, settings, part.part.machine);
+  return document::to_json(programs, plan, settings);
 }
 
 std::string nc_text(const ordered_json& result) {
@@ -352,6 +354,7 @@ report::ShopPrograms shop_programs(const nc::Programs& programs,
 Drawn drawn(const document::PreparedDocument& part, const planning::ProcessPlan& plan,
             const nc::Settings& settings) {
   Drawn all{document::plan_result(plan, part), {}, nc::programs(part.part, plan)};
+  nc::fit_to_control(all.programs.setups, settings, part.part.machine);
   nc::number_tools(all.programs.setups, settings);
   all.sheets = report::setup_sheets(part.part, plan, all.programs,
                                     shop_programs(all.programs, settings));

@@ -43,19 +43,35 @@ struct Manual {
   std::set<std::string> modes;  ///< words of the start that must all be there
   int T_digits = 0;             ///< 4 and 6: of the whole word, 3: tool, two of offset
   bool points = false;          ///< every length and feed has a point
+  /// Drilling cycles that begin in the plane G17, whose third axis they drill along.
+  bool drills_in_G17 = false;
 };
+
+/// From where a cycle feeds again before the depth reached [mm]: LinuxCNC 2.9 has 0.254 mm
+/// in its source (interp_cycles.cc), in CYCLE83 it is an argument, elsewhere a parameter or
+/// a setting of the control.
+inline constexpr double kLinuxCncBack_mm = 0.254, kSetBack_mm = 0.5;
 
 inline const Manual& manual(Control control) {
   static const std::map<Control, Manual> kManuals{
       {Control::linuxcnc,
-       {{95}, 0, "D", 33, 'K', false, {"G7", "G21", "G90", "G18"}, 0, false}},
+       {{95}, 0, "D", 33, 'K', false, {"G7", "G21", "G90", "G18"}, 0, false, true}},
       {Control::fanuc, {{99}, 50, "", 32, 'F', false, {"G21", "G18"}, 4, true}},
       {Control::fanuc_b, {{95}, 92, "", 33, 'F', false, {"G21", "G90", "G18"}, 4, true}},
       {Control::haas, {{99}, 50, "", 32, 'F', false, {"G21", "G18"}, 3, true}},
       {Control::siemens_iso,
        {{95}, 92, "", 33, 'F', false, {"G291", "G21", "G90", "G18"}, 4, true}},
       {Control::siemens,
-       {{95}, 0, "LIMS", 33, 'K', false, {"DIAMON", "G710", "G90", "G18"}, 0, false}},
+       {{95},
+        0,
+        "LIMS",
+        33,
+        'K',
+        false,
+        {"DIAMON", "G710", "G90", "G18"},
+        0,
+        false,
+        true}},
       {Control::okuma, {{95}, 50, "", 33, 'F', true, {"G90", "G18"}, 6, false}}};
   return kManuals.at(control);
 }
@@ -122,6 +138,7 @@ class DialectReader {
       all.erase(all.begin());
     }
     if (all.empty()) fail(line, "an empty block");
+    if (all[0].letter == "CYCLE" && control_ == Control::siemens) return call(line);
     block_ = {};
     for (const auto& w : all) {
       if (!block_.emplace(w.letter, w).second && w.letter != "G") fail(line, "twice");
@@ -129,14 +146,18 @@ class DialectReader {
     }
     limit_block_ = false;
     reference_ = false;
+    drill_.reset();
+    for (const auto& w : all)
+      if (w.letter == "G" && drills(w.value)) drill_ = w.whole();
     tap_ = std::any_of(all.begin(), all.end(),
                        [&](const Word& w) { return w.letter == "G" && taps(w.value); });
     for (const auto& w : all)
-      if (w.letter == "G" && !tap_) code(w.whole(), line);
+      if (w.letter == "G" && !tap_ && w.whole() != drill_) code(w.whole(), line);
     if (reference_) return;
     for (const auto& w : all)
-      if (!tap_ || w.letter == "S") word(w, line);
+      if (drill_.has_value() ? w.letter == "F" : !tap_ || w.letter == "S") word(w, line);
     if (tap_) return tap(line);
+    if (drill_) return drill(line);
     if (block_.contains("X") || block_.contains("Z")) move(line);
   }
 
@@ -173,7 +194,153 @@ class DialectReader {
     add(in);
   }
 
+  bool drills(const std::string& G) const {
+    switch (control_) {
+      case Control::siemens:
+        return false;  // by calls
+      case Control::okuma:
+        return G == "74";
+      case Control::linuxcnc:
+      case Control::haas:
+        return G == "81" || G == "83";
+      default:
+        return G == "83";
+    }
+  }
+
+  // Pecks of the lengths that `length` gives after the depth reached, down to `bottom`, each
+  // time out to `R`.
+  template <class Length>
+  void peck(double R, double bottom, double back, Length length,
+            const std::string& line) {
+    const bool plane = plane_ == (m_.drills_in_G17 ? 17 : 18);
+    if (!plane) fail(line, "drilled along another axis");
+    if (x_mm_ != 0 || z_mm_ != R || !(bottom < R) || now_.surface_speed ||
+        !per_revolution_ || !(now_.f_mm_rev > 0))
+      fail(line, "no way to drill");
+    Read in = now_;
+    in.x_mm = 0;
+    in.kind = Move::Kind::feed;
+    for (double at = R; at > bottom + 1e-9;) {
+      if (at < R) {
+        in.z_mm = at + back;
+        in.kind = Move::Kind::rapid;
+        add(in);
+      }
+      const double peck = length(R - at);
+      if (!(peck > 0)) fail(line, "no peck");
+      at = std::max(bottom, at - peck);
+      in.z_mm = at;
+      in.kind = Move::Kind::feed;
+      add(in);
+      in.z_mm = R;
+      in.kind = Move::Kind::rapid;
+      add(in);
+    }
+  }
+
+  void drill(const std::string& line) {
+    const auto value = [&](const char* letter, double otherwise) {
+      return block_.contains(letter) ? block_.at(letter).number() : otherwise;
+    };
+    const double Z = block_.at("Z").number(), whole = z_mm_ - Z;
+    const auto in_one = [&](double) { return whole; };
+    for (const auto& [letter, word] : block_)
+      if (std::string("NGXZRQFIJKD").find(letter) == std::string::npos)
+        fail(line, "an unknown word of a hole");
+    if (value("X", 0) != 0) fail(line, "beside the axis");
+    if (control_ == Control::okuma) {  // G74: D a peck, the way back is a parameter
+      if (value("D", 0) < whole - 1e-9) fail(line, "pecks that come back a little");
+      return peck(z_mm_, Z, 0, in_one, line);
+    }
+    // LinuxCNC and Haas: the place of the plane R; Fanuc: from where the tool stands.
+    const bool place = control_ == Control::linuxcnc || control_ == Control::haas;
+    if (block_.at("R").number() != (place ? z_mm_ : 0)) fail(line, "another R plane");
+    cycle_on_ = true;
+    if (drill_ == 81) return peck(z_mm_, Z, 0, in_one, line);
+    if (control_ == Control::haas) {  // the first I, less by J each time, K at least
+      const double I = value("I", 0), J = value("J", 0), K = value("K", 0);
+      double next = I;
+      const auto less = [&](double) {
+        const double now = next;
+        next = std::max(next - J, K);
+        return now;
+      };
+      return peck(z_mm_, Z, kSetBack_mm, less, line);
+    }
+    const double unit = control_ == Control::linuxcnc ? 1 : 1e-3;
+    if (unit < 1 && block_.contains("Q") &&
+        block_.at("Q").value.find('.') != std::string::npos)
+      fail(line, "Q counts steps");
+    if (control_ == Control::linuxcnc && !block_.contains("Q")) fail(line, "no Q");
+    const double Q = unit * value("Q", whole / unit);
+    peck(
+        z_mm_, Z, unit < 1 ? kSetBack_mm : kLinuxCncBack_mm, [&](double) { return Q; },
+        line);
+  }
+
+  // CYCLE81, CYCLE83 and CYCLE97 with their arguments in the order of the manual, from 1.
+  void call(const std::string& line) {
+    const auto open = line.find('('), close = line.find(')');
+    if (close != line.size() - 1) fail(line, "no call");
+    std::vector<std::optional<double>> given{std::nullopt};
+    std::istringstream in(line.substr(open + 1, close - open - 1));
+    for (std::string one; std::getline(in, one, ',');)
+      given.push_back(one.empty() ? std::nullopt : std::optional(std::stod(one)));
+    given.resize(18);
+    const auto at = [&](std::size_t i) { return given[i].value_or(0); };
+    if (line.find("CYCLE97(") != line.npos) return thread(line, at);
+    // RTP, RFP, SDIS, DP: back to, surface, distance before it, bottom.
+    const double R = at(2) + at(3), bottom = at(4), whole = R - bottom;
+    if (at(1) != R) fail(line, "back to another plane");
+    if (line.find("CYCLE81(") != line.npos)
+      return peck(
+          R, bottom, 0, [&](double) { return whole; }, line);
+    if (line.find("CYCLE83(") == line.npos) fail(line, "an unknown cycle");
+    // 6 FDEP the first place, 8 DAM < 0: each peck that share of the last, 11 FRF the share
+    // of the first feed, 12 VARI 1 all the way out, 14 _MDEP the least, 17 _DIS1 before the
+    // depth reached.
+    if (at(12) != 1 || at(11) != 1 || !(at(8) < 0 && at(8) > -1) || at(9) || at(10))
+      fail(line, "another way to peck");
+    double next = R - at(6);
+    const auto less = [&](double) {
+      const double now = next;
+      next = std::max(-at(8) * next, at(14));
+      return now;
+    };
+    peck(R, bottom, at(17), less, line);
+  }
+
+  // 1 PIT, 3 SPL, 4 FPL, 5 DM1, 6 DM2, 7 APP before SPL, 8 ROP beyond FPL, 9 TDEP, 10 FAL the
+  // last cut, 13 NRC the others, which are of one section if 15 VARI is 3 outside, 4 inside;
+  // 17 _VRT how far it draws out, 0: 1 mm.
+  template <class At>
+  void thread(const std::string& line, At at) {
+    if (at(15) != 3 && at(15) != 4) fail(line, "infeeds of one depth");
+    if (at(11) || at(12) || at(14) || at(16) != 1 || at(5) != at(6) || now_.surface_speed)
+      fail(line, "another thread");
+    const double side = at(15) == 3 ? 1 : -1, out = at(17) ? at(17) : 1;
+    const double before = at(3) + at(7), end = at(4) - at(8);
+    const double rough = at(9) - at(10), n = at(13);
+    const Point from{at(5) / 2 + side * out, before};
+    Read cut = now_;
+    cut.f_mm_rev = at(1);
+    cut.kind = Move::Kind::thread;
+    cut.z_mm = end;
+    for (int k = 1; k <= n + 1; ++k) {
+      const double deep = k <= n ? rough * std::sqrt(k / n) : at(9);
+      cut.x_mm = at(5) / 2 - side * deep;
+      cycle(cut, from);
+    }
+  }
+
   void code(int g, const std::string& line) {
+    if (g == 17 || g == 18) plane_ = g;
+    if (g == 80) cycle_on_ = false;
+    if (g == 17 && !m_.drills_in_G17) fail(line, "an unknown code");
+    if (g == 98 && !(control_ == Control::linuxcnc && drill_.has_value()))
+      fail(line, "another feed");
+    if (g == 17 || g == 98) return;
     if (g <= 3 || g == m_.thread)
       motion_ = g;
     else if (g == 96 || g == 97)
@@ -257,6 +424,8 @@ class DialectReader {
 
   void move(const std::string& line) {
     if (!motion_) fail(line, "no motion");
+    if (plane_ != 18) fail(line, "turned in another plane");
+    if (cycle_on_) fail(line, "while a cycle is on");
     Read r = now_;
     const auto value = [&](const char* letter, double otherwise) {
       return block_.contains(letter) ? block_.at(letter).number() : otherwise;
@@ -301,6 +470,9 @@ class DialectReader {
   std::map<std::string, Word> block_;
   std::optional<int> motion_;
   std::optional<double> lead_;
+  int plane_ = 0;
+  std::optional<int> drill_;
+  bool cycle_on_ = false;
   bool tap_ = false, per_revolution_ = false, limit_block_ = false, reference_ = false,
        ended_ = false;
   Read now_;

@@ -38,12 +38,13 @@ void expect_cut_off(double read, double planned, double step, const std::string&
   EXPECT_GT(read, planned - step) << at;
 }
 
+/// @param rounded  how often a place along Z is rounded: once, or with each of its pecks
 void expect_same(const Read& r, const Move& m, const Step& s, Control control,
-                 const std::string& at) {
+                 const std::string& at, double rounded = 0.5) {
   const double half_mm = last_mm(control) / 2 + 1e-9;
   EXPECT_EQ(r.kind, m.kind) << at;
   EXPECT_NEAR(r.x_mm, m.x_mm, half_mm / 2) << at;
-  EXPECT_NEAR(r.z_mm, m.z_mm, half_mm) << at;
+  EXPECT_NEAR(r.z_mm, m.z_mm, rounded * last_mm(control) + 1e-9) << at;
   if (m.kind == Move::Kind::arc) {
     EXPECT_EQ(r.clockwise, m.clockwise) << at;
     const double centre_mm = control == Control::linuxcnc ? half_mm / 10 : half_mm;
@@ -61,8 +62,9 @@ void expect_same(const Read& r, const Move& m, const Step& s, Control control,
 }
 
 /// The moves of a program against those that its text commands.
+/// @param rounded  of places that moves on the axis reach, as expect_same() has it
 void expect_read_back(const SetupProgram& p, const std::vector<Read>& read,
-                      Control control, const std::string& name) {
+                      Control control, const std::string& name, double rounded = 0.5) {
   std::size_t i = 0;
   int stops = 0;
   for (const auto& s : p.steps) {
@@ -76,7 +78,8 @@ void expect_read_back(const SetupProgram& p, const std::vector<Read>& read,
       const auto at = name + ", " + s.comments[0] + ", move " + std::to_string(k);
       EXPECT_EQ(read[i].stops, stops) << at;
       stops = 0;
-      expect_same(read[i++], s.moves[k], s, control, at);
+      expect_same(read[i++], s.moves[k], s, control, at,
+                  s.moves[k].x_mm == 0 ? rounded : 0.5);
       if (testing::Test::HasFailure()) return;
     }
   }
@@ -309,6 +312,138 @@ TEST(NcDialects, CallsOfToolsSayWhenTheEdgeIsChanged) {
   EXPECT_GE(calls, 4u);
 }
 
+// A drill of 8 mm with a point of 118 deg, 34 mm deep without it: 24 mm first, then pecks
+// of 8 mm at most, to 36.4 mm.
+const Planned& pecked() { return planned_awkward("a pecked hole"); }
+
+std::vector<SetupProgram> with_cycles(const Planned& p, const Settings& settings) {
+  auto all = numbered(programs(p.part, p.plan), settings);
+  fit_to_control(all, settings, p.part.machine);
+  return all;
+}
+
+std::vector<Move> moves_of(const std::vector<SetupProgram>& programs) {
+  std::vector<Move> all;
+  for (const auto& p : programs)
+    for (const auto& s : p.steps) all.insert(all.end(), s.moves.begin(), s.moves.end());
+  return all;
+}
+
+bool same_moves(const std::vector<Move>& a, const std::vector<Move>& b) {
+  return std::ranges::equal(a, b, [](const Move& m, const Move& n) {
+    return m.kind == n.kind && m.x_mm == n.x_mm && m.z_mm == n.z_mm;
+  });
+}
+
+// Cycles expanded by the second reader, against the programs' moves.
+void expect_cycles_read_back(const std::string& name, const Planned& p) {
+  for (const auto control : kControls) {
+    const Settings settings{.control = control, .drill_cycles = true};
+    for (const auto& program : with_cycles(p, settings))
+      expect_read_back(program, DialectReader(control).read(text(program, settings)),
+                       control, name + " for " + id(control), 8);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(NcDialects, DrillingCyclesCommandTheProgramsMoves) {
+  for (const auto& name : reference_parts())
+    expect_cycles_read_back(name, planned_reference(name));
+  for (const char* name : kWithHoles)
+    expect_cycles_read_back(name, planned_awkward(name));
+  expect_cycles_read_back("a pecked hole", pecked());
+}
+
+TEST(NcDialects, EveryHoleIsACycleWhereTheControlHasOne) {
+  const std::map<Control, std::string> words{
+      {Control::linuxcnc, "\nG98 G83 X0 Z-36.4034 R2 Q7.6807 F0.128\nG80\nG18\n"},
+      {Control::fanuc, "\nG83 Z-36.403 R0. Q7681 F0.128\nG80\n"},
+      {Control::fanuc_b, "\nG83 Z-36.403 R0. Q7681 F0.128\nG80\n"},
+      {Control::haas, "\nG83 Z-36.403 R2. I26. J19.799 K6.202 F0.128\nG80\n"},
+      {Control::siemens_iso, "\nG83 Z-36.403 R0. Q7681 F0.128\nG80\n"},
+      {Control::siemens,
+       "\nG17 F0.128\nCYCLE83(2,1,1,-36.403,,-24,,-0.238,0,0,1,1,,6.202,0,0,0.5)\nG18\n"},
+      {Control::okuma, "\nG1 Z-24 F0.128\nG0 Z2\nG0 Z-23.5\nG1 Z-30.202\n"}};
+  for (const auto& [control, word] : words) {
+    const Settings settings{.control = control, .drill_cycles = true};
+    EXPECT_EQ(count(text(with_cycles(pecked(), settings)[0], settings), word), 1)
+        << id(control);
+  }
+  const std::map<Control, std::string> straight{
+      {Control::linuxcnc, "\nG17\nG98 G81 X0 Z"},
+      {Control::fanuc, "\nG83 Z"},
+      {Control::fanuc_b, "\nG83 Z"},
+      {Control::haas, "\nG81 Z"},
+      {Control::siemens_iso, "\nG83 Z"},
+      {Control::siemens, "\nCYCLE81("},
+      {Control::okuma, "\nG74 X0 Z"}};
+  const auto& bush = planned_reference("drilled-bush");
+  for (const auto& [control, word] : straight) {
+    Settings settings{.control = control, .drill_cycles = true};
+    int holes = 0;
+    for (const auto& p : with_cycles(bush, settings))
+      holes += count(text(p, settings), word);
+    EXPECT_EQ(holes, 1) << id(control);
+    settings.drill_cycles = false;
+    for (const auto& p : with_cycles(bush, settings))
+      EXPECT_EQ(count(text(p, settings), word), 0) << id(control);
+  }
+}
+
+// Where a cycle can peck as the plan does, nothing changes; where its pecks are all of one
+// length, they reach the same bottom and no peck is longer than the drill allows.
+TEST(NcDialects, DrillingCyclesPeckAsThePlanOrShorter) {
+  const auto plain = moves_of(programs(pecked().part, pecked().plan).setups);
+  for (const auto control : kControls) {
+    const auto all = with_cycles(pecked(), {.control = control, .drill_cycles = true});
+    const bool alike = control == Control::linuxcnc || control == Control::fanuc ||
+                       control == Control::fanuc_b || control == Control::siemens_iso;
+    EXPECT_EQ(same_moves(moves_of(all), plain), !alike) << id(control);
+    if (!alike) continue;
+    double deepest = 2;
+    int pecks = 0;
+    for (const auto& m : moves_of(all)) {
+      if (m.kind != Move::Kind::feed || m.x_mm != 0 || m.z_mm > -1) continue;
+      ++pecks;
+      EXPECT_LE(deepest - m.z_mm, 8 + 1e-9);
+      deepest = m.z_mm;
+    }
+    EXPECT_EQ(pecks, 5);
+    EXPECT_NEAR(deepest, -(34 + 4 / std::tan(M_PI * 59 / 180)), 1e-9);
+  }
+}
+
+// Feed of 38.4 mm and 0.254 or 0.5 mm before each of four pecks, at n = vc/(pi D), and the
+// rapids in between, against the plain moves' three pecks.
+TEST(NcDialects, MinutesAreThoseOfTheCyclesPecks) {
+  const auto& p = pecked();
+  const auto plain = programs(p.part, p.plan).setups;
+  const auto& o = *std::ranges::find_if(p.plan.setups[0].operations, [](const auto& one) {
+    return one.id == "s1-drill-b1";
+  });
+  const double bottom = 36.4034, feed = o.passes[0].f_mm_rev * o.passes[0].n_rpm,
+               rapid = p.part.machine.rapid_mm_min;
+  const auto hole_min = [&](const std::vector<double>& deep, double back) {
+    double fed = bottom + 2, run = bottom + 2;
+    for (const double d : deep) {
+      fed += back;
+      run += 2 * (d + 2) - back;
+    }
+    return fed / feed + run / rapid;
+  };
+  const double peck = (bottom + 2) / 5;
+  const std::vector<double> alike{peck - 2, 2 * peck - 2, 3 * peck - 2, 4 * peck - 2};
+  const double as_planned = hole_min({24, 30.2017}, 0.5);
+  for (const auto control : kControls) {
+    const auto all = with_cycles(p, {.control = control, .drill_cycles = true});
+    const bool linuxcnc = control == Control::linuxcnc;
+    const bool equal = same_moves(moves_of(all), moves_of(plain));
+    const double more = equal ? 0 : hole_min(alike, linuxcnc ? 0.254 : 0.5) - as_planned;
+    EXPECT_NEAR(all[0].minutes.total(), plain[0].minutes.total() + more, 1e-6)
+        << id(control);
+  }
+}
+
 // A thread of six cuts of equal area, outside or in a bore.
 Step thread_step(double sign) {
   auto s = step(3, 0, Move::Kind::thread);
@@ -377,6 +512,33 @@ TEST(NcDialects, CyclesOfThreadsMakeTheCutsOfThePlan) {
     EXPECT_NEAR(20 + 2 * sign + value(linuxcnc, 'I') / 2, 20, 1e-9);
     expect_cuts(value(linuxcnc, 'J') / 2, depth, 20 - sign * depth, s, sign);
     EXPECT_NE(linuxcnc.find(" R2 Q0 H0"), std::string::npos);
+  }
+}
+
+// CYCLE97 cuts NRC times to what FAL leaves, in sections alike, then FAL.
+TEST(NcDialects, SiemensThreadsMakeTheCutsOfThePlan) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto s = thread_step(sign);
+    const auto program = thread_text(s, Control::siemens);
+    EXPECT_EQ(count(program, "\nCYCLE97("), 1);
+    EXPECT_EQ(count(program, "\nG33"), 0);
+    const auto read = DialectReader(Control::siemens).read(program);
+    std::vector<Move> cuts;
+    std::ranges::copy_if(s.moves, std::back_inserter(cuts),
+                         [](const Move& m) { return m.kind == Move::Kind::thread; });
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      if (read[i].kind != Move::Kind::thread) continue;
+      ASSERT_LT(k, cuts.size());
+      EXPECT_NEAR(read[i].x_mm, cuts[k].x_mm, 2.5e-3) << k;
+      EXPECT_EQ(read[i].z_mm, cuts[k++].z_mm);
+      EXPECT_EQ(read[i].f_mm_rev, s.f_mm_rev);
+      for (const auto beside : {i - 2, i + 2}) {  // where each cut begins and ends
+        EXPECT_EQ(read[beside].x_mm, s.moves[0].x_mm);
+        EXPECT_EQ(read[beside].z_mm, s.moves[0].z_mm);
+      }
+    }
+    EXPECT_EQ(k, cuts.size());
   }
 }
 

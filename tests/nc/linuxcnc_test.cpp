@@ -152,6 +152,42 @@ TEST_F(NcThroughLinuxCnc, CyclesOfThreadsMakeTheCutsOfThePlan) {
   EXPECT_EQ(back.z1, 4.5);
 }
 
+// Drilled by the interpreter's own G81 and G83, pecks and all.
+TEST_F(NcThroughLinuxCnc, DrillingCyclesMakeTheContour) {
+  const Settings settings{.drill_cycles = true};
+  for (const auto& p :
+       {planned_reference("drilled-bush"), planned_awkward("a pecked hole"),
+        planned_awkward("tapped-ends"), planned_awkward("counterbored-chamfered")}) {
+    auto all = programs(p.part, p.plan);
+    fit_to_control(all.setups, settings, p.part.machine);
+    Check check(p);
+    CutSimulation simulation(p, 0.01, {.left = 2e-4});
+    for (const auto& program : all.setups) {
+      const auto canonical =
+          rs274.canonical(nc::text(program, settings), tool_table(all.setups));
+      std::vector<double> bottoms, planned;
+      for (const auto& way : ways_of(canonical))
+        if (!way.rapid && !way.thread && way.x0 == 0 && way.x1 == 0 && way.z1 < way.z0)
+          bottoms.push_back(way.z1);
+      for (const auto& step : program.steps)
+        for (std::size_t k = 1; k < step.moves.size(); ++k) {
+          const auto &a = step.moves[k - 1], &b = step.moves[k];
+          if (b.kind == Move::Kind::feed && a.x_mm == 0 && b.x_mm == 0 && b.z_mm < a.z_mm)
+            planned.push_back(b.z_mm);
+        }
+      ASSERT_EQ(bottoms.size(), planned.size());
+      for (std::size_t k = 0; k < planned.size(); ++k)
+        EXPECT_NEAR(bottoms[k], planned[k], 8e-4);
+      check.setup(program.setup, ways_of(canonical));
+      simulation.setup(program.setup, ways_of(canonical));
+    }
+    check.contour();
+    simulation.compare();
+    EXPECT_EQ(listed(check.faults()), "");
+    EXPECT_EQ(listed(simulation.findings()), "");
+  }
+}
+
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   return at == text.npos ? text : text.replace(at, what.size(), by);

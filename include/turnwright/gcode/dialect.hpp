@@ -11,7 +11,7 @@
 /// is a diameter.
 ///
 /// Sources: LinuxCNC's interpreter, which runs the programs in linuxcnc_test; of the
-/// others [Okuma 5238-E], [Siemens 6FC5298-7AB00] and [gEdit] in docs/bibliography.md.
+/// others those under "Controls" in docs/bibliography.md.
 namespace turnwright::gcode {
 
 enum class Control { linuxcnc, fanuc, fanuc_b, haas, siemens_iso, siemens, okuma };
@@ -21,6 +21,13 @@ enum class OffsetNumber {
   of_tool,  ///< the tool's number
   free,     ///< a register of its own, by default that of the tool's number
   edge      ///< the edge of the tool, by default the first
+};
+
+/// The lengths of feed between which a control's drilling cycle draws the drill out.
+enum class PeckLaw {
+  none,    ///< it does not, or how is not known
+  equal,   ///< all alike, counted from where the drill begins
+  reduced  ///< a first one, then shorter ones that are alike
 };
 
 struct Dialect {
@@ -52,11 +59,26 @@ struct Dialect {
   /// From the position before the first: {X}, {Z} of the last cut's end, {lead}; from the
   /// position to the thread's outside {peak_d}, its depth {depth}, {depth_d}, {depth_um}
   /// and that of the first cut {first}, {first_d}, {first_um}, as a radius [mm], a
-  /// diameter [mm] and a radius [um]; the least infeed {least_um}.
+  /// diameter [mm] and a radius [um]; the least infeed, the last cut's, {least}, {least_um}
+  /// and the number of {others}; one lead behind the position {Z_run_in}, {clear} from the
+  /// thread's outside {outside_d}; {form} is 3 outside, 4 in bores.
   std::string_view thread_cycle;
   /// A tap of the lead {lead} from where it stands, {R}, to {Z} and back, the spindle in
   /// step at {S}.
   std::string_view tap;
+
+  /// A hole on the axis in one feed, from where the drill stands and back: {Z} its bottom,
+  /// {R} the place where the drill stands, {R_less_1} 1 mm on, {depth} from {R}, {feed}.
+  std::string_view drill_cycle;
+  /// The same with pecks, each time back to {R}: all of the length {peck}, {peck_um} of a
+  /// PeckLaw::equal; otherwise the first to the place {first_Z}, {first} deep, then of the
+  /// length {peck}, {less} shorter than the first, {ratio} times as long, cut off.  From
+  /// {back} before the depth reached it feeds again, where it has a word for that.
+  std::string_view peck_cycle;
+  PeckLaw pecks;
+  /// That distance [mm] where the control has it fixed, 0 where a word, a parameter or a
+  /// setting of the machine gives it.
+  double peck_back_mm;
 
   bool point;           ///< a number without a point may count steps
   int decimals;         ///< of diameters and lengths

@@ -42,6 +42,8 @@ struct Settings {
   /// Threads by the control's cycle for all cuts, if the dialect has one.  The controls
   /// of Fanuc repeat the last cut once more, which the program's minutes do not count.
   bool cycles = false;
+  /// Holes by the control's drilling cycles.
+  bool drill_cycles = false;
   std::vector<ShopTool> tools = {};
 };
 
@@ -51,6 +53,11 @@ std::string work_offset(const Settings& settings);
 /// Gives the tools of all programs of a part the shop's numbers and offsets.  Tools the
 /// shop has not numbered get the numbers that are left, in their order of use.
 void number_tools(std::vector<SetupProgram>& programs, const Settings& settings);
+
+/// Changes the programs' moves and minutes to those of the control's own cycles, where the
+/// settings ask for cycles that peck in their own way (docs/nc.md).
+void fit_to_control(std::vector<SetupProgram>& programs, const Settings& settings,
+                    const catalogue::Lathe& machine);
 
 /// The program's text, lines of printable ASCII.
 std::string text(const SetupProgram& program, const Settings& settings);

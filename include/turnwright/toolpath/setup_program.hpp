@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct InCut {
   double from_mm = 0, to_mm = 0;  ///< from < to, in the program's own coordinates
 };
 
+/// The longest that a drill goes at feed before it has to be drawn out of its hole.
+struct Pecks {
+  double first_mm = 0;  ///< from the surface
+  double step_mm = 0;   ///< from the depth reached
+};
+
 /// One operation of the plan, or a stop.  Milling is not part of a turning program.
 struct Step {
   std::vector<std::string> comments;
@@ -37,6 +44,7 @@ struct Step {
   double f_mm_rev = 0;   ///< of a thread its pitch
   InCut in_cut;
   std::vector<Move> moves;
+  std::optional<Pecks> pecks = {};  ///< of a drill that is drawn out to clear its chips
 };
 
 inline constexpr int kDrillOrientation = 7;

@@ -113,6 +113,7 @@ nc::Settings read_settings(Reader& r) {
   if (s.cycles && d.thread_cycle.empty())
     r.problem_at("cycles", "false: no cycle of " + std::string(d.name) + " is known",
                  "choice");
+  s.drill_cycles = r.boolean_or("drill_cycles", s.drill_cycles);
   read_tools(r, d, s);
   return s;
 }
@@ -141,6 +142,7 @@ ordered_json settings_json(const nc::Settings& s,
   out["optional_stops"] = s.optional_stops;
   out["reference_returns"] = s.reference_returns;
   out["cycles"] = s.cycles;
+  out["drill_cycles"] = s.drill_cycles;
   out["tools"] = tools_of(programs);
   if (d.offset == gcode::OffsetNumber::of_tool)
     for (auto& tool : out["tools"]) tool.erase("offset");
