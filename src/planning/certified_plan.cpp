@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "planning/explain/given_operations.hpp"
 #include "planning/explain/prices.hpp"
 #include "planning/explain/sensitivity.hpp"
 #include "planning/explain/stock_conflicts.hpp"
@@ -129,6 +130,7 @@ ProcessPlan certified_plan(const PreparedPart& p, const std::vector<WhatIf>& wha
   add_unreachable(p, result);
   add_used_up(p, tolerances_left_to_the_stock(p), result);
   add_auxiliary_conflicts(p, result);
+  if (result.conflicts.empty()) add_left_out(p, result);
   if (!result.conflicts.empty()) {
     result.status = PlanStatus::infeasible;
     result.certificate.reason =

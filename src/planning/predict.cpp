@@ -8,6 +8,7 @@
 #include <string>
 
 #include "planning/clamping/clamping_checks.hpp"
+#include "planning/explain/given_operations.hpp"
 #include "planning/explain/stock_conflicts.hpp"
 #include "planning/setup/edge_schedule.hpp"
 #include "planning/setup/infeasibility_reason.hpp"
@@ -183,6 +184,7 @@ ProcessPlan predict(const PreparedPart& p) {
     result.certificate.reason = "nothing to predict: the part cannot be held so";
     return result;
   }
+  add_left_out(p, result);
   const auto setups = with_corrections(p);
   for (std::size_t s = 0; s < setups.size(); ++s)
     result.setups.push_back(setup_plan(p, s, setups[s], result));

@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "turnwright/planning/prepared_part.hpp"
 
 /// From a request to what follows from it.
@@ -12,5 +15,9 @@ PreparedPart prepare(PlanRequest request);
 /// objective. The machine's shares and the ways of milling, which take long to compute,
 /// are copied from `like`.
 PreparedPart prepare(PlanRequest request, const PreparedPart& like);
+
+/// Surfaces, chamfers, undercuts and centre holes that no setup of a request makes, in
+/// grips that help where they are left open: a sentence for each.
+std::vector<std::string> not_made(PlanRequest request);
 
 }  // namespace turnwright::planning

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "default_setups.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
 #include "document/part/choices.hpp"
@@ -220,6 +221,14 @@ void add_ways(Variant variant, LoadedPart loaded, std::vector<std::size_t> bored
            window_curves, all);
 }
 
+std::vector<Variant> variants_of(const nlohmann::json& request,
+                                 const std::string& document) {
+  Problems problems{.document = document};
+  auto all = variants(request, problems);
+  problems.throw_if_any();
+  return all;
+}
+
 }  // namespace
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
@@ -235,19 +244,19 @@ PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
 
 PreparedDocument prepared_part(const nlohmann::json& json, const Catalogue& catalogue,
                                const std::string& document, Purpose purpose) {
-  return prepared(load_part_plan(json, catalogue, document, purpose), catalogue);
+  if (purpose == Purpose::predict)
+    return prepared(load_part_plan(json, catalogue, document, purpose), catalogue);
+  auto first = variants_of(json, document).front();
+  return prepared(with_setups(first, catalogue, document), catalogue);
 }
 
 Candidates prepared_candidates(const nlohmann::json& json, const Catalogue& catalogue,
                                const std::string& document, bool window_curves) {
-  Problems problems{.document = document};
-  const auto all = variants(json, problems);
-  problems.throw_if_any();
   Candidates out;
   std::optional<InputError> first;
-  for (const auto& variant : all) try {
-      add_ways(variant, load_variant(variant, catalogue, document), {}, catalogue,
-               window_curves, out.usable);
+  for (auto& variant : variants_of(json, document)) try {
+      auto loaded = with_setups(variant, catalogue, document);
+      add_ways(variant, std::move(loaded), {}, catalogue, window_curves, out.usable);
     } catch (const InputError& error) {
       if (!first) first = error;
       const auto& p = error.problems().front();

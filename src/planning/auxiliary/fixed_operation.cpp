@@ -57,13 +57,14 @@ Fitted fitted(const PlanRequest& p, const Asked& a) {
     for (const double size : sizes)
       if (a.fits(t, size) && of_given_depth(a, size) &&
           (!best.tool || (smallest ? size < best.size_mm : size > best.size_mm)))
-        best = {&t, size, *at};
+        best = {&t, size, *at, {}, {}};
   }
   if (!best.tool) return best;
   best.at = catalogue::of_size(best.at, a.use, best.size_mm);
   if (a.given) {
-    const auto& [vc, f] =
-        std::pair{a.given->conditions.vc_m_min, a.given->conditions.f_mm_rev};
+    best.given = a.given->conditions;
+    best.window = best.at.window;
+    const auto& [vc, f] = std::pair{best.given.vc_m_min, best.given.f_mm_rev};
     if (best.at.window && vc) best.at.window->vc_m_min = {*vc, *vc};
     if (best.at.window && f) best.at.window->f_mm_rev = {*f, *f};
     best.at = catalogue::at(best.at, vc.value_or(best.at.vc_m_min),
@@ -80,7 +81,7 @@ Fitted fitted_if(const PlanRequest& p, const Asked& a,
     asked.fits = [&](const FixedTool& t, double size) {
       if (!a.fits(t, size)) return false;
       const auto at = catalogue::of_size(*t.conditions_in(p.material.group), a.use, size);
-      return borne({&t, size, gently ? gentlest(at) : at});
+      return borne({&t, size, gently ? gentlest(at) : at, {}, {}});
     };
     if (const auto f = fitted(p, asked); f.tool) return f;
   }
@@ -202,9 +203,33 @@ Pass pass_of(const Duty& d, double ap_mm, double time_min) {
   return p;
 }
 
-AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D_mm,
-                           double n_cap,
-                           const std::function<AuxiliaryOperation(const Fitted&)>& make) {
+namespace {
+
+// Where the spindle is too slow for the window's lowest speed, its own serves.
+std::vector<ConstraintValue> limits_of_given(const Fitted& f, double D_mm, double n_cap) {
+  std::vector<ConstraintValue> all;
+  const auto& [vc, feed] = std::pair{f.given.vc_m_min, f.given.f_mm_rev};
+  if (vc) {
+    all.push_back(constraint(Check::spindle_max, units::spindle_rpm(*vc, D_mm), n_cap));
+    if (f.window) {
+      const double fastest = units::cutting_speed_m_min(n_cap, D_mm);
+      const auto [lowest, highest] = f.window->vc_m_min;
+      all.push_back(constraint(Check::vc_min, *vc, std::min(lowest, fastest)));
+      all.push_back(constraint(Check::vc_max, *vc, highest));
+    }
+  }
+  if (feed && f.window && f.tool->use != FixedUse::threading &&
+      f.tool->use != FixedUse::tapping) {
+    all.push_back(constraint(Check::feed_min, *feed, f.window->f_mm_rev.lower));
+    all.push_back(constraint(Check::feed_max, *feed, f.window->f_mm_rev.upper));
+  }
+  return all;
+}
+
+// At the best conditions of the window, in which given ones leave no choice.
+AuxiliaryOperation chosen(const Site& s, Fitted f, const std::vector<double>& D_mm,
+                          double n_cap,
+                          const std::function<AuxiliaryOperation(const Fitted&)>& make) {
   if (!f.at.window) return make(f);
   auto& [lowest, highest] = f.at.window->vc_m_min;
   highest = std::min(highest, units::cutting_speed_m_min(n_cap, D_mm[0]));
@@ -217,7 +242,7 @@ AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D
     for (const double D : D_mm)
       breaks.push_back(units::cutting_speed_m_min(range.n_max_rpm, D));
   const auto with = [&](const SpeedAndFeed& c) {
-    return Fitted{f.tool, f.size_mm, catalogue::at(f.at, c.vc_m_min, c.f_mm_rev)};
+    return Fitted{f.tool, f.size_mm, catalogue::at(f.at, c.vc_m_min, c.f_mm_rev), {}, {}};
   };
   return make(with(best_conditions(*f.at.window, breaks, [&](const SpeedAndFeed& c) {
     const auto o = make(with(c));
@@ -227,6 +252,17 @@ AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D
         s.economy.minute * o.change_min + s.economy.edge * o.edges_cost,
         std::ranges::all_of(o.plan.constraints, kept)};
   })));
+}
+
+}  // namespace
+
+AuxiliaryOperation at_best(const Site& s, Fitted f, const std::vector<double>& D_mm,
+                           double n_cap,
+                           const std::function<AuxiliaryOperation(const Fitted&)>& make) {
+  auto o = chosen(s, f, D_mm, n_cap, make);
+  const auto given = limits_of_given(f, D_mm[0], n_cap);
+  o.plan.constraints.insert(o.plan.constraints.end(), given.begin(), given.end());
+  return o;
 }
 
 bool unfaced(const Site& s, const Asked& a, const CutElement& e, double z) {

@@ -45,6 +45,9 @@ struct Fitted {
   const FixedTool* tool = nullptr;
   double size_mm = 0;
   catalogue::FixedConditions at = {};
+  /// Of the request, which `at` then has, and the window of the tool, which they must keep.
+  Conditions given = {};
+  std::optional<catalogue::ConditionsWindow> window = {};
 };
 
 /// The largest size that fits (for parting off and countersinking the smallest), of the
@@ -99,7 +102,8 @@ AuxiliaryOperation operation(const Site& site, const Asked& asked, const Fitted&
                              const std::vector<Duty>& duties);
 Pass pass_of(const Duty& duty, double ap_mm, double time_min);
 /// The operation at the best conditions that the tool's window and the request leave open;
-/// the largest of its diameters comes first.
+/// the largest of its diameters comes first.  Given ones are limited by the window and the
+/// spindle as chosen ones are.
 AuxiliaryOperation at_best(const Site& site, Fitted fitted,
                            const std::vector<double>& D_mm, double n_cap_rpm,
                            const std::function<AuxiliaryOperation(const Fitted&)>& make);

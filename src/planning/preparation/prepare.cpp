@@ -34,10 +34,15 @@ std::vector<MilledPlace> placed(const PreparedPart& p) {
   return all;
 }
 
-// Everything except the parts that take long to compute.
-PreparedPart assigned(PlanRequest request) {
+PreparedPart gripped(PlanRequest request) {
   PreparedPart p{ruled(std::move(request)), {}, {}, {}, {}, {}, {}};
   choose_grips(p);
+  return p;
+}
+
+// Everything except the parts that take long to compute.
+PreparedPart assigned(PlanRequest request) {
+  auto p = gripped(std::move(request));
   leave_to_the_hand(p);
   p.jaws = jaw_forces(p);
   p.drilled_mm = drilled(p);
@@ -65,6 +70,10 @@ PreparedPart prepare(PlanRequest request, const PreparedPart& like) {
   for (std::size_t i = 0; i < p.milled_places.size(); ++i)
     p.milled_places[i].ways = like.milled_places.at(i).ways;
   return p;
+}
+
+std::vector<std::string> not_made(PlanRequest request) {
+  return gripped(std::move(request)).work.unreachable;
 }
 
 }  // namespace turnwright::planning

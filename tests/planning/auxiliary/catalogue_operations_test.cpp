@@ -588,12 +588,12 @@ json given_groove() {
 
 TEST(Given, FixedOperationsKeepTheirIdsAndConditions) {
   auto d = given_groove();
-  d["operations"][5]["conditions"] = {{"f_mm_rev", 0.05}, {"vc_m_min", 90}};
+  d["operations"][5]["conditions"] = {{"f_mm_rev", 0.07}, {"vc_m_min", 90}};
   d["operations"][6]["conditions"] = {{"passes", 9}};
   const auto r = plan(part(d));
   ASSERT_EQ(r.status, PlanStatus::ok);
   const auto g = copy_of(r, "groove");
-  EXPECT_EQ(g.passes[0].f_mm_rev, 0.05);
+  EXPECT_EQ(g.passes[0].f_mm_rev, 0.07);
   EXPECT_NEAR(g.passes[0].vc_m_min, 90, 1e-9);
   EXPECT_EQ(copy_of(r, "thread").passes.size(), 9U);
   // The groove's blank is turned with the thread beside it, the smaller one.

@@ -37,6 +37,59 @@ json turned(json outer, double stock_mm) {
             {{"hold", "left"}, {"clampings", {"chuck"}}}}}};
 }
 
+// A bush with a bore through it from one end, chamfers at both, parted off.
+json bush(const char* from) {
+  auto d = turned({cylinder("d1", 35, 45)}, 50);
+  d.erase("setups");
+  d["stock"] = {{"kind", "bar"},
+                {"diameter_mm", 50},
+                {"length_mm", 100},
+                {"part_off_allowance_mm", 0.5}};
+  d["inner"] = {cylinder("b1", 35, 25)};
+  d["inner"][0]["from"] = from;
+  for (const char* at : {"left", "right", "left|b1", "right|b1"})
+    d["edges"].push_back({{"at", at}, {"chamfer_mm", 1}});
+  return d;
+}
+
+// Without setups the ends are held in the order in which everything can be made, so that a
+// part and its mirror image cost the same.
+TEST(OpenSetups, OfAMirrorImageAreTheOtherWayRound) {
+  const auto right = part(bush("right")), left = part(bush("left"));
+  EXPECT_EQ(right.setups[0].hold, part::End::left);
+  EXPECT_EQ(left.setups[0].hold, part::End::right);
+  EXPECT_EQ(left.setups[1].hold, part::End::left);
+  EXPECT_TRUE(left.work.unreachable.empty());
+  EXPECT_EQ(left.setups[0].clampings, right.setups[0].clampings);
+  const auto a = plan(right), b = plan(left);
+  ASSERT_EQ(a.status, PlanStatus::ok);
+  ASSERT_EQ(b.status, PlanStatus::ok);
+  EXPECT_NEAR(a.cost_per_part, b.cost_per_part, 1e-3 * a.cost_per_part);
+}
+
+TEST(OpenSetups, AreToldAndStayAsTheyAreWhereNeitherOrderHelps) {
+  const auto told = [](const json& d) {
+    std::string why;
+    for (const auto& a : document::prepared_part(d, shop(), "part").assumed)
+      if (a.pointer == "/setups") why = a.why;
+    return why.substr(0, why.find(','));
+  };
+  EXPECT_EQ(told(bush("left")), "hold right");
+  EXPECT_EQ(told(bush("right")), "hold left");
+  auto neck =
+      turned({cylinder("a", 20, 40), cylinder("b", 20, 30), cylinder("c", 20, 40)}, 45);
+  neck.erase("setups");
+  neck["outer"][1]["kind"] = "cone";
+  neck["outer"][1].erase("diameter_mm");
+  neck["outer"][1]["left_mm"] = 20;
+  neck["outer"][1]["right_mm"] = 35;
+  EXPECT_FALSE(part(neck).work.unreachable.empty());
+  EXPECT_EQ(told(neck), "hold left");
+  auto given = bush("left");
+  given["setups"] = {{{"hold", "left"}}, {{"hold", "right"}}};
+  EXPECT_EQ(part(given).setups[0].hold, part::End::left);
+}
+
 // A finished pin of 16 x 80 mm, on which 20 mm are left to cut: three diameters, 48 mm,
 // stand out of the jaws instead of 85.
 TEST(Grips, LetThreeDiametersStandOut) {
