@@ -44,6 +44,7 @@ void finish(ModalState& s, const Contour& contour);
 ///     G73 U(shift) W(shift) R(passes)     G73 P Q U W F      G73 P Q I K U W D(passes) F
 ///
 /// What is left, U, is a diameter, the other lengths along X are radii.
+/// Source: [Lathe cycles] in docs/bibliography.md.
 class ContourCycleReader {
  public:
   /// The contour between two blocks; none if there are no such.

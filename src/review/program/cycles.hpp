@@ -59,6 +59,7 @@ void peck_cycle(ModalState& s, const PeckCycle& cycle);
 ///     G75 R(retract)     G75 X Z P(peck) Q(shift) R(relief) F     G75 X Z I(peck) K(shift) F
 ///
 /// P and Q without a point count steps of 1 um or 0.0001 inch; P and I are radii.
+/// Source: [Lathe cycles] in docs/bibliography.md.
 class PeckCycleReader {
  public:
   void take(ModalState& s, int code, const Block& block);

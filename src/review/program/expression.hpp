@@ -16,7 +16,7 @@
 /// larger number in LinuxCNC, towards 0 and away from it in Fanuc; MOD has the sign of the
 /// dividend in Fanuc and none in LinuxCNC, where EQ and NE allow 1e-4.  A vacant variable
 /// counts as 0 but for EQ and NE, which tell it from 0.
-/// Source: LinuxCNC's interpreter, which expressions_linuxcnc_test runs; Fanuc's manual.
+/// Source: [LinuxCNC], which linuxcnc_test runs; of Fanuc [gEdit] in docs/bibliography.md.
 namespace turnwright::review {
 
 /// The value of an expression; vacant only for a vacant variable alone.

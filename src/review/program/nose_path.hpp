@@ -23,7 +23,7 @@ struct Nose {
 /// one square to its end; the next after G40 ends in its place.  Listed as unknown are
 /// corners that the nose cannot enter, whose ways are joined straight, and threads, which
 /// stay.  Tools without a nose, of which `nose_of` gives none, keep their moves.
-/// Source: derived here; nose_path_linuxcnc_test compares with LinuxCNC's interpreter.
+/// Source: derived here; linuxcnc_test compares with LinuxCNC's interpreter.
 TurningProgram with_nose_paths(
     const TurningProgram& program,
     const std::function<std::optional<Nose>(int tool)>& nose_of);

@@ -32,7 +32,7 @@ using Value = std::optional<double>;
 /// Those of a subroutine are 0 (LinuxCNC) or vacant (Fanuc) at first.  What the control
 /// keeps beyond a program (LinuxCNC's from #5001, Fanuc's common ones, system variables) is
 /// known only after the program has set it.
-/// Source: LinuxCNC's and Fanuc's manuals in docs/bibliography.md.
+/// Source: [LinuxCNC] and [gEdit] in docs/bibliography.md.
 class Parameters {
  public:
   explicit Parameters(gcode::Control control)
