@@ -9,6 +9,7 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "review/cut/engagement.hpp"
 #include "review/cut/workpiece.hpp"
+#include "review/program/nose_path.hpp"
 
 namespace turnwright::review {
 namespace {
@@ -36,6 +37,15 @@ void add_edges(ReviewedSetup& setup, const std::vector<MountedTool>& tools) {
     setup.edge_cost += c.edges * (t.turning ? t.turning->edge_cost : t.fixed->edge_cost);
     setup.edge_min += c.edges * (t.turning ? t.turning->change_min : t.fixed->change_min);
   }
+}
+
+// The nose of a tool by its number.
+std::optional<Nose> nose_of(const std::vector<MountedTool>& tools, int number) {
+  const auto t = std::ranges::find(tools, number, &MountedTool::number);
+  if (t == tools.end()) return std::nullopt;
+  if (t->turning) return Nose{t->turning->re_mm, t->turning->bar.has_value()};
+  if (catalogue::on_axis(t->fixed->use)) return std::nullopt;
+  return Nose{t->fixed->re_mm, t->fixed->inner};
 }
 
 // The difference between the surface on an element's columns and its drawn line that
@@ -90,7 +100,9 @@ Review review(const planning::PreparedPart& part,
       throw std::domain_error("review: the programs must be in the order of the setups");
     for (; next < p.setup; ++next) workpiece.make_as_drawn(next);
     ++next;
-    auto setup = follow(part, p, tools, workpiece);
+    const auto nose = [&](int number) { return nose_of(tools, number); };
+    auto setup = follow(part, {p.setup, with_nose_paths(p.program, nose), p.zero_mm},
+                        tools, workpiece);
     for (auto& c : setup.cuts)
       add_loads(part, p.setup, *std::ranges::find(tools, c.tool, &MountedTool::number),
                 c);

@@ -210,6 +210,23 @@ TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInLinuxCnc) {
                             {.control = gcode::Control::linuxcnc});
 }
 
+// Two finishing passes without a rapid between them, each of which climbs its wall: the one
+// of d2 is the higher, and a fifth of the pass's time, the cut of d1 the larger.
+TEST(ReviewOfOwnPrograms, GivesWallsToThePassThatClimbsThem) {
+  const auto& p = nc::test::planned_reference("spindle-nose");
+  const auto r = reviewed(p, {.control = gcode::Control::linuxcnc});
+  const auto& s = r.review.setups.at(1);
+  int finished = 0;
+  for (const auto& o : p.plan.setups.at(1).operations) {
+    if (o.kind != planning::OperationKind::finish) continue;
+    ++finished;
+    const auto* c = cut_of(s, o);
+    ASSERT_TRUE(c) << o.id;
+    EXPECT_NEAR(c->passes.at(0).time_min / o.passes.at(0).time_min, 1, 0.01) << o.id;
+  }
+  EXPECT_EQ(finished, 2);
+}
+
 TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {
   for (const char* name : {"drilled-bush", "pump-shaft", "threaded-spindle"})
     expect_review_of_plan(name, nc::test::planned_reference(name),

@@ -94,6 +94,20 @@ TEST(Review, MeasuresACylinder) {
   EXPECT_NEAR(r.sizes[0].diameter_mm, 44, 1e-4);
 }
 
+// A cone of slope s = 1/4 comes as drawn with the nose beside the contour.  With the tip on
+// it the nose of r = 0.8 mm leaves r (1 + s - sqrt(1 + s^2)) on the radius.
+TEST(Review, FollowsNoseCompensation) {
+  const auto cone_mm = [](const std::string& compensation) {
+    const auto r = reviewed(kStart + "G0 X50. Z9.\n" + compensation +
+                            "G0 X30. Z4.\nG1 Z-40. F0.25\nX40. Z-60.\nZ-70.\nG40\n"
+                            "G0 X60.");
+    EXPECT_TRUE(r.setups[0].unknown.empty());
+    return std::ranges::find(r.sizes, "c", &MadeSize::on)->diameter_mm;
+  };
+  EXPECT_NEAR(cone_mm("G42\n"), 35, 1e-3);
+  EXPECT_NEAR(cone_mm(""), 35 + 2 * 0.8 * (1.25 - std::sqrt(1 + 0.25 * 0.25)), 1e-3);
+}
+
 // What the edge wears, and the grip by VDI 3106, whose lever is the part before the cut.
 TEST(Review, CountsEdgesAndGrip) {
   const auto r = reviewed(kStart + "G0 X44. Z4.\nG1 Z-40. F0.25\nG0 X60.");

@@ -25,12 +25,22 @@ struct WordsInForce {
   bool per_minute = false;  ///< F
 };
 
-/// A move of the tip as a block, or a block of a cycle, commands it.
+/// On which side of its way the tool's nose keeps, looking along it with X up and Z to the
+/// right: G41 left, G42 right.
+enum class NoseSide { none, left, right };
+struct NoseCompensation {
+  NoseSide side = NoseSide::none;
+  double radius_mm = 0;  ///< that the program gives (LinuxCNC's G41.1); 0: the tool's
+};
+
+/// A move of the tip as a block, or a block of a cycle, commands it; with compensation the
+/// line that the nose touches.
 struct ReadMove {
   std::optional<toolpath::Point> from = {};  ///< none: from a place that is not known
   toolpath::Move to;
   std::size_t line = 0;
   WordsInForce words = {};
+  NoseCompensation nose = {};
 };
 
 /// Moves at one tool, spindle speed and feed, or a stop.
@@ -63,7 +73,8 @@ struct ReadOptions {
 /// minute, tools, M0 and M1, and these cycles:
 ///
 ///     fanuc, haas     G90, G94 (straight), G92, G76 (Fanuc's two blocks, Haas' one), G71
-///                     of contours that go one way in X and in Z, G70
+///                     and G72 of contours that go one way in X and in Z, G73, G70, G74,
+///                     G75, in two blocks or one
 ///     fanuc-b         G76
 ///     linuxcnc        G76
 ///     okuma           G33 comes back to where it began
@@ -72,11 +83,15 @@ struct ReadOptions {
 ///
 ///     d_k = d_1 k^(1/R), R = 2 but for LinuxCNC's word R, until the whole depth.       (1)
 ///
+/// Variables, expressions, subprograms, branches and loops are executed: LinuxCNC's O words
+/// and #<name>, Fanuc's macro B, M97, M98, M99 and G65; at most 200,000 lines beyond each
+/// once, and calls ten deep.
+///
 /// Reference returns move the tool to a place that is not known.  Everything else is listed
 /// under `unknown` with its line, and reading goes on; after a line that may have moved the
-/// tool its place is not known until both coordinates are given.  With tool nose radius
-/// compensation (G41, G42) the drawn contour is taken for the path of the tip, which is
-/// right on cylinders and faces; that, too, is listed.
+/// tool its place is not known until both coordinates are given.  Moves with tool nose radius
+/// compensation (G41, G42) have what the program says; nose_path.hpp makes the tip's way of
+/// them.
 /// Source: the controls' manuals in docs/bibliography.md; (1) is LinuxCNC's degression.
 TurningProgram read_program(std::string_view text, const ReadOptions& options);
 

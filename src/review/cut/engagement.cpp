@@ -219,9 +219,13 @@ class Follower {
     // A short move takes off more lines than it passes: those along the edge.
     samples_ += samples.size();
     const double all = static_cast<double>(samples.size()) * w_.pitch_mm / part;
+    // In the order of the way.
+    if (across ? from.x > to.x : from.z > to.z) std::ranges::reverse(samples);
     for (auto& [on, sample] : samples) {
       sample.way_mm *= std::min(1.0, way / all);
-      pass_[on].push_back(sample);
+      auto& on_surface = pass_[on];
+      if (on_surface.empty()) surfaces_.push_back(on);
+      on_surface.push_back(sample);
     }
   }
 
@@ -304,24 +308,34 @@ class Follower {
     }
   }
 
-  // What a pass takes off beside its surface, at its ends and up a wall, belongs to it.
+  // What a pass takes off beside its surfaces, at their ends and up a wall, belongs to the
+  // one that it has just cut, or else to the next.
   void end_pass() {
     const auto largest = std::ranges::max_element(
         pass_, {}, [](const auto& entry) { return section_mm2(entry.second); });
     if (largest == pass_.end()) return;
     const double least = kBesideShare * section_mm2(largest->second);
-    auto main = pass_of(largest->second, *at_);
-    for (const auto& [on, samples] : pass_) {
-      if (on == largest->first) continue;
-      auto beside = pass_of(samples, *at_);
-      beside.beside = true;
-      if (section_mm2(samples) >= least)
-        add(on, beside);
-      else
-        take_in(main, beside);
+    std::vector<std::pair<std::string, PassCut>> all;
+    std::vector<PassCut> before;
+    for (const auto& on : surfaces_) {
+      const auto& samples = pass_.at(on);
+      auto cut = pass_of(samples, *at_);
+      if (section_mm2(samples) >= least) {
+        cut.beside = on != largest->first;
+        for (const auto& b : std::exchange(before, {})) take_in(cut, b);
+        all.emplace_back(on, cut);
+      } else if (all.empty()) {
+        before.push_back(cut);
+      } else {
+        take_in(all.back().second, cut);
+      }
     }
-    add(largest->first, main);
+    for (const auto& [on, cut] : all)
+      if (cut.beside) add(on, cut);
+    for (const auto& [on, cut] : all)
+      if (!cut.beside) add(on, cut);
     pass_.clear();
+    surfaces_.clear();
     samples_ = 0;
     w_.section.drop_loose(part::length_mm(part_.drawing) / 2);
   }
@@ -364,6 +378,7 @@ class Follower {
   MountedEdge edge_;
   const toolpath::Step* at_ = nullptr;
   std::map<std::string, Samples> pass_;
+  std::vector<std::string> surfaces_;     // of the pass, as it met them
   std::size_t pieces_ = 0, samples_ = 0;  // of the program, of the pass
   std::map<std::string, double> threads_;
   std::set<int> missing_;

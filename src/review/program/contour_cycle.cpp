@@ -1,8 +1,11 @@
 #include "contour_cycle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace turnwright::review {
 namespace {
@@ -31,7 +34,7 @@ void add_points(const ReadMove& m, std::vector<Point>& all) {
 }
 
 // Its corners, from the end of its first block, with what is left on it.
-std::vector<Point> points(const Contour& contour, const RoughingCycle& cycle) {
+std::vector<Point> points(const Contour& contour, const ContourCycle& cycle) {
   std::vector<Point> all;
   for (const auto& run : contour.runs)
     for (const auto& m : run.moves) add_points(m, all);
@@ -42,51 +45,118 @@ std::vector<Point> points(const Contour& contour, const RoughingCycle& cycle) {
   return all;
 }
 
-bool steady(const std::vector<Point>& all, double outwards) {
-  for (std::size_t i = 1; i < all.size(); ++i)
-    if (outwards * (all[i].h_mm - all[i - 1].h_mm) < -kLevel_mm ||
-        all[i].z_mm - all[i - 1].z_mm > kLevel_mm)
-      return false;
-  return true;
-}
-
-// Where the contour reaches a level, seen from its beginning.
-double reached_z(const std::vector<Point>& all, double level_mm, double outwards) {
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    const auto &a = all[i - 1], &b = all[i];
-    if (outwards * (b.h_mm - level_mm) < 0) continue;
-    const double rise = b.h_mm - a.h_mm;
-    const double u = std::abs(rise) > kLevel_mm ? (level_mm - a.h_mm) / rise : 0;
-    return std::lerp(a.z_mm, b.z_mm, std::clamp(u, 0.0, 1.0));
+// Passes lie at levels of one axis and run along the other.
+class Levels {
+ public:
+  Levels(ModalState& s, RoughingAlong along, const std::vector<Point>& contour)
+      : s_(s), across_(along == RoughingAlong::x), contour_(contour) {
+    const Point start{*s.x_mm, *s.z_mm};
+    level_ = level(start);
+    place_ = place(start);
+    outwards_ = level(contour.front()) <= level_ ? 1 : -1;
+    forwards_ = place(contour.back()) <= place_ ? -1 : 1;
   }
-  return all.back().z_mm;
+
+  bool steady() const {
+    for (std::size_t i = 1; i < contour_.size(); ++i)
+      if (outwards_ * (level(contour_[i]) - level(contour_[i - 1])) < -kLevel_mm ||
+          forwards_ * (place(contour_[i]) - place(contour_[i - 1])) < -kLevel_mm)
+        return false;
+    return true;
+  }
+
+  /// Whether all passes were made.
+  bool cut(double depth, double retract) {
+    const double last = level(contour_.front());
+    for (int k = 1; k <= kMostPasses; ++k) {
+      const double at = level_ - outwards_ * depth * k;
+      if (!(outwards_ * (at - last) > kLevel_mm)) return true;
+      const double to = reached(at), out = at + outwards_ * retract;
+      go(Kind::rapid, at, place_);
+      go(Kind::feed, at, to);
+      go(Kind::feed, out, to - forwards_ * retract);
+      go(Kind::rapid, out, place_);
+    }
+    return false;
+  }
+  void begin_contour() { go(Kind::rapid, level(contour_.front()), place_); }
+  void back() {
+    go(Kind::rapid, level_, place({*s_.x_mm, *s_.z_mm}));
+    go(Kind::rapid, level_, place_);
+  }
+
+ private:
+  double level(const Point& p) const { return across_ ? p.z_mm : p.h_mm; }
+  double place(const Point& p) const { return across_ ? p.h_mm : p.z_mm; }
+  void go(Kind kind, double level, double place) {
+    across_ ? s_.straight(kind, place, level) : s_.straight(kind, level, place);
+  }
+  // Where the contour reaches a level, seen from its beginning.
+  double reached(double at) const {
+    for (std::size_t i = 1; i < contour_.size(); ++i) {
+      const auto &a = contour_[i - 1], &b = contour_[i];
+      if (outwards_ * (level(b) - at) < 0) continue;
+      const double rise = level(b) - level(a);
+      const double u = std::abs(rise) > kLevel_mm ? (at - level(a)) / rise : 0;
+      return std::lerp(place(a), place(b), std::clamp(u, 0.0, 1.0));
+    }
+    return place(contour_.back());
+  }
+
+  ModalState& s_;
+  bool across_;
+  const std::vector<Point>& contour_;
+  double level_ = 0, place_ = 0, outwards_ = 1, forwards_ = -1;
+};
+
+// The contour's moves as feeds, shifted.
+void along(ModalState& s, const Contour& contour, double dx, double dz) {
+  for (const auto& run : contour.runs)
+    for (auto m : run.moves) {
+      if (m.to.kind == Kind::rapid) m.to.kind = Kind::feed;
+      m.to.x_mm += dx;
+      m.to.z_mm += dz;
+      m.to.centre.h_mm += dx;
+      m.to.centre.z_mm += dz;
+      s.to(m.to);
+    }
 }
 
 }  // namespace
 
-void rough(ModalState& s, const Contour& contour, const RoughingCycle& cycle) {
+void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
+           RoughingAlong direction) {
+  const auto name = direction == RoughingAlong::z ? "G71" : "G72";
   const auto all = points(contour, cycle);
   if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.depth_mm > 0))
-    return s.unknown("G71", "Its contour, its depth or the tool's place is not known.");
+    return s.unknown(name, "Its contour, its depth or the tool's place is not known.");
+  Levels levels(s, direction, all);
+  if (!levels.steady())
+    return s.unknown(name, "Only contours that go one way in X and in Z are followed.");
+  if (!levels.cut(cycle.depth_mm, cycle.retract_mm))
+    s.unknown(name, "It has more than 500 passes.");
+  levels.begin_contour();
+  along(s, contour, cycle.left_x_mm, cycle.left_z_mm);
+  levels.back();
+}
+
+void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle) {
+  const auto all = points(contour, cycle);
+  if (!s.x_mm || !s.z_mm || all.size() < 2 || !(cycle.passes >= 1))
+    return s.unknown("G73", "Its contour, its passes or the tool's place is not known.");
+  if (!(cycle.passes <= kMostPasses))
+    return s.unknown("G73", "It has more than 500 passes.");
   const double x0 = *s.x_mm, z0 = *s.z_mm;
-  const double outwards = all.front().h_mm <= x0 ? 1 : -1;
-  if (!steady(all, outwards))
-    return s.unknown("G71", "Only contours that go one way in X and in Z are followed.");
-  int k = 1;
-  for (double x = x0 - outwards * cycle.depth_mm;
-       outwards * (x - all.front().h_mm) > kLevel_mm && k <= kMostPasses;
-       x = x0 - outwards * cycle.depth_mm * ++k) {
-    const double z = reached_z(all, x, outwards);
-    s.straight(Kind::rapid, x, z0);
-    s.straight(Kind::feed, x, z);
-    s.straight(Kind::feed, x + outwards * cycle.retract_mm, z + cycle.retract_mm);
-    s.straight(Kind::rapid, x + outwards * cycle.retract_mm, z0);
+  const double n = std::floor(cycle.passes);
+  for (double pass = 1; pass <= n; ++pass) {
+    const double share = n > 1 ? (n - pass) / (n - 1) : 0;
+    const double dx = share * cycle.shift_x_mm, dz = share * cycle.shift_z_mm;
+    s.straight(Kind::rapid, x0 + dx, z0 + dz);
+    s.straight(Kind::rapid, all.front().h_mm + dx, all.front().z_mm + dz);
+    along(s, contour, cycle.left_x_mm + dx, cycle.left_z_mm + dz);
+    s.straight(Kind::rapid, x0 + dx, *s.z_mm);
+    s.straight(Kind::rapid, x0 + dx, z0 + dz);
   }
-  if (k > kMostPasses) s.unknown("G71", "It has more than 500 passes.");
-  s.straight(Kind::rapid, all.front().h_mm, z0);
-  for (const auto& p : all) s.straight(Kind::feed, p.h_mm, p.z_mm);
-  s.straight(Kind::rapid, x0, *s.z_mm);
-  s.straight(Kind::rapid, x0, z0);
 }
 
 void finish(ModalState& s, const Contour& contour) {
@@ -95,18 +165,72 @@ void finish(ModalState& s, const Contour& contour) {
                      "X or Z was not given before it.");
   const double x0 = *s.x_mm, z0 = *s.z_mm, F = s.F;
   const auto F_line = s.F_line;
+  const auto nose = s.nose;
   for (const auto& run : contour.runs) {
     const bool own = run.step.f_mm_rev > 0 && s.per_revolution;
     if (own) s.F = run.step.f_mm_rev;
     for (const auto& m : run.moves) {
       if (own) s.F_line = m.words.F_line;
+      s.nose = m.nose;
       s.to(m.to);
     }
   }
+  s.nose = nose;
   s.F = F;
   s.F_line = F_line;
   s.straight(Kind::rapid, x0, *s.z_mm);
   s.straight(Kind::rapid, x0, z0);
+}
+
+void ContourCycleReader::set(const ModalState& s, int code, const Block& block) {
+  const auto length = [&](const char* name) {
+    return s.mm(block.value(name).value_or(0));
+  };
+  if (code == 73) {
+    cycle_.shift_x_mm = length("U");
+    cycle_.shift_z_mm = length("W");
+    cycle_.passes = block.value("R").value_or(0);
+    return;
+  }
+  cycle_.depth_mm = length(code == 71 ? "U" : "W");
+  cycle_.retract_mm = length("R");
+}
+
+std::optional<double> ContourCycleReader::take(ModalState& s, gcode::Control control,
+                                               int code, const Block& block,
+                                               const Between& between) {
+  const auto P = block.value("P"), Q = block.value("Q");
+  if (!P || !Q) {
+    set(s, code, block);
+    return std::nullopt;
+  }
+  const auto contour = between(*P, *Q);
+  if (!contour) {
+    s.unknown(fmt::format("P{:g} Q{:g}", *P, *Q),
+              "There are no such blocks in the program, or they call others.");
+    s.lose_place();
+    return std::nullopt;
+  }
+  if (code == 70) return finish(s, *contour), std::nullopt;
+  const auto* D = block.find("D");
+  if (code == 73) {
+    if (D) cycle_.passes = *D->value;
+    if (const auto I = block.value("I")) cycle_.shift_x_mm = s.mm(*I);
+    if (const auto K = block.value("K")) cycle_.shift_z_mm = s.mm(*K);
+  } else if (D) {
+    cycle_.depth_mm = control == gcode::Control::haas ? s.mm(*D->value)
+                                                      : s.steps_mm(*D->value, D->point);
+  }
+  cycle_.left_x_mm = s.mm(block.value("U").value_or(0)) / 2;
+  cycle_.left_z_mm = s.mm(block.value("W").value_or(0));
+  // Controls rough without compensation.
+  const auto nose = std::exchange(s.nose, {});
+  if (code == 73)
+    repeat_pattern(s, *contour, cycle_);
+  else
+    rough(s, *contour, cycle_, code == 71 ? RoughingAlong::z : RoughingAlong::x);
+  s.nose = nose;
+  return Q;
 }
 
 }  // namespace turnwright::review

@@ -1,9 +1,12 @@
 #pragma once
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "modal_state.hpp"
+#include "words.hpp"
 
-/// Roughing and finishing of a contour by Fanuc's G71 and G70, as plain moves.
+/// Roughing and finishing of a contour by Fanuc's G70 to G73, as plain moves.
 namespace turnwright::review {
 
 /// A contour as the blocks between P and Q command it from where the cycle begins.
@@ -11,17 +14,48 @@ struct Contour {
   std::vector<Run> runs;  ///< with the feeds of the blocks
 };
 
-struct RoughingCycle {
-  double depth_mm = 0, retract_mm = 0;  ///< of each pass, on the radius
-  double left_x_mm = 0, left_z_mm = 0;  ///< for finishing: on the radius, < 0 in bores
+/// What of a contour's cycle the moves follow from.
+struct ContourCycle {
+  double depth_mm = 0, retract_mm = 0;    ///< of each pass, on the radius
+  double left_x_mm = 0, left_z_mm = 0;    ///< for finishing: on the radius, < 0 in bores
+  double shift_x_mm = 0, shift_z_mm = 0;  ///< of the first pass of G73, on the radius
+  double passes = 0;                      ///< of G73
 };
 
-/// Passes along Z from where the tool stands to the contour with what is left on it, each
-/// with a way out at 45 deg, then once along this contour, and back.  The contour must rise
-/// or fall all the way in X and in Z (type I); others are listed as unknown.
-void rough(ModalState& s, const Contour& contour, const RoughingCycle& cycle);
+/// Passes from where the tool stands to the contour with what is left on it, each with a
+/// way out at 45 deg, then once along this contour, and back: along Z (G71), or along X
+/// (G72).  The contour must rise or fall all the way in X and in Z (type I); others are
+/// listed as unknown.
+enum class RoughingAlong { z, x };
+void rough(ModalState& s, const Contour& contour, const ContourCycle& cycle,
+           RoughingAlong along);
 
-/// Along the contour and back to where the tool stood.
+/// The contour with what is left on it, moved by a shift that falls evenly from its whole at
+/// the first pass to none at the last (G73).
+void repeat_pattern(ModalState& s, const Contour& contour, const ContourCycle& cycle);
+
+/// Along the contour and back to where the tool stood (G70).
 void finish(ModalState& s, const Contour& contour);
+
+/// G70 to G73 in two blocks, of which the first sets depths and passes, or in one:
+///
+///     G71 U(depth) R(retract)             G71 P Q U W F            G71 P Q U W D(depth) F
+///     G72 W(depth) R(retract)             G72 P Q U W F            G72 P Q U W D(depth) F
+///     G73 U(shift) W(shift) R(passes)     G73 P Q U W F      G73 P Q I K U W D(passes) F
+///
+/// What is left, U, is a diameter, the other lengths along X are radii.
+/// Source: [Lathe cycles] in docs/bibliography.md.
+class ContourCycleReader {
+ public:
+  /// The contour between two blocks; none if there are no such.
+  using Between = std::function<std::optional<Contour>(double P, double Q)>;
+  /// The block's cycle; the last block of its contour, behind which the program goes on.
+  std::optional<double> take(ModalState& s, gcode::Control control, int code,
+                             const Block& block, const Between& between);
+
+ private:
+  void set(const ModalState& s, int code, const Block& block);
+  ContourCycle cycle_;
+};
 
 }  // namespace turnwright::review

@@ -127,4 +127,69 @@ void ThreadCycleReader::haas(ModalState& s, const Block& block) {
   thread_cycle(s, c);
 }
 
+void peck_cycle(ModalState& s, const PeckCycle& c) {
+  if (!s.x_mm || !s.z_mm)
+    return s.unknown("a cycle from a place that is not known",
+                     "X or Z was not given before it.");
+  // Along: the axis of the pecks.  Across: that of their places.
+  const double x0 = *s.x_mm, z0 = *s.z_mm;
+  const double along0 = c.along_x ? x0 : z0, across0 = c.along_x ? z0 : x0;
+  const double along1 = c.along_x ? c.to_x_mm : c.to_z_mm;
+  const double across1 = c.along_x ? c.to_z_mm : c.to_x_mm;
+  const double deeper = along1 < along0 ? -1 : 1, further = across1 < across0 ? -1 : 1;
+  const double depth = std::abs(along1 - along0), width = std::abs(across1 - across0);
+  const double peck = c.peck_mm > 0 ? c.peck_mm : depth;
+  const double shift = c.shift_mm > 0 ? c.shift_mm : width;
+  const auto go = [&](Kind kind, double along, double across) {
+    c.along_x ? s.straight(kind, along, across) : s.straight(kind, across, along);
+  };
+  if (!(depth > 0 && depth <= kMostCuts * peck && width <= kMostCuts * shift))
+    return s.unknown("a cycle of pecks",
+                     "It has no depth, or more than 200 pecks or places.");
+  for (double at = 0; !s.full(); at = std::min(at + shift, width)) {
+    const double across = across0 + further * at;
+    go(Kind::rapid, along0, across);
+    for (double cut = std::min(peck, depth);; cut = std::min(cut + peck, depth)) {
+      go(Kind::feed, along0 + deeper * cut, across);
+      if (!(cut < depth - kRounding_mm)) break;
+      go(Kind::rapid, along0 + deeper * (cut - c.retract_mm), across);
+    }
+    if (c.relief_mm > 0) go(Kind::rapid, along1, across - further * c.relief_mm);
+    go(Kind::rapid, along0, across - (c.relief_mm > 0 ? further * c.relief_mm : 0));
+    if (!(at < width - kRounding_mm)) break;
+  }
+  s.straight(Kind::rapid, x0, z0);
+}
+
+void PeckCycleReader::take(ModalState& s, int code, const Block& block) {
+  const bool along_x = code == 75;
+  const auto end = [&](const char* absolute, const char* incremental, double now,
+                       double scale) {
+    if (const auto v = block.value(absolute)) return s.mm(*v) * scale;
+    return now + s.mm(block.value(incremental).value_or(0)) * scale;
+  };
+  const auto increment = [&](const char* steps, const char* length) {
+    if (const auto v = block.value(length)) return std::abs(s.mm(*v));
+    const auto* w = block.find(steps);
+    return w ? std::abs(s.steps_mm(*w->value, w->point)) : 0;
+  };
+  const bool ends =
+      block.find("X") || block.find("Z") || block.find("U") || block.find("W");
+  if (!ends) {
+    retract_mm_ = std::abs(s.mm(block.value("R").value_or(0)));
+    return;
+  }
+  PeckCycle c;
+  c.along_x = along_x;
+  c.to_x_mm = end("X", "U", s.x_mm.value_or(0), s.diameter ? 0.5 : 1);
+  c.to_z_mm = end("Z", "W", s.z_mm.value_or(0), 1);
+  const double in_x = increment("P", "I"), in_z = increment("Q", "K");
+  c.peck_mm = along_x ? in_x : in_z;
+  c.shift_mm = along_x ? in_z : in_x;
+  c.retract_mm = retract_mm_;
+  const char* relief = block.find("D") ? "D" : "R";
+  c.relief_mm = std::abs(s.mm(block.value(relief).value_or(0)));
+  peck_cycle(s, c);
+}
+
 }  // namespace turnwright::review

@@ -42,4 +42,30 @@ class ThreadCycleReader {
   double least_mm_ = 0;
 };
 
+/// Pecks of one axis, at places of the other, from where the tool stands and back.
+struct PeckCycle {
+  bool along_x = false;  ///< G75; G74 pecks along Z
+  double to_x_mm = 0, to_z_mm = 0;
+  double peck_mm = 0;     ///< 0: one stroke
+  double retract_mm = 0;  ///< after each peck
+  double shift_mm = 0;    ///< from place to place; 0: the first and the last
+  double relief_mm = 0;   ///< away from the next place before the way back
+};
+void peck_cycle(ModalState& s, const PeckCycle& cycle);
+
+/// G74 and G75 of system A, in two blocks, of which the first sets the retract, or one:
+///
+///     G74 R(retract)     G74 X Z P(shift) Q(peck) R(relief) F     G74 X Z I(shift) K(peck) F
+///     G75 R(retract)     G75 X Z P(peck) Q(shift) R(relief) F     G75 X Z I(peck) K(shift) F
+///
+/// P and Q without a point count steps of 1 um or 0.0001 inch; P and I are radii.
+/// Source: [Lathe cycles] in docs/bibliography.md.
+class PeckCycleReader {
+ public:
+  void take(ModalState& s, int code, const Block& block);
+
+ private:
+  double retract_mm_ = 0;
+};
+
 }  // namespace turnwright::review

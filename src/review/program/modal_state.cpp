@@ -26,11 +26,15 @@ bool same_conditions(const Step& a, const Step& b) {
 ModalState::ModalState(const ReadOptions& options)
     : limit_rpm(options.n_max_rpm), moves_max_(options.moves_max) {}
 
-void ModalState::unknown(std::string what, std::string why) {
-  auto& all = program.unknown;
-  if (all.size() < kUnknowns) all.push_back({line, std::move(what), std::move(why)});
+void list(std::vector<Unknown>& all, Unknown unknown) {
+  const auto line = unknown.line;
+  if (all.size() < kUnknowns) all.push_back(std::move(unknown));
   if (all.size() == kUnknowns)
     all.back() = {line, "more of this kind", "Only the first 200 are listed."};
+}
+
+void ModalState::unknown(std::string what, std::string why) {
+  list(program.unknown, {line, std::move(what), std::move(why)});
 }
 
 void ModalState::assume(const std::string& sentence) {
@@ -67,7 +71,8 @@ void ModalState::append(const Move& move, double lead_mm) {
   if (move.kind == Move::Kind::rapid && !runs.empty() && !runs.back().step.stop)
     step.f_mm_rev = runs.back().step.f_mm_rev;
   if (runs.empty() || !same_conditions(runs.back().step, step)) runs.push_back({step});
-  runs.back().moves.push_back({from, move, line, {F_line, S_line, !per_revolution}});
+  runs.back().moves.push_back(
+      {from, move, line, {F_line, S_line, !per_revolution}, nose});
 }
 
 void ModalState::to(Move move) {

@@ -10,6 +10,9 @@
 /// A control between two blocks, and the moves that it has made.
 namespace turnwright::review {
 
+/// Adds one to the list, which ends with the 200th.
+void list(std::vector<Unknown>& all, Unknown unknown);
+
 /// What a control holds until a block changes it.
 class ModalState {
  public:
@@ -26,7 +29,12 @@ class ModalState {
   std::string suspended = {};
 
   double mm(double value) const { return inch ? 25.4 * value : value; }
+  /// Of a length which counts steps of the control, 1 um or 0.0001 inch, without a point.
+  double steps_mm(double value, bool point) const {
+    return mm(value) * (point ? 1 : inch ? 1e-4 : 1e-3);
+  }
   std::optional<double> x_mm, z_mm;  ///< of the tip; none: not known
+  NoseCompensation nose;
   void lose_place() { x_mm.reset(), z_mm.reset(); }
 
   /// Moves the tip and appends the move to the runs.

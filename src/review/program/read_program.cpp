@@ -5,10 +5,16 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "contour_cycle.hpp"
 #include "cycles.hpp"
+#include "expression.hpp"
+#include "flow.hpp"
+#include "macro_statements.hpp"
 #include "modal_state.hpp"
+#include "o_words.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "words.hpp"
 
@@ -19,12 +25,13 @@ using gcode::Control;
 using toolpath::Move;
 using toolpath::Point;
 
-constexpr double kRadii_mm = 0.02;  // by which the ends of an arc may differ
+constexpr double kRadii_mm = 0.02;        // by which the ends of an arc may differ
+constexpr double kLargestProgram = 9999;  // more digits of P are times
 
 bool system_a(Control c) { return c == Control::fanuc || c == Control::haas; }
 
 // G codes that change nothing here: planes, cancellations, exact stop, retract levels.
-constexpr std::array kIdle{4, 17, 18, 40, 43, 49, 61, 64, 80, 291, 601, 602, 603};
+constexpr std::array kIdle{4, 17, 18, 43, 49, 61, 64, 80, 291, 601, 602, 603};
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
@@ -50,33 +57,56 @@ std::optional<Point> centre_of(const Point& a, const Point& b, double R, bool cl
   return Point{a.h_mm + dh / 2 - side * off * dz, a.z_mm + dz / 2 + side * off * dh};
 }
 
+// Whether a control reckons as custom macro B does.
+bool has_macros(Control c) {
+  return system_a(c) || c == Control::fanuc_b || c == Control::siemens_iso;
+}
+
+// The variables of G65's arguments.
+std::map<int, double> macro_arguments(const Block& block) {
+  static const std::map<char, int> kNumbers{
+      {'A', 1},  {'B', 2},  {'C', 3},  {'I', 4},  {'J', 5},  {'K', 6},  {'D', 7},
+      {'E', 8},  {'F', 9},  {'H', 11}, {'M', 13}, {'Q', 17}, {'R', 18}, {'S', 19},
+      {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
+  std::map<int, double> all;
+  for (const auto& w : block.words) {
+    const auto number = kNumbers.find(w.name.front());
+    if (number != kNumbers.end() && w.value) all.emplace(number->second, *w.value);
+  }
+  return all;
+}
+
 class ProgramReader {
  public:
-  ProgramReader(const std::vector<std::string_view>& lines, const ReadOptions& options)
-      : lines_(lines),
+  ProgramReader(Flow& flow, const ReadOptions& options)
+      : flow_(flow),
+        o_words_(options.control == Control::linuxcnc ? std::make_shared<OWords>(flow)
+                                                      : nullptr),
+        macros_(has_macros(options.control) ? std::make_shared<MacroStatements>(flow)
+                                            : nullptr),
         control_(options.control),
         words_(gcode::dialect(options.control)),
         s_(options) {
+    for (const auto line : flow.lines()) name_tools(line);
     s_.diameter = control_ != Control::linuxcnc && control_ != Control::siemens;
     s_.per_revolution = control_ != Control::linuxcnc;
   }
 
-  void line(std::size_t number, std::string_view text) {
-    s_.line = number;
-    if (trimmed(text).starts_with('%')) return;
-    const auto block = block_of(text, control_ == Control::siemens);
-    for (const auto& c : block.comments) name_tool(c);
-    if (ended_ || skipped(block) || unreadable(block)) return;
-    if (block.deletable && !block.words.empty())
-      s_.assume("Blocks with a slash are taken as executed.");
-    take(block);
+  void follow() {
+    for (auto at = flow_.next(); at && !ended_ && !s_.full(); at = flow_.next()) {
+      leave_if_asked();
+      line(*at);
+    }
   }
 
-  bool full() const { return s_.full(); }
-
   TurningProgram result() {
+    s_.line = flow_.line() + 1;
     if (s_.full())
       s_.unknown("the rest of the program", "It has more moves than are followed.");
+    else if (flow_.endless() && !ended_)
+      s_.unknown(
+          "the rest of the program",
+          "More lines would be executed than are followed; its loops may not end.");
     return std::move(s_.program);
   }
 
@@ -92,35 +122,63 @@ class ProgramReader {
     s_.program.named_tools.emplace(std::stoi(words.substr(1, blank - 1)), name);
   }
 
-  // Subprograms that LinuxCNC defines in the program, and contours of cycles.
-  bool skipped(const Block& block) {
-    auto rest = lower(trimmed(block.rest));
-    const bool named = rest.starts_with("o<") && rest.find('>') != rest.npos;
-    if (named) rest = trimmed(std::string_view(rest).substr(rest.find('>') + 1));
-    const bool numbered = !block.words.empty() && block.words[0].name == "O";
-    const bool o_word = control_ == Control::linuxcnc && (named || numbered);
-    if (o_word && rest.starts_with("endsub")) {
-      in_subprogram_ = false;
-      return true;
+  void name_tools(std::string_view line) {
+    if (line.find_first_of("(;") == line.npos) return;
+    for (const auto& c : block_of(line, control_ == Control::siemens).comments)
+      name_tool(c);
+  }
+
+  void line(std::size_t at) {
+    s_.line = at + 1;
+    const auto text = flow_.lines()[at];
+    if (trimmed(text).starts_with('%')) return;
+    try {
+      execute(text);
+    } catch (const NotFollowed& why) {
+      not_followed(text, why.what());
     }
-    if (o_word && rest.starts_with("sub")) in_subprogram_ = true;
-    if (in_subprogram_) return true;
-    if (!contour_end_) return false;
-    if (block.value("N") == contour_end_) contour_end_.reset();
-    return true;
+    if (const auto why = flow_.take_doubt()) not_followed(text, *why);
+  }
+
+  void not_followed(std::string_view text, const std::string& why) {
+    s_.unknown(trimmed(text), why + " The block may have moved the tool.");
+    s_.lose_place();
+  }
+
+  void execute(std::string_view text) {
+    if (directs(text)) return;
+    auto block = block_of(text, control_ == Control::siemens);
+    if (unreadable(block)) return;
+    if (block.deletable && !block.words.empty())
+      s_.assume("Blocks with a slash are taken as executed.");
+    const double scale = s_.inch ? 25.4 : 1;
+    if (s_.x_mm) flow_.parameters.x = *s_.x_mm / scale;
+    if (s_.z_mm) flow_.parameters.z = *s_.z_mm / scale;
+    evaluate(block, flow_.parameters);
+    take(block);
+  }
+
+  // A contour is one block after the other.
+  bool directs(std::string_view text) {
+    if (!o_words_ && !macros_) return false;
+    if (!in_contour_) return o_words_ ? o_words_->direct(flow_) : macros_->direct(flow_);
+    const auto word = keyword_of(statement_of(text)).first;
+    if (word == "IF" || word == "WHILE" || word == "GOTO")
+      throw NotFollowed("Branches and loops in the contour of a cycle are not followed.");
+    return false;
   }
 
   bool unreadable(const Block& block) {
     if (block.rest.empty()) return false;
     s_.unknown(trimmed(block.rest),
-               "Variables, expressions, calls and loops are not followed; the block may "
-               "have moved the tool.");
+               "What stands here is not known; the block may have moved the tool.");
     s_.lose_place();
     return true;
   }
 
   void take(const Block& block) {
     special_ = Special::none;
+    nose_here_ = false;
     for (const auto& w : block.words)
       if (w.name == "G" && w.value) code(*w.value, block);
     for (const auto& w : block.words)
@@ -130,15 +188,17 @@ class ProgramReader {
     if (special_ == Special::done) return;
     if (special_ == Special::thread_cycle) return threads_.take(s_, control_, block);
     if (special_ == Special::contour) return contour_cycle(block);
+    if (special_ == Special::pecks) return pecks_.take(s_, cycle_code_, block);
+    if (special_ == Special::macro) return macro(block);
     if (special_ == Special::tap) return tap(block);
     move(block);
     for (const auto& w : block.words)
-      if (w.name == "M" && w.value) ends(static_cast<int>(*w.value));
+      if (w.name == "M" && w.value) ends(static_cast<int>(*w.value), block);
   }
 
   void code(double value, const Block& block) {
     const int g = static_cast<int>(value);
-    if (value != g) return fraction(value);
+    if (value != g) return fraction(value, block);
     if (g >= 0 && g <= 3)
       motion_ = g;
     else if ((g == 32 && system_a(control_)) || (g == 33 && !system_a(control_)))
@@ -147,14 +207,18 @@ class ProgramReader {
       special_ = Special::thread_cycle;
     else if (taps(g))
       special_ = Special::tap;
-    else if ((g == 70 || g == 71) && system_a(control_)) {
-      special_ = Special::contour;
-      contour_code_ = g;
-    } else if (g == 96 || g == 97)
+    else if (g >= 70 && g <= 75 && system_a(control_)) {
+      special_ = g < 74 ? Special::contour : Special::pecks;
+      cycle_code_ = g;
+    } else if (g == 65 && has_macros(control_))
+      special_ = Special::macro;
+    else if (g >= 40 && g <= 42)
+      nose(g, 0);
+    else if (g == 96 || g == 97)
       s_.surface_speed = g == 96;
     else if (!units(g) && !feeds_and_boxes(g) && !zeros(g, block) &&
              std::ranges::find(kIdle, g) == kIdle.end())
-      strange(g, block);
+      strange(g);
   }
 
   bool taps(int g) const {
@@ -164,11 +228,14 @@ class ProgramReader {
   }
 
   // Codes with a decimal.
-  void fraction(double value) {
+  void fraction(double value, const Block& block) {
     if (control_ == Control::linuxcnc && std::abs(value - 33.1) < 1e-6) {
       special_ = Special::tap;
       return;
     }
+    for (const int side : {41, 42})
+      if (control_ == Control::linuxcnc && std::abs(value - side - 0.1) < 1e-6)
+        return nose(side, s_.mm(block.value("D").value_or(0)) / 2);
     if (std::abs(value - 92.1) < 1e-6 || std::abs(value - 92.2) < 1e-6) {
       s_.suspended.clear();
       s_.lose_place();
@@ -228,31 +295,33 @@ class ProgramReader {
     return true;
   }
 
-  void strange(int g, const Block& block) {
+  void strange(int g) {
     const auto name = fmt::format("G{}", g);
-    if (g == 41 || g == 42)
-      return s_.unknown(name,
-                        "Tool nose radius compensation: cones and arcs are taken as the "
-                        "path of the tip, which may be off by the corner's radius.");
     const bool cycle = (g >= 70 && g <= 89) || g == 32 || g == 33;
     s_.unknown(name, cycle ? "The cycle is not followed." : "The code is not known.");
     if (!cycle) return;
     s_.lose_place();
     special_ = Special::done;
-    // The blocks between P and Q are its contour.
-    if (system_a(control_) && block.find("P") && block.find("Q"))
-      contour_end_ = block.value("Q");
+  }
+
+  void nose(int g, double radius_mm) {
+    nose_here_ = true;
+    s_.nose = {g == 40   ? NoseSide::none
+               : g == 41 ? NoseSide::left
+                         : NoseSide::right,
+               radius_mm};
   }
 
   void word(const Word& w, const Block& block) {
     const auto value = w.value.value_or(0);
+    if (special_ == Special::macro) return;  // its arguments
     if (w.name == "F" && motion_ != 92 && special_ != Special::thread_cycle &&
         special_ != Special::tap)
       feed(value);
     else if (w.name == "S")
       special_ == Special::limit ? limit(value) : speed(value);
-    else if (w.name == "LIMS" ||
-             (w.name == "D" && control_ == Control::linuxcnc && s_.surface_speed))
+    else if (w.name == "LIMS" || (w.name == "D" && control_ == Control::linuxcnc &&
+                                  s_.surface_speed && !nose_here_))
       limit(value);
     else if (w.name == "T")
       tool(w);
@@ -307,15 +376,46 @@ class ProgramReader {
   void machine(int m, const std::string& text) {
     if (m == 3 || m == 4) s_.turning = true;
     if (m == 6) s_.tool = s_.chosen_tool;
-    if ((m >= 97 && m <= 99) && control_ != Control::siemens)
-      s_.unknown(text, "Subprograms are not followed.");
+    if (m == 198) s_.unknown(text, "The subprogram is not in the text.");
   }
 
   // Codes that act after the motion of their block.
-  void ends(int m) {
+  void ends(int m, const Block& block) {
     if (m == 0 || m == 1) s_.stop();
     if (m == 5) s_.turning = false;
     if (m == 2 || m == 30) ended_ = true;
+    if (m < 97 || m > 99 || !(o_words_ || macros_)) return;
+    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    if (m == 99)
+      back(block);
+    else
+      call(block, m == 97);
+  }
+
+  // M98 P1000 L2, of Fanuc also P21000; M97 P100 L2 of Haas, of blocks.
+  void call(const Block& block, bool blocks) {
+    const auto P = block.value("P");
+    if (!P) throw NotFollowed("The subprogram has no number.");
+    double number = *P, times = block.value("L").value_or(1);
+    if (blocks) return flow_.call_blocks(number, times);
+    if (number > kLargestProgram && !flow_.has_program(number) && !block.find("L")) {
+      times = std::floor(number / (kLargestProgram + 1));
+      number -= times * (kLargestProgram + 1);
+    }
+    flow_.call_program(number, times);
+  }
+
+  void back(const Block& block) {
+    if (flow_.leave(block.value("P"))) return;
+    s_.assume("M99 at the end of the program is taken as its end.");
+    ended_ = true;
+  }
+
+  void macro(const Block& block) {
+    const auto P = block.value("P");
+    if (!P) throw NotFollowed("The macro has no number.");
+    if (in_contour_) throw NotFollowed("The contour of a cycle has no calls.");
+    flow_.call_macro(*P, block.value("L").value_or(1), macro_arguments(block));
   }
 
   struct Target {
@@ -431,74 +531,58 @@ class ProgramReader {
     s_.to({Move::Kind::arc, to.h_mm, to.z_mm, *centre, clockwise});
   }
 
-  // G71 and G70 of system A.  The first block of Fanuc's G71 has the depth alone.
+  // G70 to G73 of system A; the program goes on behind the contour.
   void contour_cycle(const Block& block) {
-    const auto P = block.value("P"), Q = block.value("Q");
-    if (!P || !Q) {
-      roughing_.depth_mm = s_.mm(block.value("U").value_or(0));
-      roughing_.retract_mm = s_.mm(block.value("R").value_or(0));
-      return;
-    }
-    if (const auto depth = block.value("D")) roughing_.depth_mm = s_.mm(*depth);
-    const auto contour = contour_between(*P, *Q);
-    if (!contour)
-      return s_.unknown(fmt::format("P{:g} Q{:g}", *P, *Q),
-                        "There are no such blocks behind the cycle.");
-    if (contour_code_ == 70) return finish(s_, *contour);
-    contour_end_ = *Q;
-    roughing_.left_x_mm = s_.mm(block.value("U").value_or(0)) / 2;
-    roughing_.left_z_mm = s_.mm(block.value("W").value_or(0));
-    rough(s_, *contour, roughing_);
+    const auto end =
+        contours_.take(s_, control_, cycle_code_, block,
+                       [this](double P, double Q) { return contour_between(P, Q); });
+    const auto line = end ? flow_.block(*end) : std::nullopt;
+    if (line && *line >= flow_.line()) flow_.go_to(*line + 1);
   }
 
   // The moves of the blocks from N = P to N = Q, as if they followed.
   std::optional<Contour> contour_between(double P, double Q) {
-    if (in_contour_) return std::nullopt;
+    const auto first = flow_.block(P), last = flow_.block(Q);
+    if (in_contour_ || !first || !last || *last < *first) return std::nullopt;
+    auto kept = std::exchange(s_.program, {});
     ProgramReader inner(*this);
+    s_.program = std::move(kept);
     inner.in_contour_ = true;
-    inner.s_.program = {};
     inner.s_.turning = true;
-    bool inside = false;
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const auto block = block_of(lines_[i], false);
-      inside = inside || block.value("N") == P;
-      if (!inside) continue;
-      inner.line(i + 1, lines_[i]);
-      if (block.value("N") != Q) continue;
-      for (auto& u : inner.s_.program.unknown) s_.unknown(u.what, u.why);
-      return Contour{std::move(inner.s_.program.runs)};
-    }
-    return std::nullopt;
+    for (auto i = *first; i <= *last && !flow_.spent() && !inner.s_.full(); ++i)
+      inner.line(i);
+    for (auto& u : inner.s_.program.unknown) s_.unknown(u.what, u.why);
+    return Contour{std::move(inner.s_.program.runs)};
   }
 
-  enum class Special { none, done, limit, thread_cycle, contour, tap };
+  enum class Special { none, done, limit, thread_cycle, contour, pecks, macro, tap };
 
-  const std::vector<std::string_view>& lines_;
+  Flow& flow_;
+  std::shared_ptr<const OWords> o_words_;
+  std::shared_ptr<const MacroStatements> macros_;
   Control control_;
   const gcode::Dialect& words_;
   ModalState s_;
   ThreadCycleReader threads_;
+  ContourCycleReader contours_;
+  PeckCycleReader pecks_;
   int motion_ = 0;
   Special special_ = Special::none;
   int work_offset_ = 0;
   double lead_mm_ = 0;
   std::optional<Point> box_end_;  // of the cycle before
-  bool in_subprogram_ = false, ended_ = false;
-  std::optional<double> contour_end_;
-  bool in_contour_ = false;
-  int contour_code_ = 0;
-  RoughingCycle roughing_;
+  bool ended_ = false, in_contour_ = false;
+  bool nose_here_ = false;  // G40 to G42 in the block
+  int cycle_code_ = 0;
 };
 
 }  // namespace
 
 TurningProgram read_program(std::string_view text, const ReadOptions& options) {
   const auto lines = lines_of(text);
-  ProgramReader reader(lines, options);
-  for (std::size_t i = 0; i < lines.size() && !reader.full(); ++i) {
-    leave_if_asked();
-    reader.line(i + 1, lines[i]);
-  }
+  Flow flow(lines, options.control);
+  ProgramReader reader(flow, options);
+  reader.follow();
   return reader.result();
 }
 

@@ -4,15 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "letters.hpp"
+
 namespace turnwright::review {
 namespace {
 
 constexpr double kLargest = 1e7;
-
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
 
 // Reads a line from its front.
 class Scanner {
@@ -60,6 +57,76 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
+// Skips brackets to the one that closes the first.
+bool skip_brackets(Scanner& in) {
+  int depth = 0;
+  for (; !in.done(); in.skip()) {
+    if (in.next() == '[') ++depth;
+    if (in.next() == ']' && --depth == 0) return in.skip(), true;
+  }
+  return false;
+}
+
+// Skips a function with its brackets: SIN[30], ATAN[1]/[2].
+bool skip_function(Scanner& in) {
+  while (is_letter(in.next())) in.skip();
+  in.skip_blanks();
+  if (in.next() != '[' || !skip_brackets(in)) return false;
+  const auto end = in.at();
+  in.skip_blanks();
+  const bool second = in.next() == '/';
+  if (second) in.skip(), in.skip_blanks();
+  if (second && in.next() == '[') return skip_brackets(in);
+  in.back_to(end);
+  return true;
+}
+
+// Skips one value of an expression: a number, a parameter, brackets or a function.
+bool skip_value(Scanner& in) {
+  while (is_blank(in.next()) || in.next() == '-' || in.next() == '+') in.skip();
+  while (in.next() == '#') in.skip(), in.skip_blanks();
+  if (in.next() == '[') return skip_brackets(in);
+  if (in.next() == '<') {
+    while (!in.done() && in.next() != '>') in.skip();
+    if (in.done()) return false;
+    return in.skip(), true;
+  }
+  return is_letter(in.next()) ? skip_function(in) : in.number().has_value();
+}
+
+// Skips an operator between two values.
+bool skip_operator(Scanner& in) {
+  in.skip_blanks();
+  for (const std::string_view name :
+       {"**", "*", "/", "+", "-", "MOD", "AND", "XOR", "OR"}) {
+    const auto rest = in.rest().substr(0, name.size());
+    if (!std::ranges::equal(rest, name, {}, capital)) continue;
+    in.back_to(in.at() + name.size());
+    return true;
+  }
+  return false;
+}
+
+// "#1=#2+3": Fanuc reckons without brackets too.
+std::optional<Assignment> assignment_of(Scanner& in) {
+  Assignment a;
+  const auto start = in.at();
+  if (!skip_value(in)) return std::nullopt;
+  a.parameter = in.since(start);
+  in.skip_blanks();
+  if (in.next() != '=') return std::nullopt;
+  in.skip();
+  const auto from = in.at();
+  std::size_t end = from;
+  do {
+    if (!skip_value(in)) return std::nullopt;
+    end = in.at();
+  } while (skip_operator(in));
+  in.back_to(end);
+  a.expression = in.since(from);
+  return a;
+}
+
 // A message of Siemens to the operator, MSG("text") or MSG(), which moves nothing; its text.
 std::optional<std::string> message_of(Scanner& in) {
   constexpr std::string_view kBegins = "MSG(";
@@ -97,7 +164,9 @@ std::optional<Word> word_of(Scanner& in, bool names) {
   if (w.name.size() == 1 || in.next() == '=') {
     if (in.next() == '=') in.skip();
     w.value = in.number();
-    if (!w.value) return std::nullopt;
+    const auto from = in.at();
+    if (!w.value && (names || !skip_value(in))) return std::nullopt;
+    if (!w.value) w.expression = in.since(from);
   }
   if (in.next() == '(' && w.name.size() > 1) return std::nullopt;
   w.text = in.since(start);
@@ -147,6 +216,16 @@ Block block_of(std::string_view line, bool names) {
     if (const auto message = names ? message_of(in) : std::nullopt) {
       block.comments.push_back(*message);
       continue;
+    }
+    if (c == '#' && !names) {
+      const auto assignment = assignment_of(in);
+      if (assignment) {
+        block.assignments.push_back(*assignment);
+        continue;
+      }
+      in.back_to(start);
+      block.rest = in.rest();
+      break;
     }
     const auto word = is_letter(c) ? word_of(in, names) : std::nullopt;
     if (!word) {

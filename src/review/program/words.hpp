@@ -14,13 +14,21 @@ struct Word {
   bool point = false;     ///< whether the number has a point
   std::string text = {};  ///< as it stands
   std::size_t at = 0;     ///< where, in its line
+  /// What a control reckons where no number stands: "#1", "[#1+2]", "-SIN[30]".
+  std::string expression = {};
+};
+
+/// "#1=[#2+3]", "#<depth>=2": a parameter and what becomes its value.
+struct Assignment {
+  std::string parameter, expression;
 };
 
 struct Block {
   std::vector<Word> words;
-  std::vector<std::string> comments;  ///< without their brackets
-  bool deletable = false;             ///< begins with "/"
-  std::string rest = {};              ///< what is not words: "#1=2", "CYCLE95(..)"
+  std::vector<std::string> comments;         ///< without their brackets
+  std::vector<Assignment> assignments = {};  ///< in their order
+  bool deletable = false;                    ///< begins with "/"
+  std::string rest = {};                     ///< what is not words: "CYCLE95(..)"
 
   const Word* find(std::string_view name) const;
   std::optional<double> value(std::string_view name) const;

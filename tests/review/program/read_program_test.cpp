@@ -1,34 +1,16 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
 
-#include "turnwright/review/program.hpp"
+#include "moves_of.hpp"
 
 namespace turnwright::review {
 namespace {
 
-using gcode::Control;
+using namespace test;
 using Kind = toolpath::Move::Kind;
-
-TurningProgram read(Control control, const std::string& text) {
-  return read_program(text, {.control = control, .n_max_rpm = 4000});
-}
-
-std::vector<toolpath::Move> moves(const TurningProgram& p) {
-  std::vector<toolpath::Move> all;
-  for (const auto& run : p.runs)
-    for (const auto& m : run.moves) all.push_back(m.to);
-  return all;
-}
 
 /// Conditions of the run with the last move.
 const toolpath::Step& last(const TurningProgram& p) { return p.runs.back().step; }
-
-void expect_at(const toolpath::Move& m, double x, double z) {
-  EXPECT_NEAR(m.x_mm, x, 1e-12);
-  EXPECT_NEAR(m.z_mm, z, 1e-12);
-}
 
 TEST(ReadProgram, HalvesDiametersAndConvertsInches) {
   const auto fanuc = read(Control::fanuc,
@@ -198,12 +180,25 @@ struct Strange {
 TEST(ReadProgram, ListsWhatItDoesNotKnow) {
   const std::string start = "G97 S500 M3 F0.1\nG0 X20. Z2.\n";
   const Strange strange[] = {
-      {Control::linuxcnc, "#1=5\n", 3, "#1=5"},
-      {Control::linuxcnc, "G1 X[3+2]\n", 3, "X[3+2]"},
-      {Control::linuxcnc, "o100 call\n", 3, "call"},
-      {Control::fanuc, "G73 U2. R1.\n", 3, "G73"},
-      {Control::fanuc, "M98 P1000\n", 3, "M98"},
-      {Control::fanuc, "G42 G0 X18.\n", 3, "G42"},
+      {Control::linuxcnc, "#5=\n", 3, "#5="},
+      {Control::linuxcnc, "G1 X[3+]\n", 3, "G1 X[3+]"},
+      {Control::linuxcnc, "G1 X[3\n", 3, "X[3"},
+      {Control::linuxcnc, "G1 X[1/0]\n", 3, "G1 X[1/0]"},
+      {Control::linuxcnc, "G1 X#<diameter>\n", 3, "G1 X#<diameter>"},
+      {Control::linuxcnc, "G1 X#5161\n", 3, "G1 X#5161"},
+      {Control::linuxcnc, "o100 call\n", 3, "o100 call"},
+      {Control::linuxcnc, "o100 if [#5161]\no100 endif\n", 3, "o100 if [#5161]"},
+      {Control::linuxcnc, "o100 while [1]\n", 3, "o100 while [1]"},
+      {Control::linuxcnc, "G71 Q100 D1 I1 R1\n", 3, "G71"},
+      {Control::fanuc, "G73 P10 Q20 U1.\n", 3, "P10 Q20"},
+      {Control::fanuc, "M98 P1000\n", 3, "M98 P1000"},
+      {Control::fanuc, "G65 P1000 A1.\n", 3, "G65 P1000 A1."},
+      {Control::fanuc, "G66 P1000 A1.\n", 3, "G66"},
+      {Control::fanuc, "G1 X#500\n", 3, "G1 X#500"},
+      {Control::fanuc, "#3000=1(ALARM)\n", 3, "#3000=1(ALARM)"},
+      {Control::fanuc, "IF [#1001 EQ 1] GOTO 9\n", 3, "IF [#1001 EQ 1] GOTO 9"},
+      {Control::fanuc, "GOTO 9\n", 3, "GOTO 9"},
+      {Control::fanuc, "WHILE [1 EQ 2] DO1\n", 3, "WHILE [1 EQ 2] DO1"},
       {Control::fanuc, "G1 Y3.\n", 3, "Y3."},
       {Control::fanuc, "G123\n", 3, "G123"},
       {Control::fanuc, "G1 X10. F0.2E5\n", 3, "E5"},
@@ -251,7 +246,7 @@ TEST(ReadProgram, DoesNotCutFromAPlaceThatIsNotKnown) {
   EXPECT_EQ(known, 1);
 }
 
-TEST(ReadProgram, DoesNotFollowShiftedZerosSubprogramsAndContours) {
+TEST(ReadProgram, DoesNotFollowShiftedZerosAndSubprogramsThatNobodyCalls) {
   const auto shifted = read(Control::linuxcnc,
                             "G95 G97 S500 M3\nG0 X20 Z2\nG92 Z0\nG1 Z-9 F0.1\nG92.1\n"
                             "G0 X20 Z2\nG1 Z-3");
@@ -264,11 +259,6 @@ TEST(ReadProgram, DoesNotFollowShiftedZerosSubprogramsAndContours) {
            "o<long> sub\nG1 Z-60\no<long> endsub\nG1 Z-3");
   EXPECT_TRUE(sub.unknown.empty());
   EXPECT_EQ(moves(sub).size(), 2u);
-  const auto contour = read(Control::fanuc,
-                            "G99 G97 S500 M3\nG0 X20. Z2.\nG73 U2. R1.\n"
-                            "G73 P10 Q20 U0.5 W0.1 F0.2\nN10 G1 X10.\nN20 X30. Z-20.\n"
-                            "G0 X50. Z5.");
-  EXPECT_EQ(moves(contour).size(), 2u);
 }
 
 TEST(ReadProgram, RefusesCutsAtRestAndWithoutFeed) {

@@ -1,0 +1,34 @@
+#pragma once
+#include <string_view>
+
+#include "parameters.hpp"
+#include "words.hpp"
+
+/// Expressions in programs, as LinuxCNC and Fanuc reckon.
+///
+///     LinuxCNC   **;  * / MOD;  + -;  EQ NE GT GE LT LE;  AND OR XOR, of truths
+///     Fanuc      * / AND MOD;  + - OR XOR, of whole numbers;  EQ NE GT GE LT LE
+///
+/// Operators of one rank go from left to right; a sign belongs to the value behind it, so
+/// that -2**2 = 4.  Functions take brackets: ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND
+/// SIN SQRT TAN, of LinuxCNC EXISTS, of Fanuc also SQR, RND and POW[a,b]; angles are in
+/// degrees, ATAN[y]/[x] in -180 to 180 deg.  FIX and FUP round towards the smaller and the
+/// larger number in LinuxCNC, towards 0 and away from it in Fanuc; MOD has the sign of the
+/// dividend in Fanuc and none in LinuxCNC, where EQ and NE allow 1e-4.  A vacant variable
+/// counts as 0 but for EQ and NE, which tell it from 0.
+/// Source: [LinuxCNC], which linuxcnc_test runs; of Fanuc [gEdit] in docs/bibliography.md.
+namespace turnwright::review {
+
+/// The value of an expression; vacant only for a vacant variable alone.
+/// @throws NotFollowed for what is no expression, has no value (a root of -1, 1/0) or
+/// hangs on a variable that the program does not tell.
+Value value_of(std::string_view expression, const Parameters& parameters);
+
+/// The value between the brackets in which a text begins; `end` is behind them.
+double bracketed_value(std::string_view text, const Parameters& parameters,
+                       std::size_t& end);
+
+/// Gives words their values and drops those whose value is vacant, then sets variables.
+void evaluate(Block& block, Parameters& parameters);
+
+}  // namespace turnwright::review
