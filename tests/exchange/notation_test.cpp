@@ -191,6 +191,30 @@ TEST(Notation, ReadsWhatStaysAsTheBarIs) {
   EXPECT_NE(mistakes("stock M20 x 20").find("hex27"), std::string::npos);
 }
 
+TEST(Notation, ReadsInches) {
+  const Outline inches = read_notation(
+      "unit: in; d2 +0.0005/-0.0003 x 1.5 Ra32; 0.06x45; 1/2-13 UNC x 1; M12 x 0.5; "
+      "circularity d1 0.0004; length left to right ±0.01; keyway 0.25x0.125x1 on d1 at "
+      "0.2; "
+      "bore d1 H7 x 0.75");
+  const Outline mm = read_notation(
+      "d50.8 +0.0127/-0.00762 x 38.1 Ra0.8128; 1.524x45; 1/2-13 UNC x 25.4; M12 x 12.7; "
+      "circularity d1 0.01016; length left to right ±0.254; "
+      "keyway 6.35x3.175x25.4 on d1 at 5.08; bore d25.4 H7 x 19.05");
+  expect_equal(inches, mm);
+  ASSERT_EQ(inches.assumed.size(), 1u);
+  EXPECT_TRUE(mm.assumed.empty());
+}
+
+TEST(Notation, TellsWhatIsTooLargeInTheUnitsOfTheText) {
+  EXPECT_EQ(mistakes("unit: in; d2 x 1 Ra125"), "");
+  EXPECT_NE(mistakes("unit: in; d2 x 1 Ra5000").find("<= 3937.01 uin"),
+            std::string::npos);
+  EXPECT_NE(mistakes("unit: in; d900 x 1").find("<= 787.402 in"), std::string::npos);
+  EXPECT_NE(mistakes("unit: furlong; d2 x 1").find("mm or in"), std::string::npos);
+  EXPECT_NE(mistakes("d900000 x 1").find("<= 20000 mm"), std::string::npos);
+}
+
 TEST(Notation, RoundsEdgesAndAtEndsRIsTheEdgesRadiusToo) {
   const Outline o = read_notation(
       "R1; d30 x 20; round2 R0.8; d50 x 40; round 1,5; bore d20 x 30; right|b1: R0.5");
@@ -284,7 +308,8 @@ TEST(Notation, NamesEveryMistakeByLineAndColumn) {
       "notation: line 1, column 19: got \"d3O\", expected a diameter like d50, two of "
       "a cone like d30-d40, or a thread like M24x1.5 or 1/2-13 UNC\n"
       "notation: line 2, column 1: got \"nmae\", expected name, material, general, "
-      "drawing, revision, customer, or an edge like left or d1|d2 before the colon\n"
+      "drawing, revision, customer, unit, or an edge like left or d1|d2 before the "
+      "colon\n"
       "notation: line 2, column 23: got \"(2)\", expected a length like x 40, a fit "
       "like h7, limits like +0.02/-0.01 or a roughness like Ra1.6");
 }

@@ -26,6 +26,7 @@
 ///     milled    = (keyway | slot) WxTxL on ELEMENT at Z [angle A] [times N] | flat TxL on ..
 ///     centre    = centre (left | right) (A | B | R) D/D          centre right A4/8.5
 ///     title     = (name | material | general | drawing | revision | customer): TEXT
+///     unit      = unit: (mm | in)
 ///
 /// - Diameters, lengths, radii, widths in mm, roughness in um, angles in degrees.  D is the
 ///   floor of a groove and the nominal diameter of a thread, whose pitch is the coarse one
@@ -48,6 +49,8 @@
 /// - Ø or ⌀ stand for d, × for x, +- or +/- for ±, 45° for 45.  A comma between digits is a
 ///   decimal comma: d50,5.  Blanks between a letter and its number do not matter (x40, Ra
 ///   1.6).  Neither does the case of words; that of fits is kept, R7 of a bore is a fit.
+/// - With "unit: in" lengths and limits are inches, roughness microinches; the outline is in mm
+///   all the same.  Threads and the designations of standards keep their own units.
 /// - TEXT may stand in '"', in which a ';' is a part of it and '""' one '"'.
 namespace turnwright::exchange {
 

@@ -7,6 +7,7 @@
 
 #include "notation_element.hpp"
 #include "notation_features.hpp"
+#include "notation_units.hpp"
 
 namespace turnwright::exchange {
 namespace notated {
@@ -27,7 +28,9 @@ class Notation {
       mistakes_.add(text_.substr(n, 1), "a text in UTF-8", "a byte that is none");
       mistakes_.throw_if_any();
     }
-    for (const Word s : statements(text_)) read_statement(s);
+    const auto all = statements(text_);
+    mistakes_.units = units_of(all, mistakes_);
+    for (const Word s : all) read_statement(s);
     if (out_.outer.empty() && out_.inner.empty() && mistakes_.none())
       mistakes_.add(text_.substr(0, 0), "elements like d50 h7 x 40; d30 k6 x 32",
                     "no element");
@@ -37,6 +40,14 @@ class Notation {
     out_.faces = std::move(features_.faces);
     out_.tolerances = std::move(features_.tolerances);
     out_.milled = std::move(features_.milled);
+    if (mistakes_.units.mm != 1) {
+      to_millimetres(mistakes_.units, out_);
+      out_.assumed.push_back(
+          {"",
+           "Sizes are read in inches and roughness in microinches; the part is in "
+           "millimetres. Diameters of threads and sizes of standards stay as their "
+           "designations say."});
+    }
     return std::move(out_);
   }
 
@@ -84,13 +95,15 @@ class Notation {
 
   // "name: Pin", "left: 1x45".
   void read_headed(Word head, Word rest) {
+    if (same(head, "unit")) return;  // units_of
     if (std::string* text = title(head)) return read_text(*text, head, rest);
     const bool edge =
         same(head, "left") || same(head, "right") || head.find('|') != Word::npos;
     if (!edge)
-      return mistakes_.add(head,
-                           "name, material, general, drawing, revision, customer, or an "
-                           "edge like left or d1|d2 before the colon");
+      return mistakes_.add(
+          head,
+          "name, material, general, drawing, revision, customer, unit, or "
+          "an edge like left or d1|d2 before the colon");
     features_.named.push_back({head, true});
     if (rest.empty()) return mistakes_.add(head, "a feature like 1x45 after the colon");
     for (Edge& e : corner(words(rest), mistakes_)) {

@@ -82,8 +82,12 @@ bool is_fit(Word word) {
 }
 
 bool in_range(Word at, double x, double most, const char* unit, Mistakes& mistakes) {
-  if (x > 0 && x <= most) return true;
-  mistakes.add(at, fmt::format("a number > 0 and <= {} {}", most, unit));
+  const auto& u = mistakes.units;
+  const bool length = std::string_view(unit) == "mm";
+  const double limit = most / (length ? u.mm : u.um);
+  if (x > 0 && x <= limit) return true;
+  mistakes.add(at, fmt::format("a number > 0 and <= {:.6g} {}", limit,
+                               length ? u.length : u.roughness));
   return false;
 }
 

@@ -15,9 +15,17 @@ using Word = std::string_view;
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// All mistakes of one text.
+/// Units in which a text gives lengths and roughness, by their size and name.
+struct Units {
+  double mm = 1, um = 1;
+  const char *length = "mm", *roughness = "um";
+};
+
 class Mistakes {
  public:
   explicit Mistakes(std::string_view text) : text_(text) {}
+  /// Units of the text, in which it is told what is too large.
+  Units units = {};
   /// @param at  part of the text; shown as what came unless `got` says it.
   void add(Word at, std::string expected, std::string got = "");
   bool none() const { return list_.empty(); }
