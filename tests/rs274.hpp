@@ -24,6 +24,7 @@ inline std::string printed(const std::string& command) {
 
 /// In a folder of its own, gone with it; its home too, since all of a home share one
 /// table of tools, run at once or not.  G54 is active, G55 at (1, 0, -2) inches.
+/// The machine has a second spindle, of driven tools.
 class Rs274 {
  public:
   Rs274() {
@@ -34,6 +35,7 @@ class Rs274 {
         (std::filesystem::temp_directory_path() / "turnwright-rs274-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no folder for rs274");
     folder_ = name;
+    std::ofstream(folder_ / "machine.ini") << "[TRAJ]\nSPINDLES = 2\n";
     std::ofstream parameters(folder_ / "rs274.var");
     for (int i = 5161; i <= 5390; ++i)
       parameters << i << ' ' << (i == 5220 || i == 5241 ? 1 : i == 5243 ? -2 : 0) << '\n';
@@ -47,7 +49,7 @@ class Rs274 {
     std::ofstream(folder_ / "program.ngc") << program;
     std::ofstream(folder_ / "tools.tbl") << tools;
     return printed("cd " + folder_.string() + " && HOME=$PWD " + path_ +
-                   " -g -v rs274.var -t tools.tbl program.ngc");
+                   " -g -i machine.ini -v rs274.var -t tools.tbl program.ngc");
   }
 
  private:

@@ -45,6 +45,14 @@ std::string control_ids() {
   return all;
 }
 
+// "tool_on=M133 P{S}": a code for milling by its name.
+void add_milling_code(json& settings, const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == text.npos || equals == 0)
+    throw wrong_option("--milling", '"' + text + '"', "NAME=CODE", "text");
+  settings["milling"][text.substr(0, equals)] = text.substr(equals + 1);
+}
+
 }  // namespace
 
 std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
@@ -89,6 +97,15 @@ std::vector<CLI::Option*> add_nc_options(CLI::App& command, json& settings) {
                             settings["tools"].push_back(shop_tool(tool));
                         },
                         "the shop's number of a tool, ID=NUMBER or ID=NUMBER:OFFSET")
+                    ->type_name("WORD"));
+  all.push_back(command
+                    .add_option_function<std::vector<std::string>>(
+                        "--milling",
+                        [&settings](const std::vector<std::string>& codes) {
+                          for (const auto& code : codes) add_milling_code(settings, code);
+                        },
+                        "a code of the axis C or the driven tools, c_axis_on=CODE, "
+                        "c_axis_off, lock, unlock, tool_on (with {S}), tool_off")
                     ->type_name("WORD"));
   return all;
 }

@@ -8,6 +8,7 @@
 #include "centre_clearance.hpp"
 #include "contour.hpp"
 #include "fixed.hpp"
+#include "milled.hpp"
 #include "planning/clamping/centre_clearance.hpp"
 #include "planning/clamping/supports.hpp"
 #include "planning/values/tool_label.hpp"
@@ -192,14 +193,13 @@ Step stop(std::string told, double minutes) {
   return s;
 }
 
-// A turning program does not mill: it stops where a place is to be milled.
-Step mill_here(const OperationPlan& o) {
+// What a program says where somebody mills a place that it does not.
+std::string milled_by_hand(const OperationPlan& o) {
   const auto& p = o.passes[0];
-  return stop(
-      fmt::format("stop: not in this program: {} with {}, {} x {:.4g} mm, {:.0f} 1/min, "
-                  "{:.4g} mm/min",
-                  o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min),
-      0);
+  return fmt::format(
+      "stop: not in this program: {} with {}, {} x {:.4g} mm, {:.0f} 1/min, "
+      "{:.4g} mm/min",
+      o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min);
 }
 
 // The stops before each operation at which the clamping is changed.
@@ -233,7 +233,9 @@ class Numbers {
   TableTool tool(const Site& site, const OperationPlan& o) {
     TableTool t{.id = planning::tool_label(part_, o),
                 .re_mm = corner_mm(site, o),
-                .orientation = on_axis(site, o) ? kDrillOrientation : 3};
+                .orientation = o.milled           ? kCutterOrientation
+                               : on_axis(site, o) ? kDrillOrientation
+                                                  : 3};
     const auto* e = o.on.empty() ? nullptr : &o.on[0];
     const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
     if (extent && extent->inner && t.orientation == 3) t.orientation = 2;
@@ -295,6 +297,41 @@ void way(Site& site, std::size_t i) {
     turn(site, i);
 }
 
+void list(SetupProgram& p, const TableTool& tool) {
+  if (std::ranges::find(p.tools, tool.number, &TableTool::number) == p.tools.end())
+    p.tools.push_back(tool);
+}
+
+// The operation's step at an angle of the main spindle, or a stop where somebody mills.
+Step milled(Site& site, std::size_t operation, Numbers& numbers, SetupProgram& p) {
+  const auto& o = site.answer().operations[operation];
+  const auto from = site.at;
+  site.moves.clear();
+  mill(site, operation);
+  if (const auto why = not_milled(site, o); !why.empty()) {
+    site.at = from;
+    auto by_hand = stop(milled_by_hand(o), 0);
+    by_hand.comments.push_back(why);
+    return by_hand;
+  }
+  auto milling = milling_of(site, o);
+  site.home(false);
+  const auto tool = numbers.tool(site, o);
+  list(p, tool);
+  milling.stop = milled_by_hand(o);
+  Step step;
+  step.comments = comments(o);
+  step.comments.push_back(fmt::format("driven tool: {:.0f} 1/min, {:.4g} mm/min",
+                                      milling.n_rpm, milling.f_mm_min));
+  if (auto words = edge_words(site, tool.id); !words.empty())
+    step.comments.push_back(std::move(words));
+  step.tool = tool.number;
+  step.in_cut = {false, -INFINITY, INFINITY};
+  step.moves = site.moves;
+  step.milling = std::move(milling);
+  return step;
+}
+
 SetupProgram program(Site& site, Numbers& numbers) {
   SetupProgram p;
   p.setup = site.setup;
@@ -308,13 +345,11 @@ SetupProgram program(Site& site, Numbers& numbers) {
     const auto& o = operations[i];
     p.steps.insert(p.steps.end(), changes[i].begin(), changes[i].end());
     if (o.kind == OperationKind::mill) {
-      p.steps.push_back(mill_here(o));
+      p.steps.push_back(milled(site, i, numbers, p));
       continue;
     }
     const auto tool = numbers.tool(site, o);
-    if (std::none_of(p.tools.begin(), p.tools.end(),
-                     [&](const TableTool& t) { return t.number == tool.number; }))
-      p.tools.push_back(tool);
+    list(p, tool);
     Step step;
     step.comments = comments(o);
     if (const auto why = entered_again(site, i))

@@ -104,11 +104,17 @@ class Moves {
         lead_mm_(f_mm_rev),
         f_(pointed(at_most(f_mm_rev, 4))),
         from_(from) {}
+  /// Of a milling cutter, whose feed counts by the minute.
+  Moves(Lines& lines, const Dialect& dialect, const Milling& milling)
+      : lines_(lines), dialect_(dialect), milling_(&milling) {
+    if (!milling.needs_y) y_ = length(0);
+  }
 
   void write(const Move& m) {
-    const auto x = diameter(m), z = length(m.z_mm);
+    const auto x = diameter(m), y = length(m.y_mm), z = length(m.z_mm);
     std::string words;
     if (x != x_) words += " X" + x;
+    if (milling_ && y != y_) words += " Y" + y;
     if (z != z_) words += " Z" + z;
     if (words.empty()) return;
     if (m.kind == Move::Kind::arc) {
@@ -119,6 +125,7 @@ class Moves {
     }
     lines_.blocks(code(m).append(words).append(feed(m)));
     x_ = x;
+    y_ = y;
     z_ = z;
   }
 
@@ -195,6 +202,11 @@ class Moves {
   std::string feed(const Move& m) {
     if (m.kind == Move::Kind::rapid) return "";
     if (m.kind == Move::Kind::thread) return fmt::format(" {}{}", dialect_.lead, f_);
+    if (milling_) {
+      const auto f = pointed(at_most(m.feed_share * milling_->f_mm_min, 1));
+      if (f == f_) return "";
+      return " F" + (f_ = f);
+    }
     if (fed_) return "";
     fed_ = true;
     return " F" + f_;
@@ -217,11 +229,31 @@ class Moves {
 
   Lines& lines_;
   const Dialect& dialect_;
-  double lead_mm_;
-  std::string f_, x_, z_;
-  Point from_;
+  const Milling* milling_ = nullptr;
+  double lead_mm_ = 0;
+  std::string f_, x_, y_, z_;
+  Point from_ = {};
   bool fed_ = false;
 };
+
+// A word of the shop's, or else of the control's.
+std::string either(const std::string& given, string_view own) {
+  return given.empty() ? std::string(own) : given;
+}
+
+// The codes for milling that a program has, the shop's before the control's own.
+MillingCodes milling_codes(const Settings& s) {
+  const auto& d = dialect(s.control);
+  const auto& given = s.milling;
+  return {either(given.c_axis_on, d.c_axis_on), either(given.c_axis_off, d.c_axis_off),
+          either(given.lock, d.lock),           either(given.unlock, d.unlock),
+          either(given.tool_on, d.tool_on),     either(given.tool_off, d.tool_off)};
+}
+
+std::string with_speed(std::string words, const std::string& S) {
+  const auto at = words.find("{S}");
+  return at == words.npos ? words : words.replace(at, 3, S);
+}
 
 void write_moves(Lines& lines, const Dialect& dialect, const Step& s,
                  const Settings& settings, const Point& from) {
@@ -295,6 +327,8 @@ class Writer {
     for (const auto& step : p_.steps) {
       if (step.stop)
         stop(step);
+      else if (step.milling)
+        mill(step, ++operation);
       else
         cut(step, ++operation);
     }
@@ -332,6 +366,38 @@ class Writer {
     write_moves(lines_, d_, step, s_, at_);
     if (!step.moves.empty()) at_ = {step.moves.back().x_mm, step.moves.back().z_mm};
   }
+  /// The main spindle turns the part to an angle and holds it, and is a spindle again.
+  void mill(const Step& step, std::size_t operation) {
+    if (const auto why = cannot_mill(*step.milling, s_); !why.empty())
+      throw std::domain_error("nc: a place is to be milled, and " + why);
+    if (tool_ != 0 && tool_ != step.tool) change();
+    rest();
+    for (const auto& c : step.comments) lines_.comment(c);
+    if (tool_ != step.tool) call(tool_of(p_, step.tool), operation);
+    const auto codes = milling_codes(s_);
+    const auto blocks = [this](string_view words) {
+      if (!words.empty()) lines_.blocks(words);
+    };
+    blocks(codes.c_axis_on);
+    lines_.blocks(d_.per_minute);
+    blocks(codes.unlock);
+    lines_.blocks(filled(d_.c_axis, fmt::arg("C", angle(step.milling->C_deg))));
+    blocks(codes.lock);
+    lines_.blocks(with_speed(codes.tool_on, at_most(step.milling->n_rpm, 0)));
+    blocks(s_.coolant);
+    Moves moves(lines_, d_, *step.milling);
+    for (const auto& m : step.moves) moves.write(m);
+    if (!step.moves.empty()) at_ = {step.moves.back().x_mm, step.moves.back().z_mm};
+    if (!s_.coolant.empty()) lines_.blocks("M9");
+    lines_.blocks(codes.tool_off);
+    blocks(codes.unlock);
+    blocks(codes.c_axis_off);
+    lines_.blocks(d_.per_revolution);
+  }
+  std::string angle(double deg) const {
+    const auto text = number(deg, 3);
+    return d_.point && text.find('.') == text.npos ? text + '.' : text;
+  }
   /// Before another tool.
   void change() {
     if (s_.reference_returns) lines_.blocks(d_.reference);
@@ -348,6 +414,14 @@ class Writer {
   Point at_ = {};  // where the last step has ended
   bool running_ = false;
 };
+
+// Somebody mills.
+Step stop_to_mill(const Milling& milling, const std::string& why) {
+  Step s;
+  s.stop = true;
+  s.comments = {milling.stop, why};
+  return s;
+}
 
 // A drill's moves with pecks of one length, where it pecks.
 std::vector<Move> pecked_alike(const Step& step, double back_mm) {
@@ -403,13 +477,33 @@ void number_tools(std::vector<SetupProgram>& programs, const Settings& settings)
   }
 }
 
+std::string cannot_mill(const Milling& milling, const Settings& settings) {
+  const auto& d = dialect(settings.control);
+  const auto codes = milling_codes(settings);
+  if (d.c_axis_is_builders && (codes.c_axis_on.empty() || codes.c_axis_off.empty()))
+    return "no codes of the axis C are given";
+  if (codes.tool_on.empty() || codes.tool_off.empty())
+    return "no codes of the driven tools are given";
+  if (milling.needs_y && !d.y_axis)
+    return "an axis Y of " + std::string(d.name) + " is not programmed";
+  return "";
+}
+
 void fit_to_control(std::vector<SetupProgram>& programs, const Settings& settings,
                     const catalogue::Lathe& machine) {
   const auto& d = dialect(settings.control);
-  if (!settings.drill_cycles || d.pecks != PeckLaw::equal) return;
+  const bool pecks_alike = settings.drill_cycles && d.pecks == PeckLaw::equal;
   for (auto& p : programs) {
-    for (auto& step : p.steps)
-      if (step.pecks) step.moves = pecked_alike(step, d.peck_back_mm);
+    for (auto& step : p.steps) {
+      if (pecks_alike && step.pecks) step.moves = pecked_alike(step, d.peck_back_mm);
+      if (!step.milling) continue;
+      if (const auto why = cannot_mill(*step.milling, settings); !why.empty())
+        step = stop_to_mill(*step.milling, why);
+    }
+    std::erase_if(p.tools, [&](const TableTool& t) {
+      return std::ranges::none_of(
+          p.steps, [&](const Step& s) { return !s.stop && s.tool == t.number; });
+    });
     p.minutes = minutes(p, machine);
   }
 }

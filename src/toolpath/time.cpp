@@ -52,9 +52,11 @@ Part in_cut(const InCut& cut, const Move& a, const Move& b) {
 
 // Between two shares of the way of a move at feed.
 double feed_min(const Step& s, const Move& a, const Move& b, double u, double w) {
-  const double length = b.kind == Move::Kind::arc
-                            ? arc_mm(a, b)
-                            : std::hypot(b.x_mm - a.x_mm, b.z_mm - a.z_mm);
+  const double length =
+      b.kind == Move::Kind::arc
+          ? arc_mm(a, b)
+          : std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm, b.z_mm - a.z_mm);
+  if (s.milling) return length * (w - u) / (b.feed_share * s.milling->f_mm_min);
   return feed_min(s, length * (w - u), std::lerp(a.x_mm, b.x_mm, u),
                   std::lerp(a.x_mm, b.x_mm, w));
 }
@@ -74,7 +76,8 @@ void add_feed(const Step& s, const Move& a, const Move& b, Minutes& sum) {
 double move_min(const Step& step, const Move& from, const Move& to,
                 const catalogue::Lathe& machine) {
   if (to.kind != Move::Kind::rapid) return feed_min(step, from, to, 0, 1);
-  return std::max(std::abs(to.x_mm - from.x_mm), std::abs(to.z_mm - from.z_mm)) /
+  return std::max({std::abs(to.x_mm - from.x_mm), std::abs(to.y_mm - from.y_mm),
+                   std::abs(to.z_mm - from.z_mm)}) /
          machine.rapid_mm_min;
 }
 

@@ -42,7 +42,7 @@ inline void add_arc(std::vector<Way>& ways, Way w, const std::vector<double>& a)
 inline std::vector<Way> ways_of(const std::string& canonical) {
   std::vector<Way> ways;
   Way w;
-  bool known = false, in_operation = false;
+  bool known = false, in_operation = false, mills = false;
   std::istringstream in(canonical);
   for (std::string line; std::getline(in, line);) {
     const auto has = [&](const char* word) { return line.find(word) != line.npos; };
@@ -52,6 +52,7 @@ inline std::vector<Way> ways_of(const std::string& canonical) {
       const auto from = operation + 10;
       w.operation = line.substr(from, line.find(':', from) - from);
       in_operation = true;
+      mills = w.operation.find("-mill-") != w.operation.npos;
     }
     if (has("SET_FEED_RATE")) w.f_mm_rev = numbers(line)[0];
     if (has("START_SPEED_FEED_SYNC")) {
@@ -64,7 +65,8 @@ inline std::vector<Way> ways_of(const std::string& canonical) {
     if (has("SET_SPINDLE_SPEED")) w.S = numbers(line)[1];
     const bool traverse = has("STRAIGHT_TRAVERSE"), arc = has("ARC_FEED");
     const bool tap = has("RIGID_TAP");  // in, and back
-    if (!in_operation || (!traverse && !arc && !tap && !has("STRAIGHT_FEED"))) continue;
+    if (!in_operation || mills || (!traverse && !arc && !tap && !has("STRAIGHT_FEED")))
+      continue;
     const auto a = numbers(line);
     w.rapid = traverse;
     const double x = arc ? a[1] : a[0], z = arc ? a[0] : a[2];

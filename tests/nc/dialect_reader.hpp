@@ -29,7 +29,9 @@ struct Read {
   std::string turn;  ///< "M3", "M4", "" at rest
   bool coolant = false;
   int tool = 0, offset = 0;
-  int stops = 0;  ///< M0 and M1 before
+  int stops = 0;       ///< M0 and M1 before
+  bool mills = false;  ///< by the driven tool, the main spindle at rest
+  double y_mm = 0, f_mm_min = 0, tool_rpm = 0, C_deg = 0;
 };
 
 /// The words in which controls differ.
@@ -46,6 +48,35 @@ struct Manual {
   /// Drilling cycles that begin in the plane G17, whose third axis they drill along.
   bool drills_in_G17 = false;
 };
+
+/// Blocks with which a control mills: axis C on and off, the main spindle held and free, the
+/// driven tool at the speed "#" and at rest.  LinuxCNC: spindles by "$" (G-code overview);
+/// Haas: M154, M155, M14, M15, M133, M135; Okuma: M110, M109, M147, M146, SB=, M13, M12;
+/// Siemens: SPOS, other spindles by their number; of the others the codes that a test gives.
+struct MillManual {
+  int per_minute = 94;
+  std::string on = {}, off = {}, lock = {}, unlock = {};
+  std::vector<std::string> tool_on = {};
+  std::string tool_off = {};
+};
+
+inline const MillManual& mill_manual(Control control) {
+  static const MillManual kBuilders{94, "M35", "M34", "M68", "M69", {"S# M13"}, "M15"};
+  static const auto kSystemA = [] {
+    auto m = kBuilders;
+    m.per_minute = 98;
+    return m;
+  }();
+  static const std::map<Control, MillManual> kManuals{
+      {Control::linuxcnc, {94, "", "", "", "", {"S# M3 $1"}, "M5 $1"}},
+      {Control::fanuc, kSystemA},
+      {Control::fanuc_b, kBuilders},
+      {Control::haas, {98, "M154", "M155", "M14", "M15", {"M133 P#"}, "M135"}},
+      {Control::siemens_iso, kBuilders},
+      {Control::siemens, {94, "", "", "", "", {"S2=# M2=3"}, "M2=5"}},
+      {Control::okuma, {94, "M110", "M109", "M147", "M146", {"SB=#", "M13"}, "M12"}}};
+  return kManuals.at(control);
+}
 
 /// From where a cycle feeds again before the depth reached [mm]: LinuxCNC 2.9 has 0.254 mm
 /// in its source (interp_cycles.cc), in CYCLE83 it is an argument, elsewhere a parameter or
@@ -138,6 +169,7 @@ class DialectReader {
       all.erase(all.begin());
     }
     if (all.empty()) fail(line, "an empty block");
+    if (mills(line)) return;
     if (all[0].letter == "CYCLE" && control_ == Control::siemens) return call(line);
     block_ = {};
     for (const auto& w : all) {
@@ -158,7 +190,64 @@ class DialectReader {
       if (drill_.has_value() ? w.letter == "F" : !tap_ || w.letter == "S") word(w, line);
     if (tap_) return tap(line);
     if (drill_) return drill(line);
-    if (block_.contains("X") || block_.contains("Z")) move(line);
+    if (block_.contains("X") || block_.contains("Y") || block_.contains("Z")) move(line);
+  }
+
+  // Whether a block, which may have a number, belongs to milling alone; what it does.
+  bool mills(const std::string& numbered) {
+    const bool has_number = numbered[0] == 'N';
+    const auto line = has_number ? numbered.substr(numbered.find(' ') + 1) : numbered;
+    const auto& m = mill_manual(control_);
+    const auto is = [&](const std::string& block) {
+      return !block.empty() && line == block;
+    };
+    const bool known = is(m.on) || is(m.off) || is(m.lock) || is(m.unlock);
+    if ((known || tool_speed(line, m)) && !now_.turn.empty())
+      fail(line, "while the main spindle turns");
+    if (is(m.on) || is(m.off)) {
+      if (now_.mills || c_axis_ == is(m.on)) fail(line, "axis C");
+      c_axis_ = is(m.on);
+      return true;
+    }
+    if (is(m.lock) || is(m.unlock)) {
+      if (now_.mills) fail(line, "while the tool turns");
+      held_ = is(m.lock);
+      return true;
+    }
+    const auto angle = control_ == Control::siemens ? "SPOS=" : "G0 C";
+    if (line.starts_with(angle) && (control_ != Control::siemens || !per_revolution_)) {
+      if (held_ || now_.mills || (!m.on.empty() && !c_axis_)) fail(line, "cannot turn");
+      if (m_.points && line.find('.') == line.npos) fail(line, "counts steps");
+      now_.C_deg = std::stod(line.substr(std::string(angle).size()));
+      return true;
+    }
+    if (const auto speed = tool_speed(line, m)) {
+      if (!m.lock.empty() && !held_) fail(line, "the part is not held");
+      if (*speed >= 0) now_.tool_rpm = *speed;
+      now_.mills = line == m.tool_on.back() || m.tool_on.size() == 1;
+      return true;
+    }
+    if (!is(m.tool_off)) return false;
+    if (!now_.mills) return false;
+    now_.mills = false;
+    return true;
+  }
+
+  // The speed in a block that turns the driven tool on; -1 if it has none.
+  static std::optional<double> tool_speed(const std::string& line, const MillManual& m) {
+    for (const auto& block : m.tool_on) {
+      const auto at = block.find('#');
+      if (at == block.npos) {
+        if (line == block) return -1;
+        continue;
+      }
+      const auto before = block.substr(0, at), behind = block.substr(at + 1);
+      if (!line.starts_with(before) || !line.ends_with(behind)) continue;
+      const auto digits = line.substr(at, line.size() - before.size() - behind.size());
+      if (!digits.empty() && digits.find_first_not_of("0123456789") == digits.npos)
+        return std::stod(digits);
+    }
+    return std::nullopt;
   }
 
   bool taps(const std::string& G) const {
@@ -338,6 +427,11 @@ class DialectReader {
     if (g == 17 || g == 18) plane_ = g;
     if (g == 80) cycle_on_ = false;
     if (g == 17 && !m_.drills_in_G17) fail(line, "an unknown code");
+    if (g == mill_manual(control_).per_minute) {
+      if (!now_.turn.empty()) fail(line, "while the main spindle turns");
+      per_revolution_ = false;
+      return;
+    }
     if (g == 98 && !(control_ == Control::linuxcnc && drill_.has_value()))
       fail(line, "another feed");
     if (g == 17 || g == 98) return;
@@ -346,7 +440,7 @@ class DialectReader {
     else if (g == 96 || g == 97)
       now_.surface_speed = g == 96;
     else if (m_.per_revolution.contains(g))
-      per_revolution_ = true;
+      end_milling(line);
     else if (g == m_.limit && m_.limit != 0)
       limit_block_ = true;
     else if (g == 28 || g == 75 || g == 20 || g == 53 || g == 91)
@@ -360,9 +454,19 @@ class DialectReader {
     if (g == 20 && control_ != Control::okuma) fail(line, "inches");
   }
 
+  void end_milling(const std::string& line) {
+    if (now_.mills || c_axis_ || held_) fail(line, "while it mills");
+    per_revolution_ = true;
+  }
+
   void word(const Word& w, const std::string& line) {
     const auto& a = w.letter;
-    if (m_.points && a.size() == 1 && std::string("XZIKF").find(a) != a.npos &&
+    if (!per_revolution_ && a == "F") {
+      now_.f_mm_min = w.number();
+      return;
+    }
+    if (!per_revolution_ && a == "Y") return;
+    if (m_.points && a.size() == 1 && std::string("XYZIKF").find(a) != a.npos &&
         w.value.find('.') == w.value.npos)
       fail(line, "counts steps");
     if (a == "S" && limit_block_)
@@ -443,7 +547,13 @@ class DialectReader {
     } else {
       r.kind = *motion_ == 0 ? Move::Kind::rapid : Move::Kind::feed;
     }
-    if (r.kind != Move::Kind::rapid && !per_revolution_) fail(line, "feed by the minute");
+    if (block_.contains("Y") && per_revolution_) fail(line, "turned beside the axis");
+    r.y_mm = y_mm_ = value("Y", y_mm_);
+    if (!now_.turn.empty() && now_.mills) fail(line, "both spindles turn");
+    if (r.kind != Move::Kind::rapid && !per_revolution_ && !now_.mills)
+      fail(line, "feed by the minute");
+    if (r.kind != Move::Kind::rapid && per_revolution_ && now_.turn.empty())
+      fail(line, "cut at rest");
     if (r.kind == Move::Kind::thread && m_.thread_cycle) return cycle(r, from);
     add(r);
   }
@@ -476,7 +586,8 @@ class DialectReader {
   bool tap_ = false, per_revolution_ = false, limit_block_ = false, reference_ = false,
        ended_ = false;
   Read now_;
-  double x_mm_ = 0, z_mm_ = 0;
+  bool c_axis_ = false, held_ = false;
+  double x_mm_ = 0, y_mm_ = 0, z_mm_ = 0;
   std::vector<Read> moves_;
   std::vector<std::string> comments_;
   std::vector<int> numbers_;

@@ -21,8 +21,18 @@ std::string id(Control control) { return std::string(dialect(control).id); }
 
 std::vector<SetupProgram> numbered(const Programs& programs, const Settings& settings) {
   auto all = programs.setups;
+  fit_to_control(all, settings, {});
   number_tools(all, settings);
   return all;
+}
+
+// A builder's codes where a control has none of its own.
+MillingCodes builders(Control control) {
+  if (control == Control::siemens) return {.tool_on = "S2={S} M2=3", .tool_off = "M2=5"};
+  const bool own = control == Control::linuxcnc || control == Control::haas ||
+                   control == Control::okuma;
+  return own ? MillingCodes{}
+             : MillingCodes{"M35", "M34", "M68", "M69", "S{S} M13", "M15"};
 }
 
 // LinuxCNC takes any decimals, the others steps of 0.001 mm.
@@ -30,7 +40,8 @@ double last_mm(Control control) { return control == Control::linuxcnc ? 1e-4 : 1
 
 bool moves_on(const Move& a, const Move& b, Control control) {
   const auto digits = [&](double mm) { return std::lround(mm / last_mm(control)); };
-  return digits(2 * a.x_mm) != digits(2 * b.x_mm) || digits(a.z_mm) != digits(b.z_mm);
+  return digits(2 * a.x_mm) != digits(2 * b.x_mm) || digits(a.y_mm) != digits(b.y_mm) ||
+         digits(a.z_mm) != digits(b.z_mm);
 }
 
 void expect_cut_off(double read, double planned, double step, const std::string& at) {
@@ -38,9 +49,29 @@ void expect_cut_off(double read, double planned, double step, const std::string&
   EXPECT_GT(read, planned - step) << at;
 }
 
+// A cutter's move: feed by the minute, the main spindle at rest and held.
+void expect_milled(const Read& r, const Move& m, const Step& s, Control control,
+                   const std::string& at) {
+  const double half_mm = last_mm(control) / 2 + 1e-9;
+  EXPECT_EQ(r.kind, m.kind) << at;
+  EXPECT_NEAR(r.x_mm, m.x_mm, half_mm / 2) << at;
+  EXPECT_NEAR(r.y_mm, m.y_mm, half_mm) << at;
+  EXPECT_NEAR(r.z_mm, m.z_mm, half_mm) << at;
+  if (m.kind != Move::Kind::rapid)
+    expect_cut_off(r.f_mm_min, m.feed_share * s.milling->f_mm_min, 0.1, at);
+  expect_cut_off(r.tool_rpm, s.milling->n_rpm, 1, at);
+  EXPECT_NEAR(r.C_deg, s.milling->C_deg, 5e-4) << at;
+  EXPECT_TRUE(r.mills) << at;
+  EXPECT_EQ(r.turn, "") << at;
+  EXPECT_TRUE(r.coolant) << at;
+  EXPECT_EQ(r.tool, s.tool) << at;
+}
+
 /// @param rounded  how often a place along Z is rounded: once, or with each of its pecks
 void expect_same(const Read& r, const Move& m, const Step& s, Control control,
                  const std::string& at, double rounded = 0.5) {
+  if (s.milling) return expect_milled(r, m, s, control, at);
+  EXPECT_FALSE(r.mills) << at;
   const double half_mm = last_mm(control) / 2 + 1e-9;
   EXPECT_EQ(r.kind, m.kind) << at;
   EXPECT_NEAR(r.x_mm, m.x_mm, half_mm / 2) << at;
@@ -100,6 +131,49 @@ void expect_read_back(const std::string& name, const Planned& p) {
 TEST(NcDialects, OfEveryReferencePartCommandTheSameMoves) {
   for (const auto& name : reference_parts())
     expect_read_back(name, planned_reference(name));
+}
+
+// A shaft with a keyway and a flat, for which the cutter leaves the plane of the axis.
+TEST(NcDialects, MillAtAnAngleOfTheMainSpindle) {
+  const auto& p = planned_reference("keyed-shaft");
+  const auto all = programs(p.part, p.plan);
+  for (const auto control : kControls) {
+    const Settings settings{.control = control, .milling = builders(control)};
+    int milled = 0;
+    for (const auto& program : numbered(all, settings)) {
+      expect_read_back(program, DialectReader(control).read(text(program, settings)),
+                       control, "keyed-shaft for " + id(control));
+      milled += static_cast<int>(std::ranges::count_if(
+          program.steps, [](const Step& s) { return s.milling.has_value(); }));
+    }
+    EXPECT_EQ(milled, control == Control::okuma ? 1 : 2) << id(control);  // no Y
+  }
+}
+
+// Without the builder's codes somebody mills, and the program says why.
+TEST(NcDialects, StopWhereTheCodesForMillingAreNotGiven) {
+  const auto& p = planned_reference("keyed-shaft");
+  for (const auto control : kControls) {
+    const bool own = control == Control::linuxcnc || control == Control::haas ||
+                     control == Control::okuma;
+    const Settings settings{.control = control};
+    int stops = 0;
+    for (const auto& program : numbered(programs(p.part, p.plan), settings)) {
+      DialectReader reader(control);
+      reader.read(text(program, settings));
+      for (const auto& c : reader.comments()) {
+        const bool said = c.find("NO CODES OF THE") != c.npos ||
+                          c.find("no codes of the") != c.npos ||
+                          c.find("AN AXIS Y OF OKUMA OSP IS NOT PROGRAMMED") != c.npos;
+        stops += static_cast<int>(said);
+      }
+      for (const auto& tool : program.tools)
+        EXPECT_TRUE(own || tool.orientation != kCutterOrientation) << id(control);
+    }
+    EXPECT_EQ(stops, !own ? 2 : control == Control::okuma ? 1 : 0) << id(control);
+    if (own) continue;
+    EXPECT_THROW(text(programs(p.part, p.plan).setups[0], settings), std::domain_error);
+  }
 }
 
 TEST(NcDialects, OfReamedAndTappedPartsCommandTheSameMoves) {

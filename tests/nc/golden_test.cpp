@@ -28,6 +28,7 @@ TEST(NcGolden, ProgramsAreThoseThatAreKept) {
     for (const auto& d : gcode::dialects()) {
       const Settings settings{.control = d.control, .program_number = 1001};
       auto all = made.setups;
+      fit_to_control(all, settings, p.part.machine);
       number_tools(all, settings);
       for (const auto& program : all) {
         const auto file =

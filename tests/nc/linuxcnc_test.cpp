@@ -188,6 +188,63 @@ TEST_F(NcThroughLinuxCnc, DrillingCyclesMakeTheContour) {
   }
 }
 
+// Straight moves of the cutter, with the part at its angle, feed by the minute and the
+// second spindle.
+TEST_F(NcThroughLinuxCnc, MillsAsTheProgram) {
+  const auto& p = planned_reference("keyed-shaft");
+  const auto all = programs(p.part, p.plan);
+  int milled = 0;
+  for (const auto& program : all.setups) {
+    std::vector<std::string> lines;
+    std::istringstream canonical(
+        rs274.canonical(nc::text(program, {}), tool_table(all.setups)));
+    for (std::string line; std::getline(canonical, line);) lines.push_back(line);
+    for (const auto& step : program.steps) {
+      if (!step.milling) continue;
+      ++milled;
+      const auto begins = step.comments[0].substr(0, step.comments[0].find(':'));
+      auto at = std::ranges::find_if(
+          lines, [&](const auto& l) { return l.find(begins) != l.npos; });
+      ASSERT_NE(at, lines.end()) << begins;
+      double f = 0, S = 0, C = 0;
+      int spindle = 0;
+      bool by_the_minute = false, turns = false;
+      std::size_t k = 0;
+      for (; at != lines.end() && k < step.moves.size(); ++at) {
+        const auto has = [&](const char* word) { return at->find(word) != at->npos; };
+        if (has("SET_FEED_MODE")) by_the_minute = numbers(*at)[1] == 0;
+        if (has("SET_FEED_RATE")) f = numbers(*at)[0];
+        if (has("SET_SPINDLE_SPEED"))
+          spindle = static_cast<int>(numbers(*at)[0]), S = numbers(*at)[1];
+        if (has("START_SPINDLE_CLOCKWISE")) turns = numbers(*at)[0] == 1;
+        const bool fed = has("STRAIGHT_FEED"), traverse = has("STRAIGHT_TRAVERSE");
+        if (!fed && !traverse) continue;
+        const auto a = numbers(*at);
+        if (!turns) {  // to its angle
+          C = a[5];
+          continue;
+        }
+        const auto& m = step.moves[k++];
+        const auto where = begins + ", move " + std::to_string(k);
+        EXPECT_EQ(fed, m.kind == Move::Kind::feed) << where;
+        EXPECT_NEAR(a[0], m.x_mm, 1e-4) << where;
+        EXPECT_NEAR(a[1], m.y_mm, 1e-4) << where;
+        EXPECT_NEAR(a[2], m.z_mm, 1e-4) << where;
+        EXPECT_NEAR(a[5], step.milling->C_deg, 1e-4) << where;
+        if (fed) {
+          EXPECT_TRUE(by_the_minute) << where;
+          EXPECT_NEAR(f, m.feed_share * step.milling->f_mm_min, 0.1) << where;
+        }
+      }
+      EXPECT_EQ(k, step.moves.size()) << begins;
+      EXPECT_EQ(spindle, 1);
+      EXPECT_NEAR(S, step.milling->n_rpm, 1);
+      EXPECT_NEAR(C, step.milling->C_deg, 1e-4);
+    }
+  }
+  EXPECT_EQ(milled, 2);
+}
+
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   return at == text.npos ? text : text.replace(at, what.size(), by);

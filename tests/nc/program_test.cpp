@@ -454,7 +454,7 @@ TEST(NcPrograms, AnArcThatFallsTooSteeplyIsNone) {
 // Two places on one pin: turned first, then a stop for each, with the spindle at rest,
 // the cutter not among the tools and nothing moved.
 TEST(NcPrograms, StopWhereAPlaceIsMilled) {
-  const auto p = planned(nlohmann::json::parse(R"({
+  auto p = planned(nlohmann::json::parse(R"({
     "format": "turnwright-part/1", "name": "pin", "material": "C45",
     "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 142,
               "left_allowance_mm": 60},
@@ -468,6 +468,7 @@ TEST(NcPrograms, StopWhereAPlaceIsMilled) {
        "depth_mm": 1, "angle_deg": 180, "tool": "ENDMILL-HM-10"}],
     "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
   ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  p.part.machine.driven_tools->c_axis = false;
   const auto all = programs(p.part, p.plan);
   EXPECT_TRUE(all.cannot.empty());
   ASSERT_EQ(all.setups.size(), 1U);
@@ -481,9 +482,10 @@ TEST(NcPrograms, StopWhereAPlaceIsMilled) {
       EXPECT_TRUE(stopped.empty()) << "turned after it was milled";
       continue;
     }
-    ASSERT_EQ(step.comments.size(), 1U);
     const std::string lead = "stop: not in this program: ";
     if (step.comments[0].rfind(lead, 0) != 0) continue;
+    ASSERT_EQ(step.comments.size(), 2U);
+    EXPECT_EQ(step.comments[1], "no axis C");
     EXPECT_TRUE(step.moves.empty());
     stopped.push_back(
         step.comments[0].substr(lead.size(), step.comments[0].find(',') - lead.size()));

@@ -118,12 +118,6 @@ double machine_min(const planning::Breakdown& b) {
          b.operator_stops.time_min;
 }
 
-// What is milled is planned, and no program.
-bool mills(const planning::SetupPlan& s) {
-  return std::any_of(s.operations.begin(), s.operations.end(),
-                     [](const auto& o) { return o.milled.has_value(); });
-}
-
 /// The largest difference between plan and program of a setup, relative; told where it is
 /// more than a per cent.  What a program enters down a slope, between surfaces that go on
 /// from each other and are left unlike by roughing, is apart.
@@ -131,7 +125,6 @@ double apart(const std::string& name, const Planned& p, const Programs& all) {
   double most = 0;
   for (const auto& program : all.setups) {
     const auto& s = p.plan.setups[program.setup];
-    if (mills(s)) continue;
     const auto& m = program.minutes;
     const auto& b = s.breakdown;
     const double off = machine_min(b) / (m.total() - m.entering) - 1;

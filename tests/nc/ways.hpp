@@ -64,6 +64,7 @@ inline std::vector<Way> ways_of(const SetupProgram& program,
     Way w;
     w.centred = centred;
     w.operation = plan.operations[operation++].id;
+    if (step.milling) continue;  // comes back to where tools are changed
     w.f_mm_rev = step.f_mm_rev;
     w.S = step.S;
     w.n_max_rpm = step.constant_surface_speed ? std::floor(step.n_max_rpm) : 0;

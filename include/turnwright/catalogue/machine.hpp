@@ -39,6 +39,10 @@ struct DrivenTools {
   double efficiency = 0;
   double feed_max_mm_min = 0;
   std::map<std::string, std::vector<TipMode>> modes;  ///< measured, by id of the cutter
+  bool c_axis =
+      false;  ///< the main spindle turns the part to an angle and holds it there
+  double y_max_mm =
+      0;  ///< way of the axis Y to either side of the spindle's axis, 0: none
 };
 
 /// Eccentricity of a part that is held anew, standard deviation of each component [um].

@@ -80,6 +80,16 @@ struct Dialect {
   /// setting of the machine gives it.
   double peck_back_mm;
 
+  std::string_view per_minute, per_revolution;  ///< feed
+  /// Words with which the main spindle becomes axis C and a spindle again, and is held and
+  /// freed; the shop's own come first.  Empty: there are none, or the builder has them.
+  std::string_view c_axis_on, c_axis_off, lock, unlock;
+  bool c_axis_is_builders;  ///< nothing turns the part without the builder's codes
+  std::string_view c_axis;  ///< to {C} degrees
+  /// The driven tool at {S} 1/min, clockwise, and at rest.  Empty: the builder has them.
+  std::string_view tool_on, tool_off;
+  bool y_axis;  ///< Y moves as X and Z do, X staying a diameter
+
   bool point;           ///< a number without a point may count steps
   int decimals;         ///< of diameters and lengths
   int centre_decimals;  ///< of the centres of arcs

@@ -28,6 +28,14 @@ struct ShopTool {
   std::optional<int> offset = std::nullopt;  ///< if not the usual one
 };
 
+/// The codes of a machine's builder for axis C and driven tools; empty: the control's own,
+/// if it has some.
+struct MillingCodes {
+  std::string c_axis_on = {}, c_axis_off = {};
+  std::string lock = {}, unlock = {};  ///< of the main spindle while it holds the part
+  std::string tool_on = {}, tool_off = {};  ///< {S} is the speed
+};
+
 struct Settings {
   Control control = Control::linuxcnc;
   int program_number = 1;        ///< of the first setup; the others count on
@@ -44,6 +52,7 @@ struct Settings {
   bool cycles = false;
   /// Holes by the control's drilling cycles.
   bool drill_cycles = false;
+  MillingCodes milling = {};
   std::vector<ShopTool> tools = {};
 };
 
@@ -54,12 +63,18 @@ std::string work_offset(const Settings& settings);
 /// shop has not numbered get the numbers that are left, in their order of use.
 void number_tools(std::vector<SetupProgram>& programs, const Settings& settings);
 
-/// Changes the programs' moves and minutes to those of the control's own cycles, where the
-/// settings ask for cycles that peck in their own way (docs/nc.md).
+/// Why a control's programs do not mill with the settings: the codes that are missing, or
+/// that it moves Y otherwise; empty if they do.
+std::string cannot_mill(const Milling& milling, const Settings& settings);
+
+/// Changes the programs to what a control can do with the settings (docs/nc.md): moves and
+/// minutes are those of its own cycles where they peck in their own way, and where it
+/// cannot mill, a stop stands for it.
 void fit_to_control(std::vector<SetupProgram>& programs, const Settings& settings,
                     const catalogue::Lathe& machine);
 
 /// The program's text, lines of printable ASCII.
+/// @throws std::domain_error if it mills where the control cannot (fit_to_control).
 std::string text(const SetupProgram& program, const Settings& settings);
 
 /// LinuxCNC's tool table for programs of one part: numbers, diameters and orientations,

@@ -18,6 +18,8 @@ struct Move {
   bool clockwise = false;     ///< of an arc: G2, seen with X up and Z to the right
   /// Over the stock that roughing has left on elements in front.
   bool entering = false;
+  double y_mm = 0;        ///< of a milling cutter beside the spindle's axis
+  double feed_share = 1;  ///< of the operation's feed
 };
 
 /// The range in which a tool is in the cut: along the axis, or between two radii.
@@ -32,11 +34,20 @@ struct Pecks {
   double step_mm = 0;   ///< from the depth reached
 };
 
-/// One operation of the plan, or a stop.  Milling is not part of a turning program.
+/// Milling by a driven tool that stands across the part, which the main spindle holds at
+/// an angle.  Moves are those of the middle of the cutter's end.
+struct Milling {
+  double n_rpm = 0, f_mm_min = 0;  ///< of the cutter
+  double C_deg = 0;                ///< where the main spindle holds the part
+  bool needs_y = false;            ///< the cutter leaves the plane of the spindle's axis
+  std::string stop = {};           ///< what a program says that stops here instead
+};
+
+/// One operation of the plan, or a stop.
 struct Step {
   std::vector<std::string> comments;
   bool stop = false;    ///< M0: somebody changes the clamping, or mills
-  double stop_min = 0;  ///< its duration; 0 for milling
+  double stop_min = 0;  ///< its duration; 0 where somebody mills
   int tool = 0;
   bool constant_surface_speed = false;
   double S = 0;          ///< m/min, or 1/min
@@ -44,16 +55,17 @@ struct Step {
   double f_mm_rev = 0;   ///< of a thread its pitch
   InCut in_cut;
   std::vector<Move> moves;
+  std::optional<Milling> milling = {};
   std::optional<Pecks> pecks = {};  ///< of a drill that is drawn out to clear its chips
 };
 
-inline constexpr int kDrillOrientation = 7;
+inline constexpr int kDrillOrientation = 7, kCutterOrientation = 0;
 
 struct TableTool {
   int number = 0;
   std::string id;
-  int offset = 0;       ///< number of its offset
-  double re_mm = 0;     ///< corner radius, 0 of blades, drills and threading tools
+  int offset = 0;    ///< number of its offset
+  double re_mm = 0;  ///< corner radius, 0 of blades, drills, cutters and threading tools
   int orientation = 0;  ///< of the tip: 3 outside, 2 in a bore, or of tools on the axis
 };
 
@@ -81,7 +93,8 @@ struct SetupProgram {
 ///
 ///     t = integral of ds/(f n),  n = min(n_cap, 1000 v/(2 pi |x|)),                  (1)
 ///
-/// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n).  A rapid
+/// exactly over cylinders, cones and faces; at a constant spindle speed s/(f n), of a
+/// milling cutter s/f.  A rapid
 /// takes its longer axis at the machine's rapid rate, another tool the machine's time to
 /// bring one in, the first included.  Source: derived here; time_test integrates
 /// numerically.

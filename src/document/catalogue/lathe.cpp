@@ -65,6 +65,10 @@ catalogue::DrivenTools read_driven_tools(Reader group) {
   catalogue::DrivenTools d;
   read_drive(group, d);
   d.feed_max_mm_min = group.number("feed_max_mm_min", above_up_to(0, 1e6, "mm/min"));
+  d.c_axis = group.boolean_or("c_axis", d.c_axis);
+  d.y_max_mm = group.number_or("y_max_mm", within(0, 1000, "mm"), d.y_max_mm);
+  if (d.y_max_mm > 0 && !d.c_axis)
+    group.problem_at("y_max_mm", "0: without c_axis nothing turns the part", "choice");
   for (Reader item : group.optional_items("measured", 0, 200)) {
     item = item.as_object();
     const auto cutter = read_id(item, "cutter");

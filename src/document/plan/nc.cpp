@@ -1,6 +1,7 @@
 #include "turnwright/document/nc.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <set>
 
@@ -98,6 +99,48 @@ void read_tools(Reader& r, const gcode::Dialect& d, nc::Settings& s) {
   }
 }
 
+/// The members of `milling` and where their codes go.
+using MillingCode = std::pair<const char*, std::string nc::MillingCodes::*>;
+constexpr std::array kMillingCodes{
+    MillingCode{"c_axis_on", &nc::MillingCodes::c_axis_on},
+    MillingCode{"c_axis_off", &nc::MillingCodes::c_axis_off},
+    MillingCode{"lock", &nc::MillingCodes::lock},
+    MillingCode{"unlock", &nc::MillingCodes::unlock},
+    MillingCode{"tool_on", &nc::MillingCodes::tool_on},
+    MillingCode{"tool_off", &nc::MillingCodes::tool_off}};
+constexpr std::size_t kLongestCode = 40;
+
+// Capitals, digits and the signs of words; {S} stands for the speed, once.
+bool is_code(std::string code, bool with_speed) {
+  if (code.empty() || code.size() > kLongestCode) return false;
+  if (with_speed) {
+    const auto at = code.find("{S}");
+    if (at == code.npos) return false;
+    code.erase(at, 3);
+  }
+  return std::ranges::all_of(code, [](unsigned char c) {
+    return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == ' ' || c == '.' ||
+           c == '=' || c == '$' || c == '-';
+  });
+}
+
+void read_milling(Reader& r, nc::Settings& s) {
+  auto group = r.optional_object("milling");
+  if (!group) return;
+  for (const auto& [key, member] : kMillingCodes) {
+    if (!group->has(key)) continue;
+    const auto code = group->text(key);
+    const bool with_speed = member == &nc::MillingCodes::tool_on;
+    if (!code.empty() && !is_code(code, with_speed))
+      group->problem_at(key,
+                        with_speed ? "codes like \"S{S} M13\", with {S} for the speed"
+                                   : "codes like \"M35\"",
+                        "choice");
+    s.milling.*member = code;
+  }
+  group->finish();
+}
+
 nc::Settings read_settings(Reader& r) {
   nc::Settings s;
   s.control = r.choice_or("control", controls(), gcode::Control::linuxcnc);
@@ -114,6 +157,7 @@ nc::Settings read_settings(Reader& r) {
     r.problem_at("cycles", "false: no cycle of " + std::string(d.name) + " is known",
                  "choice");
   s.drill_cycles = r.boolean_or("drill_cycles", s.drill_cycles);
+  read_milling(r, s);
   read_tools(r, d, s);
   return s;
 }
@@ -143,6 +187,8 @@ ordered_json settings_json(const nc::Settings& s,
   out["reference_returns"] = s.reference_returns;
   out["cycles"] = s.cycles;
   out["drill_cycles"] = s.drill_cycles;
+  for (const auto& [key, member] : kMillingCodes)
+    if (!(s.milling.*member).empty()) out["milling"][key] = s.milling.*member;
   out["tools"] = tools_of(programs);
   if (d.offset == gcode::OffsetNumber::of_tool)
     for (auto& tool : out["tools"]) tool.erase("offset");

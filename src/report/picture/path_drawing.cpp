@@ -131,12 +131,14 @@ void draw_jaw(Sheet& s) {
 
 void draw_rapids(Sheet& s) {
   toolpath::Point at{s.program.change_x_mm, s.program.change_z_mm};
-  for (const auto& step : s.program.steps)
+  for (const auto& step : s.program.steps) {
+    if (step.milling) continue;
     for (const auto& move : step.moves) {
       if (move.kind == toolpath::Move::Kind::rapid)
         s.svg.line("rapid", s.place(at.z_mm, at.h_mm), s.place(move.z_mm, move.x_mm));
       at = {move.x_mm, move.z_mm};
     }
+  }
 }
 
 /// Where each tool first comes to the work: its number above, a line down to it.

@@ -114,7 +114,7 @@ std::vector<CutPass> passes(const PreparedPart& part, const planning::SetupPlan&
   Work work = work_before(part, program.setup);
   toolpath::Point at{program.change_x_mm, program.change_z_mm};
   for (const auto& [step, operation] : planned_steps(setup, program)) {
-    if (step->stop) continue;
+    if (step->stop || step->milling) continue;
     const auto tool = cutter(part, *operation, listed(program, step->tool));
     bool cutting = false;
     for (const auto& move : step->moves) {

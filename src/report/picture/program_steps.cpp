@@ -13,7 +13,8 @@ std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
       throw std::domain_error("planned_steps: the program has more steps than the plan");
     all.push_back({&step, &*next});
     const bool mills = next->kind == planning::OperationKind::mill;
-    if (step.stop ? mills && step.stop_min == 0 : !mills) ++next;
+    if (step.stop ? mills && step.stop_min == 0 : mills == step.milling.has_value())
+      ++next;
   }
   if (next != setup.operations.end())
     throw std::domain_error("planned_steps: the program does not make " + next->id);

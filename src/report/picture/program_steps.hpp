@@ -12,7 +12,8 @@ struct PlannedStep {
   const planning::OperationPlan* operation = nullptr;
 };
 
-/// The steps in their order.  A milled place is a stop that takes no time in the program.
+/// The steps in their order.  A milled place that the program does not mill is a stop that
+/// takes no time in it.
 /// @throws std::domain_error if the program does not make the setup's operations.
 std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
                                        const toolpath::SetupProgram& program);

@@ -122,6 +122,8 @@ TEST(NcDoor, EchoesTheShopsSettings) {
   EXPECT_EQ(settings["coolant"], "M8");
   EXPECT_EQ(settings["optional_stops"], false);
   EXPECT_EQ(settings["reference_returns"], false);
+  EXPECT_EQ(settings["drill_cycles"], false);
+  EXPECT_FALSE(settings.contains("milling"));
   std::map<std::string, std::pair<int, int>> numbers;
   for (const auto& tool : settings["tools"])
     numbers[tool["id"]] = {tool["number"], tool["offset"]};
@@ -132,6 +134,20 @@ TEST(NcDoor, EchoesTheShopsSettings) {
   json again = asked;
   again.update(settings);
   EXPECT_EQ(answered(again)["programs"], result["programs"]);
+}
+
+TEST(NcDoor, EchoesTheCodesForMilling) {
+  json asked = request("pump-shaft");
+  asked["control"] = "fanuc";
+  asked["drill_cycles"] = true;
+  asked["milling"] = {{"c_axis_on", "M35"},
+                      {"c_axis_off", "M34"},
+                      {"lock", "M68"},
+                      {"tool_on", "S{S} M13"},
+                      {"tool_off", "M15"}};
+  const auto settings = answered(asked)["settings"];
+  EXPECT_EQ(settings["milling"], asked["milling"]);
+  EXPECT_EQ(settings["drill_cycles"], true);
 }
 
 TEST(NcDoor, RefusesSettingsThatTheControlDoesNotKnow) {
@@ -147,6 +163,14 @@ TEST(NcDoor, RefusesSettingsThatTheControlDoesNotKnow) {
       {{{"coolant", "on"}},
        "/coolant: got \"on\", expected \"off\" or a code like \"M8\""},
       {{{"coolant", "M12345"}}, "/coolant: got \"M12345\""},
+      {{{"milling", {{"tool_on", "M13"}}}},
+       "/milling/tool_on: got \"M13\", expected codes like \"S{S} M13\", with {S} for "
+       "the speed"},
+      {{{"milling", {{"tool_on", "S{S} {S}"}}}}, "/milling/tool_on: got"},
+      {{{"milling", {{"lock", "M68\nM30"}}}}, "/milling/lock: got"},
+      {{{"milling", {{"c_axis_on", "m35"}}}},
+       "/milling/c_axis_on: got \"m35\", expected codes like \"M35\""},
+      {{{"milling", {{"brake", "M68"}}}}, "/milling/brake: got"},
       {{{"spindle", "M5"}}, "/spindle: got \"M5\""},
       {{{"block_numbers", true}}, "/block_numbers: got true"},
       {{{"tools", {{{"id", "A"}, {"number", 1}}, {{"id", "A"}, {"number", 1}}}}},

@@ -219,10 +219,38 @@ TEST(SetupSheet, AThreadIsGauged) {
   EXPECT_GT(threads, 0u);
 }
 
+nlohmann::json keyed() {
+  return document::parse_file(nc::test::source("parts/keyed-shaft.json"));
+}
+
+// The same on a machine without axis C.
+nlohmann::json keyed_by_hand() {
+  auto part = keyed();
+  auto machine = document::parse_file(nc::test::source("machines/turn-mill.json"));
+  for (const char* axis : {"c_axis", "y_max_mm"}) machine["driven_tools"].erase(axis);
+  part["machine"] = machine;
+  return part;
+}
+
+// Where the program mills, its cutters are tools like others.
+TEST(SetupSheet, CuttersOfTheProgramHaveTheirNumbers) {
+  const auto s = sheets_of(keyed());
+  int milled = 0;
+  for (std::size_t i = 0; i < s.all.size(); ++i) {
+    EXPECT_EQ(std::ranges::count(s.all[i].tools, 0, &ToolRow::number), 0);
+    for (const auto& o : s.planned.plan.setups[i].operations) {
+      if (o.kind != planning::OperationKind::mill) continue;
+      ++milled;
+      EXPECT_EQ(std::ranges::count(s.all[i].tools, o.tool, &ToolRow::id), 1);
+      for (const auto& stop : s.all[i].stops) EXPECT_NE(stop.before, o.id);
+    }
+  }
+  EXPECT_EQ(milled, 2);
+}
+
 // The keyed shaft: the tailstock is brought up, then the keyway is milled elsewhere.
 TEST(SetupSheet, StopsSayBeforeWhatTheyStand) {
-  const auto s =
-      sheets_of(document::parse_file(nc::test::source("parts/keyed-shaft.json")));
+  const auto s = sheets_of(keyed_by_hand());
   std::size_t told = 0;
   for (std::size_t i = 0; i < s.all.size(); ++i) {
     double minutes = 0;
