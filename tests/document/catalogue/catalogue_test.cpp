@@ -356,9 +356,10 @@ TEST(Catalogue, CuttersThatContradictThemselvesAreRefused) {
 TEST(Catalogue, AnAxisYNeedsOneThatTurnsThePart) {
   auto lathe = example(kLathe);
   lathe["driven_tools"]["y_max_mm"] = 40;
-  EXPECT_EQ(problems_of(read_lathe, lathe),
-            "/driven_tools/y_max_mm: got 40, expected 0: without c_axis nothing turns the "
-            "part\n");
+  EXPECT_EQ(
+      problems_of(read_lathe, lathe),
+      "/driven_tools/y_max_mm: got 40, expected 0: without c_axis nothing turns the "
+      "part\n");
   lathe["driven_tools"]["c_axis"] = true;
   EXPECT_EQ(problems_of(read_lathe, lathe), "");
 }
