@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "planning/values/readable.hpp"
+
 namespace turnwright::nc {
 namespace {
 
@@ -260,11 +262,12 @@ void tell_jaws(Site& site, std::size_t k, const std::string& operation, double n
   if (level(own) && behind.size() > 2 && level(behind[1]) && level(behind[2]) &&
       site.outer.items[k + 1].stock)
     return;
-  const double ends = std::round(1e3 * (s.z1 - site.root_z)) / 1e3;
+  const double ends = std::round(1e6 * (s.z1 - site.root_z)) / 1e6;
+  const auto [left, needed] = planning::readable_apart(std::abs(ends), s.z1 - needed_z);
   site.refuse(operation,
-              fmt::format("{} ends {:.3g} mm before the jaws, its tool's corner "
-                          "needs {:.3g} mm: grip less",
-                          s.id, std::abs(ends), s.z1 - needed_z));
+              fmt::format("{} ends {} mm before the jaws, its tool's corner needs {} mm: "
+                          "grip less",
+                          s.id, left, needed));
 }
 
 bool comes_in(const std::vector<Point>& way, const std::vector<Piece>& pieces,

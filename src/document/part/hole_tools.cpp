@@ -181,8 +181,8 @@ std::string why_not(const Draft& draft, const HoleDemand& w) {
   }
   for (const auto* t : known_tools(draft, FixedUse::counterboring))
     if (usable(*t))
-      add(*t, "opens a narrower hole behind, at most " + number_text(t->reach * w.D_mm) +
-                  " mm deep");
+      add(*t, "opens a narrower hole behind, down to at most " +
+                  number_text(t->reach * w.D_mm) + " mm from the face");
   return all;
 }
 

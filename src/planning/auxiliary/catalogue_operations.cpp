@@ -185,12 +185,14 @@ void add_thread(Site& s, const CutElement& e) {
         fmt::format("its run-in would cut {:.3g} mm of what rises to it in front, "
                     "more than three pitches",
                     room.rising_mm));
-  if (!way_in)
-    return refuse(
-        s, a,
-        fmt::format("its tool has {:.3g} mm to come in behind what is higher than "
-                    "the thread's root, and needs {:.3g} mm",
-                    room.before_mm, least_run_in_mm(room, P) + P / 2));
+  if (!way_in) {
+    const auto [has, needs] =
+        readable_apart(room.before_mm, least_run_in_mm(room, P) + P / 2);
+    return refuse(s, a,
+                  fmt::format("its tool has {} mm to come in behind what is higher than "
+                              "the thread's root, and needs {} mm",
+                              has, needs));
+  }
   const double run_in = *way_in;
   if (unfaced(s, a, e, e.around.z0 + run_in)) return;
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
@@ -233,10 +235,11 @@ bool ends_before_jaws(const Site& s, const Asked& a, const CutElement& e, double
   const double left = e.around.z1 - e.around.root_z;
   const bool walled = e.around.touch_z == e.around.z1;
   if (walled || left >= needed - 1e-5) return true;
+  const auto [has, needs] = readable_apart(left, needed);
   refuse(s, a,
-         fmt::format("it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
-                     "mm: grip less",
-                     left, needed));
+         fmt::format("it ends {} mm before the jaws, its tool's corner needs {} mm: grip "
+                     "less",
+                     has, needs));
   return false;
 }
 

@@ -166,7 +166,7 @@ std::string does_not_fit(const PreparedPart& p, const Milled& m,
   if (c.lu_mm < m.depth_mm - kSlack_mm)
     return fmt::format("reaches {:g} mm deep, not {:g} mm", c.lu_mm, m.depth_mm);
   if (c.re_mm > m.corner_mm.value_or(INFINITY) + kSlack_mm)
-    return fmt::format("has a corner of {:g} mm where {:g} mm is allowed", c.re_mm,
+    return fmt::format("has a corner of {:.12g} mm where {:.12g} mm is allowed", c.re_mm,
                        *m.corner_mm);
   if (c.ap_mm.lower > m.depth_mm + kSlack_mm)
     return fmt::format("takes {:g} mm at least, which is deeper than {:g} mm",

@@ -29,11 +29,12 @@ void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& toleranc
     const double width = width_mm(t), share_mm = least_machine_mm(p, i);
     if (width > share_mm) continue;
     const auto called = t.id + " " + part::name(t.kind);
+    const auto [taken, whole] = readable_apart(share_mm, width);
     const auto of = t.of.empty() ? t.between[0] + " .. " + t.between[1] : t.of;
     result.conflicts.push_back(
         {called, of, share_mm, width, "mm",
          fmt::format("{} of {}: the machine's share of {} mm leaves nothing of {} mm",
-                     called, of, readable(share_mm), readable(width))});
+                     called, of, taken, whole)});
     result.relax.push_back(
         {called + " of " + of, width, share_mm * kBeyond, "mm",
          fmt::format(

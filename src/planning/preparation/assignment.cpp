@@ -11,6 +11,7 @@
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
 #include "planning/paths/pass_lengths.hpp"
+#include "planning/values/readable.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/units.hpp"
 
@@ -136,10 +137,10 @@ std::string why_not(const PreparedPart& p, std::size_t i) {
           "are taken to clear",
           units::deg_from_rad(part::kProfilingClears_rad));
     const auto room = before_jaws(p, s, i);
+    const auto [left, needed] = readable_apart(room.left_mm, room.needed_mm);
     return fmt::format(
-        "in {} it ends {:.3g} mm before the jaws, its tool's corner needs {:.3g} "
-        "mm: grip less",
-        setup_label(s), room.left_mm, room.needed_mm);
+        "in {} it ends {} mm before the jaws, its tool's corner needs {} mm: grip less",
+        setup_label(s), left, needed);
   }
   return "it lies in the jaws, or behind a larger diameter";
 }

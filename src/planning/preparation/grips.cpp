@@ -22,12 +22,6 @@ double held_mm(const part::Drawing& d, std::size_t setup, part::End hold) {
       stock, hold == part::End::left ? d.outer.front().left_mm : d.outer.back().right_mm);
 }
 
-double usual_mm(const PlanRequest& r, std::size_t s) {
-  const double held = held_mm(r.drawing, s, r.setups[s].hold);
-  const double length = s == 0 ? r.drawing.stock.length_mm : part::length_mm(r.drawing);
-  return std::min(std::max(kUsual_mm, held / 2), length / 2);
-}
-
 // Width of the narrowest blade that parts off the stock; 0 without one.
 double parting_blade_mm(const PlanRequest& r) {
   const double deep = (r.drawing.stock.outer_mm - r.drawing.stock.inner_mm) / 2;
@@ -37,6 +31,25 @@ double parting_blade_mm(const PlanRequest& r) {
         deep <= t.reach && (least == 0 || t.sizes_mm.front() < least))
       least = t.sizes_mm.front();
   return least;
+}
+
+// What the jaws may hold of a stock from which a setup parts the part off, for the blade to
+// come between; infinite without.
+double before_blade_mm(const PlanRequest& r, std::size_t s) {
+  const auto& stock = r.drawing.stock;
+  if (s > 0 || !stock.parted_mm) return INFINITY;
+  const double behind = r.setups[s].hold == part::End::left
+                            ? stock.left_allowance_mm
+                            : part::right_allowance_mm(r.drawing);
+  return behind - *stock.parted_mm - parting_blade_mm(r) - kRunOut_mm;
+}
+
+double usual_mm(const PlanRequest& r, std::size_t s) {
+  const double held = held_mm(r.drawing, s, r.setups[s].hold);
+  const double length = s == 0 ? r.drawing.stock.length_mm : part::length_mm(r.drawing);
+  const double usual = std::min(std::max(kUsual_mm, held / 2), length / 2);
+  const double most = before_blade_mm(r, s);
+  return most < kLeast_mm ? usual : std::min(usual, most);
 }
 
 // z of the end of what the jaws can hold without a step, a groove or a milled place.

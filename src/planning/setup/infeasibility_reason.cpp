@@ -66,14 +66,14 @@ Conflict used_up_conflict(const PreparedPart& plan, const SolvedSurface& f,
   for (const auto& s : shares(tolerance_allocation(plan, d.tolerance, f.task.making)))
     sources += fmt::format("{}{} {:.3g} um", sources.empty() ? "" : ", ", s.source, s.um);
   const auto called = t.id + " " + part::name(t.kind);
+  const auto [taken, width] = readable_apart(d.taken_mm, width_mm(t));
   return {called,
           f.task.feature.surface(),
           d.taken_mm,
           width_mm(t),
           "mm",
           fmt::format("{} of {}: without the cut {} of its {} mm are used up ({})",
-                      called, f.task.feature.surface(), readable(d.taken_mm),
-                      readable(width_mm(t)), sources)};
+                      called, f.task.feature.surface(), taken, width, sources)};
 }
 
 std::string infeasibility_reason(const PreparedPart& plan, const SolvedSurface& f) {

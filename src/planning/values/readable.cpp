@@ -26,6 +26,7 @@ std::pair<std::string, std::string> readable_apart(double a, double b) {
 
 std::string exceeded(const std::string& where, const ConstraintValue& c) {
   const auto [value, limit] = readable_apart(c.value, c.limit);
+  if (value == limit) return fmt::format("{}: nothing is left for {}", where, c.name);
   return fmt::format("{}: {} is {} {} where {} {} is allowed", where, c.name, value,
                      c.unit, limit, c.unit);
 }

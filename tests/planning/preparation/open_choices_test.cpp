@@ -100,6 +100,24 @@ TEST(Grips, LetThreeDiametersStandOut) {
   EXPECT_EQ(part(given).grips_mm[1], 15);
 }
 
+// They leave the room that the blade needs to part a bush off: 29 mm of the bar would be
+// held otherwise, of the 30 mm that stand behind it.
+TEST(Grips, LetTheBladePartOff) {
+  auto d = turned({cylinder("d1", 40, 56)}, 58);
+  d["stock"]["length_mm"] = 72;
+  d["stock"]["left_allowance_mm"] = 30;
+  d["stock"]["part_off_allowance_mm"] = 0.5;
+  d["setups"] = {{{"hold", "left"}, {"clampings", {"chuck"}}},
+                 {{"hold", "right"}, {"clampings", {"chuck"}}}};
+  const auto p = part(d);
+  double blade = INFINITY;  // the narrowest that reaches to the axis
+  for (const auto& t : p.fixed_tools)
+    if (t.use == catalogue::FixedUse::parting && t.reach >= 29)
+      blade = std::min(blade, t.sizes_mm.front());
+  EXPECT_NEAR(p.grips_mm[0], 30 - 0.5 - blade - 2, 1e-9);
+  EXPECT_EQ(plan(p).status, PlanStatus::ok);
+}
+
 // They end before a step, a groove, a milled place and the surface that is cut.
 TEST(Grips, EndBeforeWhatTheyCannotHold) {
   const auto grip = [](const json& outer, const json& milling = {}) {
@@ -767,6 +785,33 @@ TEST(Holes, AreNotAskedForMoreThanADrillLeaves) {
   for (const json& asked :
        {json{{"fit", "H10"}}, json{{"Ra_um", 3.2}}, json{{"limits_mm", {0, 0.058}}}})
     EXPECT_EQ(answer(asked), "accepted") << asked;
+}
+
+// A flat drill of 18 mm reaches 36 mm from the face, not 36 mm into its own hole: behind a
+// bore of 30 mm it does not make 8 mm more.
+TEST(Holes, OfAFlatDrillEndWhereItReachesFromTheFace) {
+  const auto answer = [](double before_mm) -> std::string {
+    auto d = before_a_hole(18, 8);
+    d["outer"][0]["length_mm"] = 80;
+    d["stock"]["length_mm"] = 110;
+    d["inner"][0]["kind"] = "hole";
+    d["inner"][0]["fit"] = "H10";
+    d["inner"].insert(d["inner"].begin(), cylinder("bored", before_mm, 22));
+    d["inner"][0]["from"] = "right";
+    try {
+      part(d);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(answer(28), "accepted");
+  const auto far = answer(30);
+  EXPECT_NE(
+      far.find("FLAT-HM-2D opens a narrower hole behind, down to at most 36 mm from "
+               "the face"),
+      std::string::npos)
+      << far;
 }
 
 // Behind a bored seat the drill has the hole's size and boring starts from that.
