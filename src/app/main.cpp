@@ -55,6 +55,7 @@ struct Arguments {
   std::optional<fs::path> report_file;
   std::optional<fs::path> card;         ///< process card of a quote
   std::optional<fs::path> table, part;  ///< of measured parts, in place of a request
+  std::vector<fs::path> results;        ///< QIF files of measured parts
   std::vector<fs::path> responses;      ///< files of measured responses, for `frf`
   bool update = false;                  ///< the factors of the models by them
   bool json = false;
@@ -70,6 +71,16 @@ nlohmann::json read_request(const std::string& file) {
         {{"", std::string("nothing: it cannot be read: ") + std::strerror(errno),
           "a JSON document", "file"}});
   return document::parse(std::cin, "standard input", document::kLocalLimits);
+}
+
+// "/qif/files/0#line 12" under the name of the file.
+void name_results(const std::vector<fs::path>& files, std::string& pointer) {
+  constexpr std::string_view kFiles = "/qif/files/";
+  if (files.empty() || !pointer.starts_with(kFiles)) return;
+  const auto end = std::min(pointer.find_first_of("#/", kFiles.size()), pointer.size());
+  std::size_t i = 0;
+  std::from_chars(pointer.data() + kFiles.size(), pointer.data() + end, i);
+  if (i < files.size()) pointer.replace(0, end, files[i].string());
 }
 
 // Problems of the request are reported under the name that the user gave it, and below
@@ -95,8 +106,10 @@ service::Drawn answer(const service::Request& row, const Arguments& arguments,
     auto problems = e.problems();
     for (auto& problem : problems)
       if (problem.pointer.starts_with(root)) problem.pointer.erase(0, root.size());
-    throw InputError(arguments.file.empty() ? arguments.table->string()
-                                            : name_of_foreign_file(arguments.file),
+    for (auto& problem : problems) name_results(arguments.results, problem.pointer);
+    throw InputError(!arguments.file.empty() ? name_of_foreign_file(arguments.file)
+                     : arguments.table       ? arguments.table->string()
+                                             : row.name,
                      std::move(problems));
   }
 }
@@ -247,6 +260,9 @@ bool is_of_measured_parts(const service::Request& row) {
   return service::request_schema(row) == "learn.request.json";
 }
 
+constexpr ForeignFile kResults{"measurement", "QIF 3.0 file",
+                               document::kLocalLimits.bytes};
+
 constexpr ForeignFile kMeasured{"table", "table of measured parts",
                                 document::kLocalLimits.bytes};
 
@@ -275,14 +291,22 @@ void add_response(const std::filesystem::path& file, nlohmann::json& request) {
 }
 
 nlohmann::json asked(const Arguments& arguments) {
-  if (arguments.file.empty() && !arguments.table)
-    throw wrong_option("REQUEST", "nothing", "a request document, or --csv with a table",
+  if (arguments.file.empty() && !arguments.table && arguments.results.empty())
+    throw wrong_option("REQUEST", "nothing",
+                       "a request document, --csv with a table, or --qif with files",
                        "missing");
   auto request =
       arguments.file.empty() ? nlohmann::json::object() : read_request(arguments.file);
   if (!request.is_object()) return request;
   if (arguments.table)
     request["csv"] = read_foreign_file(arguments.table->string(), kMeasured);
+  if (!arguments.results.empty() && !request.contains("qif"))
+    request["qif"] = {{"files", nlohmann::json::array()}};
+  const bool lists = request.contains("qif") && request["qif"].is_object() &&
+                     request["qif"].value("files", nlohmann::json()).is_array();
+  for (const auto& file : arguments.results)
+    if (lists)
+      request["qif"]["files"].push_back(read_foreign_file(file.string(), kResults));
   if (arguments.part) request["part"] = document::parse_file(*arguments.part);
   if (arguments.update) request["update"] = true;
   for (const auto& file : arguments.responses) add_response(file, request);
@@ -366,6 +390,9 @@ void add_commands(CLI::App& app, Arguments& arguments, std::function<Exit()>& ch
     if (is_of_measured_parts(row)) {
       add_path(*command, "--csv", arguments.table,
                "table of measured parts, in place of the request's rows");
+      add_paths(*command, "--qif", arguments.results,
+                "measured results (QIF 3.0), in place of the request's rows")
+          ->allow_extra_args();
       add_path(*command, "--part", arguments.part,
                "part document, whose tolerances are the characteristics");
       command->add_flag("--update", arguments.update,

@@ -53,6 +53,8 @@ def seeds():
             yield f"drawing-{kind}", drawing.read_text()
     for file in sorted((ROOT / "tests" / "data" / "uff").rglob("*.uff")):
         yield "frf-uff", file.read_bytes().decode("latin-1")
+    for file in sorted((ROOT / "tests" / "data" / "qif").glob("*.qif")):
+        yield "qif", file.read_text()
     for library in sorted((ROOT / "tests" / "data" / "tools").glob("*.[cjxf]*")):
         yield "library", library.read_bytes().decode("latin-1")
         yield "library", zipped(library).decode("latin-1")

@@ -107,6 +107,9 @@ Target text_target(const std::string& name) {
   if (name.starts_with("drawing-"))
     return in_request("import", {{{"material", "C45"}, {"source", name.substr(8)}},
                                  json::json_pointer("/text")});
+  if (name == "qif")
+    return in_request("learn", {{{"qif", {{"files", json::array({""})}}}},
+                                json::json_pointer("/qif/files/0")});
   if (name == "frf-csv") return in_request("stability", response("csv"));
   if (name == "frf-uff") return in_request("stability", response("uff/text"));
   if (name == "frf-taps") return in_request("stability", response("taps/csv"));

@@ -194,6 +194,7 @@ void put_trend(const Learned& l, ordered_json& out) {
 
 ordered_json described(const Request& q, const Characteristic& of, const Learned& l) {
   ordered_json out{{"id", of.id}, {"nominal_mm", of.nominal_mm}};
+  if (!of.device.empty()) out["device"] = of.device;
   if (of.limits.lower_mm) out["lower_mm"] = *of.limits.lower_mm;
   out["upper_mm"] = of.limits.upper_mm;
   out["n"] = l.kept.size();
@@ -235,7 +236,7 @@ void warn(const Characteristic& of, const Learned& l, ordered_json& warnings) {
 ordered_json answered(const Request& q, const Catalogue& catalogue) {
   std::vector<Learned> all;
   for (std::size_t c = 0; c < q.characteristics.size(); ++c) all.push_back(learned(q, c));
-  ordered_json characteristics = ordered_json::array(), warnings = ordered_json::array();
+  ordered_json characteristics = ordered_json::array(), warnings = q.warnings;
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (all[c].made.rows.empty()) continue;
     const auto& of = q.characteristics[c];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "document/json/read_below.hpp"
 #include "document/json/reference.hpp"
 #include "planning/clamping/made_surfaces.hpp"
+#include "qif_results.hpp"
 
 namespace turnwright::document::measured_parts {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kRows = 20000, kCharacteristics = 200, kEdges = 1000;
+constexpr std::size_t kQifFiles = 5000;
 const Bounds kSize = within(-1e6, 1e6, "mm");
 
 // A name as text or as a whole number.
@@ -93,7 +96,7 @@ void read_characteristics(Reader& r, Request& q) {
       item.problem_at("id", "each characteristic once", "duplicate");
     q.characteristics.push_back(std::move(c));
   }
-  if (!r.has("characteristics") && !r.has("part"))
+  if (!r.has("characteristics") && !r.has("part") && !r.has("qif"))
     r.problem_at("characteristics",
                  "a list of characteristics, or a part whose tolerances they are",
                  "missing");
@@ -167,12 +170,121 @@ void read_table(const Reader& csv, const std::vector<std::string>& known, Reques
   }
 }
 
+// Names of a file's characteristics -> ids of the request's.
+std::map<std::string, std::string> read_names(Reader& qif, const Request& q) {
+  std::vector<std::string> known;
+  for (const auto& c : q.characteristics) known.push_back(c.id);
+  std::map<std::string, std::string> names;
+  for (const auto& entry : qif.optional_items("names", 0, kCharacteristics)) {
+    auto item = entry.as_object();
+    const auto name = item.text("name");
+    const auto id = checked_reference(item.at("id", "the id of a characteristic"), known,
+                                      "a characteristic");
+    item.finish();
+    if (!item.broken() && !names.emplace(name, id).second)
+      item.problem_at("name", "each name once", "duplicate");
+  }
+  return names;
+}
+
+// The characteristic of a name in a file: the request's, else one by the file's limits.
+std::optional<std::size_t> characteristic_of(const std::string& name,
+                                             const std::string& id,
+                                             const QifResults& results, Request& q) {
+  const auto known = std::ranges::find(q.characteristics, id, &Characteristic::id);
+  if (known != q.characteristics.end())
+    return static_cast<std::size_t>(known - q.characteristics.begin());
+  const auto limits =
+      std::ranges::find(results.limits, name, &std::pair<std::string, QifLimits>::first);
+  if (limits == results.limits.end() || q.characteristics.size() >= kCharacteristics)
+    return std::nullopt;
+  const auto& l = limits->second;
+  Characteristic c{.id = id, .nominal_mm = l.nominal_mm, .limits = {}};
+  c.limits.upper_mm = l.upper_mm;
+  c.limits.lower_mm = l.lower_mm;
+  if (l.lower_mm) c.limits.target_mm = (l.upper_mm + *l.lower_mm) / 2;
+  q.characteristics.push_back(std::move(c));
+  return q.characteristics.size() - 1;
+}
+
+// What the values of one characteristic have in common.
+struct InCommon {
+  std::optional<std::size_t> characteristic = {};
+  std::size_t n = 0;
+  bool timed = true;
+  std::set<std::string> devices = {};
+};
+
+void warn_of(const std::string& name, const InCommon& c, Request& q) {
+  if (!c.characteristic) {
+    q.warnings.push_back(name +
+                         ": neither the request nor the file has limits of it; its " +
+                         std::to_string(c.n) + " values do not count");
+    return;
+  }
+  auto& of = q.characteristics[*c.characteristic];
+  if (c.devices.size() == 1) of.device = *c.devices.begin();
+  if (c.devices.size() > 1)
+    q.warnings.push_back(of.id + ": measured by " + std::to_string(c.devices.size()) +
+                         " devices, whose differences count as scatter");
+}
+
+void add_rows(const QifResults& results, const std::map<std::string, InCommon>& common,
+              Request& q) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const auto& v : results.values) first = std::min(first, v.time_s.value_or(first));
+  for (const auto& v : results.values) {
+    const auto& c = common.at(v.characteristic);
+    if (!c.characteristic) continue;
+    Row row{.part = v.part, .edge = v.edge, .pointer = v.pointer};
+    row.characteristic = *c.characteristic;
+    row.value_mm = v.value_mm;
+    if (c.timed) row.time_s = *v.time_s - first;
+    row.age = v.parts_on_edge;
+    if (q.characteristics[row.characteristic].limits.lower_mm)
+      row.offset_mm = v.offset_mm.value_or(0);
+    q.rows.push_back(std::move(row));
+  }
+}
+
+void read_qif_results(Reader qif, Request& q, std::set<std::string>& machines) {
+  qif = qif.as_object();
+  const auto names = read_names(qif, q);
+  auto results = read_qif(qif.items("files", 1, kQifFiles));
+  qif.finish();
+  std::map<std::string, InCommon> common;
+  for (auto& v : results.values) {
+    auto& c = common[v.characteristic];
+    ++c.n;
+    c.timed = c.timed && v.time_s.has_value();
+    if (v.device) c.devices.insert(*v.device);
+    if (!v.machine.empty()) machines.insert(v.machine);
+  }
+  bool timed = false;
+  for (auto& [name, c] : common) {
+    const auto id = names.find(name);
+    c.characteristic =
+        characteristic_of(name, id == names.end() ? name : id->second, results, q);
+    timed = timed || (c.timed && c.characteristic);
+    warn_of(name, c, q);
+  }
+  add_rows(results, common, q);
+  q.warnings.insert(q.warnings.end(), results.not_read.begin(), results.not_read.end());
+  if (timed)
+    q.warnings.push_back("QIF: times are those of measuring; drift counts by them");
+  if (q.rows.empty() && qif.problems().list.empty())
+    qif.problem("no such values", "measured lengths of characteristics that have limits",
+                "missing");
+}
+
 void read_rows(Reader& r, Request& q) {
   std::vector<std::string> known;
   for (const auto& c : q.characteristics) known.push_back(c.id);
   std::set<std::string> machines;
-  if (r.has("csv") && r.has("rows"))
-    r.problem_at("csv", "either rows or csv", "conflict");
+  if (r.has("csv") + r.has("rows") + r.has("qif") > 1)
+    r.problem_at(r.has("csv") ? "csv" : "qif", "one of rows, csv and qif", "conflict");
+  else if (r.has("qif"))
+    read_qif_results(r.at("qif"), q, machines);
   else if (r.has("csv"))
     read_table(r.at("csv"), known, q, machines);
   else
@@ -181,7 +293,9 @@ void read_rows(Reader& r, Request& q) {
   if (q.rows.size() > kRows)
     r.problem_at("csv", std::to_string(kRows) + " values at most", "range");
   if (machines.size() > 1)
-    r.problem_at(r.has("csv") ? "csv" : "rows",
+    r.problem_at(r.has("csv")   ? "csv"
+                 : r.has("qif") ? "qif"
+                                : "rows",
                  "parts of one machine; those of another are a request of their own",
                  "conflict");
 }
@@ -302,7 +416,7 @@ Request read(const json& document, const Catalogue& catalogue) {
   if (problems.list.size() == before)
     read_rows(r, q);
   else
-    for (const char* key : {"csv", "rows"}) r.has(key);
+    for (const char* key : {"csv", "rows", "qif"}) r.has(key);
   r.finish();
   problems.throw_if_any();
   for (std::size_t c = 0; c < q.characteristics.size(); ++c) check_series(q, c, problems);

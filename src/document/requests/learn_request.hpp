@@ -16,6 +16,7 @@ struct Characteristic {
   double nominal_mm = 0;  ///< 0 of form and place
   learning::Limits limits;
   std::optional<long> parts_per_edge = {};
+  std::string device = {};  ///< that measured it, where the values say so
 };
 
 struct Row {
@@ -31,8 +32,9 @@ struct Request {
   std::vector<Row> rows;
   double confidence = 0.95, outlier_p = 0.01;
   std::optional<PreparedDocument> part;
-  nlohmann::json part_document;  ///< as written
-  bool update = false;           ///< of the factors of the models
+  nlohmann::json part_document;            ///< as written
+  bool update = false;                     ///< of the factors of the models
+  std::vector<std::string> warnings = {};  ///< of what was not read
 };
 
 /// @throws InputError with every problem.

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "document/json/utf8.hpp"
+
 /// What tool libraries say, whatever their format, in mm and degrees.
 namespace turnwright::document {
 
@@ -92,11 +94,5 @@ std::optional<Quantity> quantity(std::string_view text);
 
 /// mm per unit of length by its name ("mm", "inches", ..); none for other names.
 std::optional<double> unit_mm(std::string_view name);
-
-/// The beginning of a text in UTF-8, of at most `bytes`; no character is cut.
-std::string shortened(const std::string& text, std::size_t bytes);
-
-/// A text in UTF-8: where it is none, every byte is a character of Latin-1.
-std::string readable(std::string text);
 
 }  // namespace turnwright::document
