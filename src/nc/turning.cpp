@@ -459,12 +459,16 @@ void follow(Site& site, Side& side, const std::vector<Point>& way,
   }
 }
 
-// Goes at feed to one of the points of a path, which may be where an undercut ends at a wall.
+// Goes at feed to one of the points of a path, which may be where an undercut ends at a
+// wall: the first one on it.
 void to_point(const Pass& p, const std::vector<Point>& way, std::size_t i) {
   const auto& undercut = p.surface().undercut;
+  const auto level = [](const Point& a, const Point& b) {
+    return std::abs(a.z_mm - b.z_mm) < kSame_mm;
+  };
   const bool foot = p.last && undercut && i + 1 < way.size() &&
                     std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
-                    std::abs(way[i + 1].z_mm - way[i].z_mm) < kSame_mm;
+                    level(way[i], way[i + 1]) && !level(way[i - 1], way[i]);
   foot ? up_undercut(p, *undercut, way[i].h_mm, way[i].z_mm)
        : p.site.to(Kind::feed, p.side, way[i]);
 }

@@ -166,6 +166,26 @@ TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
   EXPECT_EQ(made, 8);
 }
 
+// Facing goes on along the edge of an element that the setup before has made.
+TEST(PlanAndProgram, OfEdgesAtFacedShouldersTakeTheSameTime) {
+  for (const char* key : {"radius_mm", "chamfer_mm"}) {
+    auto document = nlohmann::json::parse(R"({
+      "format": "turnwright-part/1", "name": "collar", "material": "C45",
+      "stock": {"kind": "bar", "diameter_mm": 64, "length_mm": 94, "left_allowance_mm": 2},
+      "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 40, "diameter_mm": 30},
+                {"id": "d2", "kind": "cylinder", "length_mm": 20, "diameter_mm": 60},
+                {"id": "d3", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40}],
+      "faces": [{"id": "d1|d2", "Ra_um": 1.6}], "machine": "lathe-medium",
+      "damping_ratio": 0.4,
+      "setups": [{"hold": "left", "grip_mm": 20, "clampings": ["chuck"]},
+                 {"hold": "right", "grip_mm": 20, "clampings": ["chuck"]}]})");
+    document["edges"] = {{{"at", "d1|d2"}, {key, 8}}};
+    const auto p = planned(document);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    EXPECT_LE(apart(key, p, programs(p.part, p.plan)), kAlike);
+  }
+}
+
 TEST(PlanAndProgram, OfReamedAndTappedPartsTakeTheSameTime) {
   for (const char* name : kWithHoles) {
     const auto& p = planned_awkward(name);

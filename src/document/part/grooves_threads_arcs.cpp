@@ -193,6 +193,14 @@ void give_blanks(std::vector<Element>& list, const std::vector<Reader>& items,
                           "conflict");
       continue;
     }
+    if (part::stays(list[*k])) {
+      items[i].problem_at("kind",
+                          "no groove or neck there: its blank would be turned to the "
+                          "diameter of " +
+                              list[*k].id + " beside it, which stays as the stock is",
+                          "conflict");
+      continue;
+    }
     const double blank = towards(list, *k, i), floor = e.cut->drawn.left_mm;
     const bool outside = where == Where::outside;
     if (outside ? floor >= blank : floor <= blank)

@@ -43,7 +43,7 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
     largest_mm = std::max({largest_mm, e.left_mm, e.right_mm});
     if (e.left_mm > 0) smallest_mm = std::min({smallest_mm, e.left_mm, e.right_mm});
   }
-  if (stock.outer_mm <= largest_mm)
+  if (part::across_mm(stock) <= largest_mm)
     r.problem_at(outer_key(stock.kind),
                  "more than the largest element, " + number_text(largest_mm) + " mm",
                  "conflict");

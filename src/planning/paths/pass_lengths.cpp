@@ -235,16 +235,6 @@ double around_mm(const part::Chamfer& rounded, double r) {
   return kUpright * (rounded.axial_mm + r);
 }
 
-// Length along the edge of a wall, of which what lies in stock replaces a piece of wall; of
-// a rounded edge, where the tip begins below it, a corner's radius does so in any case.
-double edge_mm(const Surroundings& s, double r) {
-  const auto& c = s.wall_chamfer;
-  if (c.round) return around_mm(c, r) - (s.wall_in_stock ? c.axial_mm + r : r);
-  const double chamfer = std::hypot(c.radial_mm, c.axial_mm);
-  const double along = chamfer + beyond_edge_mm(c, s.wall_in_stock, r);
-  return s.wall_in_stock ? along * (1 - c.radial_mm / chamfer) : along;
-}
-
 }  // namespace
 
 double front_mm(const PreparedPart& p, std::size_t setup, const SetupWork& work) {
@@ -258,6 +248,14 @@ double front_mm(const PreparedPart& p, std::size_t setup, const SetupWork& work)
                : face_stock_mm(p, p.setups[setup].hold == part::End::left
                                       ? part::End::right
                                       : part::End::left);
+}
+
+double edge_mm(const Surroundings& s, double r) {
+  const auto& c = s.wall_chamfer;
+  if (c.round) return around_mm(c, r) - (s.wall_in_stock ? c.axial_mm + r : r);
+  const double chamfer = std::hypot(c.radial_mm, c.axial_mm);
+  const double along = chamfer + beyond_edge_mm(c, s.wall_in_stock, r);
+  return s.wall_in_stock ? along * (1 - c.radial_mm / chamfer) : along;
 }
 
 Home home_of(const PreparedPart& p, double front) {

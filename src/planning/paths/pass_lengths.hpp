@@ -84,6 +84,11 @@ struct Surroundings {
 Surroundings surroundings(const PreparedPart& plan, std::size_t setup, Clamping clamping,
                           const SetupWork& work, const Element& element);
 
+/// Length [mm] along the edge of the wall behind, `wall_chamfer`, of which what lies in stock
+/// replaces a piece of wall; of a rounded edge, where the tip begins below it, a corner's
+/// radius does so in any case.
+double edge_mm(const Surroundings& element, double corner_mm);
+
 /// Length [mm] beyond the end of an element that the pass which makes it needs: the
 /// corner radius, or less where the corner touches a rising surface behind before that.
 double needed_beyond_mm(const Surroundings& element, double corner_mm);

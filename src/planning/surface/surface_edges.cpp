@@ -57,7 +57,8 @@ std::string MachinedSurface::edges_asked() const {
                          : std::string(),
         units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)
-    add(fmt::format("a depth of cut for the chamfer of {:g} mm into stock",
+    add(fmt::format("a depth of cut for the {} of {:g} mm into stock",
+                    s.wall_chamfer.round ? "rounded edge" : "chamfer",
                     s.wall_chamfer.axial_mm));
   return all;
 }

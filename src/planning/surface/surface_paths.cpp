@@ -99,6 +99,15 @@ Undercutting undercutting(const part::Undercut& u, double corner_mm, double out_
   return {w.foot_h - u.depth_mm, in + arc + (out - w.centre_z) + slope_excess_mm(u), out};
 }
 
+// What the edge above a shoulder, of an element that another setup makes, adds to a facing
+// pass: one that is made already it begins with, instead of above the element.
+double over_edge_mm(const Surroundings& s, double corner_mm) {
+  const auto& c = s.wall_chamfer;
+  if (!(c.axial_mm > 0)) return 0;
+  const double begins = s.wall_in_stock ? 0 : c.radial_mm + (c.round ? 0 : kAbove_mm);
+  return edge_mm(s, corner_mm) - begins;
+}
+
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
 // the rest takes.
 Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) const {
@@ -119,6 +128,8 @@ Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) 
   if (!end) {
     double out = o.ap.lower + around_.r_most - r, along = out;  // the smaller element
     fed -= (n - 1) * swept_mm2(small, small + kBehind_mm, D_c);
+    fed += over_edge_mm(around_, r) *
+           std::max(D_large_ - around_.wall_chamfer.radial_mm, D_c);
     if (around_.undercut) {
       const auto u = undercutting(*around_.undercut, r, out);
       fed -= swept_mm2(small, small + u.above_h, D_c);

@@ -79,15 +79,31 @@ TEST(Stock, WhatKeepsItHasNoDemandsOfItsOwn) {
 
 TEST(Stock, WithCornersRunsInNoRestAndOtherElementsAreSmaller) {
   auto document = fitting();
-  document["outer"][1]["diameter_mm"] = 31.2;
+  document["outer"][1]["diameter_mm"] = 28;  // flats would stay on it
   EXPECT_EQ(refusal(document),
             "t: /stock/across_flats_mm: got 27, expected more than the largest element, "
-            "31.2 mm");
+            "28 mm");
   document = fitting();
   document["setups"] = {
       {{"hold", "left"}, {"clampings", {"chuck-steady"}}, {"steady_mm", 45}}};
   EXPECT_NE(refusal(document).find("no rest, which runs on no bar with corners"),
             std::string::npos)
+      << refusal(document);
+}
+
+// Their blanks would be turned to the stock's own diameter.
+TEST(Stock, WhatKeepsItHasNoGroovesOrNecksBetween) {
+  auto document = fitting();
+  document["outer"] = {
+      {{"id", "head"}, {"kind", "as-stock"}, {"length_mm", 20}},
+      {{"id", "n"}, {"kind", "cylinder"}, {"length_mm", 5}, {"diameter_mm", 20}},
+      {{"id", "rim"}, {"kind", "as-stock"}, {"length_mm", 25}}};
+  const std::string told =
+      "t: /outer/1/kind: got \"cylinder\", expected no groove or neck there: its blank "
+      "would be turned to the diameter of head beside it, which stays as the stock is";
+  EXPECT_EQ(refusal(document), told);
+  document["outer"][1]["kind"] = "groove";
+  EXPECT_NE(refusal(document).find("no groove or neck there"), std::string::npos)
       << refusal(document);
 }
 
