@@ -64,8 +64,15 @@ struct Reviewed {
   Review review;
 };
 
+// Programs that mill list their milling as not followed: here somebody mills.
+nc::Programs turning_programs(const Planned& p) {
+  auto part = p.part;
+  if (part.machine.driven_tools) part.machine.driven_tools->c_axis = false;
+  return nc::programs(part, p.plan);
+}
+
 Reviewed reviewed(const Planned& p, const nc::Settings& settings) {
-  Reviewed r{nc::programs(p.part, p.plan), {}, {}};
+  Reviewed r{turning_programs(p), {}, {}};
   nc::number_tools(r.programs.setups, settings);
   r.tools = turret(p, r.programs);
   std::vector<ReviewedProgram> programs;
