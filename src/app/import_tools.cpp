@@ -6,8 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <vector>
 
 #include "document/json/parse.hpp"
+#include "document/tool_library/zip_archive.hpp"
 #include "foreign_file.hpp"
 #include "options.hpp"
 #include "service/output.hpp"
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct ImportToolsArguments {
-  std::string file;
+  std::vector<std::string> files;
   std::optional<fs::path> output, folder;
   bool force = false, json = false;
   nlohmann::json members =
@@ -46,10 +48,25 @@ bool is_request(const std::string& bytes) {
                              [&](const char* member) { return key.starts_with(member); });
 }
 
+// Several files, as FreeCAD has a library and its bits, are an archive of them.
+std::string archive_of(const std::vector<std::string>& files) {
+  std::vector<document::ZipEntry> entries;
+  for (const auto& file : files)
+    entries.push_back({file, read_foreign_file(file, kLibrary)});
+  return document::zipped(entries);
+}
+
+// The file under whose name problems are told.
+const std::string& told_of(const ImportToolsArguments& arguments) {
+  return arguments.files.front();
+}
+
 nlohmann::json library_request(const ImportToolsArguments& arguments) {
-  auto bytes = read_foreign_file(arguments.file, kLibrary);
+  auto bytes = arguments.files.size() == 1
+                   ? read_foreign_file(arguments.files.front(), kLibrary)
+                   : archive_of(arguments.files);
   auto request = is_request(bytes)
-                     ? document::parse(bytes, name_of_foreign_file(arguments.file),
+                     ? document::parse(bytes, name_of_foreign_file(told_of(arguments)),
                                        document::kLocalLimits)
                      : document::import_request(std::move(bytes));
   request.update(arguments.members);
@@ -62,7 +79,7 @@ ordered_json imported_tools(const ImportToolsArguments& arguments) {
     const document::Catalogue none;
     return service::answer(*service::find_request("import-tools"), request, {none});
   } catch (const InputError& e) {
-    rethrow_of_foreign_file(e, arguments.file);
+    rethrow_of_foreign_file(e, told_of(arguments));
   }
 }
 
@@ -128,9 +145,10 @@ void add_import_tools(CLI::App& app,
       app.add_subcommand("import-tools", service::find_request("import-tools")->summary);
   auto arguments = std::make_shared<ImportToolsArguments>();
   command
-      ->add_option("LIBRARY", arguments->file,
+      ->add_option("LIBRARY", arguments->files,
                    ".tools or .json of Fusion, .csv with symbols of ISO 13399, .xml of "
-                   "MTConnect, .fctb of FreeCAD; - reads standard input")
+                   "MTConnect, .fctb of FreeCAD, several with their .fctl; - reads "
+                   "standard input")
       ->required();
   add_path(*command, "--out", arguments->folder,
            "write each document to tools/ID.json in this data folder, of taps, reamers "

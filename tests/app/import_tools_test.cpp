@@ -45,6 +45,22 @@ TEST_F(ImportTools, PrintsTheDocumentsAndWhatWasAssumed) {
   EXPECT_TRUE(fs::exists(folder_ / "shop/tools/R1.json"));
 }
 
+// A library of FreeCAD and its bits are files of their own.
+TEST_F(ImportTools, TakesALibraryWithItsBits) {
+  const auto bit = fs::path(TURNWRIGHT_SOURCE_DIR) / "tests/data/tools/rhombus.fctb";
+  put(folder_ / "lathe.fctl",
+      R"({"tools": [{"nr": 7, "path": "rhombus.fctb"}, {"nr": 8, "path": "gone.fctb"}]})");
+  const auto run = shell("turnwright import-tools lathe.fctl " + bit.string());
+  EXPECT_EQ(run.code, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out);
+  EXPECT_EQ(result["tools"].size(), 1u);
+  EXPECT_EQ(result["ignored"][0]["at"][0], "T8 gone.fctb");
+  EXPECT_EQ(shell("turnwright import-tools lathe.fctl").code, 2);
+  const auto twice = shell("turnwright import-tools lathe.fctl lathe.fctl");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("a file of another name"), std::string::npos) << twice.err;
+}
+
 TEST_F(ImportTools, AToolWrittenToADataFolderIsInItsCatalogue) {
   const auto source = fs::path(TURNWRIGHT_SOURCE_DIR);
   fs::create_directory(folder_ / "shop");

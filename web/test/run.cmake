@@ -1,13 +1,14 @@
 # STEP build: the page builds from its source to the bytes that are checked in.
 # STEP check: types and accessibility of the components, by svelte-check.
 # STEP unit: the page's own logic (test/unit), without a browser.
-# STEP round, builder, odd: rounds in Chromium (round.mjs, builder.mjs, odd.mjs) of what the
-# page shows, of parts built on it and of what may go wrong; pictures in WORK_DIR/pictures.
+# STEP round, shop, builder, odd: rounds in Chromium (round.mjs, ..) of what the page shows, of
+# programs and measured parts, of parts built on it and of what may go wrong; pictures in
+# WORK_DIR/pictures.
 # Each is skipped where node, npm's packages or Chromium are not to be had.
 find_program(node node)
 find_program(npm npm)
 find_program(chromium NAMES chromium chromium-browser)
-if(NOT node OR NOT npm OR (STEP MATCHES "^(round|builder|odd)$" AND NOT chromium))
+if(NOT node OR NOT npm OR (STEP MATCHES "^(round|shop|builder|odd)$" AND NOT chromium))
   message("SKIPPED: the page's tests need node, npm and chromium; scripts/setup --page installs them")
   return()
 endif()

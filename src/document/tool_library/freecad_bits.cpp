@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "hole_tool_draft.hpp"
 #include "library_readers.hpp"
@@ -107,6 +110,44 @@ std::optional<LibraryTool> read_bit(const json& bit, std::string& why) {
   return why.empty() ? std::optional(t) : std::nullopt;
 }
 
+// Numbers and paths of the bits that a library names.
+std::vector<std::pair<long, std::string>> paths_of(const json& library) {
+  std::vector<std::pair<long, std::string>> all;
+  if (!library.is_object()) return all;
+  for (const auto& tool : library.value("tools", json::array())) {
+    if (!tool.is_object() || all.size() >= kMostTools) continue;
+    const auto path = tool.value("path", json());
+    const auto number = tool.value("nr", json());
+    if (path.is_string())
+      all.emplace_back(number.is_number_integer() ? number.get<long>() : 0,
+                       path.get<std::string>());
+  }
+  return all;
+}
+
+// Files by their paths, and by the ends of these, where the first of each counts.
+class Files {
+ public:
+  explicit Files(const std::vector<NamedJson>& all) {
+    for (const auto& file : all) {
+      by_path_.emplace(file.name, &file);
+      by_end_.emplace(end_of(file.name), &file);
+    }
+  }
+  const NamedJson* find(const std::string& path) const {
+    if (const auto whole = by_path_.find(path); whole != by_path_.end())
+      return whole->second;
+    const auto end = by_end_.find(end_of(path));
+    return end == by_end_.end() ? nullptr : end->second;
+  }
+
+ private:
+  static std::string end_of(const std::string& path) {
+    return path.substr(path.find_last_of("/\\") + 1);
+  }
+  std::map<std::string, const NamedJson*> by_path_, by_end_;
+};
+
 }  // namespace
 
 ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits) {
@@ -124,6 +165,30 @@ ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits) {
           {name, why.empty() ? "It is no bit of FreeCAD, {\"parameter\": {..}}." : why});
     }
   }
+  return out;
+}
+
+ToolLibrary read_freecad_libraries(const std::vector<NamedJson>& libraries,
+                                   const std::vector<NamedJson>& bits) {
+  const Files files(bits);
+  std::vector<NamedJson> named;
+  std::vector<PlacedRemark> missing;
+  std::set<std::string> taken;
+  for (const auto& [library, value] : libraries)
+    for (const auto& [number, path] : paths_of(*value)) {
+      if (missing.size() >= kMostTools) break;
+      const auto* bit = files.find(path);
+      if (!bit)
+        missing.push_back(
+            {readable(shortened(fmt::format("T{} {}", number, path), 200)),
+             fmt::format("{} names it, and it is not among the files.", library)});
+      else if (taken.insert(bit->name).second)
+        named.push_back({fmt::format("T{} {}", number, bit->name), bit->value});
+    }
+  for (const auto& bit : bits)
+    if (!taken.contains(bit.name)) named.push_back(bit);
+  auto out = read_freecad_bits(named);
+  out.ignored.insert(out.ignored.begin(), missing.begin(), missing.end());
   return out;
 }
 

@@ -19,7 +19,8 @@ using nlohmann::json;
 constexpr const char* kLibrary = "tool library";
 constexpr const char* kReadable =
     "a tool library of Fusion (.json, .tools), a table with symbols of ISO 13399 (.csv), "
-    "MTConnect cutting tools (.xml) or bits of FreeCAD (.fctb, or a zip archive of them)";
+    "MTConnect cutting tools (.xml) or bits of FreeCAD (.fctb, also several with their "
+    "library .fctl, or a zip archive of them)";
 
 [[noreturn]] void refuse_library(const std::string& got) {
   throw InputError(kLibrary, {{"", got, kReadable, "format"}});
@@ -48,7 +49,9 @@ LibraryFile read_json(const std::string& text, const std::string& file) {
   if (root.is_object() && root.contains("parameter"))
     return {"freecad", read_freecad_bits({{"the bit", &root}})};
   if (lists_files(root))
-    refuse_library("a list of bits of FreeCAD (.fctl), which are files of their own");
+    refuse_library(
+        "a list of bits of FreeCAD (.fctl), which are files of their own: give them "
+        "with it, as files or in a zip archive");
   Problems problems{.document = kLibrary};
   auto library = read_fusion_library(Reader(root, problems));
   problems.throw_if_any();
@@ -64,16 +67,18 @@ LibraryFile read_zip(const std::string& bytes, std::size_t largest) {
   // So that few bytes do not become many: libraries shrink to a thirtieth at most.
   const auto most_bytes = std::min(largest, 1'000'000 + 50 * bytes.size());
   const auto entries = zip_entries(bytes, most_bytes, [](std::string_view name) {
-    return ends_with_any(name, {".json", ".fctb", ".p21", "package_meta_data.xml"});
+    return ends_with_any(name,
+                         {".json", ".fctb", ".fctl", ".p21", "package_meta_data.xml"});
   });
   std::list<json> values;
-  std::vector<NamedJson> bits;
+  std::vector<NamedJson> bits, libraries;
   for (const auto& entry : entries) {
-    if (!entry.name.ends_with(".fctb")) continue;
+    if (!ends_with_any(entry.name, {".fctb", ".fctl"})) continue;
     const auto name = readable(entry.name);
-    bits.push_back({name, &values.emplace_back(parsed(entry.bytes, name))});
+    (entry.name.ends_with(".fctb") ? bits : libraries)
+        .push_back({name, &values.emplace_back(parsed(entry.bytes, name))});
   }
-  if (!bits.empty()) return {"freecad", read_freecad_bits(bits)};
+  if (!bits.empty()) return {"freecad", read_freecad_libraries(libraries, bits)};
   for (const auto& entry : entries)
     if (entry.name.ends_with(".json"))
       return read_json(entry.bytes, readable(entry.name));

@@ -32,6 +32,12 @@ struct NamedJson {
 };
 ToolLibrary read_freecad_bits(const std::vector<NamedJson>& bits);
 
+/// The bits that libraries of FreeCAD (.fctl), `{"tools": [{"nr": 1, "path": "a.fctb"}]}`,
+/// name, in their order and as "T1 Bit/a.fctb", then the others.  A path is the file's or its
+/// end; bits that are named and not given are told among what is ignored.
+ToolLibrary read_freecad_libraries(const std::vector<NamedJson>& libraries,
+                                   const std::vector<NamedJson>& bits);
+
 /// A table (document/json/csv.hpp) whose columns are symbols of ISO 13399 and `id`, `name`,
 /// `type` (turning or boring), `unit`, `insert` (or MIID), `holder`, `grade groups`
 /// (TMC1ISO).  Numbers have a decimal point or comma.

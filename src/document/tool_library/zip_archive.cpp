@@ -78,6 +78,37 @@ std::vector<ZipEntry> zip_entries(std::string_view archive, std::size_t most_byt
   return entries;
 }
 
+std::string zipped(const std::vector<ZipEntry>& entries) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* const source = zip_source_buffer_create(nullptr, 0, 0, &error);
+  if (!source) refuse_zip("", reason_of(error), "room for an archive", "limit");
+  zip_source_keep(source);
+  const std::unique_ptr<zip_source_t, void (*)(zip_source_t*)> kept(source,
+                                                                    zip_source_free);
+  zip_t* const archive = zip_open_from_source(source, ZIP_TRUNCATE, &error);
+  if (!archive) {
+    zip_source_free(source);
+    refuse_zip("", reason_of(error), "room for an archive", "limit");
+  }
+  std::unique_ptr<zip_t, Discard> open(archive);
+  for (const auto& [name, bytes] : entries) {
+    zip_source_t* const entry = zip_source_buffer(archive, bytes.data(), bytes.size(), 0);
+    if (zip_file_add(archive, name.c_str(), entry, ZIP_FL_ENC_UTF_8) >= 0) continue;
+    zip_source_free(entry);
+    refuse_zip(name, zip_strerror(archive), "a file of another name", "duplicate");
+  }
+  if (zip_close(archive) != 0)
+    refuse_zip("", zip_strerror(archive), "room for an archive", "limit");
+  (void)open.release();
+  std::string all, block(1 << 16, '\0');
+  zip_source_open(source);
+  for (zip_int64_t n = 0; (n = zip_source_read(source, block.data(), block.size())) > 0;)
+    all.append(block, 0, static_cast<std::size_t>(n));
+  zip_source_close(source);
+  return all;
+}
+
 bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
 }  // namespace turnwright::document

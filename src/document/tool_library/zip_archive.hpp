@@ -17,6 +17,10 @@ struct ZipEntry {
 std::vector<ZipEntry> zip_entries(std::string_view archive, std::size_t most_bytes,
                                   const std::function<bool(std::string_view)>& wanted);
 
+/// An archive of these entries.
+/// @throws InputError, whose pointer is the entry's name, if one cannot be added.
+std::string zipped(const std::vector<ZipEntry>& entries);
+
 /// Whether bytes begin as a zip archive does.
 bool is_zip(std::string_view bytes);
 

@@ -1,7 +1,6 @@
 #include "turnwright/document/import_tools.hpp"
 
 #include <gtest/gtest.h>
-#include <zip.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include "document/catalogue/catalogue_readers.hpp"
 #include "document/json/file.hpp"
 #include "document/tool_library/hole_tool_draft.hpp"
+#include "document/tool_library/zip_archive.hpp"
 #include "turnwright/document/import.hpp"
 #include "turnwright/document/prepared_part.hpp"
 #include "turnwright/planning/plan.hpp"
@@ -65,25 +65,6 @@ json tool_called(const json& result, const std::string& id) {
     if (tool["id"] == id) return tool;
   ADD_FAILURE() << "no tool " << id;
   return {};
-}
-
-std::string zipped(const std::vector<std::pair<std::string, std::string>>& entries) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* const source = zip_source_buffer_create(nullptr, 0, 0, &error);
-  zip_t* const archive = zip_open_from_source(source, ZIP_TRUNCATE, &error);
-  for (const auto& [name, text] : entries)
-    zip_file_add(archive, name.c_str(),
-                 zip_source_buffer(archive, text.data(), text.size(), 0), 0);
-  zip_source_keep(source);
-  EXPECT_EQ(zip_close(archive), 0);
-  std::string bytes(1 << 20, '\0');
-  zip_source_open(source);
-  bytes.resize(
-      static_cast<std::size_t>(zip_source_read(source, bytes.data(), bytes.size())));
-  zip_source_close(source);
-  zip_source_free(source);
-  return bytes;
 }
 
 // --------------------------------------------------- taps, reamers and countersinks
@@ -603,6 +584,41 @@ TEST(ImportTools, BitsComeInAnArchive) {
   EXPECT_NE(at(r["ignored"], "Bit/angle.fctb").find("81.5"), std::string::npos);
   EXPECT_NE(refused(R"({"tools": [{"nr": 1, "path": "c.fctb"}]})").find(".fctl"),
             std::string::npos);
+}
+
+// A library gives its bits their numbers and order; what it names and is not there is told.
+TEST(ImportTools, ALibraryOfFreeCadComesWithItsBits) {
+  const auto named = [](const char* path, int number) {
+    return json{{"nr", number}, {"path", path}};
+  };
+  const json library{{"version", 1},
+                     {"tools",
+                      {named("d.fctb", 3), named("Bit/c.fctb", 1), named("gone.fctb", 2),
+                       named("odd.fctb", 4), json(5), json{{"nr", "x"}}}}};
+  const json r = imported(zipped({{"Bit/c.fctb", bit("CCMT060204", "0.25 in", "80")},
+                                  {"Bit/d.fctb", bit("DCMT070204", "0.25 in", "55")},
+                                  {"Bit/e.fctb", bit("VBMT110304", "0.25 in", "35")},
+                                  {"Bit/odd.fctb", R"({"parameter": {}})"},
+                                  {"Library/all.fctl", library.dump()}}));
+  ASSERT_EQ(r["tools"].size(), 3u) << r;
+  EXPECT_EQ(r["tools"][0]["insert"], "DCMT 070204");
+  EXPECT_EQ(r["tools"][1]["insert"], "CCMT 060204");
+  EXPECT_EQ(r["tools"][2]["insert"], "VBMT 110304");
+  EXPECT_NE(at(r["ignored"], "T2 gone.fctb").find("Library/all.fctl names it"),
+            std::string::npos)
+      << r["ignored"];
+  EXPECT_NE(at(r["ignored"], "T4 Bit/odd.fctb").find("no turning bit"),
+            std::string::npos);
+  for (const char* broken : {"[]", "5", R"({"tools": 5})", R"({"tools": [[]]})"})
+    EXPECT_EQ(imported(zipped({{"c.fctb", bit("CCMT060204", "0.25 in", "80")},
+                               {"a.fctl", broken}}))["tools"]
+                  .size(),
+              1u)
+        << broken;
+}
+
+TEST(ImportTools, FilesOfOneNameAreRefused) {
+  EXPECT_THROW(zipped({{"a.fctb", "{}"}, {"a.fctb", "{}"}}), InputError);
 }
 
 // ------------------------------------------------------------------------- real libraries
