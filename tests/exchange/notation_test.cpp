@@ -189,6 +189,7 @@ TEST(Notation, ReadsWhatStaysAsTheBarIs) {
   }
   EXPECT_NE(mistakes("stock hex27 h9 x 20").find("has no fit"), std::string::npos);
   EXPECT_NE(mistakes("stock M20 x 20").find("hex27"), std::string::npos);
+  EXPECT_NE(mistakes("bore stock d20 x 10").find("\"stock\""), std::string::npos);
 }
 
 TEST(Notation, ReadsInches) {
@@ -467,11 +468,13 @@ class Chance {
         "\"quoted\"", "\"",  "Welle Ø 40", " x "};
     return kTexts[count(0, kTexts.size() - 1)];
   }
+  // A bore does not stay as the bar is.
   Element element(const std::string& id) {
     static constexpr Shape kAll[] = {Shape::cylinder, Shape::cone,   Shape::arc,
                                      Shape::groove,   Shape::thread, Shape::hole,
                                      Shape::as_stock};
-    Element e{.id = id, .shape = kAll[count(0, 6)], .length_mm = size()};
+    Element e{
+        .id = id, .shape = kAll[count(0, id[0] == 'b' ? 5 : 6)], .length_mm = size()};
     e.left_mm = e.right_mm = size();
     if (e.shape == Shape::as_stock) {
       e.flats = one_in(2) ? 6 : one_in(2) ? 4 : 0;

@@ -186,6 +186,23 @@ TEST(PlanAndProgram, OfEdgesAtFacedShouldersTakeTheSameTime) {
   }
 }
 
+// The tip comes up to a rounded edge on a slope, and a corner's radius below it on a wall.
+TEST(PlanAndProgram, OfRoundedEdgesTakeTheSameTime) {
+  const auto p = planned(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "shaft", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 54, "length_mm": 84, "left_allowance_mm": 2},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 30, "diameter_mm": 30},
+              {"id": "d2", "kind": "cylinder", "length_mm": 20, "diameter_mm": 50},
+              {"id": "d3", "kind": "cylinder", "length_mm": 30, "diameter_mm": 40}],
+    "edges": [{"at": "d2|d3", "radius_mm": 4}, {"at": "right", "radius_mm": 4}],
+    "machine": "lathe-medium", "damping_ratio": 0.4,
+    "tools": ["PCLNL-CNMG120412-PM", "PDJNL-DNMG150608-PF"],
+    "setups": [{"hold": "left", "clampings": ["chuck"]},
+               {"hold": "right", "clampings": ["chuck"]}]})"));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  EXPECT_LE(apart("rounded", p, programs(p.part, p.plan)), kAlike);
+}
+
 TEST(PlanAndProgram, OfReamedAndTappedPartsTakeTheSameTime) {
   for (const char* name : kWithHoles) {
     const auto& p = planned_awkward(name);

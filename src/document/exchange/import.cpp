@@ -174,6 +174,18 @@ ordered_json next_bar(const Outline& o, Remarks& assumed) {
   return stock;
 }
 
+// The stock is the bar that the first element keeps; others that keep another are told.
+void tell_other_bars(const Outline& o, Remarks& ignored) {
+  const exchange::Element* first = nullptr;
+  for (const auto& e : o.outer) {
+    if (e.shape != exchange::Shape::as_stock) continue;
+    if (!first) first = &e;
+    if (e.flats != first->flats || e.left_mm != first->left_mm)
+      ignored.add("/stock", e.id + " keeps another bar than " + first->id +
+                                ", of which the part is made.");
+  }
+}
+
 // A drawing may name none, one, several or an unknown one.
 std::string expected_material(const std::string& drawings,
                               const std::vector<catalogue::Material>& called,
@@ -277,6 +289,7 @@ ordered_json import(const json& request, const Catalogue& catalogue) {
   Remarks assumed, ignored;
   assumed.add(outline.assumed);
   ignored.add(outline.ignored);
+  tell_other_bars(outline, ignored);
   auto part = part_document(outline, choice, catalogue, r, assumed);
   problems.throw_if_any();
   check_part(part, request, catalogue, problems, ignored);

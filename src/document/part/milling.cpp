@@ -18,11 +18,13 @@ constexpr std::size_t kPlaces = 100;
 constexpr double kDepthMargin = 0.2, kSpeedMargin = 0.02;
 constexpr double kSlack = 1e-9;  // mm
 
-// Cylinders without a groove, thread or arc.
+// Cylinders without a groove, thread or arc; not what keeps the corners of the stock.
 std::vector<std::string> cylinders(const part::Drawing& drawing) {
+  const bool corners = part::flats(drawing.stock.kind) > 0;  // depths are from a circle
   std::vector<std::string> out;
   for (const auto& e : drawing.outer)
-    if (e.kind == part::ElementKind::cylinder && !e.cut) out.push_back(e.id);
+    if (e.kind == part::ElementKind::cylinder && !e.cut && !(corners && e.as_stock))
+      out.push_back(e.id);
   return out;
 }
 

@@ -56,7 +56,8 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
   const auto& machine = draft.loaded.plan.machine;
   if (machine.swing_mm > 0 && stock.outer_mm > machine.swing_mm)
     r.problem_at(outer_key(stock.kind),
-                 "at most the swing of " + machine.id + ", " +
+                 std::string(part::flats(stock.kind) > 0 ? "corners within" : "at most") +
+                     " the swing of " + machine.id + ", " +
                      number_text(machine.swing_mm) + " mm",
                  "conflict");
 }

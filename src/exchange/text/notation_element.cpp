@@ -73,10 +73,10 @@ class ElementWords {
       e().from = left ? part::End::left : part::End::right;
     }
     if (next_ == words_.size()) return;
-    if (const auto shape = shape_word(words_[next_])) {
-      e().shape = *shape;
-      ++next_;
-    }
+    const auto shape = shape_word(words_[next_]);
+    if (!shape || (out_.inner && *shape == Shape::as_stock)) return;
+    e().shape = *shape;
+    ++next_;
   }
 
   bool read_head() {

@@ -367,7 +367,9 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   // Height to which the tool is drawn out along a wall at the end of a pass.
   const auto drawn_out_h = [&](bool last, double left, double z) {
     const double h = s.h1 + left;
-    if (last && on) return s.behind->wall_to_h.value_or(h);
+    // Where a rounded edge begins, the tip is a corner's radius lower.
+    if (last && on)
+      return s.behind->wall_to_h.value_or(h) - (s.below_rounding_mm ? r : 0);
     if (!s.wall_steps || !(z < s.wall_z + wall_stock(last) + kLevel_mm) ||
         (last && s.shoulder_mm > 0))
       return h;
@@ -405,12 +407,13 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
   // mean diameter.  Roughing enters along the axis, finishing along the element's own line.
   const auto fed = [&](bool last, double left, double a, double b) {
     if (last && rounds) {
-      const double R = s.front_chamfer.axial_mm, h = s.h0 + left;
-      // The mean height of the arc is R (1 - 2/pi) below the surface.
-      return (a - s.z0) / std::cos(chamfer_rad) +
+      const double R = s.front_chamfer.axial_mm + r, h = s.h0 + left;
+      // The tip's mean height on its arc is R (1 - 2/pi) below the surface.
+      return (a - s.z0) / std::cos(chamfer_rad) * turns(h - R - (a - s.z0) / 2) /
+                 turns(h) +
              around_mm(s.front_chamfer, r) * turns(h - R * (1 - 2 / std::numbers::pi)) /
                  turns(h) +
-             s.z0 - R - r - b;
+             s.z0 - R - b;
     }
     if (chamfer.axial_mm > 0) {
       const double foot = last ? a : s.z0 + r * tip_z(0, chamfer_rad);

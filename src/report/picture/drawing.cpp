@@ -69,8 +69,11 @@ struct Label {
 };
 
 template <class Element>
-std::string id_and_size(const Element& e) {
+std::string id_and_size(const part::Drawing& d, const Element& e) {
   const auto id = clipped(e.id, kIdLength);
+  if (part::stays(e) && part::flats(d.stock.kind) > 0)
+    return id + (d.stock.kind == part::StockKind::hexagon ? "  hex " : "  sq ") +
+           plain(part::across_mm(d.stock));
   const auto size = e.cut ? e.cut->drawn : part::Ends{e.left_mm, e.right_mm};
   if (e.cut && e.cut->kind == part::CutKind::thread)
     return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm);
@@ -96,13 +99,19 @@ std::vector<T> thinned(const std::vector<T>& all, double gap) {
   return some;
 }
 
+/// The run of an element over its middle.
+Run middle(const Runs& runs) {
+  const double z = (runs.front().z0 + runs.back().z1) / 2;
+  return *std::ranges::find_if(runs, [&](const Run& run) { return run.z1 >= z; });
+}
+
 /// Ids and sizes of what is cut so far, of the other outer elements the id alone; left to
 /// right.
 std::vector<Label> labels(const SetupView& s, const planning::Finished& finished) {
   std::vector<Label> all;
   const auto add = [&](const auto& e, const Run& run) {
     const Point end = s.at((run.z0 + run.z1) / 2, (run.r0 + run.r1) / 2);
-    const auto text = id_and_size(e);
+    const auto text = id_and_size(s.part.drawing, e);
     if (corrected(s, e.id))
       all.push_back({end.x, end.y, text + ", path corrected", "path"});
     else
@@ -110,8 +119,7 @@ std::vector<Label> labels(const SetupView& s, const planning::Finished& finished
   };
   const auto& d = s.part.drawing;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    const auto runs = outer_runs(d, i);
-    const Run& run = runs[runs.size() / 2];
+    const Run run = middle(outer_runs(d, i));
     if (finished.outer[i]) {
       add(d.outer[i], run);
     } else {
@@ -121,7 +129,7 @@ std::vector<Label> labels(const SetupView& s, const planning::Finished& finished
     }
   }
   for (std::size_t i = 0; i < d.inner.size(); ++i)
-    if (finished.inner[i]) add(d.inner[i], inner_runs(d, i).front());
+    if (finished.inner[i]) add(d.inner[i], middle(inner_runs(d, i)));
   std::stable_sort(all.begin(), all.end(),
                    [](const Label& a, const Label& b) { return a.x < b.x; });
   return thinned(all, kLabelGap);
@@ -297,16 +305,27 @@ bool corrects(const SetupView& s) {
                              [&](const auto& c) { return !stand_off(s, c, 0).empty(); });
 }
 
-/// Between the ends of an arc, where its chords meet.
-bool within_an_arc(const part::Drawing& d, double z) {
+/// Within an arc or a rounded edge of an element that begins at z0, where its chords meet.
+template <class Element>
+bool within_a_curve(const Element& e, double z0, double z) {
   constexpr double kRounding_mm = 1e-6;
-  for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    const double z0 = part::left_z_mm(d, i), z1 = z0 + d.outer[i].length_mm;
-    const auto& cut = d.outer[i].cut;
-    if (cut && cut->kind == part::CutKind::arc && z > z0 + kRounding_mm &&
-        z < z1 - kRounding_mm)
+  const auto within = [&](double from, double to) {
+    return z > from + kRounding_mm && z < to - kRounding_mm;
+  };
+  const auto radius = [](const std::optional<part::Chamfer>& c) {
+    return c && c->round ? c->axial_mm : 0.0;
+  };
+  const double z1 = z0 + e.length_mm;
+  return (e.cut && e.cut->kind == part::CutKind::arc && within(z0, z1)) ||
+         within(z0, z0 + radius(e.left_chamfer)) ||
+         within(z1 - radius(e.right_chamfer), z1);
+}
+
+bool within_a_curve(const part::Drawing& d, bool inner, double z) {
+  for (std::size_t i = 0; i < (inner ? d.inner.size() : d.outer.size()); ++i)
+    if (inner ? within_a_curve(d.inner[i], part::inner_left_z_mm(d, i), z)
+              : within_a_curve(d.outer[i], part::left_z_mm(d, i), z))
       return true;
-  }
   return false;
 }
 
@@ -318,10 +337,10 @@ struct Place {
 /// Every end of an element, from the chuck outwards.
 std::vector<Place> ends_of_elements(const SetupView& s) {
   std::vector<double> z;
-  for (const auto& run : s.contour.outer)
-    for (const double end : {run.z0, run.z1})
-      if (!within_an_arc(s.part.drawing, end)) z.push_back(end);
-  for (const auto& run : s.contour.inner) z.insert(z.end(), {run.z0, run.z1});
+  for (const bool inner : {false, true})
+    for (const auto& run : inner ? s.contour.inner : s.contour.outer)
+      for (const double end : {run.z0, run.z1})
+        if (!within_a_curve(s.part.drawing, inner, end)) z.push_back(end);
   std::sort(z.begin(), z.end());
   z.erase(std::unique(z.begin(), z.end(),
                       [](double a, double b) { return std::abs(a - b) < 1e-6; }),

@@ -212,6 +212,18 @@ TEST(Import, APartOfOneDiameterIsPartedOffABar) {
     "length_mm": 102.0, "left_allowance_mm": 40.0, "part_off_allowance_mm": 0.6})"));
 }
 
+TEST(Import, APartOfWhatStaysAsTheBarIsIsMadeOfThatBar) {
+  const auto whole = answered(line("stock hex27 x 14; 1x45; d20 x 30"));
+  EXPECT_EQ(whole["part"]["stock"], json::parse(R"({"kind": "hexagon",
+    "across_flats_mm": 27.0, "length_mm": 48.0, "left_allowance_mm": 2.0})"));
+  EXPECT_EQ(whole["ignored"], json::array());
+
+  const auto mixed = answered(line("stock hex27 x 14; d20 x 30; stock square27 x 9"));
+  EXPECT_EQ(mixed["part"]["stock"]["kind"], "hexagon");
+  EXPECT_EQ(mixed["ignored"][0]["text"],
+            "d3 keeps another bar than d1, of which the part is made.");
+}
+
 TEST(Import, ABarHoldsTheBulgeOfAnArc) {
   // Centre (10, 15), radius hypot(10, 5): the top is at 15 + 11.18.
   const json part =

@@ -107,6 +107,40 @@ TEST(Stock, WhatKeepsItHasNoGroovesOrNecksBetween) {
       << refusal(document);
 }
 
+// A hexagon of 400 mm is 461.9 mm wide through its corners, and has no circle from which a
+// keyway's depth would count.
+TEST(Stock, SwingsWithItsCornersAndIsNotMilledAtThem) {
+  auto document = fitting();
+  document["stock"]["across_flats_mm"] = 400;
+  document["machine"] = "lathe-medium";
+  const auto shop = load_catalogue(source_path(""));
+  const auto told = [&] {
+    try {
+      load_part_plan(document, shop, "t");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  document["material"] = "C45";
+  EXPECT_NE(told().find("got 400, expected corners within the swing of lathe-medium, "
+                        "450 mm"),
+            std::string::npos)
+      << told();
+  document["machine"] = "turn-mill";
+  document["stock"]["across_flats_mm"] = 27;
+  document["milling"] = {{{"id", "k"},
+                          {"kind", "flat"},
+                          {"on", "head"},
+                          {"z_mm", 5},
+                          {"length_mm", 10},
+                          {"depth_mm", 3}}};
+  EXPECT_NE(told().find("/milling/0/on: got \"head\""), std::string::npos) << told();
+  document["milling"][0]["on"] = "spigot";
+  document["milling"][0]["z_mm"] = 30;
+  EXPECT_EQ(told().find("/milling/0/on"), std::string::npos) << told();
+}
+
 TEST(Stock, ThatIsMissingIsToldOnce) {
   auto document = fitting();
   document["stock"].erase("across_flats_mm");

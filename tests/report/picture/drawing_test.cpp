@@ -387,6 +387,27 @@ TEST(SetupDrawings, ShowWhatIsCutIntoABlank) {
   for (const auto& svg : {thread, arc}) EXPECT_TRUE(well_formed(svg));
 }
 
+// Of a rounded edge the ruler has both ends, not those of its chords.
+TEST(SetupDrawings, TheRulerHasTheEndsOfRoundedEdges) {
+  const part::Chamfer edge{.axial_mm = 3, .radial_mm = 3, .round = true};
+  auto p = bush();
+  p.drawing.outer[1].right_chamfer = p.drawing.inner[0].right_chamfer = edge;
+  const auto svg = setup_drawings(planning::prepare(p), planned()).at(0);
+  EXPECT_NE(svg.find(">-3<"), std::string::npos);
+  EXPECT_FALSE(std::regex_search(svg, std::regex(">-[0-9]+\\.[0-9]{3}<")));
+}
+
+TEST(SetupDrawings, WhatStaysAsABarWithCornersHasTheWidthAcrossFlats) {
+  auto p = bush();
+  p.drawing.stock = {part::StockKind::hexagon, 36 / std::cos(M_PI / 6), 0, 100, 2};
+  auto& head = p.drawing.outer[0];
+  head.as_stock = true;
+  head.left_mm = head.right_mm = p.drawing.stock.outer_mm;
+  p.drawing.inner.clear();
+  const auto svg = setup_drawings(planning::prepare(p), planned()).at(0);
+  EXPECT_NE(svg.find("hex 36<"), std::string::npos);
+}
+
 TEST(SetupDrawings, NoErrorsNoBar) {
   auto plan = planned();
   plan.deviations.clear();
