@@ -112,6 +112,35 @@ TEST(MinutesOfAProgram, CountArcsThreadsStopsAndTools) {
   EXPECT_NEAR(t.total(), t.cutting + t.air + 0.58, 1e-15);
 }
 
+// Feed by the minute, a plunge at a share of it, and a rapid of which Y is the longest.
+TEST(MinutesOfAProgram, CountMillingByTheMinute) {
+  SetupProgram p;
+  p.change_x_mm = 20;
+  p.change_z_mm = 0;
+  Step mill;
+  mill.tool = 5;
+  mill.milling = Milling{.n_rpm = 4000, .f_mm_min = 300};
+  mill.in_cut = {false, -INFINITY, INFINITY};
+  Move plunge{Kind::feed, 17, 0}, along{Kind::feed, 17, -40}, aside{Kind::feed, 17, -40},
+      away{Kind::rapid, 18, -41};
+  plunge.feed_share = 0.3;
+  aside.y_mm = 3;
+  away.y_mm = -9;
+  mill.moves = {plunge, along, aside, away};
+  p.steps = {mill};
+  const auto t = minutes(p, lathe());
+  EXPECT_NEAR(t.cutting, (3 / 0.3 + 40 + 3) / 300, 1e-12);
+  EXPECT_NEAR(t.air, 12.0 / 12000, 1e-12);
+  EXPECT_EQ(t.tool_changes, 0.04);
+  // Where it is a stop instead, somebody else's time counts.
+  std::vector<SetupProgram> all{p};
+  all[0].tools = {{5, "CUTTER", 5, 0, kCutterOrientation}};
+  fit_to_control(all, {.control = Control::fanuc}, lathe());
+  EXPECT_TRUE(all[0].steps[0].stop);
+  EXPECT_TRUE(all[0].tools.empty());
+  EXPECT_EQ(all[0].minutes.total(), 0);
+}
+
 /// Minutes of a setup that its program has too.
 double machine_min(const planning::Breakdown& b) {
   return b.cutting.time_min + b.air.time_min + b.tool_changes.time_min +
