@@ -165,10 +165,28 @@ class Reconstructing {
       o.on = {c.on};
       o.tool = c.tool_id;
       o.conditions.f_mm_rev = c.at.f_mm_rev;
-      o.conditions.vc_m_min = c.loads.vc_m_min;
+      o.conditions.vc_m_min = c.loads.vc_m_min * of_largest(c);
       if (c.size_mm > 0 && !in_element(c.on)) o.conditions.ap_mm = size_as_depth(c);
       out_.operations.push_back(std::move(o));
     }
+  }
+
+  // A chamfer of its own has its speed at the largest drawn diameter; the pass that cuts it
+  // may begin or end in what is left before the face.
+  double of_largest(const Cut& c) const {
+    const auto& d = part_.drawing;
+    const auto e = std::ranges::find(d.inner, c.on, &part::InnerElement::id);
+    const auto t =
+        std::ranges::find(part_.fixed_tools, c.tool_id, &catalogue::FixedTool::id);
+    if (e == d.inner.end() || t == part_.fixed_tools.end() ||
+        t->use != catalogue::FixedUse::profiling)
+      return 1;
+    double largest = 0;
+    for (const auto& [D, chamfer] : {std::pair{e->left_mm, e->left_chamfer},
+                                     std::pair{e->right_mm, e->right_chamfer}})
+      if (chamfer) largest = std::max(largest, D + 2 * chamfer->radial_mm);
+    const double cut = 2 * c.passes.back().x_to_mm;
+    return largest > 0 ? std::min(1.0, largest / cut) : 1;
   }
 
   bool in_element(const std::string& on) const {

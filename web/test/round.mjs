@@ -280,7 +280,8 @@ async function narrow() {
 async function others() {
   const page = await open({ viewport: { width: 1200, height: 900 } });
   await page.getByRole('tab', { name: 'Plan' }).focus();
-  await page.keyboard.press('ArrowRight'); // by keyboard to the chart
+  const chart = page.getByRole('tab', { name: 'Stability', selected: true });
+  while (!(await chart.count())) await page.keyboard.press('ArrowRight'); // by keyboard to the chart
   await page.getByRole('button', { name: 'Draw the chart' }).click();
   await page.getByText('spectral radius').waitFor();
   await look(page, '14-stability');
