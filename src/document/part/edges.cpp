@@ -203,7 +203,8 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
     mine = part::Chamfer{turned, radial, step.by_blade};
 }
 
-// A rounded edge of the standing element; `most_mm` of its radius are free for it.
+// A rounded edge of the standing element; `most_mm` of its radius are free for it.  It may
+// meet the edge at the other end, as both do of a rim that is round all over.
 template <class Element>
 void read_rounding(const Draft& draft, Reader& r, const Step& step, double most_mm,
                    Element& e) {
@@ -224,7 +225,8 @@ void read_rounding(const Draft& draft, Reader& r, const Step& step, double most_
                      " is ground, which would leave a part of the "
                      "radius alone",
                  "conflict");
-  else if (!(radius < free))
+  else if (!(chamfer_at(e, opposite(step.end)) ? radius <= free + kDiffers_mm
+                                               : radius < free))
     r.problem_at("radius_mm",
                  "less than the " + rounded(free) + " mm that are free of " + e.id,
                  "conflict");

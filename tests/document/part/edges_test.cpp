@@ -182,6 +182,20 @@ TEST(Edges, RoundedEdgesAreQuartersOfACircle) {
   }
 }
 
+// A rim of 40 mm that is round all over; on its own a radius leaves something of its element.
+TEST(Edges, TwoRoundedEdgesMayMeet) {
+  auto document =
+      stepped({edge("d1|d2", {{"radius_mm", 4}}), edge("d2|d3", {{"radius_mm", 4}})});
+  document["outer"][1]["length_mm"] = 8;
+  const auto d = load_part_plan(document, test_catalogue(), "t").plan.drawing;
+  EXPECT_TRUE(d.outer[1].left_chamfer->round && d.outer[1].right_chamfer->round);
+  document["edges"].erase(1);
+  document["outer"][1]["length_mm"] = 4;
+  EXPECT_NE(refusal_of(document).find("less than the 4 mm that are free of d2"),
+            std::string::npos)
+      << refusal_of(document);
+}
+
 TEST(Edges, RoundedEdgesAreThoseOfCylindersThatHaveRoomAndAreNotGround) {
   EXPECT_EQ(refusal({edge("d2|d3", {{"radius_mm", 5}})}),
             "t: /edges/0/radius_mm: got 5, expected a radius that takes at most 4.95 mm "
