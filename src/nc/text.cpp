@@ -440,6 +440,12 @@ std::vector<Move> pecked_alike(const Step& step, double back_mm) {
   return all;
 }
 
+// LinuxCNC numbers the quadrants of a tip in front of and behind the axis the other way round
+// than most controls do: 2 outside, 3 in a bore.
+int linuxcnc_orientation(int orientation) {
+  return orientation == 3 ? 2 : orientation == 2 ? 3 : orientation;
+}
+
 int usual_offset(const Settings& settings, int number) {
   return dialect(settings.control).offset == OffsetNumber::edge ? 1 : number;
 }
@@ -519,7 +525,7 @@ std::string tool_table(const std::vector<SetupProgram>& programs) {
   std::string out;
   for (const auto& [n, t] : all)
     out += fmt::format("T{} P{} X0 Z0 D{} Q{} ;{}\n", n, n, number(2 * t.re_mm, 4),
-                       t.orientation, t.id);
+                       linuxcnc_orientation(t.orientation), t.id);
   return out;
 }
 

@@ -103,6 +103,31 @@ TEST_F(NcThroughLinuxCnc, ReamsAndTaps) {
   EXPECT_FALSE(with("K1.5", "K1.25").empty()) << "another lead";
 }
 
+// The orientations of the tool table are the interpreter's: beside a cylinder along Z the tip
+// of a compensated tool is on the cylinder, outside and in a bore.  The interpreter alone takes
+// the table's diameters for inches.
+TEST_F(NcThroughLinuxCnc, TakesTheToolTablesOrientations) {
+  const auto p = planned_reference("flanged-bush");
+  const auto all = programs(p.part, p.plan);
+  const auto table = tool_table(all.setups);
+  const auto radius_mm = [&](const std::string& tool, const char* side,
+                             const char* from) {
+    std::istringstream lines(table);
+    std::string line;
+    while (std::getline(lines, line) && line.find(tool) == line.npos) continue;
+    const auto Q = line.substr(line.find(" Q") + 1, 2);
+    const auto text = std::string("T1 M6\nG43\nG18 G21 G7 G90 G94 G40 F100\nG0 X") +
+                      from + " Z5\n" + side + " G0 X20 Z2\nG1 Z-20\nG40 G0 X" + from +
+                      " Z5\nM2\n";
+    const std::string fed = "STRAIGHT_FEED(",
+                      canonical = rs274.canonical(text, "T1 P1 D0.03149606 " + Q + "\n");
+    const auto at = canonical.find(fed);
+    return at == canonical.npos ? 0 : std::stod(canonical.substr(at + fed.size()));
+  };
+  EXPECT_NEAR(radius_mm("PDJNL-DNMG150604-PF", "G42", "30"), 10, 1e-4);
+  EXPECT_NEAR(radius_mm("S25T-SCLCR-CCMT09T304-PF", "G41", "10"), 10, 1e-4);
+}
+
 // With everything a shop may set but another zero.
 TEST_F(NcThroughLinuxCnc, ProgramsWithTheShopsSettingsMakeTheContour) {
   const auto p = planned_reference("threaded-spindle");
