@@ -53,16 +53,15 @@ int strength(CertificateKind kind) {
 
 // What is proved of all candidates: that none costs less than the least lower bound.
 void add(const Certificate& other, Certificate& c) {
+  c.nodes += other.nodes;
+  if (!(other.lower_bound < c.lower_bound)) return;
   const double best = c.lower_bound / (1 - c.gap);
-  if (other.lower_bound < c.lower_bound) {
-    c.lower_bound = other.lower_bound;
-    c.gap = (best - c.lower_bound) / best;
-  }
+  c.lower_bound = other.lower_bound;
+  c.gap = (best - c.lower_bound) / best;
   if (strength(other.kind) < strength(c.kind)) {
     c.kind = other.kind;
     c.reason = other.reason;
   }
-  c.nodes += other.nodes;
 }
 
 std::string sentence(const Alternative& a, const ProcessPlan& best) {
