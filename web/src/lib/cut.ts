@@ -73,7 +73,7 @@ function toolsOf(table: string): Map<number, Tool> {
 
 function cutterOf(tool: Tool | undefined, endFace: boolean): Cutter {
   if (!tool) return { shape: 'nothing', bore: false, size: 0 };
-  const bore = tool.orientation === 2;
+  const bore = tool.orientation === 3; // as LinuxCNC's interpreter counts; 2 is outside
   if (tool.orientation === 7) return { shape: 'drill', bore, size: tool.size / 2 };
   if (tool.corner > 0) return { shape: endFace ? 'face' : 'corner', bore, size: tool.corner };
   return { shape: tool.size > 0 ? 'blade' : 'nothing', bore, size: tool.size };
