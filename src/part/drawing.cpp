@@ -140,6 +140,14 @@ double section_mm2(const Stock& s) {
   return std::numbers::pi / 4 * (s.outer_mm * s.outer_mm - s.inner_mm * s.inner_mm);
 }
 
+double held_mm(const Drawing& d, std::size_t setup, End hold) {
+  const double stock = across_mm(d.stock);
+  if (setup == 0) return stock;
+  if (d.outer.empty()) return 0;
+  return std::min(stock,
+                  hold == End::left ? d.outer.front().left_mm : d.outer.back().right_mm);
+}
+
 double into_radius_mm(const Chamfer& c, double x) {
   if (!(x < c.axial_mm)) return 0;
   if (!c.round) return c.radial_mm * (1 - x / c.axial_mm);
@@ -167,7 +175,8 @@ std::vector<InnerShoulder> inner_shoulders(const Drawing& d) {
         continue;
       const std::size_t wider = left.right_mm > right.left_mm ? a : b;
       const std::size_t narrower = wider == a ? b : a;
-      all.push_back({d.inner[wider].id + '|' + d.inner[narrower].id, wider, narrower, z});
+      const auto &w = d.inner[wider].id, &n = d.inner[narrower].id;
+      all.push_back({w + '|' + n, wider, narrower, z, n + '|' + w});
     }
   return all;
 }

@@ -213,6 +213,9 @@ inline const std::optional<CentreHole>& centre_at(const Drawing& drawing, End en
   return end == End::left ? drawing.left_centre : drawing.right_centre;
 }
 
+/// Diameter [mm] that jaws at an end hold in the i-th setup: the stock first, finished ends
+/// afterwards; 0 of a part without elements.
+double held_mm(const Drawing& drawing, std::size_t setup, End hold);
 /// Length of the finished part [mm]: the sum of the outer elements.
 double length_mm(const Drawing& drawing);
 /// Left end z [mm] of outer element i.
@@ -279,6 +282,7 @@ struct InnerShoulder {
   std::string id;
   std::size_t wider = 0, narrower = 0;  ///< inner elements
   double z_mm = 0;
+  std::string reversed;  ///< "b2|b1", by which documents may name it too
 };
 /// The shoulders between bores of different diameters that no groove is beside.
 std::vector<InnerShoulder> inner_shoulders(const Drawing& drawing);

@@ -175,7 +175,7 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
 std::optional<part::InnerShoulder> wall_of(const part::Drawing& d,
                                            const std::string& id) {
   for (const auto& s : part::inner_shoulders(d))
-    if (id == s.id || id == d.inner[s.narrower].id + '|' + d.inner[s.wider].id) return s;
+    if (id == s.id || id == s.reversed) return s;
   return std::nullopt;
 }
 
@@ -245,8 +245,7 @@ std::vector<NamedFeature> features(const part::Drawing& drawing) {
   }
   for (const auto& s : part::inner_shoulders(drawing)) {
     out.push_back({s.id, Feature::wall});
-    out.push_back(
-        {drawing.inner[s.narrower].id + '|' + drawing.inner[s.wider].id, Feature::wall});
+    out.push_back({s.reversed, Feature::wall});
   }
   return out;
 }

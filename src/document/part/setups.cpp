@@ -36,15 +36,6 @@ nlohmann::json words(const std::vector<Clamping>& list) {
   return out;
 }
 
-// The body that the jaws hold: the stock at first, finished ends afterwards.
-double held_mm(const part::Drawing& drawing, std::size_t setup, part::End hold) {
-  const double stock = part::across_mm(drawing.stock);
-  if (setup == 0) return stock;
-  if (drawing.outer.empty()) return 0;
-  return std::min(stock, hold == part::End::left ? drawing.outer.front().left_mm
-                                                 : drawing.outer.back().right_mm);
-}
-
 bool has_jaws(const planning::SetupRequest& setup) {
   return std::any_of(setup.clampings.begin(), setup.clampings.end(),
                      [](Clamping c) { return c != Clamping::between_centres; });
@@ -54,7 +45,8 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
                  const planning::SetupRequest& setup) {
   const auto& drawing = draft.loaded.plan.drawing;
   const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
-  const bool readable = length_mm > 0 && held_mm(drawing, i, setup.hold) > 0;
+  const double d_mm = part::held_mm(drawing, i, setup.hold);
+  const bool readable = length_mm > 0 && d_mm > 0;
   if (readable && setup.grip_mm >= length_mm)
     at.problem("a grip of " + mm_text(*setup.grip_mm),
                "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +
@@ -63,7 +55,6 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
   const auto& machine = draft.loaded.plan.machine;
   if (machine.id.empty()) return;  // unknown, reported already
   const auto& range = machine.chuck.diameter_mm;
-  const double d_mm = held_mm(drawing, i, setup.hold);
   if (has_jaws(setup) && readable && (d_mm < range.lower || d_mm > range.upper))
     at.problem("a diameter of " + mm_text(d_mm) + " in the jaws",
                "what the chuck of " + machine.id + " holds, " + mm_text(range.lower) +

@@ -14,14 +14,6 @@ constexpr double kOverhang_diameters = 3;
 constexpr double kRunOut_mm = 2;  // what the jaws end before, for the tool to run out
 constexpr double kDigit_mm = 0.1;
 
-// What the jaws hold: the stock first, finished ends afterwards.
-double held_mm(const part::Drawing& d, std::size_t setup, part::End hold) {
-  const double stock = part::across_mm(d.stock);
-  if (setup == 0) return stock;
-  return std::min(
-      stock, hold == part::End::left ? d.outer.front().left_mm : d.outer.back().right_mm);
-}
-
 // Width of the narrowest blade that parts off the stock; 0 without one.
 double parting_blade_mm(const PlanRequest& r) {
   const double deep = (r.drawing.stock.outer_mm - r.drawing.stock.inner_mm) / 2;
@@ -45,7 +37,7 @@ double before_blade_mm(const PlanRequest& r, std::size_t s) {
 }
 
 double usual_mm(const PlanRequest& r, std::size_t s) {
-  const double held = held_mm(r.drawing, s, r.setups[s].hold);
+  const double held = part::held_mm(r.drawing, s, r.setups[s].hold);
   const double length = s == 0 ? r.drawing.stock.length_mm : part::length_mm(r.drawing);
   const double usual = std::min(std::max(kUsual_mm, held / 2), length / 2);
   const double most = before_blade_mm(r, s);
@@ -74,7 +66,7 @@ double level_to_mm(const PreparedPart& p, std::size_t s) {
 void lengthen(PreparedPart& p, std::size_t s) {
   const double overhang = std::abs(free_z_mm(p, s) - root_z_mm(p, s, Clamping::chuck));
   const double beyond =
-      overhang - kOverhang_diameters * held_mm(p.drawing, s, p.setups[s].hold);
+      overhang - kOverhang_diameters * part::held_mm(p.drawing, s, p.setups[s].hold);
   const auto longest = longer_grip_mm(p, s);
   if (!longest || beyond < kWorth_mm) return;
   const double before = p.grips_mm[s];

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "../test_catalogue.hpp"
 #include "document/json/file.hpp"
+#include "refusal.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
 
@@ -36,14 +36,6 @@ part::Drawing read(const std::vector<json>& edges) {
   return load_part_plan(stepped(edges), test_catalogue(), "t").plan.drawing;
 }
 
-std::string refusal_of(const json& document) {
-  try {
-    load_part_plan(document, test_catalogue(), "t");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 std::string refusal(const std::vector<json>& edges) { return refusal_of(stepped(edges)); }
 
 json edge(const char* at, json shape) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../test_catalogue.hpp"
+#include "refusal.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
 
@@ -39,14 +39,6 @@ bool tells(const LoadedPart& loaded, const std::string& pointer, const char* why
     return a.pointer == pointer && a.why.find(why) != std::string::npos;
   });
 }
-std::string refusal(const json& document) {
-  try {
-    read(document);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(Grinding, IsLeftOnTheDiameterWithAThirdAsTolerance) {
   const auto loaded = read(shaft());
@@ -76,9 +68,9 @@ TEST(Grinding, OfABoreIsLeftInside) {
   EXPECT_NEAR(e.right_mm, 11.8, 1e-12);
   d["inner"][0]["left_mm"] = 0.15;
   EXPECT_NE(
-      refusal(d).find("/inner/0/grinding_allowance_mm: got 0.2, expected less than"),
+      refusal_of(d).find("/inner/0/grinding_allowance_mm: got 0.2, expected less than"),
       std::string::npos)
-      << refusal(d);
+      << refusal_of(d);
 }
 
 // The line of a chamfer of 1 mm at 30 deg goes through the finished surface 1 mm from the
@@ -103,9 +95,9 @@ TEST(Grinding, ChamfersStayWithinTheirElements) {
   d["outer"][1]["grinding_allowance_mm"] = 1.1;
   d["edges"] = {{{"at", "seat|big"}, {"chamfer_mm", 1}, {"angle_deg", 1}}};
   ASSERT_GT(1 + 0.55 / std::tan(M_PI / 180), length_mm);
-  EXPECT_TRUE(refusal(d).find("/edges/0/chamfer_mm: got 1, expected less than the") !=
+  EXPECT_TRUE(refusal_of(d).find("/edges/0/chamfer_mm: got 1, expected less than the") !=
               std::string::npos)
-      << refusal(d);
+      << refusal_of(d);
 }
 
 // Edges that the drawing breaks alike are as it asks once their elements are ground.
@@ -123,7 +115,7 @@ TEST(Grinding, AWrongAllowanceIsToldOnce) {
   for (const json& wrong : {json("0.3"), json(-0.3), json(true), json(6)}) {
     auto d = shaft();
     d["outer"][1]["grinding_allowance_mm"] = wrong;
-    const auto text = refusal(d);
+    const auto text = refusal_of(d);
     const auto first = text.find("/outer/1/grinding_allowance_mm");
     EXPECT_NE(first, std::string::npos) << wrong;
     EXPECT_EQ(text.find("/outer/1/grinding_allowance_mm", first + 1), std::string::npos)
@@ -179,14 +171,15 @@ TEST(Grinding, AnswersForItsOwnTolerances) {
 TEST(Grinding, IsOfCylindersAndCones) {
   auto d = shaft();
   d["outer"][1]["grinding_allowance_mm"] = 6;
-  EXPECT_NE(refusal(d).find("/outer/1/grinding_allowance_mm: got 6"), std::string::npos);
+  EXPECT_NE(refusal_of(d).find("/outer/1/grinding_allowance_mm: got 6"),
+            std::string::npos);
   d["outer"][1] = {{"id", "seat"},
                    {"kind", "thread"},
                    {"length_mm", 30},
                    {"designation", "M30x1.5"},
                    {"grinding_allowance_mm", 0.3}};
   EXPECT_NE(
-      refusal(d).find("/outer/1/grinding_allowance_mm: got 0.3, expected no such key"),
+      refusal_of(d).find("/outer/1/grinding_allowance_mm: got 0.3, expected no such key"),
       std::string::npos);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../test_catalogue.hpp"
+#include "refusal.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
 #include "turnwright/planning/quote.hpp"
@@ -26,15 +26,6 @@ json fitting() {
 
 part::Drawing read(const json& document) {
   return load_part_plan(document, test_catalogue(), "t").plan.drawing;
-}
-
-std::string refusal(const json& document) {
-  try {
-    read(document);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 // A hexagon of 27 mm across flats is 2/sqrt(3) wider through its corners and has an area of
@@ -64,31 +55,32 @@ TEST(Stock, AnElementKeepsItUncutAndWithoutTolerances) {
 TEST(Stock, WhatKeepsItHasNoDemandsOfItsOwn) {
   auto document = fitting();
   document["outer"][0]["diameter_mm"] = 27;
-  EXPECT_EQ(refusal(document), "t: /outer/0/diameter_mm: got 27, expected no such key");
+  EXPECT_EQ(refusal_of(document),
+            "t: /outer/0/diameter_mm: got 27, expected no such key");
   document = fitting();
   document["tolerances"] = {
       {{"id", "r"}, {"kind", "circularity"}, {"of", "head"}, {"value_mm", 0.01}}};
-  EXPECT_NE(refusal(document).find("/tolerances/0/of"), std::string::npos)
-      << refusal(document);
+  EXPECT_NE(refusal_of(document).find("/tolerances/0/of"), std::string::npos)
+      << refusal_of(document);
   document = fitting();
   document["inner"] = {
       {{"id", "b"}, {"kind", "as-stock"}, {"from", "right"}, {"length_mm", 10}}};
-  EXPECT_NE(refusal(document).find("/inner/0/kind"), std::string::npos)
-      << refusal(document);
+  EXPECT_NE(refusal_of(document).find("/inner/0/kind"), std::string::npos)
+      << refusal_of(document);
 }
 
 TEST(Stock, WithCornersRunsInNoRestAndOtherElementsAreSmaller) {
   auto document = fitting();
   document["outer"][1]["diameter_mm"] = 28;  // flats would stay on it
-  EXPECT_EQ(refusal(document),
+  EXPECT_EQ(refusal_of(document),
             "t: /stock/across_flats_mm: got 27, expected more than the largest element, "
             "28 mm");
   document = fitting();
   document["setups"] = {
       {{"hold", "left"}, {"clampings", {"chuck-steady"}}, {"steady_mm", 45}}};
-  EXPECT_NE(refusal(document).find("no rest, which runs on no bar with corners"),
+  EXPECT_NE(refusal_of(document).find("no rest, which runs on no bar with corners"),
             std::string::npos)
-      << refusal(document);
+      << refusal_of(document);
 }
 
 // Their blanks would be turned to the stock's own diameter.
@@ -101,10 +93,10 @@ TEST(Stock, WhatKeepsItHasNoGroovesOrNecksBetween) {
   const std::string told =
       "t: /outer/1/kind: got \"cylinder\", expected no groove or neck there: its blank "
       "would be turned to the diameter of head beside it, which stays as the stock is";
-  EXPECT_EQ(refusal(document), told);
+  EXPECT_EQ(refusal_of(document), told);
   document["outer"][1]["kind"] = "groove";
-  EXPECT_NE(refusal(document).find("no groove or neck there"), std::string::npos)
-      << refusal(document);
+  EXPECT_NE(refusal_of(document).find("no groove or neck there"), std::string::npos)
+      << refusal_of(document);
 }
 
 // A hexagon of 400 mm is 461.9 mm wide through its corners, and has no circle from which a
@@ -145,7 +137,7 @@ TEST(Stock, ThatIsMissingIsToldOnce) {
   auto document = fitting();
   document["stock"].erase("across_flats_mm");
   EXPECT_EQ(
-      refusal(document),
+      refusal_of(document),
       "t: /stock/across_flats_mm: got nothing, expected a number > 0 and <= 20000 mm");
 }
 

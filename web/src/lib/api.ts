@@ -17,6 +17,13 @@ export class Refused extends Error {
   }
 }
 
+/** The server's refusal that was caught, after asking for the key if it wants one; whatever else was caught is thrown on. */
+export function refusal(error: unknown, unlock: () => void): Refused {
+  if (!(error instanceof Refused)) throw error;
+  if (error.status === 401) unlock();
+  return error;
+}
+
 const keyName = 'turnwright-key';
 
 /** The bearer key of servers that want one; kept until the tab is closed. */
