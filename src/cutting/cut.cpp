@@ -29,6 +29,7 @@ Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool) {
   c.corner = corner_of(tool.re_mm, units::rad_from_deg(tool.kapr_deg));
   c.minor_kapr_rad = units::rad_from_deg(tool.minor_kapr_deg);
   c.hmin_mm = hmin_mm(material, tool);
+  c.land_Ra_um_mm = material.land_Ra_um_mm;
   c.surface_factor = tool.wiper ? 0.5 : 1.0;
   return c;
 }
@@ -37,6 +38,7 @@ Cut worn(Cut c, double VB_mm, double VB_end_mm) {
   constexpr double kFriction = 0.4;
   c.land_N_mm = c.thrust.land_MPa * VB_mm;
   c.land_Fc_N_mm = kFriction * c.land_N_mm;
+  c.land_Ra_um = c.land_Ra_um_mm * VB_mm;
   c.taylor.C *= std::pow(VB_mm / VB_end_mm, c.taylor.n);  // Eq. (8)
   return c;
 }

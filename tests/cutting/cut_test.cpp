@@ -191,6 +191,18 @@ TEST(Cut, AWornEdgePressesOnItsLand) {
   }
 }
 
+// Two profiles that know nothing of each other add by squares; without a number of the
+// material the surface is that of the new edge.
+TEST(Cut, TheLandsGroovesAddToTheProfileOfTheFeed) {
+  auto c = steel();
+  EXPECT_EQ(Ra_um(worn(c, 0.2, 0.3), 0.1), Ra_um(c, 0.1));
+  c.land_Ra_um_mm = 5;
+  EXPECT_EQ(Ra_um(c, 0.1), feed_Rz_um(c, 0.1) * (8 / (18 * std::sqrt(3.0))));
+  const auto w = worn(c, 0.2, 0.3);
+  EXPECT_NEAR(Ra_um(w, 0.1), std::hypot(Ra_um(c, 0.1), 1.0), 1e-12);
+  EXPECT_NEAR(Rz_um(w, 0.1), std::hypot(Rz_um(c, 0.1), 4.5), 1e-12);
+}
+
 TEST(Cut, LifeAndSpeedAreOneLaw) {
   const auto c = steel();
   const double v = speed_for_life_m_min(c, 17.0, 0.25, 1.7);

@@ -45,25 +45,31 @@ struct Condition {
   auto operator<=>(const Condition&) const = default;
 };
 
+// Means of a column over the readings with "New" or "Worn" edges.
+using Means = std::map<Condition, double>;
+Means means(const std::string& edge, std::size_t column) {
+  std::ifstream in(kRoot + "/tests/data/AISI12L14/data.csv");
+  std::map<Condition, std::pair<double, int>> sums;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    const auto c = cells(line);
+    if (c.at(5) != edge) continue;
+    const double D = c[4] == "D30" ? 30 : 50;
+    auto& [sum, n] = sums[{D, std::stod(c[1]), std::stod(c[2]), std::stod(c[3]), c[6]}];
+    sum += std::stod(c.at(column));
+    ++n;
+  }
+  Means all;
+  for (const auto& [at, s] : sums) all[at] = s.first / s.second;
+  return all;
+}
+
+constexpr std::size_t kRa = 8, kRz = 9;
+
 // Mean Ra of the readings with a new edge.
-const std::map<Condition, double>& shafts() {
-  static const auto kMeans = [] {
-    std::ifstream in(kRoot + "/tests/data/AISI12L14/data.csv");
-    std::map<Condition, std::pair<double, int>> sums;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      const auto c = cells(line);
-      if (c.at(5) != "New") continue;
-      const double D = c[4] == "D30" ? 30 : 50;
-      auto& [sum, n] = sums[{D, std::stod(c[1]), std::stod(c[2]), std::stod(c[3]), c[6]}];
-      sum += std::stod(c[8]);
-      ++n;
-    }
-    std::map<Condition, double> means;
-    for (const auto& [at, s] : sums) means[at] = s.first / s.second;
-    return means;
-  }();
+const Means& shafts() {
+  static const auto kMeans = means("New", kRa);
   return kMeans;
 }
 
@@ -121,6 +127,62 @@ TEST(Shafts12L14, RoughnessCalibrated) {
       ++n;
     }
     EXPECT_LT(std::sqrt(square / n), 0.25) << f;
+  }
+}
+
+// Relative errors, measured by the worn edge (VB 0.3 mm), of (10) of cut.hpp with the
+// measured roughness of the new edge as the profile of the feed.
+struct Errors {
+  double rms = 0, mean = 0;
+};
+template <class Of>
+Errors worn_errors(const Means& fresh, const Means& worn, double land_um,
+                   const Of& counts) {
+  Errors e;
+  int n = 0;
+  for (const auto& [at, R] : worn) {
+    if (!counts(at)) continue;
+    const double error = cutting::with_land_um(fresh.at(at), land_um) / R - 1;
+    e.rms += error * error;
+    e.mean += error;
+    ++n;
+  }
+  return {std::sqrt(e.rms / n), e.mean / n};
+}
+
+// Shafts of 50 mm, which did not chatter: a worn edge leaves 1.99 um where a new one leaves
+// 1.21, whatever the feed.  With the catalogue's 5 um per mm of land (10) describes them
+// with 21 % rms, and a feed that was left out of a fit of its own with 27 % at most; without
+// the land the surface would come out a third too smooth.
+TEST(Shafts12L14, RoughnessOfWornEdges) {
+  constexpr double kVB_mm = 0.3;
+  const auto steel = std::ranges::find(catalogue().materials, "11SMnPb30",
+                                       &turnwright::catalogue::Material::id);
+  ASSERT_NE(steel, catalogue().materials.end());
+  const double w = steel->land_Ra_um_mm;
+  const auto stiff = [](const Condition& c) { return c.D_mm == 50; };
+  const auto fresh = means("New", kRa), worn = means("Worn", kRa);
+  const auto without = worn_errors(fresh, worn, 0, stiff);
+  EXPECT_LT(without.mean, -0.33);
+  EXPECT_GT(without.rms, 0.39);
+  const auto with = worn_errors(fresh, worn, w * kVB_mm, stiff);
+  EXPECT_LT(with.rms, 0.215);
+  EXPECT_LT(std::abs(with.mean), 0.04);
+  EXPECT_LT(
+      worn_errors(means("New", kRz), means("Worn", kRz), 4.5 * w * kVB_mm, stiff).rms,
+      0.19);
+  for (const double f : {0.07, 0.08, 0.1, 0.12, 0.13}) {
+    const auto others = [&](const Condition& c) { return stiff(c) && c.f_mm_rev != f; };
+    double best = 0;
+    for (double land_um = 0; land_um < 3; land_um += 0.01)
+      if (worn_errors(fresh, worn, land_um, others).rms <
+          worn_errors(fresh, worn, best, others).rms)
+        best = land_um;
+    EXPECT_LT(worn_errors(fresh, worn, best,
+                          [&](const Condition& c) { return stiff(c) && c.f_mm_rev == f; })
+                  .rms,
+              0.28)
+        << f;
   }
 }
 
@@ -255,8 +317,8 @@ catalogue::Tool finishing_insert() {
 TEST(ForcesH13, PassiveForceBlind) {
   const auto cuts = h13();
   if (cuts.empty()) GTEST_SKIP() << "TURNWRIGHT_H13_CUTS is not set";
-  const auto steel =
-      std::ranges::find(catalogue().materials, "42CrMo4-A", &catalogue::Material::id);
+  const auto steel = std::ranges::find(catalogue().materials, "42CrMo4-A",
+                                       &turnwright::catalogue::Material::id);
   ASSERT_NE(steel, catalogue().materials.end());
   const auto cut = cutting::cut_of(*steel, finishing_insert());
   double sum = 0;

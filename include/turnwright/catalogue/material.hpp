@@ -50,7 +50,9 @@ struct Material {
   double life_scatter_pct = 0;        ///< of ln T between edges, one standard deviation
   double hmin_mm = 0;                 ///< least chip thickness (Brammertz), 0 = ideal
   double hmin_uncertainty_pct = 0;    ///< one standard deviation
-  double hmin_edge_um = 0;  ///< radius of the rounded edge that hmin belongs to; 0: any
+  double hmin_edge_um = 0;   ///< radius of the rounded edge that hmin belongs to; 0: any
+  double land_Ra_um_mm = 0;  ///< Ra of the grooves of a wear land, per VB; 0: not known
+  double land_Ra_uncertainty_pct = 0;  ///< one standard deviation
 };
 
 /// The material's thrust force, or where it has none an estimate,

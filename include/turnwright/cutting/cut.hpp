@@ -31,6 +31,8 @@ struct Cut {
   Corner corner;
   double minor_kapr_rad = 0;
   double hmin_mm = 0;
+  double land_Ra_um_mm = 0;   ///< Ra of the grooves in a wear land, per VB
+  double land_Ra_um = 0;      ///< of a worn edge: Ra of those grooves
   double surface_factor = 1;  ///< 0.5 with a wiper edge
 };
 
@@ -57,6 +59,8 @@ Cut cut_of(const catalogue::Material& material, const catalogue::Tool& tool);
 /// grows linearly Taylor's life is multiplied by VB/VB_end, C by (VB/VB_end)^n.
 /// Source: derived here from a constant pressure; compared in docs/reality.md.  mu is an
 /// estimate, with which Fc grows by half to two thirds at VB 0.3 mm, as measured.
+/// The grooves in the land make a profile of their own, of Ra_land = w VB in (10), with w
+/// the material's `land_Ra_um_mm`.
 Cut worn(Cut cut, double VB_mm, double VB_end_mm);
 
 /// Angle of an arc of the corner by its height x in units of the radius: acos(1 - x).
@@ -347,18 +351,39 @@ T speed_for_life_m_min(const Cut& c, const Life& T_min, const T& f_mm_rev,
 /// minor edge lies below the arc's continuation and cuts off the ridge, so the formula is
 /// on the safe side.  Source: [Brammertz 1961].
 template <class T>
-T Rz_um(const Cut& c, const T& f_mm_rev) {
+T feed_Rz_um(const Cut& c, const T& f_mm_rev) {
   const double r = c.corner.re_mm, h = c.hmin_mm;
   T Rt = sqr(f_mm_rev) * (1 / (8 * r));
   if (h > 0) Rt = Rt + 0.5 * h + (0.5 * r * h * h) / sqr(f_mm_rev);
   return Rt * (1000 * c.surface_factor);
 }
 
-/// Ra [um] of the parabolic profile: Rt 8/(18 sqrt 3), which is f^2/(18 sqrt(3) r)
-/// without the floor.
+/// Roughness of a profile with that of the wear land's grooves on it.  Two profiles that know
+/// nothing of each other add by the squares of their Rq; Ra and Rz are taken in proportion,
+///
+///     R = sqrt(R_feed^2 + R_land^2)                                                 (10)
+///
+/// Source: derived here; compared with measured shafts in docs/reality.md.
+template <class T>
+T with_land_um(const T& feed_um, double land_um) {
+  using std::sqrt;
+  return land_um > 0 ? T(sqrt(T(sqr(feed_um) + sqr(land_um)))) : feed_um;
+}
+
+/// Rz [um] of the feed's profile and of the land's, whose Rz is 4.5 Ra, as measured on
+/// worn and on new edges alike [Pereira 2025].
+template <class T>
+T Rz_um(const Cut& c, const T& f_mm_rev) {
+  constexpr double kRz_Ra = 4.5;
+  return with_land_um(feed_Rz_um(c, f_mm_rev), kRz_Ra * c.land_Ra_um);
+}
+
+/// Ra [um] of the parabolic profile, Rt 8/(18 sqrt 3), which is f^2/(18 sqrt(3) r)
+/// without the floor, and of the land's.
 template <class T>
 T Ra_um(const Cut& c, const T& f_mm_rev) {
-  return Rz_um(c, f_mm_rev) * (8 / (18 * std::sqrt(3.0)));
+  return with_land_um(T(feed_Rz_um(c, f_mm_rev) * (8 / (18 * std::sqrt(3.0)))),
+                      c.land_Ra_um);
 }
 
 /// Tool life of least cost [min]: (1/n - 1)(t_change + c_edge/c_minute), with the

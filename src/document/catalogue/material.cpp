@@ -91,6 +91,10 @@ catalogue::Material read_material(Reader r) {
     m.hmin_edge_um = chip->number_or("edge_um", kEdgeRadius, 0);
     m.hmin_uncertainty_pct = finish_group(*chip);
   }
+  if (auto worn = r.optional_object("worn_roughness")) {
+    m.land_Ra_um_mm = worn->number("land_Ra_um_mm", above_up_to(0, 50, "um/mm"));
+    m.land_Ra_uncertainty_pct = finish_group(*worn);
+  }
   r.finish();
   return m;
 }

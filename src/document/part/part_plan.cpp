@@ -1,5 +1,8 @@
 #include "turnwright/document/part_plan.hpp"
 
+#include <string>
+#include <utility>
+
 #include "choices.hpp"
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
@@ -107,10 +110,14 @@ void read_damping(Draft& draft) {
   const auto& machines = plan.machine.damping_ratio;
   plan.damping_ratio = machines.value_or(plan.damping_ratio);
   plan.machine_damping_ratio = machines.value_or(plan.machine_damping_ratio);
-  draft.assume("/damping_ratio", plan.damping_ratio,
-               machines ? "the machine's own"
-                        : "parts that bend, on the safe side; 0.03 for chuck, centres, "
-                          "toolpost and bars");
+  std::string why = machines ? "the machine's own"
+                             : "parts that bend, on the safe side; 0.03 for chuck, "
+                               "centres, toolpost and bars";
+  if (!plan.machine.tool_zz_mm_N)
+    why +=
+        "; the toolpost is taken as rigid along the feed (no tool_zz_mm_N), which for "
+        "deep cuts is not the safe side";
+  draft.assume("/damping_ratio", plan.damping_ratio, std::move(why));
 }
 
 // One number for whatever holds the part, or one for each.
@@ -174,6 +181,10 @@ void read_budget(Draft& draft) {
       given->problem_at("edge_wear_mm",
                         "at most wear_land_mm, " + number_text(shop.wear_land_mm) + " mm",
                         number_text(shop.edge_wear_mm));
+    if (shop.edge_wear_mm > 0 && !(draft.plan().material.land_Ra_um_mm > 0))
+      draft.assume("/material/worn_roughness", nullptr,
+                   "the material does not tell it: surfaces are as smooth as new edges "
+                   "leave them");
   }
   read("wear_noticed_times", shop.wear_noticed_times, within(1, 10));
   if (has("rechucking_um")) shop.rechucking = read_rechucking(given->at("rechucking_um"));

@@ -32,10 +32,9 @@ double stable_probability(const PlanRequest& p, double share) {
 
 double left_by_chatter(const PlanRequest& p) { return limit_spread(p) > 0 ? 0.5 : 1; }
 
-double least_chip_factor(const PlanRequest& p) {
+double roughness_factor(const PlanRequest& p, double u_pct) {
   if (!p.roughness_conformance) return 1;
-  return 1 + normal_quantile(*p.roughness_conformance) * p.material.hmin_uncertainty_pct /
-                 100;  // Eq. (3)
+  return 1 + normal_quantile(*p.roughness_conformance) * u_pct / 100;  // Eq. (3)
 }
 
 }  // namespace turnwright::planning

@@ -27,12 +27,13 @@ double stable_probability(const PlanRequest& request, double share);
 /// s = 0.
 double left_by_chatter(const PlanRequest& request);
 
-/// Factor on hmin with which roughness is judged: hmin spreads by hmin_uncertainty_pct of it,
-/// and the roughness rises with it, so
+/// Factor on a number u_pct uncertain, normally, with which the roughness rises: on hmin and
+/// on the grooves of a wear land.  Both are judged at
 ///
 ///     1 + z u,  z the quantile of roughness_conformance                              (3)
 ///
+/// times their value; as if both were at their quantiles at once, which is on the safe side.
 /// 1 where no roughness_conformance is asked for.
-double least_chip_factor(const PlanRequest& request);
+double roughness_factor(const PlanRequest& request, double u_pct);
 
 }  // namespace turnwright::planning

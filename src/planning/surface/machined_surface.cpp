@@ -252,8 +252,10 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   const auto& want = finishing ? fixed_.finish : fixed_.rough;
   OperationModel o;
   o.tool = &tool;
-  o.cut = cutting::cut_of(plan_->material, tool);
-  o.cut.hmin_mm *= least_chip_factor(*plan_);
+  const auto& material = plan_->material;
+  o.cut = cutting::cut_of(material, tool);
+  o.cut.hmin_mm *= roughness_factor(*plan_, material.hmin_uncertainty_pct);
+  o.cut.land_Ra_um_mm *= roughness_factor(*plan_, material.land_Ra_uncertainty_pct);
   const auto& shop = plan_->shop;
   const bool finisher = finishing || !recipe.finish;
   if (shop.edge_wear_mm > 0 && (finisher ? due_.finish : due_.rough))

@@ -136,7 +136,11 @@ TEST(PartPlan, DampingIsTheMachinesWhereThePartSaysNone) {
   document["machine"]["stiffness"]["damping_ratio"] = 0.05;
   const auto loaded = load(document);
   EXPECT_EQ(loaded.plan.damping_ratio, 0.05);
-  EXPECT_EQ(assumed(loaded, "/damping_ratio")->why, "the machine's own");
+  const auto why = assumed(loaded, "/damping_ratio")->why;
+  EXPECT_TRUE(why.starts_with("the machine's own; the toolpost is taken as rigid"))
+      << why;
+  document["machine"]["stiffness"]["tool_zz_mm_N"] = 1e-5;
+  EXPECT_EQ(assumed(load(document), "/damping_ratio")->why, "the machine's own");
   document["damping_ratio"] = 0.02;
   EXPECT_EQ(load(document).plan.damping_ratio, 0.02);
   EXPECT_EQ(load(document).plan.machine_damping_ratio, 0.02);

@@ -37,7 +37,7 @@ TEST(UncertainLimits, WhatIsKnownIsTakenAsItIs) {
     EXPECT_EQ(chatter_factor(p), 1);
     EXPECT_EQ(left_by_chatter(p), 1);
     EXPECT_EQ(stable_probability(p, 1.5), 1);
-    EXPECT_EQ(least_chip_factor(p), 1);
+    EXPECT_EQ(roughness_factor(p, 50), 1);
   }
 }
 
@@ -74,14 +74,12 @@ TEST(UncertainLimits, MoreSpreadNeverMakesACutSafer) {
   }
 }
 
-TEST(UncertainLimits, RoughnessIsJudgedWithTheQuantileOfHmin) {
+TEST(UncertainLimits, RoughnessIsJudgedWithTheQuantileOfWhatIsUncertain) {
   auto p = with(0, true);
-  p.material.hmin_uncertainty_pct = 50;
-  EXPECT_EQ(least_chip_factor(p), 1);
   p.roughness_conformance = 0.95;
-  EXPECT_NEAR(least_chip_factor(p), 1 + 0.5 * beyond(0.05), 1e-9);
+  EXPECT_NEAR(roughness_factor(p, 50), 1 + 0.5 * beyond(0.05), 1e-9);
   p.roughness_conformance = 0.5;
-  EXPECT_NEAR(least_chip_factor(p), 1, 1e-9);
+  EXPECT_NEAR(roughness_factor(p, 50), 1, 1e-9);
 }
 
 // A pin whose worn edges decide, with lives of edges that scatter and a Taylor's C that is
@@ -296,6 +294,31 @@ TEST(UncertainRoughness, IsKeptWithTheProbabilityThatIsAskedFor) {
   const double Rz = f * f / (8 * corner) + h / 2 * (1 + corner * h / (f * f));
   EXPECT_NEAR(Ra_um(), 1000 * Rz * 8 / (18 * std::sqrt(3.0)), 1e-6);
   EXPECT_GT(Ra_um(), before);
+}
+
+// Grooves of 5 um per mm of land, 30 %, at VB 0.2 mm beside the profile of the feed.
+TEST(UncertainRoughness, CountsTheWornEdgesGrooves) {
+  auto d = pin();
+  d["material"] = file("materials/C45.json");
+  d["material"]["worn_roughness"] = {
+      {"land_Ra_um_mm", 5}, {"uncertainty_pct", 30}, {"source", "this test"}};
+  d["budget"]["edge_wear_mm"] = 0.2;
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok);
+  auto given = as_planned(d, r);
+  const auto Ra_um = [&](double VB_mm) {
+    given["budget"]["edge_wear_mm"] = VB_mm;
+    const auto at = predict(part_to_predict(given));
+    for (const auto& c : operation(at, "s1-finish-d2").constraints)
+      if (c.name == "roughness Ra") return c.value;
+    return 0.0;
+  };
+  const double fresh = Ra_um(0);
+  EXPECT_GT(fresh, 0);
+  EXPECT_NEAR(Ra_um(0.2), std::hypot(fresh, 1.0), 1e-9);
+  given["roughness_conformance"] = 0.95;
+  const double chip = Ra_um(0);
+  EXPECT_NEAR(Ra_um(0.2), std::hypot(chip, 1 + 0.3 * beyond(0.05)), 1e-9);
 }
 
 }  // namespace
