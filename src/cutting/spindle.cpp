@@ -7,9 +7,17 @@ namespace {
 
 using catalogue::CurvePoint;
 
-// Line through two points of a curve P(n), log-log.
+// Torques that differ by less are one, printed with few digits.
+constexpr double kRoundedTorque = 1e-3;
+
+// Line through two points of a curve P(n), log-log; of the lesser torque where both have the
+// same: an exponent that rounding has moved off 1 would make every speed hang on the last
+// digit of the curve.
 PowerLine through(double n1, double P1, double n2, double P2, double efficiency,
                   bool torque) {
+  const double M1 = P1 / n1, M2 = P2 / n2;
+  if (std::abs(std::log(M2 / M1)) < kRoundedTorque)
+    return {efficiency * std::min(M1, M2), 1.0, torque};
   const double s = std::log(P2 / P1) / std::log(n2 / n1);
   return {efficiency * P1 / std::pow(n1, s), s, torque};
 }

@@ -39,6 +39,26 @@ TEST(SpeedRanges, LeastLineIsTheCurve) {
   EXPECT_NEAR(available_kW(ranges[0], 4000), 0.7 * P, 1e-9);
 }
 
+// A curve of constant torque printed with four digits: whether the last one is rounded up or
+// down, the speed does not hang on it, and no more power is taken than is printed.
+TEST(SpeedRanges, ATorqueRoundedInPrintIsConstant) {
+  for (const double digits : {1 - 4e-4, 1 + 4e-4}) {
+    auto m = lathe();
+    m.curve[0].P_kW *= digits;
+    const auto ranges = speed_ranges(m);
+    ASSERT_EQ(ranges.size(), 1u);
+    for (const auto& l : ranges[0].lines)
+      if (l.s > 0.5) {
+        EXPECT_TRUE(constant_torque(l)) << l.s;
+      }
+    for (const auto& point : {m.curve[0], m.curve[1]}) {
+      const double P = available_kW(ranges[0], point.n_rpm);
+      EXPECT_LE(P, 0.8 * point.P_kW * (1 + 1e-12));
+      EXPECT_GE(P, 0.8 * point.P_kW * (1 - 1e-3));
+    }
+  }
+}
+
 TEST(SpeedRanges, ADipCutsTheRange) {
   auto m = lathe();
   m.curve[2].P_kW *= 0.5;  // gear change at 3000

@@ -8,7 +8,8 @@
 /// The speeds at which an operation keeps its limits, and the best of them.
 namespace turnwright::planning {
 
-/// Weights of an operation's speed limits, in their order: the multipliers of its checks.
+/// Weights of an operation's speed limits, in their order: the multipliers of its checks
+/// times their slopes in ln v.
 using SpeedWeights = std::vector<double>;
 
 /// The speeds that satisfy speed_checks.

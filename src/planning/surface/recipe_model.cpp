@@ -190,20 +190,29 @@ optimise::Piece RecipeModel::piece(const SpeedWeightsOfAll& weights) const {
   return p;
 }
 
-optimise::Piece RecipeModel::piece(double weight,
-                                   const std::vector<double>& multipliers) const {
+optimise::Piece RecipeModel::piece(double weight, const optimise::Solution& at) const {
   optimise::Combination c{weight, {}};
   SpeedWeightsOfAll speeds;
-  // Reduced rows come in the same order, each operation's speed rows as one window.
+  const std::size_t n = at.y.size();
+  optimise::Values v{0, std::vector<double>(n), std::vector<double>(rows_.size()),
+                     std::vector<double>(rows_.size() * n)};
+  evaluate(at.y, v);
+  // Reduced rows come in the same order, each operation's speed rows as one window.  Where
+  // limits from both sides pinch the speed, the window holds what both hold.
+  std::array<double, 2> held{};  // from below, from above
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const bool last = i + 1 == rows_.size() ||
                       rows_[i + 1].operation != rows_[i].operation ||
                       rows_[i + 1].check == Check::tolerance;
-    if (rows_[i].speed)
-      speeds[rows_[i].operation].push_back(multipliers[i]);
-    else
-      c.multipliers.push_back(multipliers[i]);
-    if (rows_[i].speed && last) c.multipliers.push_back(0);
+    if (!rows_[i].speed) {
+      c.multipliers.push_back(at.multipliers[i]);
+      continue;
+    }
+    const double slope = v.dg[i * n + 2 * rows_[i].operation];  // in ln v
+    const double hold = at.multipliers[i] * std::abs(slope);
+    speeds[rows_[i].operation].push_back(hold);
+    held[slope > 0] += hold;
+    if (last) c.multipliers.push_back(std::ranges::min(std::exchange(held, {})));
   }
   auto p = piece(speeds);
   p.combinations.push_back(std::move(c));

@@ -48,8 +48,10 @@ class RecipeModel {
   /// The reduced problem, with the best speeds, over (ln f, ln f, ln a).
   optimise::Piece piece() const;
   /// The reduced problem with the Lagrangian (weight 1) or the refutation (weight 0) by
-  /// multipliers of the full problem.
-  optimise::Piece piece(double weight, const std::vector<double>& multipliers) const;
+  /// the multipliers mu of a solution of the full problem.  Of several limits of one speed
+  /// each counts by what it holds of it, mu_i |dg_i/d ln v|, so that the gradient of the
+  /// Lagrangian is zero there although the best speed has a kink.
+  optimise::Piece piece(double weight, const optimise::Solution& at) const;
 
   /// Conversion between a point of the full problem and conditions.
   Choice<double> choice(const std::vector<double>& y) const;

@@ -233,11 +233,11 @@ class FeatureSearch {
   optimise::Piece with_multipliers(std::size_t k) {
     auto& c = all_[k];
     const auto& m = model(k);
-    if (c.local) return m->piece(1, c.local->multipliers);
+    if (c.local) return m->piece(1, *c.local);
     const auto nearest = least_violation(*m);
-    if (nearest.f > 0) return m->piece(0, nearest.multipliers);
+    if (nearest.f > 0) return m->piece(0, nearest);
     local_search(k, {nearest.y}, {.insist = true});
-    return c.local ? m->piece(1, c.local->multipliers) : m->piece();
+    return c.local ? m->piece(1, *c.local) : m->piece();
   }
 
   static optimise::Values values_at(const optimise::Problem& p,

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "../parts.hpp"
 #include "planning/preparation/assignment.hpp"
@@ -16,8 +19,12 @@ namespace {
 // tolerances asked at three places.
 class Surfaces : public testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override {
+  void SetUp() override { prepare(1); }
+
+  void prepare(double power) {
+    models_.clear();
     plan_ = part(reference_part(GetParam()));
+    for (auto& point : plan_.machine.curve) point.P_kW *= power, point.M_Nm *= power;
     const auto work = assign(plan_);
     auto done = nothing_finished(plan_.drawing);
     for (std::size_t s = 0; s < work.setups.size(); ++s) {
@@ -91,7 +98,12 @@ TEST_P(Surfaces, BoxesHoldTheirPoints) {
     for (int trial = 0; trial < 6; ++trial) {
       std::vector<double> weights(m->rows().size());
       for (auto& w : weights) w = unit() < 0.3 ? unit() : 0;
-      const auto piece = m->piece(1, weights);
+      const auto& p = m->problem();
+      optimise::Solution at;
+      at.multipliers = weights;
+      for (std::size_t j = 0; j < p.lower.size(); ++j)
+        at.y.push_back(p.lower[j] + unit() * (p.upper[j] - p.lower[j]));
+      const auto piece = m->piece(1, at);
       const double size = std::pow(unit(), 2);
       optimise::Box box;
       for (std::size_t j = 0; j < box.size(); ++j) {
@@ -131,6 +143,55 @@ TEST_P(Surfaces, BoxesHoldTheirPoints) {
         v_before = v;
       }
     }
+}
+
+// Slope of the Lagrangian in the feeds and the depth between the ends of their ranges.
+void expect_flat(const RecipeModel& m, const optimise::Solution& s) {
+  const auto piece = m.piece(1, s);
+  const auto lagrangian = [&](const optimise::Point& y) {
+    double f = 0;
+    std::vector<double> g;
+    piece.value(y, f, g);
+    double sum = g.back();
+    for (std::size_t i = 0; i < piece.constraints; ++i)
+      sum += piece.combinations[0].multipliers[i] * g[i];
+    return sum;
+  };
+  const optimise::Point y{s.y[1], s.y[3], s.y[4]};
+  for (std::size_t j = 0; j < y.size(); ++j) {
+    constexpr double kStep = 1e-6;
+    if (y[j] - piece.box[j].lo < kStep || piece.box[j].hi - y[j] < kStep) continue;
+    auto up = y, down = y;
+    up[j] += kStep;
+    down[j] -= kStep;
+    EXPECT_NEAR((lagrangian(up) - lagrangian(down)) / (2 * kStep), 0, 2e-3);
+  }
+}
+
+// Whether more than one limit holds the speed of an operation.
+bool held_twice(const RecipeModel& m, const optimise::Solution& s) {
+  std::array<int, 2> held{};
+  for (std::size_t i = 0; i < m.rows().size(); ++i)
+    if (m.rows()[i].speed && s.multipliers[i] > 0.01) ++held[m.rows()[i].operation];
+  return std::ranges::max(held) > 1;
+}
+
+// Where several limits hold a speed at once, such as the power of a weak spindle and the
+// life of the edge, any one of them alone, or all in other proportions, would leave a slope.
+TEST_P(Surfaces, TheLagrangianIsFlatAtItsOptimum) {
+  int twice = 0;
+  for (double power = 1; power > 0.03; power *= 0.7) {
+    prepare(power);
+    for (const auto& m : models_) {
+      const auto s = optimise::local_minimum(m->problem(), m->start(0.6, 0.5));
+      if (s.status == optimise::Status::no_feasible_point_met) continue;
+      expect_flat(*m, s);
+      twice += held_twice(*m, s);
+    }
+  }
+  if (std::string(GetParam()) == "gearbox-input-shaft") {
+    EXPECT_GT(twice, 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(ReferenceParts, Surfaces,
