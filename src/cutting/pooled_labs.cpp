@@ -58,7 +58,7 @@ LabColumns lab_columns(const std::vector<std::size_t>& lab_of_row) {
   LabColumns labs;
   labs.names = lab_of_row;
   std::ranges::sort(labs.names);
-  labs.names.erase(std::ranges::unique(labs.names).begin(), labs.names.end());
+  labs.names.erase(std::unique(labs.names.begin(), labs.names.end()), labs.names.end());
   const auto n = static_cast<Index>(lab_of_row.size());
   if (!labs.several()) {
     labs.X = MatrixXd::Ones(n, 1);

@@ -179,13 +179,13 @@ std::optional<std::size_t> overload(const std::vector<double>& x, const ValueRan
                                     std::size_t from, std::size_t to) {
   constexpr std::size_t kInARow = 3;
   constexpr double kSteps = 10;
-  const auto [lowest, highest, rest, step] = range;
+  const double lowest = range.lowest, highest = range.highest, rest = range.rest;
   const double far = std::max(highest - rest, rest - lowest) / 2;
   for (std::size_t i = from; i < to;) {
     std::size_t end = i + 1;
     while (end < x.size() && x[end] == x[i]) ++end;
     const auto away = [&](std::size_t k) {
-      return k < x.size() && std::abs(x[k] - x[i]) > kSteps * step;
+      return k < x.size() && std::abs(x[k] - x[i]) > kSteps * range.step;
     };
     if ((x[i] == lowest || x[i] == highest) && std::abs(x[i] - rest) > far &&
         end - i >= kInARow && (away(i - 1) || away(end)))

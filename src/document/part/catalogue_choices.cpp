@@ -96,10 +96,11 @@ void read_tools(Draft& draft, const catalogue::Shop& shop) {
     read_listed_tools(draft, shop);
   } else {
     plan.tools = at_hand(draft.catalogue.tools, shop);
-    const auto behind = std::ranges::stable_partition(
-        plan.tools, [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
-    draft.undercut_tools.assign(behind.begin(), behind.end());
-    plan.tools.erase(behind.begin(), behind.end());
+    const auto behind = std::stable_partition(
+        plan.tools.begin(), plan.tools.end(),
+        [](const auto& t) { return !catalogue::goes_behind_shoulders(t); });
+    draft.undercut_tools.assign(behind, plan.tools.end());
+    plan.tools.erase(behind, plan.tools.end());
     draft.assume("/tools", ids(plan.tools),
                  shop.tools.empty() ? "the whole catalogue" : "the tools of " + shop.id);
   }
