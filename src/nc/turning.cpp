@@ -476,14 +476,14 @@ void to_point(const Pass& p, const std::vector<Point>& way, std::size_t i) {
 void pass(const Pass& p) {
   auto& s = p.surface();
   if (p.side.sign < 0 && !p.from_before()) p.site.clear_bore();  // as the bores stand yet
-  auto [way, entered] = way_of(p);
+  auto way = way_of(p);
   const auto arcs = roundings(p);
-  meet(way, arcs);
-  if (way.size() > 1) {
-    if (!p.from_before()) p.site.approach(p.side, way[0], way[1], p.re_mm);
-    follow(p.site, p.side, way, arcs, true, [&](std::size_t i) {
-      to_point(p, way, i);
-      p.site.moves.back().entering = i <= entered;
+  meet(way.points, arcs);
+  if (way.points.size() > 1) {
+    if (!p.from_before()) p.site.approach(p.side, way.points[0], way.points[1], p.re_mm);
+    follow(p.site, p.side, way.points, arcs, true, [&](std::size_t i) {
+      to_point(p, way.points, i);
+      p.site.moves.back().entering = i <= way.entered;
     });
   }
   if (!p.goes_on()) p.site.lift(p.side);

@@ -105,7 +105,7 @@ class Search {
 
 SpeedAndFeed best_conditions(const ConditionsWindow& window, std::vector<double> breaks,
                              const Trial& trial) {
-  const auto [lowest, highest] = window.vc_m_min;
+  const double lowest = window.vc_m_min.lower, highest = window.vc_m_min.upper;
   Search search(window, trial);
   if (search.unlimited()) return search.best();
   if (!trial(search.best()).feasible) return search.best();  // the lowest speed and feed
