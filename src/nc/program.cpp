@@ -61,12 +61,8 @@ Diameters swept(const Site& site, const OperationPlan& o) {
   const auto& d = site.part.drawing;
   if (const auto e = part::extent(d, o.on[0]))
     return {std::min(e->left_mm, e->right_mm), std::max(e->left_mm, e->right_mm)};
-  for (std::size_t k = 1; k < d.outer.size(); ++k)
-    if (planning::shoulder_id(d, k) == o.on[0]) {
-      const auto [small, large] =
-          std::minmax(d.outer[k - 1].right_mm, d.outer[k].left_mm);
-      return {small, large};
-    }
+  if (const auto ring = planning::shoulder_ring(d, o.on[0]))
+    return {ring->small_mm, ring->large_mm};
   return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
 }
 
@@ -236,9 +232,7 @@ class Numbers {
                 .orientation = o.milled           ? kCutterOrientation
                                : on_axis(site, o) ? kDrillOrientation
                                                   : 3};
-    const auto* e = o.on.empty() ? nullptr : &o.on[0];
-    const auto extent = e ? part::extent(part_.drawing, *e) : std::nullopt;
-    if (extent && extent->inner && t.orientation == 3) t.orientation = 2;
+    if (!o.on.empty() && is_inside(o.on[0]) && t.orientation == 3) t.orientation = 2;
     auto it = std::find(ids_.begin(), ids_.end(), t.id);
     if (it == ids_.end()) it = ids_.insert(it, t.id);
     t.number = t.offset = static_cast<int>(it - ids_.begin()) + 1;
@@ -246,6 +240,12 @@ class Numbers {
   }
 
  private:
+  bool is_inside(const std::string& surface) const {
+    const auto& d = part_.drawing;
+    const auto extent = part::extent(d, surface);
+    return (extent && extent->inner) || part::inner_shoulder(d, surface);
+  }
+
   const planning::PreparedPart& part_;
   std::vector<std::string> ids_;
 };

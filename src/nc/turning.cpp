@@ -80,7 +80,7 @@ std::optional<Wall> wall_behind(const Site& site, const Side& side, std::size_t 
 // Thickness that turning leaves before a shoulder that is faced later.
 double shoulder_stock_mm(const Site& site, std::size_t operation, const Side& side,
                          std::size_t k) {
-  if (side.sign < 0 || k + 1 >= side.items.size()) return 0;
+  if (k + 1 >= side.items.size()) return 0;
   const auto &a = side.items[k].id, &b = side.items[k + 1].id;
   return std::max(later_mm(site, operation, a + "|" + b),
                   later_mm(site, operation, b + "|" + a));
@@ -495,7 +495,7 @@ void pass(const Pass& p) {
 // comes from outside.  Its corner continues a radius beyond the first point, independent
 // of the slope there, or as far as the surfaces `before` the face allow.  It comes down at
 // feed onto a rounded edge that it begins with.
-void face_pass(Site& site, const std::vector<Point>& contact, double re,
+void face_pass(Site& site, Side& side, const std::vector<Point>& contact, double re,
                const std::vector<Piece>& before, const std::vector<Arc>& arcs = {}) {
   auto way = tips(contact, re);
   way.front() = at_h(way[0], way[1], contact.front().h_mm - re);
@@ -504,35 +504,39 @@ void face_pass(Site& site, const std::vector<Point>& contact, double re,
   if (way.empty()) return;
   meet(way, arcs);
   if (!arcs.empty() && around_edge(way, 0, arcs[0]) > 0)
-    site.approach(site.outer, way.front(), re);
+    site.approach(side, way.front(), re);
   else
-    site.approach(site.outer, way.front());
-  follow(site, site.outer, way, arcs, false,
-         [&](std::size_t i) { site.to(Kind::feed, site.outer, way[i]); });
+    site.approach(side, way.front());
+  follow(site, side, way, arcs, false,
+         [&](std::size_t i) { site.to(Kind::feed, side, way[i]); });
 }
 
-// Contact points of a face at z between two radii; those of the last pass are corrected.
-std::vector<Point> face_contour(const Site& site, const std::string& id, double z,
-                                double from, double to, bool last) {
+// Contact points of a face at z between two heights; those of the last pass are corrected.
+std::vector<Point> face_contour(const Site& site, const Side& side, const std::string& id,
+                                double z, double from, double to, bool last) {
   const auto& table = correction(site, id);
   if (!last || table.empty()) {
     const double moved = z + moved_mm(site, id);
     return {{from, moved}, {to, moved}};
   }
-  std::vector<Point> all{{from, z + planning::interpolated(table, from)}};
+  const auto at = [&](double h) {
+    return Point{h, z + planning::interpolated(table, side.sign * h)};
+  };
+  std::vector<Point> all{at(from)};
   for (const auto& [rho, dz] : table)
-    if (rho > from && rho < to) all.push_back({rho, z + dz});
+    if (const double h = side.sign * rho; h > from && h < to) all.push_back(at(h));
+  std::ranges::sort(all, {}, &Point::h_mm);
   all.push_back({to, all.back().z_mm});
   return all;
 }
 
 // Contact points of a face that go on along the chamfer of element k behind it, if another
 // setup makes that.
-std::vector<Point> with_edge(const Site& site, std::vector<Point> contact, std::size_t k,
-                             double re_mm) {
-  const auto* s = edge_to_cut(site, site.outer, k);
+std::vector<Point> with_edge(const Site& site, const Side& side,
+                             std::vector<Point> contact, std::size_t k, double re_mm) {
+  const auto* s = edge_to_cut(site, side, k);
   if (!s) return contact;
-  const auto line = own_line(site, site.outer, *s, 0);
+  const auto line = own_line(site, side, *s, 0);
   const auto edge = edge_of_front(*s);
   const auto n = normal(line[edge - 1], line[edge]);
   const double top = contact.back().h_mm;
@@ -549,8 +553,8 @@ std::vector<Point> with_edge(const Site& site, std::vector<Point> contact, std::
 
 // Radius to clear when approaching the shoulder before element k, including following
 // elements that are no longer than the stock before their own shoulders.
-double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
-  const auto& side = site.outer;
+double shoulder_top(const Site& site, const Side& side, std::size_t operation,
+                    std::size_t k) {
   double top = side.top0(side.items[k]);
   for (std::size_t j = k + 1; j < side.items.size(); ++j) {
     const double stock = shoulder_stock_mm(site, operation, side, j - 1);
@@ -562,17 +566,17 @@ double shoulder_top(const Site& site, std::size_t operation, std::size_t k) {
 
 // Moves along the line of the element before a shoulder to where turning has ended, or to
 // its beginning, as far as the surfaces in front of it allow.
-void run_out(Site& site, std::size_t k, const std::vector<Point>& line, double re_mm,
-             double to_z) {
-  if (cut_later(site, site.outer.items[k]) || !(to_z > site.at.z_mm)) return;
+void run_out(Site& site, Side& side, std::size_t k, const std::vector<Point>& line,
+             double re_mm, double to_z) {
+  if (cut_later(site, side.items[k]) || !(to_z > site.at.z_mm)) return;
   auto way = tips(line, re_mm);
   std::reverse(way.begin(), way.end());
   while (way.size() > 2 && way[way.size() - 2].z_mm > to_z) way.pop_back();
   if (!(way.back().z_mm > site.at.z_mm)) return;
   if (way.back().z_mm > to_z) way.back() = at_z(way[way.size() - 2], way.back(), to_z);
-  way.front() = {site.at.h_mm, site.at.z_mm};
-  clip(way, drawn_before(site, site.outer, k), {re_mm});
-  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, site.outer, way[i]);
+  way.front() = {side.sign * site.at.h_mm, site.at.z_mm};
+  clip(way, drawn_before(site, side, k), {re_mm});
+  for (std::size_t i = 1; i < way.size(); ++i) site.to(Kind::feed, side, way[i]);
 }
 
 // Where facing ends at the foot of a shoulder, and the line on which it goes on from there.
@@ -584,13 +588,15 @@ struct ShoulderFoot {
   double width_mm = 0;  // of the undercut
 };
 
-ShoulderFoot shoulder_foot(const Site& site, std::size_t k, double re_mm) {
-  const auto& s = site.outer.items[k];
+ShoulderFoot shoulder_foot(const Site& site, const Side& side, std::size_t k,
+                           double re_mm) {
+  const auto& s = side.items[k];
   ShoulderFoot f;
-  f.line = corrected(site, site.outer, s);
+  f.line = corrected(site, side, s);
   const auto n = normal(f.line[f.line.size() - 2], f.line.back());
   f.turned_h = f.h = tip(f.line.back(), n, kWall, re_mm).h_mm + re_mm;
-  if (const auto u = planning::undercut_behind(site.part, site.setup, {false, s.index})) {
+  if (const auto u =
+          planning::undercut_behind(site.part, site.setup, {s.inner, s.index})) {
     f.line = with_undercut(std::move(f.line), *u, s.z1);
     f.undercut = planning::undercut_way(*u, re_mm);
     f.h = f.line.back().h_mm + f.undercut->foot_h + re_mm;
@@ -713,8 +719,8 @@ void face(Site& site, std::size_t operation) {
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     const bool last = left < kSame_mm;
-    face_pass(site,
-              face_contour(site, o.on[0], last ? 0 : left,
+    face_pass(site, site.outer,
+              face_contour(site, site.outer, o.on[0], last ? 0 : left,
                            hole > 0 ? hole - kBehind_mm : 0, outside, last),
               re, {});
     site.rapid(site.at.h_mm, site.at.z_mm + kAbove_mm);
@@ -725,35 +731,37 @@ void face(Site& site, std::size_t operation) {
 void face_shoulder(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   const auto& id = o.on[0];
-  const auto& items = site.outer.items;
-  std::size_t k = 0;  // the smaller element, before the shoulder
+  Side& side = site.side(part::inner_shoulder(site.part.drawing, id).has_value());
+  const auto& items = side.items;
+  std::size_t k = 0;  // the lower element, before the shoulder
   while (items[k].id + "|" + items[k + 1].id != id &&
          items[k + 1].id + "|" + items[k].id != id)
     ++k;
   const double re = corner_mm(site, o), z = items[k].z1;
-  const auto foot = shoulder_foot(site, k, re);
-  const double outside = shoulder_top(site, operation, k + 1) + kAbove_mm + re;
+  const auto foot = shoulder_foot(site, side, k, re);
+  const double outside =
+      shoulder_top(site, side, operation, k + 1) + site.above(side) + re;
   const double stock = later_mm(site, operation, id) + depth_mm(o);
-  const auto before = drawn_before(site, site.outer, k);
+  const auto before = drawn_before(site, side, k);
   double left = stock;
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;
     if (left >= kSame_mm) {
-      face_pass(
-          site,
-          face_contour(site, id, z + left, foot.turned_h + kBehind_mm, outside, false),
-          re, before);
+      face_pass(site, side,
+                face_contour(site, side, id, z + left, foot.turned_h + kBehind_mm,
+                             outside, false),
+                re, before);
     } else {
-      const auto contact = face_contour(site, id, z, foot.h, outside, true);
-      const auto* edge = edge_to_cut(site, site.outer, k + 1);
-      const auto arc = edge ? rounding(site, site.outer, *edge, re) : std::nullopt;
-      face_pass(site, with_edge(site, contact, k + 1, re), re, before,
+      const auto contact = face_contour(site, side, id, z, foot.h, outside, true);
+      const auto* edge = edge_to_cut(site, side, k + 1);
+      const auto arc = edge ? rounding(site, side, *edge, re) : std::nullopt;
+      face_pass(site, side, with_edge(site, side, contact, k + 1, re), re, before,
                 arc ? std::vector<Arc>{*arc} : std::vector<Arc>{});
       if (foot.undercut) down_undercut(site, *foot.undercut, foot.line.back().h_mm);
-      run_out(site, k, foot.line, re,
+      run_out(site, side, k, foot.line, re,
               std::max(z + stock + site.r_most - re, z + foot.width_mm));
     }
-    site.lift(site.outer);
+    site.lift(side);
   }
 }
 

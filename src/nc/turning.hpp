@@ -22,7 +22,7 @@ void turn(Site& site, std::size_t operation);
 /// Faces the free end.
 void face(Site& site, std::size_t operation);
 
-/// Faces the shoulder between two elements.
+/// Faces the shoulder between two elements, outside or between bores.
 void face_shoulder(Site& site, std::size_t operation);
 
 /// What operations after one take off the same surface.

@@ -181,6 +181,24 @@ std::vector<InnerShoulder> inner_shoulders(const Drawing& d) {
   return all;
 }
 
+std::optional<InnerShoulder> inner_shoulder(const Drawing& d, const std::string& id) {
+  for (auto& s : inner_shoulders(d))
+    if (id == s.id || id == s.reversed) return std::move(s);
+  return std::nullopt;
+}
+
+std::optional<InnerShoulder> shoulder_behind(const Drawing& d, std::size_t wider) {
+  for (auto& s : inner_shoulders(d))
+    if (s.wider == wider) return std::move(s);
+  return std::nullopt;
+}
+
+bool has_tolerance(const Drawing& d, const std::string& face) {
+  return std::ranges::any_of(d.tolerances, [&](const Tolerance& t) {
+    return t.of == face || t.between[0] == face || t.between[1] == face;
+  });
+}
+
 bool fits_countersink(const Chamfer& c, double point_deg) {
   if (c.round) return false;
   constexpr double kSame_deg = 1e-6;

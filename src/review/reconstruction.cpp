@@ -65,6 +65,8 @@ class Reconstructing {
         add_element(setup, part_.drawing.inner[i], true);
     for (const std::size_t k : work.shoulders)
       add_face(setup, planning::shoulder_id(part_.drawing, k));
+    for (const std::size_t i : work.inner_shoulders)
+      add_face(setup, part::shoulder_behind(part_.drawing, i)->id);
     add_fixed(setup);
   }
 

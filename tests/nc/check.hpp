@@ -73,7 +73,12 @@ class Check : private Sizes {
     const bool inner = e && e->inner;
     for (const auto& t : p_.part.tools)
       if (t.id == o.tool)
-        return {{t.re_mm, t.minor_kapr_deg * M_PI / 180, 0}, inner, false, false, 0, 0};
+        return {{t.re_mm, t.minor_kapr_deg * M_PI / 180, 0},
+                t.bar.has_value(),
+                false,
+                false,
+                0,
+                0};
     for (const auto& t : p_.part.fixed_tools) {
       if (t.id != o.tool) continue;
       using enum catalogue::FixedUse;
@@ -258,8 +263,8 @@ class Check : private Sizes {
     double r = 0;
     for (const auto& s : p_.plan.setups)
       for (const auto& o : s.operations) {
-        const auto e = part::extent(p_.part.drawing, o.on[0]);
-        if ((e && e->inner) == inner) r = std::max(r, tool(o).outline.re_mm);
+        const auto t = tool(o);
+        if (t.inner == inner && !t.drill) r = std::max(r, t.outline.re_mm);
       }
     return r;
   }

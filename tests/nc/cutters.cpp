@@ -25,7 +25,9 @@ const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o)
 
 bool is_inner(const Planned& p, const OperationPlan& o) {
   const auto e = part::extent(p.part.drawing, o.on[0]);
-  return e && e->inner;
+  return (e && e->inner) || std::ranges::any_of(p.part.tools, [&](const auto& t) {
+           return t.id == o.tool && t.bar;
+         });
 }
 
 double pitch_mm(const Planned& p, const OperationPlan& o) {

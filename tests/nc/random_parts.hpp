@@ -45,6 +45,7 @@ class RandomPart {
     if (bored_) d["inner"] = inner();
     if (below(2)) d["faces"] = faces();
     if (below(2)) d["edges"] = edges();
+    if (bored_ && below(2)) d["tolerances"] = depths(d["inner"]);
     return d;
   }
 
@@ -175,6 +176,29 @@ class RandomPart {
     if (groove) add("right", "groove", groove, D + 2);
     add("right", "cylinder", rest - rest / 2 - groove, D - 2 - below(2));
     if (left) add("left", "cylinder", left, D - below(3));
+    return all;
+  }
+
+  // From the ends to the shoulders between bores; bores from both ends meet.
+  json depths(const json& inner) {
+    json all = json::array();
+    const auto add = [&](const std::string& end, const json& wide, const json& narrow) {
+      if (narrow["kind"] != "cylinder" || wide["kind"] == "groove" ||
+          !(wide["diameter_mm"] > narrow["diameter_mm"]))
+        return;
+      const double half = 0.05 * (1 + below(2));
+      all.push_back(
+          {{"id", "depth-" + end},
+           {"kind", "length"},
+           {"between",
+            {end, wide["id"].get<std::string>() + "|" + narrow["id"].get<std::string>()}},
+           {"limits_mm", {-half, half}}});
+    };
+    const bool from_left = inner.back()["from"] == "left";
+    const auto& last = inner[inner.size() - (from_left ? 2 : 1)];
+    const auto& before = inner[inner.size() - (from_left ? 3 : 2)];
+    add("right", before, last);
+    if (from_left) add("left", inner.back(), last);
     return all;
   }
 

@@ -134,7 +134,8 @@ struct InnerElement {
 inline bool stays(const OuterElement& e) { return e.as_stock; }
 inline bool stays(const InnerElement&) { return false; }
 
-/// A face: "left", "right" (the ends) or "d1|d2" (the shoulder between two elements).
+/// A face: "left", "right" (the ends), "d1|d2" (the shoulder between two elements) or
+/// "b1|b2" (between two bores, the wider one first).
 struct Face {
   std::string id;
   std::optional<double> Ra_um = {}, Rz_um = {};
@@ -286,6 +287,13 @@ struct InnerShoulder {
 };
 /// The shoulders between bores of different diameters that no groove is beside.
 std::vector<InnerShoulder> inner_shoulders(const Drawing& drawing);
+/// The shoulder between bores of a name, in either order; nothing if it names none.
+std::optional<InnerShoulder> inner_shoulder(const Drawing& drawing,
+                                            const std::string& id);
+/// The shoulder at an end of an inner element that is the wider one there.
+std::optional<InnerShoulder> shoulder_behind(const Drawing& drawing, std::size_t wider);
+/// Whether a tolerance is on a face, or a length is measured to it.
+bool has_tolerance(const Drawing& drawing, const std::string& face);
 
 /// Whether a countersink of a point angle cuts a chamfer.
 bool fits_countersink(const Chamfer& chamfer, double point_deg);

@@ -23,6 +23,8 @@ struct SetupWork {
   std::vector<std::size_t>
       shoulders;  ///< element k: the face "k-1|k", where the drawing requires it
   std::vector<std::size_t> bores;  ///< indices into drawing.inner
+  /// Of these, where a tolerance is on the shoulder at the inner end: it is faced.
+  std::vector<std::size_t> inner_shoulders;
   /// Chamfers at the free end of elements that earlier setups have made, which no tool cuts
   /// on its way: indices into drawing.outer and drawing.inner.
   std::vector<std::size_t> outer_chamfers, inner_chamfers;

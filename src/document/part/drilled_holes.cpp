@@ -66,20 +66,24 @@ bool is_thread(const part::InnerElement& e) {
   return e.cut && e.cut->kind == part::CutKind::thread;
 }
 
-// Whether the drawing asks for the roughness of the shoulder where a bore ends.
-bool has_smooth_shoulder(const part::Drawing& d, std::size_t i) {
+// Whether the drawing asks for a roughness or a tolerance of the shoulder where a bore ends.
+bool has_demanding_shoulder(const Draft& draft, std::size_t i) {
+  const auto& d = draft.loaded.plan.drawing;
+  const auto tolerances = draft.root.find("tolerances");
   return std::ranges::any_of(part::inner_shoulders(d), [&](const auto& s) {
     return s.wider == i &&
-           std::ranges::find(d.faces, s.id, &part::Face::id) != d.faces.end();
+           (std::ranges::find(d.faces, s.id, &part::Face::id) != d.faces.end() ||
+            (tolerances &&
+             (names(tolerances->json(), s.id) || names(tolerances->json(), s.reversed))));
   });
 }
 
-// Without other edges than chamfers that countersinks cut, and without a shoulder of its
-// own roughness.
+// Without other edges than chamfers that countersinks cut, and without demands on its
+// shoulder.
 bool plain(const Draft& draft, std::size_t i) {
   const auto& d = draft.loaded.plan.drawing;
   const auto& e = d.inner[i];
-  return !has_smooth_shoulder(d, i) && e.kind == part::ElementKind::cylinder &&
+  return !has_demanding_shoulder(draft, i) && e.kind == part::ElementKind::cylinder &&
          !e.left_fillet_mm && !e.right_fillet_mm && can_be_countersunk(draft, i);
 }
 

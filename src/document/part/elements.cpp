@@ -171,34 +171,17 @@ void read_list(Draft& draft, std::vector<Element>& list, const std::vector<Reade
   }
 }
 
-// The shoulder between bores of this name.
-std::optional<part::InnerShoulder> wall_of(const part::Drawing& d,
-                                           const std::string& id) {
-  for (const auto& s : part::inner_shoulders(d))
-    if (id == s.id || id == s.reversed) return s;
-  return std::nullopt;
-}
-
 void read_faces(Draft& draft) {
   std::vector<std::string> known;
   const auto& d = draft.drawing();
   for (const auto& named : features(d))
-    if (named.feature == Feature::face || named.feature == Feature::wall)
-      known.push_back(named.id);
+    if (is_face(named.feature)) known.push_back(named.id);
   auto& faces = draft.drawing().faces;
   for (Reader r : draft.root.optional_items("faces", 0, 200)) {
     r = r.as_object();
     part::Face face;
-    face.id =
-        checked_reference(r.at("id", "the id of a face"), known, "a face of the part");
-    if (const auto wall = wall_of(d, face.id)) {
-      face.id = wall->id;
-      if (part::is_hole(d.inner[wall->wider]))
-        r.problem_at("id",
-                     "the shoulder of a bore that is bored: none of what a drill makes "
-                     "is predicted",
-                     "unsupported");
-    }
+    const Reader id = r.at("id", "the id of a face");
+    face.id = checked_wall(id, d, checked_reference(id, known, "a face of the part"));
     for (const auto& earlier : faces)
       if (!face.id.empty() && earlier.id == face.id)
         r.problem_at("id", "each face once", "duplicate");
@@ -219,6 +202,16 @@ void read_elements(Draft& draft) {
   read_list(draft, drawing.inner, inner, Side::inner, ids);
   give_grooves_their_blanks(draft, outer, inner);
   read_faces(draft);
+}
+
+std::string checked_wall(const Reader& value, const part::Drawing& d, std::string id) {
+  const auto wall = part::inner_shoulder(d, id);
+  if (!wall) return id;
+  if (part::is_hole(d.inner[wall->wider]))
+    value.problem(
+        "the shoulder of a bore that is bored: none of what a drill makes is predicted",
+        "unsupported");
+  return wall->id;
 }
 
 std::vector<NamedFeature> features(const part::Drawing& drawing) {

@@ -26,6 +26,12 @@ bool chamfered(const Element& e) {
   return e.left_chamfer || e.right_chamfer;
 }
 
+// Whether a boring bar cuts what an operation is on.
+bool is_by_bar(const part::Drawing& drawing, const planning::OperationRequest& op) {
+  return is_boring(op.kind) || (op.kind == OperationKind::face && !op.on.empty() &&
+                                part::inner_shoulder(drawing, op.on.front()).has_value());
+}
+
 // Targets of fixed operations: grooves, threads and arcs; drilled bores; chamfers with a
 // pass of their own; ends that are centred or parted off.
 std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
@@ -45,7 +51,7 @@ std::vector<std::string> surfaces(const part::Drawing& drawing, OperationKind ki
   std::vector<std::string> out;
   if (kind == OperationKind::face)
     for (const auto& named : features(drawing))
-      if (named.feature == Feature::face) out.push_back(named.id);
+      if (is_face(named.feature)) out.push_back(named.id);
   if (kind == OperationKind::face) return out;
   if (is_boring(kind))
     for (const auto& e : drawing.inner) out.push_back(e.id);
@@ -62,10 +68,28 @@ const char* wanted(OperationKind kind) {
   return is_boring(kind) ? "an inner element" : "an outer element";
 }
 
+// A boring bar faces shoulders between bores, where a tolerance is on them.
+void check_shoulder(const Draft& draft, const Reader& item,
+                    const planning::OperationRequest& op, const std::string& id) {
+  const auto& d = draft.loaded.plan.drawing;
+  const bool inside = part::inner_shoulder(d, id).has_value();
+  if (!op.on.empty() && inside != is_by_bar(d, op))
+    item.problem(
+        "shoulders between bores, which a boring bar faces, in an operation of their own",
+        "conflict");
+  if (inside && !part::has_tolerance(d, id))
+    item.problem(
+        "a shoulder that a tolerance is on: others between bores are made with the wider "
+        "one",
+        "conflict");
+}
+
 void read_on(Draft& draft, Reader& r, planning::OperationRequest& op) {
   const auto known = surfaces(draft.drawing(), op.kind);
   for (const auto& item : r.items("on", 1, 100)) {
-    auto id = checked_reference(item, known, wanted(op.kind));
+    auto id = checked_wall(item, draft.drawing(),
+                           checked_reference(item, known, wanted(op.kind)));
+    if (op.kind == OperationKind::face) check_shoulder(draft, item, op, id);
     if (!id.empty() && std::find(op.on.begin(), op.on.end(), id) != op.on.end())
       item.problem("each element once", "duplicate");
     op.on.push_back(std::move(id));
@@ -86,11 +110,12 @@ void read_tool_reference(Draft& draft, Reader& r, planning::OperationRequest& op
   }
   for (const auto& tool : draft.plan().tools) known.push_back(tool.id);
   op.tool = checked_reference(r.at("tool"), known, "a tool of this request");
+  const bool by_bar = is_by_bar(draft.drawing(), op);
   for (const auto& tool : draft.plan().tools)
-    if (tool.id == *op.tool && tool.bar.has_value() != is_boring(op.kind))
+    if (tool.id == *op.tool && tool.bar.has_value() != by_bar)
       r.problem_at("tool",
-                   is_boring(op.kind) ? "a tool with a boring bar"
-                                      : "a tool for the outside, not a boring bar",
+                   by_bar ? "a tool with a boring bar"
+                          : "a tool for the outside, not a boring bar",
                    "conflict");
 }
 

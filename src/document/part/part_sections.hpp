@@ -87,8 +87,11 @@ void read_what_if(Draft& draft);     // the form alone
 // Targets of cross-references.
 
 /// fixed: a groove, thread or arc, or what stays as the stock is; wall: a shoulder between
-/// bores, which the finishing pass of the wider one makes
+/// bores, which is a face too
 enum class Feature { cylinder, cone, face, fixed, wall };
+inline bool is_face(Feature feature) {
+  return feature == Feature::face || feature == Feature::wall;
+}
 struct NamedFeature {
   std::string id;
   Feature feature;
@@ -97,6 +100,11 @@ struct NamedFeature {
 /// orders of their bores).  Empty if an element's id could not be read, so that references
 /// cannot be checked.
 std::vector<NamedFeature> features(const part::Drawing& drawing);
+
+/// The id of a face as the drawing has it: of a shoulder between bores the wider one first.
+/// One that a drill makes is a problem of the value that names it.
+std::string checked_wall(const Reader& value, const part::Drawing& drawing,
+                         std::string id);
 
 /// "limits_mm": deviations [lower, upper] of a size, lower < upper.
 part::Limits read_limits(Reader& r);

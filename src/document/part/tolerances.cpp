@@ -14,14 +14,6 @@ using part::ToleranceKind;
 using Datum = part::DatumFeature;
 using Of = part::Toleranced;
 
-bool is_face(Feature feature) { return feature == Feature::face; }
-bool is_wall(Feature feature) { return feature == Feature::wall; }
-
-constexpr auto kOfWalls =
-    "an end or an outer shoulder: of a shoulder between bores, which the finishing pass "
-    "of "
-    "the wider one makes, only the roughness is predicted";
-
 std::vector<std::string> names(const std::vector<NamedFeature>& features,
                                bool (*wanted)(Feature)) {
   std::vector<std::string> out;
@@ -35,11 +27,13 @@ struct Found {
   std::optional<Feature> feature;  // none if the id is unknown, which is reported
 };
 
-Found find_feature(const Reader& value, const std::vector<NamedFeature>& features) {
+Found find_feature(const Reader& value, const part::Drawing& drawing,
+                   const std::vector<NamedFeature>& features) {
   const auto all = names(features, [](Feature) { return true; });
   Found found{checked_reference(value, all, "an element or face of the part"), {}};
   for (const auto& named : features)
     if (named.id == found.id) found.feature = named.feature;
+  found.id = checked_wall(value, drawing, std::move(found.id));
   return found;
 }
 
@@ -123,6 +117,10 @@ class ToleranceReader {
   }
 
  private:
+  Found found(const Reader& value) const {
+    return find_feature(value, draft_.drawing(), features_);
+  }
+
   static Choices<ToleranceKind> kinds() {
     Choices<ToleranceKind> out;
     for (const bool faces : {true, false})
@@ -132,31 +130,26 @@ class ToleranceReader {
   }
 
   void read_between(Reader& r, part::Tolerance& t) const {
-    const auto faces = names(features_, is_face), walls = names(features_, is_wall);
+    const auto faces = names(features_, is_face);
     const auto ends = r.items("between", 2, 2);
     if (ends.size() != 2) return;
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (ends[i].json().is_string() &&
-          std::ranges::find(walls, ends[i].json().get<std::string>()) != walls.end())
-        ends[i].problem(kOfWalls, "unsupported");
-      else
-        t.between[i] = checked_reference(ends[i], faces, "a face of the part");
-    }
+    for (std::size_t i = 0; i < 2; ++i)
+      t.between[i] =
+          checked_wall(ends[i], draft_.drawing(),
+                       checked_reference(ends[i], faces, "a face of the part"));
     if (t.between[0] == t.between[1] && !t.between[0].empty())
       r.problem_at("between", "two different faces", "conflict");
   }
 
   void read_features(Reader& r, part::Tolerance& t) const {
     const auto& facts = part::facts(t.kind);
-    const auto of = find_feature(r.at("of", wanted_feature(facts.of)), features_);
+    const auto of = found(r.at("of", wanted_feature(facts.of)));
     t.of = of.id;
     if (of.feature == Feature::fixed)
       r.problem_at("of",
                    "a surface that is turned, faced or bored: no tolerance is predicted "
                    "of what catalogue conditions make",
                    "unsupported");
-    else if (of.feature == Feature::wall)
-      r.problem_at("of", kOfWalls, "unsupported");
     else if (of.feature && !fits(facts.of, *of.feature))
       r.problem_at("of",
                    wanted_feature(facts.of) + std::string(" for ") + part::name(t.kind),
@@ -180,7 +173,7 @@ class ToleranceReader {
     const Of want = of.feature ? datum_of(wants, *of.feature) : Of::element_or_face;
     const Reader value = r.at("datum", wanted_feature(want));
     if (value.is_array()) return read_common_datum(r, t, want);
-    const auto datum = find_feature(value, features_);
+    const auto datum = found(value);
     t.datum = datum.id;
     if (datum.feature && !fits(want, *datum.feature))
       r.problem_at(
@@ -198,9 +191,9 @@ class ToleranceReader {
     const auto ends = r.items("datum", 2, 2);
     if (ends.size() != 2) return;
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto found = find_feature(ends[i], features_);
-      (i == 0 ? t.datum : t.common_datum) = found.id;
-      if (found.feature && !fits(Of::element, *found.feature))
+      const auto end = found(ends[i]);
+      (i == 0 ? t.datum : t.common_datum) = end.id;
+      if (end.feature && !fits(Of::element, *end.feature))
         ends[i].problem("a cylinder or cone, for only elements have a common axis",
                         "kind");
     }

@@ -66,11 +66,10 @@ Generator face(const PreparedPart& p, const std::string& id, const Place& at) {
   const auto& d = p.drawing;
   const double z = machine_z_mm(p, at, face_z_mm(d, id)), hole = d.stock.inner_mm / 2;
   if (id == "left") return {d.outer.front().left_mm / 2, z, hole, z};
-  for (std::size_t k = 1; k < d.outer.size(); ++k)
-    if (shoulder_id(d, k) == id) {
-      const auto [in, out] = std::minmax(d.outer[k - 1].right_mm, d.outer[k].left_mm);
-      return {out / 2, z, in / 2, z};
-    }
+  if (const auto ring = shoulder_ring(d, id)) {
+    const double in = ring->small_mm / 2, out = ring->large_mm / 2;
+    return ring->inner ? Generator{in, z, out, z} : Generator{out, z, in, z};
+  }
   return {d.outer.back().right_mm / 2, z, hole, z};
 }
 

@@ -46,15 +46,14 @@ double heat_um(const PreparedPart& p, const Tolerance& t) {
 double face_diameter_mm(const part::Drawing& d, const std::string& face) {
   if (face == "left") return d.outer.front().left_mm;
   if (face == "right") return d.outer.back().right_mm;
-  for (std::size_t k = 1; k < d.outer.size(); ++k)
-    if (shoulder_id(d, k) == face)
-      return std::max(d.outer[k - 1].right_mm, d.outer[k].left_mm);
-  return 0;
+  const auto ring = shoulder_ring(d, face);
+  return ring ? ring->large_mm : 0;
 }
 
 bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
                const std::string& face) {
   if (work.end_face && face == free_face(p, setup)) return true;
+  if (const auto s = part::inner_shoulder(p.drawing, face)) return faces(work, *s);
   return std::any_of(work.shoulders.begin(), work.shoulders.end(),
                      [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
 }
@@ -71,8 +70,12 @@ Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) 
   Together both;
   both.setup =
       cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
-  both.tool = both.setup && surface_request(p, setup, t.between[0]).finish_tool ==
-                                surface_request(p, setup, t.between[1]).finish_tool;
+  const auto by_bar = [&](const std::string& face) {
+    return part::inner_shoulder(p.drawing, face).has_value();
+  };
+  both.tool = both.setup && by_bar(t.between[0]) == by_bar(t.between[1]) &&
+              surface_request(p, setup, t.between[0]).finish_tool ==
+                  surface_request(p, setup, t.between[1]).finish_tool;
   return both;
 }
 

@@ -54,9 +54,30 @@ double face_z_mm(const part::Drawing& d, const std::string& face) {
   return part::length_mm(d);
 }
 
+std::optional<Ring> shoulder_ring(const part::Drawing& d, const std::string& face) {
+  const auto ring = [](double a, double b, bool inner) {
+    const auto [small, large] = std::minmax(a, b);
+    return Ring{small, large, inner};
+  };
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face)
+      return ring(d.outer[k - 1].right_mm, d.outer[k].left_mm, false);
+  const auto s = part::inner_shoulder(d, face);
+  if (!s) return std::nullopt;
+  const auto &w = d.inner[s->wider], &n = d.inner[s->narrower];
+  const bool wider_left = part::inner_left_z_mm(d, s->wider) + w.length_mm / 2 < s->z_mm;
+  return wider_left ? ring(w.right_mm, n.left_mm, true)
+                    : ring(n.right_mm, w.left_mm, true);
+}
+
+bool faces(const SetupWork& work, const part::InnerShoulder& shoulder) {
+  return std::ranges::find(work.inner_shoulders, shoulder.wider) !=
+         work.inner_shoulders.end();
+}
+
 std::string cut_with(const part::Drawing& d, const std::string& surface) {
   for (const auto& s : part::inner_shoulders(d))
-    if (s.id == surface) return d.inner[s.wider].id;
+    if (s.id == surface && !part::has_tolerance(d, s.id)) return d.inner[s.wider].id;
   return surface;
 }
 
@@ -72,6 +93,8 @@ std::optional<std::size_t> setup_of(const PreparedPart& p, const std::string& of
     if (any(w.elements, [&](std::size_t i) { return d.outer[i].id; }) ||
         any(w.bores, [&](std::size_t i) { return d.inner[i].id; }) ||
         any(w.shoulders, [&](std::size_t k) { return shoulder_id(d, k); }) ||
+        any(w.inner_shoulders,
+            [&](std::size_t i) { return part::shoulder_behind(d, i)->id; }) ||
         (w.end_face && surface == free_face(p, s)))
       return s;
   }

@@ -28,8 +28,17 @@ std::string shoulder_id(const part::Drawing& drawing, std::size_t k);
 /// with the undercut at its foot: nothing is asked of it but roughness, so it is not faced
 /// by itself.
 bool made_with_undercut(const part::Drawing& drawing, std::size_t k);
-/// The surface whose operation makes a surface: of a shoulder between bores the wider one,
-/// else itself.
+/// Diameters [mm] between which a shoulder lies, outside or between two bores; nothing for
+/// another surface.
+struct Ring {
+  double small_mm = 0, large_mm = 0;
+  bool inner = false;
+};
+std::optional<Ring> shoulder_ring(const part::Drawing& drawing, const std::string& face);
+/// Whether a setup faces the shoulder between two bores by itself.
+bool faces(const SetupWork& work, const part::InnerShoulder& shoulder);
+/// The surface whose operation makes a surface: of a shoulder between bores that no
+/// tolerance is on the wider one, else itself.
 std::string cut_with(const part::Drawing& drawing, const std::string& surface);
 /// The setup that makes an element or face; none if it stays as it is in the stock.
 std::optional<std::size_t> setup_of(const PreparedPart& part, const std::string& surface);

@@ -74,6 +74,8 @@ std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& p) {
     for (const std::size_t i : w.elements) made.insert(p.drawing.outer[i].id);
     for (const std::size_t i : w.bores) made.insert(p.drawing.inner[i].id);
     for (const std::size_t k : w.shoulders) made.insert(shoulder_id(p.drawing, k));
+    for (const std::size_t i : w.inner_shoulders)
+      made.insert(part::shoulder_behind(p.drawing, i)->id);
     if (w.end_face) made.insert(free_face(p, s));
   }
   std::vector<std::size_t> left;

@@ -19,6 +19,17 @@ namespace turnwright::planning {
 ///     p = f_ww + y_w + c_rr,  q = +-(f_wp D/2 - y_p f),  s = -c_rt,
 ///     r = -(f_ww,t + y_t)^2/D                                                        (3)
 ///
+/// The shoulder between two bores is faced by a bar that feeds outwards.  Its feed force
+/// draws the part to the tool's side, which turns the section of the face away from the
+/// tool there, and pushes the bar off the wall, whose tip, at f beside its axis, then comes
+/// forward by y_p; the passive force pushes the tip back by y_z, and shortens the bar, y_a:
+///
+///     p = f_pp rho^2 + c_ax + y_z + y_a,  q = f_wp rho - y_p                         (4)
+///
+/// In the first order no force along vc moves the tip along the bar.
+/// Source: derived here from (1) with the feed turned round, and by reciprocity from the
+/// y_p of (3); inner_shoulder_test has each alone.
+///
 /// Each coefficient depends on the finishing depth, through the body during the pass.
 struct Law {
   Polynomial p, q, s, r;

@@ -108,8 +108,18 @@ bool faces_behind(const PreparedPart& p, std::size_t setup, const SetupWork& wor
   return std::ranges::find(work.shoulders, shoulder) != work.shoulders.end();
 }
 
-std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& p, std::size_t k) {
+bool faces_between(const SetupWork& work, const Element& front, const Element& behind) {
+  const auto& all = front.inner ? work.inner_shoulders : work.shoulders;
+  const auto shoulder = front.inner ? front.index : std::max(front.index, behind.index);
+  return std::ranges::find(all, shoulder) != all.end();
+}
+
+std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& p,
+                                                   const Element& front,
+                                                   const Element& behind) {
+  if (front.inner) return tools_for(p, catalogue::ToolUse::boring);
   const auto& outer = p.drawing.outer;
+  const std::size_t k = std::max(front.index, behind.index);
   const bool undercut = outer[k - 1].right_undercut || outer[k].left_undercut;
   return tools_for(p,
                    undercut ? catalogue::ToolUse::finishing : catalogue::ToolUse::facing);

@@ -61,10 +61,15 @@ std::optional<part::Undercut> undercut_behind(const PreparedPart& plan, std::siz
 bool faces_behind(const PreparedPart& plan, std::size_t setup, const SetupWork& work,
                   const Element& element);
 
-/// The tools that may face the shoulder between outer elements k-1 and k: those for
-/// finishing if an undercut stands before it.
+/// Whether a setup faces the shoulder between two neighbours by itself, outside or between
+/// bores, the second one further from the free end.
+bool faces_between(const SetupWork& work, const Element& front, const Element& behind);
+
+/// The tools that may face the shoulder between two neighbours: boring bars between bores,
+/// outside those for finishing if an undercut stands before it.
 std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& plan,
-                                                   std::size_t shoulder);
+                                                   const Element& front,
+                                                   const Element& behind);
 
 /// Whether a setup makes an element.
 bool makes(const SetupWork& work, const Element& element);

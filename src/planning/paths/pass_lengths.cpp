@@ -100,13 +100,12 @@ std::optional<Item> drawn(const PreparedPart& p, Item e, bool inner) {
 // one; 0 if this setup faces no shoulder there.  It is the largest of its tools'
 // least depths: the tool is not chosen yet, and one that also roughs, which spares a tool
 // change, has the largest.
-double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work,
+double left_before_shoulder_mm(const PreparedPart& p, const SetupWork& work, bool inner,
                                const Item& a, const Item& b) {
-  const std::size_t k = std::max(a.index, b.index);
-  if (std::find(work.shoulders.begin(), work.shoulders.end(), k) == work.shoulders.end())
-    return 0;
+  const Element front{inner, a.index}, behind{inner, b.index};
+  if (!faces_between(work, front, behind)) return 0;
   double most = 0;
-  for (const auto* t : shoulder_tools(p, k))
+  for (const auto* t : shoulder_tools(p, front, behind))
     most = std::max(most, catalogue::least_depth_mm(*t));
   return most;
 }
@@ -146,7 +145,7 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
       s.wall_steps = e.h0 - e.moved > blank;
       s.wall_h = before[e.index] ? e.h0 : stock_h;
       s.wall_drawn_h = is_arc(p, e, s.inner) ? h : after[e.index] ? e.h0 : stock_h;
-      if (!s.inner) s.shoulder_mm = left_before_shoulder_mm(p, work, all[j - 1], e);
+      s.shoulder_mm = left_before_shoulder_mm(p, work, s.inner, all[j - 1], e);
     }
     const auto seen = drawn(p, e, s.inner);
     if (touches || !seen) continue;
@@ -194,7 +193,7 @@ std::optional<Passage> passage(const PreparedPart& p, std::size_t setup,
   };
   if (std::abs(a.z1 - b.z0) >= kSame_mm || rises < -kSame_mm || kept_off || drilled(a) ||
       drilled(b) || !makes(work, {inner, a.index}) || !makes(work, {inner, b.index}) ||
-      (!inner && left_before_shoulder_mm(p, work, a, b) > 0))
+      left_before_shoulder_mm(p, work, inner, a, b) > 0)
     return std::nullopt;
   Passage g;
   g.cylinders = a.h0 == a.h1 && b.h0 == b.h1;

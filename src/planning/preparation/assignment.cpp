@@ -10,6 +10,7 @@
 #include "edge_assignment.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/edges.hpp"
 #include "planning/paths/pass_lengths.hpp"
 #include "planning/values/readable.hpp"
 #include "planning/values/surface_request.hpp"
@@ -78,12 +79,9 @@ bool bore_reachable(const PreparedPart& p, std::size_t s, std::size_t i) {
 }
 
 bool face_named(const part::Drawing& d, const std::string& id) {
-  const auto names = [&](const part::Tolerance& t) {
-    return t.of == id || t.between[0] == id || t.between[1] == id;
-  };
   return std::any_of(d.faces.begin(), d.faces.end(),
                      [&](const part::Face& f) { return f.id == id; }) ||
-         std::any_of(d.tolerances.begin(), d.tolerances.end(), names);
+         part::has_tolerance(d, id);
 }
 
 // Whether an operation of a setup drills the end that a hole is reached from.
@@ -174,6 +172,17 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
         },
         a);
     if (s) a.setups[*s].shoulders.push_back(k);
+  }
+  for (const auto& shoulder : part::inner_shoulders(d)) {
+    if (!part::has_tolerance(d, shoulder.id)) continue;
+    const auto s = place(
+        p, shoulder.id,
+        "it is faced in the setup that bores the wider bore, and none does",
+        [&](std::size_t i) {
+          return makes(a.setups[i], {true, shoulder.wider});
+        },
+        a);
+    if (s) a.setups[*s].inner_shoulders.push_back(shoulder.wider);
   }
 }
 

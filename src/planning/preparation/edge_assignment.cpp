@@ -28,15 +28,13 @@ double end_radius_mm(const part::Drawing& d, const Element& e, End end) {
 // as its corner needs.
 bool leaves_wall(const PreparedPart& p, const SetupWork& work, const Element& e,
                  const Element& front, End end) {
-  const std::size_t shoulder = std::max(e.index, front.index);
-  if (e.inner || std::ranges::find(work.shoulders, shoulder) == work.shoulders.end())
-    return true;
+  if (!faces_between(work, front, e)) return true;
   const auto& d = p.drawing;
   const auto& chamfer = chamfer_at(d, e, end);
-  const double wall_mm = end_radius_mm(d, e, end) -
-                         end_radius_mm(d, front, part::opposite(end)) -
-                         chamfer->radial_mm;
-  return std::ranges::all_of(shoulder_tools(p, shoulder), [&](const catalogue::Tool* t) {
+  const double wall_mm =
+      std::abs(end_radius_mm(d, e, end) - end_radius_mm(d, front, part::opposite(end))) -
+      chamfer->radial_mm;
+  return std::ranges::all_of(shoulder_tools(p, front, e), [&](const catalogue::Tool* t) {
     return t->re_mm + kNoWall_mm <= wall_mm;
   });
 }

@@ -46,7 +46,7 @@ std::string why_none(const PreparedPart& plan, const MachinedSurface& f) {
   if (fixed.rough.ap_mm || fixed.finish.ap_mm)
     return fmt::format(": the given passes do not add up to the {} mm to take off",
                        readable(f.stock_mm()));
-  if (f.kind() == MachinedSurface::Kind::bore)
+  if (f.by_bar())
     return ": no boring bar is thin and long enough, or none can cut the depth that is "
            "left";
   if (const auto& c = plan.machine.live_centre; meets_centre(plan, f))

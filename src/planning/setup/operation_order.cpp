@@ -12,7 +12,8 @@ std::size_t place_in_setup(MachinedSurface::Kind kind, bool rough) {
   if (kind == end_face) return 0;
   if (kind == element) return rough ? 1 : 2;
   if (kind == shoulder) return 3;
-  return rough ? 4 : 5;
+  if (kind == bore) return rough ? 4 : 5;
+  return 6;
 }
 
 std::vector<OperationPlan> operations_in_order(const PreparedPart& p,

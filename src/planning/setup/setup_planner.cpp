@@ -77,6 +77,10 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       add(d.inner[i].id, [&](const GivenConditions& fixed) {
         return MachinedSurface::bore(p, setup, clamping, work, before, i, fixed);
       });
+  for (const std::size_t i : work.inner_shoulders)
+    add(part::shoulder_behind(d, i)->id, [&](const GivenConditions& fixed) {
+      return MachinedSurface::inner_shoulder(p, setup, clamping, work, before, i, fixed);
+    });
   memory_.resize(jobs_.size());
 }
 
@@ -234,9 +238,12 @@ std::vector<Tools> SetupPlanner::choices() const {
 // The tools of a job: roughing and finishing (or facing).
 ToolPair SetupPlanner::tools_of(std::size_t j, const Tools& tools) const {
   const auto& w = jobs_[j].wanted;
-  const bool facing = jobs_[j].feature.last_use() == ToolUse::facing;
+  const auto use = jobs_[j].feature.last_use();
   if (jobs_[j].feature.is_face())
-    return {nullptr, w.finish_tool ? w.finish_tool : facing ? tools.face : tools.finish};
+    return {nullptr, w.finish_tool               ? w.finish_tool
+                     : use == ToolUse::facing    ? tools.face
+                     : use == ToolUse::finishing ? tools.finish
+                                                 : tools.bore_finish};
   const bool bore = jobs_[j].feature.kind() == MachinedSurface::Kind::bore;
   const Tool* rough =
       w.rough_tool ? w.rough_tool : (bore ? tools.bore_rough : tools.rough);

@@ -75,6 +75,13 @@ catalogue::Range overlap(const catalogue::Range& a, const catalogue::Range& b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
+// Eq. (2).
+void face_outwards(const catalogue::Tool& tool, cutting::Cut& cut) {
+  cut.corner =
+      cutting::corner_of(tool.re_mm, units::rad_from_deg(90 + tool.minor_kapr_deg));
+  cut.minor_kapr_rad = units::rad_from_deg(tool.kapr_deg - 90);
+}
+
 const part::Face* find_face(const PreparedPart& p, const std::string& id) {
   for (const auto& f : p.drawing.faces)
     if (f.id == id) return &f;
@@ -170,28 +177,53 @@ MachinedSurface MachinedSurface::shoulder(const PreparedPart& plan, std::size_t 
   f.amplification_ = amplification(plan, clamping, f.bodies_.back());
   // At the jaws themselves it may lie behind them by its last bits.
   f.face_x_ = std::max(0.0, f.bodies_[0].x_mm(part::left_z_mm(plan.drawing, index)));
-  const auto [small, large] =
-      std::minmax(outer[index - 1].right_mm, outer[index].left_mm);
-  f.D_small_ = small;
-  f.D_large_ = large;
-  f.low_ = small / 2;
-  f.high_ = large / 2;
   const std::size_t behind =
       outer[index - 1].right_mm > outer[index].left_mm ? index - 1 : index;
-  const bool stands =
-      !before.outer[behind] && place_of(work.elements, behind) == work.elements.size();
-  f.top_h_ = (stands ? plan.drawing.stock.outer_mm : large) / 2;
-  f.face_z_ = -std::abs(part::left_z_mm(plan.drawing, index) - free_z_mm(plan, setup));
-  for (const auto& t : plan.tools) f.around_.r_most = std::max(f.around_.r_most, t.re_mm);
-  const std::size_t smaller = index - 1 + index - behind;
-  f.around_.fillet_mm = fillet_behind_mm(plan, setup, {false, smaller});
-  f.around_.undercut = undercut_behind(plan, setup, {false, smaller});
-  f.around_.wall_chamfer =
-      makes(work, {false, behind})
-          ? part::Chamfer{}
-          : front_chamfer(plan, setup, {false, behind}).value_or(part::Chamfer{});
-  f.around_.wall_in_stock = stands;
+  f.take_shoulder(work, {false, index - 1 + index - behind}, {false, behind},
+                  part::left_z_mm(plan.drawing, index), !before.outer[behind],
+                  plan.drawing.stock.outer_mm);
   return f;
+}
+
+MachinedSurface MachinedSurface::inner_shoulder(const PreparedPart& plan,
+                                                std::size_t setup, Clamping clamping,
+                                                const SetupWork& work,
+                                                const Finished& before, std::size_t wider,
+                                                const GivenConditions& fixed) {
+  const auto s = *part::shoulder_behind(plan.drawing, wider);
+  MachinedSurface f(plan, setup, clamping, Kind::inner_shoulder, s.id, fixed);
+  auto after = before;
+  finish(after, work);
+  f.bodies_.emplace_back(plan, setup, clamping, after);
+  f.face_x_ = std::max(0.0, f.bodies_[0].x_mm(s.z_mm));
+  f.take_shoulder(work, {true, wider}, {true, s.narrower}, s.z_mm,
+                  !before.inner[s.narrower], hole_mm(plan, wider));
+  f.depth_mm_ = -f.face_z_;
+  f.around_.front = front_mm(plan, setup, work);
+  return f;
+}
+
+// What a shoulder is between: the element that it stands behind, and the one whose edge
+// it ends at, of the stock's diameter if no setup has made that yet.
+void MachinedSurface::take_shoulder(const SetupWork& work, const Element& front,
+                                    const Element& behind, double z, bool in_stock,
+                                    double stock_mm) {
+  const auto ring = *shoulder_ring(plan_->drawing, surface_);
+  D_small_ = ring.small_mm;
+  D_large_ = ring.large_mm;
+  low_ = D_small_ / 2;
+  high_ = D_large_ / 2;
+  const bool stands = in_stock && !makes(work, behind);
+  top_mm_ = (stands ? stock_mm : ring.inner ? D_small_ : D_large_) / 2;
+  face_z_ = -std::abs(z - free_z_mm(*plan_, setup_));
+  for (const auto& t : plan_->tools) around_.r_most = std::max(around_.r_most, t.re_mm);
+  around_.fillet_mm = fillet_behind_mm(*plan_, setup_, front);
+  around_.undercut = undercut_behind(*plan_, setup_, front);
+  around_.wall_chamfer =
+      makes(work, behind)
+          ? part::Chamfer{}
+          : front_chamfer(*plan_, setup_, behind).value_or(part::Chamfer{});
+  around_.wall_in_stock = stands;
 }
 
 template <class OuterOrInner>
@@ -211,10 +243,8 @@ void MachinedSurface::take(const OuterOrInner& e, std::size_t index, double left
 const part::Face* MachinedSurface::own_wall() const {
   const auto& d = plan_->drawing;
   if (kind_ == Kind::bore) {
-    for (const auto& s : part::inner_shoulders(d))
-      if (s.wider == index_)
-        if (const auto* wall = find_face(*plan_, s.id)) return wall;
-    return nullptr;
+    const auto s = part::shoulder_behind(d, index_);
+    return s && cut_with(d, s->id) == surface_ ? find_face(*plan_, s->id) : nullptr;
   }
   const std::size_t k = around_.mirrored ? index_ + 1 : index_;
   return around_.undercut ? find_face(*plan_, shoulder_id(d, k)) : nullptr;
@@ -254,6 +284,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.tool = &tool;
   const auto& material = plan_->material;
   o.cut = cutting::cut_of(material, tool);
+  if (kind_ == Kind::inner_shoulder) face_outwards(tool, o.cut);
   o.cut.hmin_mm *= roughness_factor(*plan_, material.hmin_uncertainty_pct);
   o.cut.land_Ra_um_mm *= roughness_factor(*plan_, material.land_Ra_uncertainty_pct);
   const auto& shop = plan_->shop;
@@ -298,7 +329,7 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
   o.inner = kind_ == Kind::bore;
   o.least_D_mm = hole_mm_;
   double most = std::max(plan_->damping_ratio, plan_->machine_damping_ratio);
-  if (o.inner) most = std::max(most, tool.bar->damping_ratio.value_or(0));
+  if (by_bar()) most = std::max(most, tool.bar->damping_ratio.value_or(0));
   o.chatter_inwards = (1 + most) / (1 - most);
   yield_along_feed(o);
   o.tapered = o.face || D_small_ < D_large_;
@@ -324,7 +355,7 @@ std::optional<Chain> MachinedSurface::chain(const Recipe& recipe, const Economy&
   }
   if (!c.operations.empty() && !ends_before_jaws(*c.operations.back().tool)) return {};
   // The stock on a shoulder is taken as the least depth of cut of the tool that faces it.
-  if (kind_ == Kind::shoulder) stock = c.operations.back().ap.lower;
+  if (is_shoulder()) stock = c.operations.back().ap.lower;
 
   Affine rough, finish{0, 1};
   if (nr > 0 && nf > 0) {
@@ -373,9 +404,14 @@ bool MachinedSurface::ends_before_jaws(const catalogue::Tool& tool) const {
 }
 
 bool MachinedSurface::enters(const catalogue::Tool& tool) const {
-  if (kind_ != Kind::bore) return true;
-  if (!tool.bar || tool.bar->min_bore_mm > hole_mm_) return false;
-  return catalogue::stick_out_mm(*tool.bar) >= depth_mm_ + kBefore_mm;
+  if (!by_bar()) return true;
+  if (!tool.bar) return false;
+  // Facing begins with the bar's back towards the wider bore.
+  const bool fits = kind_ == Kind::bore ? tool.bar->min_bore_mm <= hole_mm_
+                                        : tool.kapr_deg > 90 &&
+                                              tool.bar->min_bore_mm <=
+                                                  top_mm_ - kAboveBore_mm + D_large_ / 2;
+  return fits && catalogue::stick_out_mm(*tool.bar) >= depth_mm_ + kBefore_mm;
 }
 
 // A flexibility between the supports, with the tailstock's thrust and a follow rest.
@@ -466,11 +502,15 @@ std::vector<std::vector<MachinedSurface::Values>> MachinedSurface::face_laws(
   const auto& f = radial[0];
   const double c_ax = axial_mm_N();
   std::vector<std::vector<Values>> all(chain.stations.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double rho = chain.stations[i].at_mm;
-    for (const auto& o : chain.operations)
+  for (const auto& o : chain.operations) {
+    const BarTip bar = by_bar() ? tip_of(*o.tool->bar) : BarTip{};
+    const double outwards = by_bar() ? 1 : -1;  // the feed, (1) and (4) of yielding.hpp
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double rho = chain.stations[i].at_mm;
       all[i].insert(all[i].end(), o.passes.size(),
-                    {f.f_pp_rad_Nmm * rho * rho + c_ax, -f.f_wp_rad_N * rho, 0, 0});
+                    {f.f_pp_rad_Nmm * rho * rho + c_ax + bar.z + bar.a,
+                     outwards * f.f_wp_rad_N * rho - bar.p, 0, 0});
+    }
   }
   return all;
 }

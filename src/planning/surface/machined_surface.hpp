@@ -14,8 +14,8 @@
 #include "turnwright/planning/process_plan.hpp"
 #include "turnwright/tolerance/piecewise.hpp"
 
-/// One surface in one setup and clamping: an outer element, a bore, an end face or a
-/// shoulder.
+/// One surface in one setup and clamping: an outer element, a bore, an end face, a shoulder
+/// outside or one between two bores.
 namespace turnwright::planning {
 
 /// The properties of a clamping that matter if deflection is not modelled: clampings
@@ -28,7 +28,7 @@ struct Holding {
 
 class MachinedSurface {
  public:
-  enum class Kind { element, bore, end_face, shoulder };
+  enum class Kind { element, bore, end_face, shoulder, inner_shoulder };
 
   static MachinedSurface element(const PreparedPart& plan, std::size_t setup,
                                  Clamping clamping, const SetupWork& work,
@@ -44,6 +44,17 @@ class MachinedSurface {
                                   Clamping clamping, const SetupWork& work,
                                   const Finished& before, std::size_t index,
                                   const GivenConditions& fixed);
+  /// The shoulder behind a bore: a boring bar faces it once all bores are finished, from
+  /// the edge of the narrower bore outwards to the wider one.  The minor edge then leads
+  /// and the major edge trails, so that the angles of the tool from the feed are
+  ///
+  ///     kappa = 90 deg + kappa',  kappa' = KAPR - 90 deg > 0                         (2)
+  ///
+  /// Source: geometry of the edges of one corner, derived here.
+  static MachinedSurface inner_shoulder(const PreparedPart& plan, std::size_t setup,
+                                        Clamping clamping, const SetupWork& work,
+                                        const Finished& before, std::size_t wider,
+                                        const GivenConditions& fixed);
 
   /// Whether the forces are those of worn edges.
   bool is_worn() const {
@@ -64,7 +75,11 @@ class MachinedSurface {
   /// What its last tool is for: a shoulder behind an undercut is faced by a finishing tool,
   /// which goes on into the undercut.
   catalogue::ToolUse last_use() const;
-  bool is_face() const { return kind_ == Kind::end_face || kind_ == Kind::shoulder; }
+  bool is_shoulder() const {
+    return kind_ == Kind::shoulder || kind_ == Kind::inner_shoulder;
+  }
+  bool is_face() const { return kind_ == Kind::end_face || is_shoulder(); }
+  bool by_bar() const { return kind_ == Kind::bore || kind_ == Kind::inner_shoulder; }
   const std::string& surface() const { return surface_; }
   const GivenConditions& fixed() const { return fixed_; }
   double low_mm() const { return low_; }  ///< least z, or rho of a face
@@ -111,7 +126,8 @@ class MachinedSurface {
   /// slender.  Letters as in (1) and (3) of yielding.hpp, y_z of bar_tip.hpp; on faces f_pp
   /// rho^2 and c_ax in place of f_ww and c_rr, and c_rr in place of c_zz + c_ax.  c_zz is
   /// the machine's tool_zz_mm_N; without it the compliances of machine and chuck along the
-  /// feed do not count.  f_s is what an all but rigid part yields in its supports, f_b the
+  /// feed do not count.  On a shoulder between bores y_z + y_a comes in place of y_w, y_w in
+  /// place of y_z, and C_wz is that of -y_p.  f_s is what an all but rigid part yields in its supports, f_b the
   /// bending on top of that, never negative because a stiffer body yields less everywhere;
   /// zeta is the damping ratio of the bending part, zeta_m of the machine, zeta_t of a
   /// boring bar.  The compliances are static.  For modes of any frequencies and at any
@@ -160,6 +176,8 @@ class MachinedSurface {
                   Kind kind, std::string surface, const GivenConditions& fixed);
   template <class OuterOrInner>
   void take(const OuterOrInner& element, std::size_t index, double left_z_mm);
+  void take_shoulder(const SetupWork& work, const Element& front, const Element& behind,
+                     double z_mm, bool in_stock, double stock_mm);
   const part::Face* own_wall() const;
   void take_wall();
   std::optional<part::Undercut> undercut_of_last() const;
@@ -174,6 +192,7 @@ class MachinedSurface {
   void add_lengths(const Recipe& recipe, double stock_mm, Chain& chain) const;
   Beside ways(const OperationModel& operation, const Strokes& strokes) const;
   Beside facing(const OperationModel& operation, const Strokes& strokes) const;
+  Beside facing_inside(const OperationModel& operation, const Strokes& strokes) const;
   void add_laws(Chain& chain, std::optional<double> a_mm) const;
   // Values of p, q, s, r at one finishing depth: [station][pass].
   struct Values {
@@ -188,6 +207,7 @@ class MachinedSurface {
                                   const std::vector<double>& places) const;
   std::vector<double> chatter_places() const;
   void yield_along_feed(OperationModel& o) const;
+  double of_bar(const OperationModel& o) const;
   bool cut_to_chuck(const OperationModel& o) const;
   double feed_sign(const OperationModel& o) const;  // of what the feed force bends
   double axial_mm_N() const;                        // of what holds the part
@@ -220,13 +240,13 @@ class MachinedSurface {
   double face_x_ = 0;                  // of a face, from the root
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters
   double hole_mm_ = 0;                 // of a bore, the hole it starts from
-  double depth_mm_ = 0;                // of a bore, from the free end to its inner end
+  double depth_mm_ = 0;                // of a bar's surface, from the free end
   double Ra_um_ = 0, Rz_um_ = 0;
   Surroundings around_;  // of an element; of a face only the largest corner
   double face_z_ = 0;    // of a face, in the program's coordinates
   DueEdges due_ = {};
   bool goes_on_ = false;           // into an equally high surface that another setup cuts
-  double top_h_ = 0;               // of a shoulder, largest radius behind it
+  double top_mm_ = 0;              // of a shoulder, radius at which its facing begins
   double amplification_ = 1;       // by the tailstock's thrust
   std::vector<SetupBody> bodies_;  // while roughing, while finishing
 };

@@ -59,9 +59,8 @@ std::vector<Recipe> recipes(const PreparedPart& p, const MachinedSurface& f,
           }
   };
   const bool free = !w.given && !f.is_face();
-  const double stock = f.kind() == MachinedSurface::Kind::shoulder && finish
-                           ? catalogue::least_depth_mm(*finish)
-                           : f.stock_mm();
+  const double stock =
+      f.is_shoulder() && finish ? catalogue::least_depth_mm(*finish) : f.stock_mm();
   if (finish && (!w.given || !w.rough)) {  // without roughing
     const auto c = counts_alone(w.fixed.finish.passes, stock, *finish);
     const int most = free ? std::min(c.high, kFinishingPasses) : c.high;

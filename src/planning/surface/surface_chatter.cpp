@@ -94,9 +94,11 @@ std::vector<double> MachinedSurface::chatter_yields(
     yields(body, body, bodies_[0], {face_x_}, r, t);
     auto s = r;
     if (!alike) yields(stiff, stiff, bodies_[0], {face_x_}, s, t);
+    const BarTip tip = by_bar() ? tip_of(*o.tool->bar) : BarTip{};
+    const double bar = by_bar() ? (tip.z + tip.a) * of_bar(o) : 0;
     for (std::size_t k = 0; k < c.size(); ++k)
       c[k] = together(r[0].f_pp_rad_Nmm, s[0].f_pp_rad_Nmm) * sqr(places[k]) +
-             machine * axial_mm_N();
+             machine * axial_mm_N() + bar;
     return c;
   }
   std::vector<double> x(places.size());
@@ -105,14 +107,16 @@ std::vector<double> MachinedSurface::chatter_yields(
   yields(o, left_mm, uncut_mm, x, r, t);
   auto s = r;
   if (!alike) yields(o, left_mm, uncut_mm, x, s, t, true);
-  double bar = 0;
-  if (o.inner)
-    bar =
-        tip_of(*o.tool->bar).w /
-        damped(*plan_, o.tool->bar->damping_ratio.value_or(plan_->machine_damping_ratio));
+  const double bar = by_bar() ? tip_of(*o.tool->bar).w * of_bar(o) : 0;
   for (std::size_t k = 0; k < c.size(); ++k)
     c[k] = together(r[k].f_ww_mm_N, s[k].f_ww_mm_N) + machine * m.tool_rr_mm_N + bar;
   return c;
+}
+
+// Share of a bar's static compliances that counts.
+double MachinedSurface::of_bar(const OperationModel& o) const {
+  const auto& zeta = o.tool->bar->damping_ratio;
+  return 1 / damped(*plan_, zeta.value_or(plan_->machine_damping_ratio));
 }
 
 // C_zz and C_wz of (1).
@@ -122,13 +126,10 @@ void MachinedSurface::yield_along_feed(OperationModel& o) const {
   if (m.tool_zz_mm_N)
     o.chatter_zz_mm_N =
         machine * (is_face() ? m.tool_rr_mm_N : *m.tool_zz_mm_N + axial_mm_N());
-  if (!o.inner) return;
+  if (!by_bar()) return;
   const auto bar = tip_of(*o.tool->bar);
-  const double of_bar =
-      1 /
-      damped(*plan_, o.tool->bar->damping_ratio.value_or(plan_->machine_damping_ratio));
-  o.chatter_zz_mm_N += of_bar * bar.z;
-  o.chatter_wz_mm_N = -feed_sign(o) * of_bar * bar.p;
+  o.chatter_zz_mm_N += of_bar(o) * (is_face() ? bar.w : bar.z);
+  o.chatter_wz_mm_N = -(is_face() ? 1 : feed_sign(o)) * of_bar(o) * bar.p;
 }
 
 std::vector<double> MachinedSurface::last_yields(

@@ -64,7 +64,7 @@ std::string MachinedSurface::edges_asked() const {
 }
 
 catalogue::ToolUse MachinedSurface::last_use() const {
-  if (kind_ == Kind::bore) return catalogue::ToolUse::boring;
+  if (by_bar()) return catalogue::ToolUse::boring;
   return is_face() && !around_.undercut ? catalogue::ToolUse::facing
                                         : catalogue::ToolUse::finishing;
 }

@@ -111,11 +111,12 @@ double over_edge_mm(const Surroundings& s, double corner_mm) {
 // Lengths in the cut are those of the chain: fed_mm counts them longer by the time that
 // the rest takes.
 Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) const {
+  if (kind_ == Kind::inner_shoulder) return facing_inside(o, strokes);
   const double r = o.tool->re_mm, D_c = strokes.limited_mm, n = strokes.passes;
   const double small = D_small_ / 2, large = D_large_ / 2;
   const double stock_h = plan_->drawing.stock.outer_mm / 2;
   const bool end = kind_ == Kind::end_face;
-  const double top = end ? stock_h : top_h_;
+  const double top = end ? stock_h : top_mm_;
   const double to = end ? (small > 0 ? small - kBehind_mm : 0) - r : small;
   const double cut = swept_mm2(small, large, D_c);
   double fed = n * swept_mm2(to, top + kAbove_mm, D_c);
@@ -143,13 +144,36 @@ Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) 
   return b;
 }
 
+// From above the edge of the narrower bore out to the wider one, and along that.
+Beside MachinedSurface::facing_inside(const OperationModel& o,
+                                      const Strokes& strokes) const {
+  const double r = o.tool->re_mm, D_c = strokes.limited_mm, n = strokes.passes;
+  const double small = D_small_ / 2, large = D_large_ / 2;
+  const double from = top_mm_ - kAboveBore_mm, out = o.ap.lower + around_.r_most - r;
+  const double fed = n * swept_mm2(from, large, D_c) -
+                     (n - 1) * swept_mm2(large - kBehind_mm, large, D_c) +
+                     over_edge_mm(around_, r) *
+                         std::max(D_small_ + around_.wall_chamfer.radial_mm, D_c) +
+                     out * std::max(D_large_, D_c);
+  Beside b;
+  b.fed_mm = (large - small) * fed / swept_mm2(small, large, D_c);
+  b.rapid_mm = n * (2 * (around_.front + kClear_mm - face_z_)) - out;
+  b.from_mm = from;
+  b.to_mm = large - kAboveBore_mm;
+  b.rapid_mm += (n - 1) * (b.to_mm - b.from_mm);
+  return b;
+}
+
 InOrder MachinedSurface::in_order(const catalogue::Tool& tool, bool rough) const {
   const bool alone = kind_ == Kind::end_face;
   InOrder o{tool.id, rough || alone ? Stage::roughing : Stage::finishing, alone,
-            kind_ == Kind::bore};
-  const auto b = is_face() ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
-                           : beside(around_, {1, !rough, !rough, tool.re_mm,
-                                              units::rad_from_deg(tool.minor_kapr_deg)});
+            by_bar()};
+  const auto b =
+      kind_ == Kind::inner_shoulder
+          ? Beside{0, 0, 0, top_mm_ - kAboveBore_mm, D_large_ / 2 - kAboveBore_mm}
+      : is_face() ? Beside{0, 0, face_z_, face_z_ + kAbove_mm}
+                  : beside(around_, {1, !rough, !rough, tool.re_mm,
+                                     units::rad_from_deg(tool.minor_kapr_deg)});
   o.from_mm = b.from_mm;
   o.to_mm = b.to_mm;
   return o;

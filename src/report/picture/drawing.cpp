@@ -251,6 +251,12 @@ void draw_cut(SetupView& s) {
     const double z = part::left_z_mm(d, k);
     both(z, d.outer[k - 1].right_mm / 2, z, d.outer[k].left_mm / 2);
   }
+  for (const std::size_t i : s.work.inner_shoulders) {
+    const auto shoulder = *part::shoulder_behind(d, i);
+    const auto ring = *planning::shoulder_ring(d, shoulder.id);
+    const double z = shoulder.z_mm;
+    s.svg.line("cut", s.at(z, ring.small_mm / 2), s.at(z, ring.large_mm / 2));
+  }
   if (!s.work.end_face) return;
   const bool right = s.holds_left();
   const double bore = right ? s.contour.inner.back().r1 : s.contour.inner.front().r0;

@@ -73,7 +73,11 @@ std::string Workpiece::element_at(double z, bool inner) const {
 
 std::string Workpiece::face_at(double z, double within, bool inner) const {
   const auto& d = part_.drawing;
-  if (inner) return element_at(z, true);
+  if (inner) {
+    for (const auto& s : part::inner_shoulders(d))
+      if (part::has_tolerance(d, s.id) && std::abs(z - s.z_mm) <= within) return s.id;
+    return element_at(z, true);
+  }
   const double L = part::length_mm(d);
   if (z >= L - within) return "right";
   if (z <= within) return "left";

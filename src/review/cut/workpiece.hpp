@@ -19,8 +19,8 @@ class Workpiece {
 
   /// The element next to a place along the axis; empty if the part has no inner ones.
   std::string element_at(double z_mm, bool inner) const;
-  /// The face next to a place: an end, or the shoulder between two elements; of none within
-  /// `within_mm` the element there.
+  /// The face next to a place: an end, the shoulder between two elements, or one between two
+  /// bores that is faced; of none within `within_mm` the element there.
   std::string face_at(double z_mm, double within_mm, bool inner) const;
 
   /// The surface radius on a column, the bore's for an inner one; nothing without material.
