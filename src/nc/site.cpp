@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "planning/paths/edges.hpp"
+#include "planning/paths/programmed_faces.hpp"
 
 namespace turnwright::nc {
 
@@ -61,12 +62,20 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
   }
   if (!faced)
     front = planning::face_stock_mm(part, sign > 0 ? part::End::right : part::End::left);
+  const auto moved = planning::faces_moved_mm(part.drawing);
   const auto add = [&](Side& side, const auto& elements, const auto& left_z,
                        const std::vector<bool>& done, bool bore) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const auto& e = elements[i];
-      const double a = z(left_z(i)), b = z(left_z(i) + e.length_mm);
-      const double ra = side.sign * e.left_mm / 2, rb = side.sign * e.right_mm / 2;
+      const auto by = [&](part::End end) {
+        return planning::end_moved_mm(moved, part.drawing, {bore, i}, end);
+      };
+      const double moves_a = by(part::End::left), moves_b = by(part::End::right);
+      const double a = z(left_z(i) + moves_a), b = z(left_z(i) + e.length_mm + moves_b);
+      // A cone stays where it is drawn and ends at the displaced face.
+      const double rises = side.sign * (e.right_mm - e.left_mm) / 2 / e.length_mm;
+      const double ra = side.sign * e.left_mm / 2 + rises * moves_a,
+                   rb = side.sign * e.right_mm / 2 + rises * moves_b;
       const auto left = planning::turned(e.left_chamfer),
                  right = planning::turned(e.right_chamfer);
       side.items.push_back(

@@ -36,6 +36,8 @@
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
 ///                 runs out along the smaller element, a cone too, to where turning ended;
 ///                 between bores along the wider one
+///     lengths     shoulders stand where lengths to them are in the middles of their limits
+///                 (planning/paths/programmed_faces.hpp)
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm
 ///     grooves     plunges side by side between the walls, the first at the chuck's
 ///     threads     radial infeeds, each from 3 pitches before, and from before what rises

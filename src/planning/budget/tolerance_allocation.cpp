@@ -10,6 +10,7 @@
 #include "planning/clamping/jaws.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "planning/values/surface_request.hpp"
 #include "turnwright/base/interval.hpp"
 #include "turnwright/deflection/shop_errors.hpp"
@@ -265,6 +266,8 @@ ToleranceAllocation tolerance_allocation(const PreparedPart& p, std::size_t tole
         squeeze_um(p, t, making.setup, making.clamping,
                    jaw_force_N(p, making.setup, making.clamping, Stage::finishing)));
   fixed(kMeasurement, (size ? 2 : 1) * shop.measurement_U_um);
+  if (t.kind == ToleranceKind::length)
+    fixed("chain", 2 * units::um_from_mm(std::abs(off_middle_mm(p.drawing, t))));
   if (size) {
     const double s = sensitivity(p, t);
     const auto both = together(p, t, making.setup);

@@ -31,6 +31,9 @@ inline constexpr const char* kMeasurement = "measurement";
 ///     jaw-squeeze   deflection/ring.hpp (1), a tube in jaws: its lobes of the zone of
 ///                   circularity, cylindricity, run-out and profile without datum; twice
 ///                   its largest displacement of a located profile
+///     chain         twice the distance of a length from the middle of its limits where not
+///                   all lengths of a chain can be there (programmed_faces.hpp)
+///                                                  the whole width
 ///     measurement   U of a zone, 2 U of a size     the whole width
 ///     drift         +- drift_um, uniform           sizes; axial ones of lengths
 ///     repeatability normal                         sizes

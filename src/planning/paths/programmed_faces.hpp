@@ -1,0 +1,33 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "planning/clamping/made_surfaces.hpp"
+
+/// Where programs cut the faces of a part beside where they are drawn.
+namespace turnwright::planning {
+
+/// Displacements [mm] along the part's axis, to the right, of the shoulders that lengths are
+/// measured to, so that the lengths lie in the middles of their limits:
+///
+///     d_b - d_a = m                                                                  (1)
+///
+/// of a length from face a to face b right of it, whose limits have the middle m.  Ends
+/// stand where they are drawn, because programs count from them; of shoulders that lengths
+/// connect with no end the leftmost stands.  Where not all lengths of a chain can be in
+/// their middles, the sum of ((d_b - d_a - m)/w)^2 is least, w the widths of their limits.
+/// Empty if every length between other faces than both ends has m = 0.
+/// Source: derived here.
+using MovedFaces = std::map<std::string, double>;
+MovedFaces faces_moved_mm(const part::Drawing& drawing);
+
+/// Displacement of the face at an end of an element; 0 where none is displaced.
+double end_moved_mm(const MovedFaces& moved, const part::Drawing& drawing,
+                    const Element& element, part::End end);
+
+/// Distance [mm] of a length from the middle of its limits where programs make it, in a chain
+/// whose lengths cannot all be in their middles; none of a length between both ends, which
+/// follows from how the part is set up.
+double off_middle_mm(const part::Drawing& drawing, const part::Tolerance& length);
+
+}  // namespace turnwright::planning
