@@ -345,14 +345,17 @@ void over_edge(const Pass& p, const Surface& s, std::vector<Point>& way) {
 }
 
 // Draws the tool out along a wall that has ended its pass: a roughing pass as far as it
-// was deep, which takes off the wedge that the lead angle leaves; the pass that makes the
+// was deep, which takes off the wedge that the lead angle leaves, and so does the last pass
+// in a bore before a shoulder that is faced, because it may be deep; the pass that makes the
 // wall to its top.
 void draw_out(const Pass& p, const Wall& w, std::vector<Point>& way) {
-  if (!w.steps || (p.last && (wall_stock_mm(p, w) > 0 || w.of_arc))) return;
+  const double stock = wall_stock_mm(p, w);
+  const bool makes = p.last && !(stock > 0);
+  if (!w.steps || (p.last && ((stock > 0 && p.side.sign > 0) || w.of_arc))) return;
   const auto end = way.back();
-  const double top = p.last ? w.top_mm : std::min(w.top_mm, end.h_mm + p.ap_mm);
-  if (!(end.z_mm < w.z_mm + wall_stock_mm(p, w) + kStands_mm)) return;
-  if (const auto* edge = p.last ? edge_to_cut(p.site, p.side, w.before + 1) : nullptr)
+  const double top = makes ? w.top_mm : std::min(w.top_mm, end.h_mm + p.ap_mm);
+  if (!(end.z_mm < w.z_mm + stock + kStands_mm)) return;
+  if (const auto* edge = makes ? edge_to_cut(p.site, p.side, w.before + 1) : nullptr)
     over_edge(p, *edge, way);
   else if (top > end.h_mm + kStands_mm)
     way.push_back({top, end.z_mm});

@@ -195,6 +195,46 @@ TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
   EXPECT_EQ(made, 8);
 }
 
+// Over the shoulder a facing pass takes as long as planned, but for the middle of the bore's
+// limits; the way out along the bore is no part of it.
+TEST(PlanAndProgram, OfFacedShouldersBetweenBoresTakeTheSameTime) {
+  constexpr double kOfLimits = 0.005;
+  int made = 0;
+  for (const auto& one : document::parse_file(source("tests/data/awkward_parts.json"))) {
+    const auto name = one["part"]["name"].get<std::string>();
+    if (!name.starts_with("toleranced-")) continue;
+    const auto p = planned(one["part"]);
+    const auto all = programs(p.part, p.plan);
+    EXPECT_LE(apart(name, p, all), kAlike) << name;
+    for (const auto& program : all.setups)
+      for (const auto& o : p.plan.setups[program.setup].operations) {
+        if (o.on[0].find('|') == std::string::npos) continue;
+        const auto step = std::ranges::find_if(program.steps, [&](const Step& s) {
+          return !s.comments.empty() &&
+                 s.comments[0].starts_with("operation " + o.id + ":");
+        });
+        ASSERT_NE(step, program.steps.end()) << o.id;
+        SetupProgram alone;
+        alone.steps = {*step};
+        auto& moves = alone.steps[0].moves;
+        while (moves.back().kind == Kind::rapid ||
+               moves.back().x_mm == moves[moves.size() - 2].x_mm)
+          moves.pop_back();
+        const auto slopes = [&](std::size_t i) {
+          return moves[i].kind != Kind::rapid && moves[i].z_mm != moves[i - 1].z_mm;
+        };
+        bool edge = false;  // an edge that another setup leaves is cut on the way
+        for (std::size_t i = 1; i < moves.size(); ++i) edge = edge || slopes(i);
+        if (edge) continue;
+        EXPECT_NEAR(minutes(alone, p.part.machine).cutting, o.time_min,
+                    kOfLimits * o.time_min)
+            << name << " " << o.id;
+        ++made;
+      }
+  }
+  EXPECT_EQ(made, 11);
+}
+
 // Facing goes on along the edge of an element that the setup before has made.
 TEST(PlanAndProgram, OfEdgesAtFacedShouldersTakeTheSameTime) {
   for (const char* key : {"radius_mm", "chamfer_mm"}) {

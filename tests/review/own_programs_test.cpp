@@ -240,6 +240,16 @@ TEST(ReviewOfOwnPrograms, GivesForcesTimesAndTolerancesOfThePlanInFanuc) {
                           {.control = gcode::Control::fanuc});
 }
 
+// Shoulders between bores, which a bar faces.
+TEST(ReviewOfOwnPrograms, GivesShouldersBetweenBoresToThePassThatFacesThem) {
+  for (const char* name : {"toleranced-counterbores-plain", "toleranced-low-shoulder",
+                           "toleranced-shoulder-before-a-thread"}) {
+    const auto& p = nc::test::planned_awkward(name);
+    ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+    expect_review_of_plan(name, p, {});
+  }
+}
+
 // Reamers and taps, whose words differ most.
 TEST(ReviewOfOwnPrograms, FollowsReamersAndTapsInEveryControl) {
   for (const char* name : nc::test::kWithHoles)

@@ -35,7 +35,8 @@
 ///                 walls, and draws out to the top of the last one
 ///     shoulders   faced by the plan: turning leaves them their stock, the facing pass
 ///                 runs out along the smaller element, a cone too, to where turning ended;
-///                 between bores along the wider one
+///                 between bores along the wider one, after passes that have all drawn out
+///                 as far as they were deep
 ///     lengths     shoulders stand where lengths to them are in the middles of their limits
 ///                 (planning/paths/programmed_faces.hpp)
 ///     faces       past the axis by r, of a hollow part past the hole by r + 0.2 mm

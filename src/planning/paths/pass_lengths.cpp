@@ -369,10 +369,12 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     // Where a rounded edge begins, the tip is a corner's radius lower.
     if (last && on)
       return s.behind->wall_to_h.value_or(h) - (s.below_rounding_mm ? r : 0);
+    const bool faced = last && s.shoulder_mm > 0;
     if (!s.wall_steps || !(z < s.wall_z + wall_stock(last) + kLevel_mm) ||
-        (last && s.shoulder_mm > 0))
+        (faced && !s.inner))
       return h;
-    return std::max(h, last ? s.wall_drawn_h : std::min(s.wall_h, h + strokes.depth_mm));
+    return std::max(
+        h, last && !faced ? s.wall_drawn_h : std::min(s.wall_h, h + strokes.depth_mm));
   };
   const auto start = [&](bool last) {
     if (last && from_before && rounds) return s.z0;
@@ -451,8 +453,8 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     const double a = start(last), b = end(last, left);
     const double undercut = last && s.undercut ? s.undercut->depth_mm : 0;
     const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left - undercut;
-    const bool chamfers =
-        last && !on && s.wall_chamfer.axial_mm > 0 && out_h > s.wall_edge_h;
+    const bool chamfers = last && !on && !(s.shoulder_mm > 0) &&
+                          s.wall_chamfer.axial_mm > 0 && out_h > s.wall_edge_h;
     const double wall_h = chamfers && !s.wall_in_stock ? s.wall_edge_h : out_h;
     const double wall =
         std::abs(sqr(wall_h) - sqr(from_h)) / std::abs(s.h0 + s.h1 + 2 * left);

@@ -291,6 +291,29 @@ TEST(InnerShoulder, MayHaveEveryToleranceOfAFace) {
             2);
 }
 
+// Its roughness is that of its own pass, and slows no other.
+TEST(InnerShoulder, OfItsOwnOperationIsAsSmoothAsTheDrawingAsks) {
+  auto document = with_depth(0.05);
+  const auto rough = plan(part(document));
+  document["faces"] = {{{"id", "seat|bore"}, {"Ra_um", 0.8}}};
+  const auto smooth = plan(part(document));
+  ASSERT_EQ(smooth.status, PlanStatus::ok);
+  EXPECT_LT(facing(smooth).passes[0].f_mm_rev, facing(rough).passes[0].f_mm_rev);
+  EXPECT_EQ(finish_of(smooth, "seat").passes[0].f_mm_rev,
+            finish_of(rough, "seat").passes[0].f_mm_rev);
+}
+
+// The edge that trails would lie on the shoulder.
+TEST(InnerShoulder, IsNotFacedByABarOf90Degrees) {
+  auto p = part(with_depth(0.05));
+  for (auto& t : p.tools)
+    if (t.bar) t.kapr_deg = 90;
+  EXPECT_EQ(plan(p).status, PlanStatus::infeasible);
+  for (auto& t : p.tools)
+    if (t.bar) t.kapr_deg = 91;
+  EXPECT_EQ(plan(p).status, PlanStatus::ok);
+}
+
 // Two tools wear apart; one drift shifts both faces alike.
 TEST(InnerShoulder, AndTheEndAreCutByTwoTools) {
   auto document = with_depth(0.05);
