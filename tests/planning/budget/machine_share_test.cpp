@@ -132,6 +132,32 @@ TEST(MachineShare, OfALengthIsTheScaleOfWhatLiesBetween) {
   EXPECT_NEAR(um(length("left", "right"), {{"Z", err("EZZ", {0.03, 0, 0, 0})}}), 0, kUm);
 }
 
+// Between a bore of 10 mm and one of 24 mm, 20 mm behind the right end.
+TEST(MachineShare, OfAShoulderBetweenBoresIsThatOfItsRingAndPlace) {
+  auto d = tube();
+  d["stock"]["inner_mm"] = 9;
+  d["inner"] = {{{"id", "seat"},
+                 {"kind", "cylinder"},
+                 {"from", "right"},
+                 {"diameter_mm", 24},
+                 {"length_mm", 20}},
+                {{"id", "bore"},
+                 {"kind", "cylinder"},
+                 {"from", "right"},
+                 {"diameter_mm", 10},
+                 {"length_mm", 120}}};
+  d["tools"] = "all";
+  const auto of = [&](const json& tolerance, json axes) {
+    return take(with(tolerance, std::move(axes), d)).fixed_um;
+  };
+  const json leans = {{"X", square("EB0X", 20e-6)}};
+  EXPECT_NEAR(of(zone("flatness", "seat|bore"), leans), 20e-3 * (12 - 5), kUm);
+  EXPECT_NEAR(of(zone("perpendicularity", "bore|seat", "d2"), leans), 20e-3 * (12 - 5),
+              kUm);
+  EXPECT_NEAR(of(length("right", "seat|bore"), {{"Z", err("EZZ", {0, 2e-3, 0, 0})}}),
+              2 * 20e-3 * 20, kUm);
+}
+
 TEST(MachineShare, OffsetsDropOutIfTheFirstPartIsGauged) {
   auto d = tube();
   d["outer"][1]["limits_mm"] = {-0.05, 0.05};

@@ -105,6 +105,28 @@ TEST(ToleranceAllocation, OfALengthCountsEveryFaceThatIsCut) {
   EXPECT_NEAR(asked[0].upper, (0.2 - taken_mm(a)) / 4, 1e-15);
 }
 
+// Two lengths to one shoulder that ask for it at two places.
+TEST(ToleranceAllocation, OfAChainCountsHowFarItsLengthsAreFromTheirMiddles) {
+  auto d = pin();
+  d["tolerances"] = {{{"id", "l"},
+                      {"kind", "length"},
+                      {"between", {"left", "d1|d2"}},
+                      {"limits_mm", {-0.1, 0.1}}},
+                     {{"id", "m"},
+                      {"kind", "length"},
+                      {"between", {"d1|d2", "right"}},
+                      {"limits_mm", {-0.08, 0.12}}}};
+  const auto p = part(d);
+  for (const char* id : {"l", "m"}) {
+    const auto a = tolerance_allocation(p, tolerance(p, id), in_chuck(p, 0));
+    EXPECT_NEAR(share_um(a, "chain"), 2 * 10, 1e-9) << id;  // each 0.01 mm off
+  }
+  d["tolerances"][1]["limits_mm"] = {-0.1, 0.1};
+  const auto q = part(d);
+  EXPECT_EQ(share_um(tolerance_allocation(q, tolerance(q, "l"), in_chuck(q, 0)), "chain"),
+            0);
+}
+
 // From a shoulder to the end, both cut in the first setup.
 nlohmann::json stepped(const nlohmann::json& budget) {
   auto d = pin_with(budget);
