@@ -59,6 +59,17 @@ bool cuts_face(const PreparedPart& p, std::size_t setup, const SetupWork& work,
                      [&](std::size_t k) { return shoulder_id(p.drawing, k) == face; });
 }
 
+// Which of a setup's tools faces: a bar between bores, the finishing tool behind an
+// undercut.
+catalogue::ToolUse faced_by(const part::Drawing& d, const std::string& face) {
+  if (part::inner_shoulder(d, face)) return catalogue::ToolUse::boring;
+  for (std::size_t k = 1; k < d.outer.size(); ++k)
+    if (shoulder_id(d, k) == face &&
+        (d.outer[k - 1].right_undercut || d.outer[k].left_undercut))
+      return catalogue::ToolUse::finishing;
+  return catalogue::ToolUse::facing;
+}
+
 // Errors that two faces of a length have in common, cut in one setup minutes apart and
 // both facing the free end, shift both alike and do not change the length.
 struct Together {
@@ -71,10 +82,8 @@ Together together(const PreparedPart& p, const Tolerance& t, std::size_t setup) 
   Together both;
   both.setup =
       cuts_face(p, setup, work, t.between[0]) && cuts_face(p, setup, work, t.between[1]);
-  const auto by_bar = [&](const std::string& face) {
-    return part::inner_shoulder(p.drawing, face).has_value();
-  };
-  both.tool = both.setup && by_bar(t.between[0]) == by_bar(t.between[1]) &&
+  both.tool = both.setup &&
+              faced_by(p.drawing, t.between[0]) == faced_by(p.drawing, t.between[1]) &&
               surface_request(p, setup, t.between[0]).finish_tool ==
                   surface_request(p, setup, t.between[1]).finish_tool;
   return both;

@@ -153,6 +153,18 @@ TEST(ToleranceAllocation, WhatShiftsBothFacesOfALengthLeavesItAsItIs) {
     }
 }
 
+// The finishing tool faces a shoulder behind an undercut, the facing tool the end.
+TEST(ToleranceAllocation, TheShoulderBehindAnUndercutWearsAnotherTool) {
+  auto d = stepped({{"life_between_offsets", 0.5}, {"wear_noticed_times", 1}});
+  const auto wear = [&] {
+    const auto p = part(d);
+    return share_um(tolerance_allocation(p, tolerance(p, "l"), in_chuck(p, 0)), "wear");
+  };
+  EXPECT_EQ(wear(), 0);
+  d["edges"] = {{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}};
+  EXPECT_GT(wear(), 0);
+}
+
 // Parts drawn one by one: the edges' wear is each tool's own, the drift that of both.
 TEST(ToleranceAllocation, WithTwoToolsTheWearOfEachCounts) {
   auto d = stepped({{"drift_axial_um", 8}, {"life_between_offsets", 0.5}});
