@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -65,6 +66,9 @@ struct ShopBudget {
 /// has none.  An estimate: turn the valve of the chuck's pressure, read the gauge, start.
 inline constexpr double kJaws_min = 0.25;
 
+/// Stations of a turret that bounds no setup.
+inline constexpr int kAnyStations = std::numeric_limits<int>::max();
+
 struct Lathe {
   std::string id, name;
   double n_min_rpm = 0, n_max_rpm = 0;
@@ -82,6 +86,7 @@ struct Lathe {
   double setup_min = 0;         ///< preparing the machine, per setup and batch [min]
   double cost_per_min = 0;      ///< used when the request gives no rate
   double swing_mm = 0, between_centres_mm = 0;
+  int stations = kAnyStations;  ///< of the turret, for the tools of a setup
   Chuck chuck;
   CentreCompliance tail_centre, head_centre, steady_rest, follow_rest;
   double tail_thrust_N = 0;  ///< thrust of the tailstock on the part

@@ -209,6 +209,8 @@ catalogue::Lathe read_lathe(Reader r) {
   Reader room = r.object("room");
   m.swing_mm = room.number("swing_mm", above_up_to(0, 20000, "mm"));
   m.between_centres_mm = room.number("between_centres_mm", above_up_to(0, 20000, "mm"));
+  if (const auto n = room.optional_integer("stations", 1, 1000))
+    m.stations = static_cast<int>(*n);
   finish_group(room);
   read_chuck(r.object("chuck"), m.chuck);
   read_stiffness(r.object("stiffness"), m);

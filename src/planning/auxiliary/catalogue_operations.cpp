@@ -432,16 +432,20 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   return out;
 }
 
-std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,
-                                          Clamping clamping, const SetupWork& work) {
-  const auto fixed = auxiliary_work(p, setup, clamping, work, {p.machine_per_min, 1});
-  auto all = fixed.conflicts;
-  for (const auto& o : fixed.all())
+std::vector<Conflict> conflicts_of(const AuxiliaryWork& work, std::size_t setup) {
+  auto all = work.conflicts;
+  for (const auto& o : work.all())
     for (const auto& c : o.plan.constraints)
       if (!(c.margin >= -kBeyondRounding))
         all.push_back({c.name, setup_label(setup) + ", " + o.plan.id, c.value, c.limit,
                        c.unit, exceeded(o.plan.id, c)});
   return all;
+}
+
+std::vector<Conflict> auxiliary_conflicts(const PreparedPart& p, std::size_t setup,
+                                          Clamping clamping, const SetupWork& work) {
+  return conflicts_of(auxiliary_work(p, setup, clamping, work, {p.machine_per_min, 1}),
+                      setup);
 }
 
 }  // namespace turnwright::planning

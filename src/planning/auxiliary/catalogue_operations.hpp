@@ -43,7 +43,9 @@ AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
                              Clamping clamping, const SetupWork& work,
                              const Economy& economy);
 
-/// The conflicts of a setup at fixed conditions, limits that are not kept among them.
+/// The conflicts of such operations, limits that are not kept among them.
+std::vector<Conflict> conflicts_of(const AuxiliaryWork& work, std::size_t setup);
+/// The conflicts of a setup at fixed conditions.
 std::vector<Conflict> auxiliary_conflicts(const PreparedPart& plan, std::size_t setup,
                                           Clamping clamping, const SetupWork& work);
 

@@ -10,11 +10,28 @@
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/budget/machine_share.hpp"
 #include "planning/budget/tolerance_allocation.hpp"
+#include "planning/clamping/clamping_checks.hpp"
 #include "planning/clamping/made_surfaces.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/setup/setup_planner.hpp"
 #include "planning/values/readable.hpp"
+#include "stations.hpp"
 
 namespace turnwright::planning {
+namespace {
+
+// In a clamping that cannot be used, those of what is not turned alone.
+std::vector<Conflict> conflicts_in(const PreparedPart& p, std::size_t setup, Clamping c,
+                                   const Finished& done) {
+  const auto& work = p.work.setups[setup];
+  if (!unusable(p, setup, c, work, done).empty())
+    return auxiliary_conflicts(p, setup, c, work);
+  SharedMemory shared;
+  return SetupPlanner(p, setup, c, work, done, {p.machine_per_min, 1}, shared)
+      .conflicts();
+}
+
+}  // namespace
 
 void add_unreachable(const PreparedPart& p, ProcessPlan& result) {
   for (const auto& sentence : p.work.unreachable)
@@ -45,14 +62,16 @@ void add_used_up(const PreparedPart& p, const std::vector<std::size_t>& toleranc
 }
 
 void add_auxiliary_conflicts(const PreparedPart& p, ProcessPlan& result) {
+  auto done = nothing_finished(p.drawing);
   for (std::size_t s = 0; s < p.setups.size(); ++s) {
     std::vector<std::pair<Clamping, Conflict>> all;
     const auto& clampings = p.setups[s].clampings;
     const bool stuck = std::ranges::all_of(clampings, [&](Clamping c) {
-      const auto conflicts = auxiliary_conflicts(p, s, c, p.work.setups[s]);
+      const auto conflicts = conflicts_in(p, s, c, done);
       for (const auto& one : conflicts) all.emplace_back(c, one);
       return !conflicts.empty();
     });
+    finish(done, p.work.setups[s]);
     if (!stuck) continue;
     std::map<std::string, std::size_t> times;
     for (const auto& [c, one] : all) ++times[one.sentence];
@@ -65,6 +84,8 @@ void add_auxiliary_conflicts(const PreparedPart& p, ProcessPlan& result) {
       result.conflicts.push_back(std::move(one));
     }
   }
+  if (std::ranges::count(result.conflicts, kStations, &Conflict::limit) > 0)
+    add_stations_needed(p, result);
 }
 
 std::vector<std::size_t> tolerances_left_to_the_stock(const PreparedPart& p) {

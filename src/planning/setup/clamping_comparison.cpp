@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "infeasibility_reason.hpp"
-#include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/clamping_checks.hpp"
 #include "setup_planner.hpp"
 #include "setup_totals.hpp"
@@ -70,13 +69,14 @@ Comparison compare_clampings(const PreparedPart& p, std::size_t setup,
                         [](Clamping c) { return c != Clamping::chuck; });
   for (const Clamping c : clampings) {
     auto why = unusable(p, setup, c, work, done);
-    if (why.empty())
-      for (const auto& fixed : auxiliary_conflicts(p, setup, c, work))
-        why += (why.empty() ? "" : "; ") + fixed.sentence;
-    if (!why.empty())
-      result.rejected.push_back({c, why, {}});
-    else
+    if (why.empty()) {
       planners.emplace_back(p, setup, c, work, done, economy, shared);
+      for (const auto& one : planners.back().conflicts())
+        why += (why.empty() ? "" : "; ") + one.sentence;
+      if (why.empty()) continue;
+      planners.pop_back();
+    }
+    result.rejected.push_back({c, why, {}});
   }
   if (planners.empty()) return result;
   auto all = best_of_each(planners);

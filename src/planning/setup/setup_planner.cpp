@@ -10,6 +10,8 @@
 #include "operation_order.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/clamping/positions.hpp"
+#include "planning/values/surface_request.hpp"
+#include "planning/values/tool_label.hpp"
 #include "turnwright/base/cancelled.hpp"
 #include "turnwright/base/interval.hpp"
 
@@ -25,9 +27,10 @@ constexpr long kLeastBoxes = 300;
 // Gap at which branch and bound ends, in ln(objective).
 constexpr double kGap = 9e-5;
 
-RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
-                       const Considered& best) {
-  if (!least) return {t.id, use, "its grades are not for this material", {}};
+RejectedTool rejection(const Tool& t, const char* use, bool cuts_material,
+                       const Considered* least, const Considered& best) {
+  if (!cuts_material) return {t.id, use, "its grades are not for this material", {}};
+  if (!least) return {t.id, use, "the turret has too few stations for it", {}};
   if (!std::isfinite(least->at_least))
     return {t.id, use, "cannot make every surface within its limits", {}};
   if (!least->solved && least->at_least < best.at_least)
@@ -41,6 +44,23 @@ RejectedTool rejection(const Tool& t, const char* use, const Considered* least,
                       least->solved ? "comes to" : "cannot come below", least->at_least,
                       best.at_least),
           least->at_least};
+}
+
+Conflict too_few_stations(const PreparedPart& p, std::size_t setup,
+                          const std::set<std::string>& tools) {
+  const auto& m = p.machine;
+  return {
+      kStations,
+      setup_label(setup),
+      static_cast<double>(tools.size()),
+      static_cast<double>(m.stations),
+      "",
+      fmt::format("{} needs {} tools at least, {}; the turret of {} has {} station{}. "
+                  "Another setup for some of them, a tool that serves two uses, one "
+                  "cutter for several milled places or a turret with more stations "
+                  "would do",
+                  setup_label(setup), tools.size(), fmt::join(tools, ", "), m.name,
+                  m.stations, m.stations == 1 ? "" : "s")};
 }
 
 }  // namespace
@@ -82,6 +102,54 @@ SetupPlanner::SetupPlanner(const PreparedPart& p, std::size_t setup, Clamping cl
       return MachinedSurface::inner_shoulder(p, setup, clamping, work, before, i, fixed);
     });
   memory_.resize(jobs_.size());
+  fit_turret();
+}
+
+// The tools of a choice, each once.
+std::set<const Tool*> SetupPlanner::used(const Tools& tools) const {
+  std::set<const Tool*> all;
+  for (std::size_t j = 0; j < jobs_.size(); ++j)
+    for (const Tool* t : {tools_of(j, tools).first, tools_of(j, tools).second})
+      if (t) all.insert(t);
+  return all;
+}
+
+// Leaves the choices of tools for which the turret has stations; a conflict if there are
+// none.  Milled places have each the cutter that is best there: choices that would fit if
+// one did for all of them are not tried, but count in the lower bound.
+void SetupPlanner::fit_turret() {
+  const auto all = every_choice();
+  std::set<std::string> others, cutters;
+  for (const auto& o : auxiliary_.all()) {
+    others.insert(tool_label(p_, o.plan));
+    if (o.plan.milled) cutters.insert(o.plan.tool);
+  }
+  const auto stations = static_cast<std::size_t>(p_.machine.stations);
+  const auto spared = std::max<std::size_t>(cutters.size(), 1) - 1;
+  std::set<const Tool*> fewest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto own = used(all[i]);
+    if (i == 0 || own.size() < fewest.size()) fewest = own;
+    const auto n = own.size() + others.size();
+    if (n <= stations)
+      choices_.push_back(all[i]);
+    else if (n - spared <= stations)
+      nearly_fitting_.push_back(all[i]);
+  }
+  left_out_ = choices_.size() < all.size();
+  if (!choices_.empty()) return;
+  for (const auto* tool : fewest) others.insert(tool->id);
+  auxiliary_.conflicts.push_back(too_few_stations(p_, setup_, others));
+}
+
+std::vector<Conflict> SetupPlanner::conflicts() const {
+  return conflicts_of(auxiliary_, setup_);
+}
+
+double SetupPlanner::least_objective_of(const Tools& tools) {
+  double bound = least_besides_cutting(tools);
+  for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
+  return bound;
 }
 
 std::vector<const MachinedSurface*> SetupPlanner::features() const {
@@ -92,11 +160,7 @@ std::vector<const MachinedSurface*> SetupPlanner::features() const {
 
 SolvedSetup SetupPlanner::best(double most) {
   std::vector<std::pair<double, Tools>> all;
-  for (const auto& tools : choices()) {
-    double bound = least_besides_cutting(tools);
-    for (std::size_t j = 0; j < jobs_.size(); ++j) bound += entry(j, tools).bound;
-    all.emplace_back(bound, tools);
-  }
+  for (const auto& tools : choices_) all.emplace_back(least_objective_of(tools), tools);
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   SolvedSetup best{setup_, clamping_, {}, {}, 0, kInfinity};
@@ -124,6 +188,8 @@ SolvedSetup SetupPlanner::best(double most) {
     any = true;
     if (best.feasible()) most = std::min(most, best.objective);
   }
+  for (const auto& tools : nearly_fitting_)
+    bound = std::min(bound, least_objective_of(tools));
   best.lower_bound = bound;
   if (best.feasible()) best.rejected_tools = rejected(considered, considered[chosen]);
   return best;
@@ -154,7 +220,8 @@ std::vector<RejectedTool> SetupPlanner::rejected(const std::vector<Considered>& 
       const Considered* least = nullptr;
       for (const auto& c : all)
         if (c.tools.*u.tool == &t && (!least || c.at_least < least->at_least)) least = &c;
-      out.push_back(rejection(t, u.name, least, best));
+      const bool cuts = std::ranges::find(t.groups, p_.material.group) != t.groups.end();
+      out.push_back(rejection(t, u.name, cuts, least, best));
     }
   }
   return out;
@@ -168,15 +235,14 @@ bool SetupPlanner::can_be_made(const std::function<bool(const SurfaceTask&)>& ma
     if (fresh) it->second = makes(task(j, tools, offset));
     return it->second;
   };
-  const auto all = choices();
   std::vector<std::size_t> every(jobs_.size());
   std::iota(every.begin(), every.end(), 0);
   return std::all_of(every.begin(), every.end(),
                      [&](std::size_t j) {
-                       return std::any_of(all.begin(), all.end(),
+                       return std::any_of(choices_.begin(), choices_.end(),
                                           [&](const Tools& t) { return made(j, t); });
                      }) &&
-         std::any_of(all.begin(), all.end(), [&](const Tools& t) {
+         std::any_of(choices_.begin(), choices_.end(), [&](const Tools& t) {
            return std::all_of(every.begin(), every.end(),
                               [&](std::size_t j) { return made(j, t); });
          });
@@ -209,7 +275,7 @@ bool SetupPlanner::any(MachinedSurface::Kind kind) const {
 
 // Every combination of one tool for each use that the setup has; roughing, and what the
 // request leaves out, may do without.
-std::vector<Tools> SetupPlanner::choices() const {
+std::vector<Tools> SetupPlanner::every_choice() const {
   using List = std::vector<const Tool*>;
   const auto list = [&](bool wanted, ToolUse use, bool or_none) {
     List tools = wanted ? tools_for(p_, use) : List{};
@@ -333,6 +399,7 @@ const SolvedSurface& SetupPlanner::solved(std::size_t j, const Tools& tools,
 SolvedSetup SetupPlanner::solve(const Tools& tools, double least, double most) {
   SolvedSetup s{setup_, clamping_, {}, {}, 0, 0};
   s.lower_bound = least;
+  s.short_of_stations = left_out_;
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
     // One surface that cannot be made decides; the others are solved only to explain.
     if (!explain_ && !s.feasible()) break;

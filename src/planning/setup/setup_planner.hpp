@@ -17,6 +17,9 @@
 /// The surfaces of one setup in one clamping, and the tools they share.
 namespace turnwright::planning {
 
+/// How conflicts name the stations of the turret, which are too few.
+inline constexpr const char* kStations = "stations of the turret";
+
 /// The tools of a setup, one for each use.
 struct Tools {
   const catalogue::Tool *face = nullptr, *rough = nullptr, *finish = nullptr;
@@ -59,7 +62,11 @@ class SetupPlanner {
   /// A path is corrected for one force, not for all from a new edge to a worn one.
   void allow_compensation() { compensate_ = !(p_.shop.edge_wear_mm > 0); }
 
-  /// The cheapest tools with their solutions.  Tools with the smallest bound are tried
+  /// What stops the setup whatever is turned and bored how: the conflicts of its other
+  /// operations, and too few stations of the turret for its tools.
+  std::vector<Conflict> conflicts() const;
+
+  /// The cheapest tools with their solutions, among those for which the turret has stations.  Tools with the smallest bound are tried
   /// first; those that cannot cost less than `most` are dropped as soon as that is known.
   SolvedSetup best(double most);
 
@@ -89,7 +96,10 @@ class SetupPlanner {
   using ToolOrder = std::vector<std::vector<const catalogue::Tool*>>;
 
   bool any(MachinedSurface::Kind kind) const;
-  std::vector<Tools> choices() const;
+  std::vector<Tools> every_choice() const;
+  std::set<const catalogue::Tool*> used(const Tools& tools) const;
+  void fit_turret();
+  double least_objective_of(const Tools& tools);
   ToolPair tools_of(std::size_t job, const Tools& tools) const;
   SurfaceTask task(std::size_t job, const Tools& tools, Offset offset);
   const std::vector<CutTolerance>& cut_tolerances_of(std::size_t job,
@@ -115,6 +125,8 @@ class SetupPlanner {
   long boxes_ = 0;  // bounded so far
   Tools nearest_;
   SharedMemory& shared_;
+  std::vector<Tools> choices_, nearly_fitting_;
+  bool left_out_ = false;  // some choices
   std::vector<Job> jobs_;
   std::vector<std::map<ToolPair, Entry>> memory_;  // per job, by its tools
   std::map<std::tuple<std::size_t, const catalogue::Tool*, Offset>,

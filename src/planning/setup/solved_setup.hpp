@@ -17,6 +17,7 @@ struct SolvedSetup {
   double lower_bound = 0;
   std::vector<RejectedTool> rejected_tools = {};
   AuxiliaryWork auxiliary = {};
+  bool short_of_stations = false;  ///< for some choices of tools
   bool feasible() const;
 };
 

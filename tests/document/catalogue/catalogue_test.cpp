@@ -265,6 +265,7 @@ TEST(Catalogue, EveryLatheFieldComesFromItsKey) {
   EXPECT_EQ(m.cost_per_min, 1);
   EXPECT_EQ(m.swing_mm, 400);
   EXPECT_EQ(m.between_centres_mm, 1000);
+  EXPECT_EQ(m.stations, 10);
   EXPECT_EQ(m.chuck.grip_force_N, 40000);
   EXPECT_EQ(m.chuck.jaw_mass_radius_kg_m, 0.3);
   EXPECT_EQ(m.chuck.friction, 0.25);
@@ -366,7 +367,7 @@ TEST(Catalogue, AnAxisYNeedsOneThatTurnsThePart) {
 
 TEST(Catalogue, AnyNumberMissingOrOutOfRangeIsNamed) {
   const std::set<std::string> may_be_absent{"/chip/edge_um", "/taylor/b_shallow",
-                                            "/taylor/scatter_pct"};
+                                            "/taylor/scatter_pct", "/room/stations"};
   for (const auto& [name, read] :
        {std::pair{kMaterial,
                   +[](const nlohmann::json& j) { return problems_of(read_material, j); }},
