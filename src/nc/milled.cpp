@@ -7,7 +7,9 @@
 #include <span>
 #include <stdexcept>
 
+#include "planning/auxiliary/cross_holes.hpp"
 #include "planning/auxiliary/milled_paths.hpp"
+#include "turnwright/cutting/fixed.hpp"
 
 namespace turnwright::nc {
 namespace {
@@ -167,9 +169,29 @@ void flat(Cutter& c, const Recess& p) {
     }
 }
 
+// Down to the tip's depth and out, after every peck.
+void drill(Cutter& c, const Site& site, const OperationPlan& o) {
+  const auto& m = milled_place(site, o);
+  const auto& tools = site.part.fixed_tools;
+  const auto tool = std::ranges::find(tools, o.tool, &catalogue::FixedTool::id);
+  if (tool == tools.end()) throw std::domain_error("nc: no drill " + o.tool);
+  const double top = site.part.drawing.outer[m.element].left_mm / 2;
+  const double z = site.z(m.z_mm + m.length_mm / 2);
+  const double tip = planning::cross_hole_tip_mm(m, *tool);
+  c.come(0, z);
+  double reached = 0;
+  for (const double to : cutting::peck_depths_mm(tool->pecking, m.width_mm, tip)) {
+    if (reached > 0) c.rapid(top - reached + kPeck_mm, 0, z);
+    c.feed(top - to, 0, z);
+    c.rapid(c.above(), 0, z);
+    reached = to;
+  }
+}
+
 // Whether a cutter that goes down into solid material cuts over its centre.
 bool plunges(const Site& site, const OperationPlan& o) {
   const auto& m = milled_place(site, o);
+  if (m.kind == MilledKind::cross_hole) return true;
   const auto p = recess_in(site, o);
   return p.kind == MilledKind::flat || p.high_open || p.low_open ||
          std::ranges::find(m.cutters, o.tool, &catalogue::MillingCutter::id)
@@ -190,7 +212,7 @@ std::string not_milled(const Site& site, const OperationPlan& o) {
   const auto before = std::span(site.plan.setups).first(site.setup);
   const auto mills = [](const planning::SetupPlan& s) {
     return std::ranges::any_of(s.operations,
-                               [](const auto& one) { return one.milled.has_value(); });
+                               [](const auto& one) { return is_driven(one.kind); });
   };
   if (std::ranges::any_of(before, mills))
     return "its angle to what an earlier setup has milled is not known";
@@ -205,16 +227,19 @@ std::string not_milled(const Site& site, const OperationPlan& o) {
 
 Milling milling_of(const Site& site, const OperationPlan& o) {
   const double angle = site.sign * milled_place(site, o).angle_deg;
-  return {.n_rpm = o.passes[0].n_rpm,
-          .f_mm_min = o.milled->vf_mm_min,
+  const auto& pass = o.passes[0];
+  return {.n_rpm = pass.n_rpm,
+          .f_mm_min = pass.f_mm_rev * pass.n_rpm,
           .C_deg = std::fmod(std::fmod(angle, 360) + 360, 360),
           .needs_y = farthest_y_mm(site.moves) > 0};
 }
 
 void mill(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
+  const auto& m = milled_place(site, o);
+  Cutter c(site, site.part.drawing.outer[m.element].left_mm / 2 + kAbove_mm);
+  if (m.kind == MilledKind::cross_hole) return drill(c, site, o);
   const auto p = recess_in(site, o);
-  Cutter c(site, p.top + kAbove_mm);
   if (p.kind == MilledKind::flat)
     flat(c, p);
   else if (p.high_open || p.low_open)

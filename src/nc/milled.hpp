@@ -4,7 +4,8 @@
 
 #include "site.hpp"
 
-/// Keyways, slots and flats, milled by a driven tool while the main spindle holds the part.
+/// Keyways, slots, flats and cross holes, cut by a driven tool while the main spindle holds
+/// the part.
 ///
 /// The cutter stands along X, its end towards the spindle's axis; moves are those of the
 /// middle of its end.  It goes along Z in the layers and lanes of the plan, whose feed it
@@ -17,6 +18,8 @@
 ///              cutter is opened in the middle, then both sides are down-milled
 ///     flat     lanes of equal width from one side to the other, down-milled; one that is
 ///              closed at both ends is entered from the side
+///     cross hole  from 1 mm above the cylinder down to the depth of the drill's tip
+///              (planning/auxiliary/cross_holes.hpp), out after every peck
 ///     angle    C turns like a screw towards +Z; drawings count about the part's own z
 ///
 /// Down-milling, with the cutter turning clockwise: material is on the right of its way.

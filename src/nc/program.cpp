@@ -190,12 +190,14 @@ Step stop(std::string told, double minutes) {
 }
 
 // What a program says where somebody mills a place that it does not.
-std::string milled_by_hand(const OperationPlan& o) {
+std::string milled_by_hand(const Site& site, const OperationPlan& o) {
   const auto& p = o.passes[0];
+  const auto passes = o.kind == OperationKind::mill
+                          ? fmt::format(", {} x {:.4g} mm", o.passes.size(), p.ap_mm)
+                          : "";
   return fmt::format(
-      "stop: not in this program: {} with {}, {} x {:.4g} mm, {:.0f} 1/min, "
-      "{:.4g} mm/min",
-      o.id, o.tool, o.passes.size(), p.ap_mm, p.n_rpm, o.milled->vf_mm_min);
+      "stop: not in this program: {} with {}{}, {:.0f} 1/min, {:.4g} mm/min", o.id,
+      planning::tool_label(site.part, o), passes, p.n_rpm, p.f_mm_rev * p.n_rpm);
 }
 
 // The stops before each operation at which the clamping is changed.
@@ -229,7 +231,7 @@ class Numbers {
   TableTool tool(const Site& site, const OperationPlan& o) {
     TableTool t{.id = planning::tool_label(part_, o),
                 .re_mm = corner_mm(site, o),
-                .orientation = o.milled           ? kCutterOrientation
+                .orientation = is_driven(o.kind)  ? kCutterOrientation
                                : on_axis(site, o) ? kDrillOrientation
                                                   : 3};
     if (!o.on.empty() && is_inside(o.on[0]) && t.orientation == 3) t.orientation = 2;
@@ -310,7 +312,7 @@ Step milled(Site& site, std::size_t operation, Numbers& numbers, SetupProgram& p
   mill(site, operation);
   if (const auto why = not_milled(site, o); !why.empty()) {
     site.at = from;
-    auto by_hand = stop(milled_by_hand(o), 0);
+    auto by_hand = stop(milled_by_hand(site, o), 0);
     by_hand.comments.push_back(why);
     return by_hand;
   }
@@ -318,7 +320,7 @@ Step milled(Site& site, std::size_t operation, Numbers& numbers, SetupProgram& p
   site.home(false);
   const auto tool = numbers.tool(site, o);
   list(p, tool);
-  milling.stop = milled_by_hand(o);
+  milling.stop = milled_by_hand(site, o);
   Step step;
   step.comments = comments(o);
   step.comments.push_back(fmt::format("driven tool: {:.0f} 1/min, {:.4g} mm/min",
@@ -344,7 +346,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const auto& o = operations[i];
     p.steps.insert(p.steps.end(), changes[i].begin(), changes[i].end());
-    if (o.kind == OperationKind::mill) {
+    if (is_driven(o.kind)) {
       p.steps.push_back(milled(site, i, numbers, p));
       continue;
     }
@@ -370,7 +372,7 @@ SetupProgram program(Site& site, Numbers& numbers) {
     if (planning::has_live_centre(site.clamping) && !in_chuck_alone(site, o))
       keep_clear_of_centre(site, o, from);
     const bool tool_stays = i + 1 < operations.size() && changes[i + 1].empty() &&
-                            operations[i + 1].kind != OperationKind::mill &&
+                            !is_driven(operations[i + 1].kind) &&
                             numbers.tool(site, operations[i + 1]).number == tool.number;
     if (!tool_stays) site.home(tool.orientation != 3);
     step.moves = site.moves;

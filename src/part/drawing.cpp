@@ -272,6 +272,18 @@ double largest_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
   return most;
 }
 
+double least_hole_mm(const Drawing& d, double z0_mm, double z1_mm) {
+  double least = INFINITY, hollow = 0;
+  for (std::size_t i = 0; i < d.inner.size(); ++i) {
+    const double z0 = inner_left_z_mm(d, i), z1 = z0 + d.inner[i].length_mm;
+    if (!(z0 < z1_mm && z1 > z0_mm)) continue;
+    least = std::min({least, d.inner[i].left_mm, d.inner[i].right_mm});
+    hollow += std::min(z1, z1_mm) - std::max(z0, z0_mm);
+  }
+  constexpr double kSlack_mm = 1e-9;
+  return hollow < z1_mm - z0_mm - kSlack_mm ? std::min(least, d.stock.inner_mm) : least;
+}
+
 bool has_cut(const Drawing& d, const std::string& id) {
   const auto cut = [&](const auto& e) { return e.id == id && e.cut; };
   return std::any_of(d.outer.begin(), d.outer.end(), cut) ||

@@ -28,7 +28,7 @@ PlanRequest as_planned(const PlanRequest& part, const ProcessPlan& plan) {
   for (std::size_t s = 0; s < plan.setups.size(); ++s) {
     r.setups[s].clampings = {plan.setups[s].clamping};
     for (const auto& o : plan.setups[s].operations) {
-      if (o.milled || o.passes.empty()) continue;
+      if (is_driven(o.kind) || o.passes.empty()) continue;
       const Pass& pass = o.passes.front();
       r.operations->push_back({o.id,
                                s,

@@ -84,6 +84,8 @@ void expect_equal(const std::vector<Milled>& a, const std::vector<Milled>& b) {
     EXPECT_EQ(a[i].width_mm, b[i].width_mm);
     EXPECT_EQ(a[i].depth_mm, b[i].depth_mm);
     EXPECT_EQ(a[i].angle_deg, b[i].angle_deg);
+    EXPECT_EQ(a[i].through, b[i].through);
+    expect_equal(a[i].demands, b[i].demands);
   }
 }
 
@@ -302,6 +304,37 @@ TEST(Notation, HasFacesTolerancesAndMilledPlaces) {
   EXPECT_EQ(o.milled[2].kind, Milled::Kind::slot);
 }
 
+TEST(Notation, HasCrossHoles) {
+  const Outline o = read_notation(
+      "d30 x 40; d40 x 50; cross-hole d6 x 8 on d1 at 20; cross-hole ø5.5 H12 through "
+      "wall "
+      "on d2 at 60 angle 45 times 3; cross-hole d8 +0.2/0 through on d2 at 80; "
+      "cross-hole "
+      "d4 through part on d1 at 5");
+  ASSERT_EQ(o.milled.size(), 4u);
+  const auto& a = o.milled[0];
+  EXPECT_EQ(a.kind, Milled::Kind::cross_hole);
+  EXPECT_EQ(a.on, "d1");
+  EXPECT_EQ(a.width_mm, 6);
+  EXPECT_EQ(a.depth_mm, 8);
+  EXPECT_EQ(a.z_mm, 20);
+  EXPECT_EQ(a.through, Milled::Through::no);
+  const auto& b = o.milled[1];
+  EXPECT_EQ(b.width_mm, 5.5);
+  EXPECT_EQ(b.demands.fit, "H12");
+  EXPECT_EQ(b.through, Milled::Through::wall);
+  EXPECT_EQ(b.angle_deg, 45);
+  EXPECT_EQ(b.count, 3);
+  EXPECT_EQ(o.milled[2].demands.limits->upper_mm, 0.2);
+  EXPECT_EQ(o.milled[2].through, Milled::Through::part);
+  EXPECT_EQ(o.milled[3].through, Milled::Through::part);
+  EXPECT_EQ(notation(o),
+            "d30 x 40\nd40 x 50\ncross-hole d6 x 8 on d1 at 20\n"
+            "cross-hole d5.5 H12 through wall on d2 at 60 angle 45 times 3\n"
+            "cross-hole d8 +0.2/0 through part on d2 at 80\n"
+            "cross-hole d4 through part on d1 at 5\n");
+}
+
 TEST(Notation, NamesEveryMistakeByLineAndColumn) {
   EXPECT_EQ(
       mistakes("d50 h7 Ra1.6 x4O; d3O x 20\nnmae: Pin; Ø60 y7 x 5 (2)"),
@@ -370,6 +403,12 @@ TEST(Notation, RefusesWhatIsMissingOrTwiceOrOutOfRange) {
       {"d50 x 40; keyway 10x5x20 on left at 2",
        "got \"left\", expected an element of d1"},
       {"d50 x 40; keyway 10x5x20 at 2", "expected on and an element"},
+      {"d50 x 40; cross-hole 6 x 8 on d1 at 2", "the diameter of the hole like d6, > 0"},
+      {"d50 x 40; cross-hole d6 on d1 at 2",
+       "its depth like x 8, > 0, or through wall, or through part"},
+      {"d50 x 40; cross-hole d6 x 0 on d1 at 2", "its depth like x 8"},
+      {"d50 x 40; cross-hole d6 through bore on d1 at 2", "expected on and an element"},
+      {"d50 x 40; cross-hole d6 x 8 on d1", "at and its middle along the part"},
       {"d50 x 40; flat 2x20 on d1", "expected at and its left end"},
       {"d50 x nan", "got \"x nan\", expected a length"},
       {"d50 x 1e2", "got \"x 1e2\", expected a length"},
@@ -447,12 +486,21 @@ class Chance {
                .count = one_in(3) ? 6 : 1,
                .angle_deg = one_in(2) ? 0 : -size()};
       if (m.kind != flat) m.width_mm = size();
+      if (one_in(4)) make_cross_hole(m);
       o.milled.push_back(m);
     }
     return o;
   }
 
  private:
+  void make_cross_hole(Milled& m) {
+    m.kind = Milled::Kind::cross_hole;
+    m.width_mm = size();
+    m.length_mm = 0;
+    if (one_in(2)) m.through = one_in(2) ? Milled::Through::wall : Milled::Through::part;
+    if (m.through != Milled::Through::no) m.depth_mm = 0;
+    if (one_in(3)) m.demands.fit = "H12";
+  }
   std::size_t count(std::size_t least, std::size_t most) {
     return std::uniform_int_distribution<std::size_t>(least, most)(random_);
   }

@@ -282,6 +282,87 @@ TEST(MilledPlaces, TakeThePlansTime) {
   }
 }
 
+nlohmann::json cross_hole(const nlohmann::json& own) {
+  nlohmann::json place{{"id", "m"},
+                       {"kind", "cross-hole"},
+                       {"on", "d1"},
+                       {"diameter_mm", 8},
+                       {"depth_mm", 33},
+                       {"angle_deg", 30},
+                       {"tool", "DRILL-HSS-5D"}};
+  place.update(own);
+  return place;
+}
+
+// The pin with a hole, held at its left end.
+nlohmann::json drilled_pin(const nlohmann::json& own) {
+  auto document = pin("left", keyway(20, 8, "KEYWAY-HM-8"));
+  document["tools"].push_back("DRILL-HSS-5D");
+  document["milling"] = {cross_hole(own)};
+  return document;
+}
+
+// The drill's tip stays on the part's axis; it goes deeper by feed alone, comes out after each
+// peck, back to 0.5 mm before the depth it had, and takes the plan's time.
+TEST(CrossHoles, AreDrilledInPecksAlongTheRadius) {
+  const double point = 4 / std::tan(59 * 3.14159265358979 / 180), R = 20;
+  const auto& p = planned(drilled_pin({{"at_mm", 40}}));
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  const auto all = programs(p.part, p.plan);
+  const Step* step = nullptr;
+  for (const auto& s : all.setups.at(0).steps)
+    if (s.milling) step = &s;
+  ASSERT_TRUE(step);
+  const auto& o = p.plan.setups[0].operations.back();
+  ASSERT_EQ(o.kind, planning::OperationKind::cross_drill);
+  EXPECT_NEAR(step->milling->C_deg, 30, 1e-9);
+  EXPECT_EQ(step->milling->n_rpm, o.passes[0].n_rpm);
+  EXPECT_FALSE(step->milling->needs_y);
+  const double vf = o.passes[0].f_mm_rev * o.passes[0].n_rpm;
+  EXPECT_NEAR(step->milling->f_mm_min, vf, 1e-9 * vf);
+
+  double fed = 0, deepest = R, last = R;
+  int feeds = 0;
+  Move at{};
+  for (const auto& move : step->moves) {
+    if (move.kind == Kind::feed) {
+      EXPECT_NEAR(move.z_mm, 40 - kLength_mm, 1e-9);
+      EXPECT_EQ(move.z_mm, at.z_mm);
+      EXPECT_EQ(move.y_mm, 0);
+      EXPECT_LT(move.x_mm, deepest);
+      fed += at.x_mm - move.x_mm;
+      last = deepest;
+      deepest = move.x_mm;
+      ++feeds;
+    } else if (at.z_mm == move.z_mm && move.x_mm < R && feeds > 0) {
+      EXPECT_NEAR(move.x_mm, deepest + 0.5, 1e-9);  // back into the hole
+    }
+    at = move;
+  }
+  // 24 mm, then every 8 mm at most, of 35.4.
+  EXPECT_EQ(feeds, 3);
+  EXPECT_NEAR(deepest, R - 33 - point, 1e-9);
+  EXPECT_NEAR(last, R - 24 - (33 + point - 24) / 2, 1e-9);
+  EXPECT_NEAR(fed, o.time_min * vf + 1, 1e-6);  // from 1 mm above
+  EXPECT_GT(at.x_mm, R);
+}
+
+TEST(CrossHoles, StayStopsWithoutAnAxisC) {
+  auto p = planned(drilled_pin({{"at_mm", 40}}));
+  p.part.machine.driven_tools->c_axis = false;
+  const auto all = programs(p.part, p.plan);
+  const auto& o = p.plan.setups[0].operations.back();
+  const auto& step = all.setups.at(0).steps.back();
+  EXPECT_TRUE(step.stop);
+  EXPECT_FALSE(step.milling);
+  ASSERT_EQ(step.comments.size(), 2U);
+  EXPECT_EQ(step.comments[0],
+            fmt::format("stop: not in this program: s1-drill-m with DRILL-HSS-5D 8 mm, "
+                        "driven, {:.0f} 1/min, {:.4g} mm/min",
+                        o.passes[0].n_rpm, o.passes[0].f_mm_rev * o.passes[0].n_rpm));
+  EXPECT_EQ(step.comments[1], "no axis C");
+}
+
 // What the machine cannot do somebody does.
 TEST(MilledPlaces, StayStopsWithoutTheAxes) {
   const auto stops = [](const Planned& p) {

@@ -41,6 +41,23 @@ TEST(Drawing, BoresGoInwardsFromTheirEnd) {
   EXPECT_THROW(inner_left_z_mm(d, 4), std::domain_error);
 }
 
+// 162 long: 20 mm wide from 112, 30 mm wide from 132 on.
+TEST(Drawing, TheLeastHoleIsZeroWhereThePartIsSolid) {
+  Drawing d = three_steps();
+  d.inner = {
+      {.id = "r1", .from = End::right, .length_mm = 30, .left_mm = 30, .right_mm = 30},
+      {.id = "r2", .from = End::right, .length_mm = 20, .left_mm = 20, .right_mm = 20}};
+  EXPECT_EQ(least_hole_mm(d, 135, 140), 30);
+  EXPECT_EQ(least_hole_mm(d, 130, 140), 20);
+  EXPECT_EQ(least_hole_mm(d, 112, 120), 20);
+  EXPECT_EQ(least_hole_mm(d, 111, 120), 0);
+  EXPECT_EQ(least_hole_mm(d, 10, 20), 0);
+  d.stock.inner_mm = 8;  // of a tube
+  EXPECT_EQ(least_hole_mm(d, 111, 120), 8);
+  EXPECT_EQ(least_hole_mm(d, 10, 20), 8);
+  EXPECT_EQ(least_hole_mm(d, 135, 140), 30);
+}
+
 TEST(Drawing, AllowancesAndPartFillTheStock) {
   const Drawing d = three_steps();
   EXPECT_EQ(right_allowance_mm(d), 1.5);  // 166 - 2.5 - 162

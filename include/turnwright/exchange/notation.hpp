@@ -24,6 +24,7 @@
 ///     tolerance = KIND OF [to DATUM] N                       cylindricity d2 0.008
 ///               | diameter ELEMENT limits | length FACE to FACE limits
 ///     milled    = (keyway | slot) WxTxL on ELEMENT at Z [angle A] [times N] | flat TxL on ..
+///               | cross-hole d D [FIT | limits] (x T | through [wall | part]) on ..  cross-hole d6 x 8 on d2 at 30
 ///     centre    = centre (left | right) (A | B | R) D/D          centre right A4/8.5
 ///     title     = (name | material | general | drawing | revision | customer): TEXT
 ///     unit      = unit: (mm | in)
@@ -45,7 +46,8 @@
 ///   two neighbours, "d1|d2"; KIND is a name of part/tolerance_kind.hpp.  DATUM is one of
 ///   these, or two elements for their common axis, "d2-d6".
 /// - T and Z of a milled place: depth below the rim of the cylinder, and its left end
-///   measured from the left end of the part.
+///   measured from the left end of the part; of a cross hole its middle.  One goes through the
+///   wall, into the bore, or through the part, out of the other side, as where neither is said.
 /// - Ø or ⌀ stand for d, × for x, +- or +/- for ±, 45° for 45.  A comma between digits is a
 ///   decimal comma: d50,5.  Blanks between a letter and its number do not matter (x40, Ra
 ///   1.6).  Neither does the case of words; that of fits is kept, R7 of a bore is a fit.

@@ -62,17 +62,21 @@ struct FaceOf {
   std::vector<std::string> sources = {};
 };
 
-/// A milled place on an outer cylinder.
+/// A milled place or a cross hole on an outer cylinder.
 struct Milled {
-  enum class Kind { flat, keyway, slot };
+  enum class Kind { flat, keyway, slot, cross_hole };
+  enum class Through { no, wall, part };
   std::string id;  ///< "m1", "m2" ..
   Kind kind = Kind::keyway;
-  std::string on;  ///< the element
-  double z_mm = 0, length_mm = 0;
-  double width_mm = 0;  ///< not of a flat
-  double depth_mm = 0;  ///< below the cylinder's rim
-  int count = 1;        ///< of such places at equal angles
+  std::string on;        ///< the element
+  double z_mm = 0;       ///< left end, of a cross hole its middle
+  double length_mm = 0;  ///< not of a cross hole
+  double width_mm = 0;   ///< not of a flat; of a cross hole its diameter
+  double depth_mm = 0;   ///< below the cylinder's rim, of what does not go through
+  int count = 1;         ///< of such places at equal angles
   double angle_deg = 0;
+  Through through = Through::no;  ///< of a cross hole
+  Demands demands = {};           ///< likewise, its size alone
   std::vector<std::string> sources = {};
 };
 

@@ -225,6 +225,8 @@ double left_z_mm(const Drawing& drawing, std::size_t i);
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
 /// Largest diameter [mm] of the stock's hole and the inner elements between two positions.
 double largest_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
+/// And the narrowest; 0 if the part is solid somewhere between them.
+double least_hole_mm(const Drawing& drawing, double z0_mm, double z1_mm);
 /// Diameters at the ends of the finished element; of one with a groove, thread or arc,
 /// those of its core.
 template <class Element>

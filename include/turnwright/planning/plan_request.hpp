@@ -74,8 +74,22 @@ struct ShopErrors {
 /// What a drill leaves on the radius for boring [mm].
 inline constexpr double kLeftToBore_mm = 0.5;
 
-enum class OperationKind { face, rough, finish, bore_rough, bore_finish, fixed, mill };
+enum class OperationKind {
+  face,
+  rough,
+  finish,
+  bore_rough,
+  bore_finish,
+  fixed,
+  mill,
+  cross_drill
+};
 const char* name(OperationKind kind);
+
+/// Whether a driven tool cuts, while the main spindle holds the part at an angle.
+constexpr bool is_driven(OperationKind kind) {
+  return kind == OperationKind::mill || kind == OperationKind::cross_drill;
+}
 
 enum class Direction { to_chuck, from_chuck };
 const char* name(Direction direction);
@@ -100,29 +114,44 @@ struct OperationRequest {
 enum class MilledKind {
   flat,    ///< across the cylinder, as wide as its chord
   keyway,  ///< closed at both ends
-  slot     ///< runs out at one end of its element at least
+  slot,    ///< runs out at one end of its element at least
+  cross_hole
 };
 const char* name(MilledKind kind);
 
+/// How far a cross hole goes.
+enum class Through {
+  no,    ///< to a depth
+  wall,  ///< into the bore
+  part   ///< out of the cylinder on its other side
+};
+const char* name(Through through);
+
 /// A keyway, slot or flat, milled into a turned outer cylinder by a driven tool whose
-/// axis crosses that of the part at a right angle, and which is fed along the part.
+/// axis crosses that of the part at a right angle, and which is fed along the part; or a
+/// cross hole, which a drill makes along that axis.
 struct Milled {
   std::string id;
   std::size_t entry =
       0;  ///< of the list that asks for it, which may ask for several alike
   MilledKind kind = MilledKind::keyway;
-  std::size_t element = 0;          ///< of drawing.outer
-  double z_mm = 0, length_mm = 0;   ///< left end, along the part; rounded ends included
-  double width_mm = 0;              ///< of a flat the chord at its floor
-  double depth_mm = 0;              ///< of the floor below the cylinder's rim
-  double angle_deg = 0;             ///< of its middle about the axis
-  std::optional<double> corner_mm;  ///< largest corner radius at the floor
+  std::size_t element = 0;         ///< of drawing.outer
+  double z_mm = 0, length_mm = 0;  ///< left end, along the part; rounded ends included
+  double width_mm = 0;             ///< of a flat the chord at its floor
+  /// Of the floor below the cylinder's rim; of a cross hole without the drill's point, of one
+  /// that goes through as far as its corners have to go.
+  double depth_mm = 0;
+  double angle_deg = 0;                    ///< of its middle about the axis
+  std::optional<double> corner_mm;         ///< largest corner radius at the floor
   std::optional<std::size_t> given_setup;  ///< absent: the first that leaves it free
   double depth_margin = 0.2;               ///< relative margin of stability in depth,
   double speed_margin = 0.02;              ///< at all speeds within this relative margin
   std::vector<catalogue::MillingCutter> cutters;  ///< a given one, or all
   std::optional<int> passes, lanes;               ///< absent: chosen by the planner
   std::optional<double> n_rpm, fz_mm;
+  Through through = Through::no;    ///< of a cross hole, as are the next
+  std::vector<std::string> drills;  ///< those that serve; empty: all of its diameter
+  Conditions drilling;
 };
 
 enum class Objective { cost, time, profit };

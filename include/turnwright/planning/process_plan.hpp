@@ -53,7 +53,7 @@ struct OperatingWindow {
   std::vector<WindowCurve> limit_curves, cost_curves;  ///< if requested
 };
 
-/// The cut of a milled place in addition to its passes, and its limits of stability.
+/// The cut of a keyway, slot or flat in addition to its passes, and its limits of stability.
 struct MilledCut {
   MilledKind kind = MilledKind::keyway;
   int lanes = 1;

@@ -16,6 +16,7 @@ using nlohmann::ordered_json;
 
 const char* kind(exchange::Milled::Kind k) {
   using enum exchange::Milled::Kind;
+  if (k == cross_hole) return "cross-hole";
   return k == flat ? "flat" : k == keyway ? "keyway" : "slot";
 }
 
@@ -80,13 +81,21 @@ ordered_json tolerance(const part::Tolerance& t) {
 }
 
 ordered_json milled(const exchange::Milled& m) {
-  ordered_json out{{"id", m.id},
-                   {"kind", kind(m.kind)},
-                   {"on", m.on},
-                   {"z_mm", m.z_mm},
-                   {"length_mm", m.length_mm}};
-  if (m.kind != exchange::Milled::Kind::flat) out["width_mm"] = m.width_mm;
-  out["depth_mm"] = m.depth_mm;
+  using Through = exchange::Milled::Through;
+  ordered_json out{{"id", m.id}, {"kind", kind(m.kind)}, {"on", m.on}};
+  if (m.kind == exchange::Milled::Kind::cross_hole) {
+    out["at_mm"] = m.z_mm;
+    out["diameter_mm"] = m.width_mm;
+    add_demands(out, m.demands);
+  } else {
+    out["z_mm"] = m.z_mm;
+    out["length_mm"] = m.length_mm;
+    if (m.kind != exchange::Milled::Kind::flat) out["width_mm"] = m.width_mm;
+  }
+  if (m.through == Through::no)
+    out["depth_mm"] = m.depth_mm;
+  else
+    out["through"] = m.through == Through::wall ? "wall" : "part";
   if (m.count > 1) out["count"] = m.count;
   if (m.angle_deg != 0) out["angle_deg"] = m.angle_deg;
   return out;

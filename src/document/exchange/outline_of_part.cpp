@@ -133,9 +133,27 @@ double depth_mm(const json& object, const Outline& o) {
   return on == o.outer.end() ? 0 : (on->left_mm - across) / 2;
 }
 
+exchange::Milled cross_hole_of(const json& object) {
+  using enum exchange::Milled::Through;
+  const auto through = text_of(object, "through");
+  return {.id = text_of(object, "id"),
+          .kind = exchange::Milled::Kind::cross_hole,
+          .on = text_of(object, "on"),
+          .z_mm = *number_of(object, "at_mm"),
+          .width_mm = *number_of(object, "diameter_mm"),
+          .depth_mm = number_of(object, "depth_mm").value_or(0),
+          .count = object.value("count", 1),
+          .angle_deg = number_of(object, "angle_deg").value_or(0),
+          .through = through == "wall"   ? wall
+                     : through == "part" ? part
+                                         : no,
+          .demands = demands_of(object)};
+}
+
 exchange::Milled milled_of(const json& object, const Outline& o) {
   using enum exchange::Milled::Kind;
   const auto k = text_of(object, "kind");
+  if (k == "cross-hole") return cross_hole_of(object);
   return {.id = text_of(object, "id"),
           .kind = k == "flat"     ? flat
                   : k == "keyway" ? keyway

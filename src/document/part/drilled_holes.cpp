@@ -96,22 +96,6 @@ Bores bores_of(const part::Drawing& d, part::End end) {
   return bores;
 }
 
-// The limits that a hole of the document is given, if they can be read.
-std::optional<part::Limits> given_limits(Reader& hole, double D) {
-  if (const auto given = hole.find("limits_mm"))
-    return given->broken() ? std::nullopt : std::optional(read_limits(hole));
-  const auto fit = hole.optional_text("fit", 8);
-  if (!fit) return std::nullopt;
-  try {
-    return tolerance::fit_limits_mm(D, *fit);
-  } catch (const std::domain_error& error) {
-    hole.problem_at("fit",
-                    std::string("an ISO 286 tolerance class (") + error.what() + ")",
-                    "choice");
-    return std::nullopt;
-  }
-}
-
 // What the drill of the k-th bore of an end has to do; `behind` is the hole that it goes on
 // to make.
 HoleDemand wanted(const part::Drawing& d, const Bores& bores, std::size_t k,

@@ -79,6 +79,21 @@ std::vector<const FixedTool*> known_tools(const Draft& draft, FixedUse use) {
   return all;
 }
 
+std::optional<part::Limits> given_limits(Reader& hole, double D) {
+  if (const auto given = hole.find("limits_mm"))
+    return given->broken() ? std::nullopt : std::optional(read_limits(hole));
+  const auto fit = hole.optional_text("fit", 8);
+  if (!fit) return std::nullopt;
+  try {
+    return tolerance::fit_limits_mm(D, *fit);
+  } catch (const std::domain_error& error) {
+    hole.problem_at("fit",
+                    std::string("an ISO 286 tolerance class (") + error.what() + ")",
+                    "choice");
+    return std::nullopt;
+  }
+}
+
 std::optional<MadeHole> drilled_hole(const Draft& draft, const HoleDemand& w) {
   for (const auto* t : known_tools(draft, FixedUse::drilling))
     if (has_size(*t, w.D_mm) && w.takes_drill(w.D_mm) && keeps(*t, w) &&

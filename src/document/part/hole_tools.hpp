@@ -38,6 +38,9 @@ bool keeps_size(const catalogue::FixedTool& tool, double diameter_mm,
 /// What a tool is known to leave: "IT10 and Ra 3.2 um".
 std::string promise(const catalogue::FixedTool& tool);
 
+/// The limits that a hole of the document is given, if they can be read.
+std::optional<part::Limits> given_limits(Reader& hole, double diameter_mm);
+
 /// The hole as a drill, a reamer behind its drill, or a tap makes it; none if none does.
 std::optional<MadeHole> drilled_hole(const Draft& draft, const HoleDemand& demand);
 std::optional<MadeHole> reamed_hole(const Draft& draft, const HoleDemand& demand);

@@ -28,7 +28,7 @@ bool parts(const Slot& a, const Slot& b, double between_rad, double outer_mm) {
   const double middle_b = (rim(b) + b.floor_mm) / 2, deep_b = rim(b) - middle_b;
   const double along = std::abs(middle_b * std::cos(between_rad) - middle_a);
   return along >= deep_a + deep_b * cos + b.width_mm / 2 * sin ||
-         middle_b * sin >= a.width_mm / 2 + deep_b * sin + b.width_mm / 2 * cos;
+         std::abs(middle_b) * sin >= a.width_mm / 2 + deep_b * sin + b.width_mm / 2 * cos;
 }
 
 // Without a width the slot is a flat, as wide as the chord at its floor.

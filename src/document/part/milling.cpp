@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cross_holes.hpp"
 #include "document/catalogue/entries.hpp"
 #include "document/json/fields.hpp"
 #include "document/json/reference.hpp"
@@ -86,6 +87,23 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
     r.problem_at("length_mm", "at least its width, " + mm_text(m.width_mm), "conflict");
 }
 
+// What a place takes of the cross-section: of a hole through the part both halves.
+std::vector<deflection::Slot> slots_of(const Milled& m, double D_mm) {
+  if (m.through != planning::Through::part) return {slot_of(m, D_mm)};
+  auto near = slot_of(m, D_mm);
+  near.floor_mm = 0;
+  auto far = near;
+  far.angle_rad += units::kPi;
+  return {near, far};
+}
+
+bool places_meet(const Milled& a, const Milled& b, double D_mm) {
+  const auto of_a = slots_of(a, D_mm), of_b = slots_of(b, D_mm);
+  return std::ranges::any_of(of_a, [&](const auto& x) {
+    return std::ranges::any_of(of_b, [&](const auto& y) { return meet(x, y, D_mm); });
+  });
+}
+
 // Flats of one entry may meet in an edge, as those of a hexagon do.
 void check_others(const Draft& draft, Reader& r, const Milled& m) {
   for (const auto& feature : features(draft.loaded.plan.drawing))
@@ -97,8 +115,7 @@ void check_others(const Draft& draft, Reader& r, const Milled& m) {
     const double D = draft.loaded.plan.drawing.outer[m.element].left_mm;
     const bool own = other.entry == m.entry && m.kind == MilledKind::flat;
     if (!own && other.element == m.element && other.z_mm < m.z_mm + m.length_mm &&
-        m.z_mm < other.z_mm + other.length_mm &&
-        meet(slot_of(m, D), slot_of(other, D), D))
+        m.z_mm < other.z_mm + other.length_mm && places_meet(m, other, D))
       r.problem("a place that does not meet " + other.id, "conflict");
   }
 }
@@ -148,32 +165,20 @@ std::vector<Milled> places(const Milled& first, int count) {
   return all;
 }
 
-void read_place(Draft& draft, Reader r, std::size_t entry) {
-  r = r.as_object();
-  Milled m;
-  m.entry = entry;
-  m.id = read_id(r);
-  const auto before = r.problems().list.size();
-  m.kind =
-      r.choice("kind", named({MilledKind::flat, MilledKind::keyway, MilledKind::slot}));
-  const bool kind_known = r.problems().list.size() == before;
-  const auto& outer = draft.drawing().outer;
-  const auto on = checked_reference(r.at("on", "the id of an outer cylinder"),
-                                    cylinders(draft.drawing()), "an outer cylinder");
-  const auto e = std::find_if(outer.begin(), outer.end(),
-                              [&](const auto& x) { return !on.empty() && x.id == on; });
+// What a keyway, slot or flat on the outer element `on` has of its own; that is null, and the
+// kind not known, where they could not be read.
+void read_milled_place(Draft& draft, Reader& r, const part::OuterElement* on,
+                       bool kind_known, int count, Milled& m) {
   m.z_mm = r.number("z_mm", within(0, 20000, "mm"));
   m.length_mm = r.number("length_mm", above_up_to(0, 20000, "mm"));
   if (kind_known && m.kind != MilledKind::flat)
     m.width_mm = r.number("width_mm", above_up_to(0, 500, "mm"));
-  const int count = static_cast<int>(r.optional_integer("count", 1, kPlaces).value_or(1));
   const bool across =
       kind_known && m.kind == MilledKind::flat && r.has("across_flats_mm");
-  m.depth_mm = across && e != outer.end() ? depth_of_flats(r, e->left_mm, count)
-               : across                   ? 0 * r.number("across_flats_mm", kSize)
-                        : r.number("depth_mm", above_up_to(0, 500, "mm"));
-  if (!across) m.depth_mm += draft.ground(on) / 2;  // below the rim once it is ground
-  m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
+  m.depth_mm = across && on ? depth_of_flats(r, on->left_mm, count)
+               : across     ? 0 * r.number("across_flats_mm", kSize)
+                            : r.number("depth_mm", above_up_to(0, 500, "mm"));
+  if (!across && on) m.depth_mm += draft.ground(on->id) / 2;  // below the ground rim
   m.corner_mm = r.optional_number("corner_mm", within(0, 250, "mm"));
   if (r.has("tool"))
     m.cutters = {cutter_of(draft.catalogue, r.at("tool"))};
@@ -184,19 +189,43 @@ void read_place(Draft& draft, Reader r, std::size_t entry) {
     draft.assume(r.pointer_of("tool"), "any",
                  "chosen from the milling cutters there are");
   }
-  const auto setups = static_cast<long>(draft.plan().setups.size());
-  const auto setup = r.optional_integer("setup", 0, std::max(setups - 1, long{0}));
   m.depth_margin = margin(draft, r, "stability_margin", within(0, 10), kDepthMargin,
                           "each pass stays stable when it is deeper by this share");
   m.speed_margin =
       margin(draft, r, "speed_margin", within(0.005, 0.2), kSpeedMargin,
              "each pass stays stable at all speeds slower or faster by this share");
   read_given(draft, r, m);
+}
+
+void read_place(Draft& draft, Reader r, std::size_t entry) {
+  r = r.as_object();
+  Milled m;
+  m.entry = entry;
+  m.id = read_id(r);
+  const auto before = r.problems().list.size();
+  m.kind = r.choice("kind", named({MilledKind::flat, MilledKind::keyway, MilledKind::slot,
+                                   MilledKind::cross_hole}));
+  const bool kind_known = r.problems().list.size() == before;
+  const auto& outer = draft.drawing().outer;
+  const auto on = checked_reference(r.at("on", "the id of an outer cylinder"),
+                                    cylinders(draft.drawing()), "an outer cylinder");
+  const auto e = std::find_if(outer.begin(), outer.end(),
+                              [&](const auto& x) { return !on.empty() && x.id == on; });
+  const auto* element = e == outer.end() ? nullptr : &*e;
+  const int count = static_cast<int>(r.optional_integer("count", 1, kPlaces).value_or(1));
+  m.angle_deg = r.number_or("angle_deg", within(-360, 360, "deg"), 0);
+  const auto setups = static_cast<long>(draft.plan().setups.size());
+  const auto setup = r.optional_integer("setup", 0, std::max(setups - 1, long{0}));
+  const bool hole = kind_known && m.kind == MilledKind::cross_hole;
+  if (hole)
+    read_cross_hole(draft, r, element, m);
+  else
+    read_milled_place(draft, r, element, kind_known, count, m);
   if (!kind_known) return;  // the other keys depend on it
   r.finish();
-  if (e == outer.end() || r.problems().list.size() > before) return;
+  if (!element || r.problems().list.size() > before) return;
   m.element = static_cast<std::size_t>(e - outer.begin());
-  check_shape(draft.drawing(), r, m);
+  hole ? check_cross_hole(draft.drawing(), r, m) : check_shape(draft.drawing(), r, m);
   if (setup) m.given_setup = static_cast<std::size_t>(*setup);
   for (auto& one : places(m, count)) {
     check_others(draft, r, one);

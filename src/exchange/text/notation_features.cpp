@@ -21,6 +21,7 @@ std::optional<Milled::Kind> kind_of_milled(Word word) {
   if (same(word, "keyway")) return keyway;
   if (same(word, "slot")) return slot;
   if (same(word, "flat")) return flat;
+  if (same(word, "cross-hole")) return cross_hole;
   return std::nullopt;
 }
 
@@ -150,26 +151,67 @@ bool take_count(Rest& rest, int& count) {
   return count > 0 || rest.mistake("a whole number from 2 to 100 before this");
 }
 
-void read_milled(Rest rest, Milled::Kind kind, Features& out) {
-  Milled m{.id = fmt::format("m{}", out.milled.size() + 1), .kind = kind, .on = {}};
-  const bool flat = kind == Milled::Kind::flat;
+// "2x25" of a flat, "10x5x40" of a keyway or slot.
+bool take_sizes(Rest& rest, Milled& m) {
+  const bool flat = m.kind == Milled::Kind::flat;
   const auto sizes = rest.done() ? std::nullopt : product(rest.here());
   const bool all = sizes && sizes->size() == (flat ? 2 : 3) &&
                    *std::min_element(sizes->begin(), sizes->end()) > 0;
-  if (!all) {
-    rest.mistake(flat ? "depth and length like 2x25, each > 0"
-                      : "width, depth and length like 10x5x40, each > 0");
-    return;
-  }
+  if (!all)
+    return rest.mistake(flat ? "depth and length like 2x25, each > 0"
+                             : "width, depth and length like 10x5x40, each > 0");
   rest.take();
   m.width_mm = flat ? 0 : sizes->front();
   m.depth_mm = (*sizes)[sizes->size() - 2];
   m.length_mm = sizes->back();
+  return true;
+}
+
+// A positive number behind one of the beginnings, to the end of the word.
+std::optional<double> positive_after(Rest& rest,
+                                     std::initializer_list<std::string_view> beginnings) {
+  Word word = rest.done() ? Word() : rest.here();
+  if (!take(word, beginnings)) return std::nullopt;
+  const auto x = number(word);
+  if (!x || !(*x > 0)) return std::nullopt;
+  rest.take();
+  return x;
+}
+
+// "d6 H13 x 8", "d6 through wall" of a cross hole.
+bool take_hole(Rest& rest, Milled& m) {
+  const auto D = positive_after(rest, {"d", "Ø", "ø", "⌀"});
+  if (!D) return rest.mistake("the diameter of the hole like d6, > 0");
+  m.width_mm = *D;
+  if (!rest.done() && is_fit(rest.here()))
+    m.demands.fit = std::string(rest.take());
+  else if (const auto l = rest.done() ? std::nullopt : limits(rest.here())) {
+    m.demands.limits = l;
+    rest.take();
+  }
+  if (rest.take("through")) {
+    m.through = rest.take("wall") ? Milled::Through::wall : Milled::Through::part;
+    rest.take("part");
+    return true;
+  }
+  const auto depth = positive_after(rest, {"x", "×"});
+  if (!depth)
+    return rest.mistake("its depth like x 8, > 0, or through wall, or through part");
+  m.depth_mm = *depth;
+  return true;
+}
+
+void read_milled(Rest rest, Milled::Kind kind, Features& out) {
+  Milled m{.id = fmt::format("m{}", out.milled.size() + 1), .kind = kind, .on = {}};
+  const bool hole = kind == Milled::Kind::cross_hole;
+  if (!(hole ? take_hole(rest, m) : take_sizes(rest, m))) return;
   bool read = rest.take("on") ? take_id(rest, out, m.on, {})
                               : rest.mistake("on and an element, like on d2");
-  read = read && (rest.take("at")
-                      ? take_value(rest, "a place along the part like at 12", m.z_mm)
-                      : rest.mistake("at and its left end along the part, like at 12"));
+  const char* wanted = hole ? "at and its middle along the part, like at 12"
+                            : "at and its left end along the part, like at 12";
+  read = read &&
+         (rest.take("at") ? take_value(rest, "a place along the part like at 12", m.z_mm)
+                          : rest.mistake(wanted));
   if (read && rest.take("angle"))
     read = take_value(rest, "an angle like 90", m.angle_deg);
   if (read && rest.take("times")) read = take_count(rest, m.count);

@@ -58,9 +58,11 @@ void to_millimetres(const Units& u, Outline& o) {
     t.value_mm = tidy_mm(t.value_mm * u.mm);
     if (t.limits) scale(u.mm, *t.limits);
   }
-  for (auto& m : o.milled)
+  for (auto& m : o.milled) {
     for (double* size : {&m.z_mm, &m.length_mm, &m.width_mm, &m.depth_mm})
       *size = tidy_mm(*size * u.mm);
+    scale(u, m.demands);
+  }
 }
 
 }  // namespace turnwright::exchange::notated

@@ -112,12 +112,22 @@ std::string tolerance_text(const part::Tolerance& t) {
   return out + ' ' + (t.limits ? limits_text(*t.limits) : digits(t.value_mm)) + '\n';
 }
 
+// How far a cross hole goes.
+std::string through_text(const Milled& m) {
+  if (m.through == Milled::Through::no) return " x " + digits(m.depth_mm);
+  return m.through == Milled::Through::wall ? " through wall" : " through part";
+}
+
 std::string milled_text(const Milled& m) {
   using enum Milled::Kind;
   std::string out = m.kind == flat ? "flat " : m.kind == slot ? "slot " : "keyway ";
-  if (m.kind != flat) out += digits(m.width_mm) + 'x';
-  out += digits(m.depth_mm) + 'x' + digits(m.length_mm) + " on " + m.on + " at " +
-         digits(m.z_mm);
+  if (m.kind == cross_hole) {
+    out = "cross-hole d" + digits(m.width_mm) + size_text(m.demands) + through_text(m);
+  } else {
+    if (m.kind != flat) out += digits(m.width_mm) + 'x';
+    out += digits(m.depth_mm) + 'x' + digits(m.length_mm);
+  }
+  out += " on " + m.on + " at " + digits(m.z_mm);
   if (m.angle_deg != 0) out += " angle " + digits(m.angle_deg);
   if (m.count > 1) out += fmt::format(" times {}", m.count);
   return out + '\n';

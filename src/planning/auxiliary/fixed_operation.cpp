@@ -111,6 +111,7 @@ const OperationRequest* given_on(const Site& s, const std::string& surface,
 }
 
 double n_cap_rpm(const Site& s) {
+  if (s.driven) return s.ranges.back().n_max_rpm;
   const double force = jaw_force_N(s.p, s.setup, s.clamping, s.stage);
   return std::min({s.ranges.back().n_max_rpm, clamping_rpm(s.p, s.clamping),
                    grip_loss_rpm(s.p, s.clamping, force)});
@@ -142,13 +143,24 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
     tighten(all, constraint(Check::torque, M,
                             cutting::available_kW(ranges, n, true) /
                                 units::shaft_power_kW(1, n)));
-    tighten(all, constraint(Check::spindle_min, d.n_rpm, m.n_min_rpm));
+    tighten(all, constraint(Check::spindle_min, d.n_rpm, ranges.front().n_min_rpm));
     if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
-    if (s.clamping == Clamping::between_centres) continue;
+    if (s.driven || s.clamping == Clamping::between_centres) continue;
     const auto grip = grip_forces(s.p, s.setup, s.clamping, s.stage, d);
     tighten(all, constraint(Check::grip, grip.needed_N, grip.closed_N));
   }
   return all;
+}
+
+DrillWay drill_way(const FixedTool& drill, double D, double tip, double before) {
+  DrillWay way{tip, before + tip};
+  auto pecks = cutting::peck_depths_mm(drill.pecking, D, tip);
+  pecks.pop_back();
+  for (const double depth : pecks) {
+    way.fed_mm += kPeck_mm;
+    way.rapid_mm += 2 * (depth + before) - kPeck_mm;
+  }
+  return way;
 }
 
 AuxiliaryOperation operation(const Site& s, const Asked& a, const Fitted& f,
@@ -235,7 +247,7 @@ AuxiliaryOperation chosen(const Site& s, Fitted f, const std::vector<double>& D_
   highest = std::min(highest, units::cutting_speed_m_min(n_cap, D_mm[0]));
   // By a rounding above the spindle's least speed, which is a limit.
   const double slowest =
-      units::cutting_speed_m_min(s.p.machine.n_min_rpm * (1 + 1e-12), D_mm[0]);
+      units::cutting_speed_m_min(s.ranges.front().n_min_rpm * (1 + 1e-12), D_mm[0]);
   lowest = std::clamp(slowest, std::min(lowest, highest), highest);
   std::vector<double> breaks;
   for (const auto& range : s.ranges)

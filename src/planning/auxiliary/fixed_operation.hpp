@@ -28,6 +28,7 @@ struct Site {
   Stage stage;  ///< of the jaws' force
   AuxiliaryWork& out;
   std::vector<cutting::SpeedRange> ranges = cutting::speed_ranges(p.machine);
+  bool driven = false;  ///< the tool turns, by `ranges`, and the part is held at an angle
 };
 
 /// Requirements on a tool.
@@ -95,6 +96,13 @@ struct Way {
   bool inner = false;
   double from_mm = 0, to_mm = 0;
 };
+
+/// Lengths [mm] that a drill goes in the cut, pecks among them, and in rapid, where it comes
+/// in from `before_mm` in front of the material and its tip goes so deep.
+struct DrillWay {
+  double fed_mm = 0, rapid_mm = 0;
+};
+DrillWay drill_way(const FixedTool& drill, double D_mm, double tip_mm, double before_mm);
 
 /// An operation with its passes, their forces and paths: Eq. (6).
 AuxiliaryOperation operation(const Site& site, const Asked& asked, const Fitted& fitted,

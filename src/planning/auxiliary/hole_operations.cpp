@@ -20,19 +20,13 @@ AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
   const auto kc = cutting::kienzle_at(s.p.material, f.tool->gamma_deg);
   const double front = front_mm(s.p, s.setup, s.work);
   const double path = front + tip_mm;
-  double fed = path, rapid = kBefore_mm + path;
-  auto pecks = cutting::peck_depths_mm(f.tool->pecking, D, path);
-  pecks.pop_back();
-  for (const double depth : pecks) {
-    fed += kPeck_mm;
-    rapid += 2 * (depth + kBefore_mm) - kPeck_mm;
-  }
+  const auto way = drill_way(*f.tool, D, path, kBefore_mm);
   return at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
     const Duty d{cutting::drill(kc, D, at.at.f_mm_rev, at.tool->point_deg),
                  std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D};
     const double vf = at.at.f_mm_rev * d.n_rpm;
-    return operation(s, a, at, {pass_of(d, D / 2, fed / vf)},
-                     {kBefore_mm / vf, rapid, true, 0, 0}, {d});
+    return operation(s, a, at, {pass_of(d, D / 2, way.fed_mm / vf)},
+                     {kBefore_mm / vf, way.rapid_mm, true, 0, 0}, {d});
   });
 }
 

@@ -209,7 +209,8 @@ MilledCase milled_case(const MilledSite& s, const MilledChoice& c,
 }
 
 void name_after(const Milled& m, std::size_t setup, OperationPlan& operation) {
-  operation.id = fmt::format("s{}-mill-{}", setup + 1, m.id);
+  const char* does = m.kind == MilledKind::cross_hole ? "drill" : "mill";
+  operation.id = fmt::format("s{}-{}-{}", setup + 1, does, m.id);
   operation.on = {m.id};
 }
 

@@ -62,7 +62,7 @@ catalogue::Range speeds_rpm(const PreparedPart& plan,
 MilledCase milled_case(const MilledSite& site, const MilledChoice& choice,
                        const cutting::SpeedRange& range);
 
-/// Names an operation after the place that it mills.
+/// Names an operation after the place that it mills or drills.
 void name_after(const Milled& place, std::size_t setup, OperationPlan& operation);
 
 /// The choice at a speed and feed, with its limits evaluated again.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "cross_holes.hpp"
 #include "milled_choice.hpp"
 #include "milled_ways.hpp"
 #include "turnwright/base/units.hpp"
@@ -232,6 +233,8 @@ void add(const PreparedPart& p, const MilledPlace& m, std::size_t setup,
   MilledSite s{p, m, setup, clamping, economy, 0};
   if (const auto why = milled_obstacle(p, m, setup, clamping); !why.empty())
     return refuse_milling(s, "setups", 0, 0, "", why, out);
+  if (m.kind == MilledKind::cross_hole)
+    return add_cross_hole(p, m, setup, clamping, economy, out);
   s.part_mm_N = part_mm_N(p, m, setup, clamping);
   const bool whole = m.passes && m.n_rpm && m.fz_mm && m.ways.size() == 1;
   std::vector<MilledChoice> choices;

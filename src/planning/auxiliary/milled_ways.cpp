@@ -142,13 +142,14 @@ std::optional<std::size_t> gripped_later(const PreparedPart& p, const MilledPlac
 }
 
 double stiffness_kept(const PlanRequest& p, const Milled& m) {
+  if (m.kind == MilledKind::cross_hole) return 1;
   const double D = p.drawing.outer[m.element].left_mm;
   const auto whole = deflection::round_section(
       D, part::largest_hole_mm(p.drawing, m.z_mm, m.z_mm + m.length_mm));
   auto s = whole;
   for (const auto& x : p.milled)
-    if (x.element == m.element && x.z_mm < m.z_mm + m.length_mm &&
-        m.z_mm < x.z_mm + x.length_mm)
+    if (x.kind != MilledKind::cross_hole && x.element == m.element &&
+        x.z_mm < m.z_mm + m.length_mm && m.z_mm < x.z_mm + x.length_mm)
       s = deflection::without_slot(
           s, D, {x.width_mm, D / 2 - x.depth_mm, units::rad_from_deg(x.angle_deg)});
   return deflection::least_second_moment_mm4(s) / whole.xx_mm4;

@@ -21,7 +21,8 @@ std::optional<std::size_t> gripped_later(const PreparedPart& part,
                                          const MilledPlace& place);
 
 /// Remaining share of the section's bending stiffness in its softest direction at a
-/// milled place, with the places beside it.  The loss is not counted in later cuts.
+/// milled place, with the places beside it but for cross holes, which are short along the
+/// part.  The loss is not counted in later cuts.
 double stiffness_kept(const PlanRequest& request, const Milled& place);
 
 /// Largest radial step of a lane over the cutter's diameter, in a flat.

@@ -50,6 +50,8 @@ const char* name(OperationKind k) {
       return "fixed";
     case OperationKind::mill:
       return "mill";
+    case OperationKind::cross_drill:
+      return "cross-drill";
   }
   return "";
 }
@@ -62,6 +64,20 @@ const char* name(MilledKind k) {
       return "keyway";
     case MilledKind::slot:
       return "slot";
+    case MilledKind::cross_hole:
+      return "cross-hole";
+  }
+  return "";
+}
+
+const char* name(Through t) {
+  switch (t) {
+    case Through::no:
+      return "no";
+    case Through::wall:
+      return "wall";
+    case Through::part:
+      return "part";
   }
   return "";
 }

@@ -24,6 +24,8 @@ double countersunk_mm(const part::InnerElement& hole, const OperationPlan& o) {
 }  // namespace
 
 std::string tool_label(const PlanRequest& p, const OperationPlan& o) {
+  if (o.kind == OperationKind::cross_drill)
+    return fmt::format("{} {:g} mm, driven", o.tool, 2 * o.passes[0].ap_mm);
   if (o.kind != OperationKind::fixed) return o.tool;
   const auto tool = std::ranges::find(p.fixed_tools, o.tool, &catalogue::FixedTool::id);
   if (tool == p.fixed_tools.end()) return o.tool;

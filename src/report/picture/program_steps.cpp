@@ -12,7 +12,7 @@ std::vector<PlannedStep> planned_steps(const planning::SetupPlan& setup,
     if (next == setup.operations.end())
       throw std::domain_error("planned_steps: the program has more steps than the plan");
     all.push_back({&step, &*next});
-    const bool mills = next->kind == planning::OperationKind::mill;
+    const bool mills = planning::is_driven(next->kind);
     if (step.stop ? mills && step.stop_min == 0 : mills == step.milling.has_value())
       ++next;
   }

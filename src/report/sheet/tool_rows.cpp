@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "planning/values/tool_label.hpp"
 #include "report/picture/program_steps.hpp"
 
 namespace turnwright::report {
 namespace {
 
-using planning::OperationKind;
 using planning::OperationPlan;
 
 const catalogue::Tool* turning_tool(const planning::PreparedPart& part,
@@ -47,10 +47,10 @@ std::vector<ToolRow> tool_rows(const planning::PreparedPart& part,
         throw std::domain_error("tool_rows: the program does not list the tool of " +
                                 operation->id);
       add(*row, *operation);
-    } else if (operation->kind == OperationKind::mill && step->stop_min == 0) {
-      auto row = std::ranges::find(driven, operation->tool, &ToolRow::id);
-      if (row == driven.end())
-        row = driven.insert(row, ToolRow{0, 0, operation->tool, {}, {}});
+    } else if (is_driven(operation->kind) && step->stop_min == 0) {
+      const auto label = planning::tool_label(part, *operation);
+      auto row = std::ranges::find(driven, label, &ToolRow::id);
+      if (row == driven.end()) row = driven.insert(row, ToolRow{0, 0, label, {}, {}});
       add(*row, *operation);
     }
   }

@@ -7,7 +7,7 @@ const { fitting, stockFollows } = await load('stock');
 const { begun, redone, stepped, undone } = await load('history');
 const { readDropped } = await load('dropped');
 const { machinesOf, shopsTools, ticked, toolsOf, withDocuments, withMachines, withTools } = await load('means');
-const { withMilled } = await load('milled');
+const { goingThrough, withMilled } = await load('milled');
 const { handy, withSetup, written } = await load('setups');
 const { at, put } = await load('pointer');
 const { reformed } = await load('tolerances');
@@ -109,8 +109,16 @@ test('a new keyway lies inside its cylinder', () => {
       assert.equal('width_mm' in m, kind !== 'flat');
     }
   }
+  const hole = withMilled({ outer: shaft(60, 35).outer }, 'cross-hole', shaft(60, 35).outer[0].id).milling[0];
+  assert.deepEqual([hole.at_mm, hole.diameter_mm, hole.through], [30, 10, 'part']);
   const none = shaft(10, 20);
   assert.equal(withMilled(none, 'flat', 'nowhere'), none);
+});
+
+test('a cross hole goes through something or to a depth', () => {
+  const hole = { id: 'h1', diameter_mm: 6, through: 'wall' };
+  assert.deepEqual(goingThrough(hole, undefined), { id: 'h1', diameter_mm: 6, depth_mm: 6 });
+  assert.deepEqual(goingThrough({ id: 'h1', diameter_mm: 6, depth_mm: 9 }, 'part'), { id: 'h1', diameter_mm: 6, through: 'part' });
 });
 
 test('jaws that are dragged write the setups that were not written', () => {

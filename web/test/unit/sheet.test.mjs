@@ -153,6 +153,10 @@ test('a flat is as wide as its chord, places without numbers are not drawn', () 
   const slot = { kind: 'slot', on: 'd1', z_mm: 80, length_mm: 20, depth_mm: 3, width_mm: 6 };
   assert.deepEqual(shapes([slot])[0].round, [true, false]);
   assert.deepEqual(shapes([{ ...slot, kind: 'keyway' }])[0].round, [true, true]);
+  const [hole] = shapes([{ kind: 'cross-hole', on: 'd1', at_mm: 50, diameter_mm: 6, through: 'wall', count: 2, angle_deg: 30 }]);
+  assert.deepEqual([hole.z, hole.half, hole.text], [[47, 53], 3, '2 × ⌀6 through wall at 30°']);
+  assert.equal(shapes([{ kind: 'cross-hole', on: 'd1', at_mm: 50, diameter_mm: 6, depth_mm: 8 }])[0].text, '⌀6 × 8');
+  assert.deepEqual(shapes([{ kind: 'cross-hole', on: 'd1', at_mm: 50, diameter_mm: 6 }]), []);
   assert.deepEqual(shapes([{ ...slot, depth_mm: NaN }, { ...slot, on: 'x' }, null, { kind: 'slot' }]), []);
 });
 

@@ -1,13 +1,13 @@
 // What a drawing shows beside the contour: milled places, centre holes, texts of sizes.
 import { centreOf, centres, centreText, type Centre } from '../centres';
-import { entries } from '../elements';
+import { entries, type Element } from '../elements';
 import { significant, signed } from '../numbers';
 import type { Drawing, DrawnTolerance, Part, Surface } from '../types';
 import type { Point } from './contour';
 
 export interface MilledShape {
   id: string;
-  kind: 'keyway' | 'slot' | 'flat';
+  kind: 'keyway' | 'slot' | 'flat' | 'cross-hole';
   on: Surface;
   z: [number, number];
   /** Half of its width as seen from above, and whether its ends are round. */
@@ -19,10 +19,22 @@ export interface MilledShape {
 const finite = (...all: unknown[]) => all.every((x) => typeof x === 'number' && Number.isFinite(x) && x >= 0);
 const ends_mm = 0.05; // a slot that comes so near to an end runs out there
 
+/** A cross hole, a circle as it is seen turned to the viewer. */
+function crossHole(m: Element, on: Surface): MilledShape[] {
+  if (!finite(m.at_mm, m.diameter_mm, ...('through' in m ? [] : [m.depth_mm]))) return [];
+  const half = m.diameter_mm / 2, times = m.count > 1 ? `${m.count} × ` : '', turned = m.angle_deg ? ` at ${significant(m.angle_deg)}°` : '';
+  const goes = 'through' in m ? `through ${m.through}` : `× ${significant(m.depth_mm)}`;
+  return [{
+    id: String(m.id ?? m.kind), kind: m.kind, on, z: [m.at_mm - half, m.at_mm + half], half, round: [true, true],
+    text: `${times}⌀${significant(m.diameter_mm)} ${goes}${turned}`,
+  }];
+}
+
 /** Milled places that the document gives wholly, as they are seen turned to the viewer. */
 export function milledShapes(part: Part, drawing: Drawing): MilledShape[] {
   return entries(part, 'milling').flatMap((m): MilledShape[] => {
     const on = drawing.elements.find((e) => e.id === m.on);
+    if (m.kind === 'cross-hole') return on ? crossHole(m, on) : [];
     const flat = m.kind === 'flat';
     const R = on ? on.diameters_mm[0] / 2 : 0, depth = m.depth_mm ?? R - m.across_flats_mm / 2;
     if (!on || !finite(m.z_mm, m.length_mm, depth) || !(flat || finite(m.width_mm))) return [];
