@@ -176,6 +176,10 @@ TEST(NcDialects, StopWhereTheCodesForMillingAreNotGiven) {
   }
 }
 
+TEST(NcDialects, OfPartsWithCrossHolesCommandTheSameMoves) {
+  expect_read_back("cross-holes", planned_awkward("cross-holes"));
+}
+
 TEST(NcDialects, OfReamedAndTappedPartsCommandTheSameMoves) {
   for (const char* name : kWithHoles) expect_read_back(name, planned_awkward(name));
 }
