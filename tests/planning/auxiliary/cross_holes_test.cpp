@@ -118,6 +118,10 @@ TEST(CrossHole, TimeForcesAndCostInClosedForm) {
   EXPECT_NEAR(limit_of(plan, "torque"), M, 1e-9);
   EXPECT_NEAR(limit_of(plan, "power"), M * 2 * pi * n / 60 / 1000, 1e-9);
   EXPECT_NEAR(limit_of(plan, "feed speed"), vf, 1e-9);
+  // The thrust points at the axis: nothing turns the part in the jaws or draws it out.
+  EXPECT_FALSE(std::ranges::any_of(plan.constraints, [](const ConstraintValue& c) {
+    return c.name.find("grip") != std::string::npos;
+  }));
 }
 
 // HSS drills go 3 D deep, then draw out every D: here after 18 and 24 mm of 25.8.
