@@ -107,13 +107,19 @@ inline Outline outline(const json& part) {
   }
   for (const auto& j : all("milling")) {
     Milled m{.id = "m" + std::to_string(o.milled.size() + 1), .on = renamed(j["on"])};
-    m.kind = j["kind"] == "flat"   ? Milled::Kind::flat
-             : j["kind"] == "slot" ? Milled::Kind::slot
-                                   : Milled::Kind::keyway;
-    m.z_mm = j["z_mm"];
-    m.length_mm = j["length_mm"];
-    m.width_mm = j.value("width_mm", 0.0);
-    m.depth_mm = j["depth_mm"];
+    const auto kind = fields(j, "kind"), through = fields(j, "through");
+    const bool hole = kind == "cross-hole";
+    m.kind = hole             ? Milled::Kind::cross_hole
+             : kind == "flat" ? Milled::Kind::flat
+             : kind == "slot" ? Milled::Kind::slot
+                              : Milled::Kind::keyway;
+    m.z_mm = j[hole ? "at_mm" : "z_mm"];
+    m.length_mm = j.value("length_mm", 0.0);
+    m.width_mm = j.value(hole ? "diameter_mm" : "width_mm", 0.0);
+    m.depth_mm = j.value("depth_mm", 0.0);
+    m.through = through == "wall"   ? Milled::Through::wall
+                : through == "part" ? Milled::Through::part
+                                    : Milled::Through::no;
     m.angle_deg = j.value("angle_deg", 0.0);
     o.milled.push_back(m);
   }

@@ -287,8 +287,50 @@ TEST(Step, AnglesAreCountedCounterclockwiseFromTheRightEnd) {
   EXPECT_NEAR(read_case("oblique-flat").milled[0].angle_deg, 33, 1e-9);
 }
 
+// Blind, beyond the axis, out of the other side and into a bore, at any angle.
+TEST(Step, CrossHolesComeBackAsTheyWereDrawn) {
+  int holes = 0;
+  for (const auto& [name, drawn] : reference::outlines("tests/data/step/cross-holes")) {
+    const auto read = read_step(step_text("cross-holes/" + name + ".step"));
+    compared::expect_same(read, drawn);
+    EXPECT_TRUE(read.ignored.empty());
+    ASSERT_EQ(read.milled.size(), drawn.milled.size()) << name;
+    for (const auto& m : drawn.milled) {
+      SCOPED_TRACE(name + " " + m.id);
+      const auto found = std::ranges::find_if(read.milled, [&m](const Milled& r) {
+        return std::abs(r.z_mm - m.z_mm) < 1e-9;
+      });
+      ASSERT_NE(found, read.milled.end());
+      EXPECT_EQ(found->kind, Milled::Kind::cross_hole);
+      EXPECT_EQ(found->on, m.on);
+      EXPECT_EQ(found->through, m.through);
+      EXPECT_NEAR(found->width_mm, m.width_mm, 1e-9);
+      EXPECT_NEAR(found->depth_mm, m.depth_mm, 1e-9);
+      EXPECT_NEAR(found->angle_deg, m.angle_deg, 1e-9);
+      ++holes;
+    }
+  }
+  EXPECT_EQ(holes, 7);
+}
+
+TEST(Step, WhatNoDrillLeavesAcrossTheAxisIsNoCrossHole) {
+  const auto through = read_case("cross-hole");
+  ASSERT_EQ(through.milled.size(), 1U);
+  EXPECT_EQ(through.milled[0].through, Milled::Through::part);
+  EXPECT_TRUE(through.ignored.empty());
+  const auto flat = read_case("cross-hole-flat");
+  ASSERT_EQ(flat.milled.size(), 1U);
+  EXPECT_NEAR(flat.milled[0].depth_mm, 11, 1e-9);
+  ASSERT_FALSE(flat.assumed.empty());
+  EXPECT_EQ(flat.assumed[0].text, "m1 has a flat bottom; a drill leaves a point.");
+  for (const char* other : {"cross-hole-beside-the-axis", "cross-hole-countersunk"}) {
+    EXPECT_TRUE(read_case(other).milled.empty()) << other;
+    EXPECT_FALSE(read_case(other).ignored.empty()) << other;
+  }
+}
+
 TEST(Step, WhatIsNotTurnedIsNamedFaceByFace) {
-  const auto cross = read_case("cross-hole");
+  const auto cross = read_case("cross-hole-beside-the-axis");
   ASSERT_EQ(cross.ignored.size(), 1U);
   EXPECT_EQ(cross.ignored[0].at[0], '#');
   EXPECT_EQ(cross.ignored[0].text,

@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "exchange/contour/elements.hpp"
-#include "step_pocket.hpp"
+#include "step_cross_hole.hpp"
 
 namespace turnwright::exchange {
 namespace {
@@ -43,11 +43,13 @@ std::vector<std::vector<const Face*>> groups(const std::vector<Face>& faces,
 
 /// The outer cylinder that holds the place from end to end.
 const Element* holder(const Outline& outline, const Milled& m) {
+  const bool hole = m.kind == Milled::Kind::cross_hole;
+  const double from = hole ? m.z_mm - m.width_mm / 2 : m.z_mm;
+  const double to = hole ? m.z_mm + m.width_mm / 2 : m.z_mm + m.length_mm;
   double left = 0;
   for (const auto& e : outline.outer) {
     const double right = left + e.length_mm;
-    if (e.shape == Shape::cylinder && m.z_mm > left - kSame_mm &&
-        m.z_mm + m.length_mm < right + kSame_mm)
+    if (e.shape == Shape::cylinder && from > left - kSame_mm && to < right + kSame_mm)
       return &e;
     left = right;
   }
@@ -57,19 +59,22 @@ const Element* holder(const Outline& outline, const Milled& m) {
 bool put(Pocket f, double left_mm, Outline& outline) {
   f.milled.z_mm -= left_mm;
   const auto* on = holder(outline, f.milled);
-  if (!on || !(f.floor_mm > 0)) return false;
   auto& m = f.milled;
+  const bool hole = m.kind == Milled::Kind::cross_hole;
+  if (!on || !(hole || f.floor_mm > 0)) return false;
   m.on = on->id;
-  m.depth_mm = tidy_mm(on->left_mm / 2 - f.floor_mm);
+  const bool open = m.through != Milled::Through::no;
+  if (!open) m.depth_mm = tidy_mm(on->left_mm / 2 - f.floor_mm);
   m.width_mm = tidy_mm(m.width_mm);
   m.length_mm = tidy_mm(m.length_mm);
-  if (!(m.depth_mm > 0 && m.length_mm > 0)) return false;
+  if (!(open || m.depth_mm > 0) || !(hole || m.length_mm > 0)) return false;
   m.z_mm = std::max(tidy_mm(m.z_mm), 0.0);
   m.id = fmt::format("m{}", outline.milled.size() + 1);
   if (f.square_ends)
     outline.assumed.push_back(
         {m.sources.front(),
-         m.id + " has a square end; a milling cutter leaves a round one."});
+         m.id + (hole ? " has a flat bottom; a drill leaves a point."
+                      : " has a square end; a milling cutter leaves a round one.")});
   outline.milled.push_back(std::move(m));
   return true;
 }
@@ -128,7 +133,8 @@ void add_milled(const std::vector<Face>& faces, const Contour& contour, const Ax
                 Outline& outline) {
   std::size_t more = 0;
   for (const auto& group : groups(faces, contour.used)) {
-    const auto places = pockets(group, axis);
+    const auto hole = cross_hole(group, axis);
+    const auto places = hole ? std::vector{*hole} : pockets(group, axis);
     bool understood = !places.empty();
     const auto milled = outline.milled.size(), assumed = outline.assumed.size();
     for (const auto& place : places)

@@ -11,7 +11,7 @@ namespace turnwright::exchange {
 std::string described(const Face& face, const Axis& axis);
 
 /// Puts the faces that are no part of the contour under `milled`, where connected ones are
-/// a keyway, a slot or flats of an outer cylinder of the outline, and the others under
+/// a keyway, a slot, a cross hole or flats of an outer cylinder of the outline, and the others under
 /// `ignored`.
 void add_milled(const std::vector<Face>& faces, const Contour& contour, const Axis& axis,
                 Outline& outline);

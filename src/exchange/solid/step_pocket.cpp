@@ -1,7 +1,6 @@
 #include "step_pocket.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -12,11 +11,6 @@ using Eigen::Vector3d;
 using Kind = Surface::Kind;
 
 constexpr std::size_t kMostFlats = 32;  // of one group; a spline shaft has its own cutter
-
-struct Range {
-  double from = std::numeric_limits<double>::infinity(), to = -from;
-  void add(double x) { from = std::min(from, x), to = std::max(to, x); }
-};
 
 /// One plane along the axis, of one face or of several that divide it.
 struct Flat {
@@ -70,19 +64,6 @@ Sides sorted(const std::vector<const Face*>& group, const Axis& axis) {
       p.others.push_back(f);
   }
   return p;
-}
-
-/// The file's z axis, its x axis if that is along the part, as read_step promises.
-double angle_deg(const Vector3d& normal, const Axis& axis) {
-  const bool along_z = axis.parallel(Vector3d::UnitZ());
-  const Vector3d file = along_z ? Vector3d::UnitX() : Vector3d::UnitZ();
-  const Vector3d zero = (file - axis.direction * axis.direction.dot(file)).normalized();
-  const double angle =
-      std::atan2(axis.direction.dot(zero.cross(normal)), zero.dot(normal));
-  constexpr double kRounding = 1e-9;  // deg
-  const double deg = angle * 180 / std::numbers::pi;
-  if (std::abs(deg - std::round(deg)) > kRounding) return deg;
-  return std::round(deg) == -180 ? 180 : std::round(deg) + 0.0;
 }
 
 Pocket pocket(Milled::Kind kind, const Flat& floor, const Range& z, const Axis& axis) {
@@ -167,6 +148,18 @@ std::optional<Pocket> keyway(const Sides& p, const std::vector<const Face*>& gro
 }
 
 }  // namespace
+
+double angle_deg(const Vector3d& normal, const Axis& axis) {
+  const bool along_z = axis.parallel(Vector3d::UnitZ());
+  const Vector3d file = along_z ? Vector3d::UnitX() : Vector3d::UnitZ();
+  const Vector3d zero = (file - axis.direction * axis.direction.dot(file)).normalized();
+  const double angle =
+      std::atan2(axis.direction.dot(zero.cross(normal)), zero.dot(normal));
+  constexpr double kRounding = 1e-9;  // deg
+  const double deg = angle * 180 / std::numbers::pi;
+  if (std::abs(deg - std::round(deg)) > kRounding) return deg;
+  return std::round(deg) == -180 ? 180 : std::round(deg) + 0.0;
+}
 
 std::vector<Pocket> pockets(const std::vector<const Face*>& group, const Axis& axis) {
   const auto sides = sorted(group, axis);

@@ -67,6 +67,10 @@ def cases():
 
     body = shaft(X, [(40, 30), (60, 40)])
     yield "cross-hole", body.cut(cylinder(6, 60, (20, 0, -30), Z))
+    yield "cross-hole-beside-the-axis", body.cut(cylinder(6, 60, (20, 2, -30), Z))
+    sink = Part.makeCone(3, 8, 5, Vector(20, 0, 11), Z)
+    yield "cross-hole-countersunk", body.cut(cylinder(6, 60, (20, 0, 0), Z).fuse(sink))
+    yield "cross-hole-flat", body.cut(cylinder(6, 60, (20, 0, 4), Z))
     yield "slot", body.cut(box((30, 8, 20), (80, -4, 15)).fuse(
         cylinder(8, 20, (80, 0, 15), Z)))
     key = box((22, 8, 20), (64, -4, 15)).fuse(

@@ -12,6 +12,7 @@
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <GC_MakeArcOfCircle.hxx>
@@ -266,8 +267,23 @@ TopoDS_Shape revolved(const std::vector<Seg>& path, double from, double turn) {
                   : BRepPrimAPI_MakeRevol(face, z, turn).Shape();
 }
 
-// Along z, the middle at x: the angle is counted from x.
-TopoDS_Shape cutter(const json& m, double R) {
+// A drill from outside, its point a cone of 118 deg or none.
+TopoDS_Shape drill(const json& m, double R) {
+  const double z = m["at_mm"], r = m["diameter_mm"].get<double>() / 2;
+  const std::string through = m.value("through", "");
+  const double bottom = through == "part"   ? -R - 10
+                        : through == "wall" ? 0
+                                            : R - m["depth_mm"].get<double>();
+  const gp_Dir in(-1, 0, 0);
+  const TopoDS_Shape tool =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(R + 10, 0, z), in), r, R + 10 - bottom);
+  if (!through.empty() || m.value("flat", false)) return tool;
+  const TopoDS_Shape point = BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(bottom, 0, z), in), r, 0,
+                                                  r / std::tan(59 * M_PI / 180));
+  return BRepAlgoAPI_Fuse(tool, point).Shape();
+}
+
+TopoDS_Shape milled(const json& m, double R) {
   const double z = m["z_mm"], l = m["length_mm"], t = m["depth_mm"];
   const double high = R + 10;
   TopoDS_Shape tool;
@@ -286,6 +302,12 @@ TopoDS_Shape cutter(const json& m, double R) {
     tool = BRepAlgoAPI_Fuse(tool, end(z + w / 2)).Shape();
     tool = BRepAlgoAPI_Fuse(tool, end(z + l - w / 2)).Shape();
   }
+  return tool;
+}
+
+// Along z, the middle at x: the angle is counted from x.
+TopoDS_Shape cutter(const json& m, double R) {
+  const TopoDS_Shape tool = m["kind"] == "cross-hole" ? drill(m, R) : milled(m, R);
   gp_Trsf turned;
   turned.SetRotation(gp_Ax1(gp::Origin(), gp::DZ()),
                      m.value("angle_deg", 0.0) * M_PI / 180);
