@@ -30,7 +30,8 @@ bool sizes_were_read(const part::Drawing& d) {
   const auto sound = [](const auto& e) {
     return e.length_mm > 0 && e.left_mm > 0 && e.right_mm > 0;
   };
-  return d.stock.outer_mm > 0 && std::all_of(d.outer.begin(), d.outer.end(), sound) &&
+  return d.stock.outer_mm > 0 && !d.outer.empty() &&
+         std::all_of(d.outer.begin(), d.outer.end(), sound) &&
          std::all_of(d.inner.begin(), d.inner.end(), sound);
 }
 

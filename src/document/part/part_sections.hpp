@@ -65,7 +65,8 @@ void read_stock(Draft& draft);  // after the elements
 /// The outer diameter [mm] of a part document's stock, as elements that stay as the stock is
 /// have it; not finite where the stock does not say it.
 double outer_of_stock_mm(const nlohmann::json& part);
-/// Whether the stock and all elements have lengths and diameters.
+/// Whether the stock and all elements, of which there are outer ones, have lengths and
+/// diameters.
 bool sizes_were_read(const part::Drawing& drawing);
 void check_bores(Draft& draft);  // after the stock
 void read_edges(Draft& draft);   // after the stock

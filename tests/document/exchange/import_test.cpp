@@ -184,6 +184,15 @@ TEST(Import, ADrawingNamesItsMaterial) {
   EXPECT_NE(unknown.find("for the drawing's \"Kryptonite\""), unknown.npos) << unknown;
 }
 
+// Its tap's countersink was sought at the end of a part without elements.
+TEST(Import, ATappedBoreWithoutAPartAroundItIsTold) {
+  for (const char* text : {"bore M5 x 2", "bore left M4 x 4"}) {
+    const json ignored = import(line(text), shop())["ignored"];
+    ASSERT_FALSE(ignored.empty()) << text;
+    EXPECT_EQ(ignored[0]["at"], "/outer") << text;
+  }
+}
+
 TEST(Import, MistakesInTheDrawingStandAtTheDrawing) {
   const auto wrong = refused(line("d50 x 4O; d30 y"));
   EXPECT_EQ(wrong.rfind("import: /text: got line 1, column", 0), 0u) << wrong;
