@@ -1,5 +1,7 @@
 #include "turnwright/document/prepared_part.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,7 @@
 #include "document/part/part_sections.hpp"
 #include "document/part/what_if.hpp"
 #include "planning/auxiliary/milled_ways.hpp"
+#include "planning/paths/programmed_faces.hpp"
 #include "turnwright/planning/limit.hpp"
 #include "turnwright/planning/prepare.hpp"
 #include "turnwright/planning/rules.hpp"
@@ -127,6 +130,34 @@ void check_given_tools(const LoadedPart& loaded) {
   problems.throw_if_any();
 }
 
+// Plans cut the elements as long as they are drawn, programs as the middles of the lengths'
+// limits have them.
+void check_programmed_lengths(const LoadedPart& loaded) {
+  constexpr double kMost = 0.5;  // of an element's length
+  const auto& d = loaded.plan.drawing;
+  const auto moved = planning::faces_moved_mm(d);
+  Problems problems{.document = loaded.document};
+  const auto check = [&](const auto& elements, bool inner, const std::string& list) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const auto by = [&](part::End end) {
+        return planning::end_moved_mm(moved, d, {inner, i}, end);
+      };
+      const double drawn_mm = elements[i].length_mm;
+      const double longer_mm = by(part::End::right) - by(part::End::left);
+      if (std::abs(longer_mm) > kMost * drawn_mm)
+        problems.add({list + std::to_string(i) + "/length_mm",
+                      number_text(drawn_mm) + " mm",
+                      fmt::format("a length that the middles of the limits in tolerances "
+                                  "change by at most a half: they make {:.6g} mm of it",
+                                  drawn_mm + longer_mm),
+                      "conflict"});
+    }
+  };
+  check(d.outer, false, "/outer/");
+  check(d.inner, true, "/inner/");
+  problems.throw_if_any();
+}
+
 planning::PreparedPart with_limit(const ChangedRequest& change,
                                   const planning::PreparedPart& part,
                                   Problems& problems) {
@@ -233,6 +264,7 @@ std::vector<Variant> variants_of(const nlohmann::json& request,
 
 PreparedDocument prepared(LoadedPart loaded, const Catalogue& catalogue) {
   check_given_tools(loaded);
+  check_programmed_lengths(loaded);
   PreparedDocument out{planning::prepare(loaded.plan), std::move(loaded.assumed), {}};
   add_grips(out.part, out.assumed);
   add_drilled_holes(out.part, out.assumed);

@@ -406,6 +406,30 @@ TEST(PartPlan, WhatWasAssumedMayBeWrittenDown) {
   EXPECT_EQ(again.part.setups[0].grip_mm, 25);
 }
 
+// Programs cut lengths to the middles of their limits; a middle that turns an element inside
+// out once ended them in a crash.
+TEST(PartPlan, LengthsWhoseMiddlesLieFarOffAreRefused) {
+  auto document = smallest();
+  document["stock"]["length_mm"] = 84;
+  document["outer"] = {
+      {{"id", "a"}, {"kind", "cylinder"}, {"length_mm", 20}, {"diameter_mm", 30}},
+      {{"id", "b"}, {"kind", "cylinder"}, {"length_mm", 20}, {"diameter_mm", 40}},
+      {{"id", "c"}, {"kind", "cylinder"}, {"length_mm", 40}, {"diameter_mm", 30}}};
+  const auto with = [&](double upper_mm) {
+    document["tolerances"] = {{{"id", "t1"},
+                               {"kind", "length"},
+                               {"between", {"b|c", "right"}},
+                               {"limits_mm", {0.0, upper_mm}}}};
+    return refusal(document);
+  };
+  EXPECT_EQ(with(19.9).find("length_mm"), std::string::npos);
+  EXPECT_EQ(with(42),
+            "t: /outer/1/length_mm: got 20 mm, expected a length that the middles of the "
+            "limits in tolerances change by at most a half: they make -1 mm of it\n"
+            "t: /outer/2/length_mm: got 40 mm, expected a length that the middles of the "
+            "limits in tolerances change by at most a half: they make 61 mm of it");
+}
+
 TEST(PartPlan, AThinPartIsHeldByAtLeast15mm) {
   auto document = smallest();
   document["stock"] = {{"kind", "bar"}, {"diameter_mm", 24}, {"length_mm", 82}};
