@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "../slips.hpp"
-#include "../test_catalogue.hpp"
 #include "document/exchange/outline.hpp"
 #include "document/json/file.hpp"
-#include "turnwright/document/prepared_part.hpp"
+#include "refusal.hpp"
 
 namespace turnwright::document::cross_holes_test {
 namespace {
@@ -47,15 +46,7 @@ PreparedDocument load(const json& document, Purpose purpose = Purpose::plan) {
 }
 
 std::string refused(const json& document, Purpose purpose = Purpose::plan) {
-  try {
-    load(document, purpose);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const auto& p : error.problems())
-      text += p.pointer + ": got " + p.got + ", expected " + p.expected + "\n";
-    return text;
-  }
-  return "";
+  return problems_of(document, shop(), purpose);
 }
 
 std::string refused_with(const std::string& pointer, const json& value) {

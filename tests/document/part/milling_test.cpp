@@ -5,9 +5,8 @@
 #include <numbers>
 
 #include "../slips.hpp"
-#include "../test_catalogue.hpp"
 #include "document/json/file.hpp"
-#include "turnwright/document/prepared_part.hpp"
+#include "refusal.hpp"
 
 namespace turnwright::document::milling_test {
 namespace {
@@ -42,15 +41,7 @@ PreparedDocument load(const json& document, Purpose purpose = Purpose::plan) {
 }
 
 std::string refused(const json& document) {
-  try {
-    load(document);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const auto& p : error.problems())
-      text += p.pointer + ": got " + p.got + ", expected " + p.expected + "\n";
-    return text;
-  }
-  return "";
+  return problems_of(document, test_catalogue());
 }
 
 std::string refused_with(const std::string& pointer, const json& value) {

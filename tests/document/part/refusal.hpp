@@ -5,6 +5,7 @@
 #include "../test_catalogue.hpp"
 #include "turnwright/base/errors.hpp"
 #include "turnwright/document/part_plan.hpp"
+#include "turnwright/document/prepared_part.hpp"
 
 namespace turnwright::document {
 
@@ -16,6 +17,19 @@ inline std::string refusal_of(const nlohmann::json& document) {
     return error.what();
   }
   return "accepted";
+}
+
+/// The problems of a part's document, a line each without its name; "" if it is accepted.
+inline std::string problems_of(const nlohmann::json& document, const Catalogue& catalogue,
+                               Purpose purpose = Purpose::plan) {
+  std::string text;
+  try {
+    prepared_part(document, catalogue, "t", purpose);
+  } catch (const InputError& error) {
+    for (const auto& p : error.problems())
+      text += p.pointer + ": got " + p.got + ", expected " + p.expected + "\n";
+  }
+  return text;
 }
 
 }  // namespace turnwright::document

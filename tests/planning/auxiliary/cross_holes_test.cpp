@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "../parts.hpp"
+#include "placed_pin.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/preparation/assignment.hpp"
 #include "planning/values/tool_label.hpp"
@@ -30,26 +31,8 @@ json pin(const json& own, const char* drill = "DRILL-HM-5D") {
             {"at_mm", 60},
             {"diameter_mm", kD_mm}};
   hole.update(own);
-  return {{"format", "turnwright-part/1"},
-          {"name", "pin"},
-          {"material", "C45"},
-          {"stock",
-           {{"kind", "bar"},
-            {"diameter_mm", 44},
-            {"length_mm", 142},
-            {"left_allowance_mm", 60}}},
-          {"outer",
-           {{{"id", "d1"},
-             {"kind", "cylinder"},
-             {"length_mm", 80},
-             {"diameter_mm", 2 * kR_mm}}}},
-          {"machine", "turn-mill"},
-          {"tools", {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", drill}},
-          {"milling", json::array({hole})},
-          {"setups", {{{"hold", "left"}, {"grip_mm", 40}, {"clampings", {"chuck"}}}}},
-          {"objective", "cost"},
-          {"batch", 10},
-          {"rates", {{"machine_per_min", kMinute}}}};
+  return placed_pin(hole, 2 * kR_mm, 40,
+                    {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", drill});
 }
 
 json hollow(json document, double bore_mm) {

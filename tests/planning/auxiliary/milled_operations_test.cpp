@@ -8,6 +8,7 @@
 #include <set>
 
 #include "../parts.hpp"
+#include "placed_pin.hpp"
 #include "planning/auxiliary/catalogue_operations.hpp"
 #include "planning/preparation/assignment.hpp"
 #include "turnwright/chatter/limits.hpp"
@@ -23,28 +24,9 @@ using nlohmann::json;
 
 // One pin with one place in it, held at the left.
 json milled_pin(const json& place, double diameter_mm = 40) {
-  return {{"format", "turnwright-part/1"},
-          {"name", "pin"},
-          {"material", "C45"},
-          {"stock",
-           {{"kind", "bar"},
-            {"diameter_mm", diameter_mm + 4},
-            {"length_mm", 142},
-            {"left_allowance_mm", 60}}},
-          {"outer",
-           {{{"id", "d1"},
-             {"kind", "cylinder"},
-             {"length_mm", 80},
-             {"diameter_mm", diameter_mm}}}},
-          {"machine", "turn-mill"},
-          {"tools",
-           {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", "KEYWAY-HM-6", "KEYWAY-HM-8",
-            "KEYWAY-HM-10", "ENDMILL-HM-8", "ENDMILL-HM-10"}},
-          {"milling", json::array({place})},
-          {"setups", {{{"hold", "left"}, {"grip_mm", 55}, {"clampings", {"chuck"}}}}},
-          {"objective", "cost"},
-          {"batch", 10},
-          {"rates", {{"machine_per_min", 1.5}}}};
+  return placed_pin(place, diameter_mm, 55,
+                    {"PCLNL-CNMG120408-PM", "PDJNL-DNMG150604-PF", "KEYWAY-HM-6",
+                     "KEYWAY-HM-8", "KEYWAY-HM-10", "ENDMILL-HM-8", "ENDMILL-HM-10"});
 }
 
 json keyway() {
