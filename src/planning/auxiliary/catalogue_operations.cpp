@@ -75,13 +75,21 @@ double down_and_back_mm(const CutElement& e) {
 }
 double above_mm(const CutElement& e) { return e.inner ? kAboveBore_mm : kAbove_mm; }
 
+// The given operation that cuts an element: not the drill that begins its end's bores there.
+const OperationRequest* given_cut(const Site& s, const std::string& surface) {
+  if (!s.p.operations) return nullptr;
+  for (const auto& o : *s.p.operations)
+    if (is_given_on(s, o, surface) && !names_tool(s.p, o, FixedUse::drilling)) return &o;
+  return nullptr;
+}
+
 Asked asked(const Site& s, const CutElement& e, FixedUse use, const char* does,
             std::function<bool(const FixedTool&, double)> fits) {
   return {use,
           does,
           e.id,
           e.inner,
-          given_on(s, e.id),
+          given_cut(s, e.id),
           [&e, fits](const FixedTool& t, double size) {
             return (!e.inner || t.min_bore_mm <= e.bored_mm) && fits(t, size);
           }};
@@ -310,7 +318,7 @@ void add_chamfer(Site& s, std::size_t index, bool inner) {
       "chamfer",
       id,
       inner,
-      given_on(s, id),
+      given_cut(s, id),
       [&](const FixedTool& t, double) { return !inner || t.min_bore_mm <= bore; }};
   const auto f = fitted(s.p, a);
   if (!f.tool)
@@ -372,7 +380,7 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
              part::CutKind kind) {
   if (!e.cut || e.cut->kind != kind) return;
   const bool drilled = e.cut->drilled_mm > 0;
-  if (s.p.operations && !drilled && !given_on(s, e.id)) {
+  if (s.p.operations && !drilled && !given_cut(s, e.id)) {
     s.out.conflicts.push_back(
         {"operations", setup_label(s.setup), 0, 0, "",
          fmt::format(

@@ -99,14 +99,16 @@ bool names_tool(const PlanRequest& p, const OperationRequest& o, FixedUse use) {
       p.fixed_tools, [&](const FixedTool& t) { return o.tool == t.id && t.use == use; });
 }
 
+bool is_given_on(const Site& s, const OperationRequest& o, const std::string& surface) {
+  return o.kind == OperationKind::fixed && o.setup == s.setup &&
+         std::find(o.on.begin(), o.on.end(), surface) != o.on.end();
+}
+
 const OperationRequest* given_on(const Site& s, const std::string& surface,
                                  std::optional<FixedUse> use) {
   if (!s.p.operations) return nullptr;
   for (const auto& o : *s.p.operations)
-    if (o.kind == OperationKind::fixed && o.setup == s.setup &&
-        std::find(o.on.begin(), o.on.end(), surface) != o.on.end() &&
-        (!use || names_tool(s.p, o, *use)))
-      return &o;
+    if (is_given_on(s, o, surface) && (!use || names_tool(s.p, o, *use))) return &o;
   return nullptr;
 }
 

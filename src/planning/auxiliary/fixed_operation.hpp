@@ -65,8 +65,10 @@ void refuse(const Site& site, const Asked& asked, const std::string& why);
 /// Whether the operation names a tool, and one for this.
 bool names_tool(const PlanRequest& request, const OperationRequest& operation,
                 FixedUse use);
-/// The given operation at fixed conditions on a surface in this setup; with a tool for a
-/// use, if that is asked.
+/// Whether a given operation is one at fixed conditions on a surface in this setup.
+bool is_given_on(const Site& site, const OperationRequest& operation,
+                 const std::string& surface);
+/// The first of them; with a tool for a use, if that is asked.
 const OperationRequest* given_on(const Site& site, const std::string& surface,
                                  std::optional<FixedUse> use = {});
 

@@ -121,13 +121,14 @@ Asked drilling(const Hole& h, const OperationRequest* given) {
           }};
 }
 
+// Without a tool it is the cut of a groove or thread that it is on.
 const OperationRequest* given_drilling(const PlanRequest& p, part::End end) {
   if (!p.operations) return nullptr;
   for (const auto& o : *p.operations)
     for (const auto& e : p.drawing.inner)
       if (o.kind == OperationKind::fixed && e.from == end &&
-          (!e.cut || part::is_hole(e)) && p.setups[o.setup].hold != end &&
-          (!o.tool || names_tool(p, o, FixedUse::drilling)) &&
+          p.setups[o.setup].hold != end &&
+          (o.tool ? names_tool(p, o, FixedUse::drilling) : !e.cut || part::is_hole(e)) &&
           std::find(o.on.begin(), o.on.end(), e.id) != o.on.end())
         return &o;
   return nullptr;

@@ -82,6 +82,37 @@ TEST(GivenOperations, OfHolesAreCarriedOut) {
   }
 }
 
+// The drill of an end is named after its outermost bore, which a threading tool cuts too.
+TEST(GivenOperations, OfAThreadAtTheMouthOfADrilledBoreAreCarriedOut) {
+  auto d = counterbored();
+  d["stock"]["diameter_mm"] = 70;
+  d["outer"] = json::parse(R"([
+    {"id": "d1", "kind": "cylinder", "length_mm": 40, "diameter_mm": 66},
+    {"id": "d2", "kind": "cylinder", "length_mm": 40, "diameter_mm": 58}])");
+  d["inner"] = json::parse(R"([
+    {"id": "t", "kind": "thread", "from": "right", "length_mm": 20, "designation": "M42x2"},
+    {"id": "g", "kind": "groove", "from": "right", "length_mm": 5, "diameter_mm": 42.5},
+    {"id": "b", "kind": "cylinder", "from": "right", "length_mm": 55, "diameter_mm": 30}])");
+  d["edges"] = {{{"at", "right|t"}, {"chamfer_mm", 1.2}}};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok) << told(r);
+  auto own = as_planned(d, r);
+  for (auto& o : own["operations"]) o["id"] = "own-" + o["id"].get<std::string>();
+  const auto again = predict(part_to_predict(own));
+  ASSERT_EQ(again.status, PlanStatus::ok) << told(again);
+  EXPECT_NEAR(again.cost_per_part, r.cost_per_part, 1e-9 * r.cost_per_part);
+  // Given conditions of the drill are its conditions.
+  auto& drill = operation(own, "own-s1-drill-t");
+  drill["conditions"]["f_mm_rev"] = 0.9 * drill["conditions"]["f_mm_rev"].get<double>();
+  EXPECT_GT(predict(part_to_predict(own)).time_per_part_min, r.time_per_part_min);
+  // The drill alone does not cut the thread.
+  auto& all = own["operations"];
+  all.erase(std::ranges::find_if(
+      all, [](const json& o) { return o["id"] == "own-s1-thread-t"; }));
+  expect_told(own,
+              "t has no operation of kind \"fixed\": only its blank would be made\n");
+}
+
 TEST(GivenOperations, InAnotherSetupThanTheHoleAreTold) {
   for (const std::string id :
        {"own-s1-counterbore-cb", "own-s1-countersink-cb", "own-s1-drill-cb"}) {
