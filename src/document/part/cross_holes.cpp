@@ -17,6 +17,7 @@ constexpr double kSlack_mm = 1e-9;
 
 // The drill that the document names, or those that keep its limits.
 void read_drills(Draft& draft, Reader& r, Milled& m) {
+  const auto before = r.problems().list.size();
   if (r.has("tool")) {
     std::vector<std::string> known;
     for (const auto& t : draft.plan().fixed_tools)
@@ -26,7 +27,7 @@ void read_drills(Draft& draft, Reader& r, Milled& m) {
   const bool asked = r.has("fit") || r.has("limits_mm");
   const auto limits =
       asked && m.width_mm > 0 ? given_limits(r, m.width_mm) : std::nullopt;
-  if (!limits) return;
+  if (!limits || r.problems().list.size() > before) return;
   std::vector<std::string> keeping;
   std::string made;
   for (const auto* t : known_tools(draft, catalogue::FixedUse::drilling)) {

@@ -80,10 +80,13 @@ std::vector<const FixedTool*> known_tools(const Draft& draft, FixedUse use) {
 }
 
 std::optional<part::Limits> given_limits(Reader& hole, double D) {
-  if (const auto given = hole.find("limits_mm"))
-    return given->broken() ? std::nullopt : std::optional(read_limits(hole));
+  const auto before = hole.problems().list.size();
+  if (hole.has("limits_mm")) {
+    const auto given = read_limits(hole);
+    return hole.problems().list.size() > before ? std::nullopt : std::optional(given);
+  }
   const auto fit = hole.optional_text("fit", 8);
-  if (!fit) return std::nullopt;
+  if (!fit || hole.problems().list.size() > before) return std::nullopt;
   try {
     return tolerance::fit_limits_mm(D, *fit);
   } catch (const std::domain_error& error) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -87,37 +89,52 @@ void check_shape(const part::Drawing& d, Reader& r, Milled& m) {
     r.problem_at("length_mm", "at least its width, " + mm_text(m.width_mm), "conflict");
 }
 
-// What a place takes of the cross-section: of a hole through the part both halves.
-std::vector<deflection::Slot> slots_of(const Milled& m, double D_mm) {
-  if (m.through != planning::Through::part) return {slot_of(m, D_mm)};
-  auto near = slot_of(m, D_mm);
-  near.floor_mm = 0;
+// What a place takes of the cross-section: of a hole through the part both halves, which in
+// a bore wider than the hole begin where its edges leave the wall.
+std::vector<deflection::Slot> slots_of(const part::Drawing& d, const Milled& m) {
+  const double D = d.outer[m.element].left_mm;
+  if (m.through != planning::Through::part) return {slot_of(m, D)};
+  const double bore = part::least_hole_mm(d, m.z_mm, m.z_mm + m.length_mm);
+  auto near = slot_of(m, D);
+  near.floor_mm = std::sqrt(std::max(0.0, bore * bore - m.width_mm * m.width_mm)) / 2;
   auto far = near;
   far.angle_rad += units::kPi;
   return {near, far};
 }
 
-bool places_meet(const Milled& a, const Milled& b, double D_mm) {
-  const auto of_a = slots_of(a, D_mm), of_b = slots_of(b, D_mm);
+bool places_meet(const part::Drawing& d, const Milled& a, const Milled& b) {
+  if (a.element != b.element || b.z_mm >= a.z_mm + a.length_mm ||
+      a.z_mm >= b.z_mm + b.length_mm)
+    return false;
+  // Flats of one entry may meet in an edge, as those of a hexagon do.
+  if (a.entry == b.entry && a.kind == MilledKind::flat) return false;
+  const auto of_a = slots_of(d, a), of_b = slots_of(d, b);
   return std::ranges::any_of(of_a, [&](const auto& x) {
-    return std::ranges::any_of(of_b, [&](const auto& y) { return meet(x, y, D_mm); });
+    return std::ranges::any_of(
+        of_b, [&](const auto& y) { return meet(x, y, d.outer[a.element].left_mm); });
   });
 }
 
-// Flats of one entry may meet in an edge, as those of a hexagon do.
-void check_others(const Draft& draft, Reader& r, const Milled& m) {
-  for (const auto& feature : features(draft.loaded.plan.drawing))
-    if (!m.id.empty() && feature.id == m.id)
-      r.problem_at("id", "an id no element or face has", "duplicate");
-  for (const auto& other : draft.loaded.plan.milled) {
-    if (!m.id.empty() && other.id == m.id)
-      r.problem_at("id", "an id no other milled place has", "duplicate");
-    const double D = draft.loaded.plan.drawing.outer[m.element].left_mm;
-    const bool own = other.entry == m.entry && m.kind == MilledKind::flat;
-    if (!own && other.element == m.element && other.z_mm < m.z_mm + m.length_mm &&
-        m.z_mm < other.z_mm + other.length_mm && places_meet(m, other, D))
-      r.problem("a place that does not meet " + other.id, "conflict");
+// Adds the places of an entry, whose problems are told once.
+void add_places(Draft& draft, Reader& r, std::vector<Milled> entry) {
+  const auto& drawing = draft.loaded.plan.drawing;
+  auto& all = draft.plan().milled;
+  bool of_feature = false, of_place = false;
+  std::vector<std::string> met;
+  for (auto& m : entry) {
+    const auto has_id = [&](const auto& x) { return !m.id.empty() && x.id == m.id; };
+    of_feature = of_feature || std::ranges::any_of(features(drawing), has_id);
+    of_place = of_place || std::ranges::any_of(all, has_id);
+    for (const auto& other : all)
+      if (places_meet(drawing, m, other) && std::ranges::count(met, other.id) == 0)
+        met.push_back(other.id);
+    all.push_back(std::move(m));
   }
+  if (of_feature) r.problem_at("id", "an id no element or face has", "duplicate");
+  if (of_place) r.problem_at("id", "an id no other milled place has", "duplicate");
+  if (!met.empty())
+    r.problem(fmt::format("a place that does not meet {}", fmt::join(met, ", ")),
+              "conflict");
 }
 
 // Speeds of the driven spindle, if the machine has one.
@@ -227,10 +244,7 @@ void read_place(Draft& draft, Reader r, std::size_t entry) {
   m.element = static_cast<std::size_t>(e - outer.begin());
   hole ? check_cross_hole(draft.drawing(), r, m) : check_shape(draft.drawing(), r, m);
   if (setup) m.given_setup = static_cast<std::size_t>(*setup);
-  for (auto& one : places(m, count)) {
-    check_others(draft, r, one);
-    draft.plan().milled.push_back(std::move(one));
-  }
+  add_places(draft, r, places(m, count));
 }
 
 // Machines of the catalogue that mill.

@@ -163,6 +163,47 @@ TEST(CrossHoles, DoNotMeetOtherPlaces) {
   EXPECT_EQ(refused_with("/milling/0/count", 2), "");
 }
 
+// Through a hollow part holes begin where the bore leaves off: ten holes of 6 mm stand 36
+// degrees apart around a bore of 20 mm, of which each takes 2 asin(6/20), 34.9 degrees.
+TEST(CrossHoles, ThroughAHollowPartDoNotMeetInItsBore) {
+  auto document = part();
+  auto& hole = document["milling"][0];
+  hole["through"] = "part";
+  hole["count"] = 5;
+  EXPECT_EQ(refused(document), "");
+  hole["diameter_mm"] = 6.2;  // 36.1 degrees
+  hole.erase("fit");
+  EXPECT_EQ(refused(document),
+            "/milling/0: got an object, expected a place that does not meet h1-1, h1-2, "
+            "h1-3\n");
+  // In the solid part of the same cylinder they meet on the axis.
+  hole.update({{"diameter_mm", 6}, {"count", 1}, {"at_mm", 55}});
+  document["milling"].push_back(hole);
+  document["milling"][3].update({{"id", "h4"}, {"angle_deg", 100}});
+  EXPECT_EQ(refused(document),
+            "/milling/3: got an object, expected a place that does not meet h1\n");
+}
+
+TEST(CrossHoles, ProblemsOfAnEntryAreToldOnce) {
+  EXPECT_EQ(refused_with("/milling/0/count", 15),
+            "/milling/0: got an object, expected a place that does not meet h1-1, h1-2, "
+            "h1-3, h1-4, h1-5, h1-6, h1-7, h1-8, h1-9, h1-10, h1-11, h1-12, h1-13, "
+            "h1-14\n");
+  auto document = part();
+  document["milling"][1].update({{"id", "h1"}, {"count", 3}, {"at_mm", 10}});
+  EXPECT_EQ(refused(document),
+            "/milling/1/id: got \"h1\", expected an id no other milled place has\n");
+  // No fit is asked of a drill that there is not, and none of limits that are none.
+  EXPECT_EQ(refused_with("/milling/0/tool", "DRILL"),
+            "/milling/0/tool: got \"DRILL\", expected a drill of the tools: "
+            "\"DRILL-HM-5D\", \"DRILL-HM-8D\", \"DRILL-INDEX-4D\"\n");
+  EXPECT_EQ(refused_with("/milling/0/fit", 12),
+            "/milling/0/fit: got 12, expected a text of 1 to 8 bytes\n");
+  EXPECT_EQ(refused_with("/milling/1/limits_mm", {0.1, 0.05}),
+            "/milling/1/limits_mm: got [0.1,0.05], expected [lower, upper] with lower < "
+            "upper\n");
+}
+
 TEST(CrossHoles, NeedDrivenTools) {
   EXPECT_EQ(refused_with("/machine", "lathe-medium"),
             "/milling: got a list of 3 entries, expected none: lathe-medium has no "
