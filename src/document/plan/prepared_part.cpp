@@ -21,6 +21,7 @@ namespace turnwright::document {
 namespace {
 
 constexpr double kNotedBelow = 0.9;  // of a section's stiffness
+constexpr double kRounding_mm = 1e-9;
 
 using Assumed = std::vector<Assumption>;
 
@@ -130,6 +131,45 @@ void check_given_tools(const LoadedPart& loaded) {
   problems.throw_if_any();
 }
 
+// Cross holes are drilled where they are drawn: they lie on their cylinder, and over the bore
+// that they open into, as programs make these too.
+void check_programmed_holes(const LoadedPart& loaded, const planning::MovedFaces& moved) {
+  if (moved.empty()) return;
+  auto made = loaded.plan.drawing;
+  const auto move = [&](auto& elements, bool inner) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const auto by = [&](part::End end) {
+        return planning::end_moved_mm(moved, loaded.plan.drawing, {inner, i}, end);
+      };
+      elements[i].length_mm += by(part::End::right) - by(part::End::left);
+    }
+  };
+  move(made.outer, false);
+  move(made.inner, true);
+  Problems problems{.document = loaded.document};
+  for (const auto& m : loaded.plan.milled) {
+    if (m.kind != planning::MilledKind::cross_hole) continue;
+    const auto add = [&](const std::string& wanted) {
+      const auto pointer = fmt::format("/milling/{}/at_mm", m.entry);
+      if (problems.list.empty() || problems.list.back().pointer != pointer)
+        problems.add({pointer, fmt::format("{:.6g} mm", m.z_mm + m.length_mm / 2), wanted,
+                      "conflict"});
+    };
+    const auto& e = made.outer[m.element];
+    const double z0 = part::left_z_mm(made, m.element), z1 = z0 + e.length_mm;
+    if (m.z_mm < z0 - kRounding_mm || m.z_mm + m.length_mm > z1 + kRounding_mm)
+      add(
+          fmt::format("a hole that lies on {} where the middles of the limits in "
+                      "tolerances have it, from {:.6g} mm to {:.6g} mm",
+                      e.id, z0, z1));
+    else if (m.through == planning::Through::wall &&
+             m.width_mm >= part::least_hole_mm(made, m.z_mm, m.z_mm + m.length_mm))
+      add("a hole with a bore behind all of its width where the middles of the limits in "
+          "tolerances have the bore");
+  }
+  problems.throw_if_any();
+}
+
 // Plans cut the elements as long as they are drawn, programs as the middles of the lengths'
 // limits have them.
 void check_programmed_lengths(const LoadedPart& loaded) {
@@ -156,6 +196,7 @@ void check_programmed_lengths(const LoadedPart& loaded) {
   check(d.outer, false, "/outer/");
   check(d.inner, true, "/inner/");
   problems.throw_if_any();
+  check_programmed_holes(loaded, moved);
 }
 
 planning::PreparedPart with_limit(const ChangedRequest& change,

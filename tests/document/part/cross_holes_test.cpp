@@ -123,6 +123,43 @@ TEST(CrossHoles, ShapesThatCannotBeAreRefused) {
   EXPECT_EQ(refused(document).substr(0, 20), "/milling/1/through: ");
 }
 
+// Programs cut lengths to the middles of their limits, and drill where a hole is drawn.
+TEST(CrossHoles, LieOnTheirCylinderAsProgramsMakeIt) {
+  const auto with = [](const char* face, double lower_mm, double upper_mm) {
+    auto document = part();
+    document["milling"][0]["at_mm"] = 63;  // over the bore from 60 mm on
+    document["milling"][2]["at_mm"] = 46;  // to the end of d1 at 50 mm
+    document["tolerances"] = {{{"id", "t"},
+                               {"kind", "length"},
+                               {"between", {face, "right"}},
+                               {"limits_mm", {lower_mm, upper_mm}}}};
+    return refused(document);
+  };
+  EXPECT_EQ(with("d1|d2", -0.2, 0.2), "");
+  EXPECT_EQ(with("d1|d2", -0.2, 0), "");  // d1 is longer
+  EXPECT_EQ(
+      with("d1|d2", 0, 0.2),
+      "/milling/2/at_mm: got 46 mm, expected a hole that lies on d1 where the middles "
+      "of the limits in tolerances have it, from 0 mm to 49.9 mm\n");
+}
+
+// A hole from 60 mm on into a wider bore, which is made shorter by 0.1 mm.
+TEST(CrossHoles, OpenIntoTheBoreThatProgramsMake) {
+  auto document = part();
+  document["inner"] = json::parse(R"([
+    {"id": "b1", "kind": "cylinder", "from": "right", "length_mm": 40, "diameter_mm": 20},
+    {"id": "b2", "kind": "cylinder", "from": "right", "length_mm": 60, "diameter_mm": 5}])");
+  document["milling"] = {document["milling"][0]};
+  document["milling"][0]["at_mm"] = 63;
+  document["tolerances"] = json::parse(R"([
+    {"id": "t", "kind": "length", "between": ["right", "b1|b2"], "limits_mm": [0, 0.2]}])");
+  EXPECT_EQ(refused(document), "");
+  document["tolerances"][0]["limits_mm"] = {-0.2, 0};
+  EXPECT_EQ(refused(document),
+            "/milling/0/at_mm: got 63 mm, expected a hole with a bore behind all of its "
+            "width where the middles of the limits in tolerances have the bore\n");
+}
+
 TEST(CrossHoles, TighterFitsThanADrillLeavesAreRefused) {
   const auto text = refused_with("/milling/0/fit", "H7");
   EXPECT_EQ(
