@@ -106,6 +106,12 @@ bool wanted_in(const PreparedPart& p, std::size_t s, const std::string& surface)
   });
 }
 
+bool wanted(const PreparedPart& p, const std::string& surface) {
+  for (std::size_t s = 0; s < p.setups.size(); ++s)
+    if (wanted_in(p, s, surface)) return true;
+  return false;
+}
+
 // The first setup that may and can make a surface; if there is none, adds the reason.
 template <class Can>
 std::optional<std::size_t> place(const PreparedPart& p, const std::string& surface,
@@ -160,7 +166,7 @@ void assign_faces(const PreparedPart& p, Assignment& a) {
     const auto id = shoulder_id(d, k);
     const auto &before = d.outer[k - 1], &after = d.outer[k];
     if (!face_named(d, id) || before.right_mm == after.left_mm) continue;
-    if (!p.operations && made_with_undercut(d, k)) continue;
+    if (made_with_undercut(d, k) && !(p.operations && wanted(p, id))) continue;
     const std::size_t smaller = before.right_mm > after.left_mm ? k : k - 1;
     const auto s = place(
         p, id,

@@ -113,6 +113,30 @@ TEST(GivenOperations, OfAThreadAtTheMouthOfADrilledBoreAreCarriedOut) {
               "t has no operation of kind \"fixed\": only its blank would be made\n");
 }
 
+// The pass of the undercut makes a shoulder of which the drawing says the roughness alone.
+TEST(GivenOperations, NeedNotFaceAShoulderBehindAnUndercut) {
+  auto d = counterbored();
+  d.erase("inner");
+  d["edges"] = {{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}};
+  d["faces"] = {{{"id", "d1|d2"}, {"Ra_um", 3.2}}};
+  const auto r = plan(part(d));
+  ASSERT_EQ(r.status, PlanStatus::ok) << told(r);
+  auto own = as_planned(d, r);
+  const auto again = predict(part_to_predict(own));
+  ASSERT_EQ(again.status, PlanStatus::ok) << told(again);
+  EXPECT_NEAR(again.cost_per_part, r.cost_per_part, 1e-9 * r.cost_per_part);
+  // Faced all the same it takes longer; without the undercut it has to be.
+  auto face = operation(own, "s2-finish-d1");
+  face.update({{"id", "faced"}, {"kind", "face"}, {"on", {"d1|d2"}}});
+  own["operations"].push_back(face);
+  const auto faced = predict(part_to_predict(own));
+  EXPECT_GT(faced.cost_per_part, r.cost_per_part) << told(faced);
+  own["operations"].erase(own["operations"].size() - 1);
+  own.erase("edges");
+  EXPECT_EQ(told(predict(part_to_predict(own))),
+            "d1|d2 has no operation: it would stay as the stock is\n");
+}
+
 TEST(GivenOperations, InAnotherSetupThanTheHoleAreTold) {
   for (const std::string id :
        {"own-s1-counterbore-cb", "own-s1-countersink-cb", "own-s1-drill-cb"}) {
