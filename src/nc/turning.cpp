@@ -200,6 +200,17 @@ bool begins_on_finished(const Pass& p) {
          std::abs(s.h1 - t.h0) < kStands_mm;
 }
 
+// A way to an edge that would begin on the surface in front begins between it and the stock
+// that is left before the shoulder.
+void begin_beside(const Pass& p, std::vector<Point>& way) {
+  if (p.k == 0 || !p.surface().front || way.size() < 2) return;
+  const double stock_z =
+      p.surface().z0 + shoulder_stock_mm(p.site, p.operation, p.side, p.k - 1);
+  const double z = (way[0].z_mm + stock_z) / 2;
+  if (way[0].z_mm > stock_z + kStands_mm && z > way[1].z_mm)
+    way[0] = at_z(way[0], way[1], z);
+}
+
 // A finishing pass comes in along the element's own line, from as far away as the
 // surfaces in front allow; onto the end of a finished surface, down a slope of 45 deg; to a
 // rounded edge, up one.  A roughing pass comes in along the axis.
@@ -231,7 +242,10 @@ void lead_in(const Pass& p, const std::vector<Point>& c, std::vector<Point>& way
                               p.plan().tool, p.surface().id));
   way = {way.rbegin(), way.rend()};
   if (way.empty() || !(stopped || begins_on_finished(p))) return;
-  if (!stopped) way.front() = tip(c[0], n, p.re_mm);
+  if (!stopped)
+    way.front() = tip(c[0], n, p.re_mm);
+  else
+    begin_beside(p, way);
   if (const auto from = slope_onto(way.front(), p.site.above(p.side), pieces, p.tool()))
     way.insert(way.begin(), *from);
 }
