@@ -20,6 +20,13 @@ const SolvedSurface* feature_of(const Attempt& a, const std::string& surface) {
   return nullptr;
 }
 
+// The jaws that hold the part while a surface is cut, if it is.
+const JawForces* jaws_of(const PreparedPart& p, const Attempt& a,
+                         const std::string& surface) {
+  const auto* f = feature_of(a, surface);
+  return f ? &p.jaws[f->task.making.setup] : nullptr;
+}
+
 // "setup 1, chuck or chuck-tailstock, d2"
 std::string where(const PreparedPart& p, const Attempt& a, const std::string& surface) {
   const auto* f = feature_of(a, surface);
@@ -147,8 +154,8 @@ class Explanation {
   void tell(std::size_t k, std::size_t i, ProcessPlan& result) const {
     const std::size_t limit = sets_[k][i];
     const auto& l = oracle_.limits()[limit];
-    const auto n = value_of(p_, l);
     const auto surface = surface_of(p_, l, troubled_);
+    const auto n = value_there(l, surface);
     const Need& need = needs_[k][i];
     Conflict c{
         n.name, where(p_, a_, surface), value_at(l, n, need.in_set), n.now, n.unit, {},
@@ -161,6 +168,14 @@ class Explanation {
     if (need.factor)
       result.relax.push_back(relaxation(l, n, surface, value_at(l, n, *need.factor), k));
     result.conflicts.push_back(std::move(c));
+  }
+
+  // The grip is that of the setup's jaws, which may close with less than the chuck could.
+  LimitValue value_there(const RelaxableLimit& l, const std::string& surface) const {
+    auto n = value_of(p_, l);
+    if (const auto* jaws = jaws_of(p_, a_, surface); jaws && l.row->check == Check::grip)
+      n.now = jaws->roughing_N;
+    return n;
   }
 
   double value_at(const RelaxableLimit& l, const LimitValue& n, double factor) const {
@@ -206,6 +221,11 @@ class Explanation {
                              l.row->is_width ? "open" : "go", from, to, n.unit);
     if (l.row->is_width && p_.drawing.tolerances[l.owner].limits)
       r.sentence += " about the middle of its limits";
+    if (const auto* jaws = jaws_of(p_, a_, surface);
+        jaws && jaws->spares_tube && l.row->check == Check::grip)
+      r.sentence +=
+          ", which strains the hollow part to more than two thirds of its yield "
+          "strength";
     return r;
   }
 

@@ -393,6 +393,31 @@ INSTANTIATE_TEST_SUITE_P(Conflicts, MachineLimit,
                                          std::pair{"least tool life", 1e-4},
                                          std::pair{"grip of the chuck", 0.01}));
 
+// Jaws that close with less than the chuck for a hollow part's sake: their force counts, and
+// that more of it strains the part is said.
+TEST(GripConflict, TellsTheForceOfTheJawsThatSpareTheHollowPart) {
+  auto d = inlined(pin());
+  d["stock"] = {{"kind", "tube"}, {"outer_mm", 46}, {"inner_mm", 10}, {"length_mm", 94}};
+  d["outer"][1]["diameter_mm"] = 14;
+  d["machine"]["chuck"]["friction"] = 0.08;
+  const auto p = part(d);
+  const auto r = certified_plan(d);
+  ASSERT_TRUE(p.jaws[1].spares_tube);
+  ASSERT_EQ(r.status, PlanStatus::infeasible);
+  ASSERT_EQ(r.conflicts.at(0).limit, "grip of the chuck");
+  EXPECT_EQ(r.conflicts[0].allowed, p.jaws[1].roughing_N);
+  ASSERT_EQ(r.relax.size(), 1u);
+  EXPECT_NE(r.relax[0].sentence.find("strains the hollow part"), std::string::npos);
+  // With that force on a part that bears it it is feasible.
+  const auto with = [&](double force_N) {
+    auto q = part(d);
+    q.jaws[1].roughing_N = q.jaws[1].finishing_N = force_N;
+    return plan(q).status == PlanStatus::ok;
+  };
+  EXPECT_TRUE(with(r.relax[0].needed));
+  EXPECT_FALSE(with(r.relax[0].now));
+}
+
 class OverConstrained : public testing::TestWithParam<unsigned> {};
 
 TEST_P(OverConstrained, SetsAreIrreducibleAndWhatIsToldMakesThePartFeasible) {
