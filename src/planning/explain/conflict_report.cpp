@@ -76,10 +76,7 @@ class Explanation {
   }
 
   void tell(ProcessPlan& result) {
-    for (const auto& surface : oracle_.left_out())
-      if (const auto* f = feature_of(a_, surface); f && !f->answer.feasible)
-        result.conflicts.push_back({"depth of cut", where(p_, a_, surface), 0, 0, "mm",
-                                    infeasibility_reason(p_, *f)});
+    for (const auto& surface : oracle_.left_out()) tell_not_made(surface, result);
     for (std::size_t k = 0; k < sets_.size(); ++k) needs_.push_back(needs(k));
     make_joint();
     for (std::size_t k = 0; k < sets_.size(); ++k)
@@ -88,6 +85,18 @@ class Explanation {
   }
 
  private:
+  // That no limits but the tools keep a surface from being made; returns whether it is so.
+  bool tell_not_made(const std::string& surface, ProcessPlan& result) const {
+    const auto* f = feature_of(a_, surface);
+    if (!f || f->answer.feasible) return false;
+    const auto reason = infeasibility_reason(p_, *f);
+    if (std::ranges::find(result.conflicts, reason, &Conflict::sentence) ==
+        result.conflicts.end())
+      result.conflicts.push_back(
+          {"depth of cut", where(p_, a_, surface), 0, 0, "mm", reason});
+    return true;
+  }
+
   // The limits that the search violates least, if no set of limits conflicts by itself.
   void tell_nearest(ProcessPlan& result) const {
     for (const auto& s : a_.setups)
@@ -157,6 +166,10 @@ class Explanation {
     const auto surface = surface_of(p_, l, troubled_);
     const auto n = value_there(l, surface);
     const Need& need = needs_[k][i];
+    // A shoulder between bores that no tool faces is in the way of its tolerances.
+    if (!need.factor && need.in_set == 1 && !l.row->given() &&
+        tell_not_made(surface, result))
+      return;
     Conflict c{
         n.name, where(p_, a_, surface), value_at(l, n, need.in_set), n.now, n.unit, {},
         k + 1};

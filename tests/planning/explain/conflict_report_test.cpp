@@ -418,6 +418,27 @@ TEST(GripConflict, TellsTheForceOfTheJawsThatSpareTheHollowPart) {
   EXPECT_FALSE(with(r.relax[0].now));
 }
 
+// A shoulder between bores is faced for its tolerances alone; without a bar that is what is
+// told of it, once, and not that its tolerances would come to their limits.
+TEST(NoTool, OfAShoulderBetweenBoresIsToldInPlaceOfItsTolerances) {
+  auto d = pin();
+  d["stock"] = {{"kind", "tube"}, {"outer_mm", 42}, {"inner_mm", 10}, {"length_mm", 92}};
+  d["inner"] = json::parse(R"([
+    {"id": "b1", "kind": "cylinder", "from": "right", "length_mm": 12, "diameter_mm": 18},
+    {"id": "b2", "kind": "cylinder", "from": "right", "length_mm": 78, "diameter_mm": 12}])");
+  d["tolerances"] = json::parse(R"([
+    {"id": "t1", "kind": "flatness", "of": "b1|b2", "value_mm": 0.02},
+    {"id": "t2", "kind": "length", "between": ["right", "b1|b2"], "limits_mm": [0, 0.1]}])");
+  const auto r = plan(part(d));
+  EXPECT_EQ(r.status, PlanStatus::infeasible);
+  std::string told;
+  for (const auto& c : r.conflicts) told += c.sentence + "\n";
+  EXPECT_EQ(told,
+            "b1: none of the tools for boring has a grade for C45\n"
+            "b2: none of the tools for boring has a grade for C45\n"
+            "b1|b2: none of the tools for boring has a grade for C45\n");
+}
+
 class OverConstrained : public testing::TestWithParam<unsigned> {};
 
 TEST_P(OverConstrained, SetsAreIrreducibleAndWhatIsToldMakesThePartFeasible) {
