@@ -63,7 +63,7 @@ Diameters swept(const Site& site, const OperationPlan& o) {
     return {std::min(e->left_mm, e->right_mm), std::max(e->left_mm, e->right_mm)};
   if (const auto ring = planning::shoulder_ring(d, o.on[0]))
     return {ring->small_mm, ring->large_mm};
-  return {d.stock.inner_mm, d.stock.outer_mm};  // the free end
+  return {d.stock.inner_mm, planning::end_stock_mm(site.part, site.setup)};
 }
 
 // The range in which an operation's tool is in the cut; call it before the operation
@@ -258,6 +258,10 @@ const char* section_words(part::StockKind kind) {
       return "hexagon across flats";
     case part::StockKind::square:
       return "square across flats";
+    case part::StockKind::casting:
+      return "casting, largest diameter";
+    case part::StockKind::forging:
+      return "forging, largest diameter";
     case part::StockKind::bar:
     case part::StockKind::tube:
       break;

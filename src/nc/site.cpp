@@ -63,6 +63,9 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
   if (!faced)
     front = planning::face_stock_mm(part, sign > 0 ? part::End::right : part::End::left);
   const auto moved = planning::faces_moved_mm(part.drawing);
+  const auto stock_h = [&](bool bore, std::size_t i) {
+    return bore ? 0 : part::stock_of(part.drawing, i).most_mm / 2;
+  };
   const auto add = [&](Side& side, const auto& elements, const auto& left_z,
                        const std::vector<bool>& done, bool bore) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -78,9 +81,10 @@ Site::Site(const planning::PreparedPart& part_, const planning::ProcessPlan& pla
                    rb = side.sign * e.right_mm / 2 + rises * moves_b;
       const auto left = planning::turned(e.left_chamfer),
                  right = planning::turned(e.right_chamfer);
-      side.items.push_back(
-          a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i], 0, left, right}
-                : Surface{e.id, bore, i, b, rb, a, ra, !done[i], 0, right, left});
+      side.items.push_back(a > b ? Surface{e.id, bore, i, a, ra, b, rb, !done[i],
+                                           stock_h(bore, i), 0, left, right}
+                                 : Surface{e.id, bore, i, b, rb, a, ra, !done[i],
+                                           stock_h(bore, i), 0, right, left});
       if constexpr (requires { e.left_undercut; })
         (planning::faces_behind(part, setup, work[setup], {bore, i})
              ? side.items.back().faced_undercut
@@ -132,6 +136,11 @@ void Site::approach(const Side& side, const Point& p, double re_mm) {
   const double to_z = side.sign > 0 ? p.z_mm + 2 * re_mm : INFINITY;
   const double stands = std::max(side.highest(p.z_mm, to_z), p.h_mm);
   approach(side, {stands + above(side), p.z_mm});
+  to(Move::Kind::feed, side, p);
+}
+
+void Site::approach_level(const Side& side, const Point& p) {
+  approach(side, {p.h_mm + above(side), p.z_mm});
   to(Move::Kind::feed, side, p);
 }
 

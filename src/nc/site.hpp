@@ -34,8 +34,9 @@ struct Surface {
   bool inner = false;
   std::size_t index = 0;  ///< in the drawing
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
-  bool stock = true;  ///< not cut yet
-  double left = 0;    ///< thickness that the last pass has left on it
+  bool stock = true;   ///< not cut yet
+  double stock_h = 0;  ///< outside: largest height of the uncut stock there
+  double left = 0;     ///< thickness that the last pass has left on it
   std::optional<part::Chamfer> front = {}, back = {};  ///< chamfers, drawn at z0 and z1
   /// Before the wall at z1: cut by the last pass, or by the facing of the wall.
   std::optional<part::Undercut> undercut = {}, faced_undercut = {};
@@ -44,11 +45,12 @@ struct Surface {
 /// Outside or in the bores.
 struct Side {
   double sign = 1;             ///< h = sign x
-  double stock_h = 0;          ///< height of the uncut stock
+  double stock_h = 0;          ///< largest height of the uncut stock
   std::vector<Surface> items;  ///< from the free end inwards
 
-  double top0(const Surface& s) const { return s.stock ? stock_h : s.h0 + s.left; }
-  double top1(const Surface& s) const { return s.stock ? stock_h : s.h1 + s.left; }
+  double stock_over(const Surface& s) const { return s.inner ? stock_h : s.stock_h; }
+  double top0(const Surface& s) const { return s.stock ? stock_over(s) : s.h0 + s.left; }
+  double top1(const Surface& s) const { return s.stock ? stock_over(s) : s.h1 + s.left; }
   double top(const Surface& s) const;
   /// Largest height of the surfaces that lie, at least in part, between two positions on
   /// the axis, from_z < to_z; -infinity if there are none.
@@ -93,6 +95,8 @@ class Site {
   /// The same to the start of a pass whose first move ends at `next`: where that comes
   /// down from half as high as tools come in or more, the start is reached in rapid.
   void approach(const Side& side, const Point& p, const Point& next, double re_mm);
+  /// The same where nothing stands higher than the point.
+  void approach_level(const Side& side, const Point& p);
   /// Moves from any position to a point outside the material.
   void approach(const Side& side, const Point& p);
   /// Moves away from the wall of a bore, as far as narrower bores in front require.

@@ -129,7 +129,8 @@ struct Pass {
   Side& side;
   std::size_t operation, k;  // k: the element's place in the tool's order
   double ap_mm, left_mm, re_mm;
-  bool last;  // makes the drawn contour
+  bool last;                           // makes the drawn contour
+  std::optional<double> stock_z = {};  // where it reaches stock, if not at its front
 
   Surface& surface() const { return side.items[k]; }
   bool from_before() const {
@@ -395,6 +396,17 @@ void lead_out(const Pass& p, std::vector<Point>& way) {
   if (stopped && w && way.size() > 1) draw_out(p, *w, way);
 }
 
+// Begins a pass over a cylinder of a casting or forging where it reaches stock.
+void begin_at_stock(const Pass& p, std::vector<Point>& way) {
+  const double h = p.surface().h1 + p.left_mm;
+  const auto level = [&](const Point& q) { return std::abs(q.h_mm - h) < kStands_mm; };
+  auto next = std::ranges::find_if(
+      way, [&](const Point& q) { return level(q) && q.z_mm < *p.stock_z + kBefore_mm; });
+  if (next == way.end()) next = std::find_if(way.rbegin(), way.rend(), level).base() - 1;
+  way.erase(way.begin(), next);
+  way.insert(way.begin(), {h, std::max(*p.stock_z, way.front().z_mm) + kBefore_mm});
+}
+
 struct Way {
   std::vector<Point> points;
   std::size_t entered = 0;  // moves over elements in front
@@ -408,7 +420,7 @@ Way way_of(const Pass& p) {
   } else {
     lead_in(p, contour(p), way);
     if (way.size() < 2) return {};
-    entered = start_clear(p, way);
+    if (!p.stock_z) entered = start_clear(p, way);
   }
   if (p.goes_on()) {
     const auto over = crossing(p, p.k);
@@ -418,6 +430,7 @@ Way way_of(const Pass& p) {
     way.push_back(over.back());
   }
   lead_out(p, way);
+  if (p.stock_z) begin_at_stock(p, way);
   return {way, entered};
 }
 
@@ -497,7 +510,10 @@ void pass(const Pass& p) {
   const auto arcs = roundings(p);
   meet(way.points, arcs);
   if (way.points.size() > 1) {
-    if (!p.from_before()) p.site.approach(p.side, way.points[0], way.points[1], p.re_mm);
+    if (p.stock_z)
+      p.site.approach_level(p.side, way.points[0]);
+    else if (!p.from_before())
+      p.site.approach(p.side, way.points[0], way.points[1], p.re_mm);
     follow(p.site, p.side, way.points, arcs, true, [&](std::size_t i) {
       to_point(p, way.points, i);
       p.site.moves.back().entering = i <= way.entered;
@@ -717,13 +733,21 @@ void turn(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   auto& side = site.side(is_bore(o.kind));
   for (const auto& id : o.on) {
+    const auto k = place(side, id);
+    const auto& s = side.items[k];
+    const auto outline = !s.inner && s.stock
+                             ? planning::outline_over(site.part, site.setup, s.index)
+                             : planning::Outline{};
     double left = later_mm(site, operation, id) + depth_mm(o);
     const bool finishes = left - depth_mm(o) < kSame_mm;
     for (std::size_t i = 0; i < o.passes.size(); ++i) {
       left -= o.passes[i].ap_mm;
       const bool last = finishes && i + 1 == o.passes.size();
-      pass({site, side, operation, place(side, id), o.passes[i].ap_mm, last ? 0 : left,
-            corner_mm(site, o), last});
+      pass({site, side, operation, k, o.passes[i].ap_mm, last ? 0 : left,
+            corner_mm(site, o), last,
+            last ? std::nullopt
+                 : planning::reaches_stock_z(outline, static_cast<int>(i),
+                                             static_cast<int>(o.passes.size()))});
     }
   }
 }
@@ -731,7 +755,8 @@ void turn(Site& site, std::size_t operation) {
 void face(Site& site, std::size_t operation) {
   const auto& o = site.answer().operations[operation];
   const double re = corner_mm(site, o), hole = -site.inner.stock_h;
-  const double outside = site.outer.stock_h + kAbove_mm + re;
+  const double outside =
+      planning::end_stock_mm(site.part, site.setup) / 2 + kAbove_mm + re;
   double left = later_mm(site, operation, o.on[0]) + depth_mm(o);
   for (const auto& pass : o.passes) {
     left -= pass.ap_mm;

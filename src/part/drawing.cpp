@@ -123,9 +123,63 @@ int flats(StockKind kind) {
       return 4;
     case StockKind::bar:
     case StockKind::tube:
+    case StockKind::casting:
+    case StockKind::forging:
       break;
   }
   return 0;
+}
+
+StockRange stock_between(const Stock& s, double z0_mm, double z1_mm) {
+  if (s.outline.empty()) return {across_mm(s), s.outer_mm};
+  const double end = s.length_mm - s.left_allowance_mm;
+  const double from = std::min(std::max(z0_mm, -s.left_allowance_mm), end - kSame_mm),
+               to = std::min(std::max(z1_mm, from + kSame_mm), end);
+  StockRange range{INFINITY, 0};
+  double z = -s.left_allowance_mm;
+  for (const auto& piece : s.outline) {
+    const double a = std::max(from, z), b = std::min(to, z + piece.length_mm);
+    if (b - a > kSame_mm / 2)
+      for (const double at : {a, b}) {
+        const double d =
+            piece.left_mm + (piece.right_mm - piece.left_mm) * (at - z) / piece.length_mm;
+        range.least_mm = std::min(range.least_mm, d);
+        range.most_mm = std::max(range.most_mm, d);
+      }
+    z += piece.length_mm;
+  }
+  range.least_mm += s.outline_limits.lower_mm;
+  range.most_mm += s.outline_limits.upper_mm;
+  return range;
+}
+
+std::vector<std::array<double, 2>> half_section(const Stock& s) {
+  const double from = -s.left_allowance_mm, to = from + s.length_mm, in = s.inner_mm / 2;
+  std::vector<std::array<double, 2>> corners;
+  double z = from;
+  for (const auto& piece : s.outline) {
+    const double more = s.outline_limits.upper_mm;
+    corners.push_back({(piece.left_mm + more) / 2, z});
+    z += piece.length_mm;
+    corners.push_back({(piece.right_mm + more) / 2, z});
+  }
+  if (corners.empty()) corners = {{s.outer_mm / 2, from}, {s.outer_mm / 2, to}};
+  corners.push_back({in, to});
+  corners.push_back({in, from});
+  return corners;
+}
+
+StockRange stock_of(const Drawing& d, std::size_t i) {
+  const auto& e = d.outer[i];
+  const bool first = i == 0, last = i + 1 == d.outer.size();
+  const double z0 = first ? -INFINITY : left_z_mm(d, i),
+               z1 = last ? INFINITY : left_z_mm(d, i) + e.length_mm;
+  const bool out_left = !first && d.outer[i - 1].right_mm <= e.left_mm + kSame_mm;
+  const bool out_right = !last && d.outer[i + 1].left_mm <= e.right_mm + kSame_mm;
+  return {stock_between(d.stock, z0, z1).least_mm,
+          stock_between(d.stock, out_left ? z0 - kRunOut_mm : z0,
+                        out_right ? z1 + kRunOut_mm : z1)
+              .most_mm};
 }
 
 double across_mm(const Stock& s) {
@@ -136,12 +190,22 @@ double across_mm(const Stock& s) {
 double section_mm2(const Stock& s) {
   const int n = flats(s.kind);
   const double across = across_mm(s);
+  if (!s.outline.empty()) {
+    double outside_mm3 = 0;
+    for (const auto& p : s.outline)
+      outside_mm3 +=
+          std::numbers::pi / 12 * p.length_mm *
+          (p.left_mm * p.left_mm + p.left_mm * p.right_mm + p.right_mm * p.right_mm);
+    return outside_mm3 / s.length_mm - std::numbers::pi / 4 * s.inner_mm * s.inner_mm;
+  }
   if (n > 0) return n * across * across / 4 * std::tan(std::numbers::pi / n);
   return std::numbers::pi / 4 * (s.outer_mm * s.outer_mm - s.inner_mm * s.inner_mm);
 }
 
 double held_mm(const Drawing& d, std::size_t setup, End hold) {
-  const double stock = across_mm(d.stock);
+  const double end = d.stock.length_mm - d.stock.left_allowance_mm;
+  const double z = hold == End::left ? -d.stock.left_allowance_mm : end;
+  const double stock = stock_between(d.stock, z, z).least_mm;
   if (setup == 0) return stock;
   if (d.outer.empty()) return 0;
   return std::min(stock,

@@ -102,9 +102,14 @@ class Reconstructing {
     return inner ? p.x_to_mm : p.x_from_mm;
   }
   // And that of the material before the first pass: outside the stock's.
-  double begun_mm(const Cut& first, bool inner) const {
+  double begun_mm(const Cut& first, const part::InnerElement&) const {
     const auto& p = first.passes.front();
-    return inner ? p.x_mm - p.ap_mm : part_.drawing.stock.outer_mm / 2;
+    return p.x_mm - p.ap_mm;
+  }
+  double begun_mm(const Cut&, const part::OuterElement& e) const {
+    const auto& d = part_.drawing;
+    const auto i = static_cast<std::size_t>(&e - d.outer.data());
+    return part::stock_of(d, i).most_mm / 2;
   }
 
   template <class Element>
@@ -121,9 +126,9 @@ class Reconstructing {
       int passes = 0;
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
         passes += static_cast<int>(cuts[k]->passes.size());
-      const double depth = std::abs(
-          begun_mm(*cuts[0], inner) -
-          reached_mm(cuts[cuts.size() - 2]->passes, inner, e.left_mm != e.right_mm));
+      const double depth =
+          std::abs(begun_mm(*cuts[0], e) - reached_mm(cuts[cuts.size() - 2]->passes,
+                                                      inner, e.left_mm != e.right_mm));
       out_.operations.push_back(
           operation(setup.setup, inner ? OperationKind::bore_rough : OperationKind::rough,
                     e.id, *cuts[0], passes, depth / passes));

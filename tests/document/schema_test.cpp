@@ -109,6 +109,19 @@ TEST(Schema, AgreesWithTheReaderOnEverySlipInWhatIsCutAtFixedConditions) {
   try_all(SchemaCheck("part.json"), refused_part, part);
 }
 
+TEST(Schema, AgreesWithTheReaderOnEverySlipInAForging) {
+  const auto part = json::parse(R"({
+    "material": "test-steel",
+    "stock": {"kind": "forging", "inner_mm": 10, "limits_mm": [-0.5, 1], "price": 3,
+              "left_allowance_mm": 2,
+              "outline": [{"length_mm": 32, "diameter_mm": 40},
+                          {"length_mm": 22, "left_mm": 45, "right_mm": 44}]},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 31, "diameter_mm": 30},
+              {"id": "d2", "kind": "cylinder", "length_mm": 20, "diameter_mm": 36}],
+    "general": "ISO 2768-mK"})");
+  try_all(SchemaCheck("part.json"), refused_part, part);
+}
+
 std::string refused_shop(const json& document) {
   Problems problems{.document = "t"};
   read_shop(Reader(document, problems), targets_of(test_catalogue()));

@@ -24,6 +24,7 @@ class Check : private Sizes {
       if (outer_.z(i) < -stock.left_allowance_mm - 1e-9 ||
           outer_.z(i) > stock.length_mm - stock.left_allowance_mm + 1e-9)
         outer_.remove(i);
+    put_outline(stock);
     remove_gone();
   }
 
@@ -48,6 +49,17 @@ class Check : private Sizes {
   const Faults& faults() const { return faults_; }
 
  private:
+  // The outline of a casting or forging at its largest.
+  void put_outline(const part::Stock& stock) {
+    double from = -stock.left_allowance_mm;
+    for (const auto& piece : stock.outline) {
+      const double slope = (piece.right_mm - piece.left_mm) / piece.length_mm;
+      for (std::size_t i = 0; i < outer_.size(); ++i)
+        if (const double by = outer_.z(i) - from; by >= 0 && by <= piece.length_mm)
+          outer_.put(i, (piece.left_mm + slope * by + stock.outline_limits.upper_mm) / 2);
+      from += piece.length_mm;
+    }
+  }
   static constexpr double kBeside = 3, kTolerance = 1e-4, kWall = 1e3;
 
   void fault(const std::string& text) {

@@ -73,10 +73,10 @@ CutSimulation::CutSimulation(const Planned& p, double pitch_mm,
           pitch_mm),
       least_(material_),
       full_(material_) {
-  const auto& stock = p.part.drawing.stock;
-  const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
-  const double in = stock.inner_mm / 2, out = stock.outer_mm / 2;
-  material_.fill({{out, z0}, {out, z1}, {in, z1}, {in, z0}});
+  review::Polygon stock;
+  for (const auto& [x, z] : part::half_section(p.part.drawing.stock))
+    stock.push_back({x, z});
+  material_.fill(stock);
   least_.fill(drawn_.least());
   full_.fill(drawn_.full());
   for (std::size_t s = 0; s < p.plan.setups.size(); ++s)

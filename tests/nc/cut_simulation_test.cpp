@@ -82,6 +82,21 @@ TEST_P(CutSimulationOfRandomParts, LeavesTheDrawing) {
   EXPECT_GT(made, 0.4 * parts / kSideBySide);
 }
 
+TEST_P(CutSimulationOfRandomParts, OfAForgingLeavesTheDrawing) {
+  const int parts = parts_to_try(75);
+  int made = 0;
+  for (int seed = 1 + GetParam(); seed <= parts; seed += kSideBySide) {
+    const auto n = static_cast<std::uint32_t>(seed);
+    const auto document = forged(RandomPart(n).document(), n);
+    SCOPED_TRACE(document);
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_EQ(found_beside(p, true), "");
+    ++made;
+  }
+  EXPECT_GT(made, 0.4 * parts / kSideBySide);
+}
+
 // No tool meets the live centre either.
 TEST_P(CutSimulationOfRandomParts, OnALiveCentreLeavesTheDrawing) {
   const int parts = parts_to_try(50);

@@ -378,6 +378,20 @@ TEST(NcPrograms, OfRandomPartsMakeTheirContours) {
   EXPECT_GT(corrected, 2);
 }
 
+TEST(NcPrograms, OfRandomForgingsMakeTheirContours) {
+  int made = 0;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    const auto document = forged(RandomPart(seed).document(), seed);
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    const auto all = programs(p.part, p.plan);
+    if (!all.cannot.empty()) continue;
+    ++made;
+    EXPECT_EQ(listed(faults_of(p, all)), "") << document;
+  }
+  EXPECT_GT(made, 15);
+}
+
 // Each was once cut wrong: its metal, a neighbour's, the jaws, or at a tool change.
 TEST(NcPrograms, OfAwkwardPartsMakeTheirContoursOrTellWhyNot) {
   for (const auto& one : document::parse_file(source("tests/data/awkward_parts.json"))) {

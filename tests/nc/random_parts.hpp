@@ -222,4 +222,62 @@ class RandomPart {
   double most_mm_ = 0;
 };
 
+/// The same part forged: stock a few millimetres above each of its elements, steps of it up
+/// to 3 mm before its shoulders, ends with draft.
+inline nlohmann::json forged(nlohmann::json document, std::uint32_t seed) {
+  using json = nlohmann::json;
+  std::mt19937 random(seed);
+  const auto below = [&](int n) {
+    return static_cast<int>(random() % static_cast<unsigned>(n));
+  };
+  struct Piece {
+    double length_mm, D_mm;
+  };
+  std::vector<Piece> pieces;
+  const auto& outer = document["outer"];
+  const auto drawn_mm = [&](std::size_t i) {
+    const auto& e = outer[i];
+    if (e.contains("diameter_mm")) return e["diameter_mm"].get<double>();
+    const double larger =
+        std::max(e["left_mm"].get<double>(), e["right_mm"].get<double>());
+    return larger + (e["kind"] == "arc" ? e["length_mm"].get<double>() : 0);
+  };
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    double left = 0, right = 0;  // grooves and necks are cut from what is beside them
+    for (std::size_t k = 0; k < outer.size(); ++k)
+      (k < i ? left : right) = std::max(k < i ? left : right, drawn_mm(k));
+    const double D = std::max(drawn_mm(i), std::min(left, right));
+    pieces.push_back({outer[i]["length_mm"].get<double>(), D + 3 + below(8)});
+  }
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const bool rises = pieces[i].D_mm > pieces[i - 1].D_mm;
+    auto &larger = pieces[rises ? i : i - 1], &smaller = pieces[rises ? i - 1 : i];
+    const double by = std::min<double>(below(4), smaller.length_mm / 4);
+    larger.length_mm += by;
+    smaller.length_mm -= by;
+  }
+  auto& stock = document["stock"];
+  const double left = stock["left_allowance_mm"].get<double>();
+  double length = 0;
+  for (const auto& e : outer) length += e["length_mm"].get<double>();
+  pieces.front().length_mm += left;
+  pieces.back().length_mm += stock["length_mm"].get<double>() - length - left;
+  json outline = json::array();
+  for (const auto& p : pieces)
+    outline.push_back({{"length_mm", p.length_mm}, {"diameter_mm", p.D_mm}});
+  const auto draft = [&](json& piece, const char* end, const char* other) {
+    const double D = piece["diameter_mm"].get<double>();
+    piece.erase("diameter_mm");
+    piece.update({{end, D}, {other, D + 1 + below(2)}});
+  };
+  if (below(2)) draft(outline.back(), "right_mm", "left_mm");
+  json blank{{"kind", "forging"},
+             {"outline", outline},
+             {"limits_mm", {-0.5 * below(3), 0.5 + 0.5 * below(2)}},
+             {"left_allowance_mm", left}};
+  if (stock.contains("inner_mm")) blank["inner_mm"] = stock["inner_mm"];
+  stock = blank;
+  return document;
+}
+
 }  // namespace turnwright::nc::test

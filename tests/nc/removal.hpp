@@ -42,6 +42,7 @@ class Material {
   std::size_t size() const { return h_.size(); }
   double operator[](std::size_t i) const { return h_[i]; }
   void remove(std::size_t i) { h_[i] = -INFINITY; }
+  void put(std::size_t i, double h) { h_[i] = h; }
 
   /// Takes off what the tool meets on a straight way of its tip, in a frame with the free
   /// end at +z; `frame` makes z of the frame from z of the part.

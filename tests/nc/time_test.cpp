@@ -180,6 +180,20 @@ TEST(PlanAndProgram, OfReferencePartsTakeTheSameTime) {
   }
 }
 
+// Passes over a forging begin where they reach stock.
+TEST(PlanAndProgram, OfForgingsTakeTheSameTime) {
+  int made = 0;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    auto document = forged(RandomPart(seed).document(), seed);
+    const auto p = planned(document);
+    if (p.plan.status != planning::PlanStatus::ok) continue;
+    EXPECT_LE(apart(fmt::format("forging {}", seed), p, programs(p.part, p.plan)),
+              kAlike);
+    ++made;
+  }
+  EXPECT_GT(made, 15);
+}
+
 // Undercuts are cut by the operations that face their shoulders, or finish their threads.
 TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
   int made = 0;

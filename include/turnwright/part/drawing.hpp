@@ -154,18 +154,40 @@ struct Tolerance {
   std::string common_datum = {};
 };
 
-enum class StockKind { bar, tube, hexagon, square };
+enum class StockKind { bar, tube, hexagon, square, casting, forging };
+
+/// A cylinder or cone of the outline of a casting or forging: diameters as drawn.
+struct BlankPiece {
+  double length_mm = 0, left_mm = 0, right_mm = 0;
+};
 
 struct Stock {
   StockKind kind = StockKind::bar;
-  /// Diameters; outside that through the corners of a hexagon or square; inside 0 but of a
-  /// tube.
+  /// Diameters; outside that through the corners of a hexagon or square, and the largest
+  /// that a casting or forging may have; inside 0 but of a tube or a cored blank.
   double outer_mm = 0, inner_mm = 0;
   double length_mm = 0;
   double left_allowance_mm = 0;  ///< stock to the left of z = 0
   /// If set, the first setup parts off at the held end and leaves this allowance there.
   std::optional<double> parted_mm = {};
+  /// Outline of a casting or forging from left to right, empty of other kinds, and by how
+  /// much its diameters may differ from it.
+  std::vector<BlankPiece> outline = {};
+  Limits outline_limits = {};
 };
+
+/// Diameters [mm] that stock has between two positions: the least that a bar with corners,
+/// or a blank within its limits, certainly has, and the largest that it may have.
+struct StockRange {
+  double least_mm = 0, most_mm = 0;
+};
+/// Between two positions z0 < z1 of the part; where the stock ends before one of them, of
+/// its end.
+StockRange stock_between(const Stock& stock, double z0_mm, double z1_mm);
+
+/// Corners of the largest half section of a stock, radius and position on the axis of the
+/// part, once around.
+std::vector<std::array<double, 2>> half_section(const Stock& stock);
 
 /// Number of flats of a stock's section, 0 of a round one.
 int flats(StockKind kind);
@@ -175,7 +197,8 @@ int flats(StockKind kind);
 ///
 /// of n flats; of a round one its diameter.  Jaws hold it, and no bar is taken for stiffer.
 double across_mm(const Stock& stock);
-/// Area of a stock's section [mm^2]; of n flats n across^2/4 tan(pi/n).
+/// Area of a stock's section [mm^2]; of n flats n across^2/4 tan(pi/n).  Of a casting or
+/// forging the mean along it, as drawn.
 double section_mm2(const Stock& stock);
 
 /// What the title block of the drawing says beside the name; empty: not given.
@@ -221,6 +244,11 @@ double held_mm(const Drawing& drawing, std::size_t setup, End hold);
 double length_mm(const Drawing& drawing);
 /// Left end z [mm] of outer element i.
 double left_z_mm(const Drawing& drawing, std::size_t i);
+/// What stands of the stock over outer element i before it is cut: over the outermost ones
+/// to the ends of the stock, and the largest also where tools run out, kRunOut_mm over
+/// neighbours that are no larger.
+StockRange stock_of(const Drawing& drawing, std::size_t i);
+inline constexpr double kRunOut_mm = 5;
 /// Left end z [mm] of inner element i.
 double inner_left_z_mm(const Drawing& drawing, std::size_t i);
 /// Largest diameter [mm] of the stock's hole and the inner elements between two positions.

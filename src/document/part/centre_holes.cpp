@@ -52,7 +52,7 @@ double face_mm(const part::Drawing& d, End end) {
 }
 
 bool is_hollow(const part::Drawing& d, End end) {
-  return d.stock.kind == part::StockKind::tube ||
+  return d.stock.inner_mm > 0 ||
          std::ranges::any_of(d.inner, [&](const auto& e) { return e.from == end; });
 }
 

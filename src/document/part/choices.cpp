@@ -27,6 +27,7 @@ std::string machine_name(const json& machine) {
 std::string stock_name(const json& stock) {
   if (!stock.is_object()) return "stock";
   const auto kind = stock.value("kind", json());
+  if (kind == "casting" || kind == "forging") return kind.get<std::string>();
   const std::string length = " x " + written(stock, "length_mm") + " mm";
   if (kind == "tube")
     return "tube " + written(stock, "outer_mm") + "/" + written(stock, "inner_mm") +

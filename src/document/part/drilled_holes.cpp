@@ -288,7 +288,7 @@ void read_drilled_holes(Draft& draft) {
   auto& d = draft.drawing();
   if (!sizes_were_read(d) || d.inner.empty()) return;
   const auto items = draft.root.at("inner").as_items(0, d.inner.size());
-  const bool bar = d.stock.kind != part::StockKind::tube;
+  const bool bar = d.stock.inner_mm == 0;
   for (const auto end : {part::End::left, part::End::right}) {
     const auto bores = bores_of(d, end);
     auto holes = bar ? holes_of(draft, items, bores) : std::vector<MadeHole>{};

@@ -39,8 +39,7 @@ std::vector<std::string> fixed_surfaces(const part::Drawing& drawing) {
   for (const auto& e : drawing.outer)
     if (e.cut || chamfered(e)) out.push_back(e.id);
   for (const auto& e : drawing.inner)
-    if (e.cut || chamfered(e) || drawing.stock.kind != part::StockKind::tube)
-      out.push_back(e.id);
+    if (e.cut || chamfered(e) || drawing.stock.inner_mm == 0) out.push_back(e.id);
   out.insert(out.end(), {"left", "right"});
   return out;
 }

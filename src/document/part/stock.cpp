@@ -7,11 +7,13 @@
 namespace turnwright::document {
 namespace {
 
+constexpr double kSame_mm = 1e-6;
+
 const Choices<part::StockKind>& stock_kinds() {
-  static const Choices<part::StockKind> kKinds{{"bar", part::StockKind::bar},
-                                               {"tube", part::StockKind::tube},
-                                               {"hexagon", part::StockKind::hexagon},
-                                               {"square", part::StockKind::square}};
+  static const Choices<part::StockKind> kKinds{
+      {"bar", part::StockKind::bar},         {"tube", part::StockKind::tube},
+      {"hexagon", part::StockKind::hexagon}, {"square", part::StockKind::square},
+      {"casting", part::StockKind::casting}, {"forging", part::StockKind::forging}};
   return kKinds;
 }
 
@@ -25,14 +27,112 @@ const char* outer_key(part::StockKind kind) {
     case part::StockKind::hexagon:
     case part::StockKind::square:
       break;
+    case part::StockKind::casting:
+    case part::StockKind::forging:
+      return "outline";
   }
   return "across_flats_mm";
+}
+
+bool has_outline(part::StockKind kind) {
+  return kind == part::StockKind::casting || kind == part::StockKind::forging;
+}
+
+const char* length_key(part::StockKind kind) {
+  return has_outline(kind) ? "outline" : "length_mm";
 }
 
 // The outer diameter, through the corners, of a stock by what its document says of it.
 double outer_mm(part::StockKind kind, double said_mm) {
   const int n = part::flats(kind);
   return n > 0 ? said_mm / std::cos(std::numbers::pi / n) : said_mm;
+}
+
+part::BlankPiece read_piece(Reader r) {
+  part::BlankPiece piece;
+  piece.length_mm = r.number("length_mm", kSize);
+  if (r.has("left_mm") || r.has("right_mm")) {
+    piece.left_mm = r.number("left_mm", kSize);
+    piece.right_mm = r.number("right_mm", kSize);
+  } else {
+    piece.left_mm = piece.right_mm = r.number("diameter_mm", kSize);
+  }
+  r.finish();
+  return piece;
+}
+
+// The outline of a casting or forging, with its length and largest diameter.
+void read_outline(Draft& draft, Reader& r, part::Stock& stock) {
+  for (const Reader& item : r.items("outline", 1, 100))
+    stock.outline.push_back(read_piece(item.as_object()));
+  double largest_mm = 0;
+  for (const auto& piece : stock.outline) {
+    stock.length_mm += piece.length_mm;
+    largest_mm = std::max({largest_mm, piece.left_mm, piece.right_mm});
+  }
+  if (r.has("limits_mm"))
+    stock.outline_limits = read_limits(r);
+  else
+    draft.assume("/stock/limits_mm", {0, 0},
+                 "its diameters are as its outline says; castings and forgings differ: "
+                 "ISO 8062-3, EN 10243-1");
+  stock.outer_mm = largest_mm + stock.outline_limits.upper_mm;
+  draft.assume("/stock/outline", "no skin",
+               "a hard skin, draft beside its walls and a mismatch of its halves wear no "
+               "edge and turn no pass into an interrupted one");
+}
+
+bool lengths_were_read(const part::Drawing& d) {
+  return d.stock.length_mm > 0 && std::isfinite(d.stock.outer_mm) && !d.outer.empty() &&
+         std::ranges::all_of(d.outer, [](const auto& e) { return e.length_mm > 0; });
+}
+
+// Elements that stay as a casting or forging is have the diameter of its outline there.
+void take_from_outline(Draft& draft) {
+  auto& d = draft.drawing();
+  const auto items = draft.root.items("outer", 1, 100);
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    auto& e = d.outer[i];
+    if (!e.as_stock) continue;
+    const double z = part::left_z_mm(d, i);
+    const auto at = part::stock_between(d.stock, z, z + e.length_mm);
+    const auto& limits = d.stock.outline_limits;
+    e.left_mm = e.right_mm = at.most_mm - limits.upper_mm;
+    if (std::abs(e.left_mm - (at.least_mm - limits.lower_mm)) > kSame_mm)
+      items[i].problem("a stretch on which the outline of the stock is no cylinder",
+                       "an element within one cylinder of the outline", "conflict");
+  }
+}
+
+// A casting or forging stands above everything that is turned from it.
+void check_outline(const Draft& draft, Reader& r, const part::Drawing& d) {
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const auto& e = d.outer[i];
+    if (e.as_stock) continue;
+    const double least_mm = part::stock_of(d, i).least_mm,
+                 drawn_mm = std::max(e.left_mm, e.right_mm);
+    if (least_mm <= drawn_mm)
+      r.problem_at("outline",
+                   "more than the " + number_text(drawn_mm) + " mm " +
+                       (e.cut ? "from which " + e.id + " is cut" : "of " + e.id) +
+                       " all over it; it may be " + number_text(least_mm) + " mm",
+                   "conflict");
+  }
+  double thinnest_mm = INFINITY;
+  for (const auto& piece : d.stock.outline)
+    thinnest_mm = std::min({thinnest_mm, piece.left_mm, piece.right_mm});
+  thinnest_mm += d.stock.outline_limits.lower_mm;
+  if (thinnest_mm <= d.stock.inner_mm)
+    r.problem_at("outline",
+                 "diameters above its hole, " + number_text(d.stock.inner_mm) +
+                     " mm; the least may be " + number_text(thinnest_mm) + " mm",
+                 "conflict");
+  const auto& machine = draft.loaded.plan.machine;
+  if (machine.swing_mm > 0 && d.stock.outer_mm > machine.swing_mm)
+    r.problem_at("outline",
+                 "at most the swing of " + machine.id + ", " +
+                     number_text(machine.swing_mm) + " mm",
+                 "conflict");
 }
 
 void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing) {
@@ -43,7 +143,7 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
     largest_mm = std::max({largest_mm, e.left_mm, e.right_mm});
     if (e.left_mm > 0) smallest_mm = std::min({smallest_mm, e.left_mm, e.right_mm});
   }
-  if (part::across_mm(stock) <= largest_mm)
+  if (!has_outline(stock.kind) && part::across_mm(stock) <= largest_mm)
     r.problem_at(outer_key(stock.kind),
                  "more than the largest element, " + number_text(largest_mm) + " mm",
                  "conflict");
@@ -54,7 +154,8 @@ void check_diameters(Reader& r, const Draft& draft, const part::Drawing& drawing
                  "less than the smallest element, " + number_text(smallest_mm) + " mm",
                  "conflict");
   const auto& machine = draft.loaded.plan.machine;
-  if (machine.swing_mm > 0 && stock.outer_mm > machine.swing_mm)
+  if (!has_outline(stock.kind) && machine.swing_mm > 0 &&
+      stock.outer_mm > machine.swing_mm)
     r.problem_at(outer_key(stock.kind),
                  std::string(part::flats(stock.kind) > 0 ? "corners within" : "at most") +
                      " the swing of " + machine.id + ", " +
@@ -66,7 +167,7 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
   constexpr double kSum_mm = 1e-9;  // rounding of sums of lengths
   const double least_mm = part::length_mm(drawing) + drawing.stock.left_allowance_mm;
   if (drawing.stock.length_mm < least_mm - kSum_mm)
-    r.problem_at("length_mm",
+    r.problem_at(length_key(drawing.stock.kind),
                  "at least the finished length and left_allowance_mm, " +
                      number_text(least_mm) + " mm",
                  "conflict");
@@ -75,7 +176,7 @@ void check_length(Reader& r, const Draft& draft, part::Drawing& drawing) {
   const auto& machine = draft.loaded.plan.machine;
   if (machine.between_centres_mm > 0 &&
       drawing.stock.length_mm > machine.between_centres_mm)
-    r.problem_at("length_mm",
+    r.problem_at(length_key(drawing.stock.kind),
                  "at most the distance between centres of " + machine.id + ", " +
                      number_text(machine.between_centres_mm) + " mm",
                  "conflict");
@@ -111,9 +212,15 @@ void read_stock(Draft& draft) {
   auto& stock = drawing.stock;
   Reader r = draft.root.object("stock");
   stock.kind = r.choice<part::StockKind>("kind", stock_kinds());
-  stock.outer_mm = outer_mm(stock.kind, r.number(outer_key(stock.kind), kSize));
-  if (stock.kind == part::StockKind::tube) stock.inner_mm = r.number("inner_mm", kSize);
-  stock.length_mm = r.number("length_mm", kSize);
+  const bool blank = has_outline(stock.kind);
+  if (blank) {
+    read_outline(draft, r, stock);
+    stock.inner_mm = r.number_or("inner_mm", kSize, 0);
+  } else {
+    stock.outer_mm = outer_mm(stock.kind, r.number(outer_key(stock.kind), kSize));
+    if (stock.kind == part::StockKind::tube) stock.inner_mm = r.number("inner_mm", kSize);
+    stock.length_mm = r.number("length_mm", kSize);
+  }
   if (r.has("left_allowance_mm")) {
     stock.left_allowance_mm = r.number("left_allowance_mm", within(0, 20000, "mm"));
   } else if (!r.broken()) {
@@ -122,12 +229,17 @@ void read_stock(Draft& draft) {
     draft.assume("/stock/left_allowance_mm", stock.left_allowance_mm,
                  "half of what the stock is longer than the part");
   }
-  stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));
+  if (!blank)
+    stock.parted_mm = r.optional_number("part_off_allowance_mm", within(0, 100, "mm"));
   draft.plan().stock_price = r.number_or("price", within(0, 1e9), 0);
   r.finish();
   assume_corners(draft, stock);
-  check_diameters(r, draft, drawing);
   check_length(r, draft, drawing);
+  if (blank && lengths_were_read(drawing)) {
+    take_from_outline(draft);
+    check_outline(draft, r, drawing);
+  }
+  check_diameters(r, draft, drawing);
 }
 
 }  // namespace turnwright::document

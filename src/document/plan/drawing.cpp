@@ -164,6 +164,10 @@ ordered_json drawing(const PreparedDocument& prepared) {
     out["stock"]["flats"] = n;
     out["stock"]["across_flats_mm"] = part::across_mm(d.stock);
   }
+  for (const auto& piece : d.stock.outline)
+    out["stock"]["outline"].push_back({{"length_mm", piece.length_mm},
+                                       {"left_mm", piece.left_mm},
+                                       {"right_mm", piece.right_mm}});
   out["elements"] = elements(part);
   out["faces"] = faces(part);
   out["tolerances"] = ordered_json::array();

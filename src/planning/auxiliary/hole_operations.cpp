@@ -62,7 +62,7 @@ struct Hole {
 };
 Hole hole_from(const part::Drawing& d, part::End end) {
   Hole h;
-  if (d.stock.kind == part::StockKind::tube) return h;
+  if (d.stock.inner_mm > 0) return h;
   const auto& centre = part::centre_at(d, part::opposite(end));
   h.rest_mm = part::length_mm(d) - (centre ? centre->depth_mm : 0);
   double needed = 0;  // by reamers and taps

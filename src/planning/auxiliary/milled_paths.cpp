@@ -21,13 +21,13 @@ double highest_mm(const PreparedPart& p, std::size_t setup, double z0, double z1
   const bool stock =
       std::max(z0, -face_stock_after_mm(p, setup, part::End::left)) < -kSlack_mm ||
       std::min(z1, L + face_stock_after_mm(p, setup, part::End::right)) > L + kSlack_mm;
-  double most = stock ? p.drawing.stock.outer_mm / 2 : 0;
+  double most = stock ? part::stock_between(p.drawing.stock, z0, z1).most_mm / 2 : 0;
   for (std::size_t i = 0; i < p.drawing.outer.size(); ++i) {
     const auto& e = p.drawing.outer[i];
     const double low = part::left_z_mm(p.drawing, i), high = low + e.length_mm;
     if (high <= z0 + kSlack_mm || low >= z1 - kSlack_mm) continue;
-    const double D =
-        done.outer[i] ? std::max(e.left_mm, e.right_mm) : p.drawing.stock.outer_mm;
+    const double D = done.outer[i] ? std::max(e.left_mm, e.right_mm)
+                                   : part::stock_of(p.drawing, i).most_mm;
     most = std::max(most, D / 2);
   }
   return most;

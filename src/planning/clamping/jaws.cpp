@@ -8,13 +8,15 @@ namespace turnwright::planning {
 
 double grip_diameter_mm(const PreparedPart& p, std::size_t s, Clamping clamping) {
   if (clamping == Clamping::between_centres) return 0;
-  const double stock = part::across_mm(p.drawing.stock);
-  if (s == 0) return stock;
-  const auto& e = p.drawing.outer;  // the smallest diameter between the jaws
-  double d = stock;
+  // The smallest diameter between the jaws.
+  const double jaws = jaws_z_mm(p, s), far = 1e9;
+  double d = holds_left(p, s) ? part::stock_between(p.drawing.stock, -far, jaws).least_mm
+                              : part::stock_between(p.drawing.stock, jaws, far).least_mm;
+  if (s == 0) return d;
+  const auto& e = p.drawing.outer;
   for (std::size_t i = 0; i < e.size(); ++i) {
     const double z0 = part::left_z_mm(p.drawing, i), z1 = z0 + e[i].length_mm;
-    if (holds_left(p, s) ? z0 < jaws_z_mm(p, s) - 1e-9 : z1 > jaws_z_mm(p, s) + 1e-9)
+    if (holds_left(p, s) ? z0 < jaws - 1e-9 : z1 > jaws + 1e-9)
       d = std::min({d, e[i].left_mm, e[i].right_mm});
   }
   return d;

@@ -42,6 +42,13 @@ double free_z_mm(const PreparedPart& p, std::size_t s) {
   return holds_left(p, s) ? part::length_mm(p.drawing) : 0;
 }
 
+double end_stock_mm(const PreparedPart& p, std::size_t s) {
+  const double L = part::length_mm(p.drawing), far = 1e9;
+  return (holds_left(p, s) ? part::stock_between(p.drawing.stock, L, far)
+                           : part::stock_between(p.drawing.stock, -far, 0))
+      .most_mm;
+}
+
 bool cleared(const PreparedPart& p, std::size_t s, std::size_t i) {
   const auto& cut = p.drawing.outer[i].cut;
   if (!cut) return true;

@@ -16,6 +16,8 @@ double jaws_z_mm(const PreparedPart& part, std::size_t setup);
 double root_z_mm(const PreparedPart& part, std::size_t setup, Clamping clamping);
 /// z of the free end once this setup has faced it.
 double free_z_mm(const PreparedPart& part, std::size_t setup);
+/// Largest diameter [mm] of the stock before the free end of a setup.
+double end_stock_mm(const PreparedPart& part, std::size_t setup);
 
 /// Material [mm] before the finished face of an end once it is free: the parting-off
 /// allowance at the end that the first setup holds, else the stock's allowance.

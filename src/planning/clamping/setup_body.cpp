@@ -13,16 +13,20 @@ SetupBody::SetupBody(const PreparedPart& p, std::size_t s, Clamping clamping,
       sign_(holds_left(p, s) ? 1 : -1),
       length_(sign_ * (free_z_mm(p, s) - root_z_)) {
   const auto& d = p.drawing;
-  const double stock = part::across_mm(d.stock), far = 1e9;
+  const double far = 1e9;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
     const double z0 = part::left_z_mm(d, i);
     const auto& e = d.outer[i];
     const bool turned = finished.outer[i] && !e.as_stock;
+    const double stock = part::stock_of(d, i).least_mm;
     const auto made = turned ? part::core(e) : part::Ends{stock, stock};
     outer_.push_back({z0, z0 + e.length_mm, made.left_mm, made.right_mm});
   }
-  outer_.push_back({-far, 0, stock, stock});
-  outer_.push_back({part::length_mm(d), far, stock, stock});
+  const double L = part::length_mm(d);
+  const double left = part::stock_between(d.stock, -far, 0).least_mm,
+               right = part::stock_between(d.stock, L, far).least_mm;
+  outer_.push_back({-far, 0, left, left});
+  outer_.push_back({L, far, right, right});
   const double hole = d.stock.inner_mm;
   for (std::size_t i = 0; i < d.inner.size(); ++i) {
     const double z0 = part::inner_left_z_mm(d, i);

@@ -130,7 +130,10 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
   const double h = all[k].h1 + kSame_mm, blank = h - all[k].moved;
   const auto before = made_after(p, setup, s.inner),
              after = made_after(p, setup + 1, s.inner);
-  const double stock_h = s.inner ? -hole_mm(p, all[k].index) / 2 : s.stock_h;
+  const auto stock_h = [&](const Item& e) {
+    return s.inner ? -hole_mm(p, all[k].index) / 2
+                   : part::stock_of(p.drawing, e.index).most_mm / 2;
+  };
   bool touches = false;
   std::size_t j = k;
   while (j + 1 < all.size() && all[j + 1].z0 >= all[j].z1 - kNoWall_mm) {
@@ -143,8 +146,8 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
       s.wall_in_stock = !before[e.index];
       s.wall_z = e.z0;
       s.wall_steps = e.h0 - e.moved > blank;
-      s.wall_h = before[e.index] ? e.h0 : stock_h;
-      s.wall_drawn_h = is_arc(p, e, s.inner) ? h : after[e.index] ? e.h0 : stock_h;
+      s.wall_h = before[e.index] ? e.h0 : stock_h(e);
+      s.wall_drawn_h = is_arc(p, e, s.inner) ? h : after[e.index] ? e.h0 : stock_h(e);
       s.shoulder_mm = left_before_shoulder_mm(p, work, s.inner, all[j - 1], e);
     }
     const auto seen = drawn(p, e, s.inner);
@@ -164,7 +167,7 @@ void add_walls(const PreparedPart& p, std::size_t setup, const SetupWork& work,
   if (!std::isfinite(s.wall_z)) {
     s.wall_z = all[j].z1;
     s.wall_steps = true;
-    s.wall_h = s.wall_drawn_h = stock_h;
+    s.wall_h = s.wall_drawn_h = stock_h(all[j]);
   }
   if (touches) return;
   s.touch_z = all[j].z1;
@@ -249,6 +252,47 @@ double front_mm(const PreparedPart& p, std::size_t setup, const SetupWork& work)
                                       : part::End::left);
 }
 
+Outline outline_over(const PreparedPart& p, std::size_t setup, std::size_t element) {
+  const auto& d = p.drawing;
+  const auto& e = d.outer[element];
+  Outline o;
+  if (d.stock.outline.empty() || e.left_mm != e.right_mm) return o;
+  const double sign = p.setups[setup].hold == part::End::left ? 1 : -1,
+               free = free_z_mm(p, setup), from = part::left_z_mm(d, element);
+  o.front_z = sign * ((sign > 0 ? from + e.length_mm : from) - free);
+  o.drawn_h = e.left_mm / 2;
+  o.most_h = part::stock_of(d, element).most_mm / 2;
+  double z = -d.stock.left_allowance_mm;
+  for (const auto& piece : d.stock.outline) {
+    const double a = std::max(z, from - part::kRunOut_mm),
+                 b = std::min(z + piece.length_mm, from + e.length_mm + part::kRunOut_mm);
+    const auto h = [&](double at) {
+      return (piece.left_mm +
+              (piece.right_mm - piece.left_mm) * (at - z) / piece.length_mm +
+              d.stock.outline_limits.upper_mm) /
+             2;
+    };
+    if (b > a)
+      o.lines.push_back(sign > 0 ? Outline::Line{b - free, h(b), a - free, h(a)}
+                                 : Outline::Line{free - a, h(a), free - b, h(b)});
+    z += piece.length_mm;
+  }
+  if (sign > 0) std::ranges::reverse(o.lines);
+  return o;
+}
+
+std::optional<double> reaches_stock_z(const Outline& o, int i, int n) {
+  const double level = o.drawn_h + (o.most_h - o.drawn_h) * (1 - (i + 1.0) / n);
+  for (const auto& line : o.lines) {
+    if (!(std::max(line.h0, line.h1) > level + kSame_mm)) continue;
+    const double z = line.h0 > level ? line.z0
+                                     : line.z0 + (line.z1 - line.z0) * (level - line.h0) /
+                                                     (line.h1 - line.h0);
+    return z < o.front_z - kSame_mm ? std::optional{z} : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 double edge_mm(const Surroundings& s, double r) {
   const auto& c = s.wall_chamfer;
   if (c.round) return around_mm(c, r) - (s.wall_in_stock ? c.axial_mm + r : r);
@@ -276,6 +320,7 @@ Surroundings surroundings(const PreparedPart& p, std::size_t setup, Clamping cla
   s.root_z =
       s.inner ? -kInfinity : sign * (root_z_mm(p, setup, clamping) - free_z_mm(p, setup));
   for (const auto& t : p.tools) s.r_most = std::max(s.r_most, t.re_mm);
+  if (!s.inner) s.outline = outline_over(p, setup, element.index);
   s.z0 = e.z0;
   s.h0 = e.h0;
   s.z1 = e.z1;
@@ -450,7 +495,11 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
         strokes.left_mm + strokes.depth_mm * ((strokes.passes - 1) / 2.0 - i);
     const double of_pass = turns(middle + left) / turns(h);  // its time over the mean one
     const bool comes = !(last && from_before), leaves = !(last && on);
-    const double a = start(last), b = end(last, left);
+    const auto late = strokes.in_stock && !last
+                          ? reaches_stock_z(s.outline, i, strokes.passes)
+                          : std::nullopt;
+    const double b = end(last, left);
+    const double a = late ? std::max(*late, b) + kBefore_mm : start(last);
     const double undercut = last && s.undercut ? s.undercut->depth_mm : 0;
     const double out_h = drawn_out_h(last, left, b), from_h = s.h1 + left - undercut;
     const bool chamfers = last && !on && !(s.shoulder_mm > 0) &&
@@ -461,7 +510,7 @@ Beside beside(const Surroundings& s, const Strokes& strokes) {
     // Into the shoulder and back, and along the slope.
     const double undercutting =
         last && s.undercut ? 2 * s.undercut->recess_mm + slope_excess_mm(*s.undercut) : 0;
-    double length = fed(last, left, a, b) + undercutting + wall +
+    double length = (late ? a - b : fed(last, left, a, b)) + undercutting + wall +
                     (comes ? enters(last) * longer(left, a) : 0);
     if (chamfers)
       length +=
@@ -490,11 +539,13 @@ ThreadRoom thread_room(const PreparedPart& p, std::size_t setup, const Element& 
   const auto all = items_of(p, setup, element.inner);
   const auto done = finished_after(p, setup);
   const auto& d = p.drawing;
-  const double stock_h = element.inner ? -d.stock.inner_mm / 2 : d.stock.outer_mm / 2;
+  const auto stock_h = [&](const Item& e) {
+    return (element.inner ? -d.stock.inner_mm : part::stock_of(d, e.index).most_mm) / 2;
+  };
   // As it stands once grooves and arcs are cut.
   const auto tops = [&](const Item& e) -> std::pair<double, double> {
     const auto& made_here = element.inner ? done.inner : done.outer;
-    if (!made_here[e.index]) return {stock_h, stock_h};
+    if (!made_here[e.index]) return {stock_h(e), stock_h(e)};
     if (const auto seen = drawn(p, e, element.inner)) return {seen->h0, seen->h1};
     const auto& cut = element.inner ? d.inner[e.index].cut : d.outer[e.index].cut;
     const double floor = (element.inner ? -1 : 1) * cut->drawn.left_mm / 2;

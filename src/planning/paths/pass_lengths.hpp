@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "approach.hpp"
 #include "planning/clamping/made_surfaces.hpp"
@@ -42,14 +43,30 @@ struct Passage {
 /// leaves no way.
 bool runs_on(const Passage& passage, double corner_mm, double minor_rad);
 
+/// The outline of a casting or forging over an outer element and where its passes run out,
+/// in the order of the passes; empty of other stock and of cones.
+struct Outline {
+  struct Line {
+    double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
+  };
+  std::vector<Line> lines;
+  double front_z = 0;              ///< of the element
+  double drawn_h = 0, most_h = 0;  ///< of the element, and of its stock
+};
+Outline outline_over(const PreparedPart& plan, std::size_t setup, std::size_t element);
+/// Where the i-th of n passes comes to the first stock that stands above what it would
+/// leave if the passes shared the stock equally; nothing if that is at its front.
+std::optional<double> reaches_stock_z(const Outline& outline, int i, int n);
+
 /// An outer or inner element with everything that limits its passes.
 struct Surroundings {
   bool inner = false;
   bool mirrored = false;  ///< the program's axis runs against the part's
-  double stock_h = 0;     ///< height of the uncut stock, outside
-  double front = 0;       ///< material before the free end
-  double root_z = 0;      ///< where the jaws, or the held end, are
-  double r_most = 0;      ///< largest corner of the plan's tools
+  double stock_h = 0;     ///< largest height of the uncut stock, outside
+  Outline outline;
+  double front = 0;   ///< material before the free end
+  double root_z = 0;  ///< where the jaws, or the held end, are
+  double r_most = 0;  ///< largest corner of the plan's tools
   double z0 = 0, h0 = 0, z1 = 0, h1 = 0;
   part::Chamfer front_chamfer = {};  ///< with which every pass begins
   /// On the edge of the wall behind, which this setup's tool cuts after the wall, because
@@ -106,6 +123,7 @@ struct Strokes {
   double left_mm = 0;        ///< mean thickness of the stock left after each of them
   double limited_mm = 0;     ///< diameter inside which the spindle keeps its limit
   double wall_stock_mm = 0;  ///< that roughing leaves on walls for finishing
+  bool in_stock = false;     ///< the first one is the first over the element
 };
 Beside beside(const Surroundings& element, const Strokes& strokes);
 

@@ -36,10 +36,19 @@ double before_blade_mm(const PlanRequest& r, std::size_t s) {
   return behind - *stock.parted_mm - parting_blade_mm(r) - kRunOut_mm;
 }
 
+// Length of the stock that is level from the held end on.
+double level_stock_mm(const PlanRequest& r, std::size_t s) {
+  const auto& stock = r.drawing.stock;
+  if (stock.outline.empty()) return stock.length_mm;
+  return r.setups[s].hold == part::End::left ? stock.outline.front().length_mm
+                                             : stock.outline.back().length_mm;
+}
+
 double usual_mm(const PlanRequest& r, std::size_t s) {
   const double held = part::held_mm(r.drawing, s, r.setups[s].hold);
   const double length = s == 0 ? r.drawing.stock.length_mm : part::length_mm(r.drawing);
-  const double usual = std::min(std::max(kUsual_mm, held / 2), length / 2);
+  const double level = s == 0 ? level_stock_mm(r, s) : length;
+  const double usual = std::min({std::max(kUsual_mm, held / 2), length / 2, level});
   const double most = before_blade_mm(r, s);
   return most < kLeast_mm ? usual : std::min(usual, most);
 }
@@ -49,7 +58,13 @@ double level_to_mm(const PreparedPart& p, std::size_t s) {
   const auto& e = p.drawing.outer;
   const bool left = holds_left(p, s);
   const double free = free_z_mm(p, s);
-  if (s == 0) return free;
+  if (s == 0 && p.drawing.stock.outline.empty()) return free;
+  if (s == 0) {
+    const double level = level_stock_mm(p, s);
+    return left
+               ? level - p.drawing.stock.left_allowance_mm
+               : part::length_mm(p.drawing) + part::right_allowance_mm(p.drawing) - level;
+  }
   const auto element = [&](std::size_t k) { return left ? k : e.size() - 1 - k; };
   double to = part::length_mm(p.drawing) - free;
   for (std::size_t k = 0; k < e.size(); ++k) {

@@ -293,12 +293,18 @@ void predict(const PreparedPart& p, const Tolerance& t, const Found& at,
   }
 }
 
+double stock_mm(const part::Drawing& d, const std::string& element) {
+  std::size_t i = 0;
+  while (d.outer[i].id != element) ++i;
+  return part::stock_of(d, i).most_mm;
+}
+
 // An element that no operation cuts has the stock's diameter; its form is unknown.
 void not_made(const PreparedPart& p, const Tolerance& t, ToleranceResult& r) {
   const auto& d = p.drawing;
   const auto at = *part::extent(d, t.of);
   const double off = at.inner ? d.stock.inner_mm - std::max(at.left_mm, at.right_mm)
-                              : d.stock.outer_mm - std::min(at.left_mm, at.right_mm);
+                              : stock_mm(d, t.of) - std::min(at.left_mm, at.right_mm);
   r.verdict = Verdict::not_met;
   r.published_verdict = false;
   r.P_conform = 0;

@@ -116,7 +116,10 @@ MachinedSurface MachinedSurface::element(const PreparedPart& plan, std::size_t s
   f.take_wall();
   const auto level = f.around_.level_behind;
   f.goes_on_ = e.cut || (level && !before.outer[*level]);
-  f.stock_ = (plan.drawing.stock.outer_mm - f.D_small_) / 2;
+  const auto stock = part::stock_of(plan.drawing, index);
+  f.stock_ = (stock.most_mm - f.D_small_) / 2;
+  if (!plan.drawing.stock.outline.empty())
+    f.everywhere_mm_ = (stock.least_mm - f.D_large_) / 2;
   for (const auto place : {place_of(work.elements, index), work.elements.size()})
     f.bodies_.emplace_back(plan, setup, clamping,
                            with(before, work.elements, place, &Finished::outer));
@@ -156,7 +159,7 @@ MachinedSurface MachinedSurface::end_face(const PreparedPart& plan, std::size_t 
   f.face_x_ = f.bodies_[0].length_mm();
   f.stock_ = face_stock_mm(plan, left ? part::End::left : part::End::right);
   f.D_small_ = plan.drawing.stock.inner_mm;
-  f.D_large_ = plan.drawing.stock.outer_mm;
+  f.D_large_ = end_stock_mm(plan, setup);
   // The face of the finished part ends at its outermost element.
   const auto& outer = plan.drawing.outer;
   f.low_ = free_bore_mm(plan, setup) / 2;
@@ -181,7 +184,7 @@ MachinedSurface MachinedSurface::shoulder(const PreparedPart& plan, std::size_t 
       outer[index - 1].right_mm > outer[index].left_mm ? index - 1 : index;
   f.take_shoulder(work, {false, index - 1 + index - behind}, {false, behind},
                   part::left_z_mm(plan.drawing, index), !before.outer[behind],
-                  plan.drawing.stock.outer_mm);
+                  part::stock_of(plan.drawing, behind).most_mm);
   return f;
 }
 
@@ -309,6 +312,10 @@ OperationModel MachinedSurface::operation(const Recipe& recipe, bool finishing,
       tool.f_mm_rev.lower,
       std::min(tool.f_mm_rev.upper, 0.8 * tool.re_mm)};  // keeps the corner in the cut
   o.ap = {catalogue::least_depth_mm(tool), tool.ap_mm.upper};
+  if (everywhere_mm_ && finisher)
+    o.ap.upper = std::min(
+        o.ap.upper,
+        *everywhere_mm_ / (recipe.rough && recipe.finish ? recipe.finish_passes : 1));
   if (around_.undercut && (finishing || !recipe.finish))
     o.ap.upper -= around_.undercut->depth_mm;
   if (!tool.chip.empty()) {

@@ -236,6 +236,9 @@ class MachinedSurface {
   GivenConditions fixed_;
   std::size_t index_ = 0;  // outer or inner element
   double low_ = 0, high_ = 0, stock_ = 0;
+  /// Thickness that a casting or forging has at least all over the element: the passes that
+  /// finish take no more, so that they cut everywhere.
+  std::optional<double> everywhere_mm_ = {};
   double D_small_ = 0, D_large_ = 0;
   double face_x_ = 0;                  // of a face, from the root
   double left_mm_ = 0, right_mm_ = 0;  // of an element, its diameters

@@ -73,6 +73,7 @@ MachinedSurface::Lengths MachinedSurface::lengths(const Recipe& recipe,
   strokes.depth_mm = o.finishing ? a_mm : (stock_mm - finished) / n;
   strokes.left_mm = strokes.depth_mm * (n - 1) / 2.0 + (o.finishing ? 0 : finished);
   strokes.limited_mm = limited_mm(o, strokes);
+  strokes.in_stock = !(o.finishing && recipe.rough_passes > 0);
   if (recipe.finish) strokes.wall_stock_mm = catalogue::least_depth_mm(*recipe.finish);
   const auto b = ways(o, strokes);
   const double path = is_face() ? (D_large_ - D_small_) / 2
@@ -116,7 +117,7 @@ Beside MachinedSurface::facing(const OperationModel& o, const Strokes& strokes) 
   const double small = D_small_ / 2, large = D_large_ / 2;
   const double stock_h = plan_->drawing.stock.outer_mm / 2;
   const bool end = kind_ == Kind::end_face;
-  const double top = end ? stock_h : top_mm_;
+  const double top = end ? D_large_ / 2 : top_mm_;
   const double to = end ? (small > 0 ? small - kBehind_mm : 0) - r : small;
   const double cut = swept_mm2(small, large, D_c);
   double fed = n * swept_mm2(to, top + kAbove_mm, D_c);

@@ -12,10 +12,14 @@ constexpr double kCentreShank = 6, kTan30 = 0.57735026918962576;  // paper mm; a
 
 /// What jaws hold: the part, beyond it the bar that it is parted off.
 Runs held_between(const SetupView& s, double from_z, double to_z) {
-  const double bar = s.part.drawing.stock.outer_mm / 2;
+  const auto bar = [&](double a, double b) {
+    return part::stock_between(s.part.drawing.stock, a, b).most_mm / 2;
+  };
   Runs all = s.contour.outer;
-  if (from_z < s.left_z()) all.insert(all.begin(), {from_z, s.left_z(), bar, bar});
-  if (to_z > s.right_z()) all.push_back({s.right_z(), to_z, bar, bar});
+  if (const double z = s.left_z(); from_z < z)
+    all.insert(all.begin(), {from_z, z, bar(from_z, z), bar(from_z, z)});
+  if (const double z = s.right_z(); to_z > z)
+    all.push_back({z, to_z, bar(z, to_z), bar(z, to_z)});
   return between(all, from_z, to_z);
 }
 

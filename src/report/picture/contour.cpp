@@ -113,7 +113,22 @@ Runs bores(const part::Drawing& d, const std::vector<bool>& finished, double lef
   return all;
 }
 
+// The stock over an outer element.
+Runs uncut_runs(const part::Drawing& d, std::size_t i) {
+  const double from = part::left_z_mm(d, i);
+  return between(stock_runs(d.stock), from, from + d.outer[i].length_mm);
+}
+
 }  // namespace
+
+Runs stock_runs(const part::Stock& stock) {
+  const auto corners = part::half_section(stock);
+  Runs all;
+  for (std::size_t k = 0; k + 3 < corners.size(); ++k)
+    if (corners[k + 1][1] > corners[k][1])
+      all.push_back({corners[k][1], corners[k + 1][1], corners[k][0], corners[k + 1][0]});
+  return all;
+}
 
 Runs outer_runs(const part::Drawing& d, std::size_t i) {
   return runs(d.outer[i], part::left_z_mm(d, i), 1);
@@ -126,15 +141,13 @@ Runs inner_runs(const part::Drawing& d, std::size_t i) {
 Contour contour_after(const PreparedPart& p, std::size_t setup) {
   const auto& d = p.drawing;
   const auto finished = planning::finished_after(p, setup);
-  const double L = part::length_mm(d), stock = d.stock.outer_mm / 2;
+  const double L = part::length_mm(d);
   const double left_z = 0 - planning::face_stock_after_mm(p, setup, End::left);
   const double right_z = L + planning::face_stock_after_mm(p, setup, End::right);
   Contour c;
   for (std::size_t i = 0; i < d.outer.size(); ++i) {
-    for (auto run : outer_runs(d, i)) {
-      if (!finished.outer[i]) run.r0 = run.r1 = stock;
-      c.outer.push_back(run);
-    }
+    const auto all = finished.outer[i] ? outer_runs(d, i) : uncut_runs(d, i);
+    c.outer.insert(c.outer.end(), all.begin(), all.end());
   }
   add_stubs(c.outer, left_z, right_z, L);
   c.inner = bores(d, finished.inner, left_z, right_z);

@@ -23,6 +23,8 @@ struct Contour {
 /// The part after `setup`; surfaces that no setup up to it has cut are stock.
 Contour contour_after(const planning::PreparedPart& part, std::size_t setup);
 
+/// The largest outside of a stock.
+Runs stock_runs(const part::Stock& stock);
 /// An element as drawn: one run, or for an arc a dozen chords.
 Runs outer_runs(const part::Drawing& drawing, std::size_t i);
 Runs inner_runs(const part::Drawing& drawing, std::size_t i);

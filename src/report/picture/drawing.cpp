@@ -123,7 +123,7 @@ std::vector<Label> labels(const SetupView& s, const planning::Finished& finished
     if (finished.outer[i]) {
       add(d.outer[i], run);
     } else {
-      const Point end = s.at((run.z0 + run.z1) / 2, d.stock.outer_mm / 2);
+      const Point end = s.at((run.z0 + run.z1) / 2, part::stock_of(d, i).most_mm / 2);
       all.push_back(
           {end.x, end.y, clipped(d.outer[i].id, kIdLength) + " uncut", "later"});
     }
@@ -192,9 +192,15 @@ void draw_body(SetupView& s) {
 void draw_stock(SetupView& s) {
   const auto& stock = s.part.drawing.stock;
   const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
-  const double r = stock.outer_mm / 2, hole = stock.inner_mm / 2;
-  s.svg.polyline("stock",
-                 {s.at(z0, -r), s.at(z0, r), s.at(z1, r), s.at(z1, -r), s.at(z0, -r)});
+  const double hole = stock.inner_mm / 2;
+  const auto corners = part::half_section(stock);
+  const auto outside = corners.size() - 2;  // the others are the hole's
+  std::vector<Point> outline{s.at(corners[0][1], -corners[0][0])};
+  for (std::size_t k = 0; k < outside; ++k)
+    outline.push_back(s.at(corners[k][1], corners[k][0]));
+  for (std::size_t k = outside; k-- > 0;)
+    outline.push_back(s.at(corners[k][1], -corners[k][0]));
+  s.svg.polyline("stock", outline);
   if (hole > 0)
     for (const double side : {hole, -hole})
       s.svg.line("stock", s.at(z0, side), s.at(z1, side));

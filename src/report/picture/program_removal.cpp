@@ -87,8 +87,7 @@ Contour contour_before(const PreparedPart& part, std::size_t setup) {
   if (setup > 0) return contour_after(part, setup - 1);
   const auto& s = part.drawing.stock;
   const double z0 = -s.left_allowance_mm, z1 = z0 + s.length_mm;
-  return {{{z0, z1, s.outer_mm / 2, s.outer_mm / 2}},
-          {{z0, z1, s.inner_mm / 2, s.inner_mm / 2}}};
+  return {stock_runs(s), {{z0, z1, s.inner_mm / 2, s.inner_mm / 2}}};
 }
 
 }  // namespace

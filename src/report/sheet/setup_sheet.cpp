@@ -57,6 +57,8 @@ std::string stock(const PreparedPart& p, std::size_t setup) {
   auto text = (s.kind == part::StockKind::tube      ? "tube \u00d8"
                : s.kind == part::StockKind::hexagon ? "hexagon bar "
                : s.kind == part::StockKind::square  ? "square bar "
+               : s.kind == part::StockKind::casting ? "casting \u00d8"
+               : s.kind == part::StockKind::forging ? "forging \u00d8"
                                                     : "bar \u00d8") +
               plain(part::across_mm(s));
   if (s.inner_mm > 0) text += "/\u00d8" + plain(s.inner_mm);

@@ -25,10 +25,10 @@ Workpiece::Workpiece(const planning::PreparedPart& part)
               pitch_of(part.drawing.stock)),
       pitch_mm(pitch_of(part.drawing.stock)),
       part_(part) {
-  const auto& stock = part.drawing.stock;
-  const double z0 = -stock.left_allowance_mm, z1 = z0 + stock.length_mm;
-  const double in = stock.inner_mm / 2, out = stock.outer_mm / 2;
-  section.fill({{out, z0}, {out, z1}, {in, z1}, {in, z0}});
+  Polygon stock;
+  for (const auto& [x, z] : part::half_section(part.drawing.stock))
+    stock.push_back({x, z});
+  section.fill(stock);
 }
 
 void Workpiece::make_as_drawn(std::size_t setup) {

@@ -141,5 +141,80 @@ TEST(Stock, ThatIsMissingIsToldOnce) {
       "t: /stock/across_flats_mm: got nothing, expected a number > 0 and <= 20000 mm");
 }
 
+/// A flange with a spigot on both sides, forged, its rim as it is.
+json forging() {
+  return json::parse(R"({
+    "material": "test-steel",
+    "stock": {"kind": "forging", "limits_mm": [-1, 2], "left_allowance_mm": 3,
+              "outline": [{"length_mm": 30, "left_mm": 34, "right_mm": 38},
+                          {"length_mm": 20, "diameter_mm": 80},
+                          {"length_mm": 40, "diameter_mm": 46}]},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 29, "diameter_mm": 30},
+              {"id": "rim", "kind": "as-stock", "length_mm": 15},
+              {"id": "d2", "kind": "cylinder", "length_mm": 41, "diameter_mm": 40}],
+    "general": "ISO 2768-mK"})");
+}
+
+// It reaches from z = -3 to 87 mm; the step at z = 27 stands 2 mm over d1, that at z = 47
+// 3 mm over d2.
+TEST(Stock, OfAForgingFollowsItsOutlineWithinItsLimits) {
+  const auto d = read(forging());
+  EXPECT_EQ(d.stock.length_mm, 90);
+  EXPECT_EQ(d.stock.outer_mm, 82);
+  EXPECT_EQ(part::held_mm(d, 0, part::End::left), 33);
+  EXPECT_EQ(part::held_mm(d, 0, part::End::right), 45);
+  const auto before = part::stock_between(d.stock, 7, 17);
+  EXPECT_NEAR(before.least_mm, 34 + 4 * 10 / 30. - 1, 1e-9);
+  EXPECT_NEAR(before.most_mm, 34 + 4 * 20 / 30. + 2, 1e-9);
+  EXPECT_NEAR(part::stock_of(d, 0).least_mm, 33, 1e-9);
+  EXPECT_EQ(part::stock_of(d, 0).most_mm, 82);
+  EXPECT_EQ(part::stock_of(d, 2).least_mm, 45);
+  EXPECT_EQ(part::stock_of(d, 2).most_mm, 82);
+  EXPECT_EQ(d.outer[1].left_mm, 80);
+}
+
+// A frustum of 30 mm, and cylinders of 20 and 40 mm, by hand.
+TEST(Stock, OfAForgingIsAsHeavyAsDrawn) {
+  const auto loaded = load_part_plan(forging(), test_catalogue(), "t");
+  const double mm3 =
+      M_PI / 4 * ((34 * 34 + 34 * 38 + 38 * 38) / 3. * 30 + 80 * 80 * 20 + 46 * 46 * 40);
+  EXPECT_NEAR(part::section_mm2(loaded.plan.drawing.stock) * 90, mm3, 1e-6);
+  EXPECT_NEAR(planning::stock_mass_kg(loaded.plan),
+              mm3 * 1e-9 * loaded.plan.material.rho_kg_m3, 1e-9);
+}
+
+TEST(Stock, OfAForgingStandsAboveWhatIsTurned) {
+  auto document = forging();
+  document["outer"][0]["diameter_mm"] = 33;
+  EXPECT_EQ(refusal_of(document),
+            "t: /stock/outline: got a list of 3 entries, expected more than the 33 mm of "
+            "d1 all over it; it may be 33 mm");
+  document = forging();
+  document["outer"][1]["length_mm"] = 20;
+  document["outer"][2]["length_mm"] = 36;
+  EXPECT_EQ(
+      refusal_of(document),
+      "t: /outer/1: got a stretch on which the outline of the stock is no cylinder, "
+      "expected an element within one cylinder of the outline");
+  document = forging();
+  document["stock"]["inner_mm"] = 33;
+  EXPECT_NE(refusal_of(document).find("/stock/outline: got a list of 3 entries, expected "
+                                      "diameters above its hole, 33 mm; the least may be "
+                                      "33 mm"),
+            std::string::npos);
+  document = forging();
+  document["stock"]["length_mm"] = 90;
+  EXPECT_NE(refusal_of(document).find("/stock/length_mm"), std::string::npos);
+}
+
+TEST(Stock, OfAForgingIsTakenAsDrawnWhereItsLimitsAreNotSaid) {
+  auto document = forging();
+  document["stock"].erase("limits_mm");
+  const auto loaded = load_part_plan(document, test_catalogue(), "t");
+  EXPECT_EQ(loaded.plan.drawing.stock.outer_mm, 80);
+  EXPECT_TRUE(std::ranges::any_of(
+      loaded.assumed, [](const auto& a) { return a.pointer == "/stock/limits_mm"; }));
+}
+
 }  // namespace
 }  // namespace turnwright::document::stock_test

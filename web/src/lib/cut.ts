@@ -1,6 +1,7 @@
 // The cut of a turning program, from the text of a LinuxCNC program: its moves, and the work
 // after every one of them. Lengths are mm, x a radius, z the program's own.
 import type { Drawing } from './types';
+import { stockRadius } from './sheet/contour';
 
 export interface Program {
   setup: number;
@@ -188,7 +189,7 @@ function workBefore(drawing: Drawing, setup: number, before?: { setup: number; w
   const step = (b - a) / (RINGS - 1);
   const work: Work = {
     from: a, step,
-    outer: new Float32Array(RINGS).fill(drawing.stock.outer_mm / 2),
+    outer: Float32Array.from({ length: RINGS }, (_, i) => stockRadius(drawing.stock, partZ(drawing, setup, a + i * step))),
     inner: new Float32Array(RINGS).fill(drawing.stock.inner_mm / 2),
   };
   if (before)

@@ -9,6 +9,9 @@ const bars_mm = [
 ];
 const least_mm = 1, facing_mm = 2, wall_mm = 1;
 
+/** Whether a kind of stock has an outline instead of a size and a length. */
+export const hasOutline = (kind: unknown): boolean => kind === 'casting' || kind === 'forging';
+
 const rounded = (mm: number) => Number(mm.toFixed(6));
 
 /** The next bar, or for a tube the next ring, with 2 mm to face at each end; one that an element keeps, or that has corners, as wide as it is. */
@@ -16,7 +19,7 @@ export function fitting(part: Part): Part | undefined {
   const outer = entries(part, 'outer');
   const length = outer.reduce((sum, e) => sum + Number(e.length_mm), 0);
   const largest = Math.max(...outer.flatMap(ends));
-  if (!(length > 0 && largest > 0)) return undefined;
+  if (!(length > 0 && largest > 0) || hasOutline(part.stock?.kind)) return undefined;
   const wanted = largest + least_mm;
   const diameter = bars_mm.find((d) => d >= wanted) ?? 10 * Math.ceil(wanted / 10);
   const rest = { length_mm: rounded(length + 2 * facing_mm), left_allowance_mm: facing_mm };

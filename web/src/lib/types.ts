@@ -64,10 +64,17 @@ export interface DrawnSetup {
   clampings: string[];
 }
 
+/** A cylinder or cone of a casting or forging. */
+export interface StockPiece {
+  length_mm: number;
+  left_mm: number;
+  right_mm: number;
+}
+
 export interface Drawing {
   name: string;
   length_mm: number;
-  stock: { z_mm: Pair; outer_mm: number; inner_mm: number; flats?: number; across_flats_mm?: number };
+  stock: { z_mm: Pair; outer_mm: number; inner_mm: number; flats?: number; across_flats_mm?: number; outline?: StockPiece[] };
   elements: Surface[];
   faces: Face[];
   tolerances: DrawnTolerance[];

@@ -66,9 +66,32 @@ export function profile(e: Surface): Point[] {
   return [...left, ...bulge(e, left[left.length - 1], right[0]), ...right];
 }
 
+/** The outside of the stock from its left end to its right one. */
+export function stockProfile(stock: Drawing['stock']): Point[] {
+  const [from, to] = stock.z_mm, r = stock.outer_mm / 2;
+  let z = from;
+  return stock.outline?.flatMap((piece): Point[] => {
+    const begins = z;
+    z += piece.length_mm;
+    return [[begins, piece.left_mm / 2], [z, piece.right_mm / 2]];
+  }) ?? [[from, r], [to, r]];
+}
+
+/** Its radius there; at a step that of the larger side. */
+export function stockRadius(stock: Drawing['stock'], z: number): number {
+  const line = stockProfile(stock);
+  let most = 0;
+  for (let k = 0; k + 1 < line.length; ++k) {
+    const [a, ra] = line[k], [b, rb] = line[k + 1];
+    if (z < a - same_mm || z > b + same_mm) continue;
+    most = Math.max(most, b > a ? ra + ((rb - ra) * (z - a)) / (b - a) : Math.max(ra, rb));
+  }
+  return most;
+}
+
 /** What a later setup cuts still is stock. */
 export function asStock(e: Surface, stock: Drawing['stock']): Surface {
-  const d = e.side === 'outer' ? stock.outer_mm : stock.inner_mm;
+  const d = e.side === 'outer' ? 2 * stockRadius(stock, (e.z_mm[0] + e.z_mm[1]) / 2) : stock.inner_mm;
   return { id: e.id, side: e.side, kind: 'cylinder', z_mm: e.z_mm, diameters_mm: [d, d], setup: e.setup };
 }
 
