@@ -434,10 +434,15 @@ Way way_of(const Pass& p) {
   return {way, entered};
 }
 
-// From the floor of an undercut, of the height h, up its radius, which may be larger than
-// the corner's, and where it goes into the shoulder at z, back to that.
-void up_undercut(const Pass& p, const part::Undercut& u, double h, double z) {
+// Along the floor of an undercut, which a large corner may reach beyond the shoulder at z,
+// up its radius, which may be larger than the corner's, and where it goes into the
+// shoulder, back to that.
+void up_undercut(const Pass& p, const part::Undercut& u, double z) {
   const auto way = planning::undercut_way(u, p.re_mm);
+  const auto line = tips(own_line(p.site, p.side, p.surface(), 0), p.re_mm);
+  const auto& floor = line[line.size() - 2];
+  const double h = floor.h_mm;
+  if (floor.z_mm < z) p.site.to(Kind::feed, p.side, floor);
   p.site.to(Kind::feed, p.side, {h, z + way.centre_z});
   if (way.radius_mm > kSame_mm)
     p.site.arc(p.side, {h + way.arc_h, z + way.arc_z},
@@ -499,8 +504,7 @@ void to_point(const Pass& p, const std::vector<Point>& way, std::size_t i) {
   const bool foot = p.last && undercut && i + 1 < way.size() &&
                     std::abs(way[i].z_mm - p.surface().z1) < kStands_mm &&
                     level(way[i], way[i + 1]) && !level(way[i - 1], way[i]);
-  foot ? up_undercut(p, *undercut, way[i].h_mm, way[i].z_mm)
-       : p.site.to(Kind::feed, p.side, way[i]);
+  foot ? up_undercut(p, *undercut, way[i].z_mm) : p.site.to(Kind::feed, p.side, way[i]);
 }
 
 void pass(const Pass& p) {

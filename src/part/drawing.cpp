@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "turnwright/base/units.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kSame_mm = 1e-9;
 
-// Of DIN 509: radius, depth, width, and depth in the shoulder.
+// Of DIN 509: radius, depth, width, and depth in the shoulder, which form E leaves out.
 constexpr std::array kUndercutsF{
     Undercut{0.2, 0.1, 1, 0.1},   Undercut{0.4, 0.2, 2, 0.1},
     Undercut{0.6, 0.2, 2, 0.1},   Undercut{0.6, 0.3, 2.5, 0.2},
@@ -22,6 +23,11 @@ constexpr std::array kUndercutsF{
     Undercut{1, 0.4, 4, 0.3},     Undercut{1.2, 0.2, 2.5, 0.1},
     Undercut{1.2, 0.4, 4, 0.3},   Undercut{1.6, 0.3, 4, 0.2},
     Undercut{2.5, 0.4, 5, 0.3},   Undercut{4, 0.5, 7, 0.3}};
+constexpr std::array kUndercutsG{Undercut{0.4, 0.2, 0.9, 0.2}};
+constexpr std::array kUndercutsH{Undercut{0.8, 0.3, 2, 0.05},
+                                 Undercut{1.2, 0.3, 2.43, 0.05}};
+
+constexpr double kRight_rad = std::numbers::pi / 2;
 
 // Of ISO 6411: pilot, and the largest diameter of the forms A and R, and of B (none of the
 // smallest pilots); length of the pilot by ISO 866.
@@ -64,9 +70,13 @@ constexpr std::array<std::array<double, 5>, 18> kThreadUndercuts{
 }  // namespace
 
 std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm) {
-  if (form != 'E' && form != 'F') return std::nullopt;
-  for (auto u : kUndercutsF) {
+  std::span<const Undercut> table;
+  if (form == 'E' || form == 'F') table = kUndercutsF;
+  if (form == 'G') table = kUndercutsG;
+  if (form == 'H') table = kUndercutsH;
+  for (auto u : table) {
     if (form == 'E') u.recess_mm = 0;
+    u.form = form;
     if (std::abs(u.radius_mm - radius_mm) < kSame_mm &&
         std::abs(u.depth_mm - depth_mm) < kSame_mm)
       return u;
@@ -78,8 +88,8 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm) {
   if (form != 'A' && form != 'B') return std::nullopt;
   for (const auto& [pitch, reduced, long_width, short_width, radius] : kThreadUndercuts)
     if (std::abs(pitch - pitch_mm) < kSame_mm)
-      return Undercut{radius, reduced / 2, form == 'A' ? long_width : short_width, 0,
-                      pitch};
+      return Undercut{radius, reduced / 2, form == 'A' ? long_width : short_width,
+                      0,      pitch,       form};
   return std::nullopt;
 }
 
@@ -271,20 +281,26 @@ bool fits_countersink(const Chamfer& c, double point_deg) {
 }
 
 std::string designation(const Undercut& u) {
-  if (u.pitch_mm > 0)
-    return u.width_mm < thread_undercut('A', u.pitch_mm)->width_mm ? "DIN 76-B"
-                                                                   : "DIN 76-A";
-  return fmt::format("{}{:g}x{:g}", u.recess_mm > 0 ? 'F' : 'E', u.radius_mm, u.depth_mm);
+  if (u.pitch_mm > 0) return fmt::format("DIN 76-{}", u.form);
+  return fmt::format("{}{:g}x{:g}", u.form, u.radius_mm, u.depth_mm);
 }
 
 double falls_rad(const Undercut& u) {
-  return u.pitch_mm > 0 ? kThreadUndercutFalls_rad : kUndercutFalls_rad;
+  if (u.pitch_mm > 0) return units::rad_from_deg(30);
+  return u.form == 'G' ? (kRight_rad - units::rad_from_deg(55)) / 2
+                       : units::rad_from_deg(15);
 }
+
+double leans_rad(const Undercut& u) {
+  if (!(u.recess_mm > 0)) return 0;
+  return u.form == 'F' ? units::rad_from_deg(8) : falls_rad(u);
+}
+
 double fall_mm(const Undercut& u) { return u.depth_mm / std::tan(falls_rad(u)); }
 
 double height_mm(const Undercut& u) {
   if (!(u.recess_mm > 0)) return u.radius_mm;
-  const double lean = kUndercutLeans_rad;
+  const double lean = leans_rad(u);
   return u.radius_mm * (1 + std::sin(lean)) +
          (u.recess_mm - u.radius_mm * (1 - std::cos(lean))) / std::tan(lean);
 }

@@ -370,7 +370,7 @@ TEST(Notation, RefusesWhatIsMissingOrTwiceOrOutOfRange) {
       {"bore", "got \"bore\", expected a diameter"},
       {"M24x25", "a length like x 40 for this element"},
       {"d50 x 40; 1x95", "got \"1x95\", expected a chamfer like 1x45"},
-      {"d50 x 40; E0.8", "got \"E0.8\", expected an undercut of form E"},
+      {"d50 x 40; E0.8", "got \"E0.8\", expected an undercut of DIN 509"},
       {"d50 x 40; DIN76-C", "got \"DIN76-C\", expected"},
       {"d50 x 40; R0.8 d7", "got \"d7\", expected a chamfer"},
       {"d50 x 40; left:", "a feature like 1x45 after the colon"},
@@ -558,7 +558,10 @@ class Chance {
     const bool end = at.find("left") != at.npos || at.find("right") != at.npos;
     if (!end && one_in(3)) o.edges.push_back({.at = at, .fillet_mm = size()});
     if (one_in(3))
-      o.edges.push_back({.at = at, .undercut = one_in(2) ? "E0.8x0.3" : "DIN 76-B"});
+      o.edges.push_back({.at = at,
+                         .undercut = one_in(2)   ? "E0.8x0.3"
+                                     : one_in(2) ? "H1.2x0.3"
+                                                 : "DIN 76-B"});
   }
   void add_tolerance(Outline& o, const part::ToleranceFacts& row) {
     if (one_in(2)) return;

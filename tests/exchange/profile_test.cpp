@@ -431,6 +431,43 @@ TEST(Profile, AnUndercutOfFormFIsKnownByItsSlopes) {
   EXPECT_EQ(o.edges[0].undercut, "F0.8x0.3");
 }
 
+// From the cylinder of 30 mm a slope that is tangent to a radius, and from there one as steep
+// back to the wall at 40 mm.
+Outline between_slopes(double radius, double depth, double recess, double deg) {
+  const double a = deg * std::acos(-1) / 180;
+  const Point centre{40 + recess - radius, 15 - depth + radius};
+  const Point down{centre.z_mm - radius * std::sin(a),
+                   centre.r_mm - radius * std::cos(a)};
+  const Point back{centre.z_mm + radius * std::cos(a),
+                   centre.r_mm + radius * std::sin(a)};
+  Profile p;
+  p.sides = {{.from = {0, 0}, .to = {0, 14}}};
+  drawn::line(p.sides, {1, 15});
+  drawn::line(p.sides, {down.z_mm - (15 - down.r_mm) / std::tan(a), 15});
+  drawn::line(p.sides, down);
+  drawn::arc(p.sides, back, centre, true);
+  drawn::line(p.sides, {40, back.r_mm + (back.z_mm - 40) / std::tan(a)});
+  for (const Point to : {Point{40, 25}, Point{60, 25}, Point{60, 0}})
+    drawn::line(p.sides, to);
+  return outline_of(p);
+}
+
+TEST(Profile, UndercutsOfTheFormsGAndHAreKnownByTheirSlopes) {
+  const auto only = [](const Outline& o) {
+    return o.edges.size() == 2 && o.ignored.empty() ? o.edges[1].undercut.value_or("none")
+                                                    : "other edges";
+  };
+  EXPECT_EQ(only(between_slopes(0.4, 0.2, 0.2, 17.5)), "G0.4x0.2");
+  EXPECT_EQ(only(between_slopes(0.8, 0.3, 0.05, 15)), "H0.8x0.3");
+  EXPECT_EQ(only(between_slopes(1.2, 0.3, 0.05, 15)), "H1.2x0.3");
+  const Outline other = between_slopes(0.8, 0.3, 0.2, 12);
+  ASSERT_EQ(other.ignored.size(), 1u);
+  EXPECT_EQ(
+      other.ignored[0].text,
+      "The recess in the corner at d1|d2 is left out: it is none of DIN 509's forms "
+      "F, G and H with the sizes of their table, the corner stays sharp.");
+}
+
 TEST(Profile, WhatIsNoHalfProfileIsRefused) {
   EXPECT_EQ(profile_refused({}), "no sides");
   Profile gap = drawn::profile_of(motor_shaft());

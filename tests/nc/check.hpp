@@ -334,7 +334,7 @@ class Check : private Sizes {
     }
   }
 
-  // How far undercuts of form F of the elements beside element k go into it, at its left and
+  // How far undercuts of the elements beside element k go into it, at its left and
   // its right end: there a height above the axis says nothing.
   template <class Element>
   static std::pair<double, double> recesses(const std::vector<Element>& all,

@@ -82,13 +82,13 @@ void DrawnPart::append(Run& run, const std::string& id, const Polygon& line) {
   }
 }
 
-// What an undercut of form F takes of the shoulder, from where its circle meets the
-// shoulder's plane: round to 8 deg off the shoulder and straight back to it; `out` is the
-// direction into the shoulder.  Nothing of form E.
+// What an undercut takes of the shoulder, from where its circle meets the shoulder's plane:
+// round to where it leans back and straight back to it; `out` is the direction into the
+// shoulder.  Nothing of form E.
 Polygon recess(const part::Undercut& u, const Spot& from, double out) {
   Polygon all;
   if (!(u.recess_mm > 0)) return all;
-  const double r = u.radius_mm, c = Sizes::centre(u), lean = M_PI * 8 / 180;
+  const double r = u.radius_mm, c = Sizes::centre(u), lean = Sizes::lean_of(u);
   const double begins = std::asin(c / r);  // angle from below the centre
   const double centre_x = from.x + r * std::cos(begins);
   for (int i = 1; i <= 200; ++i) {

@@ -231,9 +231,42 @@ Paper screw(const Screw& s = {}) {
   return paper.rapid(100, 4.5);
 }
 
+/// An undercut G0.4x0.2 before a wall, with a corner as large as its radius: down a slope to
+/// the floor, into the wall, and back to it on a line that leans; DIN 509 has both at
+/// 17.5 deg.  Beside a turn by an angle a the tip keeps r tan(a/2).
+struct Recess {
+  double falls_deg = 17.5, leans_deg = 17.5;
+};
+Paper recess(const Recess& s = {}) {
+  Paper paper(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "paper recess", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 122,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 31, "diameter_mm": 40},
+              {"id": "d2", "kind": "cylinder", "length_mm": 30, "diameter_mm": 30}],
+    "edges": [{"at": "d1|d2", "undercut": "G0.4x0.2"}],
+    "faces": [{"id": "right", "Ra_um": 3.2}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+  face(paper, 24);
+  rough(paper, {});
+  const double r = 0.4, depth = 0.2, deep = 0.2, begins = -30 + 0.9;
+  const auto rad = [](double deg) { return deg * M_PI / 180; };
+  const double a = rad(s.falls_deg), lean = rad(s.leans_deg);
+  const double beside = r + r * std::tan(a / 2);
+  const double back =
+      r * std::sin(lean) + (deep - r * (1 - std::cos(lean))) / std::tan(lean);
+  paper.operation(OperationKind::finish, {"d2", "d1"}, "SVHBL-VBMT160404-PF");
+  paper.rapid(24, 4).rapid(15, 2).feed(15, begins - beside);
+  paper.feed(15 - depth, begins - depth / std::tan(a) - beside);
+  paper.feed(15 - depth, -30 - deep);
+  paper.feed(15 - depth + back - r * std::tan(lean / 2), -30);
+  return paper.feed(20, -30).feed(20, -61.5).rapid(23, -58.5).rapid(100, 4);
+}
+
 TEST(PlantedErrors, ProgramsWithoutErrorsMakeTheirParts) {
   for (const auto& paper :
-       {shaft(), arc(false), bore(), drilled_bore(), supported(), screw()})
+       {shaft(), arc(false), bore(), drilled_bore(), supported(), screw(), recess()})
     EXPECT_EQ(listed(found(paper)), "") << paper.planned().part.drawing.name;
 }
 
@@ -265,7 +298,9 @@ TEST(PlantedErrors, AreFound) {
       {"a groove too deep", Fault::gouge, screw({.groove_x = 12.99})},
       {"a groove too narrow", Fault::left, screw({.groove_z = -23.9})},
       {"a thread not cut deep enough", Fault::thread, screw({.thread_x = 14.1})},
-      {"a thread into the shoulder", Fault::gouge, screw({.thread_to_z = -24})}};
+      {"a thread into the shoulder", Fault::gouge, screw({.thread_to_z = -24})},
+      {"form G's slope at 15 deg", Fault::left, recess({.falls_deg = 15})},
+      {"form G into the wall at 15 deg", Fault::gouge, recess({.leans_deg = 15})}};
   for (const auto& each : all) {
     const auto findings = found(each.paper);
     EXPECT_GT(most(findings, each.fault), -1) << each.what << '\n' << listed(findings);

@@ -74,13 +74,20 @@ class Sizes {
     return {from, to};
   }
 
-  // Distance of the centre of an undercut's radius from the shoulder: form F's comes back
-  // to the shoulder at 8 deg from a circle whose deepest point lies t2 behind it.
+  // Distance of the centre of an undercut's radius from the shoulder: the forms F to H come
+  // back to the shoulder from a circle whose deepest point lies t2 behind it.
   static double centre(const part::Undercut& u) { return u.radius_mm - u.recess_mm; }
 
-  // How steeply an undercut falls to its floor: DIN 76 at 30 deg, DIN 509 at 15 deg.
+  // How steeply an undercut falls to its floor: DIN 76 at 30 deg, DIN 509 at 15 deg, form G
+  // beside a corner of 55 deg as on its other side.
   static double slope_of(const part::Undercut& u) {
-    return u.pitch_mm > 0 ? M_PI / 6 : M_PI / 12;
+    if (u.pitch_mm > 0) return M_PI / 6;
+    return u.form == 'G' ? (90 - 55) / 2.0 * M_PI / 180 : M_PI / 12;
+  }
+
+  // How far it leans into the shoulder: form F by 8 deg, the others as they fall.
+  static double lean_of(const part::Undercut& u) {
+    return u.form == 'F' ? M_PI * 8 / 180 : slope_of(u);
   }
 
   // Depth of an undercut at a distance from the left end: from its width on down its slope,

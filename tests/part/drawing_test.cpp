@@ -98,7 +98,6 @@ TEST(Drawing, ChamfersAndUndercutsGoIntoTheRadius) {
   EXPECT_NEAR(undercut_mm(e, 2), 0.5 * std::tan(std::acos(-1) / 12), 1e-12);
   EXPECT_EQ(undercut_mm(e, 2.5), 0);
   EXPECT_FALSE(undercut('E', 0.8, 0.4));
-  EXPECT_FALSE(undercut('G', 0.8, 0.3));
 }
 
 // g of DIN 509's table, to the 0.1 mm that it is printed in.
@@ -117,6 +116,41 @@ TEST(Drawing, FormFComesBackToTheShoulderWhereTheStandardSays) {
   }
   EXPECT_EQ(designation(*undercut('F', 0.8, 0.3)), "F0.8x0.3");
   EXPECT_EQ(designation(*undercut('E', 1, 0.4)), "E1x0.4");
+}
+
+// Half of what a right angle is more than the insert's: 55 deg of a rhombus, 60 deg of a
+// triangle.  With that angle on both sides of a tangent radius f and g are those of the
+// table, to the 0.1 mm that it is printed in; f is at most 0.2 mm more.
+TEST(Drawing, FormsGAndHHaveTheShapeOfInserts) {
+  struct Row {
+    char form;
+    double r, t1, t2, f, g, insert_deg;
+  };
+  for (const auto& row :
+       {Row{'G', 0.4, 0.2, 0.2, 0.9, 1.1, 55}, Row{'H', 0.8, 0.3, 0.05, 2, 1.1, 60},
+        Row{'H', 1.2, 0.3, 0.05, 2.4, 1.5, 60}}) {
+    const auto u = undercut(row.form, row.r, row.t1);
+    ASSERT_TRUE(u) << row.form;
+    EXPECT_EQ(u->recess_mm, row.t2);
+    const double a = (90 - row.insert_deg) / 2 * std::acos(-1) / 180;
+    EXPECT_NEAR(falls_rad(*u), a, 1e-12);
+    EXPECT_NEAR(leans_rad(*u), a, 1e-12);
+    const auto beyond = [&](double deep) {  // from the deepest place to the other surface
+      return row.r * (1 + std::sin(a)) + (deep - row.r * (1 - std::cos(a))) / std::tan(a);
+    };
+    EXPECT_NEAR(beyond(row.t2), row.g, 0.05) << row.form;
+    EXPECT_NEAR(height_mm(*u), beyond(row.t2), 1e-12);
+    const double tangent = beyond(row.t1) - row.t2;
+    EXPECT_NEAR(tangent, row.f, 0.05) << row.form;
+    EXPECT_GE(u->width_mm, std::max(row.f, tangent)) << row.form;
+    EXPECT_LE(u->width_mm, row.f + 0.05) << row.form;
+    EXPECT_GT(u->width_mm - fall_mm(*u), centre_mm(*u)) << "a floor before the radius";
+  }
+  EXPECT_EQ(designation(*undercut('G', 0.4, 0.2)), "G0.4x0.2");
+  EXPECT_EQ(designation(*undercut('H', 1.2, 0.3)), "H1.2x0.3");
+  EXPECT_FALSE(undercut('H', 0.4, 0.2));
+  EXPECT_FALSE(undercut('G', 0.8, 0.3));
+  EXPECT_FALSE(undercut('I', 0.8, 0.3));
 }
 
 // DIN 76's other columns: pitch, d - dg, g1 of the forms A and B.  The flank of 30 deg takes

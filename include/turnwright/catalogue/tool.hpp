@@ -94,7 +94,7 @@ struct Tool {
 };
 
 /// Whether the major edge goes behind a shoulder as far as undercuts of form F ask, 8 deg: a
-/// KAPR of at least 98 deg.
+/// KAPR of at least 98 deg.  The forms G and H ask for more, part::leans_rad.
 bool goes_behind_shoulders(const Tool& tool);
 
 /// Least depth of cut [mm] of a tool: of its chip breaker's window, and two thirds of the

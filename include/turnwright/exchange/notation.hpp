@@ -37,7 +37,8 @@
 /// - `stock` stays as the bar is, round, or a hexagon or square bar of A across its flats.
 /// - A corner that stands between two outer elements is the edge between them, before the
 ///   first one the left end's, after the last one the right end's.  Edges of bores are
-///   named.  A is measured along the axis, ANGLE from the axis; E RxT is form E of DIN 509.
+///   named.  A is measured along the axis, ANGLE from the axis; E RxT is form E of DIN 509,
+///   and so on to H.
 ///   `round` is the radius of the edge, R the largest fillet of the inner corner at its foot;
 ///   at an end, where no inner corner is, R too is the radius of the edge.
 /// - Outer elements are named d1, d2 .. from left to right, grooves and threads counted too.

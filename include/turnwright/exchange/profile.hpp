@@ -35,8 +35,8 @@ struct Profile {
 /// ends are `join_mm` or less apart are joined, equal neighbours (a face that the file
 /// divides) are one element.  A side that is shorter than its neighbours and leads from a
 /// cylinder to a plane is a chamfer, an arc there a fillet; a band deeper than both
-/// neighbours between walls is a groove; the sizes of DIN 509's forms E and F, and outside
-/// those of DIN 76, make an undercut.  Whether the element beside that of DIN 76 is a thread of
+/// neighbours between walls is a groove; the sizes of DIN 509's forms, and outside those of
+/// DIN 76, make an undercut.  Whether the element beside that of DIN 76 is a thread of
 /// its pitch is left to who knows it.
 /// A point on the axis inside a blind bore's conical bottom of a drill is left to the drill,
 /// which `assumed` says.

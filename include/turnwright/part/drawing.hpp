@@ -44,23 +44,21 @@ double into_radius_mm(const Chamfer& chamfer, double from_end_mm);
 /// radius R the one of 45 deg that touches it, with legs of R (2 - sqrt 2).
 Chamfer roughed(const Chamfer& chamfer);
 
-/// An undercut of DIN 509's form E or F, or of DIN 76 behind an outer thread, at the end of
-/// an element before a shoulder: at a distance from the shoulder the surface falls at 15 deg
-/// (DIN 76: 30 deg) to a depth, and an inner radius leads from there to the shoulder.  Form F
-/// goes into the shoulder too: from the radius its surface comes back to the shoulder at
-/// 8 deg.
+/// An undercut of DIN 509, or of DIN 76 behind an outer thread, at the end of an element
+/// before a shoulder: at a distance from the shoulder the surface falls at an angle to a
+/// depth, and an inner radius leads from there to the shoulder.  The forms F, G and H go into
+/// the shoulder too: from the radius their surface comes back to the shoulder at an angle.
 struct Undercut {
   double radius_mm = 0, depth_mm = 0, width_mm = 0;
-  double recess_mm = 0;  ///< deepest place in the shoulder, of form F; 0: no form F
+  double recess_mm = 0;  ///< deepest place in the shoulder; 0: of form E, of DIN 76
   double pitch_mm = 0;   ///< of the thread, of DIN 76; 0: DIN 509
+  char form = 'E';       ///< 'E' to 'H' of DIN 509, 'A' or 'B' of DIN 76
 };
-inline constexpr double kUndercutFalls_rad = std::numbers::pi / 12;
-inline constexpr double kThreadUndercutFalls_rad = std::numbers::pi / 6;
-inline constexpr double kUndercutLeans_rad = std::numbers::pi / 22.5;
 
-/// The undercut of form 'E' or 'F' with a radius and a depth.
-/// Source: DIN 509, table 1: radius x depth, width f, depth t2 of form F in the shoulder.
-/// Nothing if the table has none.
+/// The undercut of form 'E', 'F', 'G' or 'H' with a radius and a depth.
+/// Source: DIN 509:2006, table 1: radius x depth, width f, depth t2 in the shoulder, as
+/// IS 3428:2009 has it.  The slope of H1.2x0.3 is tangent to its radius at a width of
+/// 2.43 mm, within f = 2.4 +0.2 mm; that is its width here.  Nothing if the table has none.
 std::optional<Undercut> undercut(char form, double radius_mm, double depth_mm);
 
 /// The undercut of form 'A' (regular) or 'B' (short) behind an outer thread of a pitch:
@@ -71,14 +69,24 @@ std::optional<Undercut> thread_undercut(char form, double pitch_mm);
 /// "E0.8x0.3", "DIN 76-A".
 std::string designation(const Undercut& undercut);
 
-/// Angle at which an undercut falls to its floor, and the length [mm] along the axis that it
-/// falls on, t/tan(angle).
+/// Angle at which an undercut falls to its floor: 15 deg of the forms E, F and H, 17.5 deg of
+/// G, 30 deg of DIN 76.
+///
+/// Source: of G and H derived here: they have the shape of inserts, a rhombus of 55 deg and a
+/// triangle (foreword of IS 3428), whose edges lie off both surfaces by half of what the
+/// right angle is more, 17.5 and 15 deg.  By f and g of their three rows, printed to 0.1 mm,
+/// it is 16.1 to 18.9 deg and 14.7 to 15.3 deg.
 double falls_rad(const Undercut& undercut);
+/// Angle at which it comes back to the shoulder: 8 deg of form F, 17.5 deg of G, 15 deg of H;
+/// 0 of the others.
+double leans_rad(const Undercut& undercut);
+/// Length [mm] along the axis that it falls on, t/tan(angle).
 double fall_mm(const Undercut& undercut);
-/// Height above its floor at which an undercut ends on the shoulder:
+/// Height above its floor at which an undercut that comes back at an angle `a` ends on the
+/// shoulder:
 ///
 ///     form E, DIN 76: g = r                                                          (1)
-///     form F: g = r (1 + sin 8 deg) + (t2 - r (1 - cos 8 deg))/tan 8 deg             (2)
+///     forms F to H: g = r (1 + sin a) + (t2 - r (1 - cos a))/tan a                   (2)
 ///
 /// Source: derived here from DIN 509's picture; its table rounds g to 0.1 mm.
 double height_mm(const Undercut& undercut);

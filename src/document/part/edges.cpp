@@ -264,7 +264,7 @@ std::optional<part::Undercut> read_thread_undercut(const Reader& r, double pitch
   return found;
 }
 
-// "E0.8x0.3" or "F0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
+// "E0.8x0.3", "H0.8x0.3", also "DIN 509-E0,8x0,3": the undercut of that radius and depth.
 std::optional<part::Undercut> read_undercut(const Reader& r) {
   const auto text = r.as_text(40);
   static const std::regex kForm(
@@ -279,8 +279,8 @@ std::optional<part::Undercut> read_undercut(const Reader& r) {
     found = part::undercut(m[1].str()[0], number(m[2]), number(m[3]));
   if (!found && !text.empty())
     r.problem(
-        "an undercut of DIN 509's form E or F with a radius and a depth of its table, "
-        "like \"E0.8x0.3\" (the forms G and H are not turned)",
+        "an undercut of DIN 509 with a radius and a depth of its table: of form E or F "
+        "like \"E0.8x0.3\", \"G0.4x0.2\", \"H0.8x0.3\" or \"H1.2x0.3\"",
         "choice");
   return found;
 }

@@ -126,14 +126,19 @@ bool take_radius(Items& items, std::size_t i) {
 // As the table of DIN 509 gives its sizes.
 double tenths(double mm) { return std::round(10 * mm) / 10; }
 
-// Form E of DIN 509 falls at 15 deg, DIN 76 behind an outer thread at 30 deg.
+// An undercut if it falls at an angle.
+std::optional<part::Undercut> that_falls(const std::optional<part::Undercut>& u,
+                                         double rad) {
+  return u && std::abs(part::falls_rad(*u) - rad) <= kTangent_rad ? u : std::nullopt;
+}
+
+// Of form E of DIN 509, or of DIN 76 behind an outer thread.
 std::optional<part::Undercut> undercut_of(double falls_rad, double radius, double depth,
                                           double width, bool outside) {
-  if (std::abs(falls_rad - part::kUndercutFalls_rad) <= kTangent_rad)
-    return part::undercut('E', tenths(radius), tenths(depth));
-  if (outside && std::abs(falls_rad - part::kThreadUndercutFalls_rad) <= kTangent_rad)
-    return thread_undercut_of(radius, depth, width);
-  return std::nullopt;
+  const auto e =
+      that_falls(part::undercut('E', tenths(radius), tenths(depth)), falls_rad);
+  return e || !outside ? e
+                       : that_falls(thread_undercut_of(radius, depth, width), falls_rad);
 }
 
 // An undercut: from the cylinder a slope down to a floor, and an arc from there up the wall;
@@ -162,12 +167,13 @@ bool take_undercut(Items& items, std::size_t first, std::size_t last, double joi
   return true;
 }
 
-// Form F of DIN 509: form E's slope and floor, and an arc from which a slope 8 deg off the
-// wall leads back to it.  Nothing of other recesses.
-std::optional<part::Undercut> form_f(const Items& items, std::size_t first,
-                                     std::size_t last, double join_mm) {
-  double radius = 0, depth = 0;
-  bool slope = false, back = false, floor = false;
+// The forms F, G and H of DIN 509: a slope and a floor, and an arc from which a slope off the
+// wall leads back to it.  Those of G and H may be tangent to the arc, without a floor.
+// Nothing of other recesses.
+std::optional<part::Undercut> into_wall(const Items& items, std::size_t first,
+                                        std::size_t last, double join_mm) {
+  double radius = 0, depth = 0, slope_rad = 0, back_rad = 0;
+  bool floor = false;
   for (std::size_t i = first; i < last; ++i) {
     const Item& item = items[i];
     if (item.kind == Kind::arc) radius = std::max(radius, radius_mm(item.side));
@@ -176,14 +182,21 @@ std::optional<part::Undercut> form_f(const Items& items, std::size_t first,
     if (level(item, join_mm)) {
       floor = true;
     } else if (dx(item) < 0) {
-      back = std::abs(std::atan2(l, w) - part::kUndercutLeans_rad) <= kTangent_rad;
+      back_rad = std::atan2(l, w);
     } else {
-      slope = std::abs(std::atan2(w, l) - part::kUndercutFalls_rad) <= kTangent_rad;
+      slope_rad = std::atan2(w, l);
       depth = w;
     }
   }
-  if (!(slope && floor && back)) return std::nullopt;
-  return part::undercut('F', tenths(radius), tenths(depth));
+  if (!floor) depth += radius * (1 - std::cos(slope_rad));
+  for (const char form : {'F', 'G', 'H'}) {
+    const auto u =
+        that_falls(part::undercut(form, tenths(radius), tenths(depth)), slope_rad);
+    if (u && std::abs(part::leans_rad(*u) - back_rad) <= kTangent_rad &&
+        (floor || form != 'F'))
+      return u;
+  }
+  return std::nullopt;
 }
 
 // A recess that reaches behind a wall, as forms F to H of DIN 509 do.
@@ -196,18 +209,21 @@ bool take_recess(Items& items, std::size_t back, double join_mm) {
     --first;
   while (last < items.size() && small(items[last]) && !level(items[last], join_mm))
     ++last;
-  // The floor is level too; the cylinder lies beyond the slope that leads to it.
-  if (first > 1 && level(items[first - 1], join_mm) && small(items[first - 2]))
+  // A floor, next to the arc, is level too; the cylinder lies beyond the slope that leads to
+  // it.
+  if (first > 1 && items[first].kind == Kind::arc && level(items[first - 1], join_mm) &&
+      small(items[first - 2]))
     first -= 2;
-  if (last + 2 < items.size() && level(items[last], join_mm) && small(items[last + 1]))
+  if (last + 2 < items.size() && items[last - 1].kind == Kind::arc &&
+      level(items[last], join_mm) && small(items[last + 1]))
     last += 2;
   if (first == 0 || last >= items.size() || !wall_and_band(items[first - 1], items[last]))
     return false;
-  if (const auto f = form_f(items, first, last, join_mm))
+  if (const auto u = into_wall(items, first, last, join_mm))
     sharpen(items, first, last,
             {.kind = Corner::Kind::undercut,
-             .radius_mm = f->radius_mm,
-             .undercut = part::designation(*f)});
+             .radius_mm = u->radius_mm,
+             .undercut = part::designation(*u)});
   else
     sharpen(items, first, last, {.kind = Corner::Kind::recess});
   return true;

@@ -77,7 +77,8 @@ void add_corner(Outline& out, const std::string& at, const Corner& c, const Elem
   if (c.kind == Corner::Kind::recess)
     leave_sharp(
         out, at, c,
-        "of DIN 509 a part document has forms E and F alone, the corner stays sharp");
+        "it is none of DIN 509's forms F, G and H with the sizes of their table, the "
+        "corner stays sharp");
   else if (!plain(a, b, c))
     leave_sharp(out, at, c,
                 c.kind == Corner::Kind::rounded

@@ -41,21 +41,28 @@ std::optional<std::string> thread_undercut(Word word) {
   return std::nullopt;
 }
 
+// The form of DIN 509 that a word begins with, which is taken off it.
+std::optional<char> undercut_form(Word& word) {
+  constexpr std::string_view kForms = "efgh";
+  for (std::size_t i = 0; i < kForms.size(); ++i)
+    if (take(word, {kForms.substr(i, 1)})) return static_cast<char>('E' + i);
+  return std::nullopt;
+}
+
+bool begins_undercut(Word word) { return undercut_form(word) && begins_with_digit(word); }
+
 bool take_undercut(Word word, Edge& edge, Mistakes& mistakes) {
   if ((edge.undercut = thread_undercut(word))) return true;
   Word rest = word;
-  const bool into_shoulder = take(rest, {"f"});
-  if (!into_shoulder) take(rest, {"e"});
+  const auto form = undercut_form(rest);
   const auto sizes = product(rest);
-  if (!sizes || sizes->size() != 2) {
-    mistakes.add(
-        word,
-        "an undercut of form E or F of DIN 509 by radius and depth, like E0.8x0.3, "
-        "or DIN76-A behind a thread");
+  if (!form || !sizes || sizes->size() != 2) {
+    mistakes.add(word,
+                 "an undercut of DIN 509 by form, radius and depth, like E0.8x0.3, or "
+                 "DIN76-A behind a thread");
     return false;
   }
-  edge.undercut =
-      fmt::format("{}{}x{}", into_shoulder ? 'F' : 'E', (*sizes)[0], (*sizes)[1]);
+  edge.undercut = fmt::format("{}{}x{}", *form, (*sizes)[0], (*sizes)[1]);
   return true;
 }
 
@@ -121,10 +128,10 @@ bool take_roughness(Word word, Demands& demands, Mistakes& mistakes) {
 
 bool begins_corner(Word word) {
   if (same(word, "chamfer") || same(word, "round") || begins_with_digit(word) ||
-      thread_undercut(word))
+      thread_undercut(word) || begins_undercut(word))
     return true;
   if (Word rest = word; take(rest, {"round"}) && begins_with_digit(rest)) return true;
-  return take(word, {"r", "e", "f"}) && begins_with_digit(word);
+  return take(word, {"r"}) && begins_with_digit(word);
 }
 
 std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
@@ -142,8 +149,7 @@ std::vector<Edge> corner(const std::vector<Word>& words, Mistakes& mistakes) {
                          mistakes);
     } else if (begins_with_digit(first)) {
       read = take_chamfer(first, first, edge, mistakes);
-    } else if (thread_undercut(first) ||
-               (take(first, {"e", "f"}) && begins_with_digit(first))) {
+    } else if (thread_undercut(first) || begins_undercut(first)) {
       read = take_undercut(words[i], edge, mistakes);
     } else if (take(first, {"r"}) && begins_with_digit(first)) {
       read = take_radius(words[i], first, edge.fillet_mm, "a fillet like R0.8", mistakes);

@@ -127,7 +127,7 @@ std::vector<const catalogue::Tool*> shoulder_tools(const PreparedPart& p,
 
 UndercutWay undercut_way(const part::Undercut& u, double r) {
   UndercutWay w;
-  w.lean_rad = u.recess_mm > 0 ? part::kUndercutLeans_rad : 0;
+  w.lean_rad = part::leans_rad(u);
   w.radius_mm = std::max(0.0, u.radius_mm - r);
   w.centre_h = w.radius_mm;
   w.centre_z = part::centre_mm(u) - r;

@@ -41,9 +41,9 @@ std::optional<double> fillet_behind_mm(const PreparedPart& plan, std::size_t set
                                        const Element& element);
 
 /// Where the tip of a corner goes in an undercut, heights over its floor and distances from
-/// the shoulder: on the shoulder it passes the foot, of form F on a line into the shoulder,
-/// then it goes around the centre to the floor.  Without a larger radius than the corner's
-/// the arc is a point.
+/// the shoulder: on the shoulder it passes the foot, of the forms F to H on a line into the
+/// shoulder, then it goes around the centre to the floor.  Without a larger radius than the
+/// corner's the arc is a point.
 struct UndercutWay {
   double foot_h = 0, arc_h = 0, arc_z = 0, centre_h = 0, centre_z = 0, radius_mm = 0;
   double lean_rad = 0;  ///< by which the arc turns further than a right angle

@@ -31,7 +31,8 @@ bool MachinedSurface::makes_edges(const catalogue::Tool& tool) const {
   const auto u = undercut_of_last();
   return !u ||
          (tool.re_mm <= u->radius_mm &&
-          (!(u->recess_mm > 0) || catalogue::goes_behind_shoulders(tool)) &&
+          (!(u->recess_mm > 0) || units::rad_from_deg(tool.kapr_deg) >=
+                                      units::kPi / 2 + part::leans_rad(*u) - kSame_rad) &&
           units::rad_from_deg(tool.minor_kapr_deg) >= part::falls_rad(*u) - kSame_rad &&
           tool.ap_mm.upper > u->depth_mm);
 }
@@ -53,7 +54,7 @@ std::string MachinedSurface::edges_asked() const {
         "depth of cut beyond {:g} mm for the undercut",
         u->radius_mm,
         u->recess_mm > 0 ? fmt::format(", a KAPR of at least {:g} deg",
-                                       90 + units::deg_from_rad(part::kUndercutLeans_rad))
+                                       90 + units::deg_from_rad(part::leans_rad(*u)))
                          : std::string(),
         units::deg_from_rad(part::falls_rad(*u)), u->depth_mm));
   if (s.wall_in_stock && s.wall_chamfer.axial_mm > 0)

@@ -238,14 +238,18 @@ TEST(Edges, FitTheStepThatIsCut) {
 TEST(Edges, UndercutsAreThoseOfTheStandard) {
   const auto refused = [](const char* what) {
     return "t: /edges/0/undercut: got \"" + std::string(what) +
-           "\", expected an undercut of DIN 509's form E or F with a radius and a depth "
-           "of its table, like \"E0.8x0.3\" (the forms G and H are not turned)";
+           "\", expected an undercut of DIN 509 with a radius and a depth of its table: "
+           "of "
+           "form E or F like \"E0.8x0.3\", \"G0.4x0.2\", \"H0.8x0.3\" or \"H1.2x0.3\"";
   };
-  for (const char* what : {"G0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
+  for (const char* what :
+       {"G0.8x0.3", "H0.4x0.2", "I0.8x0.3", "E0.8x0.4", "0.8x0.3", "E", "E0.8x0.3x1"})
     EXPECT_EQ(refusal({edge("d1|d2", {{"undercut", what}})}), refused(what));
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E4x0.5"}})}), "accepted");
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "DIN 509-F0,8x0,3"}})}), "accepted");
   EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "E0.8\u00d70.3"}})}), "accepted");
+  EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "DIN 509-G0,4x0,2"}})}), "accepted");
+  EXPECT_EQ(refusal({edge("d3|d2", {{"undercut", "H1.2x0.3"}})}), "accepted");
   EXPECT_EQ(
       refusal({edge("b1|b2", {{"undercut", "E0.4x0.2"}})}),
       "t: /edges/0/undercut: got \"E0.4x0.2\", expected the inner corner between two "

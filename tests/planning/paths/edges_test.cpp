@@ -182,6 +182,31 @@ TEST(Undercuts, OfFormFNeedAnEdgeThatGoesBehindTheShoulder) {
       "0.3 mm for the undercut");
 }
 
+// Form H leans 15 deg, G 17.5 deg, as far as an edge of 107.5 deg goes.
+TEST(Undercuts, OfFormsGAndHNeedAnEdgeThatLeansAsTheyDo) {
+  const auto with = [](const char* undercut, double kapr_deg) {
+    auto d = collar({{{"at", "d1|d2"}, {"undercut", undercut}}});
+    d["tools"] = {"PCLNL-CNMG120408-PM", "SVHBL-VBMT160404-PF"};
+    auto p = part(d);
+    for (auto& t : p.tools)
+      if (t.id.starts_with("SVHBL")) t.kapr_deg = kapr_deg;
+    return plan(p);
+  };
+  EXPECT_EQ(with("G0.4x0.2", 107.5).status, PlanStatus::ok);
+  EXPECT_EQ(with("H0.8x0.3", 105).status, PlanStatus::ok);
+  const auto g = with("G0.4x0.2", 107), h = with("H1.2x0.3", 104.5);
+  ASSERT_EQ(g.status, PlanStatus::infeasible);
+  EXPECT_EQ(
+      g.conflicts.front().sentence,
+      "d1: no tool that could finish it fits and has a corner of at most 0.4 mm, a KAPR "
+      "of "
+      "at least 107.5 deg, a minor edge of at least 17.5 deg and a largest depth of cut "
+      "beyond 0.2 mm for the undercut");
+  ASSERT_EQ(h.status, PlanStatus::infeasible);
+  EXPECT_NE(h.conflicts.front().sentence.find("a KAPR of at least 105 deg"),
+            std::string::npos);
+}
+
 // Of a wall that is asked for its roughness alone, the pass of the undercut is as smooth.
 TEST(Undercuts, MakeTheirShoulderAsSmoothAsItIsDrawn) {
   auto d = collar({{{"at", "d1|d2"}, {"undercut", "E0.8x0.3"}}});
@@ -248,11 +273,18 @@ TEST(Undercuts, OfAShoulderThatIsFacedNeedTheSameTools) {
 // The arc around the undercut's own centre ends where the corner touches the floor, and
 // where it touches what rises to the shoulder.
 TEST(UndercutWay, TouchesFloorRadiusAndShoulder) {
-  for (const char form : {'E', 'F'})
+  struct Form {
+    char form;
+    double radius_mm, depth_mm, lean_deg;
+  };
+  for (const auto& [form, R, t, deg] :
+       {Form{'E', 0.8, 0.3, 0}, Form{'F', 0.8, 0.3, 8}, Form{'G', 0.4, 0.2, 17.5},
+        Form{'H', 0.8, 0.3, 15}})
     for (const double r : {0.2, 0.4, 0.8}) {
-      const auto u = part::undercut(form, 0.8, 0.3).value();
+      if (r > R) continue;
+      const auto u = part::undercut(form, R, t).value();
       const auto w = undercut_way(u, r);
-      const double lean = form == 'F' ? 8 * M_PI / 180 : 0;
+      const double lean = deg * M_PI / 180;
       const double z = part::centre_mm(u);  // of the undercut's radius, at its height
       EXPECT_NEAR(w.centre_h + r, u.radius_mm, 1e-12);
       EXPECT_NEAR(w.centre_z + r, z, 1e-12);

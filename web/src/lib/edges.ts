@@ -2,17 +2,23 @@
 import { alongBores, ends, entries, isThrough, mouths, type Element } from './elements';
 import type { Part } from './types';
 
-/** recess: how deep DIN 509's form F goes into the shoulder, 0 of others; falls: the slope's angle. */
-export interface Undercut { radius: number; depth: number; width: number; recess: number; falls: number }
-/** Forms E and F by radius and depth, as the planner knows them: src/part/drawing.cpp. */
+/** recess: how deep it goes into the shoulder; falls: the slope's angle, leans: that of the way back to the shoulder. */
+export interface Undercut { radius: number; depth: number; width: number; recess: number; falls: number; leans: number }
+const rad = (deg: number) => (deg * Math.PI) / 180;
+const ofE = [
+  [0.2, 0.1, 1, 0.1], [0.4, 0.2, 2, 0.1], [0.6, 0.2, 2, 0.1], [0.6, 0.3, 2.5, 0.2], [0.8, 0.3, 2.5, 0.2], [1, 0.2, 2.5, 0.1],
+  [1, 0.4, 4, 0.3], [1.2, 0.2, 2.5, 0.1], [1.2, 0.4, 4, 0.3], [1.6, 0.3, 4, 0.2], [2.5, 0.4, 5, 0.3], [4, 0.5, 7, 0.3],
+];
+const forms: { form: string; rows: number[][]; falls: number; leans: number }[] = [
+  { form: 'E', rows: ofE.map((row) => [...row.slice(0, 3), 0]), falls: 15, leans: 0 },
+  { form: 'F', rows: ofE, falls: 15, leans: 8 },
+  { form: 'G', rows: [[0.4, 0.2, 0.9, 0.2]], falls: 17.5, leans: 17.5 },
+  { form: 'H', rows: [[0.8, 0.3, 2, 0.05], [1.2, 0.3, 2.43, 0.05]], falls: 15, leans: 15 },
+];
+/** DIN 509 by form, radius and depth, as the planner knows them: src/part/drawing.cpp. */
 export const undercuts: Record<string, Undercut> = Object.fromEntries(
-  ['E', 'F'].flatMap((form) =>
-    [
-      [0.2, 0.1, 1, 0.1], [0.4, 0.2, 2, 0.1], [0.6, 0.2, 2, 0.1], [0.6, 0.3, 2.5, 0.2], [0.8, 0.3, 2.5, 0.2], [1, 0.2, 2.5, 0.1],
-      [1, 0.4, 4, 0.3], [1.2, 0.2, 2.5, 0.1], [1.2, 0.4, 4, 0.3], [1.6, 0.3, 4, 0.2], [2.5, 0.4, 5, 0.3], [4, 0.5, 7, 0.3],
-    ].map(([radius, depth, width, recess]) =>
-      [`${form}${radius}x${depth}`, { radius, depth, width, recess: form === 'F' ? recess : 0, falls: Math.PI / 12 }]),
-  ),
+  forms.flatMap(({ form, rows, falls, leans }) => rows.map(([radius, depth, width, recess]) =>
+    [`${form}${radius}x${depth}`, { radius, depth, width, recess, falls: rad(falls), leans: rad(leans) }])),
 );
 /** DIN 76 behind a thread: pitch, d - dg, width of the forms A and B, radius. */
 const threadUndercuts = [
@@ -27,7 +33,7 @@ export function undercutOf(designation = '', pitch = 0): Undercut | undefined {
   const form = threadForms.indexOf(designation);
   if (form < 0) return undercuts[designation];
   const row = threadUndercuts.find(([p]) => Math.abs(p - pitch) < 1e-9);
-  return row && { radius: row[4], depth: row[1] / 2, width: row[2 + form], recess: 0, falls: Math.PI / 6 };
+  return row && { radius: row[4], depth: row[1] / 2, width: row[2 + form], recess: 0, falls: rad(30), leans: 0 };
 }
 export const usualUndercut = 'E0.8x0.3';
 

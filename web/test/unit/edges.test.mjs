@@ -24,12 +24,22 @@ test('every edge of the shipped parts is at a place where it may be', () => {
 test('undercuts are those of the planner', () => {
   const number = '([\\d.]+)';
   const row = new RegExp(`Undercut\\{${[number, number, number, number].join(',\\s*')}\\}`, 'g');
-  const table = [...projectFile('src/part/drawing.cpp').matchAll(row)].map(([, ...row]) => row.map(Number));
-  assert.equal(2 * table.length, Object.keys(undercuts).length);
-  for (const [radius, depth, width, recess] of table) {
-    assert.deepEqual(undercuts[`E${radius}x${depth}`], { radius, depth, width, recess: 0, falls: Math.PI / 12 });
-    assert.deepEqual(undercuts[`F${radius}x${depth}`], { radius, depth, width, recess, falls: Math.PI / 12 });
+  const source = projectFile('src/part/drawing.cpp');
+  const rad = (deg) => (deg * Math.PI) / 180;
+  const leans = { E: 0, F: 8, G: (90 - 55) / 2, H: (90 - 60) / 2 };
+  let seen = 0;
+  for (const [name, forms] of Object.entries({ F: 'EF', G: 'G', H: 'H' })) {
+    const begins = source.indexOf(`kUndercuts${name}{`);
+    const table = [...source.slice(begins, source.indexOf('}};', begins) + 2).matchAll(row)].map(([, ...row]) => row.map(Number));
+    for (const form of forms)
+      for (const [radius, depth, width, recess] of table) {
+        assert.deepEqual(undercuts[`${form}${radius}x${depth}`], {
+          radius, depth, width, recess: form === 'E' ? 0 : recess, falls: rad(form === 'G' ? 17.5 : 15), leans: rad(leans[form]) });
+        seen += 1;
+      }
   }
+  assert.equal(seen, 2 * 12 + 3);
+  assert.equal(Object.keys(undercuts).length, seen);
 });
 
 test('undercuts of threads are those of the planner', () => {
@@ -40,7 +50,7 @@ test('undercuts of threads are those of the planner', () => {
   assert.equal(table.length, 18);
   for (const [pitch, reduced, a, b, radius] of table)
     [a, b].forEach((width, k) => assert.deepEqual(undercutOf(threadForms[k], pitch),
-      { radius, depth: reduced / 2, width, recess: 0, falls: Math.PI / 6 }));
+      { radius, depth: reduced / 2, width, recess: 0, falls: (30 * Math.PI) / 180, leans: 0 }));
   assert.equal(undercutOf('DIN 76-A', 1.6), undefined);
   assert.equal(undercutOf('E0.8x0.3'), undercuts['E0.8x0.3']);
   const e = (id, kind, d) => ({ id, kind, length_mm: 20, diameter_mm: d });

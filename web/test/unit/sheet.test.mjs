@@ -48,6 +48,15 @@ test('an undercut is as deep and as wide as its designation says and falls at 15
   near(points[0][1], 15 + 0.8 - 0.3, 'end of the radius');
 });
 
+test('an undercut of form G goes into the wall as deep as into the surface', () => {
+  const points = profile(surface({ left_undercut: 'G0.4x0.2' }));
+  near(Math.min(...points.map((p) => p[1])), 15 - 0.2, 'floor');
+  assert.ok(Math.abs(Math.min(...points.map((p) => p[0])) - (10 - 0.2)) < 0.005, 'deepest place');
+  near(points[0][0], 10, 'back at the wall');
+  const [[za, ra], [zb, rb]] = points;
+  near(Math.atan((za - zb) / (ra - rb)), (17.5 * Math.PI) / 180, 'way back');
+});
+
 test('a fillet is tangent to wall and surface', () => {
   const points = profile(surface({ right_fillet_mm: 2 })).slice(1);
   near(points[0][0], 48, 'on the surface');

@@ -5,7 +5,6 @@ import type { Drawing, Surface } from '../types';
 export type Point = [z: number, r: number];
 
 const chords = 12;
-const lean = (8 * Math.PI) / 180; // of form F, off the shoulder
 const drillPoint = Math.tan((59 * Math.PI) / 180);
 const same_mm = 1e-6;
 
@@ -26,8 +25,7 @@ const arc = (centre: Point, radius: number, from: number, to: number, count = ch
   });
 
 /** An undercut from the shoulder inwards: (1) and (2) of turnwright/part/drawing.hpp. */
-function undercut({ radius, depth, width, recess, falls }: Undercut): Point[] {
-  const a = recess > 0 ? lean : 0;
+function undercut({ radius, depth, width, recess, falls, leans: a }: Undercut): Point[] {
   const height = a > 0 ? radius * (1 + Math.sin(a)) + (recess - radius * (1 - Math.cos(a))) / Math.tan(a) : radius;
   const centre = radius - recess;
   return [
