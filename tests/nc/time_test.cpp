@@ -209,6 +209,16 @@ TEST(PlanAndProgram, OfShouldersWithUndercutsTakeTheSameTime) {
   EXPECT_EQ(made, 9);
 }
 
+// Driven tools come and go for every place; in a later setup somebody drills at a stop.
+TEST(PlanAndProgram, OfCrossHolesTakeTheSameTime) {
+  const auto& p = planned_awkward("cross-holes");
+  ASSERT_EQ(p.plan.status, planning::PlanStatus::ok);
+  auto all = programs(p.part, p.plan);
+  ASSERT_EQ(all.setups.at(0).setup, 0u);
+  all.setups.resize(1);
+  EXPECT_LE(apart("cross-holes", p, all), kAlike);
+}
+
 // Over the shoulder a facing pass takes as long as planned, but for the middle of the bore's
 // limits; the way out along the bore is no part of it.
 TEST(PlanAndProgram, OfFacedShouldersBetweenBoresTakeTheSameTime) {

@@ -40,7 +40,7 @@ AuxiliaryOperation drilled(const Site& s, const Asked& a, const Fitted& f,
   });
   o.plan.kind = OperationKind::cross_drill;
   name_after(m, s.setup, o.plan);
-  o.order = {.tool = o.order.tool + ", driven", .stage = s.stage, .milled = true};
+  o.order = milled_order(s.p, m, s.setup, o.order.tool + ", driven");
   return o;
 }
 

@@ -208,6 +208,18 @@ MilledCase milled_case(const MilledSite& s, const MilledChoice& c,
   return k;
 }
 
+InOrder milled_order(const PreparedPart& p, const Milled& m, std::size_t setup,
+                     std::string tool) {
+  const double sign = p.setups[setup].hold == part::End::left ? 1 : -1;
+  const double z = sign * (m.z_mm + m.length_mm / 2 - free_z_mm(p, setup));
+  return {.tool = std::move(tool),
+          .stage = Stage::finishing,
+          .from_mm = z,
+          .to_mm = z,
+          .milled = true,
+          .over_mm = p.drawing.outer[m.element].left_mm / 2 + kAbove_mm};
+}
+
 void name_after(const Milled& m, std::size_t setup, OperationPlan& operation) {
   const char* does = m.kind == MilledKind::cross_hole ? "drill" : "mill";
   operation.id = fmt::format("s{}-{}-{}", setup + 1, does, m.id);

@@ -65,6 +65,10 @@ MilledCase milled_case(const MilledSite& site, const MilledChoice& choice,
 /// Names an operation after the place that it mills or drills.
 void name_after(const Milled& place, std::size_t setup, OperationPlan& operation);
 
+/// What decides the way of a driven tool to the middle of a place and back.
+InOrder milled_order(const PreparedPart& plan, const Milled& place, std::size_t setup,
+                     std::string tool);
+
 /// The choice at a speed and feed, with its limits evaluated again.
 AuxiliaryOperation milled_operation(const MilledSite& site, const MilledChoice& choice,
                                     const MilledCase& c, double n_rpm, double fz_mm);

@@ -181,7 +181,7 @@ void choose(const MilledSite& s, const std::vector<MilledChoice>& choices,
       best.steps,
       "branch-and-bound",
       best.proved ? "" : "the search of speeds ended before every one was settled"};
-  o.order = {.tool = o.plan.tool, .stage = Stage::finishing, .milled = true};
+  o.order = milled_order(s.p, s.m, s.setup, o.plan.tool);
   out.after.push_back(std::move(o));
 }
 
@@ -196,7 +196,7 @@ void take(const MilledSite& s, const MilledChoice& c, AuxiliaryWork& out) {
                         0,
                         "fixed",
                         "conditions as given"};
-  o.order = {.tool = o.plan.tool, .stage = Stage::finishing, .milled = true};
+  o.order = milled_order(s.p, s.m, s.setup, o.plan.tool);
   out.after.push_back(std::move(o));
 }
 

@@ -42,6 +42,8 @@ void Order::add(const InOrder& o) {
     sum_.rapid_mm += std::abs(last_.to_mm - o.from_mm);
   else if (!o.milled)
     sum_.rapid_mm += kAside_mm + home_mm(o.inner) - o.from_mm;
+  if (o.milled)
+    sum_.rapid_mm += 2 * (home_.x_mm - o.over_mm + home_.z_mm) - o.from_mm - o.to_mm;
   out_ = !o.milled;
   last_ = o;
 }

@@ -22,7 +22,8 @@ struct InOrder {
   bool chuck_alone = false;  ///< before a centre or a rest comes in
   bool inner = false;
   double from_mm = 0, to_mm = 0;  ///< of pass_lengths.hpp
-  bool milled = false;            ///< not in the turning program: no tool moves
+  bool milled = false;            ///< by a driven tool, which comes and goes by itself
+  double over_mm = 0;             ///< radius at which it comes over its place
 };
 
 /// Follows the operations of a setup in their order.  The tool returns to the tool change

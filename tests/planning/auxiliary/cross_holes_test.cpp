@@ -107,6 +107,22 @@ TEST(CrossHole, TimeForcesAndCostInClosedForm) {
   }));
 }
 
+// From 50 mm outside the stock of 44 mm and before the end that is faced, to 1 mm above the
+// hole's middle, 20 mm behind that end, and back.
+TEST(CrossHole, TheDrillComesAndGoes) {
+  const auto with = pin({{"depth_mm", 10}});
+  auto without = with;
+  without.erase("milling");
+  const auto air_min = [](const json& d) {
+    const auto r = plan(part(d));
+    EXPECT_EQ(r.status, PlanStatus::ok);
+    return r.breakdown.air.time_min;
+  };
+  const double way = (22 + 50 - (kR_mm + 1)) + (50 + 20);
+  EXPECT_NEAR(air_min(with) - air_min(without),
+              only(work_of(part(with))).air_min + 2 * way / 36000, 1e-9);
+}
+
 // HSS drills go 3 D deep, then draw out every D: here after 18 and 24 mm of 25.8.
 TEST(CrossHole, PecksTakeTheirTime) {
   const auto p =
