@@ -183,6 +183,24 @@ void thread(Site& site, const OperationPlan& o, const Place& p) {
   }
 }
 
+// Straight down to the root of a knurl, and along it.
+void knurl(Site& site, const OperationPlan& o, const Place& p) {
+  auto& s = p.surface();
+  const auto& cut = *cut_of(site, s);
+  const double width = o.passes[0].ap_mm, root = s.h0 - cut.depth_mm;
+  const auto room =
+      planning::thread_room(site.part, site.setup, {s.inner, s.index}, root);
+  const auto [from, to] =
+      planning::knurl_way(room, s.z0, s.z1, width).value();  // else there is no plan
+  if (unfaced(site, o, s, from + width)) return;
+  const double above = s.h0 + site.above(p.side);
+  site.approach(p.side, {above, from});
+  site.to(Kind::feed, p.side, {root, from});
+  if (to < from) site.to(Kind::feed, p.side, {root, to});
+  site.rapid(p.side.sign * above, to);
+  s.h0 = s.h1 = cut.drawn.left_mm / 2;
+}
+
 // Path of a tool along an arc as far as it does not cut the surfaces in front of it and
 // behind it; none if its corner does not fit, or its minor edge does not clear the
 // surface in front.
@@ -328,6 +346,8 @@ void fixed(Site& site, std::size_t operation) {
       return groove(site, o, place_of(site, o.on[0]));
     case FixedUse::threading:
       return thread(site, o, place_of(site, o.on[0]));
+    case FixedUse::knurling:
+      return knurl(site, o, place_of(site, o.on[0]));
     case FixedUse::profiling: {
       const auto place = place_of(site, o.on[0]);
       return cut_of(site, place.surface()) ? arc(site, o, tool, place)

@@ -146,11 +146,12 @@ std::vector<std::string> comments(const OperationPlan& o) {
     if (&pass == &o.passes[0] || text != fmt::format("{:.4g}", (&pass)[-1].ap_mm))
       depths += (depths.empty() ? "" : " ") + text;
   }
+  const auto loads =  // those of knurling are not known
+      p.Fc_N > 0 ? fmt::format(" Fc {:.0f} N, {:.2f} kW,", p.Fc_N, p.Pc_kW) : "";
   return {fmt::format("operation {}:{} {}, {} x {} mm, {:.4g} mm/rev, {:.4g} m/min", o.id,
                       on, name(o.kind), o.passes.size(), depths, p.f_mm_rev, p.vc_m_min),
-          fmt::format("plan: {:.0f} 1/min, Fc {:.0f} N, {:.2f} kW, edge {:.3g} min, cut "
-                      "{:.3f} min",
-                      p.n_rpm, p.Fc_N, p.Pc_kW, p.T_min, o.time_min)};
+          fmt::format("plan: {:.0f} 1/min,{} edge {:.3g} min, cut {:.3f} min", p.n_rpm,
+                      loads, p.T_min, o.time_min)};
 }
 
 // What a call of a tool says of its edge.

@@ -1,8 +1,12 @@
 #include "turnwright/part/cut.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <regex>
 #include <stdexcept>
 
 #include "turnwright/base/units.hpp"
@@ -11,6 +15,24 @@ namespace turnwright::part {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the radius: a quarter circle ends upright
+
+struct KnurlName {
+  const char* name;
+  KnurlType type;
+  double below_pitches;  // the blank's diameter under the nominal one, Eq. (8)
+};
+constexpr std::array<KnurlName, 7> kKnurls{{{"RAA", KnurlType::RAA, 1.0 / 2},
+                                            {"RBL", KnurlType::RBL, 1.0 / 2},
+                                            {"RBR", KnurlType::RBR, 1.0 / 2},
+                                            {"RGE", KnurlType::RGE, 2.0 / 3},
+                                            {"RGV", KnurlType::RGV, 1.0 / 3},
+                                            {"RKE", KnurlType::RKE, 2.0 / 3},
+                                            {"RKV", KnurlType::RKV, 1.0 / 3}}};
+constexpr std::array kKnurlPitches_mm{0.5, 0.6, 0.8, 1.0, 1.2, 1.6};
+
+const KnurlName& named(KnurlType type) {
+  return *std::ranges::find(kKnurls, type, &KnurlName::type);
+}
 
 }  // namespace
 
@@ -72,6 +94,37 @@ Shaped thread(double d_mm, double pitch_mm, Where where) {
            .core = {core, core},
            .depth_mm = depth,
            .pitch_mm = pitch_mm}};
+}
+
+std::optional<Knurl> knurl(const std::string& text) {
+  static const std::regex kForm(
+      R"(\s*(?:DIN\s*82)?[\s-]*(R[A-Z]{2})\s*(\d+(?:[.,]\d+)?)\s*)");
+  std::smatch m;
+  if (!std::regex_match(text, m, kForm)) return std::nullopt;
+  auto digits = m[2].str();
+  std::ranges::replace(digits, ',', '.');
+  const double pitch = std::stod(digits);
+  const auto is = [&](const KnurlName& k) { return k.name == m[1].str(); };
+  const auto type = std::ranges::find_if(kKnurls, is);
+  if (type == kKnurls.end() || !std::ranges::count(kKnurlPitches_mm, pitch))
+    return std::nullopt;
+  return Knurl{type->type, pitch};
+}
+
+std::string designation(const Knurl& k) {
+  return fmt::format("{}{:g}", named(k.type).name, k.pitch_mm);
+}
+
+Shaped knurled(double d1, const Knurl& k) {
+  const double t = k.pitch_mm, blank = d1 - named(k.type).below_pitches * t,
+               root = d1 - t;  // Eq. (8)
+  return {{blank, blank},
+          {.kind = CutKind::knurl,
+           .drawn = {d1, d1},
+           .core = {root, root},
+           .depth_mm = (blank - root) / 2,
+           .pitch_mm = t,
+           .knurl = k.type}};
 }
 
 Shaped arc(double length_mm, Ends ends, double radius_mm, bool convex) {

@@ -86,6 +86,7 @@ class Edge {
         const auto load = cutting::plunge(kc, thrust, ap_mm, f_mm_rev, D);
         return {load.Fc_N, 0, load.Ff_N};
       }
+      case FixedUse::knurling:  // its ways are not followed
       case FixedUse::profiling:
         break;
     }

@@ -39,6 +39,7 @@ void expect_equal(const std::vector<Element>& a, const std::vector<Element>& b) 
     EXPECT_EQ(a[i].radius_mm, b[i].radius_mm);
     EXPECT_EQ(a[i].convex, b[i].convex);
     EXPECT_EQ(a[i].from, b[i].from);
+    EXPECT_EQ(a[i].knurl, b[i].knurl);
     expect_equal(a[i].demands, b[i].demands);
   }
 }
@@ -634,6 +635,17 @@ TEST(Notation, SeatsAreLeftForTheGrinder) {
   EXPECT_EQ(notation(o), "d30 k6 x 40 Ra0.4 grind0.3\ncone d30-d20 x 10 grind0.2\n");
   for (const char* text : {"M30x1.5 x 40 grind0.3", "d30 x 40 grind", "d30 x 40 grind6",
                            "d30 x 40 grind0.3 grind0.2"})
+    EXPECT_THROW(read_notation(text), InputError) << text;
+}
+
+TEST(Notation, KnurlsStandAtOuterCylinders) {
+  const auto o = read_notation("d30 x 20 rge1,2 Ra3.2; d20 x 30 RAA0.8");
+  EXPECT_EQ(o.outer.at(0).knurl, "RGE1.2");
+  EXPECT_EQ(o.outer.at(0).demands.Ra_um, 3.2);
+  EXPECT_EQ(o.outer.at(1).knurl, "RAA0.8");
+  EXPECT_EQ(notation(o), "d30 x 20 RGE1.2 Ra3.2\nd20 x 30 RAA0.8\n");
+  for (const char* text : {"d30 x 40 RAA0.7", "d30 x 40 RAA0.8 RAA1", "M30 x 40 RAA0.8",
+                           "d30 x 40; bore d20 x 10 RAA0.8"})
     EXPECT_THROW(read_notation(text), InputError) << text;
 }
 

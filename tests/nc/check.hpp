@@ -109,6 +109,7 @@ class Check : private Sizes {
       if (t.use == grooving || t.use == parting)
         return {{0, 0, o.passes[0].ap_mm}, inner, false, false, 0, 0};
       if (t.use == threading) return {{0, M_PI / 3, 0, 1.5}, inner, false, true, 0, 0};
+      if (t.use == knurling) return {{0, 0, o.passes[0].ap_mm}, inner, false, true, 0, 0};
       return {{t.re_mm, part::kProfilingClears_rad, 0, 4}, inner, false, false, 0, 0};
     }
     return {};
@@ -203,7 +204,11 @@ class Check : private Sizes {
                           w.x0, w.z0, w.x1, w.z1, taken));
       return;
     }
-    if (t.thread) return;
+    if (t.thread) {  // a knurl is pressed
+      auto& deepest = threads_.emplace(o->on[0], w.x1).first->second;
+      deepest = std::min(deepest, w.x1);
+      return;
+    }
     m.cut(t.outline, frame, sign * w.x0, w.z0, sign * w.x1, w.z1);
     remove_gone();
   }
@@ -223,10 +228,12 @@ class Check : private Sizes {
 
   template <class Element>
   void thread(const Element& e, double sign) {
-    if (!e.cut || e.cut->kind != part::CutKind::thread) return;
+    if (!e.cut ||
+        (e.cut->kind != part::CutKind::thread && e.cut->kind != part::CutKind::knurl))
+      return;
     const double root = sign * e.left_mm / 2 - e.cut->depth_mm;
     if (!threads_.contains(e.id) || !(std::abs(threads_[e.id] - root) <= kTolerance))
-      fault(e.id + ": its thread is not cut to its depth");
+      fault(e.id + ": its thread or knurl is not made to its depth");
   }
 
   // Where no wall is left between outside and hole, what lies outwards falls off.

@@ -17,7 +17,8 @@ constexpr double kMade_mm = 1e-3;  // a surface is finished within this
 // A start so far inside a finished surface counts; in an inner corner the tool's corner,
 // which touches both sides, may touch that much more.
 constexpr double kInside_mm = 0.1;
-constexpr double kBeside_mm = 0.02;  // next to a wall's plane, in the material
+constexpr double kBeforeWall_mm = 0.2;  // that a knurl may end before what stands there
+constexpr double kBeside_mm = 0.02;     // next to a wall's plane, in the material
 
 Polygon placed(const Polygon& tool, double side, double sign) {
   Polygon all;
@@ -56,7 +57,7 @@ const char* name(Fault fault) {
     case Fault::again:
       return "enters the contour again";
     case Fault::thread:
-      return "thread not to depth";
+      return "thread or knurl not made";
   }
   return "";
 }
@@ -182,8 +183,25 @@ void CutSimulation::follow(const Way& w) {
     const double h = b.cutter.inner ? -w.x1 : w.x1;
     auto& deepest = threads_.emplace(o->on[0], h).first->second;
     deepest = std::min(deepest, h);
+  } else if (!w.rapid && b.cutter.threads) {
+    press(w, *o);
   }
   collide(w, b, from, to);
+}
+
+// A knurl lies where the wheel has been as deep as it goes.
+void CutSimulation::press(const Way& w, const planning::OperationPlan& o) {
+  const auto& [id, width] = std::pair{o.on[0], o.passes[0].ap_mm};
+  const auto deepest = threads_.emplace(id, w.x1).first;
+  if (w.x1 > deepest->second) return;
+  const bool first = w.x1 < deepest->second || !pressed_.contains(id);
+  deepest->second = w.x1;
+  auto& [from, to] = pressed_[id];
+  if (first) from = kFar_mm, to = -kFar_mm;
+  for (const double z : {w.z1, w.z1 + width}) {
+    from = std::min(from, place(0, z).z);
+    to = std::max(to, place(0, z).z);
+  }
 }
 
 // A tap cuts a thread whole if its full diameter reaches the thread's end.
@@ -316,11 +334,19 @@ void CutSimulation::compare_walls() {
 
 void CutSimulation::compare_threads() {
   const auto check = [&](const auto& e, double sign) {
-    if (!e.cut || e.cut->kind != part::CutKind::thread) return;
+    if (!e.cut ||
+        (e.cut->kind != part::CutKind::thread && e.cut->kind != part::CutKind::knurl))
+      return;
     const double root = sign * e.left_mm / 2 - e.cut->depth_mm;
     const auto cut = threads_.find(e.id);
     const double off = cut == threads_.end() ? kFar_mm : std::abs(cut->second - root);
     if (off > tolerances_.gouge) find(Fault::thread, e.id, off, {sign * root, 0});
+    if (e.cut->kind != part::CutKind::knurl) return;
+    const auto at = *part::extent(p_.part.drawing, e.id);
+    const auto [from, to] = pressed_[e.id];
+    const double bare =
+        std::max(0.0, from - at.z0_mm) + std::max(0.0, at.z1_mm - to) - kBeforeWall_mm;
+    if (bare > tolerances_.gouge) find(Fault::thread, e.id, bare, {sign * root, from});
   };
   for (const auto& e : p_.part.drawing.outer) check(e, 1);
   for (const auto& e : p_.part.drawing.inner) check(e, -1);

@@ -23,7 +23,7 @@ enum class Fault {
   centre,  ///< a tool in the tailstock's centre or its body
   start,   ///< a pass that starts on a finished surface
   again,   ///< a finishing tool that enters the contour again, so many times
-  thread   ///< a thread not cut to its depth
+  thread   ///< a thread or knurl not made to its depth, a knurl along its element
 };
 const char* name(Fault fault);
 struct Finding {
@@ -70,6 +70,7 @@ class CutSimulation {
   void add_centre();
   void follow(const Way& w);
   void tap(const Way& w, const planning::OperationPlan& o);
+  void press(const Way& w, const planning::OperationPlan& o);
   void collide(const Way& w, const Body& b, const Spot& from, const Spot& to);
   void first_touch(const Body& b, const Way& w, const Polygon& sweep, const Spot& from,
                    const Spot& to);
@@ -92,6 +93,7 @@ class CutSimulation {
   bool in_pass_ = false, touched_ = false;
   std::map<std::pair<std::string, bool>, int> entered_;  // by tool, and in bores
   std::map<std::string, double> threads_;
+  std::map<std::string, std::pair<double, double>> pressed_;  ///< from and to, of knurls
   std::map<std::pair<Fault, std::string>, Finding> findings_;
 };
 

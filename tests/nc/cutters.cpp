@@ -16,6 +16,7 @@ using planning::OperationPlan;
 
 constexpr double kShank_mm = 100;  // of blades, above what they reach
 constexpr double kLong_mm = 1000;  // as a drill
+constexpr double kWheel_mm = 5;    // of a knurling tool, above its holder
 
 const catalogue::FixedTool* fixed_tool(const Planned& p, const OperationPlan& o) {
   for (const auto& t : p.part.fixed_tools)
@@ -109,6 +110,10 @@ Cutter fixed_cutter(const Planned& p, const OperationPlan& o,
     case FixedUse::threading:
       c.threads = true;
       c.edge = thread_edge(pitch_mm(p, o));
+      return c;
+    case FixedUse::knurling:  // presses what it goes through: as if a thread were cut
+      c.threads = true;
+      c.edge = rectangle(0, kWheel_mm, 0, ap);
       return c;
     case FixedUse::profiling:
       c.edge = profiling_edge(t.re_mm);

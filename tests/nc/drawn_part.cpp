@@ -161,9 +161,11 @@ void DrawnPart::append(Run& run, const std::vector<Element>& all, std::size_t k,
     return sign * thread.left_mm / 2 - thread.cut->depth_mm;
   };
   const auto is_thread = [&](std::size_t i) {
-    return i < all.size() && all[i].cut && all[i].cut->kind == part::CutKind::thread;
+    return i < all.size() && all[i].cut &&
+           (all[i].cut->kind == part::CutKind::thread ||
+            all[i].cut->kind == part::CutKind::knurl);
   };
-  // A thread is cut to its root, and into the chamfer or arc that rises to it.
+  // A thread is cut, and a knurl pressed, to its root, and into the chamfer or arc that rises to it.
   double most = kInfinity;
   if (threads == Threads::root) {
     const bool rises =

@@ -264,9 +264,35 @@ Paper recess(const Recess& s = {}) {
   return paper.feed(20, -30).feed(20, -61.5).rapid(23, -58.5).rapid(100, 4);
 }
 
+/// A knurl RGE1 of 30 mm before a wall, with a wheel of 8 mm: its blank has 30 - 2/3 mm, its
+/// root 29 mm.
+struct Grip {
+  double root_x = 14.5, to_z = -29.8;
+};
+Paper grip(const Grip& s = {}) {
+  Paper paper(nlohmann::json::parse(R"({
+    "format": "turnwright-part/1", "name": "paper grip", "material": "C45",
+    "stock": {"kind": "bar", "diameter_mm": 44, "length_mm": 122,
+              "left_allowance_mm": 60},
+    "outer": [{"id": "d1", "kind": "cylinder", "length_mm": 31, "diameter_mm": 40},
+              {"id": "d2", "kind": "cylinder", "length_mm": 30, "diameter_mm": 30,
+               "knurl": "RGE1"}],
+    "faces": [{"id": "right", "Ra_um": 3.2}],
+    "machine": "lathe-medium",
+    "setups": [{"hold": "left", "grip_mm": 55, "clampings": ["chuck"]}]})"));
+  face(paper, 24);
+  rough(paper, {});
+  const double blank_x = 15 - 1.0 / 3;
+  paper.operation(OperationKind::finish, {"d2", "d1"}, kFinisher);
+  paper.rapid(24, 4).rapid(blank_x, 2).feed(blank_x, -30).feed(20, -30).feed(20, -61.5);
+  paper.rapid(23, -58.5).rapid(100, 4);
+  paper.operation(OperationKind::fixed, {"d2"}, "KNURL-20", 8).rapid(16, -4);
+  return paper.feed(s.root_x, -4).feed(s.root_x, s.to_z).rapid(16, s.to_z).rapid(100, 4);
+}
+
 TEST(PlantedErrors, ProgramsWithoutErrorsMakeTheirParts) {
-  for (const auto& paper :
-       {shaft(), arc(false), bore(), drilled_bore(), supported(), screw(), recess()})
+  for (const auto& paper : {shaft(), arc(false), bore(), drilled_bore(), supported(),
+                            screw(), recess(), grip()})
     EXPECT_EQ(listed(found(paper)), "") << paper.planned().part.drawing.name;
 }
 
@@ -300,7 +326,10 @@ TEST(PlantedErrors, AreFound) {
       {"a thread not cut deep enough", Fault::thread, screw({.thread_x = 14.1})},
       {"a thread into the shoulder", Fault::gouge, screw({.thread_to_z = -24})},
       {"form G's slope at 15 deg", Fault::left, recess({.falls_deg = 15})},
-      {"form G into the wall at 15 deg", Fault::gouge, recess({.leans_deg = 15})}};
+      {"form G into the wall at 15 deg", Fault::gouge, recess({.leans_deg = 15})},
+      {"a knurl 5 um too flat", Fault::thread, grip({.root_x = 14.505})},
+      {"a knurl half a millimetre short", Fault::thread, grip({.to_z = -29.3})},
+      {"a knurl into the wall", Fault::gouge, grip({.to_z = -30.1})}};
   for (const auto& each : all) {
     const auto findings = found(each.paper);
     EXPECT_GT(most(findings, each.fault), -1) << each.what << '\n' << listed(findings);

@@ -353,7 +353,8 @@ TEST(NcPrograms, FollowTheCorrectionsOfThePlan) {
 // none, and an arc and a bore from the other end may lose the step.
 bool neighbours_follow(const Planned& p) {
   const auto cut = [](const auto& e) {
-    return e.cut && e.cut->kind != part::CutKind::thread;
+    return e.cut && e.cut->kind != part::CutKind::thread &&
+           e.cut->kind != part::CutKind::knurl;
   };
   const auto& d = p.part.drawing;
   return d.inner.empty() && std::none_of(d.outer.begin(), d.outer.end(), cut);

@@ -110,7 +110,9 @@ class Sizes {
   template <class Element>
   static double drawn(const Element& e, double u) {
     const double straight = e.left_mm + (e.right_mm - e.left_mm) * u;
-    if (!e.cut || e.cut->kind == part::CutKind::thread) return straight / 2;
+    if (!e.cut || e.cut->kind == part::CutKind::thread ||
+        e.cut->kind == part::CutKind::knurl)
+      return straight / 2;
     if (e.cut->kind == part::CutKind::groove) return e.cut->drawn.left_mm / 2;
     const double a = e.cut->drawn.left_mm / 2, b = e.cut->drawn.right_mm / 2;
     const double R = e.cut->radius_mm, c = std::hypot(e.length_mm, b - a);

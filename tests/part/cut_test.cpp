@@ -136,6 +136,47 @@ TEST(Arc, FallsAsItsSlopesAre) {
   }
 }
 
+// The material that is pressed out of the grooves is that of the teeth: the blank's height
+// over the root is the mean height of V-shaped teeth, of pyramids, or of what pyramids leave.
+TEST(Knurl, IsAsHighOnTheMeanAsItsBlank) {
+  constexpr int kSteps = 400;
+  const auto tooth = [](int i) { return 1 - std::abs(2 * (i + 0.5) / kSteps - 1); };
+  double straight = 0, raised = 0, indented = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    straight += tooth(i) / kSteps;
+    for (int j = 0; j < kSteps; ++j) {
+      raised += std::min(tooth(i), tooth(j)) / kSteps / kSteps;
+      indented += std::max(tooth(i), tooth(j)) / kSteps / kSteps;
+    }
+  }
+  const double d1 = 20, t = 0.8;
+  for (const auto& [type, mean] :
+       {std::pair{KnurlType::RAA, straight}, std::pair{KnurlType::RBL, straight},
+        std::pair{KnurlType::RBR, straight}, std::pair{KnurlType::RGE, raised},
+        std::pair{KnurlType::RGV, indented}, std::pair{KnurlType::RKE, raised},
+        std::pair{KnurlType::RKV, indented}}) {
+    const auto s = knurled(d1, {type, t});
+    EXPECT_NEAR(s.blank.left_mm, d1 - t + mean * t, 1e-4) << designation({type, t});
+    EXPECT_NEAR(s.blank.left_mm - 2 * s.cut.depth_mm, d1 - t, 1e-12);
+    EXPECT_EQ(s.cut.drawn.left_mm, d1);
+    EXPECT_NEAR(s.cut.core.right_mm, d1 - t, 1e-12);
+  }
+  // DIN 82, 2.4: d1 - 0.33 t of RKV, to the digits that it has.
+  EXPECT_NEAR(knurled(d1, {KnurlType::RKV, 1}).blank.left_mm, d1 - 0.33, 0.005);
+}
+
+TEST(Knurl, IsNamedByTypeAndPitch) {
+  const auto named = [](const char* text) {
+    const auto k = knurl(text);
+    return k ? designation(*k) : std::string("none");
+  };
+  EXPECT_EQ(named("RAA0.8"), "RAA0.8");
+  EXPECT_EQ(named("DIN 82-RGE 1,2"), "RGE1.2");
+  EXPECT_EQ(named("DIN 82 RKV 1"), "RKV1");
+  for (const char* no : {"RAA0.7", "RAA", "RAB0.8", "0.8", "", "RAA0.8x2", "raa0.8"})
+    EXPECT_EQ(named(no), "none") << no;
+}
+
 // A corner rounded by a quarter circle: nothing but the square that is left of it.
 TEST(Arc, QuarterCircleIsTakenWhole) {
   const auto s = arc(5, {20, 30}, 5, true);

@@ -19,6 +19,7 @@ enum class FixedUse {
   tapping,
   grooving,
   threading,
+  knurling,
   profiling,
   parting
 };
@@ -87,11 +88,11 @@ struct FixedTool {
   bool inner = false;      ///< works in a bore
   double min_bore_mm = 0;  ///< smallest bore that an inner tool enters
   /// Diameters of drills (for centre drills of the countersink), countersinks and reamers
-  /// or widths of blades, in rising order; empty for other tools.
+  /// or widths of blades and knurling wheels, in rising order; empty for other tools.
   std::vector<double> sizes_mm;
   /// Of a centre drill: depth of its tip where the hole has its size, one for each size.
   std::vector<double> depths_mm = {};
-  Range pitch_mm;    ///< pitches of threads that it cuts
+  Range pitch_mm;    ///< pitches of threads or knurls that it makes
   double reach = 0;  ///< deepest cut: of tools on the axis in diameters, of blades in mm
   std::vector<ThreadSize> threads = {};  ///< of taps
   Range allowance_mm = {};  ///< of the diameter, that a reamer takes off a drilled hole
@@ -104,7 +105,7 @@ struct FixedTool {
   double ap_mm = 0;                      ///< largest depth of a profiling pass
   double re_mm = 0;                      ///< corner radius of profiling tools
   double passes_per_mm = 0;              ///< infeeds of a thread per mm of pitch
-  double gamma_deg = 0;                  ///< rake
+  double gamma_deg = 0;                  ///< rake; knurling wheels have none
   std::vector<FixedConditions> conditions;
   std::optional<double> Fc_max_N = {};
   double change_min = 0, edge_cost = 0;

@@ -32,11 +32,12 @@ struct Element {
   /// and for a thread (its nominal diameter); of what stays as the bar is that of the bar, or
   /// across its flats.
   double left_mm = 0, right_mm = 0;
-  double pitch_mm = 0;                ///< of a thread; 0: the coarse one of ISO 261
-  int flats = 0;                      ///< of what stays as a hexagon or square bar is
-  double radius_mm = 0;               ///< of an arc
-  bool convex = true;                 ///< an arc bulges out of the material
-  part::End from = part::End::right;  ///< end that an inner element is reached from
+  double pitch_mm = 0;                    ///< of a thread; 0: the coarse one of ISO 261
+  int flats = 0;                          ///< of what stays as a hexagon or square bar is
+  std::optional<std::string> knurl = {};  ///< of a cylinder, "RAA0.8"
+  double radius_mm = 0;                   ///< of an arc
+  bool convex = true;                     ///< an arc bulges out of the material
+  part::End from = part::End::right;      ///< end that an inner element is reached from
   Demands demands = {};
   /// Names of what it was read from: "#123", a face of a STEP file; "LINE 2F" of a DXF.
   std::vector<std::string> sources = {};

@@ -1,12 +1,14 @@
 #pragma once
 #include <numbers>
+#include <optional>
+#include <string>
 
-/// Grooves, threads and arcs: shapes that are cut into an element at fixed conditions
+/// Grooves, threads, arcs and knurls: shapes that are made on an element at fixed conditions
 /// after it has been turned or bored.  The element itself is then their blank.  A hole is
 /// drilled instead of bored: to its size, or narrower for a reamer, a tap or a flat drill.
 namespace turnwright::part {
 
-enum class CutKind { groove, thread, arc, hole };
+enum class CutKind { groove, thread, arc, hole, knurl };
 /// Whether neighbours meet another shape than the blank.
 constexpr bool replaces_blank(CutKind kind) {
   return kind == CutKind::groove || kind == CutKind::arc;
@@ -17,13 +19,29 @@ struct Ends {
   double left_mm = 0, right_mm = 0;
 };
 
+/// Types of knurls: with grooves along the axis; left-hand, right-hand; both hands with
+/// points raised, indented; crossed along and around the axis with points raised, indented.
+enum class KnurlType { RAA, RBL, RBR, RGE, RGV, RKE, RKV };
+/// A knurl of DIN 82, whose profile has an angle of 90 deg.
+struct Knurl {
+  KnurlType type = KnurlType::RAA;
+  double pitch_mm = 0;
+};
+/// The knurl of a text, "RAA0.8", "RGE 0,8", "DIN 82-RGE1.2": one of the seven types with a
+/// pitch of DIN 82: 0.5, 0.6, 0.8, 1, 1.2 or 1.6 mm.  Nothing of other texts.
+std::optional<Knurl> knurl(const std::string& text);
+/// "RAA0.8".
+std::string designation(const Knurl& knurl);
+
 struct Cut {
   CutKind kind = CutKind::groove;
-  /// Floor of a groove, nominal diameter of a thread, ends of an arc, a hole's diameter.
+  /// Floor of a groove, nominal diameter of a thread or a knurl, ends of an arc, a hole's
+  /// diameter.
   Ends drawn = {};
   Ends core = {};       ///< diameters of the load-bearing core: as a beam never too stiff
   double depth_mm = 0;  ///< largest depth, on the radius
-  double pitch_mm = 0;  ///< of a thread
+  double pitch_mm = 0;  ///< of a thread or a knurl
+  KnurlType knurl = KnurlType::RAA;
   /// Diameter of the drill of a hole or a tapped thread; 0: bored.
   double drilled_mm = 0;
   bool flat = false;  ///< a hole that a flat drill opens: a counterbore
@@ -80,6 +98,19 @@ MinorDiameter minor_diameter_6H(double d_mm, double pitch_mm);
 /// Source: ISO 68-1's basic profile, ISO 724's diameters; d3 with the root radius H/6 of
 /// the handbook's tables.
 Shaped thread(double d_mm, double pitch_mm, Where where);
+
+/// Knurl of nominal diameter d1 and pitch t, pressed into a narrower blank whose material
+/// rises between the wheel's teeth.  With a profile of 90 deg it is t/2 deep, and as no
+/// material is lost the blank is as high as the mean of the profile: half its height between
+/// straight grooves, a third of it of pyramids that are raised, two thirds of those that are
+/// indented.
+///
+///     RAA, RBL, RBR: d2 = d1 - t/2;  RGE, RKE: d2 = d1 - 2 t/3;  RGV, RKV: d2 = d1 - t/3,
+///     depth d2/2 - (d1 - t)/2, core d1 - t                                          (8)
+///
+/// Source: derived here; DIN 82, 2.4, calculates d2 = d1 - 0.33 t of RKV, as its English
+/// text of 1973 has it, and says that neither rounded grooves nor the material count.
+Shaped knurled(double d1_mm, const Knurl& knurl);
 
 /// Arc of radius R through two ends of given diameters, `length` apart.  With c the
 /// chord, s = R - sqrt(R^2 - c^2/4) its sagitta and rc the centre's height:

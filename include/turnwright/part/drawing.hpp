@@ -287,6 +287,13 @@ bool is_groove(const Element& e) {
   return e.cut && e.cut->kind == CutKind::groove;
 }
 /// Whether a bore is drilled instead of bored: to its size, or for a reamer or a tap.
+inline bool is_knurled(const OuterElement& e) {
+  return e.cut && e.cut->kind == CutKind::knurl;
+}
+/// What a knurl raises [mm] the radius of its blank; 0 of other elements.
+inline double raised_mm(const OuterElement& e) {
+  return is_knurled(e) ? (e.cut->drawn.left_mm - e.left_mm) / 2 : 0;
+}
 inline bool is_hole(const InnerElement& e) { return e.cut && e.cut->drilled_mm > 0; }
 inline bool is_tapped(const InnerElement& e) {
   return is_hole(e) && e.cut->kind == CutKind::thread;

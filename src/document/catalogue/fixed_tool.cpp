@@ -22,6 +22,7 @@ const Choices<FixedUse> kFixedUses{{"centring", FixedUse::centring},
                                    {"grooving", FixedUse::grooving},
                                    {"parting", FixedUse::parting},
                                    {"threading", FixedUse::threading},
+                                   {"knurling", FixedUse::knurling},
                                    {"profiling", FixedUse::profiling}};
 
 // Feeds of these grow with the diameter, those of threads are the pitch.
@@ -143,6 +144,10 @@ void read_kind(Reader& r, FixedTool& t) {
       t.pitch_mm = read_range(r, "pitch_mm", above_up_to(0, 50, "mm"));
       t.passes_per_mm = r.number("passes_per_mm", above_up_to(0, 50));
       break;
+    case FixedUse::knurling:
+      read_sizes(r, t);
+      t.pitch_mm = read_range(r, "pitch_mm", above_up_to(0, 50, "mm"));
+      break;
     case FixedUse::profiling:
       t.ap_mm = r.number("ap_mm", above_up_to(0, 50, "mm"));
       t.re_mm = r.number("re_mm", within(0, 20, "mm"));
@@ -216,10 +221,12 @@ FixedTool read_fixed_tool(Reader r) {
   t.use = r.choice("use", kFixedUses);
   if (r.problems().list.size() > before) return t;  // the other keys depend on it
   read_kind(r, t);
-  t.gamma_deg = r.number("gamma_deg", within(-30, 45, "deg"));
+  if (t.use != FixedUse::knurling)
+    t.gamma_deg = r.number("gamma_deg", within(-30, 45, "deg"));
   for (const auto& item : r.items("conditions", 1, 6))
     t.conditions.push_back(read_conditions(item, t.use));
-  t.Fc_max_N = r.optional_number("Fc_max_N", above_up_to(0, 1e6, "N"));
+  if (t.use != FixedUse::knurling)
+    t.Fc_max_N = r.optional_number("Fc_max_N", above_up_to(0, 1e6, "N"));
   t.change_min = r.number("change_min", within(0, 1000, "min"));
   t.edge_cost = r.number("edge_cost", within(0, 1e5));
   finish_group(r);

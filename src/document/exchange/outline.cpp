@@ -47,6 +47,7 @@ ordered_json element(const Element& e, bool inner) {
     out["bulge"] = e.convex ? "convex" : "concave";
   }
   if (e.shape == Shape::thread && e.pitch_mm > 0) out["pitch_mm"] = e.pitch_mm;
+  if (e.knurl) out["knurl"] = *e.knurl;
   add_demands(out, e.demands);
   return out;
 }

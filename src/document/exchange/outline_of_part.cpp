@@ -93,6 +93,8 @@ Element element_of(const json& object, const json& stock) {
     e.pitch_mm = number_of(object, "pitch_mm").value_or(0);
   }
   if (text_of(object, "from") == "left") e.from = part::End::left;
+  if (const auto knurl = part::knurl(text_of(object, "knurl")))
+    e.knurl = part::designation(*knurl);
   return e;
 }
 

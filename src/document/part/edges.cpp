@@ -38,7 +38,7 @@ template <class Element>
 bool can_have_edge(const Element& e) {
   return e.kind == part::ElementKind::cylinder &&
          (!e.cut || e.cut->kind == part::CutKind::thread ||
-          e.cut->kind == part::CutKind::hole);
+          e.cut->kind == part::CutKind::hole || e.cut->kind == part::CutKind::knurl);
 }
 
 template <class Element>
@@ -178,7 +178,7 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
     r.problem_at("at", "each edge once", "duplicate");
     return;
   }
-  // As drawn once its element is ground.
+  // As drawn once its element is ground or knurled.
   const double slope = std::tan(units::rad_from_deg(angle)),
                more = draft.ground(e.id) / 2;
   const double radial = axial * slope + more, turned = axial + more / slope;
@@ -188,6 +188,12 @@ void read_chamfer(const Draft& draft, Reader& r, const Step& step, double most_m
     r.problem_at("at",
                  "an edge of a cylinder, a thread or a hole that has no arc beside it "
                  "and is in no neck",
+                 "conflict");
+  else if (!(radial > 0))
+    r.problem_at("chamfer_mm",
+                 "a chamfer that takes more than " + rounded(-more) +
+                     " mm of the radius: so much lower " + e.id +
+                     " is turned before it is knurled",
                  "conflict");
   else if (!(turned < free))
     r.problem_at("chamfer_mm",
@@ -300,7 +306,7 @@ void read_undercut(const Draft& draft, Reader& r, const Step& step, double most_
   found->width_mm += more / std::tan(part::falls_rad(*found));
   if (mine)
     r.problem_at("at", "each corner once", "duplicate");
-  else if (!can_have_edge(e))
+  else if (!can_have_edge(e) || part::is_knurled(e))
     r.problem_at("at", "the inner corner beside a cylinder or a thread", "conflict");
   else if (!(found->width_mm < free))
     r.problem_at("undercut",
@@ -369,7 +375,7 @@ void read_edge(Draft& draft, Reader& r, const std::vector<Step>& all) {
 }
 
 // A chamfer of the given size on an edge that has none and takes it; its element is ground
-// by `ground_mm` of its radius once it is cut.
+// by `ground_mm` of its radius once it is cut, or raised by knurling if that is negative.
 template <class Element>
 void break_edge(const Step& step, double size_mm, double ground_mm, double most_mm,
                 Element& e) {
@@ -377,7 +383,7 @@ void break_edge(const Step& step, double size_mm, double ground_mm, double most_
   const double free = e.length_mm - edge_length_mm(e, opposite(step.end));
   const bool drilled = e.cut && e.cut->drilled_mm > 0;
   const double turned = size_mm + ground_mm;
-  if (!mine && !drilled && turned < free && turned <= most_mm)
+  if (!mine && !drilled && 0 < turned && turned < free && turned <= most_mm)
     mine = part::Chamfer{turned, turned, step.by_blade, true};
 }
 

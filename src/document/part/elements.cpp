@@ -116,6 +116,36 @@ void read_grinding(Draft& draft, Reader& r, Element& e, Side side) {
                    " mm that are turned");
 }
 
+// A knurl raises the diameter that is turned to the one that is drawn.
+void read_knurl(Draft& draft, Reader& r, part::OuterElement& e) {
+  const auto given = r.find("knurl");
+  if (!given) return;
+  const auto text = given->as_text(40);
+  const auto knurl = part::knurl(text);
+  if (!knurl) {
+    if (!text.empty())
+      given->problem(
+          "a knurl of DIN 82, RAA, RBL, RBR, RGE, RGV, RKE or RKV with a pitch of 0.5, "
+          "0.6, 0.8, 1, 1.2 or 1.6 mm, like \"RAA0.8\"",
+          "choice");
+    return;
+  }
+  const double d1 = e.left_mm;
+  if (r.has("grinding_allowance_mm"))
+    r.problem_at("knurl", "knurl or grinding_allowance_mm, not both", "conflict");
+  else if (knurl->pitch_mm > d1 / 3)
+    r.problem_at("knurl", "a pitch of at most a third of the diameter", "conflict");
+  else if (std::isfinite(d1)) {
+    const auto s = part::knurled(d1, *knurl);
+    draft.assume(r.pointer_of("diameter_mm"), s.blank.left_mm,
+                 "turned so before knurling, which raises it to the " + number_text(d1) +
+                     " mm that are drawn");
+    make_at_catalogue_conditions(draft, r, e, s.cut);
+    e.left_mm = e.right_mm = s.blank.left_mm;
+    draft.ground_mm[e.id] = s.blank.left_mm - d1;
+  }
+}
+
 template <class Element>
 void read_shape(Draft& draft, Reader& r, Element& e, Side side) {
   e.length_mm = r.number("length_mm", kSize);
@@ -131,6 +161,8 @@ void read_shape(Draft& draft, Reader& r, Element& e, Side side) {
   read_size(r, e, side);
   read_roughness(r, e.Ra_um, e.Rz_um);
   read_grinding(draft, r, e, side);
+  if constexpr (std::is_same_v<Element, part::OuterElement>)
+    if (e.kind == ElementKind::cylinder) read_knurl(draft, r, e);
   r.finish();
 }
 

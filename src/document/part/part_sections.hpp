@@ -20,8 +20,8 @@ struct Draft {
   LoadedPart loaded = {};
   std::vector<catalogue::MillingCutter> cutters = {};  ///< of the request, or all
   std::vector<catalogue::Tool> undercut_tools = {};    ///< see add_tools_for_undercuts
-  /// What turning leaves for grinding on the diameters of elements [mm], by their ids; the
-  /// drawing has the turned diameters.
+  /// What turning leaves for grinding on the diameters of elements [mm], by their ids, or
+  /// leaves off for knurling, which is negative; the drawing has the turned diameters.
   std::map<std::string, double> ground_mm = {};
 
   planning::PlanRequest& plan() { return loaded.plan; }

@@ -38,6 +38,8 @@ const char* kind(part::CutKind cut) {
       return "thread";
     case part::CutKind::hole:
       return "hole";
+    case part::CutKind::knurl:
+      return "cylinder";
     case part::CutKind::arc:
       break;
   }
@@ -46,8 +48,12 @@ const char* kind(part::CutKind cut) {
 
 template <class Element>
 void add_edges(ordered_json& out, const Element& e) {
+  double raised = 0;  // above the chamfer that is turned
+  if constexpr (requires { part::raised_mm(e); }) raised = part::raised_mm(e);
   const auto chamfer = [&](const char* key, const std::optional<part::Chamfer>& c) {
-    if (c && !c->round) out[key] = {c->axial_mm, c->radial_mm};
+    if (c && !c->round)
+      out[key] = {c->axial_mm + raised * c->axial_mm / c->radial_mm,
+                  c->radial_mm + raised};
   };
   chamfer("left_chamfer_mm", e.left_chamfer);
   chamfer("right_chamfer_mm", e.right_chamfer);
@@ -81,6 +87,10 @@ ordered_json json_of(const Element& e, const char* side, double z_mm,
                    {"z_mm", {z_mm, z_mm + e.length_mm}},
                    {"diameters_mm", {ends.left_mm, ends.right_mm}}};
   if (e.cut && e.cut->kind == part::CutKind::thread) out["pitch_mm"] = e.cut->pitch_mm;
+  if (e.cut && e.cut->kind == part::CutKind::knurl) {
+    out["knurl"] = part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm});
+    out["blank_mm"] = e.left_mm;
+  }
   if (e.cut && e.cut->kind == part::CutKind::arc) {
     out["radius_mm"] = e.cut->radius_mm;
     out["convex"] = e.cut->convex;

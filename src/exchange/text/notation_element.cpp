@@ -1,6 +1,7 @@
 #include "notation_element.hpp"
 
 #include <array>
+#include <cctype>
 
 #include "thread_words.hpp"
 
@@ -198,6 +199,22 @@ class ElementWords {
       grinding = x;
   }
 
+  // "RAA0.8"; whether the word is a knurl.
+  bool read_knurl(Word word) {
+    std::string text(word);
+    for (char& c : text)
+      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const auto knurl = part::knurl(text);
+    if (!knurl) return false;
+    if (e().knurl)
+      mistakes_.add(word, "one knurl");
+    else if (e().shape != Shape::cylinder || out_.inner)
+      mistakes_.add(word, "no knurl: only an outer cylinder has one");
+    else
+      e().knurl = part::designation(*knurl);
+    return true;
+  }
+
   void read_demand(Word word) {
     Word rest = word;
     if (take(rest, {"x", "×"})) return read_length(word, rest);
@@ -205,6 +222,7 @@ class ElementWords {
       return mistakes_.add(word,
                            "a length like x 20 alone: what stays as the bar is has no "
                            "fit, limits or roughness");
+    if (read_knurl(word)) return;
     if (take_roughness(word, e().demands, mistakes_)) return;
     if (take(rest, {"grind"})) return read_grinding(word, rest);
     if (e().shape == Shape::arc && read_arc(word)) return;

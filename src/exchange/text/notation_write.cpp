@@ -71,6 +71,7 @@ std::string element_text(const Element& e) {
   std::string out = shape_text(e) + size_text(e.demands) + " x " + digits(e.length_mm);
   if (e.shape == Shape::arc)
     out += " R" + digits(e.radius_mm) + (e.convex ? " convex" : " concave");
+  if (e.knurl) out += ' ' + *e.knurl;
   out += roughness_text(e.demands);
   if (e.demands.grinding_mm) out += " grind" + digits(*e.demands.grinding_mm);
   return out + '\n';

@@ -226,6 +226,39 @@ void add_thread(Site& s, const CutElement& e) {
   }));
 }
 
+// Eq. (11).
+void add_knurl(Site& s, const CutElement& e) {
+  const double t = e.cut.pitch_mm;
+  const auto room = thread_room(s.p, s.setup, {e.inner, e.index}, e.root_h());
+  const auto way_of = [&](double width) {
+    return knurl_way(room, e.around.z0, e.around.z1, width);
+  };
+  auto a =
+      asked(s, e, FixedUse::knurling, "knurl", [&](const FixedTool& tool, double width) {
+        return tool.pitch_mm.lower <= t && t <= tool.pitch_mm.upper && way_of(width);
+      });
+  const auto f = fitted(s.p, a);
+  if (!f.tool)
+    return refuse(s, a,
+                  fmt::format("no knurling tool of the tools is for {} and a pitch of "
+                              "{:g} mm, with a wheel that has room on {:g} mm",
+                              s.p.material.name, t, e.length_mm));
+  const auto count = passes_of(s, a, 1, [](double) { return 1; });
+  if (!count) return;
+  if (*count > 1) return refuse(s, a, "it is pressed in one pass");
+  const auto [from, to] = *way_of(f.size_mm);
+  if (unfaced(s, a, e, from + f.size_mm)) return;
+  const double D = e.cut.drawn.left_mm, n_cap = n_cap_rpm(s);
+  const double depth = e.cut.depth_mm, along = from - to;
+  s.out.after.push_back(at_best(s, f, {D}, n_cap, [&](const Fitted& at) {
+    const Duty d{{}, std::min(units::spindle_rpm(at.at.vc_m_min, D), n_cap), D, true};
+    const double vf = at.at.f_mm_rev * d.n_rpm;
+    const Way way{kAbove_mm / vf, down_and_back_mm(e) + depth + kAbove_mm + along, false,
+                  from, to};
+    return operation(s, a, at, {pass_of(d, f.size_mm, (depth + along) / vf)}, way, {d});
+  }));
+}
+
 // Inclination of an arc at its end towards the chuck.
 double end_rad(const CutElement& e) {
   const auto& s = e.around;
@@ -404,6 +437,8 @@ void add_cut(Site& s, const Element& e, std::size_t index, bool inner,
       return add_groove(s, c);
     case part::CutKind::thread:
       return drilled ? add_hole_work(s, c) : add_thread(s, c);
+    case part::CutKind::knurl:
+      return add_knurl(s, c);
     case part::CutKind::arc:
       return add_arc(s, c);
     case part::CutKind::hole:
@@ -431,7 +466,7 @@ AuxiliaryWork auxiliary_work(const PreparedPart& p, std::size_t setup, Clamping 
   for (const std::size_t i : work.outer_chamfers) add_chamfer(s, i, false);
   for (const std::size_t i : work.inner_chamfers)
     part::is_hole(d.inner[i]) ? add_closing_chamfer(s, i) : add_chamfer(s, i, true);
-  for (const auto kind : {arc, groove, hole, thread}) {
+  for (const auto kind : {arc, groove, hole, thread, knurl}) {
     for (const std::size_t i : work.elements) add_cut(s, d.outer[i], i, false, kind);
     for (const std::size_t i : work.bores) add_cut(s, d.inner[i], i, true, kind);
   }

@@ -6,7 +6,7 @@
 #include "turnwright/planning/process_plan.hpp"
 
 /// The operations of a setup other than turning and boring: centre holes, drilling, arcs,
-/// grooves, threads and parting off at conditions from the windows of their tools
+/// grooves, threads, knurls and parting off at conditions from the windows of their tools
 /// (chosen_conditions.hpp), and milled places at conditions of their own
 /// (milled_operations.hpp).  They do not depend on the conditions of the other surfaces.
 namespace turnwright::planning {
@@ -25,6 +25,7 @@ namespace turnwright::planning {
 ///     ream, tap:  t = 2 l/(f n), in and out; a tap's f is P                          (7)
 ///     countersink:  t = (D - d)/2/tan(sigma/2)/(f n) from the drilled hole's d on    (8)
 ///     counterbore: t = l/(f n)                                                      (10)
+///     knurl: t = (depth + way of the wheel along the element)/(f n)                 (11)
 ///     minutes = sum t + feed in the air + rapids + change t/T,  edges = edge t/T     (6)
 ///
 /// A setup on a centre drills a centre hole into the end it frees, unless that is hollow,
@@ -38,7 +39,7 @@ namespace turnwright::planning {
 /// Grooves take the widest blade that fits and that machine, jaws and tool bear, parting off
 /// the narrowest.  Forces:
 /// cutting/fixed.hpp; they are held against feed drive, power, torque, the jaws' grip and
-/// the tool.
+/// the tool.  Those of knurling are not known, and written as 0.
 AuxiliaryWork auxiliary_work(const PreparedPart& plan, std::size_t setup,
                              Clamping clamping, const SetupWork& work,
                              const Economy& economy);

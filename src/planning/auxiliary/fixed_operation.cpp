@@ -140,11 +140,13 @@ std::vector<ConstraintValue> limits(const Site& s, const FixedTool& tool,
         std::clamp(d.n_rpm, ranges.front().n_min_rpm, ranges.back().n_max_rpm);
     const auto& [Fc, Ff, M] = d.load;
     if (Ff > 0) tighten(all, constraint(Check::feed_force, Ff, m.feed_force_max_N));
-    tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
-                            cutting::available_kW(ranges, n, false)));
-    tighten(all, constraint(Check::torque, M,
-                            cutting::available_kW(ranges, n, true) /
-                                units::shaft_power_kW(1, n)));
+    if (M > 0) {  // that of knurling is not known
+      tighten(all, constraint(Check::power, units::shaft_power_kW(M, n),
+                              cutting::available_kW(ranges, n, false)));
+      tighten(all, constraint(Check::torque, M,
+                              cutting::available_kW(ranges, n, true) /
+                                  units::shaft_power_kW(1, n)));
+    }
     tighten(all, constraint(Check::spindle_min, d.n_rpm, ranges.front().n_min_rpm));
     if (tool.Fc_max_N) tighten(all, constraint(Check::force, Fc, *tool.Fc_max_N));
     if (s.driven || s.clamping == Clamping::between_centres) continue;

@@ -586,6 +586,16 @@ std::optional<double> run_in_mm(const ThreadRoom& room, double P) {
   return way;
 }
 
+std::optional<KnurlWay> knurl_way(const ThreadRoom& room, double z0, double z1,
+                                  double width) {
+  const double to = z1 + (room.stands_behind ? kBehind_mm : 0);
+  const bool open = room.before_mm >= width / 2 + kBehind_mm && !(room.rising_mm > 0);
+  const double from = z0 - (open ? width / 2 : width);
+  if (from >= to) return KnurlWay{from, to};
+  if (!open) return std::nullopt;
+  return KnurlWay{to, to};
+}
+
 double swept_mm2(double from, double to, double D_c) {
   const auto whole = [&](double x) {
     const double c = D_c / 2, out = std::abs(x);

@@ -143,6 +143,16 @@ std::optional<double> run_in_mm(const ThreadRoom& room, double pitch_mm);
 double least_run_in_mm(const ThreadRoom& room, double pitch_mm);
 inline constexpr double kRunInPitches = 3;
 
+/// Where the edge towards the chuck of a knurling wheel begins and ends on an element from
+/// z0 to z1 [mm].  It begins with half the wheel on the element, or with all of it where
+/// something higher than the root is in front; before what stands behind it stops by
+/// kBehind_mm.  Nothing if the wheel has no room.
+struct KnurlWay {
+  double from_mm = 0, to_mm = 0;
+};
+std::optional<KnurlWay> knurl_way(const ThreadRoom& room, double z0_mm, double z1_mm,
+                                  double width_mm);
+
 /// Revolutions of a facing tool between two radii at constant surface speed, up to a
 /// factor; inside the diameter D_c the spindle runs at its limit,
 ///

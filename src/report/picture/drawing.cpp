@@ -78,6 +78,8 @@ std::string id_and_size(const part::Drawing& d, const Element& e) {
   if (e.cut && e.cut->kind == part::CutKind::thread)
     return id + "  M" + plain(size.left_mm) + "\u00d7" + plain(e.cut->pitch_mm);
   std::string text = id + "  \u00d8" + plain(size.left_mm);
+  if (e.cut && e.cut->kind == part::CutKind::knurl)
+    text += ' ' + part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm});
   if (size.left_mm != size.right_mm) text += "\u2013" + plain(size.right_mm);
   if (e.cut && e.cut->kind == part::CutKind::arc) text += " R" + plain(e.cut->radius_mm);
   return e.fit ? text + ' ' + clipped(*e.fit, kIdLength) : text;
@@ -285,6 +287,34 @@ void draw_threads(SetupView& s, const planning::Finished& finished) {
     if (finished.inner[i]) root(d.inner[i], part::inner_left_z_mm(d, i), true);
 }
 
+/// Knurls that are pressed so far, thin lines on a part of the side that is seen: along the
+/// axis, leaning as their hand does, or crossed.
+void draw_knurls(SetupView& s, const planning::Finished& finished) {
+  constexpr int kLines = 4;
+  const double leans = std::tan(std::numbers::pi / 6);
+  const auto& d = s.part.drawing;
+  for (std::size_t i = 0; i < d.outer.size(); ++i) {
+    const auto& e = d.outer[i];
+    if (!finished.outer[i] || !part::is_knurled(e)) continue;
+    const double r = e.left_mm / 2, z0 = part::left_z_mm(d, i), z1 = z0 + e.length_mm;
+    const double seen = std::min(r / 2, e.length_mm / 2), step = seen / kLines;
+    const auto across = [&](double lean) {
+      for (double z = z0 + seen; z <= z1 - seen; z += step)
+        s.svg.line("thin", s.at(z, -r), s.at(z + lean * seen, -r + seen));
+    };
+    const auto along = [&] {
+      for (int k = 1; k <= kLines; ++k)
+        s.svg.line("thin", s.at(z0, -r + k * step), s.at(z1, -r + k * step));
+    };
+    using enum part::KnurlType;
+    const auto type = e.cut->knurl;
+    if (type == RAA || type == RKE || type == RKV) along();
+    if (type == RKE || type == RKV) across(0);
+    if (type == RBL || type == RGE || type == RGV) across(-leans);
+    if (type == RBR || type == RGE || type == RGV) across(leans);
+  }
+}
+
 /// Places of a table on its surface, its values enlarged outwards by `factor`; none
 /// unless this setup cuts the surface.
 template <class Table>
@@ -473,6 +503,7 @@ std::string drawn(SetupView s, const planning::Finished& finished) {
   draw_clamping(s);  // over the leaders of what it holds
   draw_cut(s);
   draw_threads(s, finished);
+  draw_knurls(s, finished);
   draw_errors(s);
   const auto [from, to] = std::minmax({s.x(s.left_z()), s.x(s.right_z())});
   s.svg.line("axis", {from - 10, s.axis}, {to + 10, s.axis});

@@ -53,6 +53,7 @@ Cutter fixed_cutter(const PreparedPart& part, const OperationPlan& o, bool bore)
       return {bore ? Shape::bore : Shape::corner, tool.re_mm};
     case FixedUse::threading:
     case FixedUse::tapping:
+    case FixedUse::knurling:
       break;
   }
   return {};

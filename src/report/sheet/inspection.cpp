@@ -199,6 +199,20 @@ void add_threads(std::vector<Check>& all, const PreparedPart& p,
   for (const auto& e : p.drawing.inner) add(e, "thread plug");
 }
 
+void add_knurls(std::vector<Check>& all, const PreparedPart& p,
+                const planning::SetupPlan& setup, std::size_t index,
+                const std::vector<ToolRow>& tools) {
+  for (const auto& e : p.drawing.outer)
+    if (part::is_knurled(e) && planning::setup_of(p, e.id) == index)
+      all.push_back(
+          {fmt::format("DIN 82-{} \u00d8{}",
+                       part::designation(part::Knurl{e.cut->knurl, e.cut->pitch_mm}),
+                       plain(e.cut->drawn.left_mm)),
+           e.id, fmt::format("turned to \u00d8{} before", plain(e.left_mm)),
+           "not predicted", "caliper",
+           when(p, finishing_tool(tools, setup, e.id), false)});
+}
+
 void add_reamed(std::vector<Check>& all, const PreparedPart& p,
                 const planning::SetupPlan& setup, std::size_t index,
                 const std::vector<ToolRow>& tools) {
@@ -223,6 +237,7 @@ std::vector<Check> inspection(const PreparedPart& part, const planning::ProcessP
   }
   add_roughness(all, part, answer, setup, tools);
   add_threads(all, part, answer, setup, tools);
+  add_knurls(all, part, answer, setup, tools);
   add_reamed(all, part, answer, setup, tools);
   return all;
 }

@@ -17,7 +17,7 @@ struct Check {
 };
 
 /// What is checked once a setup is done: every tolerance whose surfaces are then all made,
-/// the roughnesses (alike ones in one line) and threads that this setup makes.
+/// the roughnesses (alike ones in one line) and threads and knurls that this setup makes.
 ///
 /// Every characteristic is checked on the first part.  A size is checked again when the
 /// plan's corrections fall due, after `shop.life_between_offsets` of the edge that

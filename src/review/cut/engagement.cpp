@@ -125,7 +125,7 @@ class Follower {
       take_time(m);
       const bool rapid = m.to.kind == Move::Kind::rapid;
       if (rapid) end_pass();
-      if (tool_ && m.from && !(rapid && edge_.threads)) move(m);
+      if (tool_ && m.from && !knurls() && !(rapid && edge_.threads)) move(m);
     }
     end_pass();
   }
@@ -228,6 +228,9 @@ class Follower {
       on_surface.push_back(sample);
     }
   }
+
+  // A knurling wheel takes nothing off.
+  bool knurls() const { return tool_->fixed && tool_->fixed->use == FixedUse::knurling; }
 
   // Whether one more way is followed; tells the first that is not.
   bool goes_on(std::size_t line) {

@@ -12,6 +12,7 @@ using catalogue::FixedUse;
 
 constexpr double kTouch_mm = 2e-3;  // by which rapids may come too near
 constexpr double kAnyPitch_mm = 3;  // of the tooth of a threading tool
+constexpr double kWheel_mm = 5;     // of a knurling wheel over its holder
 
 // Length over which a tool on the axis grows to its diameter.
 double point_mm(const catalogue::FixedTool& t, double size) {
@@ -30,6 +31,8 @@ Polygon fixed_edge(const catalogue::FixedTool& t, double size) {
     case FixedUse::grooving:
     case FixedUse::parting:
       return rectangle(0, t.reach, 0, size);
+    case FixedUse::knurling:
+      return rectangle(0, kWheel_mm, 0, size);
     case FixedUse::threading:
     case FixedUse::tapping:
       return thread_edge(kAnyPitch_mm);

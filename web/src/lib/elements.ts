@@ -170,9 +170,16 @@ function shape(kind: Kind, side: Side, [left, right]: [number, number], length: 
 /** Whether turning may leave an allowance on an element that is ground. */
 export const grindable = (e: Element): boolean => ['cylinder', 'cone'].includes(String(e.kind));
 
+/** Whether a wheel may knurl an element. */
+export const knurlable = (e: Element, side: Side): boolean => side === 'outer' && e.kind === 'cylinder';
+/** Types and pitches of DIN 82. */
+export const knurls: string[] = ['RAA', 'RBL', 'RBR', 'RGE', 'RGV', 'RKE', 'RKV']
+  .flatMap((type) => [0.5, 0.6, 0.8, 1, 1.2, 1.6].map((pitch) => `${type}${pitch}`));
+
 /** What stays of an element as another kind: a class of ISO 286 where both have one. */
 function stays(key: string, from: Element, kind: Kind): boolean {
   if (kind === 'as-stock') return ['id', 'length_mm'].includes(key);
+  if (key === 'knurl') return kind === 'cylinder';
   if (key === 'fit') return [from.kind, kind].every((k) => ['cylinder', 'hole'].includes(String(k)));
   return !shapes.includes(key) && (key !== 'grinding_allowance_mm' || grindable({ kind }));
 }

@@ -27,6 +27,9 @@ export interface Surface {
   left_undercut?: string;
   right_undercut?: string;
   pitch_mm?: number;
+  /** Of DIN 82, "RAA0.8", and the diameter that is turned before. */
+  knurl?: string;
+  blank_mm?: number;
   radius_mm?: number;
   convex?: boolean;
   fit?: string;

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { load, part, projectFile } from './load.mjs';
 
-const { ends, entries, freshId, grindable, inserted, moved, places, removed, renamed, reshaped, threaded } = await load('elements');
+const { ends, entries, freshId, grindable, inserted, moved, places, removed, renamed, knurlable, knurls, reshaped, threaded } = await load('elements');
 
 const stepped = () => ({
   own: { kept: true },
@@ -99,6 +99,19 @@ test('what turning leaves for grinding goes with the kinds that the planner lets
       for (const key of Object.keys(next)) assert.ok(key in of.properties || (side === 'outer' && key === 'from'), `${kind}: ${key}`);
       assert.equal(next.grinding_allowance_mm, grindable({ kind }) ? 0.3 : undefined);
     }
+});
+
+test('knurls are those of the planner and stay with outer cylinders', () => {
+  const source = projectFile('src/part/cut.cpp');
+  const types = [...source.matchAll(/\{"(R[A-Z]{2})", KnurlType::/g)].map((m) => m[1]);
+  const pitches = source.match(/kKnurlPitches_mm\{([^}]*)\}/)[1].split(',').map(Number);
+  assert.deepEqual(knurls, types.flatMap((t) => pitches.map((p) => `${t}${p}`)));
+  const schema = JSON.parse(projectFile('schemas/part.json'));
+  for (const side of ['outer', 'inner'])
+    for (const of of schema.definitions[side].oneOf)
+      assert.equal(knurlable({ kind: of.properties.kind.const }, side), 'knurl' in of.properties);
+  const part = { outer: [{ id: 'a', kind: 'cylinder', length_mm: 5, diameter_mm: 20, knurl: 'RAA0.8' }] };
+  assert.equal('knurl' in reshaped(part, 'outer', 0, 'cone').outer[0], false);
 });
 
 test('what stays as the stock is has its diameter, through the corners of a hexagon, and nothing else of its own', () => {

@@ -57,6 +57,10 @@ test('an undercut of form G goes into the wall as deep as into the surface', () 
   near(Math.atan((za - zb) / (ra - rb)), (17.5 * Math.PI) / 180, 'way back');
 });
 
+test('a knurl stands beside the diameter that it makes', () => {
+  assert.equal(sizeText(surface({ knurl: 'RGE1.2', blank_mm: 29.2 })), '⌀30 DIN 82-RGE1.2');
+});
+
 test('a fillet is tangent to wall and surface', () => {
   const points = profile(surface({ right_fillet_mm: 2 })).slice(1);
   near(points[0][0], 48, 'on the surface');

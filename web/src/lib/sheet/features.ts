@@ -112,7 +112,7 @@ export function sizeText(e: Surface): string {
   const limits = e.limits_mm && !e.fit ? limitsText(e.limits_mm) : '';
   const fit = e.fit ?? limits;
   const size = e.kind === 'thread' ? `M${a}×${significant(e.pitch_mm)}` : a === b ? `⌀${a}` : `⌀${a}–⌀${b}`;
-  return [size, fit].filter(Boolean).join(' ');
+  return [size, fit, e.knurl && `DIN 82-${e.knurl}`].filter(Boolean).join(' ');
 }
 
 const limitsText = ([lower, upper]: [number, number]) =>
