@@ -307,5 +307,16 @@ TEST(ReviewOfOwnPrograms, TellsTheCallsOfCyclesItDoesNotFollow) {
   EXPECT_TRUE(told);
 }
 
+// A knurling wheel cuts nothing, and what it does is told.
+TEST(ReviewOfOwnPrograms, TellsThatKnurlingIsNotFollowed) {
+  const auto& p = nc::test::planned_awkward("knurl before a wall");
+  const auto r = reviewed(p, {.control = gcode::Control::linuxcnc});
+  const auto& first = r.review.setups.at(0);
+  ASSERT_EQ(first.unknown.size(), 1u);
+  EXPECT_NE(first.unknown[0].why.find("knurling"), std::string::npos);
+  EXPECT_TRUE(std::ranges::none_of(
+      first.cuts, [](const auto& c) { return c.tool_id.starts_with("KNURL"); }));
+}
+
 }  // namespace
 }  // namespace turnwright::review

@@ -137,6 +137,11 @@ class Follower {
     tool_ = found == tools_.end() ? nullptr : &*found;
     if (tool_) {
       edge_ = mounted_edge(*tool_, sign_);
+      if (knurls() && missing_.insert(tool_number_).second)
+        out_.unknown.push_back({run.moves.empty() ? 0 : run.moves.front().line,
+                                fmt::format("T{}", tool_number_),
+                                "A knurling wheel takes nothing off, and its forces are "
+                                "not known: its ways are not followed."});
     } else if (missing_.insert(tool_number_).second) {
       out_.unknown.push_back(
           {run.moves.empty() ? 0 : run.moves.front().line,
