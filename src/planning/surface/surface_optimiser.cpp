@@ -17,8 +17,8 @@ constexpr int kRounds = 40;
 constexpr int kNearestRounds = 5;
 constexpr std::size_t kNearest = 12;   // recipes asked for the nearest conditions
 constexpr double kKept = 5e-10;        // the most that a limit may be exceeded by, in ln
-constexpr long kScouting = 150;        // boxes for a first bound of a task
-constexpr double kScoutingGap = 5e-3;  // and what they may leave open
+constexpr long kScouting = 30;         // boxes for a first bound of a task
+constexpr double kScoutingGap = 2e-2;  // and what they may leave open
 constexpr double kChatters = 5e-10;    // of the limit, as of a tolerance's
 constexpr const char* kNone = "proved: no conditions keep every limit";
 
