@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "document/json/fields.hpp"
 #include "part_sections.hpp"
@@ -46,7 +47,7 @@ void check_setup(const Draft& draft, const Reader& at, std::size_t i,
   const auto& drawing = draft.loaded.plan.drawing;
   const double length_mm = i == 0 ? drawing.stock.length_mm : part::length_mm(drawing);
   const double d_mm = part::held_mm(drawing, i, setup.hold);
-  const bool readable = length_mm > 0 && d_mm > 0;
+  const bool readable = length_mm > 0 && d_mm > 0 && std::isfinite(d_mm);
   if (readable && setup.grip_mm >= length_mm)
     at.problem("a grip of " + mm_text(*setup.grip_mm),
                "less than the " + std::string(i == 0 ? "stock" : "part") + "'s " +

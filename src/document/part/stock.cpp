@@ -65,7 +65,7 @@ part::BlankPiece read_piece(Reader r) {
 void read_outline(Draft& draft, Reader& r, part::Stock& stock) {
   for (const Reader& item : r.items("outline", 1, 100))
     stock.outline.push_back(read_piece(item.as_object()));
-  double largest_mm = 0;
+  double largest_mm = stock.length_mm = stock.outline.empty() ? NAN : 0;
   for (const auto& piece : stock.outline) {
     stock.length_mm += piece.length_mm;
     largest_mm = std::max({largest_mm, piece.left_mm, piece.right_mm});
@@ -83,7 +83,8 @@ void read_outline(Draft& draft, Reader& r, part::Stock& stock) {
 }
 
 bool lengths_were_read(const part::Drawing& d) {
-  return d.stock.length_mm > 0 && std::isfinite(d.stock.outer_mm) && !d.outer.empty() &&
+  return d.stock.length_mm > 0 && std::isfinite(d.stock.outer_mm) &&
+         std::isfinite(d.stock.left_allowance_mm) && !d.outer.empty() &&
          std::ranges::all_of(d.outer, [](const auto& e) { return e.length_mm > 0; });
 }
 

@@ -216,5 +216,23 @@ TEST(Stock, OfAForgingIsTakenAsDrawnWhereItsLimitsAreNotSaid) {
       loaded.assumed, [](const auto& a) { return a.pointer == "/stock/limits_mm"; }));
 }
 
+// What cannot be read is told alone, without what would follow from it.
+TEST(Stock, OfAForgingThatCannotBeReadIsToldAlone) {
+  auto document = forging();
+  document["stock"]["outline"][0].erase("left_mm");
+  EXPECT_EQ(
+      refusal_of(document),
+      "t: /stock/outline/0/left_mm: got nothing, expected a number > 0 and <= 20000 "
+      "mm");
+  document = forging();
+  document["stock"]["outline"] = nlohmann::json::array();
+  EXPECT_EQ(refusal_of(document),
+            "t: /stock/outline: got an empty list, expected a list of 1 to 100 entries");
+  document = forging();
+  document["stock"]["left_allowance_mm"] = -1;
+  EXPECT_EQ(refusal_of(document),
+            "t: /stock/left_allowance_mm: got -1, expected a number from 0 to 20000 mm");
+}
+
 }  // namespace
 }  // namespace turnwright::document::stock_test
