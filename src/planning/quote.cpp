@@ -42,18 +42,20 @@ double stock_mass_kg(const PlanRequest& r) {
 }
 
 long pieces_of_bar(const PlanRequest& r, const StockPrice& price) {
+  if (!r.drawing.stock.outline.empty()) return 0;
   const double piece = r.drawing.stock.length_mm + price.kerf_mm;
   const double usable = price.bar_length_mm - price.remnant_mm;
   return usable > 0 ? static_cast<long>(std::floor(usable / piece * (1 + 1e-12))) : 0;
 }
 
 double piece_price(const PlanRequest& r, const StockPrice& price) {
-  if (price.per_kg)
-    return *price.per_kg * mass_kg(r, r.drawing.stock.length_mm + price.kerf_mm);
+  const auto& stock = r.drawing.stock;
+  if (price.per_kg)  // castings and forgings are not cut off
+    return *price.per_kg *
+           mass_kg(r, stock.length_mm + (stock.outline.empty() ? price.kerf_mm : 0));
   if (!price.per_bar) return 0;
   const long pieces = pieces_of_bar(r, price);
-  if (pieces < 1)
-    throw std::domain_error("piece_price: the bar is too short for a piece");
+  if (pieces < 1) throw std::domain_error("piece_price: the bar gives no piece");
   return *price.per_bar / static_cast<double>(pieces);
 }
 

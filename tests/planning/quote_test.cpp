@@ -144,6 +144,18 @@ TEST(Quote, StockIsPaidByWeightOrByTheBar) {
   EXPECT_NEAR(stock_mass_kg(p), kg * (1 - 400.0 / (42 * 42)), 1e-12);
 }
 
+// Of 24 mm over 80 mm and 36 mm over 12 mm.
+TEST(Quote, CastingsAndForgingsArePaidByWeightWithoutAKerf) {
+  auto p = part(pin());
+  p.drawing.stock.outline = {{80, 24, 24}, {12, 36, 36}};
+  const double kg =
+      M_PI / 4 * (24 * 24 * 80 + 36 * 36 * 12) * 1e-9 * p.material.rho_kg_m3;
+  EXPECT_NEAR(piece_price(p, {.per_kg = 2, .kerf_mm = 8}), 2 * kg, 1e-12);
+  const StockPrice bar{.per_bar = 60, .bar_length_mm = 3000};
+  EXPECT_EQ(pieces_of_bar(p, bar), 0);
+  EXPECT_THROW(piece_price(p, bar), std::domain_error);
+}
+
 TEST(Quote, EnergyIsThatOfTheCutsAndOfTheIdlingMachine) {
   auto p = part(pin());
   const auto plan = turnwright::planning::plan(p);

@@ -42,11 +42,12 @@ struct StockPrice {
 /// Mass [kg] of the piece of stock for one part, without its kerf.
 double stock_mass_kg(const PlanRequest& request);
 
-/// Pieces from a bar; 0 if it is too short for one.
+/// Pieces from a bar; 0 if it is too short for one, or they are castings or forgings.
 long pieces_of_bar(const PlanRequest& request, const StockPrice& price);
 
-/// The piece's price: of its mass with the kerf, or a bar's share.
-/// @throws std::domain_error if the bar is too short for a piece.
+/// The piece's price: of its mass with the kerf, which a casting or forging has not, or a
+/// bar's share.
+/// @throws std::domain_error if the bar gives no piece.
 double piece_price(const PlanRequest& request, const StockPrice& price);
 
 /// Probability with which a part keeps every tolerance, at least.

@@ -95,6 +95,8 @@ Considered considered(const QuoteRequest& q, const Candidates::Usable& c,
                                    : plan.conflicts.front().sentence};
   if (q.charges.scrap && !(planning::all_conform(plan) > 0))
     return {c.name, {}, "no share of the parts is sure to conform"};
+  if (q.stock.per_bar && !part.drawing.stock.outline.empty())
+    return {c.name, {}, "a casting or forging is not cut from a bar"};
   if (q.stock.per_bar && planning::pieces_of_bar(part, q.stock) < 1)
     return {
         c.name,
